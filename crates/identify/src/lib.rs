@@ -1,0 +1,1 @@
+//! Identification of friction laws from conditioned records, with uncertainty.

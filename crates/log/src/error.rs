@@ -1,0 +1,142 @@
+//! Why a recording was refused: the file, the place in it, what was found, what is allowed.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// The sort of problem; each has a stable code and a page in `docs/codes/`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The file cannot be opened or read.
+    Io,
+    /// The bytes do not follow the format they claim.
+    Format,
+    /// The file is larger, or asks for more memory, than is allowed.
+    Limit,
+    /// More than one reading is possible; the message lists the choices.
+    Ambiguous,
+    /// Something that is needed is not there (a column, a rate).
+    Missing,
+    /// A unit or scale is unknown or of the wrong dimension.
+    Unit,
+    /// Time stamps that no documented rule can mend.
+    Time,
+    /// A number outside what is allowed.
+    Value,
+}
+
+impl Kind {
+    /// Stable code of this kind, the name of its page in `docs/codes/`.
+    pub fn code(self) -> &'static str {
+        match self {
+            Kind::Io => "log-io",
+            Kind::Format => "log-format",
+            Kind::Limit => "log-limit",
+            Kind::Ambiguous => "log-ambiguous",
+            Kind::Missing => "log-missing",
+            Kind::Unit => "log-unit",
+            Kind::Time => "log-time",
+            Kind::Value => "log-value",
+        }
+    }
+}
+
+/// Where in a file the problem stands; every part is optional.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    /// Line or row, counted from 1 as an editor shows it.
+    pub row: Option<u64>,
+    /// Column by its name, or its number counted from 1.
+    pub column: Option<String>,
+    /// Byte offset from the start of the file.
+    pub byte: Option<u64>,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut parts = Vec::new();
+        if let Some(row) = self.row {
+            parts.push(format!("row {row}"));
+        }
+        if let Some(column) = &self.column {
+            parts.push(format!("column {column}"));
+        }
+        if let Some(byte) = self.byte {
+            parts.push(format!("byte {byte}"));
+        }
+        f.write_str(&parts.join(", "))
+    }
+}
+
+/// A recording that was refused.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Error {
+    /// The sort of problem.
+    pub kind: Kind,
+    /// The file, where known.
+    pub file: Option<PathBuf>,
+    /// The place in the file.
+    pub place: Place,
+    /// What was found.
+    pub found: String,
+    /// What is allowed, or what to do; empty where nothing useful can be said.
+    pub allowed: String,
+}
+
+impl Error {
+    /// A problem of this kind: what was found, and what is allowed instead.
+    pub fn new(kind: Kind, found: impl Into<String>, allowed: impl Into<String>) -> Self {
+        Self {
+            kind,
+            file: None,
+            place: Place::default(),
+            found: found.into(),
+            allowed: allowed.into(),
+        }
+    }
+
+    /// The same problem, in this file.
+    #[must_use]
+    pub fn in_file(mut self, file: &Path) -> Self {
+        self.file = Some(file.to_path_buf());
+        self
+    }
+
+    /// The same problem, at this row counted from 1.
+    #[must_use]
+    pub fn at_row(mut self, row: u64) -> Self {
+        self.place.row = Some(row);
+        self
+    }
+
+    /// The same problem, in this column.
+    #[must_use]
+    pub fn in_column(mut self, column: impl Into<String>) -> Self {
+        self.place.column = Some(column.into());
+        self
+    }
+
+    /// The same problem, at this byte offset.
+    #[must_use]
+    pub fn at_byte(mut self, byte: u64) -> Self {
+        self.place.byte = Some(byte);
+        self
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(file) = &self.file {
+            write!(f, "{}: ", file.display())?;
+        }
+        if self.place != Place::default() {
+            write!(f, "{}: ", self.place)?;
+        }
+        f.write_str(&self.found)?;
+        if !self.allowed.is_empty() {
+            write!(f, "; {}", self.allowed)?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Error {}

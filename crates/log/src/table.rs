@@ -1,0 +1,46 @@
+//! A recording as it stands in its file: named columns of plain numbers, nothing converted.
+
+/// One numeric column of a recording, in the unit of the file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Column {
+    /// Name as written in the file without its unit; empty where the file has none.
+    pub name: String,
+    /// Unit as written in the file (`Position [mm]` gives `mm`); `None` where the file has none.
+    pub unit: Option<String>,
+    /// Samples in file order; a cell that is empty or marked as missing is NaN.
+    pub values: Vec<f64>,
+}
+
+/// A single number that a file carries beside its columns (a force constant, a sample time).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scalar {
+    /// Name as written in the file.
+    pub name: String,
+    /// The number, in the unit of the file.
+    pub value: f64,
+}
+
+/// What a reader found in a file: columns, scalars, and how it understood them.
+///
+/// Columns may differ in length (a slower channel runs out early); the mapping decides what that
+/// means.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// Columns in file order.
+    pub columns: Vec<Column>,
+    /// Numbers that stand alone in the file.
+    pub scalars: Vec<Scalar>,
+    /// Sample time in seconds where the file states one apart from a time column.
+    pub sample_time: Option<f64>,
+    /// What was detected, for people: `separator TAB`, `decimal comma`, `3 preamble lines`.
+    pub detected: Vec<String>,
+    /// What was present and left out, and why: `phase_name: text`.
+    pub skipped: Vec<String>,
+}
+
+impl Table {
+    /// Number of samples of the longest column.
+    pub fn rows(&self) -> usize {
+        self.columns.iter().map(|c| c.values.len()).max().unwrap_or(0)
+    }
+}

@@ -1,0 +1,1 @@
+//! Plain data to SVG figures and a self-contained HTML document.

@@ -1,0 +1,1 @@
+//! The simulated axis: plant, controller, encoder, and known axes with their parameters.

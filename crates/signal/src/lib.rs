@@ -1,0 +1,1 @@
+//! Zero-phase filters, derivatives and resampling for uniformly sampled signals.
