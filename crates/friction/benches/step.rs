@@ -1,0 +1,84 @@
+//! Nanoseconds per step of the law, by kind of step, shape and damping: `cargo bench -p stiction-friction`.
+//!
+//! Each sample runs 1000 steps along a sine through its reversals; the item rate that divan prints is steps per second.
+
+use divan::{Bencher, black_box, counter::ItemsCount};
+use stiction_friction::{Damping, Direction, LuGre, Real, Shape, Stribeck};
+
+const STEPS: usize = 1000;
+const H: f64 = 250e-6;
+const SHAPES: [&str; 4] = ["gaussian", "exponential", "power", "lorentzian"];
+
+fn main() {
+    divan::main();
+}
+
+fn law(shape: &str, damping: Damping<f64>) -> LuGre<f64> {
+    let shape = match shape {
+        "gaussian" => Shape::Gaussian,
+        "exponential" => Shape::Exponential,
+        "power" => Shape::Power(1.3),
+        _ => Shape::Lorentzian,
+    };
+    let both = Direction {
+        coulomb: 20.0,
+        static_friction: 30.0,
+        stribeck_velocity: 5e-3,
+        viscous: 60.0,
+    };
+    let curve = Stribeck::symmetric(shape, both, 0.0).expect("parameters of the bench");
+    LuGre::new(1.2e5, damping, curve).expect("parameters of the bench")
+}
+
+fn velocity<T: Real>() -> Vec<T> {
+    let sine = |k: usize| 0.03 * libm::sin(2.0 * std::f64::consts::PI * 4.1 * k as f64 * H);
+    (0..=STEPS).map(|k| T::from_f64(sine(k))).collect()
+}
+
+/// EXPLIN and the algebraic force not counted: what an identification repeats most.
+#[divan::bench(args = SHAPES)]
+fn step_record(bencher: Bencher, shape: &str) {
+    let (law, v) = (law(shape, Damping::Constant(600.0)), velocity());
+    bencher.counter(ItemsCount::new(STEPS)).bench(|| {
+        black_box(&v)
+            .windows(2)
+            .fold(0.0, |z, ends| law.step_record(z, H, ends[0], ends[1]))
+    });
+}
+
+/// The real-time step with its force, sigma1 capped.
+#[divan::bench(args = SHAPES)]
+fn step(bencher: Bencher, shape: &str) {
+    let (law, v) = (law(shape, Damping::Capped(600.0)), velocity());
+    bencher
+        .counter(ItemsCount::new(STEPS))
+        .bench(|| real_time(&law, H, black_box(&v)));
+}
+
+/// The real-time step with constant sigma1.
+#[divan::bench]
+fn step_constant_damping(bencher: Bencher) {
+    let (law, v) = (law("gaussian", Damping::Constant(600.0)), velocity());
+    bencher
+        .counter(ItemsCount::new(STEPS))
+        .bench(|| real_time(&law, H, black_box(&v)));
+}
+
+/// The real-time step in single precision.
+#[divan::bench]
+fn step_f32(bencher: Bencher) {
+    let law = law("gaussian", Damping::Capped(600.0))
+        .cast::<f32>()
+        .expect("fits f32");
+    let v = velocity();
+    bencher
+        .counter(ItemsCount::new(STEPS))
+        .bench(|| real_time(&law, H as f32, black_box(&v)));
+}
+
+fn real_time<T: Real>(law: &LuGre<T>, h: T, velocity: &[T]) -> T {
+    let mut state = law.rest();
+    velocity[1..]
+        .iter()
+        .fold(T::ZERO, |_, &v| law.step(&mut state, h, v))
+}

@@ -1,0 +1,123 @@
+//! The two number types a law can be computed in.
+
+use core::fmt::{Debug, Display};
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for f32 {}
+    impl Sealed for f64 {}
+}
+
+/// `f32` or `f64`. Sealed: no other type implements it.
+///
+/// Every transcendental function goes through `libm`, never through the platform's C library, so that a law gives the
+/// same bits on a desktop, a drive and a web page.
+pub trait Real:
+    sealed::Sealed
+    + Copy
+    + PartialOrd
+    + Default
+    + Debug
+    + Display
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Send
+    + Sync
+    + 'static
+{
+    /// 0.
+    const ZERO: Self;
+    /// 1.
+    const ONE: Self;
+    /// The largest finite number.
+    const MAX: Self;
+    /// Below this argument `1 + expm1(-a)/a` is taken from its series: above it the subtraction keeps enough digits,
+    /// below it six terms are exact to rounding.
+    const SERIES_BELOW: Self;
+
+    /// The nearest number of this type.
+    fn from_f64(value: f64) -> Self;
+    /// The same value as `f64`, exactly.
+    fn to_f64(self) -> f64;
+    /// Magnitude.
+    fn abs(self) -> Self;
+    /// The larger of the two; a NaN loses against a number.
+    fn max(self, other: Self) -> Self;
+    /// The smaller of the two; a NaN loses against a number.
+    fn min(self, other: Self) -> Self;
+    /// Neither infinite nor NaN.
+    fn is_finite(self) -> bool;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// e to the power of self.
+    fn exp(self) -> Self;
+    /// `exp(self) - 1` without loss of digits near 0.
+    fn expm1(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// Self to the power of `exponent`.
+    fn powf(self, exponent: Self) -> Self;
+}
+
+macro_rules! real {
+    ($t:ident, $series_below:literal, $sqrt:ident, $exp:ident, $expm1:ident, $tanh:ident, $pow:ident) => {
+        impl Real for $t {
+            const ZERO: Self = 0.0;
+            const ONE: Self = 1.0;
+            const MAX: Self = $t::MAX;
+            const SERIES_BELOW: Self = $series_below;
+
+            #[inline]
+            fn from_f64(value: f64) -> Self {
+                value as $t
+            }
+            #[inline]
+            fn to_f64(self) -> f64 {
+                self as f64
+            }
+            #[inline]
+            fn abs(self) -> Self {
+                $t::abs(self)
+            }
+            #[inline]
+            fn max(self, other: Self) -> Self {
+                $t::max(self, other)
+            }
+            #[inline]
+            fn min(self, other: Self) -> Self {
+                $t::min(self, other)
+            }
+            #[inline]
+            fn is_finite(self) -> bool {
+                $t::is_finite(self)
+            }
+            #[inline]
+            fn sqrt(self) -> Self {
+                libm::$sqrt(self)
+            }
+            #[inline]
+            fn exp(self) -> Self {
+                libm::$exp(self)
+            }
+            #[inline]
+            fn expm1(self) -> Self {
+                libm::$expm1(self)
+            }
+            #[inline]
+            fn tanh(self) -> Self {
+                libm::$tanh(self)
+            }
+            #[inline]
+            fn powf(self, exponent: Self) -> Self {
+                libm::$pow(self, exponent)
+            }
+        }
+    };
+}
+
+real!(f32, 0.2, sqrtf, expf, expm1f, tanhf, powf);
+real!(f64, 0.01, sqrt, exp, expm1, tanh, pow);

@@ -1,0 +1,203 @@
+//! A mass with friction, driven by a force: the implicit-midpoint step MID.
+
+use stiction_friction::{Damping, LuGre, ParamError};
+
+/// A mass (inertia) on a guide with LuGre friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plant {
+    mass: f64,
+    law: LuGre<f64>,
+}
+
+/// Where the axis is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// Position, m (rad).
+    pub position: f64,
+    /// Velocity, m/s (rad/s).
+    pub velocity: f64,
+    /// Bristle deflection, m (rad).
+    pub deflection: f64,
+}
+
+/// The force on the axis over one step: `force - stiffness * position`.
+///
+/// For a spring of stiffness k whose far end is at y, both at the middle of the step: `force = k y`, `stiffness = k`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Load {
+    /// N (N m); for a force that varies, its value at the middle of the step.
+    pub force: f64,
+    /// >= 0, N/m (N m/rad).
+    pub stiffness: f64,
+}
+
+impl Load {
+    /// A force alone, N (N m).
+    pub fn force(force: f64) -> Self {
+        Load {
+            force,
+            stiffness: 0.0,
+        }
+    }
+}
+
+/// What one step led to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    /// The motion at the end of the step.
+    pub motion: Motion,
+    /// Mean velocity over the step, m/s (rad/s): the position moved by `h` times this.
+    pub mean_velocity: f64,
+    /// Mean friction force over the step, N (N m), offset included.
+    pub friction: f64,
+    /// Evaluations of the force balance that the solution took.
+    pub evaluations: u32,
+}
+
+impl Plant {
+    /// `mass` in kg (kg m^2), finite and > 0.
+    pub fn new(mass: f64, law: LuGre<f64>) -> Result<Self, ParamError> {
+        ParamError::positive("mass", mass)?;
+        Ok(Plant { mass, law })
+    }
+
+    /// Mass, kg (kg m^2).
+    pub fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// The friction law.
+    pub fn law(&self) -> &LuGre<f64> {
+        &self.law
+    }
+
+    /// Advances `from` by `h` > 0 seconds under `load`.
+    ///
+    /// MID: implicit midpoint in velocity and position, the exponential map in the bristle at the mean velocity w,
+    /// ```text
+    /// 2 M (w - v)/h = u(t + h/2, x + h w/2) - [sigma0 (z + z+(w))/2 + sigma1 (z+(w) - z)/h + sigma2 w + F0]
+    /// x+ = x + h w,  v+ = 2 w - v
+    /// ```
+    /// Second order and A-stable; the work of all forces equals the change of kinetic energy to rounding. It does not
+    /// damp what is too fast for the step: keep `h sqrt(sigma0/M)` below about 2.
+    ///
+    /// A load that is not finite gives a motion that is not.
+    pub fn step(&self, from: Motion, h: f64, load: Load) -> Step {
+        let balance = Balance {
+            plant: self,
+            from,
+            h,
+            load,
+        };
+        let (w, evaluations) = balance.solve();
+        let end = self.law.step_held(from.deflection, h, w);
+        let motion = Motion {
+            position: from.position + h * w,
+            velocity: 2.0 * w - from.velocity,
+            deflection: end,
+        };
+        Step {
+            motion,
+            mean_velocity: w,
+            friction: self.mean_friction(from.deflection, end, h, w),
+            evaluations,
+        }
+    }
+
+    fn mean_friction(&self, z: f64, end: f64, h: f64, w: f64) -> f64 {
+        self.law.force_at_rate(0.5 * (z + end), (end - z) / h, w)
+    }
+}
+
+/// Bisection alone would need about sixty; a load that is not a number stops here.
+const MOST_EVALUATIONS: u32 = 200;
+
+/// The force balance of one step as an equation for the mean velocity.
+struct Balance<'a> {
+    plant: &'a Plant,
+    from: Motion,
+    h: f64,
+    load: Load,
+}
+
+impl Balance<'_> {
+    /// Inertia and friction less drive at the mean velocity `w`, and the derivative.
+    fn at(&self, w: f64) -> (f64, f64) {
+        let Balance {
+            plant,
+            from,
+            h,
+            load,
+        } = *self;
+        let law = &plant.law;
+        let (end, end_slope) = law.step_held_slope(from.deflection, h, w);
+        let rate = (end - from.deflection) / h;
+        let inertia = 2.0 * plant.mass / h;
+        let drive = load.force - load.stiffness * (from.position + 0.5 * h * w);
+        let excess =
+            inertia * (w - from.velocity) + plant.mean_friction(from.deflection, end, h, w) - drive;
+        let slope = inertia
+            + 0.5 * h * load.stiffness
+            + end_slope * (0.5 * law.stiffness() + law.micro_damping(w) / h)
+            + rate * damping_slope(law, w)
+            + law.curve().direction(w).viscous;
+        (excess, slope)
+    }
+
+    /// Newton's method inside a bracket that bisection shrinks whenever Newton leaves it or is slow.
+    fn solve(&self) -> (f64, u32) {
+        let law = &self.plant.law;
+        let inertia = 2.0 * self.plant.mass / self.h;
+        // Whatever w is, the bristle contributes no more than this; the viscous part and the spring only brake.
+        let bristle =
+            law.stiffness() * law.bound() + law.damping().at_rest() * 2.0 * law.bound() / self.h;
+        let drive =
+            self.load.force - self.load.stiffness * self.from.position - law.curve().offset();
+        let free =
+            (inertia * self.from.velocity + drive) / (inertia + 0.5 * self.h * self.load.stiffness);
+        // The small share keeps rounding from shutting the solution out.
+        let reach = 1.01 * bristle / inertia + 1e-6 * (free.abs() + self.from.velocity.abs());
+        let (mut low, mut high) = (free.min(0.0) - reach, free.max(0.0) + reach);
+
+        // Below this a velocity is standstill: a millionth of a millionth of the Stribeck velocity.
+        let negligible = 1e-12 * law.curve().direction(self.from.velocity).stribeck_velocity;
+        let mut w = self.from.velocity.clamp(low, high);
+        let mut last_move = high - low;
+        for count in 1..=MOST_EVALUATIONS {
+            let (excess, slope) = self.at(w);
+            if excess > 0.0 {
+                high = w;
+            } else {
+                low = w;
+            }
+            let newton = w - excess / slope;
+            let moves = (newton - w).abs();
+            // Newton converges quadratically: after a move of 1e-8 what remains is rounding.
+            if moves <= 1e-8 * w.abs() + negligible {
+                return (newton, count);
+            }
+            let shut = high - low <= 4.0 * f64::EPSILON * w.abs();
+            if shut {
+                return (w, count);
+            }
+            let trusted = newton > low && newton < high && 2.0 * moves <= last_move;
+            let next = if trusted { newton } else { 0.5 * (low + high) };
+            last_move = (next - w).abs();
+            w = next;
+        }
+        (w, MOST_EVALUATIONS)
+    }
+}
+
+/// Derivative of sigma1 in velocity; a difference will do where it only steers Newton's method.
+fn damping_slope(law: &LuGre<f64>, w: f64) -> f64 {
+    match law.damping() {
+        Damping::Constant(_) => 0.0,
+        _ => {
+            let d = 1e-6
+                * w.abs()
+                    .max(1e-6 * law.curve().direction(w).stribeck_velocity);
+            (law.micro_damping(w + d) - law.micro_damping(w - d)) / (2.0 * d)
+        }
+    }
+}
