@@ -1,2 +1,73 @@
-//! Project tasks.
-fn main() {}
+//! Project tasks: `cargo xtask <task>`. Depends on nothing but the standard library, so that it
+//! is built in a second on a fresh machine. To add a task, write a function and add it to `TASKS`.
+
+mod debian;
+mod licences;
+mod python;
+mod shell;
+mod spdx;
+mod test;
+
+use std::process::ExitCode;
+
+/// One task: its name, one line of help, and what it does.
+struct Task {
+    name: &'static str,
+    help: &'static str,
+    run: fn() -> shell::Outcome,
+}
+
+const TASKS: &[Task] = &[
+    Task {
+        name: "setup",
+        help: "install what the tests need: Debian packages, Python packages in .venv",
+        run: setup,
+    },
+    Task {
+        name: "test",
+        help: "set up, then everything CI checks: format, licences, lints, docs, tests",
+        run: test::run,
+    },
+    Task {
+        name: "licences",
+        help: "refuse a dependency whose licence is not permissive",
+        run: licences::run,
+    },
+];
+
+fn setup() -> shell::Outcome {
+    debian::install()?;
+    python::install()
+}
+
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let task = match words[..] {
+        [] | ["help" | "-h" | "--help"] => {
+            println!("cargo xtask <task>\n");
+            for task in TASKS {
+                println!("  {:10} {}", task.name, task.help);
+            }
+            return ExitCode::SUCCESS;
+        }
+        [name] => TASKS.iter().find(|task| task.name == name),
+        _ => None,
+    };
+    let Some(task) = task else {
+        let known: Vec<&str> = TASKS.iter().map(|task| task.name).collect();
+        eprintln!(
+            "xtask: `{}` is not a task; one of: {}",
+            words.join(" "),
+            known.join(", ")
+        );
+        return ExitCode::from(2);
+    };
+    match (task.run)() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("xtask {}: {message}", task.name);
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! What can be wrong with a signal or a setting.
+
+use thiserror::Error;
+
+/// Why a signal could not be processed. Indices count samples from 0.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SignalError {
+    /// A setting is outside its range.
+    #[error("{parameter} is {found}; allowed: {allowed}")]
+    Parameter {
+        /// What was set.
+        parameter: &'static str,
+        /// The value given.
+        found: f64,
+        /// The range that works.
+        allowed: String,
+    },
+    /// The signal has fewer samples than the operation needs.
+    #[error("{operation} needs at least {needed} samples, found {found}")]
+    TooShort {
+        /// What was asked for.
+        operation: &'static str,
+        /// Samples given.
+        found: usize,
+        /// Samples needed.
+        needed: usize,
+    },
+    /// Two signals that belong together differ in length.
+    #[error("{signal} has {found} samples where {expected} belong")]
+    LengthMismatch {
+        /// The signal that differs.
+        signal: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length of the signal it belongs to.
+        expected: usize,
+    },
+    /// A sample is NaN or infinite; one such sample would spoil a whole filtered record.
+    #[error("sample {index} is {found}; only finite values can be processed (fill gaps first)")]
+    NotFinite {
+        /// Position of the first such sample.
+        index: usize,
+        /// Its value.
+        found: f64,
+    },
+    /// Time stamps must strictly increase.
+    #[error("time stamp {index} is {found} s after {previous} s; time must increase")]
+    NotIncreasing {
+        /// Position of the first stamp that does not come after its predecessor.
+        index: usize,
+        /// The stamp before it, s.
+        previous: f64,
+        /// The stamp, s.
+        found: f64,
+    },
+}

@@ -1,0 +1,81 @@
+//! Debian packages that tests need.
+
+use crate::shell::{self, Outcome};
+
+/// A package, needed unless the program it brings is already on the PATH from elsewhere.
+struct Package {
+    name: &'static str,
+    program: Option<&'static str>,
+    why: &'static str,
+}
+
+const PACKAGES: &[Package] = &[Package {
+    name: "build-essential",
+    program: Some("gcc"),
+    why: "a C compiler",
+}];
+
+/// Installs what is missing as root; otherwise says the command to give.
+pub fn install() -> Outcome {
+    let missing: Vec<&Package> = PACKAGES
+        .iter()
+        .filter(|package| !present(package))
+        .collect();
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let names: Vec<&str> = missing.iter().map(|package| package.name).collect();
+    if !is_root() || !shell::on_path("apt-get") {
+        let list: Vec<String> = missing
+            .iter()
+            .map(|package| format!("{} ({})", package.name, package.why))
+            .collect();
+        return Err(format!(
+            "missing: {}. Install with: sudo apt-get install {}",
+            list.join(", "),
+            names.join(" ")
+        ));
+    }
+    apt_get(&["update", "-q"])?;
+    apt_get(
+        &[
+            &["install", "-q", "-y", "--no-install-recommends"],
+            &names[..],
+        ]
+        .concat(),
+    )
+}
+
+fn present(package: &Package) -> bool {
+    package.program.is_some_and(shell::on_path)
+        || shell::succeeds(shell::command("dpkg", &["-s", package.name]))
+}
+
+fn is_root() -> bool {
+    shell::output(shell::command("id", &["-u"])).is_ok_and(|id| id.trim() == "0")
+}
+
+fn apt_get(arguments: &[&str]) -> Outcome {
+    let mut command = shell::command("apt-get", arguments);
+    command.env("DEBIAN_FRONTEND", "noninteractive");
+    shell::run(command)
+}
+
+/// Installs `python3-venv`, which Debian splits off from Python.
+pub fn install_python_venv() -> Outcome {
+    if !is_root() || !shell::on_path("apt-get") {
+        return Err(
+            "this Python has no ensurepip, so it cannot make a virtual environment. \
+                    On Debian or Ubuntu: sudo apt-get install python3-venv"
+                .into(),
+        );
+    }
+    apt_get(&["update", "-q"])?;
+    apt_get(&[
+        "install",
+        "-q",
+        "-y",
+        "--no-install-recommends",
+        "python3-venv",
+    ])
+}

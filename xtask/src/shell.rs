@@ -1,0 +1,98 @@
+//! Running other programs from the workspace root.
+
+use std::env;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+/// Nothing, or the message to end with.
+pub type Outcome = Result<(), String>;
+
+/// The workspace root, also when the built binary was carried over from another clone.
+pub fn root() -> PathBuf {
+    let here = env::var_os("CARGO_MANIFEST_DIR")
+        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")), PathBuf::from);
+    here.parent().map(Path::to_path_buf).unwrap_or(here)
+}
+
+/// A command that will run in the workspace root, without standard input.
+pub fn command(program: &str, arguments: &[&str]) -> Command {
+    let mut command = Command::new(program);
+    command
+        .args(arguments)
+        .current_dir(root())
+        .stdin(Stdio::null());
+    command
+}
+
+/// The cargo that started this task, with arguments separated by blanks.
+pub fn cargo(arguments: &str) -> Command {
+    let arguments: Vec<&str> = arguments.split_whitespace().collect();
+    command(
+        &env::var("CARGO").unwrap_or_else(|_| "cargo".into()),
+        &arguments,
+    )
+}
+
+/// Runs to the end with its output shown, says how long it took, and fails if it failed.
+pub fn run(mut command: Command) -> Outcome {
+    let line = describe(&command);
+    println!("==> {line}");
+    let start = Instant::now();
+    let status = command
+        .status()
+        .map_err(|error| format!("cannot start `{line}`: {error}"))?;
+    println!("    {:.1} s", start.elapsed().as_secs_f64());
+    if status.success() {
+        Ok(())
+    } else {
+        Err(format!("`{line}` failed ({status})"))
+    }
+}
+
+/// Standard output of a command that must succeed.
+pub fn output(mut command: Command) -> Result<String, String> {
+    let line = describe(&command);
+    let output = command
+        .output()
+        .map_err(|error| format!("cannot start `{line}`: {error}"))?;
+    if !output.status.success() {
+        let detail = String::from_utf8_lossy(&output.stderr);
+        return Err(format!(
+            "`{line}` failed ({}): {}",
+            output.status,
+            detail.trim()
+        ));
+    }
+    String::from_utf8(output.stdout).map_err(|error| format!("`{line}`: {error}"))
+}
+
+/// Whether the command starts and ends well; its output is hidden.
+pub fn succeeds(mut command: Command) -> bool {
+    command
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status()
+        .is_ok_and(|s| s.success())
+}
+
+/// Whether a program of this name is on the PATH.
+pub fn on_path(program: &str) -> bool {
+    let path = env::var_os("PATH").unwrap_or_default();
+    env::split_paths(&path).any(|folder| folder.join(program).is_file())
+}
+
+/// As one would type it, the program by its bare name.
+fn describe(command: &Command) -> String {
+    let program = Path::new(command.get_program());
+    let mut line = program
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
+    for argument in command.get_args() {
+        line.push(' ');
+        line.push_str(&argument.to_string_lossy());
+    }
+    line
+}
