@@ -1,0 +1,255 @@
+//! Rich text: runs of characters with one emphasis each, written as HTML or as SVG.
+
+use crate::escape;
+
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Style {
+    Plain,
+    Bold,
+    Italic,
+    Code,
+    Sub,
+    Sup,
+    Link(String),
+}
+
+/// A line or paragraph of rich text, built run by run. Whatever the strings hold is shown
+/// literally; there is no markup to escape from.
+///
+/// ```
+/// use stiction_report::Text;
+/// let text = Text::from("Coulomb force ").italic("F").subscript("c").plain(" of ").code("axis.toml");
+/// assert_eq!(text.to_plain(), "Coulomb force Fc of axis.toml");
+/// ```
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Text(Vec<(Style, String)>);
+
+impl Text {
+    /// Empty text.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// A symbol as in a formula: italic `base`, upright subscript (none when empty).
+    pub fn symbol(base: &str, subscript: &str) -> Self {
+        let text = Self::new().italic(base);
+        if subscript.is_empty() {
+            text
+        } else {
+            text.subscript(subscript)
+        }
+    }
+
+    fn run(mut self, style: Style, text: impl Into<String>) -> Self {
+        self.0.push((style, text.into()));
+        self
+    }
+
+    /// Appends ordinary characters.
+    pub fn plain(self, text: impl Into<String>) -> Self {
+        self.run(Style::Plain, text)
+    }
+
+    /// Appends bold characters.
+    pub fn bold(self, text: impl Into<String>) -> Self {
+        self.run(Style::Bold, text)
+    }
+
+    /// Appends italic characters.
+    pub fn italic(self, text: impl Into<String>) -> Self {
+        self.run(Style::Italic, text)
+    }
+
+    /// Appends characters in a fixed-width face: file names, columns, codes.
+    pub fn code(self, text: impl Into<String>) -> Self {
+        self.run(Style::Code, text)
+    }
+
+    /// Appends a subscript.
+    pub fn subscript(self, text: impl Into<String>) -> Self {
+        self.run(Style::Sub, text)
+    }
+
+    /// Appends a superscript.
+    pub fn superscript(self, text: impl Into<String>) -> Self {
+        self.run(Style::Sup, text)
+    }
+
+    /// Appends a link. Targets other than http, https, mailto, anchors and relative paths are
+    /// shown as their text only.
+    pub fn link(self, text: impl Into<String>, target: impl Into<String>) -> Self {
+        self.run(Style::Link(target.into()), text)
+    }
+
+    /// Appends all runs of `other`.
+    pub fn then(mut self, other: impl Into<Text>) -> Self {
+        self.0.extend(other.into().0);
+        self
+    }
+
+    /// Whether there are no characters.
+    pub fn is_empty(&self) -> bool {
+        self.0.iter().all(|(_, text)| text.is_empty())
+    }
+
+    /// The characters alone.
+    pub fn to_plain(&self) -> String {
+        self.0.iter().map(|(_, text)| text.as_str()).collect()
+    }
+
+    /// Appends HTML phrasing content.
+    pub(crate) fn push_html(&self, out: &mut String) {
+        for (style, text) in &self.0 {
+            let tag = match style {
+                Style::Plain => "",
+                Style::Bold => "strong",
+                Style::Italic => "em",
+                Style::Code => "code",
+                Style::Sub => "sub",
+                Style::Sup => "sup",
+                Style::Link(target) if escape::is_safe_link(target) => {
+                    out.push_str("<a href=\"");
+                    escape::push(out, target.trim());
+                    out.push_str("\">");
+                    escape::push(out, text);
+                    out.push_str("</a>");
+                    continue;
+                }
+                Style::Link(_) => "",
+            };
+            if tag.is_empty() {
+                escape::push(out, text);
+            } else {
+                out.push_str(&format!("<{tag}>"));
+                escape::push(out, text);
+                out.push_str(&format!("</{tag}>"));
+            }
+        }
+    }
+
+    /// HTML phrasing content.
+    pub(crate) fn to_html(&self) -> String {
+        let mut out = String::new();
+        self.push_html(&mut out);
+        out
+    }
+
+    /// Appends the content of an SVG `text` element. Shifted runs use `dy`, because
+    /// `baseline-shift` is not drawn by every browser.
+    pub(crate) fn push_svg(&self, out: &mut String) {
+        let mut lowered = 0.0;
+        for (style, text) in &self.0 {
+            let (shift, attributes) = match style {
+                Style::Plain | Style::Link(_) => (0.0, ""),
+                Style::Bold => (0.0, " font-weight=\"600\""),
+                Style::Italic => (0.0, " font-style=\"italic\""),
+                Style::Code => (0.0, " class=\"mono\""),
+                Style::Sub => (3.0, " font-size=\"76%\""),
+                Style::Sup => (-4.0, " font-size=\"76%\""),
+            };
+            if shift == lowered && attributes.is_empty() {
+                escape::push(out, text);
+                continue;
+            }
+            out.push_str("<tspan");
+            if shift != lowered {
+                out.push_str(&format!(" dy=\"{}\"", shift - lowered));
+                lowered = shift;
+            }
+            out.push_str(attributes);
+            out.push('>');
+            escape::push(out, text);
+            out.push_str("</tspan>");
+        }
+    }
+
+    /// A cautious estimate of the width at `size` px: the fonts of the reader are not known here,
+    /// so the widths are those of a wide sans serif.
+    pub(crate) fn width(&self, size: f64) -> f64 {
+        let ems = |text: &str| text.chars().map(em_width).sum::<f64>();
+        self.0
+            .iter()
+            .map(|(style, text)| match style {
+                Style::Sub | Style::Sup => 0.76 * ems(text),
+                Style::Bold => 1.08 * ems(text),
+                Style::Code => 0.62 * text.chars().count() as f64,
+                _ => ems(text),
+            })
+            .sum::<f64>()
+            * size
+    }
+}
+
+fn em_width(c: char) -> f64 {
+    match c {
+        'i' | 'j' | 'l' | 't' | 'f' | 'r' | 'I' | ' ' | '.' | ',' | ':' | ';' | '\'' | '|'
+        | '!' | '(' | ')' | '[' | ']' | '/' => 0.37,
+        '⁰'..='⁹' | '²' | '³' | '¹' | '⁻' | '₀'..='₉' => 0.42,
+        'm' | 'w' | 'M' | 'W' | '@' | '%' => 0.92,
+        'A'..='Z' => 0.7,
+        '\u{300}'..='\u{36f}' => 0.0,
+        '\u{2e80}'.. => 1.05,
+        _ => 0.6,
+    }
+}
+
+impl From<&str> for Text {
+    fn from(text: &str) -> Self {
+        Self::new().plain(text)
+    }
+}
+
+impl From<String> for Text {
+    fn from(text: String) -> Self {
+        Self::new().plain(text)
+    }
+}
+
+impl From<&Text> for Text {
+    fn from(text: &Text) -> Self {
+        text.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn html_and_svg_show_the_same_characters() {
+        let text = Text::symbol("F", "c")
+            .plain(" < 5")
+            .superscript("2")
+            .bold("!")
+            .link("x", "javascript:y");
+        assert_eq!(
+            text.to_html(),
+            "<em>F</em><sub>c</sub> &lt; 5<sup>2</sup><strong>!</strong>x"
+        );
+        let mut svg = String::new();
+        text.push_svg(&mut svg);
+        let tree = format!("<t>{svg}</t>");
+        let tree = roxmltree::Document::parse(&tree).unwrap();
+        let shown: String = tree
+            .root()
+            .descendants()
+            .filter_map(|n| n.text().filter(|_| n.is_text()))
+            .collect();
+        assert_eq!(shown, text.to_plain());
+        let shifts: f64 = tree
+            .root()
+            .descendants()
+            .filter_map(|n| n.attribute("dy"))
+            .map(|dy| dy.parse::<f64>().unwrap())
+            .sum();
+        assert_eq!(shifts, 0.0, "the last run is back on the base line");
+    }
+
+    #[test]
+    fn safe_links_are_links() {
+        assert_eq!(
+            Text::new().link("a", "b.html?c&d").to_html(),
+            "<a href=\"b.html?c&amp;d\">a</a>"
+        );
+    }
+}
