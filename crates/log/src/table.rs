@@ -41,6 +41,10 @@ pub struct Table {
 impl Table {
     /// Number of samples of the longest column.
     pub fn rows(&self) -> usize {
-        self.columns.iter().map(|c| c.values.len()).max().unwrap_or(0)
+        self.columns
+            .iter()
+            .map(|c| c.values.len())
+            .max()
+            .unwrap_or(0)
     }
 }

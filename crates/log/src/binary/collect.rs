@@ -1,0 +1,238 @@
+//! Laying arrays out as the columns and scalars of a [`Table`], within limits.
+
+use super::Values;
+use crate::{Column, Error, Kind, Limits, Scalar, Table};
+
+/// Variables, fields and cells that one file may hold.
+const MAX_ENTRIES: usize = 65_536;
+
+/// Columns of one matrix; a wider one has its signals in rows, or is no recording.
+const MAX_MATRIX_COLUMNS: u64 = 1024;
+
+/// Which index of a matrix runs fastest in the file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Order {
+    /// The last one, as in C and Python.
+    Row,
+    /// The first one, as in Fortran and MATLAB.
+    Column,
+}
+
+/// What becomes of an array of these dimensions.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Layout {
+    /// One number.
+    Scalar,
+    /// One column.
+    Column,
+    /// Several columns.
+    Matrix { rows: usize, columns: usize },
+    /// Nothing, for this reason.
+    Skip(String),
+}
+
+impl Layout {
+    /// Axes of length one do not count, so a row vector is a column too.
+    pub(crate) fn of(dims: &[u64]) -> Self {
+        if dims.contains(&0) {
+            return Layout::Skip("empty".to_owned());
+        }
+        let long: Vec<u64> = dims.iter().copied().filter(|&n| n != 1).collect();
+        match long[..] {
+            [] => Layout::Scalar,
+            [_] => Layout::Column,
+            [rows, columns] => match (usize::try_from(rows), usize::try_from(columns)) {
+                (Ok(rows), Ok(wide)) if columns <= MAX_MATRIX_COLUMNS => Layout::Matrix {
+                    rows,
+                    columns: wide,
+                },
+                _ => Layout::Skip(format!(
+                    "{rows} x {columns} matrix: signals stand in columns, at most \
+                     {MAX_MATRIX_COLUMNS} of them"
+                )),
+            },
+            _ => Layout::Skip(format!("array of {} dimensions", long.len())),
+        }
+    }
+}
+
+/// A table in the making, with what it may still grow by.
+#[derive(Debug)]
+pub(crate) struct Collector {
+    table: Table,
+    limits: Limits,
+    samples: u64,
+    entries: usize,
+}
+
+impl Collector {
+    pub(crate) fn new(limits: Limits) -> Self {
+        Self {
+            table: Table::default(),
+            limits,
+            samples: 0,
+            entries: 0,
+        }
+    }
+
+    /// Counts one more variable, field or cell.
+    pub(crate) fn entry(&mut self) -> Result<(), Error> {
+        self.entries += 1;
+        if self.entries > MAX_ENTRIES {
+            return Err(Error::new(
+                Kind::Limit,
+                format!("more than {MAX_ENTRIES} variables, fields and cells"),
+                "save the signals as columns of a few arrays",
+            ));
+        }
+        Ok(())
+    }
+
+    /// Whether an array of these dimensions is within what is still allowed, and its length.
+    pub(crate) fn fits(&self, name: &str, dims: &[u64]) -> Result<u64, Error> {
+        let wanted = dims.iter().try_fold(1u64, |n, &dim| n.checked_mul(dim));
+        let total = wanted.and_then(|wanted| self.samples.checked_add(wanted));
+        match (wanted, total) {
+            (Some(wanted), Some(total)) if total <= self.limits.samples => Ok(wanted),
+            _ => Err(Error::new(
+                Kind::Limit,
+                format!("{} samples, more than allowed", times(dims)),
+                format!("at most {} samples in one file", self.limits.samples),
+            )
+            .in_column(name)),
+        }
+    }
+
+    /// Number of samples in an array of these dimensions, taken from what is allowed.
+    ///
+    /// To be asked for before anything is allocated for them.
+    pub(crate) fn reserve(&mut self, name: &str, dims: &[u64]) -> Result<u64, Error> {
+        let wanted = self.fits(name, dims)?;
+        self.samples += wanted;
+        Ok(wanted)
+    }
+
+    /// Says how the file was understood.
+    pub(crate) fn detected(&mut self, what: impl Into<String>) {
+        self.table.detected.push(what.into());
+    }
+
+    /// Says what was left out, and why.
+    pub(crate) fn skip(&mut self, name: &str, why: &str) {
+        self.table.skipped.push(match name {
+            "" => why.to_owned(),
+            name => format!("{name}: {why}"),
+        });
+    }
+
+    /// Adds one column.
+    pub(crate) fn column(&mut self, name: &str, unit: Option<String>, values: Vec<f64>) {
+        self.table.columns.push(Column {
+            name: name.to_owned(),
+            unit,
+            values,
+        });
+    }
+
+    /// Adds an array: a scalar, a column, or the columns `name(:,1)`, `name(:,2)` ... of a matrix.
+    pub(crate) fn array(
+        &mut self,
+        name: &str,
+        unit: Option<String>,
+        dims: &[u64],
+        order: Order,
+        values: Values,
+    ) {
+        if values.rounded {
+            self.detected(format!(
+                "{name}: integers beyond 2^53, rounded to the nearest 64-bit float"
+            ));
+        }
+        let samples = values.samples;
+        match Layout::of(dims) {
+            Layout::Scalar => self
+                .table
+                .scalars
+                .extend(samples.first().map(|&value| Scalar {
+                    name: name.to_owned(),
+                    value,
+                })),
+            Layout::Column => self.column(name, unit, samples),
+            Layout::Matrix { rows, columns } => {
+                for j in 0..columns {
+                    let values = match order {
+                        Order::Column => samples[j * rows..][..rows].to_vec(),
+                        Order::Row => samples.iter().skip(j).step_by(columns).copied().collect(),
+                    };
+                    let name = match name {
+                        "" => String::new(),
+                        name => format!("{name}(:,{})", j + 1),
+                    };
+                    self.column(&name, unit.clone(), values);
+                }
+            }
+            Layout::Skip(why) => self.skip(name, &why),
+        }
+    }
+
+    pub(crate) fn finish(self) -> Table {
+        self.table
+    }
+}
+
+/// `3 x 4` from 3 and 4.
+fn times(dims: &[u64]) -> String {
+    let dims: Vec<String> = dims.iter().map(u64::to_string).collect();
+    dims.join(" x ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn collector(samples: u64) -> Collector {
+        Collector::new(Limits {
+            samples,
+            ..Limits::default()
+        })
+    }
+
+    fn values(samples: &[f64]) -> Values {
+        Values {
+            samples: samples.to_vec(),
+            rounded: false,
+        }
+    }
+
+    #[test]
+    fn a_matrix_gives_the_same_columns_in_either_order() {
+        let mut collector = collector(100);
+        let c = values(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+        let fortran = values(&[1.0, 3.0, 5.0, 2.0, 4.0, 6.0]);
+        collector.array("q", None, &[3, 2], Order::Row, c);
+        collector.array("q", None, &[3, 2], Order::Column, fortran);
+        let table = collector.finish();
+        assert_eq!(table.columns[0].name, "q(:,1)");
+        assert_eq!(table.columns[1].values, [2.0, 4.0, 6.0]);
+        assert_eq!(table.columns[..2], table.columns[2..]);
+    }
+
+    #[test]
+    fn layouts() {
+        assert_eq!(Layout::of(&[]), Layout::Scalar);
+        assert_eq!(Layout::of(&[1, 1]), Layout::Scalar);
+        assert_eq!(Layout::of(&[1, 9]), Layout::Column);
+        assert!(matches!(Layout::of(&[3, 0]), Layout::Skip(_)));
+        assert!(matches!(Layout::of(&[3, 100_000]), Layout::Skip(_)));
+        assert!(matches!(Layout::of(&[3, 4, 5]), Layout::Skip(_)));
+    }
+
+    #[test]
+    fn the_limit_counts_all_arrays_and_survives_overflow() {
+        let mut collector = collector(10);
+        assert_eq!(collector.reserve("a", &[2, 3]).unwrap(), 6);
+        assert_eq!(collector.reserve("b", &[5]).unwrap_err().kind, Kind::Limit);
+        assert!(collector.reserve("c", &[u64::MAX, u64::MAX]).is_err());
+        assert_eq!(collector.reserve("d", &[4]).unwrap(), 4);
+    }
+}

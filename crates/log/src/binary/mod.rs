@@ -1,0 +1,25 @@
+//! What the readers of binary formats share: decoding numbers, laying arrays out as columns,
+//! limits, integer time stamps, and the boundary around third-party decoders.
+
+// A build with only some of the formats leaves parts of this unused.
+#![cfg_attr(
+    not(all(
+        feature = "matlab",
+        feature = "hdf5",
+        feature = "numpy",
+        feature = "parquet"
+    )),
+    allow(dead_code, unused_imports)
+)]
+
+mod collect;
+mod guard;
+mod number;
+mod record;
+mod ticks;
+
+pub(crate) use collect::{Collector, Layout, Order};
+pub(crate) use guard::guard;
+pub(crate) use number::{ByteOrder, Class, Number, Values, half, read_numbers};
+pub(crate) use record::{Cell, Field, Record};
+pub(crate) use ticks::{Clock, Period, seconds};

@@ -1,0 +1,231 @@
+//! What is wrong, odd or worth knowing about a recording, each with a stable code.
+//!
+//! A *warning* may change what an identification finds; a *note* says what was assumed or seen.
+//! What no rule can mend is an [`Error`](crate::Error) instead. Thresholds stand as constants beside
+//! their check; in short:
+//!
+//! | code | found when | handled by |
+//! |---|---|---|
+//! | `gap` | a time step above 1.5 median steps | kept as it is; above 5 missing samples the record is split |
+//! | `duplicate-time` | a step of exactly 0 | first sample kept; refused above 5 % |
+//! | `time-missing` | a time stamp that is no number | row dropped; refused above 5 % |
+//! | `time-wrap` | a backward step of a full 16-, 31- or 32-bit counter | counted on; any other backward step is refused |
+//! | `jitter` | rms of the step above 1 % (note) or 5 % (warning) of its median, gaps apart | time stamps used as recorded |
+//! | `missing-cells` | cells that are no number, or above 1e30 | up to 5 in a row bridged by a line and excluded; longer runs dropped; refused above half |
+//! | `short-column` | a column ends before the others | all cut to the shortest; refused if that costs over 1 % |
+//! | `saturation` | force flat at its extreme, 5 samples or more, not a staircase; or at a stated limit | samples excluded |
+//! | `stuck-encoder` | position frozen while velocity, reference or the jump after it tells of motion | samples excluded |
+//! | `position-jump` | a step above half the range and 50 times the usual one | record split there |
+//!
+//! *Excluded* samples stay in the log, with the reason, so that a state can be carried through
+//! them; they should not be fitted to. Single missing samples and small jitter are left to
+//! resampling: they cost less than a split. A force that sticks while the position rests is
+//! friction, not a fault, which is why a stuck encoder needs evidence of motion from elsewhere.
+
+mod clock;
+mod encoder;
+mod force;
+mod motion;
+mod stuck;
+mod velocity;
+
+use crate::log::Log;
+use crate::mapping::Mapping;
+
+/// How much a finding matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// Worth knowing.
+    Note,
+    /// May change what is identified.
+    Warning,
+}
+
+/// One thing found about a recording.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// Stable code, the name of its page in `docs/codes/`; one of [`CODES`].
+    pub code: &'static str,
+    /// How much it matters.
+    pub severity: Severity,
+    /// What was found, with counts and the first place, for people.
+    pub message: String,
+    /// First sample of the log concerned, counted from 0, where there is one.
+    pub at: Option<usize>,
+}
+
+impl Finding {
+    pub(crate) fn new(code: &'static str, severity: Severity, message: String) -> Self {
+        debug_assert!(
+            CODES.iter().any(|(known, _)| *known == code),
+            "{code} is not in CODES"
+        );
+        Self {
+            code,
+            severity,
+            message,
+            at: None,
+        }
+    }
+
+    pub(crate) fn at(mut self, sample: usize) -> Self {
+        self.at = Some(sample);
+        self
+    }
+}
+
+/// Every code of a finding, with its meaning in a line.
+pub const CODES: &[(&str, &str)] = &[
+    ("gap", "samples are missing between two time stamps"),
+    (
+        "duplicate-time",
+        "several samples carry the same time stamp",
+    ),
+    ("time-missing", "a row has no time stamp"),
+    ("time-wrap", "the time counter overflowed and started again"),
+    ("jitter", "samples are not equally spaced"),
+    ("missing-cells", "cells are empty or no numbers"),
+    ("short-column", "a column ends before the others"),
+    (
+        "unit-assumed",
+        "a unit is not written anywhere and was assumed",
+    ),
+    (
+        "unit-override",
+        "the axis file gives another unit than the recording",
+    ),
+    (
+        "unit-convention",
+        "the unit is used with several conventions",
+    ),
+    (
+        "force-unit",
+        "the force does not belong to this kind of motion",
+    ),
+    (
+        "force-not-calibrated",
+        "the force is a current, a voltage or a share, not newtons",
+    ),
+    ("no-force", "no column is a force, torque or current"),
+    (
+        "force-sign",
+        "the force does negative work: its sign is probably turned round",
+    ),
+    ("saturation", "the force is cut off at a limit"),
+    (
+        "position-wrap",
+        "the position started again and was put together",
+    ),
+    (
+        "position-jump",
+        "the position jumps further than any motion explains",
+    ),
+    (
+        "stuck-encoder",
+        "the position is frozen while something else moves",
+    ),
+    ("quantisation", "the position moves in steps"),
+    (
+        "coarse-position",
+        "the whole travel is only a few steps of the position",
+    ),
+    (
+        "velocity-mismatch",
+        "the velocity is not the derivative of the position",
+    ),
+    ("no-motion", "the axis does not move"),
+    ("noise-only", "motion cannot be told from noise"),
+    ("one-direction", "the axis moves in one direction only"),
+    ("constant-velocity", "the axis moves at one speed only"),
+    ("constant-column", "a column never changes"),
+    ("few-samples", "the record is short"),
+];
+
+/// Inspects a log whose columns are complete, adds what it finds, and excludes what it must.
+pub(crate) fn inspect(log: &mut Log, mapping: &Mapping) {
+    clock::gaps(log);
+    clock::jitter(log);
+    motion::few_samples(log);
+    encoder::jumps(log);
+    encoder::steps(log, mapping);
+    stuck::stuck(log);
+    force::saturation(log, mapping);
+    force::sign(log);
+    velocity::consistency(log);
+    motion::kind_of_motion(log);
+    motion::constant_columns(log);
+}
+
+/// The median, by selection in linear time; `None` for nothing. The upper one of an even count.
+pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
+    if values.is_empty() {
+        return None;
+    }
+    let middle = values.len() / 2;
+    Some(*values.select_nth_unstable_by(middle, f64::total_cmp).1)
+}
+
+/// Smallest and largest of finite values; `None` for nothing.
+pub(crate) fn extremes(values: &[f64]) -> Option<(f64, f64)> {
+    let first = *values.first()?;
+    Some(
+        values
+            .iter()
+            .fold((first, first), |(low, high), &x| (low.min(x), high.max(x))),
+    )
+}
+
+/// A number in at most four digits, for messages.
+pub(crate) fn short(x: f64) -> String {
+    let size = x.abs();
+    if x == 0.0 || !x.is_finite() {
+        return format!("{x}");
+    }
+    if !(1e-3..1e6).contains(&size) {
+        let text = format!("{x:.3e}");
+        let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
+        return format!("{}e{power}", trimmed(digits));
+    }
+    if size >= 1000.0 {
+        return format!("{x:.0}");
+    }
+    let decimals = if size >= 100.0 {
+        1
+    } else if size >= 10.0 {
+        2
+    } else if size >= 1.0 {
+        3
+    } else if size >= 0.1 {
+        4
+    } else if size >= 0.01 {
+        5
+    } else {
+        6
+    };
+    trimmed(&format!("{x:.decimals$}")).to_string()
+}
+
+fn trimmed(digits: &str) -> &str {
+    if digits.contains('.') {
+        digits.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        digits
+    }
+}
+
+/// `1 sample`, `3 samples`.
+pub(crate) fn count(number: usize, noun: &str) -> String {
+    if number == 1 {
+        format!("1 {noun}")
+    } else {
+        format!("{number} {noun}s")
+    }
+}
+
+/// `sample 12 (0.012 s)`.
+pub(crate) fn place(log: &Log, sample: usize) -> String {
+    format!(
+        "sample {sample} ({} s)",
+        short(log.time.get(sample).copied().unwrap_or(0.0))
+    )
+}

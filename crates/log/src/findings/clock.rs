@@ -1,0 +1,114 @@
+//! Gaps and jitter of the time stamps, which are increasing by now.
+
+use super::{Finding, Severity, count, median, place, short};
+use crate::log::{Gap, Log};
+
+/// A step above this many median steps misses a sample.
+const GAP_STEPS: f64 = 1.5;
+/// More missing samples than this in one gap split the record: nothing sensible bridges them.
+pub(crate) const SPLIT_MISSING: usize = 5;
+/// Share of missing samples above which gaps are a warning.
+const MANY_MISSING: f64 = 0.01;
+/// Rms of the time step against its median: worth a note, and a warning.
+const JITTER_NOTE: f64 = 0.01;
+const JITTER_WARNING: f64 = 0.05;
+
+/// Finds the median step, the gaps, and the stretches between the long ones.
+pub(super) fn gaps(log: &mut Log) {
+    let mut steps: Vec<f64> = log.time.windows(2).map(|w| w[1] - w[0]).collect();
+    let Some(step) = median(&mut steps) else {
+        return;
+    };
+    drop(steps);
+    for (index, w) in log.time.windows(2).enumerate() {
+        let seconds = w[1] - w[0];
+        if seconds > GAP_STEPS * step {
+            let missing = ((seconds / step).round() as usize).saturating_sub(1).max(1);
+            log.gaps.push(Gap {
+                start_index: index,
+                seconds,
+                missing_samples: missing,
+            });
+        }
+    }
+    let long: Vec<usize> = log
+        .gaps
+        .iter()
+        .filter(|g| g.missing_samples > SPLIT_MISSING)
+        .map(|g| g.start_index + 1)
+        .collect();
+    log.split(&long);
+    let Some(longest) = log
+        .gaps
+        .iter()
+        .max_by(|a, b| a.seconds.total_cmp(&b.seconds))
+    else {
+        return;
+    };
+    let missing = log
+        .gaps
+        .iter()
+        .fold(0_usize, |sum, g| sum.saturating_add(g.missing_samples));
+    let many = missing as f64 > MANY_MISSING * log.time.len() as f64;
+    let severity = if many || !long.is_empty() {
+        Severity::Warning
+    } else {
+        Severity::Note
+    };
+    let first = log.gaps[0].start_index;
+    let mut message = format!(
+        "{} with {} missing, the longest {} s; first after {}",
+        count(log.gaps.len(), "gap"),
+        count(missing, "sample"),
+        short(longest.seconds),
+        place(log, first)
+    );
+    if !long.is_empty() {
+        message.push_str(&format!(
+            "; the record is split at {}",
+            count(long.len(), "gap")
+        ));
+    }
+    log.findings
+        .push(Finding::new("gap", severity, message).at(first));
+}
+
+/// How far steps other than gaps are from the median.
+pub(super) fn jitter(log: &mut Log) {
+    let step = 1.0 / log.rate_hz;
+    let (mut squares, mut steps) = (0.0, 0_usize);
+    let (mut worst, mut at) = (0.0, 0);
+    for (index, w) in log.time.windows(2).enumerate() {
+        let off = (w[1] - w[0]) - step;
+        if off + step > GAP_STEPS * step {
+            continue;
+        }
+        squares += off * off;
+        steps += 1;
+        if off.abs() > worst {
+            (worst, at) = (off.abs(), index);
+        }
+    }
+    if steps == 0 {
+        return;
+    }
+    let rms = (squares / steps as f64).sqrt();
+    if rms <= JITTER_NOTE * step {
+        return;
+    }
+    let severity = if rms > JITTER_WARNING * step {
+        Severity::Warning
+    } else {
+        Severity::Note
+    };
+    let message = format!(
+        "time steps are off their median of {} s by {} s rms ({} %), at most {} s at {}",
+        short(step),
+        short(rms),
+        short(100.0 * rms / step),
+        short(worst),
+        place(log, at)
+    );
+    log.findings
+        .push(Finding::new("jitter", severity, message).at(at));
+}

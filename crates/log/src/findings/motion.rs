@@ -1,0 +1,163 @@
+//! Whether the motion can tell anything: too short, none, noise, one way, one speed.
+
+use super::{Finding, Severity, count, extremes, short};
+use crate::log::Log;
+use std::borrow::Cow;
+
+/// Fewer samples than this cannot support an interval.
+const FEW: usize = 100;
+/// Positions within this many steps are rest: an encoder dithers between two counts.
+const REST_STEPS: f64 = 2.0;
+/// Neighbouring samples of a motion correlate above this; those of noise do not.
+const SMOOTH: f64 = 0.5;
+/// A way back counts from this share of the range, or this many steps.
+const BACK_OF_RANGE: f64 = 0.02;
+const BACK_STEPS: f64 = 3.0;
+/// One speed: mean velocities of this many windows differ by less than this share.
+const WINDOWS: usize = 50;
+const SPEED_SPREAD: f64 = 0.05;
+
+pub(super) fn few_samples(log: &mut Log) {
+    let samples = log.time.len();
+    if samples < FEW {
+        let message = format!(
+            "{}; below {FEW} an identification means little",
+            count(samples, "sample")
+        );
+        log.findings
+            .push(Finding::new("few-samples", Severity::Warning, message));
+    }
+}
+
+/// At most one of: no motion, noise only, one direction (perhaps at one speed).
+pub(super) fn kind_of_motion(log: &mut Log) {
+    let finding = judge(log);
+    log.findings.extend(finding);
+}
+
+fn judge(log: &Log) -> Vec<Finding> {
+    let warning = |code, message: String| Finding::new(code, Severity::Warning, message);
+    let (x, what): (Cow<[f64]>, _) = match (&log.position, &log.velocity) {
+        (Some(position), _) => (Cow::Borrowed(position), "position"),
+        (None, Some(velocity)) => (Cow::Owned(integral(&log.time, velocity)), "velocity"),
+        (None, None) => return Vec::new(),
+    };
+    let Some((low, high)) = extremes(&x) else {
+        return Vec::new();
+    };
+    let range = high - low;
+    let step = log.quantum.unwrap_or(0.0);
+    let unit = log.motion.position().si_text();
+    if range <= REST_STEPS * step {
+        let message = format!(
+            "the axis does not move: {what} covers {} {unit}",
+            short(range)
+        );
+        return vec![warning("no-motion", message)];
+    }
+    let judged = log.position.as_ref().or(log.velocity.as_ref());
+    if judged.is_some_and(|values| values.len() >= FEW / 2 && likeness(values) < SMOOTH) {
+        let message =
+            format!("{what} looks like noise: neighbouring samples have little in common");
+        return vec![warning("noise-only", message)];
+    }
+    let mut found = Vec::new();
+    if !turns_back(&x, (BACK_OF_RANGE * range).max(BACK_STEPS * step)) {
+        let message = format!(
+            "the axis moves in one direction only, over {} {unit}; friction against the other \
+             direction, and an offset of the force, cannot be told",
+            short(range)
+        );
+        found.push(warning("one-direction", message));
+    }
+    if let Some(speed) = one_speed(&log.time, &x) {
+        let unit = log.motion.velocity().si_text();
+        let message = format!(
+            "the axis moves at one speed, {} {unit}; mass and the shape of friction over speed \
+             cannot be told",
+            short(speed)
+        );
+        found.push(warning("constant-velocity", message));
+    }
+    found
+}
+
+fn integral(time: &[f64], velocity: &[f64]) -> Vec<f64> {
+    let mut x = 0.0;
+    let steps = time.windows(2).zip(velocity.windows(2)).map(|(t, v)| {
+        x += 0.5 * (v[0] + v[1]) * (t[1] - t[0]);
+        x
+    });
+    std::iter::once(0.0).chain(steps).collect()
+}
+
+/// Correlation of each sample with the next.
+fn likeness(values: &[f64]) -> f64 {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let power: f64 = values.iter().map(|v| (v - mean) * (v - mean)).sum();
+    let next: f64 = values
+        .windows(2)
+        .map(|w| (w[0] - mean) * (w[1] - mean))
+        .sum();
+    if power > 0.0 { next / power } else { 1.0 }
+}
+
+/// Whether the signal goes up and comes down, each by more than `least`.
+fn turns_back(x: &[f64], least: f64) -> bool {
+    let (mut low, mut high) = (x[0], x[0]);
+    let (mut up, mut down) = (false, false);
+    for &value in x {
+        low = low.min(value);
+        high = high.max(value);
+        if value - low > least {
+            up = true;
+        }
+        if high - value > least {
+            down = true;
+        }
+        if up && down {
+            return true;
+        }
+    }
+    false
+}
+
+/// The speed, where windows over the whole record all have nearly the same.
+fn one_speed(time: &[f64], x: &[f64]) -> Option<f64> {
+    let windows = WINDOWS.min((x.len() - 1) / 4);
+    if windows < 4 {
+        return None;
+    }
+    let edge = |k: usize| k * (x.len() - 1) / windows;
+    let speeds: Vec<f64> = (0..windows)
+        .map(|k| (x[edge(k + 1)] - x[edge(k)]) / (time[edge(k + 1)] - time[edge(k)]))
+        .collect();
+    let (low, high) = extremes(&speeds)?;
+    let mean = speeds.iter().sum::<f64>() / windows as f64;
+    (high - low < SPEED_SPREAD * mean.abs()).then_some(mean)
+}
+
+/// Columns that never change though something moves.
+pub(super) fn constant_columns(log: &mut Log) {
+    let columns = [
+        ("velocity", &log.velocity),
+        ("force", &log.force),
+        ("reference", &log.reference),
+    ];
+    let mut found = Vec::new();
+    for (name, values) in columns {
+        let Some((low, high)) = values.as_deref().and_then(extremes) else {
+            continue;
+        };
+        if low == high {
+            let severity = if name == "reference" {
+                Severity::Note
+            } else {
+                Severity::Warning
+            };
+            let message = format!("{name} is {} throughout", short(low));
+            found.push(Finding::new("constant-column", severity, message));
+        }
+    }
+    log.findings.extend(found);
+}

@@ -1,0 +1,91 @@
+//! Whether velocity and position tell the same motion.
+
+use super::{Finding, Severity, short};
+use crate::log::Log;
+
+/// Travel is compared over windows of so many samples, where noise and delay matter little.
+const WINDOW: usize = 32;
+/// Ratio of the two that may be a sensor's business.
+const RATIO_OFF: f64 = 0.05;
+/// Below this correlation they are not the same motion.
+const CORRELATED: f64 = 0.7;
+/// Windows must move more than this many encoder steps (rms).
+const MIN_STEPS: f64 = 5.0;
+
+/// Ratios that have a usual cause: derivative of the position over the velocity.
+const CAUSES: &[(f64, &str)] = &[
+    (1000.0, "position in mm taken as m, or velocity in km/s"),
+    (1e-3, "velocity in mm/s taken as m/s"),
+    (57.295_779_513, "position in degrees taken as rad"),
+    (0.017_453_292_5, "velocity in deg/s taken as rad/s"),
+    (0.159_154_943_1, "position in turns taken as rad"),
+    (
+        std::f64::consts::TAU,
+        "velocity in turns a second taken as rad/s",
+    ),
+    (0.104_719_755_1, "velocity in rpm taken as rad/s"),
+    (1.0 / 60.0, "velocity per minute taken as per second"),
+    (60.0, "velocity per second taken as per minute"),
+];
+
+pub(super) fn consistency(log: &mut Log) {
+    let (Some(position), Some(velocity)) = (&log.position, &log.velocity) else {
+        return;
+    };
+    let gap = |sample| log.gap_after(sample);
+    let (mut xx, mut vv, mut xv, mut windows) = (0.0, 0.0, 0.0, 0_usize);
+    let (mut start, mut x, mut broken) = (0, 0.0, false);
+    for i in 1..log.time.len() {
+        x += 0.5 * (velocity[i] + velocity[i - 1]) * (log.time[i] - log.time[i - 1]);
+        broken |= gap(i - 1) || log.starts_segment(i);
+        if i - start == WINDOW {
+            if !broken {
+                let moved = position[i] - position[start];
+                xx += moved * moved;
+                vv += x * x;
+                xv += moved * x;
+                windows += 1;
+            }
+            (start, x, broken) = (i, 0.0, false);
+        }
+    }
+    let step = log.quantum.unwrap_or(0.0);
+    let rms = (xx / windows.max(1) as f64).sqrt();
+    if windows < 3 || xx == 0.0 || vv == 0.0 || rms <= MIN_STEPS * step {
+        return;
+    }
+    let correlation = xv / (xx * vv).sqrt();
+    let ratio = (xx / vv).sqrt().copysign(correlation);
+    let message = if correlation.abs() < CORRELATED {
+        format!(
+            "velocity is not the derivative of the position: over {WINDOW} samples they correlate \
+             by {}",
+            short(correlation)
+        )
+    } else if (ratio - 1.0).abs() > RATIO_OFF {
+        let near = |(value, _): &&(f64, &str)| (ratio.abs() / value - 1.0).abs() < RATIO_OFF;
+        let cause = CAUSES.iter().find(near).map(|(_, cause)| *cause);
+        let turned = (ratio < 0.0).then_some("one of them has its sign turned round");
+        let why = [cause, turned]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+            .join("; ");
+        let why = if why.is_empty() {
+            "a unit, a gear or a lead between them"
+        } else {
+            &why
+        };
+        format!(
+            "the position moves {} times as fast as the velocity says: {why}?",
+            short(ratio)
+        )
+    } else {
+        return;
+    };
+    log.findings.push(Finding::new(
+        "velocity-mismatch",
+        Severity::Warning,
+        message,
+    ));
+}

@@ -1,0 +1,264 @@
+//! A recording in SI, checked: what an identification starts from.
+//!
+//! [`Log::from_table`] goes through a table in this order, in linear passes:
+//!
+//! 1. the mapping is completed (see [`Mapping`]);
+//! 2. columns are cut to one length: up to 1 % may be missing at the end of one of them, more is
+//!    refused, since a column at half the rate would be misaligned;
+//! 3. time stamps are reduced to the first kept one before anything is rounded; a 16-, 31- or 32-bit
+//!    counter that overflows is counted on; any other backward step is refused with its row;
+//! 4. the record is cropped, in seconds from its first sample; trouble outside is of no concern;
+//! 5. rows without a time stamp, and all but the first of equal time stamps, are dropped, each
+//!    refused above 5 % (stamps coarser than the sampling: give the rate instead);
+//! 6. units, scale and sign are applied; a wrapping position is put together;
+//! 7. missing cells of position, velocity and force: up to 5 in a row are bridged by a straight
+//!    line in time and excluded; longer runs are dropped with their rows and leave a gap. Of
+//!    reference, temperature and load any missing cell is bridged or held: they vary slowly;
+//! 8. the log is inspected (see [`Finding`]).
+//!
+//! No sample is resampled, filtered or moved in time.
+
+mod cells;
+mod clock;
+mod unwrap;
+
+use crate::findings::{self, Finding, Severity};
+use crate::mapping::{Mapping, Motion, Role, Source};
+use crate::{Error, Kind, Table};
+use std::ops::Range;
+
+/// Samples missing between two time stamps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap {
+    /// Last sample before the gap, counted from 0.
+    pub start_index: usize,
+    /// Time from that sample to the next, s.
+    pub seconds: f64,
+    /// Samples that are missing at the median rate; at least 1.
+    pub missing_samples: usize,
+}
+
+/// Samples that are in the log and should not be fitted to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Excluded {
+    /// The samples, counted from 0.
+    pub samples: Range<usize>,
+    /// Code of the finding that says why.
+    pub code: &'static str,
+}
+
+/// A recording in SI; every column has one finite number a sample.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Log {
+    /// Linear (m, m/s) or rotary (rad, rad/s).
+    pub motion: Motion,
+    /// Seconds from the first kept sample, strictly increasing.
+    pub time: Vec<f64>,
+    /// Time of the first kept sample on the clock of the file, s.
+    pub start: f64,
+    /// Position, m or rad; put together where it wrapped.
+    pub position: Option<Vec<f64>>,
+    /// Velocity as recorded, m/s or rad/s.
+    pub velocity: Option<Vec<f64>>,
+    /// Force in `force_unit`, positive where it drives towards positive position.
+    pub force: Option<Vec<f64>>,
+    /// SI unit of the force: `N`, `N*m`, `A`, `V`, or `1` for a share of the rated force.
+    pub force_unit: String,
+    /// Position that was asked for, m or rad.
+    pub reference: Option<Vec<f64>>,
+    /// Temperature, K.
+    pub temperature: Option<Vec<f64>>,
+    /// Normal load in `load_unit`.
+    pub load: Option<Vec<f64>>,
+    /// SI unit of the load.
+    pub load_unit: String,
+    /// Rate of the median time step, Hz, to nine digits.
+    pub rate_hz: f64,
+    /// Step of the position, m or rad: as stated, or as seen in the data.
+    pub quantum: Option<f64>,
+    /// Missing samples, in order.
+    pub gaps: Vec<Gap>,
+    /// Stretches without a long gap or jump inside, in order; together they are the whole log.
+    pub segments: Vec<Range<usize>>,
+    /// Samples not to be fitted to, by first sample; they may overlap.
+    pub excluded: Vec<Excluded>,
+    /// What is wrong or worth knowing.
+    pub findings: Vec<Finding>,
+    /// How the file and its columns were understood.
+    pub detected: Vec<String>,
+    /// The mapping that was used, with nothing left open.
+    pub mapping: Mapping,
+}
+
+/// Fewer samples than this are no record.
+const MIN_SAMPLES: usize = 3;
+/// Share of its samples that a column may lack at the end.
+const SHORTER: f64 = 0.01;
+
+impl Log {
+    /// Reads a table as this mapping says; what the mapping leaves open is detected.
+    ///
+    /// # Errors
+    /// Those of [`Mapping::complete`]; [`Kind::Time`] for time stamps that no rule mends, with the
+    /// row; [`Kind::Value`] where too little is left or too much is missing.
+    pub fn from_table(table: &Table, mapping: &Mapping) -> Result<Self, Error> {
+        let completed = mapping.complete(table)?;
+        let mapping = completed.mapping;
+        let mut findings = completed.findings;
+        let mut sources = Vec::new();
+        for role in Role::ALL {
+            if let Some(source) = Source::of(&mapping, table, role)? {
+                sources.push((role, source));
+            }
+        }
+        let length = common_length(table, &sources, &mut findings)?;
+        let clock = clock::read(table, &sources, &mapping, length, &mut findings)?;
+        let mut columns = cells::Columns::read(table, &sources, &clock);
+        let mut time = clock.time;
+        if let Some(wrap) = mapping.wrap {
+            let unit = mapping
+                .motion
+                .unwrap_or(Motion::Linear)
+                .position()
+                .si_text();
+            if let Some(position) = columns.get_mut(Role::Position) {
+                findings.extend(unwrap::unwrap(position, wrap.period, &unit));
+            }
+        }
+        let mended = columns.mend(&mut time)?;
+        findings.extend(mended.findings);
+        if time.len() < MIN_SAMPLES {
+            let found = format!("{} left", findings::count(time.len(), "sample"));
+            let allowed = format!("at least {MIN_SAMPLES}, and some thousand to identify friction");
+            return Err(Error::new(Kind::Value, found, allowed));
+        }
+        let unit = |role| {
+            let source = sources.iter().find(|(r, _)| *r == role).map(|(_, s)| s);
+            source.map_or(String::new(), |s| s.dimension.si_text())
+        };
+        let mut detected = table.detected.clone();
+        detected.extend(completed.phrases);
+        let first = time[0];
+        time.iter_mut().for_each(|t| *t -= first);
+        let mut log = Self {
+            motion: mapping.motion.unwrap_or(Motion::Linear),
+            rate_hz: rate(&time),
+            segments: std::iter::once(0..time.len()).collect(),
+            start: clock.start + first,
+            time,
+            position: columns.take(Role::Position),
+            velocity: columns.take(Role::Velocity),
+            force: columns.take(Role::Force),
+            force_unit: unit(Role::Force),
+            reference: columns.take(Role::Reference),
+            temperature: columns.take(Role::Temperature),
+            load: columns.take(Role::Load),
+            load_unit: unit(Role::Load),
+            quantum: None,
+            gaps: Vec::new(),
+            excluded: mended.bridged,
+            findings,
+            detected,
+            mapping,
+        };
+        let mapping = log.mapping.clone();
+        findings::inspect(&mut log, &mapping);
+        log.excluded
+            .sort_by_key(|e| (e.samples.start, e.samples.end));
+        Ok(log)
+    }
+
+    /// Which samples may be fitted to: those that nothing excludes.
+    pub fn valid(&self) -> Vec<bool> {
+        let mut valid = vec![true; self.time.len()];
+        for excluded in &self.excluded {
+            valid[excluded.samples.clone()].fill(false);
+        }
+        valid
+    }
+
+    /// Whether any finding is a warning.
+    pub fn has_warnings(&self) -> bool {
+        self.findings
+            .iter()
+            .any(|f| f.severity == Severity::Warning)
+    }
+
+    /// Which samples are excluded.
+    pub(crate) fn skipped(&self) -> Vec<bool> {
+        self.valid().into_iter().map(|valid| !valid).collect()
+    }
+
+    /// Whether a gap begins after a sample.
+    pub(crate) fn gap_after(&self, sample: usize) -> bool {
+        self.gaps
+            .binary_search_by_key(&sample, |g| g.start_index)
+            .is_ok()
+    }
+
+    /// Whether a segment begins with this sample.
+    pub(crate) fn starts_segment(&self, sample: usize) -> bool {
+        self.segments
+            .binary_search_by_key(&sample, |s| s.start)
+            .is_ok()
+    }
+
+    /// Lets a new segment begin at each of these samples, which are in order.
+    pub(crate) fn split(&mut self, at: &[usize]) {
+        let mut starts: Vec<usize> = self.segments.iter().map(|s| s.start).collect();
+        starts.extend(at);
+        starts.sort_unstable();
+        starts.dedup();
+        let ends = starts.iter().skip(1).copied().chain([self.time.len()]);
+        self.segments = starts
+            .iter()
+            .copied()
+            .zip(ends)
+            .map(|(from, to)| from..to)
+            .collect();
+    }
+
+    /// Marks samples as not to be fitted to.
+    pub(crate) fn exclude(&mut self, samples: Range<usize>, code: &'static str) {
+        self.excluded.push(Excluded { samples, code });
+    }
+}
+
+/// Rate of the median step, to nine digits: time stamps are decimal, their differences are not.
+fn rate(time: &[f64]) -> f64 {
+    let mut steps: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
+    let step = findings::median(&mut steps).unwrap_or(1.0);
+    let rate = 1.0 / step;
+    format!("{rate:.8e}").parse().unwrap_or(rate)
+}
+
+/// The length of the shortest column in use, if that costs little.
+fn common_length(
+    table: &Table,
+    sources: &[(Role, Source)],
+    findings: &mut Vec<Finding>,
+) -> Result<usize, Error> {
+    let length = |source: &Source| table.columns[source.column].values.len();
+    let longest = sources.iter().map(|(_, s)| length(s)).max().unwrap_or(0);
+    let Some((role, source)) = sources.iter().min_by_key(|(_, s)| length(s)) else {
+        return Ok(0);
+    };
+    let shortest = length(source);
+    let lost = longest - shortest;
+    if lost == 0 {
+        return Ok(longest);
+    }
+    let found = format!(
+        "{role} has {} and other columns up to {longest}",
+        findings::count(shortest, "sample")
+    );
+    if lost as f64 > SHORTER * longest as f64 && lost > 2 {
+        let allowed = "all columns need one rate; export them at the same sample time";
+        return Err(Error::new(Kind::Value, found, allowed));
+    }
+    let message = format!("{found}; the record is cut to {shortest}");
+    findings.push(
+        Finding::new("short-column", Severity::Warning, message).at(shortest.saturating_sub(1)),
+    );
+    Ok(shortest)
+}

@@ -1,0 +1,172 @@
+//! The columns in SI, and what becomes of their missing cells.
+
+use super::Excluded;
+use super::clock::Clock;
+use crate::findings::{Finding, Severity, count};
+use crate::mapping::{Role, Source};
+use crate::{Error, Kind, Table};
+use std::ops::Range;
+
+/// Missing cells in a row that a straight line may bridge.
+const BRIDGED: usize = 5;
+/// A column that lacks more than this share is at another rate, or not there.
+const MISSING: f64 = 0.5;
+/// Share of missing cells above which they are a warning.
+const MANY: f64 = 0.01;
+
+/// The columns of a log in the making, one number a kept row.
+pub(super) struct Columns {
+    columns: Vec<(Role, Vec<f64>)>,
+}
+
+/// What mending did.
+pub(super) struct Mended {
+    pub bridged: Vec<Excluded>,
+    pub findings: Vec<Finding>,
+}
+
+impl Columns {
+    /// The kept rows of every column but time, in SI; a missing cell is NaN.
+    pub fn read(table: &Table, sources: &[(Role, Source)], clock: &Clock) -> Self {
+        let columns =
+            sources
+                .iter()
+                .filter(|(role, _)| *role != Role::Time)
+                .map(|(role, source)| {
+                    let values = &table.columns[source.column].values;
+                    let mut dropped = clock.dropped.iter().peekable();
+                    let kept = clock
+                        .range
+                        .clone()
+                        .filter(|row| dropped.next_if_eq(&row).is_none());
+                    (*role, kept.map(|row| source.si(values[row])).collect())
+                });
+        Self {
+            columns: columns.collect(),
+        }
+    }
+
+    pub fn get_mut(&mut self, wanted: Role) -> Option<&mut Vec<f64>> {
+        self.columns
+            .iter_mut()
+            .find(|(role, _)| *role == wanted)
+            .map(|(_, values)| values)
+    }
+
+    pub fn take(&mut self, wanted: Role) -> Option<Vec<f64>> {
+        self.get_mut(wanted)
+            .map(std::mem::take)
+            .filter(|values| !values.is_empty())
+    }
+
+    /// Bridges short runs of missing cells and drops the rows of long ones, with their times.
+    pub fn mend(&mut self, time: &mut Vec<f64>) -> Result<Mended, Error> {
+        let rows = time.len();
+        let mut findings = Vec::new();
+        let mut drop = vec![false; rows];
+        let mut bridged = vec![false; rows];
+        for (role, values) in &mut self.columns {
+            let runs = missing(values);
+            let Some(first) = runs.first().cloned() else {
+                continue;
+            };
+            let cells: usize = runs.iter().map(Range::len).sum();
+            let core = matches!(role, Role::Position | Role::Velocity | Role::Force);
+            if core && cells as f64 > MISSING * rows as f64 {
+                let found = format!("{role} lacks {cells} of {}", count(rows, "cell"));
+                let allowed = "at most half; a column at a slower rate has to be exported at the \
+                               rate of the others";
+                return Err(Error::new(Kind::Value, found, allowed).in_column(role.name()));
+            }
+            if cells == rows {
+                values.clear();
+                let message = format!("{role} has no number at all and is left out");
+                findings.push(Finding::new("missing-cells", Severity::Warning, message));
+                continue;
+            }
+            let (mut short, mut long) = (0, 0);
+            for run in runs {
+                let inside = run.start > 0 && run.end < rows;
+                if core && !(inside && run.len() <= BRIDGED) {
+                    long += run.len();
+                    drop[run].fill(true);
+                    continue;
+                }
+                short += run.len();
+                if core {
+                    bridged[run.clone()].fill(true);
+                }
+                bridge(time, values, run);
+            }
+            let done = match (short, long) {
+                (_, 0) if core => "bridged and excluded".to_string(),
+                (_, 0) => "bridged".to_string(),
+                (0, _) => "dropped with their rows".to_string(),
+                (short, long) => {
+                    format!("{short} bridged and excluded, {long} dropped with their rows")
+                }
+            };
+            let message = format!(
+                "{role} lacks {} of {rows}, first in row {} of the kept part; {done}",
+                count(cells, "cell"),
+                first.start + 1
+            );
+            let grave = core && (long > 0 || cells as f64 > MANY * rows as f64);
+            let severity = if grave {
+                Severity::Warning
+            } else {
+                Severity::Note
+            };
+            findings.push(Finding::new("missing-cells", severity, message).at(first.start));
+        }
+        if drop.contains(&true) {
+            retain(time, &drop);
+            retain(&mut bridged, &drop);
+            for (_, values) in self.columns.iter_mut().filter(|(_, v)| !v.is_empty()) {
+                retain(values, &drop);
+            }
+        }
+        let excluded = |samples| Excluded {
+            samples,
+            code: "missing-cells",
+        };
+        Ok(Mended {
+            bridged: runs(&bridged, |b| *b).into_iter().map(excluded).collect(),
+            findings,
+        })
+    }
+}
+
+fn missing(values: &[f64]) -> Vec<Range<usize>> {
+    runs(values, |x| x.is_nan())
+}
+
+fn runs<T>(values: &[T], test: impl Fn(&T) -> bool) -> Vec<Range<usize>> {
+    let mut at = 0;
+    let mut found = Vec::new();
+    for run in values.chunk_by(|a, b| test(a) == test(b)) {
+        if test(&run[0]) {
+            found.push(at..at + run.len());
+        }
+        at += run.len();
+    }
+    found
+}
+
+/// A straight line in time between the neighbours of a run; held where there is only one.
+fn bridge(time: &[f64], values: &mut [f64], run: Range<usize>) {
+    let before = run.start.checked_sub(1).map(|i| (time[i], values[i]));
+    let after = values.get(run.end).map(|x| (time[run.end], *x));
+    for i in run {
+        values[i] = match (before, after) {
+            (Some((t0, x0)), Some((t1, x1))) => x0 + (x1 - x0) * ((time[i] - t0) / (t1 - t0)),
+            (Some((_, x)), None) | (None, Some((_, x))) => x,
+            (None, None) => return,
+        };
+    }
+}
+
+fn retain<T>(values: &mut Vec<T>, drop: &[bool]) {
+    let mut dropped = drop.iter();
+    values.retain(|_| !dropped.next().copied().unwrap_or(false));
+}

@@ -1,0 +1,258 @@
+//! Time stamps to seconds: overflow, order, crop, duplicates.
+
+use crate::findings::{Finding, Severity, count, median, short};
+use crate::mapping::{LARGEST, Mapping, Role, Source};
+use crate::{Error, Kind, Table};
+use std::ops::Range;
+
+/// Dropping more than this share of the rows is no repair.
+const DROPPED: f64 = 0.05;
+/// An overflow goes on within this many usual steps.
+const OVERFLOW_STEPS: f64 = 10.0;
+/// No recording lasts longer than this, s: thirty years.
+const LONGEST: f64 = 1e9;
+/// Where counters overflow, in their own unit.
+const COUNTERS: [f64; 3] = [65_536.0, 2_147_483_648.0, 4_294_967_296.0];
+
+/// The rows that are kept and when they were taken.
+pub(super) struct Clock {
+    /// Seconds from the first kept row.
+    pub time: Vec<f64>,
+    /// Seconds of the first kept row on the clock of the file.
+    pub start: f64,
+    /// Rows of the table that the crop keeps.
+    pub range: Range<usize>,
+    /// Rows within `range` that are dropped, in order.
+    pub dropped: Vec<usize>,
+}
+
+pub(super) fn read(
+    table: &Table,
+    sources: &[(Role, Source)],
+    mapping: &Mapping,
+    length: usize,
+    findings: &mut Vec<Finding>,
+) -> Result<Clock, Error> {
+    match (
+        sources.iter().find(|(role, _)| *role == Role::Time),
+        mapping.rate_hz,
+    ) {
+        (Some((_, source)), _) => {
+            let raw = &table.columns[source.column].values[..length];
+            stamped(raw, source, mapping, findings).map_err(|e| match e.kind {
+                Kind::Time => e.in_column("time"),
+                _ => e,
+            })
+        }
+        (None, rate) => counted(rate.unwrap_or(1.0), mapping, length),
+    }
+}
+
+/// Rows at a stated rate.
+fn counted(rate: f64, mapping: &Mapping, length: usize) -> Result<Clock, Error> {
+    let at = |row: usize| row as f64 / rate;
+    let range = crop(length, mapping, at)?;
+    let time = (0..range.len()).map(at).collect();
+    Ok(Clock {
+        time,
+        start: at(range.start),
+        range,
+        dropped: Vec::new(),
+    })
+}
+
+/// Rows with time stamps.
+fn stamped(
+    raw: &[f64],
+    source: &Source,
+    mapping: &Mapping,
+    findings: &mut Vec<Finding>,
+) -> Result<Clock, Error> {
+    let Some(origin) = raw.iter().copied().find(is_stamp) else {
+        return Err(Error::new(
+            Kind::Time,
+            "no row has a time stamp",
+            "give the rate instead",
+        ));
+    };
+    let (lifts, broken) = overflows(raw);
+    let lift = |row: usize| match lifts.partition_point(|(from, _)| *from <= row) {
+        0 => 0.0,
+        n => lifts[n - 1].1,
+    };
+    let since = |row: usize, from: f64| source.si_difference((raw[row] - from) + lift(row));
+    let range = crop(raw.len(), mapping, |row| since(row, origin))?;
+    if let Some(row) = broken
+        .iter()
+        .copied()
+        .find(|row| range.contains(row) && *row > range.start)
+    {
+        return Err(backward(raw, row));
+    }
+    let mut time = Vec::with_capacity(range.len());
+    let mut dropped = Vec::new();
+    let (mut stampless, mut repeated) = (Vec::new(), Vec::new());
+    let mut base: Option<(f64, f64)> = None;
+    let mut before = f64::NEG_INFINITY;
+    for row in range.clone() {
+        if !is_stamp(&raw[row]) {
+            stampless.push(row);
+            dropped.push(row);
+            continue;
+        }
+        let (first, first_lift) = *base.get_or_insert((raw[row], lift(row)));
+        let now = source.si_difference((raw[row] - first) + (lift(row) - first_lift));
+        if now <= before {
+            repeated.push(row);
+            dropped.push(row);
+        } else {
+            time.push(now);
+            before = now;
+        }
+    }
+    let share = |rows: &[usize]| rows.len() as f64 / range.len() as f64;
+    if let Some(&first) = stampless.first() {
+        let found = format!("{} without a time stamp", count(stampless.len(), "row"));
+        if share(&stampless) > DROPPED {
+            let allowed = "at most 5 % of the rows; give the rate instead of the time column";
+            return Err(Error::new(Kind::Time, found, allowed).at_row(first as u64 + 1));
+        }
+        let message = format!("{found}, first data row {}; dropped", first + 1);
+        findings.push(Finding::new("time-missing", Severity::Warning, message));
+    }
+    if let Some(&first) = repeated.first() {
+        let found = format!(
+            "{} with the time stamp of the row before",
+            count(repeated.len(), "row")
+        );
+        if share(&repeated) > DROPPED {
+            let allowed = "at most 5 %: the clock is coarser than the sampling; give the rate \
+                           instead of the time column (rate = \"4 kHz\")";
+            return Err(Error::new(Kind::Time, found, allowed).at_row(first as u64 + 1));
+        }
+        let message = format!(
+            "{found}, first data row {} at {} s; the first of each is kept",
+            first + 1,
+            short(since(first, origin))
+        );
+        findings.push(Finding::new("duplicate-time", Severity::Warning, message));
+    }
+    if let Some(&(row, size)) = lifts.iter().find(|(row, _)| range.contains(row)) {
+        let times = lifts.iter().filter(|(row, _)| range.contains(row)).count();
+        let message = format!(
+            "the time counter overflowed at {size} {}, first in data row {}; counted on",
+            count(times, "time"),
+            row + 1
+        );
+        findings.push(Finding::new("time-wrap", Severity::Note, message));
+    }
+    if time.last().is_some_and(|t| *t > LONGEST) {
+        let found = format!("the record lasts {} s", short(*time.last().unwrap_or(&0.0)));
+        return Err(Error::new(
+            Kind::Time,
+            found,
+            "at most 1e9 s; check the unit of the time",
+        ));
+    }
+    let start = base.map_or(0.0, |(first, lift)| {
+        source.si(first) + source.si_difference(lift)
+    });
+    Ok(Clock {
+        time,
+        start,
+        range,
+        dropped,
+    })
+}
+
+/// Where the counter overflows, with what has to be added from there on, and the rows that go back
+/// for no such reason.
+fn overflows(raw: &[f64]) -> (Vec<(usize, f64)>, Vec<usize>) {
+    let forward = raw
+        .windows(2)
+        .map(|w| w[1] - w[0])
+        .filter(|d| *d > 0.0 && d.is_finite());
+    let usual = median(&mut forward.collect::<Vec<_>>()).unwrap_or(0.0);
+    let (mut lifts, mut broken): (Vec<(usize, f64)>, _) = (Vec::new(), Vec::new());
+    let mut total = 0.0;
+    let mut before = f64::NEG_INFINITY;
+    for (row, &now) in raw.iter().enumerate().filter(|(_, t)| is_stamp(t)) {
+        if now < before {
+            let counter = COUNTERS.into_iter().find(|size| {
+                let step = now + size - before;
+                let whole = now.fract() == 0.0 && before.fract() == 0.0;
+                whole && now >= -size / 2.0 && step > 0.0 && step <= OVERFLOW_STEPS * usual
+            });
+            match counter {
+                Some(size) => {
+                    total += size;
+                    lifts.push((row, total));
+                }
+                None => broken.push(row),
+            }
+        }
+        before = now;
+    }
+    (lifts, broken)
+}
+
+/// Whether a number can be a time stamp.
+fn is_stamp(raw: &f64) -> bool {
+    raw.abs() <= LARGEST
+}
+
+fn backward(raw: &[f64], row: usize) -> Error {
+    let before = raw[..row]
+        .iter()
+        .rev()
+        .copied()
+        .find(is_stamp)
+        .unwrap_or(f64::NAN);
+    let found = format!(
+        "time goes back from {before} to {} in data row {}",
+        raw[row],
+        row + 1
+    );
+    let allowed = "increasing time stamps; if two recordings are in one file, keep one with crop under [log], or \
+                   give the rate instead of the time column";
+    Error::new(Kind::Time, found, allowed).at_row(row as u64 + 1)
+}
+
+/// The rows between the first at or after the begin of the crop and the last before its end.
+fn crop(
+    length: usize,
+    mapping: &Mapping,
+    at: impl Fn(usize) -> f64,
+) -> Result<Range<usize>, Error> {
+    let Some((from, to)) = mapping.crop else {
+        return Ok(0..length);
+    };
+    // A part in 1e9 of slack, so that decimal limits keep the samples they name.
+    let slack = 1e-9 * from.abs().max(to.abs()).min(1e9);
+    let start = (0..length).find(|&row| at(row) >= from - slack);
+    let end = start.map(|s| {
+        (s..length)
+            .find(|&row| at(row) > to + slack)
+            .unwrap_or(length)
+    });
+    match (start, end) {
+        (Some(start), Some(end)) if start < end => Ok(start..end),
+        _ => {
+            let last = (0..length)
+                .rev()
+                .map(&at)
+                .find(|t| t.is_finite())
+                .unwrap_or(0.0);
+            let found = format!(
+                "crop from {} to {} s keeps no sample",
+                short(from),
+                short(to)
+            );
+            let allowed = format!(
+                "the record runs from 0 to {} s, counted from its first sample",
+                short(last)
+            );
+            Err(Error::new(Kind::Value, found, allowed))
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! Putting a wrapping position together.
+
+use crate::findings::{Finding, Severity, count, short};
+
+/// Adds whole periods so that no step is longer than half a period; missing samples are passed
+/// over. Turns made within a gap cannot be known.
+pub(super) fn unwrap(position: &mut [f64], period: f64, unit: &str) -> Option<Finding> {
+    let mut turns = 0.0;
+    let mut before: Option<f64> = None;
+    let (mut wraps, mut first) = (0_usize, 0);
+    for (index, x) in position
+        .iter_mut()
+        .enumerate()
+        .filter(|(_, x)| x.is_finite())
+    {
+        if let Some(before) = before {
+            let passed = ((*x - before) / period).round();
+            if passed != 0.0 {
+                turns -= passed;
+                if wraps == 0 {
+                    first = index;
+                }
+                wraps += 1;
+            }
+        }
+        before = Some(*x);
+        *x += turns * period;
+    }
+    (wraps > 0).then(|| {
+        let message = format!(
+            "position started again {}, first at sample {first}; put together with a period of {} \
+             {unit}",
+            count(wraps, "time"),
+            short(period)
+        );
+        Finding::new("position-wrap", Severity::Note, message).at(first)
+    })
+}

@@ -1,0 +1,351 @@
+//! Which column is what: plain data that says how a [`Table`] becomes a [`Log`](crate::Log), and
+//! what fills it in where it is silent.
+//!
+//! # What is recognised without an axis file
+//! A column is recognised by the words of its name (`Position`, `act_vel`, `MAIN.fActTorque`,
+//! `qm`, `t`); a unit that measures something else rules a column out. Words such as `cmd`,
+//! `target`, `reference` make it a reference: the position reference is kept as such, a commanded
+//! force stands in only where no measured one exists. Columns about errors, limits and states are
+//! passed over. Where names say nothing, the only column in a unit of length (angle, velocity,
+//! force, torque) is taken. Two columns that fit equally well are refused, unless they are equal
+//! sample by sample. Columns that a mapping names are never second-guessed; only what it leaves
+//! open is filled in: time where neither time nor rate is given, force where none is given, and
+//! position and velocity only where neither is given.
+//!
+//! # Units that are not written
+//! * A unit in the mapping goes before the unit in the file; a difference is a finding.
+//! * **time**: seconds, if the median spacing is then 1 us to 0.2 s, as motion logs have. Otherwise
+//!   refused: sample numbers and milliseconds look alike.
+//! * **position, velocity, force**: if not one unit is written anywhere, in the file or in the
+//!   mapping, SI is assumed and a finding says so (a MATLAB file has no place for units). If some
+//!   are written and this one is not, it is refused: half-labelled files hide factors of a thousand.
+//! * **counts** follow from a scale such as `1 um/count`.
+//! * **reference** takes the unit of the position, **temperature** degrees Celsius, **load** a plain
+//!   number; findings say so.
+//!
+//! # Linear or rotary
+//! From the mapping; else from the unit of position, velocity or force; else, where units are
+//! assumed, from words (`torque`, `angle`, `force`, `displacement`); else refused.
+//!
+//! Error texts quote `axis.toml` as: top-level `kind`, `rate`; table `[columns]` with a name, a
+//! number counted from 1, or `{ column, unit, scale, invert }` for each quantity; table `[log]` with
+//! `crop`, `wrap`, `resolution`, `force_limit`.
+
+mod choose;
+mod complete;
+mod convert;
+mod describe;
+mod motion;
+mod names;
+mod select;
+
+use crate::findings::Finding;
+use crate::{Dimension, Error, Kind, Table, Unit, Value};
+pub(crate) use convert::{LARGEST, Source};
+use std::fmt;
+
+/// Whether the axis moves along a line or turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// Position in m, velocity in m/s, force in N.
+    Linear,
+    /// Position in rad, velocity in rad/s, torque in N m.
+    Rotary,
+}
+
+impl Motion {
+    /// Dimension of positions.
+    pub fn position(self) -> Dimension {
+        match self {
+            Motion::Linear => Dimension::LENGTH,
+            Motion::Rotary => Dimension::ANGLE,
+        }
+    }
+
+    /// Dimension of velocities.
+    pub fn velocity(self) -> Dimension {
+        match self {
+            Motion::Linear => Dimension::LINEAR_VELOCITY,
+            Motion::Rotary => Dimension::ANGULAR_VELOCITY,
+        }
+    }
+
+    /// Dimension of forces: force or torque.
+    pub fn force(self) -> Dimension {
+        match self {
+            Motion::Linear => Dimension::FORCE,
+            Motion::Rotary => Dimension::TORQUE,
+        }
+    }
+}
+
+impl fmt::Display for Motion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Motion::Linear => "linear",
+            Motion::Rotary => "rotary",
+        })
+    }
+}
+
+/// What a column can be used as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// When the sample was taken.
+    Time,
+    /// Measured position.
+    Position,
+    /// Measured velocity.
+    Velocity,
+    /// Force or torque that drives the axis, or the current or voltage it is proportional to.
+    Force,
+    /// Position that was asked for.
+    Reference,
+    /// Temperature.
+    Temperature,
+    /// Normal load, in whatever unit.
+    Load,
+}
+
+impl Role {
+    /// Every role, in the order of a log.
+    pub const ALL: [Role; 7] = [
+        Role::Time,
+        Role::Position,
+        Role::Velocity,
+        Role::Force,
+        Role::Reference,
+        Role::Temperature,
+        Role::Load,
+    ];
+
+    /// The role's name, as its key in the axis file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Role::Time => "time",
+            Role::Position => "position",
+            Role::Velocity => "velocity",
+            Role::Force => "force",
+            Role::Reference => "reference",
+            Role::Temperature => "temperature",
+            Role::Load => "load",
+        }
+    }
+}
+
+impl fmt::Display for Role {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// How a column is named.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Selector {
+    /// By its name, with or without the unit in brackets; case counts only where it must.
+    Name(String),
+    /// By its number, counted from 1.
+    Index(usize),
+}
+
+/// One column and how its numbers become SI: `number * unit * scale`, negated if inverted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// Which column.
+    pub column: Selector,
+    /// Unit of the column; goes before a unit in the file.
+    pub unit: Option<Unit>,
+    /// What one unit of the column is worth, as `35.15 N/V`, `1 um/count` or a plain number.
+    pub scale: Option<Value>,
+    /// Whether the sign is turned round.
+    pub invert: bool,
+}
+
+impl Channel {
+    /// The column of this name, as it stands in the file.
+    pub fn named(name: impl Into<String>) -> Self {
+        Self {
+            column: Selector::Name(name.into()),
+            unit: None,
+            scale: None,
+            invert: false,
+        }
+    }
+
+    /// The column of this number, counted from 1, as it stands in the file.
+    pub fn index(number: usize) -> Self {
+        Self {
+            column: Selector::Index(number),
+            unit: None,
+            scale: None,
+            invert: false,
+        }
+    }
+
+    /// The same column in this unit.
+    #[must_use]
+    pub fn unit(mut self, unit: Unit) -> Self {
+        self.unit = Some(unit);
+        self
+    }
+
+    /// The same column, worth this much.
+    #[must_use]
+    pub fn scale(mut self, scale: Value) -> Self {
+        self.scale = Some(scale);
+        self
+    }
+
+    /// The same column with its sign turned round.
+    #[must_use]
+    pub fn inverted(mut self) -> Self {
+        self.invert = true;
+        self
+    }
+}
+
+/// A position that starts again after some travel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wrap {
+    /// Travel after which the position repeats, m or rad; 1e-9 to 1e9.
+    pub period: f64,
+}
+
+impl Wrap {
+    /// A position that runs from `-limit` to `+limit` (m or rad, above 0).
+    pub fn at(limit: f64) -> Self {
+        Self {
+            period: 2.0 * limit,
+        }
+    }
+}
+
+/// Everything that says how a table is to be read; `Mapping::default()` leaves all to detection.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mapping {
+    /// Linear or rotary; from units where `None`.
+    pub motion: Option<Motion>,
+    /// Samples a second (Hz, 1e-3 to 1e9) where the table has no time column.
+    pub rate_hz: Option<f64>,
+    /// Time column.
+    pub time: Option<Channel>,
+    /// Position column.
+    pub position: Option<Channel>,
+    /// Velocity column.
+    pub velocity: Option<Channel>,
+    /// Column of force, torque, or the current or voltage proportional to it.
+    pub force: Option<Channel>,
+    /// Column of the position that was asked for.
+    pub reference: Option<Channel>,
+    /// Temperature column.
+    pub temperature: Option<Channel>,
+    /// Column of the normal load.
+    pub load: Option<Channel>,
+    /// Where the position starts again.
+    pub wrap: Option<Wrap>,
+    /// First and last second to keep, counted from the first sample of the file.
+    pub crop: Option<(f64, f64)>,
+    /// Smallest step of the position, m or rad; estimated from the data where `None`.
+    pub resolution: Option<f64>,
+    /// Force at which drive or sensor saturates, in the unit of the log's force; above 0.
+    pub force_limit: Option<f64>,
+}
+
+impl Mapping {
+    /// The channel of this role, where one is given.
+    pub fn channel(&self, role: Role) -> Option<&Channel> {
+        match role {
+            Role::Time => self.time.as_ref(),
+            Role::Position => self.position.as_ref(),
+            Role::Velocity => self.velocity.as_ref(),
+            Role::Force => self.force.as_ref(),
+            Role::Reference => self.reference.as_ref(),
+            Role::Temperature => self.temperature.as_ref(),
+            Role::Load => self.load.as_ref(),
+        }
+    }
+
+    fn slot(&mut self, role: Role) -> &mut Option<Channel> {
+        match role {
+            Role::Time => &mut self.time,
+            Role::Position => &mut self.position,
+            Role::Velocity => &mut self.velocity,
+            Role::Force => &mut self.force,
+            Role::Reference => &mut self.reference,
+            Role::Temperature => &mut self.temperature,
+            Role::Load => &mut self.load,
+        }
+    }
+
+    /// What a table's names and units say by themselves.
+    ///
+    /// # Errors
+    /// As [`Mapping::complete`].
+    pub fn detect(table: &Table) -> Result<Detected, Error> {
+        Self::default().complete(table)
+    }
+
+    /// This mapping with everything it leaves open filled in from the table: every channel then has
+    /// a unit, and the kind of motion is known.
+    ///
+    /// # Errors
+    /// [`Kind::Ambiguous`] with the choices, [`Kind::Missing`] with what there is, [`Kind::Unit`]
+    /// for units that are unknown or do not fit, [`Kind::Value`] for numbers out of range; each
+    /// with lines for `axis.toml` that settle it.
+    pub fn complete(&self, table: &Table) -> Result<Detected, Error> {
+        self.check_numbers()?;
+        complete::complete(self, table)
+    }
+
+    fn check_numbers(&self) -> Result<(), Error> {
+        // Wide enough for any machine, narrow enough that no sum overflows.
+        let bounded = [
+            ("rate", self.rate_hz, 1e-3..=1e9, "Hz"),
+            (
+                "wrap period",
+                self.wrap.map(|w| w.period),
+                1e-9..=1e9,
+                "m or rad",
+            ),
+            ("resolution", self.resolution, 1e-15..=1e9, "m or rad"),
+            (
+                "force limit",
+                self.force_limit,
+                1e-15..=1e15,
+                "the unit of the force",
+            ),
+        ];
+        for (name, value, range, unit) in bounded {
+            if let Some(value) = value.filter(|x| !range.contains(x)) {
+                let (low, high) = (range.start(), range.end());
+                let allowed = format!("needed is a number from {low:e} to {high:e}, in {unit}");
+                return Err(Error::new(
+                    Kind::Value,
+                    format!("{name} is {value}"),
+                    allowed,
+                ));
+            }
+        }
+        if let Some((from, to)) = self.crop.filter(|(a, b)| !(a.is_finite() && a < b)) {
+            let allowed =
+                "needed are two times in s from the first sample, the first below the second";
+            return Err(Error::new(
+                Kind::Value,
+                format!("crop is {from} to {to}"),
+                allowed,
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// A mapping with nothing left open, and what had to be assumed for it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Detected {
+    /// The complete mapping.
+    pub mapping: Mapping,
+    /// How each column was understood, for people: `force = column 5 "Torque [N m]", unit N m`.
+    pub phrases: Vec<String>,
+    /// What had to be assumed.
+    pub findings: Vec<Finding>,
+}

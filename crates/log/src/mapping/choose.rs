@@ -1,0 +1,261 @@
+//! Columns for what a mapping leaves open, by name and by unit.
+
+use super::convert::is_force;
+use super::names::{self, Hint};
+use super::select::{distinct, select};
+use super::{Channel, Detected, Role, Selector, describe};
+use crate::findings::{Finding, Severity};
+use crate::{Dimension, Error, Kind, Table, Unit};
+
+/// A table with what its names and units say.
+struct Scan<'a> {
+    table: &'a Table,
+    hints: Vec<Option<Hint>>,
+    units: Vec<Option<Unit>>,
+    used: Vec<bool>,
+}
+
+/// Fills in the columns that are left open.
+pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
+    let given = out.mapping.clone();
+    let unit = |text: &String| Unit::parse(text).ok();
+    let mut scan = Scan {
+        table,
+        hints: table.columns.iter().map(|c| names::hint(&c.name)).collect(),
+        units: table
+            .columns
+            .iter()
+            .map(|c| c.unit.as_ref().and_then(unit))
+            .collect(),
+        used: vec![false; table.columns.len()],
+    };
+    for role in Role::ALL {
+        if let Some(channel) = given.channel(role) {
+            scan.used[select(table, &channel.column, role)?] = true;
+        }
+    }
+    if given.time.is_some() && given.rate_hz.is_some() {
+        let found = "both a time column and a rate are given";
+        return Err(Error::new(
+            Kind::Ambiguous,
+            found,
+            "give one of time and rate",
+        ));
+    }
+    let nothing_told = given.position.is_none() && given.velocity.is_none();
+    if nothing_told && describe::unnamed(table) {
+        return Err(nameless(table));
+    }
+    let none_named = Role::ALL
+        .iter()
+        .all(|r| *r == Role::Time || given.channel(*r).is_none());
+    if given.time.is_none() && given.rate_hz.is_none() {
+        match scan.pick(Role::Time)? {
+            Some(column) => out.mapping.time = Some(scan.take(column)),
+            None => out.mapping.rate_hz = Some(stated_rate(table)?),
+        }
+    }
+    if let Some(rate) = out.mapping.rate_hz {
+        out.phrases.push(format!("time = row number at {rate} Hz"));
+    }
+    if given.position.is_none() && given.velocity.is_none() {
+        for role in [Role::Position, Role::Velocity] {
+            if let Some(column) = scan.pick(role)? {
+                *out.mapping.slot(role) = Some(scan.take(column));
+            }
+        }
+        if out.mapping.position.is_none() && out.mapping.velocity.is_none() {
+            return Err(scan.no_motion());
+        }
+    }
+    if given.force.is_none() {
+        match scan.pick(Role::Force)? {
+            Some(column) => out.mapping.force = Some(scan.take(column)),
+            None => out.findings.push(no_force(table)),
+        }
+    }
+    if none_named {
+        for role in [Role::Reference, Role::Temperature, Role::Load] {
+            match scan.pick(role) {
+                Ok(Some(column)) => *out.mapping.slot(role) = Some(scan.take(column)),
+                Ok(None) => {}
+                Err(_) => out
+                    .phrases
+                    .push(format!("{role}: several columns fit, none is taken")),
+            }
+        }
+    }
+    Ok(())
+}
+
+fn stated_rate(table: &Table) -> Result<f64, Error> {
+    if let Some(step) = table.sample_time.filter(|dt| (1e-9..=1e3).contains(dt)) {
+        return Ok(1.0 / step);
+    }
+    let found = format!(
+        "no time column is recognised, and no rate is given; {}",
+        describe::columns(table)
+    );
+    let allowed = "say so in axis.toml: rate = \"1 kHz\", or under [columns]: time = \"t\" (or the \
+                   number of the column, counted from 1)";
+    Err(Error::new(Kind::Missing, found, allowed))
+}
+
+fn nameless(table: &Table) -> Error {
+    let allowed = "say which is which in axis.toml: rate = \"1 kHz\" where there is no time column, \
+                   and under [columns], by number counted from 1, as in: time = { column = 1, unit = \
+                   \"s\" }, position = { column = 2, unit = \"rad\" }, force = { column = 3, unit = \
+                   \"N*m\" }";
+    Error::new(
+        Kind::Missing,
+        format!(
+            "nothing tells what the columns are: {}",
+            describe::columns(table)
+        ),
+        allowed,
+    )
+}
+
+fn no_force(table: &Table) -> Finding {
+    let message = format!(
+        "no column is recognised as force, torque or current; friction needs one; {}; say \
+         which in axis.toml under [columns], as in: force = {{ column = {}, unit = \"N\" }}",
+        describe::columns(table),
+        table.columns.len()
+    );
+    Finding::new("no-force", Severity::Warning, message)
+}
+
+impl Scan<'_> {
+    fn take(&mut self, column: usize) -> Channel {
+        self.used[column] = true;
+        let name = &self.table.columns[column].name;
+        let unique = self
+            .table
+            .columns
+            .iter()
+            .filter(|c| c.name == *name)
+            .count()
+            == 1;
+        if unique && !name.trim().is_empty() && name.trim() == name {
+            Channel {
+                column: Selector::Name(name.clone()),
+                ..Channel::index(0)
+            }
+        } else {
+            Channel::index(column + 1)
+        }
+    }
+
+    /// The one column that fits a role; an error where several fit equally well.
+    fn pick(&self, role: Role) -> Result<Option<usize>, Error> {
+        let mut fits: Vec<(usize, Hint)> = self
+            .hints
+            .iter()
+            .enumerate()
+            .filter(|(column, _)| !self.used[*column] && self.unit_allows(*column, role))
+            .filter_map(|(column, hint)| hint.filter(|h| h.role == role).map(|h| (column, h)))
+            .collect();
+        if fits.is_empty() {
+            return self.pick_by_unit(role);
+        }
+        // Each preference only counts where something is left of it.
+        let preferences: [fn(&Hint) -> bool; 3] = [
+            |h| !h.commanded || h.role == Role::Reference,
+            |h| !h.weak,
+            |h| h.measured,
+        ];
+        for prefer in preferences {
+            if fits.len() > 1 && fits.iter().any(|(_, h)| prefer(h)) {
+                fits.retain(|(_, h)| prefer(h));
+            }
+        }
+        // A commanded velocity is no measurement of motion; a commanded force is what drives it.
+        if role == Role::Velocity && fits.iter().all(|(_, h)| h.commanded) {
+            return Ok(None);
+        }
+        self.only(
+            distinct(
+                self.table,
+                fits.into_iter().map(|(column, _)| column).collect(),
+            ),
+            role,
+        )
+    }
+
+    /// The one column without a telling name that is in a unit of this role.
+    fn pick_by_unit(&self, role: Role) -> Result<Option<usize>, Error> {
+        if matches!(role, Role::Reference | Role::Load) {
+            return Ok(None);
+        }
+        let telling = |unit: &Unit| {
+            let d = unit.dimension();
+            d != Dimension::COUNTS && d != Dimension::ONE && allows(role, d)
+        };
+        let fits: Vec<usize> = (0..self.table.columns.len())
+            .filter(|&c| !self.used[c] && self.hints[c].is_none())
+            .filter(|&c| !names::passed_over(&self.table.columns[c].name))
+            .filter(|&c| self.units[c].as_ref().is_some_and(telling))
+            .collect();
+        self.only(distinct(self.table, fits), role)
+    }
+
+    fn only(&self, fits: Vec<usize>, role: Role) -> Result<Option<usize>, Error> {
+        match fits.as_slice() {
+            [] => Ok(None),
+            [one] => Ok(Some(*one)),
+            several => {
+                let shown = several.iter().map(|&c| describe::place(self.table, c));
+                let found = format!(
+                    "{} columns could be the {role}, {}",
+                    several.len(),
+                    describe::listed(shown)
+                );
+                let lines: Vec<_> = several
+                    .iter()
+                    .take(4)
+                    .map(|&c| describe::line(self.table, c, role))
+                    .collect();
+                let allowed = format!(
+                    "say which in axis.toml under [columns]: {}",
+                    lines.join(" or ")
+                );
+                Err(Error::new(Kind::Ambiguous, found, allowed))
+            }
+        }
+    }
+
+    fn unit_allows(&self, column: usize, role: Role) -> bool {
+        self.units[column]
+            .as_ref()
+            .is_none_or(|unit| allows(role, unit.dimension()))
+    }
+
+    fn no_motion(&self) -> Error {
+        let found = format!(
+            "no column is recognised as position or velocity; {}",
+            describe::columns(self.table)
+        );
+        let allowed = "say which in axis.toml under [columns], by name or by number counted from 1, \
+                       as in: position = { column = 1, unit = \"rad\" } and force = { column = 2, \
+                       unit = \"N*m\" }";
+        Error::new(Kind::Missing, found, allowed)
+    }
+}
+
+/// Whether a column of this dimension may be offered for a role at all.
+fn allows(role: Role, dimension: Dimension) -> bool {
+    let per_second = |d: Dimension| d.per(Dimension::TIME) == Some(dimension);
+    match role {
+        Role::Time => dimension == Dimension::TIME,
+        Role::Position | Role::Reference => {
+            [Dimension::LENGTH, Dimension::ANGLE, Dimension::COUNTS].contains(&dimension)
+        }
+        Role::Velocity => [Dimension::LENGTH, Dimension::ANGLE, Dimension::COUNTS]
+            .into_iter()
+            .any(per_second),
+        Role::Force => is_force(dimension),
+        Role::Temperature => dimension == Dimension::TEMPERATURE,
+        Role::Load => true,
+    }
+}

@@ -1,0 +1,274 @@
+//! Filling in what a mapping leaves open: columns first, then units, then the kind of motion.
+
+use super::convert::{Source, is_force};
+use super::select::select;
+use super::{Channel, Detected, Mapping, Motion, Role, choose, describe, motion, names};
+use crate::findings::{Finding, Severity};
+use crate::{Dimension, Error, Kind, Table, Unit};
+
+/// Median spacings that a time column without a unit may have to be taken as seconds.
+const PLAUSIBLE_SPACING: std::ops::RangeInclusive<f64> = 1e-6..=0.2;
+
+/// One role with its column found and, where anything tells it, its unit.
+struct Part {
+    role: Role,
+    channel: Channel,
+    column: usize,
+    unit: Option<Unit>,
+}
+
+pub(super) fn complete(given: &Mapping, table: &Table) -> Result<Detected, Error> {
+    let mut out = Detected {
+        mapping: given.clone(),
+        phrases: Vec::new(),
+        findings: Vec::new(),
+    };
+    choose::columns(&mut out, table)?;
+    let mut parts = Vec::new();
+    for role in Role::ALL {
+        let Some(channel) = out.mapping.channel(role) else {
+            continue;
+        };
+        let channel = channel.clone();
+        let column = select(table, &channel.column, role)?;
+        let unit = written_unit(table, column, &channel, role, &mut out.findings)?;
+        parts.push(Part {
+            role,
+            channel,
+            column,
+            unit,
+        });
+    }
+    let labelled = table.columns.iter().any(|c| c.unit.is_some())
+        || parts
+            .iter()
+            .any(|p| p.channel.unit.is_some() || p.channel.scale.is_some());
+    refuse_half_labelled(table, &parts, labelled)?;
+    let kind = settle_motion(&mut out, table, &parts)?;
+    assume_units(&mut out.findings, table, &mut parts, kind)?;
+    for part in &parts {
+        let unit = part
+            .unit
+            .clone()
+            .unwrap_or_else(|| Unit::si(Dimension::ONE));
+        let source = Source::new(table, part.column, &unit, &part.channel, part.role)?;
+        source.check(table, part.role, kind)?;
+        out.phrases.push(phrase(table, part, &unit));
+        judge(&mut out.findings, part, &unit, &source, kind);
+        *out.mapping.slot(part.role) = Some(Channel {
+            unit: Some(unit),
+            ..part.channel.clone()
+        });
+    }
+    Ok(out)
+}
+
+/// The unit that the mapping, the file or the scale tells.
+fn written_unit(
+    table: &Table,
+    column: usize,
+    channel: &Channel,
+    role: Role,
+    findings: &mut Vec<Finding>,
+) -> Result<Option<Unit>, Error> {
+    let in_file = table.columns[column]
+        .unit
+        .as_deref()
+        .filter(|u| !u.trim().is_empty());
+    if let Some(unit) = &channel.unit {
+        if let Some(other) = in_file.filter(|text| {
+            let same = |other: Unit| {
+                other.dimension() == unit.dimension() && other.factor() == unit.factor()
+            };
+            !Unit::parse(text).is_ok_and(same)
+        }) {
+            let message =
+                format!("{role}: the file says {other}, the axis file {unit}, which counts");
+            findings.push(Finding::new("unit-override", Severity::Note, message));
+        }
+        return Ok(Some(unit.clone()));
+    }
+    if let Some(text) = in_file {
+        let place = |e: Error| e.in_column(describe::place(table, column));
+        return Unit::parse(text).map(Some).map_err(place);
+    }
+    let counts = channel.scale.as_ref().is_some_and(|scale| {
+        [Motion::Linear, Motion::Rotary].into_iter().any(|kind| {
+            [kind.position(), kind.velocity(), kind.force()]
+                .into_iter()
+                .any(|wanted| wanted.per(scale.unit.dimension()) == Some(Dimension::COUNTS))
+        })
+    });
+    Ok(counts.then(|| Unit::si(Dimension::COUNTS)))
+}
+
+/// Refuses a motion or force column without a unit in a file where others have one.
+fn refuse_half_labelled(table: &Table, parts: &[Part], labelled: bool) -> Result<(), Error> {
+    let core = [Role::Position, Role::Velocity, Role::Force];
+    let bare = parts
+        .iter()
+        .find(|p| p.unit.is_none() && core.contains(&p.role));
+    let Some(part) = bare.filter(|_| labelled) else {
+        return Ok(());
+    };
+    let role = part.role;
+    let unit = match role {
+        Role::Position => "mm",
+        Role::Velocity => "mm/s",
+        _ => "N",
+    };
+    let line = describe::line_with(table, part.column, role, &format!("unit = \"{unit}\""));
+    Err(Error::new(
+        Kind::Unit,
+        format!("{role} has no unit while other columns have one"),
+        format!("give it in axis.toml under [columns], as in: {line}"),
+    )
+    .in_column(describe::place(table, part.column)))
+}
+
+fn settle_motion(out: &mut Detected, table: &Table, parts: &[Part]) -> Result<Motion, Error> {
+    if let Some(kind) = out.mapping.motion {
+        return Ok(kind);
+    }
+    let mut known = Vec::new();
+    for part in parts {
+        let Some(unit) = &part.unit else { continue };
+        let source = Source::new(table, part.column, unit, &part.channel, part.role)?;
+        refuse_bare_counts(table, part, source.dimension)?;
+        known.push((part.role, source.dimension));
+    }
+    let kind = if let Some((kind, role)) = motion::from_units(&known) {
+        out.phrases
+            .push(format!("kind = {kind}, from the unit of {role}"));
+        kind
+    } else {
+        let core = [Role::Position, Role::Velocity, Role::Force];
+        let chosen = parts.iter().filter(|p| core.contains(&p.role));
+        let kind = motion::from_names(chosen.map(|p| table.columns[p.column].name.as_str()))?;
+        out.phrases
+            .push(format!("kind = {kind}, from the names of the columns"));
+        kind
+    };
+    out.mapping.motion = Some(kind);
+    Ok(kind)
+}
+
+fn refuse_bare_counts(table: &Table, part: &Part, dimension: Dimension) -> Result<(), Error> {
+    if part.role != Role::Position || dimension != Dimension::COUNTS {
+        return Ok(());
+    }
+    let linear = describe::line_with(table, part.column, part.role, "scale = \"1 um/count\"");
+    let rotary = describe::line_with(table, part.column, part.role, "scale = \"0.5 mrad/count\"");
+    Err(Error::new(
+        Kind::Unit,
+        "position is in encoder counts, and nothing says what a count is",
+        format!("say so in axis.toml under [columns], as in: {linear} or {rotary}"),
+    )
+    .in_column(describe::place(table, part.column)))
+}
+
+/// Fills in the units that nothing tells, with one finding that lists them.
+fn assume_units(
+    findings: &mut Vec<Finding>,
+    table: &Table,
+    parts: &mut [Part],
+    kind: Motion,
+) -> Result<(), Error> {
+    let position = parts
+        .iter()
+        .find(|p| p.role == Role::Position)
+        .and_then(|p| p.unit.clone());
+    let mut told = Vec::new();
+    for part in parts.iter_mut().filter(|p| p.unit.is_none()) {
+        let name = &table.columns[part.column].name;
+        let unit = match part.role {
+            Role::Time => seconds(table, part)?,
+            Role::Position => Unit::si(kind.position()),
+            Role::Velocity => Unit::si(kind.velocity()),
+            Role::Force if names::says_current(name) => Unit::si(Dimension::CURRENT),
+            Role::Force => Unit::si(kind.force()),
+            Role::Reference => position
+                .clone()
+                .unwrap_or_else(|| Unit::si(kind.position())),
+            Role::Temperature => Unit::parse("degC")?,
+            Role::Load => Unit::si(Dimension::ONE),
+        };
+        told.push(format!("{} {unit}", part.role));
+        part.unit = Some(unit);
+    }
+    if !told.is_empty() {
+        let message = format!(
+            "no unit is written for some columns; taken as {}",
+            told.join(", ")
+        );
+        findings.push(Finding::new("unit-assumed", Severity::Note, message));
+    }
+    Ok(())
+}
+
+/// Seconds, where the spacing is that of a motion log in seconds.
+fn seconds(table: &Table, part: &Part) -> Result<Unit, Error> {
+    let values = &table.columns[part.column].values;
+    let steps = values
+        .windows(2)
+        .map(|w| w[1] - w[0])
+        .filter(|d| d.is_finite());
+    let median = crate::findings::median(&mut steps.collect::<Vec<_>>());
+    if median.is_some_and(|dt| PLAUSIBLE_SPACING.contains(&dt)) {
+        return Unit::parse("s");
+    }
+    let median = median.map_or("no two samples".to_string(), |dt| {
+        format!("a median spacing of {dt}")
+    });
+    let milli = describe::line_with(table, part.column, Role::Time, "unit = \"ms\"");
+    let seconds = describe::line_with(table, part.column, Role::Time, "unit = \"s\"");
+    Err(Error::new(
+        Kind::Unit,
+        format!("time has no unit and {median}, which is not that of a motion log in seconds"),
+        format!("say which in axis.toml under [columns]: {milli} or {seconds}"),
+    )
+    .in_column(describe::place(table, part.column)))
+}
+
+fn phrase(table: &Table, part: &Part, unit: &Unit) -> String {
+    let mut text = format!(
+        "{} = {}, unit {unit}",
+        part.role,
+        describe::column(table, part.column)
+    );
+    if let Some(scale) = &part.channel.scale {
+        text.push_str(&format!(", scale {scale}"));
+    }
+    if part.channel.invert {
+        text.push_str(", sign turned round");
+    }
+    text
+}
+
+/// What a reader should know about the unit of a channel.
+fn judge(findings: &mut Vec<Finding>, part: &Part, unit: &Unit, source: &Source, kind: Motion) {
+    if let Some(note) = unit.note() {
+        let message = format!("{}: {unit} is {note}", part.role);
+        findings.push(Finding::new("unit-convention", Severity::Note, message));
+    }
+    if part.role != Role::Force || !is_force(source.dimension) || source.dimension == kind.force() {
+        return;
+    }
+    let is = source.dimension.si_text();
+    let wanted = kind.force().si_text();
+    let mixed = [Dimension::FORCE, Dimension::TORQUE].contains(&source.dimension);
+    findings.push(if mixed {
+        let message = format!(
+            "the force is in {is} on a {kind} axis, where {wanted} times velocity is power; a scale \
+             for the lead or radius is missing, or the kind is wrong"
+        );
+        Finding::new("force-unit", Severity::Warning, message)
+    } else {
+        let message = format!(
+            "the force is in {is}; parameters come out in {is} too, unless a scale in {wanted}/{} is \
+             given",
+            unit.text()
+        );
+        Finding::new("force-not-calibrated", Severity::Note, message)
+    });
+}

@@ -1,0 +1,152 @@
+//! One channel with its column found and its units settled: numbers of the file in, SI out.
+
+use super::select::select;
+use super::{Channel, Mapping, Motion, Role, describe};
+use crate::{Dimension, Error, Kind, Table, Unit};
+
+/// Larger numbers are markers of missing samples (the largest `f32` is a common one), no
+/// measurements; in SI, and for time stamps in the unit of the file.
+pub(crate) const LARGEST: f64 = 1e30;
+
+/// A column and how its numbers become SI.
+#[derive(Clone, Debug)]
+pub(crate) struct Source {
+    /// Position of the column in the table.
+    pub column: usize,
+    /// Unit of its numbers.
+    pub unit: Unit,
+    /// Dimension after the scale.
+    pub dimension: Dimension,
+    scale: f64,
+    scale_text: Option<String>,
+}
+
+impl Source {
+    /// Settles a channel whose unit is known.
+    pub fn new(
+        table: &Table,
+        column: usize,
+        unit: &Unit,
+        channel: &Channel,
+        role: Role,
+    ) -> Result<Self, Error> {
+        let sign = if channel.invert { -1.0 } else { 1.0 };
+        let unit_dimension = unit.dimension();
+        let (scale, dimension) = match &channel.scale {
+            None => (sign, Some(unit_dimension)),
+            Some(value) => {
+                let si = value.si();
+                if !(si.is_finite() && si != 0.0) {
+                    let found = format!("the scale of {role} is {value}");
+                    return Err(Error::new(
+                        Kind::Value,
+                        found,
+                        "a finite number other than 0",
+                    ));
+                }
+                (sign * si, unit_dimension.times(value.unit.dimension()))
+            }
+        };
+        let scale_text = channel.scale.as_ref().map(ToString::to_string);
+        let dimension = dimension.ok_or_else(|| {
+            let found = format!("{role} in {unit} times its scale has no sensible dimension");
+            Error::new(Kind::Unit, found, "").in_column(describe::place(table, column))
+        })?;
+        Ok(Self {
+            column,
+            unit: unit.clone(),
+            dimension,
+            scale,
+            scale_text,
+        })
+    }
+
+    /// The source of a role in a mapping that is complete; `None` where it has none.
+    pub fn of(mapping: &Mapping, table: &Table, role: Role) -> Result<Option<Self>, Error> {
+        let Some(channel) = mapping.channel(role) else {
+            return Ok(None);
+        };
+        let column = select(table, &channel.column, role)?;
+        let unit = channel
+            .unit
+            .clone()
+            .unwrap_or_else(|| Unit::si(Dimension::ONE));
+        Self::new(table, column, &unit, channel, role).map(Some)
+    }
+
+    /// One number of the file in SI; what is no measurement becomes NaN, a missing sample.
+    pub fn si(&self, number: f64) -> f64 {
+        let si = self.unit.to_si(number) * self.scale;
+        if si.abs() <= LARGEST { si } else { f64::NAN }
+    }
+
+    /// A difference of two numbers of the file in SI.
+    pub fn si_difference(&self, difference: f64) -> f64 {
+        (self.unit.to_si(difference) - self.unit.to_si(0.0)) * self.scale
+    }
+
+    /// Refuses a dimension that the role cannot have.
+    pub fn check(&self, table: &Table, role: Role, motion: Motion) -> Result<(), Error> {
+        let ok = match role {
+            Role::Time => self.dimension == Dimension::TIME,
+            Role::Position | Role::Reference => self.dimension == motion.position(),
+            Role::Velocity => self.dimension == motion.velocity(),
+            Role::Force => is_force(self.dimension),
+            Role::Temperature => self.dimension == Dimension::TEMPERATURE,
+            Role::Load => true,
+        };
+        if ok {
+            return Ok(());
+        }
+        let wanted = match role {
+            Role::Position | Role::Reference => motion.position(),
+            Role::Velocity => motion.velocity(),
+            Role::Force => motion.force(),
+            Role::Temperature => Dimension::TEMPERATURE,
+            Role::Time | Role::Load => Dimension::TIME,
+        };
+        let text = wanted.si_text();
+        let unit = self.unit.text();
+        let under = if unit.contains(['/', '*', ' ']) {
+            format!("({unit})")
+        } else {
+            unit.into()
+        };
+        let found = match &self.scale_text {
+            None => format!(
+                "{role} is in {unit}, which measures {}",
+                self.dimension.name()
+            ),
+            Some(scale) => {
+                let result = self.dimension.si_text();
+                format!("{role} in {unit} times its scale {scale} comes out in {result}")
+            }
+        };
+        let kind = match role {
+            Role::Position | Role::Reference | Role::Velocity => format!("a {motion} axis needs"),
+            _ => "needed is".to_string(),
+        };
+        let also = if role == Role::Force {
+            ", A, V or %"
+        } else {
+            ""
+        };
+        let allowed = format!(
+            "{kind} {} ({text}{also}); give the unit, or a scale such as \"2.5 {text}/{under}\"",
+            wanted.name()
+        );
+        Err(Error::new(Kind::Unit, found, allowed).in_column(describe::place(table, self.column)))
+    }
+}
+
+/// Whether a friction identification can take this as a force.
+pub(super) fn is_force(dimension: Dimension) -> bool {
+    [
+        Dimension::FORCE,
+        Dimension::TORQUE,
+        Dimension::CURRENT,
+        Dimension::VOLTAGE,
+        Dimension::ONE,
+    ]
+    .contains(&dimension)
+}

@@ -1,0 +1,80 @@
+//! Columns in words, for what was detected and for errors.
+
+use super::Role;
+use crate::Table;
+
+/// `column 5 "Torque [N m]"`, or `column 5` where it has no name.
+pub(super) fn column(table: &Table, index: usize) -> String {
+    format!("column {}", place(table, index))
+}
+
+/// `5 "Torque [N m]"`, or `5` where it has no name: a column as the place of an error.
+pub(super) fn place(table: &Table, index: usize) -> String {
+    match key(table, index) {
+        name if name.is_empty() => (index + 1).to_string(),
+        name => format!("{} {name}", index + 1),
+    }
+}
+
+/// `"Torque [N m]"` in quotes; empty where the column has no name.
+pub(super) fn key(table: &Table, index: usize) -> String {
+    let column = &table.columns[index];
+    match (&column.unit, column.name.as_str()) {
+        (_, "") => String::new(),
+        (Some(unit), name) => format!("\"{name} [{unit}]\""),
+        (None, name) => format!("\"{name}\""),
+    }
+}
+
+/// What a table has, as a sentence: `there are columns 1 "t", 2 "x"`.
+pub(super) fn columns(table: &Table) -> String {
+    match table.columns.len() {
+        0 => "there are no columns".to_string(),
+        1 => format!("there is only {}", column(table, 0)),
+        count if unnamed(table) => format!("there are {count} columns without names"),
+        count => format!(
+            "there are columns {}",
+            listed((0..count).map(|i| place(table, i)))
+        ),
+    }
+}
+
+/// Whether no column has a name or a unit.
+pub(super) fn unnamed(table: &Table) -> bool {
+    table
+        .columns
+        .iter()
+        .all(|c| c.name.is_empty() && c.unit.is_none())
+}
+
+/// Items with commas, at most twelve.
+pub(super) fn listed(items: impl ExactSizeIterator<Item = String>) -> String {
+    let count = items.len();
+    let mut shown: Vec<String> = items.take(12).collect();
+    if count > shown.len() {
+        shown.push(format!("and {} more", count - shown.len()));
+    }
+    shown.join(", ")
+}
+
+/// The line of `axis.toml` that makes a column a role: `force = "Torque"`, by number where the name
+/// does not tell it apart.
+pub(super) fn line(table: &Table, index: usize, role: Role) -> String {
+    format!("{role} = {}", value(table, index))
+}
+
+/// The same with a unit to fill in: `force = { column = "Torque", unit = "N*m" }`.
+pub(super) fn line_with(table: &Table, index: usize, role: Role, rest: &str) -> String {
+    format!("{role} = {{ column = {}, {rest} }}", value(table, index))
+}
+
+fn value(table: &Table, index: usize) -> String {
+    let name = &table.columns[index].name;
+    let unique = table.columns.iter().filter(|c| c.name == *name).count() == 1;
+    let plain = !name.is_empty() && !name.contains(['"', '\\']) && !name.contains(char::is_control);
+    if unique && plain {
+        format!("\"{name}\"")
+    } else {
+        (index + 1).to_string()
+    }
+}

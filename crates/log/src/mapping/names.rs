@@ -1,0 +1,251 @@
+//! What a column's name says: the words in it, and the role they point to.
+
+use super::{Motion, Role};
+
+/// What a name says about its column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Hint {
+    pub role: Role,
+    /// A command or set point rather than a measurement.
+    pub commanded: bool,
+    /// Says outright that it is measured.
+    pub measured: bool,
+    /// Only a letter or two: any longer word goes before it.
+    pub weak: bool,
+}
+
+const TIME: &[&str] = &["time", "timestamp", "timestamps", "stamp", "zeit"];
+const POSITION: &[&str] = &[
+    "position",
+    "positions",
+    "pos",
+    "angle",
+    "theta",
+    "displacement",
+    "disp",
+    "travel",
+    "encoder",
+    "enc",
+    "qm",
+    "qg",
+];
+const VELOCITY: &[&str] = &[
+    "velocity",
+    "velocities",
+    "vel",
+    "velo",
+    "speed",
+    "omega",
+    "dq",
+    "qd",
+    "qdot",
+    "xdot",
+    "dx",
+    "dtheta",
+];
+const FORCE: &[&str] = &[
+    "force", "torque", "trq", "tau", "moment", "current", "cur", "curr", "friction", "f", "iq",
+];
+const TEMPERATURE: &[&str] = &["temperature", "temp", "temperatur"];
+const WEAK: &[(&str, Role)] = &[
+    ("t", Role::Time),
+    ("x", Role::Position),
+    ("q", Role::Position),
+    ("phi", Role::Position),
+    ("v", Role::Velocity),
+    ("w", Role::Velocity),
+    ("i", Role::Force),
+];
+const COMMANDED: &[&str] = &[
+    "ref",
+    "reference",
+    "set",
+    "setpoint",
+    "target",
+    "desired",
+    "des",
+    "cmd",
+    "command",
+    "commanded",
+    "demand",
+    "goal",
+    "nominal",
+    "qg",
+];
+const MEASURED: &[&str] = &[
+    "act",
+    "actual",
+    "meas",
+    "measured",
+    "measurement",
+    "feedback",
+    "fb",
+    "fbk",
+    "qm",
+];
+const PASSED_OVER: &[&str] = &[
+    "error",
+    "err",
+    "lag",
+    "following",
+    "deviation",
+    "dev",
+    "limit",
+    "max",
+    "min",
+    "std",
+    "status",
+    "state",
+    "id",
+    "index",
+    "acc",
+    "accel",
+    "acceleration",
+    "jerk",
+    "gain",
+    "offset",
+    "warning",
+];
+/// Words that may stand beside a letter or two without changing what it means.
+const BESIDE: &[&str] = &["axis", "motor", "joint", "drive", "m"];
+
+/// What a name says; `None` where it says nothing, or names something that is passed over.
+pub(super) fn hint(name: &str) -> Option<Hint> {
+    let words = words(name);
+    let has = |list: &[&str]| words.iter().any(|w| list.contains(&w.as_str()));
+    if has(PASSED_OVER) {
+        return None;
+    }
+    let commanded = has(COMMANDED);
+    let measured = has(MEASURED);
+    let is_load = words.iter().any(|w| w == "normal") || words == ["load"];
+    let strong = |word: &String| {
+        let among = |list: &[&str]| list.contains(&word.as_str());
+        // `f`, `dq` and their like mean something only where they stand alone: `fActPos` does not.
+        let short_among_words = word.len() <= 2 && !alone(&words, word);
+        if short_among_words {
+            None
+        } else if among(TIME) {
+            Some(Role::Time)
+        } else if among(POSITION) {
+            Some(Role::Position)
+        } else if among(VELOCITY) {
+            Some(Role::Velocity)
+        } else if among(FORCE) {
+            Some(Role::Force)
+        } else if among(TEMPERATURE) {
+            Some(Role::Temperature)
+        } else {
+            None
+        }
+    };
+    let weak = || {
+        let (_, role) = WEAK
+            .iter()
+            .find(|(word, _)| words.iter().any(|w| w == word) && alone(&words, word))?;
+        Some(*role)
+    };
+    // The last word is the noun: `encoder_velocity` is a velocity. Except `time of ...`, as the
+    // stamps of a scope with several sample times are called.
+    let named = if is_load {
+        Some(Role::Load)
+    } else if words.starts_with(&["time".to_string(), "of".to_string()]) {
+        Some(Role::Time)
+    } else {
+        words.iter().rev().find_map(strong)
+    };
+    let (role, is_weak) = match named {
+        Some(role) => (role, false),
+        // A command by itself is the position that is asked for, unless it says what else it is.
+        None => match weak() {
+            Some(role) => (role, true),
+            None if commanded && words.len() == 1 => (Role::Position, true),
+            None => return None,
+        },
+    };
+    let role = if role == Role::Position && commanded {
+        Role::Reference
+    } else {
+        role
+    };
+    Some(Hint {
+        role,
+        commanded,
+        measured,
+        weak: is_weak,
+    })
+}
+
+/// Whether a name speaks of errors, limits, states and other things that no role takes.
+pub(super) fn passed_over(name: &str) -> bool {
+    words(name)
+        .iter()
+        .any(|w| PASSED_OVER.contains(&w.as_str()))
+}
+
+/// Whether nothing but numbers and harmless words stands beside this word.
+fn alone(words: &[String], word: &str) -> bool {
+    words.iter().filter(|w| *w != word).all(|w| {
+        let harmless = [COMMANDED, MEASURED, BESIDE]
+            .iter()
+            .any(|l| l.contains(&w.as_str()));
+        harmless || w.chars().all(|c| c.is_ascii_digit())
+    })
+}
+
+/// Whether a name speaks of current.
+pub(super) fn says_current(name: &str) -> bool {
+    words(name)
+        .iter()
+        .any(|w| ["current", "cur", "curr", "i", "iq"].contains(&w.as_str()))
+}
+
+/// Which kind of motion a name speaks of.
+pub(super) fn motion(name: &str) -> Option<Motion> {
+    let words = words(name);
+    let has = |list: &[&str]| words.iter().any(|w| list.contains(&w.as_str()));
+    if has(&[
+        "angle", "theta", "dtheta", "omega", "torque", "trq", "tau", "moment", "joint",
+    ]) {
+        Some(Motion::Rotary)
+    } else if has(&["force", "displacement", "disp", "f", "xdot", "dx"]) || words == ["x"] {
+        Some(Motion::Linear)
+    } else {
+        None
+    }
+}
+
+/// The words of a name in lower case: split at signs, humps (`ActPos`) and digits (`q1`).
+fn words(name: &str) -> Vec<String> {
+    #[derive(PartialEq, Clone, Copy)]
+    enum Sort {
+        Upper,
+        Lower,
+        Digit,
+        Sign,
+    }
+    let sort = |c: char| match c {
+        _ if c.is_uppercase() => Sort::Upper,
+        _ if c.is_alphabetic() => Sort::Lower,
+        _ if c.is_ascii_digit() => Sort::Digit,
+        _ => Sort::Sign,
+    };
+    let mut words: Vec<String> = Vec::new();
+    let mut before = Sort::Sign;
+    for c in name.chars().take(200) {
+        let now = sort(c);
+        let joins = before == now || (before == Sort::Upper && now == Sort::Lower);
+        if now != Sort::Sign {
+            if joins && !words.is_empty() {
+                words
+                    .last_mut()
+                    .expect("just checked")
+                    .extend(c.to_lowercase());
+            } else {
+                words.push(c.to_lowercase().collect());
+            }
+        }
+        before = now;
+    }
+    words
+}

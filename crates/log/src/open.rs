@@ -1,0 +1,137 @@
+//! One way in for every format: look at the first bytes, call the reader.
+
+use std::fs::File;
+use std::io::Seek;
+use std::path::Path;
+
+use crate::sniff::{Format, sniff};
+use crate::text::{self, TextOptions};
+use crate::{Error, Kind, Table};
+
+/// What a file may cost before it is refused with [`Kind::Limit`].
+///
+/// A compressed file can claim a thousand times its size; nothing is allocated for more than this.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Size of the file in bytes; 4 GiB unless told otherwise.
+    pub file_bytes: u64,
+    /// Samples over all columns of a binary file; 2^28 (2 GiB in memory) unless told otherwise.
+    /// Text, which cannot claim more than it holds, has limits of its own, see [`text`].
+    pub samples: u64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            file_bytes: 1 << 32,
+            samples: 1 << 28,
+        }
+    }
+}
+
+/// How a file is to be read, as far as it does not say so itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ReadOptions {
+    /// What the user states about a text file.
+    pub text: TextOptions,
+    /// What the file may cost.
+    pub limits: Limits,
+}
+
+/// Reads a recording: MATLAB (versions 4, 5 and 7.3), HDF5, NumPy (NPY and NPZ), Parquet or text.
+///
+/// The format is told by the first bytes of the file, never by its name. Columns stand in the order
+/// of the file; HDF5 keeps none, there they stand in the order of their names.
+///
+/// # Errors
+///
+/// [`Error`] with the file, the place in it, what was found and what is allowed.
+pub fn read_table(path: &Path, options: &ReadOptions) -> Result<Table, Error> {
+    read(path, options).map_err(|error| error.in_file(path))
+}
+
+fn read(path: &Path, options: &ReadOptions) -> Result<Table, Error> {
+    let io = |error: std::io::Error| Error::new(Kind::Io, format!("cannot be read ({error})"), "");
+    // Looked at before it is opened: opening a pipe that nobody writes to would wait forever.
+    let about = std::fs::metadata(path).map_err(io)?;
+    if !about.is_file() {
+        let what = if about.is_dir() {
+            "a directory"
+        } else {
+            "not a regular file"
+        };
+        return Err(Error::new(Kind::Io, what, "a recording is one file"));
+    }
+    let bytes = about.len();
+    if bytes == 0 {
+        return Err(Error::new(Kind::Format, "the file is empty", ""));
+    }
+    if bytes > options.limits.file_bytes {
+        return Err(Error::new(
+            Kind::Limit,
+            format!("a file of {bytes} bytes"),
+            format!("at most {} bytes", options.limits.file_bytes),
+        ));
+    }
+    let mut file = File::open(path).map_err(io)?;
+    let format = sniff(&mut file, bytes).map_err(io)?;
+    file.rewind().map_err(io)?;
+    #[cfg_attr(
+        not(any(
+            feature = "matlab",
+            feature = "hdf5",
+            feature = "numpy",
+            feature = "parquet"
+        )),
+        expect(unused_variables)
+    )]
+    let limits = options.limits;
+    let mut table: Table = match format {
+        Format::Text => return text::read_file(path, &options.text),
+        Format::Foreign(what, instead) => Err(Error::new(Kind::Format, what, instead)),
+        #[cfg(feature = "matlab")]
+        Format::Matlab4 => crate::matlab4::read(file, bytes, limits),
+        #[cfg(feature = "matlab")]
+        Format::Matlab5 => crate::matlab5::read(file, bytes, limits),
+        #[cfg(feature = "hdf5")]
+        Format::Hdf5 => crate::hdf5::read(path, limits),
+        #[cfg(feature = "numpy")]
+        Format::Npy => crate::numpy::read_npy(file, limits),
+        #[cfg(feature = "numpy")]
+        Format::Npz => crate::numpy::read_npz(file, limits),
+        #[cfg(feature = "parquet")]
+        Format::Parquet => crate::parquet::read(file, bytes, limits),
+        #[cfg(not(all(
+            feature = "matlab",
+            feature = "hdf5",
+            feature = "numpy",
+            feature = "parquet"
+        )))]
+        other => Err(Error::new(
+            Kind::Format,
+            format!("this build has no {} reader", other.words()),
+            "build with the feature of that format, or save the recording as text",
+        )),
+    }?;
+    if table.columns.is_empty() {
+        let skipped = match table.skipped.join(", ") {
+            text if text.is_empty() => "nothing else".to_owned(),
+            text => text,
+        };
+        return Err(Error::new(
+            Kind::Missing,
+            format!("no column of numbers; left out: {}", shorten(&skipped)),
+            "a recording needs at least one column of numbers",
+        ));
+    }
+    table.detected.insert(0, format.words().to_owned());
+    Ok(table)
+}
+
+/// Enough of a long list for one line.
+fn shorten(text: &str) -> String {
+    match text.char_indices().nth(200) {
+        Some((end, _)) => format!("{} ...", &text[..end]),
+        None => text.to_owned(),
+    }
+}

@@ -1,0 +1,129 @@
+//! Parquet files, uncompressed or with Snappy, as pyarrow, pandas and polars write them.
+//!
+//! Numbers of every type are read; a missing value is NaN. Time stamps become seconds from the first
+//! one, which [`Table::detected`] names. Fields of structs are `struct.field`; text, raw bytes and
+//! lists are named in [`Table::skipped`].
+
+mod column;
+mod scan;
+mod thrift;
+
+use std::fs::File;
+use std::sync::Arc;
+
+use column::{Meaning, Samples};
+use parquet::basic::Compression;
+use parquet::errors::ParquetError;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+
+use crate::binary::{Collector, Order, guard, seconds};
+use crate::{Error, Kind, Limits, Table};
+
+/// Reads every column of numbers of a file of this many bytes.
+pub(crate) fn read(file: File, bytes: u64, limits: Limits) -> Result<Table, Error> {
+    guard("Parquet", || {
+        let mut raw = file
+            .try_clone()
+            .map_err(|error| broken(error.to_string()))?;
+        scan::footer(&mut raw, bytes).map_err(broken)?;
+        let reader = SerializedFileReader::new(file).map_err(library)?;
+        let mut collector = Collector::new(limits);
+        let columns = reader.metadata().file_metadata().schema_descr_ptr();
+        for index in 0..columns.num_columns() {
+            collector.entry()?;
+            let name = columns.column(index).path().parts().join(".");
+            one(&reader, &mut raw, index, &name, &mut collector)
+                .map_err(|error| error.in_column(&name))?;
+        }
+        Ok(collector.finish())
+    })
+}
+
+fn broken(found: impl Into<String>) -> Error {
+    Error::new(
+        Kind::Format,
+        found,
+        "a whole Parquet file, uncompressed or with Snappy",
+    )
+}
+
+fn library(error: ParquetError) -> Error {
+    broken(format!("broken or unsupported Parquet ({error})"))
+}
+
+/// Reads one column from all row groups.
+fn one(
+    reader: &SerializedFileReader<File>,
+    raw: &mut File,
+    index: usize,
+    name: &str,
+    collector: &mut Collector,
+) -> Result<(), Error> {
+    let descriptor: Arc<_> = reader
+        .metadata()
+        .file_metadata()
+        .schema_descr()
+        .column(index);
+    let meaning = Meaning::of(&descriptor);
+    if let Meaning::Other(what) = &meaning {
+        collector.skip(name, what);
+        return Ok(());
+    }
+    let mut samples = Samples::default();
+    let mut total = 0;
+    for (number, group) in reader.metadata().row_groups().iter().enumerate() {
+        let rows = u64::try_from(group.num_rows()).map_err(|_| broken("a negative length"))?;
+        total += collector.reserve(name, &[rows])?;
+        let chunk = group
+            .columns()
+            .get(index)
+            .ok_or_else(|| broken("a missing column"))?;
+        if !matches!(
+            chunk.compression(),
+            Compression::UNCOMPRESSED | Compression::SNAPPY
+        ) {
+            return Err(Error::new(
+                Kind::Format,
+                format!("compressed with {}", chunk.compression()),
+                "write the file with compression 'snappy' or none",
+            ));
+        }
+        let start = chunk
+            .dictionary_page_offset()
+            .unwrap_or(chunk.data_page_offset());
+        let end = start.checked_add(chunk.compressed_size());
+        match (u64::try_from(start), end.map(u64::try_from)) {
+            (Ok(start), Some(Ok(end))) => scan::pages(raw, start, end).map_err(broken)?,
+            _ => return Err(broken("a negative offset")),
+        }
+        let group = reader.get_row_group(number).map_err(library)?;
+        let mut chunk = group.get_column_reader(index).map_err(library)?;
+        samples
+            .append(
+                &meaning,
+                descriptor.max_def_level(),
+                rows as usize,
+                &mut chunk,
+            )
+            .map_err(library)?;
+        if samples.len() as u64 != total {
+            return Err(broken(format!(
+                "row group {} ends after {} of {total} rows",
+                number + 1,
+                samples.len()
+            )));
+        }
+    }
+    match meaning {
+        _ if total == 0 => collector.skip(name, "empty"),
+        Meaning::Ticks(period, clock) => {
+            let (values, done) = seconds(&samples.ticks, period, clock);
+            collector.detected(format!("{name}: {done}"));
+            collector.column(name, Some("s".to_owned()), values);
+        }
+        // A file of one row still has columns.
+        _ if total == 1 => collector.column(name, None, samples.values.samples),
+        _ => collector.array(name, None, &[total], Order::Row, samples.values),
+    }
+    Ok(())
+}

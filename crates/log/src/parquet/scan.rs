@@ -1,0 +1,184 @@
+//! A look at the sizes that a Parquet file claims, before the library takes memory for them.
+//!
+//! The library trusts the number of children of a schema element, the size of an unpacked page and
+//! the length of a dictionary; a few bytes in a small file could ask for gigabytes.
+
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
+
+use super::thrift::{Compact, I32, LIST, STRUCT};
+
+/// Largest footer; 64 MiB describe a million column chunks.
+const MAX_FOOTER: u64 = 64 << 20;
+
+/// Largest header of one page, statistics included.
+const MAX_PAGE_HEADER: u64 = 1 << 20;
+
+/// Groups in groups of the schema.
+const MAX_DEPTH: usize = 32;
+
+/// Checks the footer of a file of this many bytes; the error says what is wrong with it.
+pub(super) fn footer(file: &mut File, bytes: u64) -> Result<(), String> {
+    let mut end = [0; 8];
+    let start = bytes.checked_sub(8).ok_or("the file is too short")?;
+    read_at(file, start, &mut end)?;
+    let [a, b, c, d, magic @ ..] = end;
+    match &magic {
+        b"PAR1" => {}
+        b"PARE" => return Err("the footer is encrypted".to_owned()),
+        _ => return Err("the file does not end in PAR1; was it cut off?".to_owned()),
+    }
+    let length = u64::from(u32::from_le_bytes([a, b, c, d]));
+    if length > MAX_FOOTER {
+        return Err(format!(
+            "a footer of {length} bytes, more than {MAX_FOOTER}"
+        ));
+    }
+    let start = start
+        .checked_sub(length)
+        .ok_or("the footer is longer than the file")?;
+    let mut text = vec![0; length as usize];
+    read_at(file, start, &mut text)?;
+    let children = children(&text).ok_or("the footer is damaged")?;
+    tree(&children).ok_or_else(|| "the schema is damaged".to_owned())
+}
+
+/// Number of children of every schema element.
+fn children(footer: &[u8]) -> Option<Vec<i64>> {
+    let mut all = Vec::new();
+    Compact::new(footer).structure(0, |compact, id, kind| {
+        if (id, kind) != (2, LIST) {
+            return Some(false);
+        }
+        let (elements, kind) = compact.list()?;
+        if kind != STRUCT {
+            return None;
+        }
+        for _ in 0..elements {
+            let mut children = 0;
+            compact.structure(1, |compact, id, kind| {
+                if (id, kind) == (5, I32) {
+                    children = compact.integer()?;
+                }
+                Some((id, kind) == (5, I32))
+            })?;
+            all.push(children);
+        }
+        Some(true)
+    })?;
+    Some(all)
+}
+
+/// Whether these numbers of children, depth first, make one tree of sane depth.
+fn tree(children: &[i64]) -> Option<()> {
+    let total = i64::try_from(children.len()).ok()?;
+    let mut missing: Vec<i64> = vec![1];
+    for &own in children {
+        while missing.last() == Some(&0) {
+            missing.pop();
+        }
+        *missing.last_mut()? -= 1;
+        if !(0..=total).contains(&own) || missing.len() > MAX_DEPTH {
+            return None;
+        }
+        if own > 0 {
+            missing.push(own);
+        }
+    }
+    missing.iter().all(|&left| left == 0).then_some(())
+}
+
+/// Checks the pages between two offsets of the file.
+pub(super) fn pages(file: &mut File, start: u64, end: u64) -> Result<(), String> {
+    let mut at = start;
+    let mut window = Vec::new();
+    while at < end {
+        let page = page(file, at, end, &mut window)?;
+        let (packed, unpacked) = (page.packed, page.unpacked);
+        let left = (end - at).saturating_sub(page.header);
+        let packed = u64::try_from(packed).ok().filter(|&packed| packed <= left);
+        let packed = packed.ok_or_else(|| format!("a page at byte {at} larger than its column"))?;
+        // Snappy packs at most 64 bytes into 3; what is not compressed stays as long as it is.
+        let most = packed.saturating_mul(22) + 64;
+        let unpacked = u64::try_from(unpacked).ok().filter(|&size| size <= most);
+        let unpacked = unpacked
+            .ok_or_else(|| format!("a page at byte {at} that unpacks to an impossible size"))?;
+        if page.dictionary > i64::try_from(unpacked).unwrap_or(i64::MAX) {
+            return Err(format!("a dictionary at byte {at} of impossible length"));
+        }
+        at += page.header + packed;
+    }
+    Ok(())
+}
+
+struct Page {
+    /// Bytes of the header itself.
+    header: u64,
+    packed: i64,
+    unpacked: i64,
+    /// Values in a dictionary page.
+    dictionary: i64,
+}
+
+fn page(file: &mut File, at: u64, end: u64, window: &mut Vec<u8>) -> Result<Page, String> {
+    // Nearly every header is far below 1 KiB; statistics may make one longer.
+    for size in [1 << 10, MAX_PAGE_HEADER] {
+        window.resize(size.min(end - at) as usize, 0);
+        read_at(file, at, window)?;
+        if let Some(page) = parse(window) {
+            return Ok(page);
+        }
+    }
+    Err(format!("a damaged page header at byte {at}"))
+}
+
+fn parse(bytes: &[u8]) -> Option<Page> {
+    let mut page = Page {
+        header: 0,
+        packed: -1,
+        unpacked: -1,
+        dictionary: 0,
+    };
+    let mut compact = Compact::new(bytes);
+    compact.structure(0, |compact, id, kind| {
+        match (id, kind) {
+            (2, I32) => page.unpacked = compact.integer()?,
+            (3, I32) => page.packed = compact.integer()?,
+            (7, STRUCT) => compact.structure(1, |compact, id, kind| {
+                if (id, kind) == (1, I32) {
+                    page.dictionary = compact.integer()?;
+                }
+                Some((id, kind) == (1, I32))
+            })?,
+            _ => return Some(false),
+        }
+        Some(true)
+    })?;
+    page.header = compact.at() as u64;
+    Some(page)
+}
+
+fn read_at(file: &mut File, at: u64, into: &mut [u8]) -> Result<(), String> {
+    file.seek(SeekFrom::Start(at))
+        .and_then(|_| file.read_exact(into))
+        .map_err(|error| format!("cannot be read at byte {at} ({error})"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn trees() {
+        assert!(tree(&[2, 0, 0]).is_some());
+        assert!(tree(&[2, 1, 0, 0]).is_some());
+        assert!(tree(&[0]).is_some());
+        assert!(tree(&[]).is_none());
+        assert!(tree(&[2, 0]).is_none());
+        assert!(tree(&[1, 0, 0]).is_none());
+        assert!(tree(&[i64::MAX, 0]).is_none());
+        assert!(tree(&[-1]).is_none());
+        let deep = [vec![1; 5000], vec![0]].concat();
+        assert!(tree(&deep).is_none());
+    }
+}

@@ -1,0 +1,105 @@
+//! Telling formats apart by the first bytes of a file.
+
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom};
+
+/// The formats that are told apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Format {
+    Matlab4,
+    Matlab5,
+    Hdf5,
+    Npy,
+    Npz,
+    Parquet,
+    /// Known, not read, and what to do instead.
+    Foreign(&'static str, &'static str),
+    Text,
+}
+
+impl Format {
+    /// What a person calls it.
+    pub(crate) fn words(self) -> &'static str {
+        match self {
+            Format::Matlab4 => "MATLAB version 4",
+            Format::Matlab5 => "MATLAB version 5",
+            Format::Hdf5 => "HDF5",
+            Format::Npy => "NumPy NPY",
+            Format::Npz => "NumPy NPZ",
+            Format::Parquet => "Parquet",
+            Format::Foreign(what, _) => what,
+            Format::Text => "text",
+        }
+    }
+}
+
+/// The format of a file of this many bytes.
+pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
+    let mut start = Vec::new();
+    file.by_ref().take(512).read_to_end(&mut start)?;
+    let starts = |magic: &[u8]| start.starts_with(magic);
+    if starts(b"\x89HDF\r\n\x1a\n") {
+        return Ok(Format::Hdf5);
+    }
+    if starts(b"\x93NUMPY") {
+        return Ok(Format::Npy);
+    }
+    if starts(b"PK\x03\x04") || starts(b"PK\x05\x06") {
+        return Ok(Format::Npz);
+    }
+    if starts(b"PAR1") || starts(b"PARE") {
+        return Ok(Format::Parquet);
+    }
+    if let Some([0, 1, b'I', b'M'] | [1, 0, b'M', b'I']) = start.get(124..128) {
+        return Ok(Format::Matlab5);
+    }
+    // HDF5 may stand behind a user block of 512 bytes times a power of two, as MATLAB writes it.
+    let mut at = 512;
+    while at < bytes.min(1 << 20) {
+        let mut magic = Vec::new();
+        file.seek(SeekFrom::Start(at))?;
+        file.by_ref().take(8).read_to_end(&mut magic)?;
+        if magic == b"\x89HDF\r\n\x1a\n" {
+            return Ok(Format::Hdf5);
+        }
+        at *= 2;
+    }
+    let compressed = "unpack it first";
+    Ok(match start[..] {
+        [0x1f, 0x8b, ..] => Format::Foreign("a gzip archive", compressed),
+        [0x28, 0xb5, 0x2f, 0xfd, ..] => Format::Foreign("a Zstandard archive", compressed),
+        [b'B', b'Z', b'h', ..] => Format::Foreign("a bzip2 archive", compressed),
+        [0xfd, b'7', b'z', b'X', b'Z', ..] => Format::Foreign("an xz archive", compressed),
+        _ if starts(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1") => {
+            Format::Foreign("an old Excel workbook", "save the sheet as CSV")
+        }
+        _ if is_matlab4(&start) => Format::Matlab4,
+        _ => Format::Text,
+    })
+}
+
+/// Whether these bytes are the header of a variable in a MAT file of version 4, which has no magic:
+/// a type below 5000 with a zero in the hundreds, sizes, a flag, and a short name that ends in NUL.
+fn is_matlab4(start: &[u8]) -> bool {
+    let (words, _) = start.as_chunks::<4>();
+    let [kind, rows, columns, imaginary, length, ..] = *words else {
+        return false;
+    };
+    let check = |read: fn([u8; 4]) -> u32, orders: &[u32]| {
+        let kind = read(kind);
+        let length = read(length) as usize;
+        let name = start.get(20..).and_then(|rest| rest.get(..length));
+        orders.contains(&(kind / 1000))
+            && (kind / 100).is_multiple_of(10)
+            && kind / 10 % 10 <= 5
+            && kind % 10 <= 2
+            && read(imaginary) <= 1
+            && read(rows) < 1 << 31
+            && read(columns) < 1 << 31
+            && name.is_some_and(|name| {
+                let letter = |b: &u8| b.is_ascii_alphanumeric() || *b == b'_';
+                matches!(name, [text @ .., 0] if !text.is_empty() && text.iter().all(letter))
+            })
+    };
+    check(u32::from_le_bytes, &[0]) || check(u32::from_be_bytes, &[1])
+}

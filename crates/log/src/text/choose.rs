@@ -1,0 +1,264 @@
+//! How a file is written, decided from its head.
+
+use super::cell::{self, Cell};
+use super::fit::Fit;
+use super::header::Title;
+use super::lines::{self, Line};
+use super::options::{Decimal, Separator, TextOptions};
+use super::problem;
+use super::prologue;
+use super::row::{Role, Rule, Seen, State};
+use super::scope::Scope;
+use super::source::Source;
+use super::split::{self, Ends};
+use super::twincat;
+use super::{MAX_COLUMNS, MAX_PREAMBLE_LINES};
+use crate::{Error, Kind};
+
+/// Lines of samples that are looked at.
+const SAMPLE_LINES: usize = 256;
+/// Bytes of the head that are looked at for the separator.
+const SAMPLE_BYTES: usize = 1 << 20;
+
+/// How a file is written.
+pub(super) struct Layout {
+    pub rule: Rule,
+    /// The rule at the first row.
+    pub state: State,
+    pub titles: Vec<Title>,
+    /// Where the first row starts in the head, and its line.
+    pub offset: usize,
+    pub line: u64,
+    /// Where the decimal mark showed.
+    pub decimal: Option<Seen>,
+    /// For each text column, its first cell.
+    pub texts: Vec<Option<Seen>>,
+    pub detected: Vec<String>,
+    /// What a TwinCAT export says beyond names and units.
+    pub scope: Option<Scope>,
+}
+
+impl Layout {
+    /// A column in messages: its name, or its number from 1.
+    pub(super) fn label(&self, column: usize) -> String {
+        problem::label(self.titles.get(column).map_or("", |t| &t.name), column)
+    }
+}
+
+/// Decides how the file is written.
+pub(super) fn layout(source: &Source, options: &TextOptions) -> Result<Layout, Error> {
+    let limit = MAX_PREAMBLE_LINES + SAMPLE_LINES;
+    let lines = lines::lines(&source.head, source.row_end, source.whole, limit);
+    if lines.iter().all(Line::is_blank) {
+        return Err(match source.whole {
+            true => Error::new(
+                Kind::Format,
+                "an empty file",
+                "a text table with at least one row",
+            ),
+            false => problem::long_row(),
+        });
+    }
+    let skip = options.preamble.unwrap_or(0).min(lines.len());
+    if let Some(scope) = twincat::layout(&lines, skip, source.row_end, options) {
+        return scope;
+    }
+    let near = lines.iter().take_while(|l| l.start < SAMPLE_BYTES).count();
+    let fit = best(&lines[..near], skip, source.row_end, options)?;
+    if fit.width > MAX_COLUMNS {
+        return Err(problem::too_many_columns(fit.width).at_row(first_line(&lines, &fit)));
+    }
+    let ends = Ends::new(fit.separator, source.row_end);
+    let above = prologue::read(&lines, &fit, &ends, options)?;
+    let label = |column: usize| problem::label(&above.titles[column].name, column);
+    let marks = match options.decimal {
+        None => fit.marks(&lines, &ends),
+        Some(decimal) => {
+            refuse_other_mark(&lines, &fit, &ends, decimal)
+                .map_err(|(c, e)| e.in_column(label(c)))?;
+            [None, None]
+        }
+    };
+    let [mark, other] = marks;
+    if let (Some(first), Some(other)) = (&mark, &other) {
+        return Err(Error::new(
+            Kind::Ambiguous,
+            format!("{} with decimal {}", other.seen.text, other.decimal),
+            format!(
+                "numbers with decimal {} as in row {} ({}); one mark in the whole file",
+                first.decimal, first.seen.line, first.seen.text
+            ),
+        )
+        .at_row(other.seen.line)
+        .in_column(label(other.column)));
+    }
+    if options.separator.is_none() && options.decimal.is_none() {
+        let decimal = mark.as_ref().map(|m| m.decimal);
+        prologue::refuse_comma_twice(&lines, &fit, &ends, above.named, decimal)?;
+    }
+    if let Some((line, names)) = above.misfit {
+        return Err(prologue::wrong_header(line, names, &fit));
+    }
+    let first = &lines[above.first.min(lines.len() - 1)];
+    let mut detected = vec![format!("separator {}", fit.separator)];
+    detected.extend(above.detected);
+    if fit.trailing {
+        detected.push("separator at the end of each row".to_owned());
+    }
+    Ok(Layout {
+        texts: first_texts(&lines, &fit, &ends),
+        rule: Rule {
+            ends,
+            trailing: fit.trailing,
+            run_out: false,
+        },
+        state: State {
+            decimal: options.decimal.or(mark.as_ref().map(|m| m.decimal)),
+            width: fit.width,
+            roles: fit.roles,
+        },
+        titles: above.titles,
+        offset: first.start,
+        line: first.number,
+        decimal: mark.map(|m| m.seen),
+        detected,
+        scope: None,
+    })
+}
+
+/// Refuses a column (from 0) that is text only because its numbers show another mark than stated.
+fn refuse_other_mark(
+    lines: &[Line],
+    fit: &Fit,
+    ends: &Ends,
+    decimal: Decimal,
+) -> Result<(), (usize, Error)> {
+    let Some(first) = fit.rows.first() else {
+        return Ok(());
+    };
+    let line = &lines[first.index];
+    let cells = split::fields(line.text, ends, fit.width);
+    for (column, (cell, role)) in cells.iter().zip(&fit.roles).enumerate() {
+        let number = matches!(cell::classify(&cell.text), Cell::Number(..));
+        if *role == Role::Text && number {
+            let error = problem::wrong_cell(&cell.text, Some(decimal), None);
+            return Err((column, error.at_row(line.number)));
+        }
+    }
+    Ok(())
+}
+
+fn first_line(lines: &[Line], fit: &Fit) -> u64 {
+    fit.rows.first().map_or(1, |r| lines[r.index].number)
+}
+
+/// The first cell of each text column.
+fn first_texts(lines: &[Line], fit: &Fit, ends: &Ends) -> Vec<Option<Seen>> {
+    let Some(first) = fit.rows.first() else {
+        return Vec::new();
+    };
+    let line = &lines[first.index];
+    let cells = split::fields(line.text, ends, fit.width);
+    fit.roles
+        .iter()
+        .enumerate()
+        .map(|(c, role)| {
+            let cell = cells.get(c).filter(|_| *role == Role::Text)?;
+            let local = super::clock::is_local_date(&cell.text);
+            let order = if local {
+                ", day and month in unknown order"
+            } else {
+                ""
+            };
+            let text = format!("{}{order}", problem::show(&cell.text));
+            Some(Seen {
+                line: line.number,
+                text,
+            })
+        })
+        .collect()
+}
+
+/// The separator that makes most of the head.
+fn best(lines: &[Line], skip: usize, row_end: u8, options: &TextOptions) -> Result<Fit, Error> {
+    let fit = |separator| Fit::new(lines, skip, separator, row_end, options);
+    let none = || nothing_fits(lines, skip, options);
+    if let Some(separator) = options.separator {
+        return fit(separator).ok_or_else(none);
+    }
+    let blanks = fit(Separator::Blanks);
+    // TAB, `;` and `|` do not occur within numbers: where they split rows, they are the separator,
+    // unless every piece between runs of blanks is a number (TABs used as blanks).
+    let strong = [Separator::Tab, Separator::Semicolon, Separator::Pipe]
+        .into_iter()
+        .filter_map(fit)
+        .filter(|f| f.width > 1 || f.trailing)
+        .reduce(|best, next| {
+            if next.samples > best.samples {
+                next
+            } else {
+                best
+            }
+        });
+    if let Some(strong) = strong {
+        let all_numbers = |f: &Fit| {
+            strong.separator == Separator::Tab
+                && f.samples == f.filled
+                && f.samples > strong.samples
+        };
+        return Ok(blanks.filter(all_numbers).unwrap_or(strong));
+    }
+    let comma = match options.decimal {
+        Some(Decimal::Comma) => None,
+        _ => fit(Separator::Comma).filter(|f| f.width > 1 || f.trailing),
+    };
+    let (comma, blanks) = match (comma, blanks) {
+        (Some(comma), Some(blanks)) => (comma, blanks),
+        (Some(only), None) | (None, Some(only)) => return Ok(only),
+        (None, None) => return Err(none()),
+    };
+    // Compares samples, then the share of cells that are samples.
+    let rank = |f: &Fit, other: &Fit| (f.samples, f.samples * other.filled);
+    match rank(&comma, &blanks).cmp(&rank(&blanks, &comma)) {
+        std::cmp::Ordering::Greater => Ok(comma),
+        std::cmp::Ordering::Less => Ok(blanks),
+        std::cmp::Ordering::Equal => {
+            let row = comma.rows.first().map_or(0, |r| r.index);
+            Err(Error::new(
+                Kind::Ambiguous,
+                format!(
+                    "{} splits at commas or at blanks",
+                    problem::show(lines[row].text.trim_ascii())
+                ),
+                "state the separator",
+            )
+            .at_row(lines[row].number))
+        }
+    }
+}
+
+fn nothing_fits(lines: &[Line], skip: usize, options: &TextOptions) -> Error {
+    let with = match (options.separator, options.decimal) {
+        (Some(separator), Some(decimal)) => {
+            format!(" with separator {separator}, decimal {decimal}")
+        }
+        (Some(separator), None) => format!(" with separator {separator}"),
+        (None, Some(decimal)) => format!(" with decimal {decimal}"),
+        (None, None) => String::new(),
+    };
+    let count = problem::count(lines.len(), "line");
+    let shown = lines[skip..].iter().rfind(|l| !l.is_blank());
+    let found = match shown {
+        Some(line) => format!(
+            "no row of numbers in the first {count}{with}; line {} is {}",
+            line.number,
+            problem::show(line.text.trim_ascii())
+        ),
+        None => format!("no row of numbers in the first {count}{with}"),
+    };
+    Error::new(
+        Kind::Format,
+        found,
+        "a text table with one sample in each row",
+    )
+}

@@ -1,0 +1,115 @@
+//! From the samples that were read to the table that is given back.
+
+use super::body::Body;
+use super::choose::Layout;
+use super::problem::{self, count};
+use super::row::{Role, Seen};
+use super::scope;
+use crate::{Column, Table};
+
+/// Half a day and a day in seconds.
+const HALF_DAY: f64 = 43_200.0;
+const DAY: f64 = 86_400.0;
+
+/// Puts the table together and says what was detected and what was left out.
+pub(super) fn finish(layout: Layout, body: Body) -> Table {
+    let mut table = Table {
+        detected: layout.detected,
+        ..Table::default()
+    };
+    match (body.state.decimal, &body.decimal) {
+        (Some(decimal), Some(_)) => table.detected.push(format!("decimal {decimal}")),
+        (Some(decimal), None) => table.detected.push(format!("decimal {decimal} as stated")),
+        (None, _) => table.detected.push("whole numbers only".to_owned()),
+    }
+    if layout.titles.iter().any(|t| t.unit.is_some()) && layout.scope.is_none() {
+        let in_row = table.detected.iter().any(|d| d.starts_with("units in"));
+        if !in_row {
+            table.detected.push("units in the header".to_owned());
+        }
+    }
+    let mut left_out = Vec::new();
+    for (c, (title, mut values)) in layout.titles.into_iter().zip(body.columns).enumerate() {
+        let label = match title.name.as_str() {
+            "" => format!("column {}", c + 1),
+            name => problem::label(name, c),
+        };
+        let mut unit = title.unit;
+        match body.state.roles[c] {
+            Role::Text => {
+                let seen = body.texts[c].as_ref();
+                let example = seen.map_or(String::new(), |s| {
+                    format!(" such as {} in row {}", s.text, s.line)
+                });
+                table.skipped.push(format!("{label}: text{example}"));
+                left_out.push(c);
+            }
+            Role::Unknown if layout.scope.is_none() => {
+                table.skipped.push(format!("{label}: empty in every row"));
+                left_out.push(c);
+            }
+            Role::Moment { dated, .. } => {
+                unit = Some("s".to_owned());
+                let sort = if dated {
+                    "dates with time"
+                } else {
+                    "times of day"
+                };
+                let midnight = if !dated && unwrap_midnight(&mut values) {
+                    ", a day added after each midnight"
+                } else {
+                    ""
+                };
+                let said = format!("{label}: {sort}, as seconds from the first{midnight}");
+                table.detected.push(said);
+            }
+            _ => {}
+        }
+        table.columns.push(Column {
+            name: title.name,
+            unit,
+            values,
+        });
+    }
+    if let Some(scope) = &layout.scope {
+        scope::finish(scope, &mut table);
+    }
+    if layout.scope.is_none() {
+        let mut index = 0;
+        table.columns.retain(|_| {
+            index += 1;
+            !left_out.contains(&(index - 1))
+        });
+    }
+    if body.comments > 0 {
+        table.skipped.push(format!(
+            "{} between the rows",
+            count(body.comments, "comment line")
+        ));
+    }
+    if body.blank > 0 {
+        table.skipped.push(format!(
+            "{} between the rows",
+            count(body.blank, "blank line")
+        ));
+    }
+    if let Some(Seen { line, text }) = &body.trailing {
+        table.skipped.push(format!(
+            "text after the last sample, from line {line}: {text}"
+        ));
+    }
+    table
+}
+
+/// Lets times of day run on over midnight; whether there was one.
+fn unwrap_midnight(values: &mut [f64]) -> bool {
+    let (mut days, mut last) = (0.0, f64::NEG_INFINITY);
+    for value in values.iter_mut().filter(|v| !v.is_nan()) {
+        if *value < last - HALF_DAY {
+            days += DAY;
+        }
+        last = *value;
+        *value += days;
+    }
+    days > 0.0
+}

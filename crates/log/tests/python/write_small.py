@@ -1,0 +1,82 @@
+"""Writes one small recording for every format and storage form, to be damaged by the tests.
+
+Usage: python write_small.py FOLDER
+
+Small files, so that most damage hits the structure of the file and not its samples.
+"""
+
+import pathlib
+import sys
+
+import h5py
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import scipy.io
+
+folder = pathlib.Path(sys.argv[1])
+t = np.linspace(0.0, 1.0, 40)
+q = np.sin(9 * t)
+matrix = np.column_stack([t, q])
+count = np.arange(40, dtype=np.int16)
+
+cell = np.empty((2,), dtype=object)
+cell[0], cell[1] = q, "text"
+runs = np.zeros((2,), dtype=[("v", object), ("load", object)])
+for i in range(2):
+    runs[i] = (q + i, float(i))
+variables = {"t": t, "m": matrix, "n": count, "k": 2.0, "drive": {"q": q, "deep": {"n": count}},
+             "runs": runs, "cell": cell, "name": "axis"}
+scipy.io.savemat(folder / "plain.mat", variables)
+scipy.io.savemat(folder / "compressed.mat", variables, do_compression=True)
+scipy.io.savemat(folder / "four.mat", {"t": t, "m": matrix, "n": count, "k": 2.0}, format="4")
+
+record = np.zeros(40, dtype=[("t", "f8"), ("n", "i2"), ("tag", "S3"), ("v", "f4", (2,))])
+np.save(folder / "vector.npy", t)
+np.save(folder / "record.npy", record)
+arrays = {"t": t, "m": matrix, "n": count, "k": np.float64(2.0), "record": record,
+          "stamp": np.arange(5).astype("M8[ns]"), "words": np.array(["a", "b"])}
+np.savez(folder / "stored.npz", **arrays)
+np.savez_compressed(folder / "deflated.npz", **arrays)
+
+
+def fill(file):
+    file["t"] = t
+    file.create_dataset("chunked", data=matrix, chunks=(8, 2), compression="gzip", shuffle=True)
+    file.create_dataset("lzf", data=q, chunks=(16,), compression="lzf", fletcher32=True)
+    file.create_dataset("drive/q", data=q, maxshape=(None,), chunks=(7,)).attrs["unit"] = "rad"
+    file["drive/deep/n"] = count
+    file["record"] = record
+    file["k"] = 2.0
+    file["name"] = "axis"
+    stored = file.create_group("#refs#").create_dataset("a", data=q.reshape(1, -1))
+    stored.attrs["MATLAB_class"] = np.bytes_("double")
+    cells = file.create_dataset("cell", data=np.array([[stored.ref]]), dtype=h5py.ref_dtype)
+    cells.attrs["MATLAB_class"] = np.bytes_("cell")
+
+
+with h5py.File(folder / "earliest.h5", "w") as file:
+    fill(file)
+    file["hard"] = file["drive"]
+with h5py.File(folder / "v114.h5", "w", libver="v114") as file:
+    fill(file)
+    # In groups of the old form the decoder refuses a file with soft links.
+    file["soft"] = h5py.SoftLink("/t")
+    file["loop"] = h5py.SoftLink("/")
+with h5py.File(folder / "block.h5", "w", userblock_size=512) as file:
+    fill(file)
+with h5py.File(folder / "refused_loop.h5", "w") as file:
+    file["drive/q"] = q
+    file["drive/again"] = file["drive"]
+
+table = pa.table({
+    "t": t, "n": count, "flag": count > 9, "holes": pa.array([None, 1.0] * 20),
+    "stamp": pa.array(np.arange(40) + 10**15, pa.timestamp("us")),
+    "words": pa.array(["a", "b"] * 20), "list": pa.array([[1.0]] * 40),
+    "pose": pa.StructArray.from_arrays([pa.array(q)], ["x"]),
+})
+pq.write_table(table, folder / "snappy.parquet", row_group_size=17)
+pq.write_table(table, folder / "none.parquet", compression="none", data_page_version="2.0")
+flat = table.select(["t", "n"])
+pq.write_table(flat, folder / "encoded.parquet", use_dictionary=False, column_encoding={
+    "t": "BYTE_STREAM_SPLIT", "n": "DELTA_BINARY_PACKED"})
