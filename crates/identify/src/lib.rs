@@ -1,1 +1,55 @@
 //! Identification of friction laws from conditioned records, with uncertainty.
+//!
+//! The data flows one way:
+//!
+//! ```text
+//! Samples --condition--> Record --separable--> Optimum --estimate--> Estimate
+//!  (SI, one per log)     (what the fit sees)   (search)   (parameters, covariance, residuals)
+//! ```
+//!
+//! The method is *separable* least squares (variable projection: Golub and Pereyra 1973,
+//! doi 10.1137/0710036, with the Jacobian of Kaufman 1975, doi 10.1007/BF01932995). With the bristle
+//! deflection in units of the Coulomb level, `eta = s0 z / Fc`, the LuGre force is
+//!
+//! ```text
+//! eta' = kappa (v - |v| eta / gh(v)),     gh(v) = 1 + (r - 1) exp(-|v/vs|^delta)
+//! u    = Fc eta + s1 (v - |v| eta / gh) + s2 v + M a + F0 + ...
+//! ```
+//!
+//! with `kappa = s0/Fc` and `r = Fs/Fc`: only `ln kappa`, `ln (r - 1)` and `ln vs` enter
+//! nonlinearly, all else is found exactly for each trial of those three. The static laws and Dahl are
+//! the same form with fewer nonlinear unknowns.
+//!
+//! Nothing here prints, sleeps or reads a clock; an [`Observer`] sees progress and may stop a run.
+
+mod condition;
+mod crossval;
+mod error;
+mod estimate;
+mod fit;
+mod law;
+mod levenberg;
+mod linear;
+mod objective;
+mod observe;
+mod physical;
+mod record;
+mod recursion;
+mod search_box;
+mod separable;
+mod uncertainty;
+
+pub use condition::{Conditioning, Cutoff, Source, condition};
+pub use crossval::{LawScore, cross_validate};
+pub use error::Error;
+pub use estimate::{Estimate, IDENTIFIABLE, Parameter, Series, estimate, predict};
+pub use fit::{Fit, low_speed_bound};
+pub use law::{Law, LawKind, Mass, Terms};
+pub use physical::Dimension;
+pub use levenberg::Status;
+pub use objective::{Evaluation, Objective};
+pub use observe::{Control, Counts, Observer, Progress, Silent, Stage};
+pub use record::{Record, Samples, Segment};
+pub use search_box::SearchBox;
+pub use separable::{Optimum, Settings, separable};
+pub use uncertainty::Covariance;

@@ -1,0 +1,8 @@
+//! `axis.toml`: what is known of the machine and its log. Raw as typed, then resolved to SI.
+
+mod raw;
+mod resolve;
+mod template;
+
+pub use resolve::{Axis, ResolvedAxis};
+pub use template::template;

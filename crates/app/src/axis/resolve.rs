@@ -1,0 +1,415 @@
+//! From the axis file as typed to SI values that the libraries take.
+
+use super::raw::{self, RawAxis, RawChannel, RawScale, RawSelector};
+use crate::error::Error;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use stiction_identify::{Conditioning, Cutoff, Mass, Source, Terms};
+use stiction_log::text::{Decimal, Separator, TextOptions};
+use stiction_log::{Channel, Dimension, Mapping, Motion, Role, Selector, Unit, Value, Wrap};
+
+/// Everything an axis file says, resolved; `Axis::default()` leaves all to detection.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    /// Name of the axis for reports.
+    pub name: Option<String>,
+    /// Which column is what.
+    pub mapping: Mapping,
+    /// How text logs are written, where stated.
+    pub text: TextOptions,
+    /// Filters and decimation.
+    pub conditioning: Conditioning,
+    /// Linear terms beside the friction law; a mass in kg or kg m^2.
+    pub terms: Terms,
+    /// Stribeck exponent, dimensionless.
+    pub stribeck_exponent: f64,
+    /// Speed below which a sample counts as slow, m/s or rad/s; `None` follows from the log.
+    pub low_speed: Option<f64>,
+    /// Whether to fit a constant force; `None` follows from the law.
+    offset: Option<bool>,
+    /// A given mass as typed: its unit can only be checked when the motion is known.
+    given_mass: Option<Value>,
+    file: PathBuf,
+}
+
+impl Default for Axis {
+    fn default() -> Self {
+        Self {
+            name: None,
+            mapping: Mapping::default(),
+            text: TextOptions::default(),
+            conditioning: Conditioning::default(),
+            terms: Terms::default(),
+            stribeck_exponent: 2.0,
+            low_speed: None,
+            offset: None,
+            given_mass: None,
+            file: PathBuf::new(),
+        }
+    }
+}
+
+const SPEEDS: [Dimension; 2] = [Dimension::LINEAR_VELOCITY, Dimension::ANGULAR_VELOCITY];
+
+/// Largest axis file that is read, bytes.
+const MAX_BYTES: u64 = 1 << 20;
+
+impl Axis {
+    /// Reads and checks an axis file.
+    ///
+    /// # Errors
+    /// With file, line, key, what was found and what is allowed.
+    pub fn read(file: &Path) -> Result<Self, Error> {
+        let refuse = |found: String, allowed: &str| Error::Config {
+            file: file.to_path_buf(),
+            place: String::new(),
+            found,
+            allowed: allowed.into(),
+        };
+        let meta = std::fs::metadata(file)
+            .map_err(|e| refuse(format!("cannot be read ({e})"), "give the path of an axis file"))?;
+        if !meta.is_file() || meta.len() > MAX_BYTES {
+            return Err(refuse(
+                if meta.is_file() { format!("{} bytes", meta.len()) } else { "not a file".into() },
+                "an axis file is a text file of at most 1 MiB",
+            ));
+        }
+        let bytes = std::fs::read(file)
+            .map_err(|e| refuse(format!("cannot be read ({e})"), "give the path of an axis file"))?;
+        let text = String::from_utf8(bytes)
+            .map_err(|_| refuse("is not UTF-8 text".into(), "save it as UTF-8"))?;
+        Self::parse(&text, file)
+    }
+
+    /// Checks the text of an axis file; `file` is named in errors.
+    ///
+    /// # Errors
+    /// As [`Axis::read`].
+    pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
+        let raw = raw::parse(text).map_err(|e| {
+            let place = e.span().map_or(String::new(), |span| {
+                let line = text.as_bytes()[..span.start.min(text.len())]
+                    .iter()
+                    .filter(|&&b| b == b'\n')
+                    .count();
+                format!("line {}: ", line + 1)
+            });
+            Error::Config {
+                file: file.to_path_buf(),
+                place,
+                found: e.message().trim().replace('\n', " "),
+                allowed: "see docs/axis.md for every key".into(),
+            }
+        })?;
+        Resolver { text, file }.resolve(&raw)
+    }
+
+    /// The linear terms once motion and law are known: a given mass must have the right unit, and a
+    /// constant force is fitted beside a symmetric law only, unless the axis file says otherwise. It
+    /// cannot be told from Coulomb levels that differ between the directions.
+    ///
+    /// # Errors
+    /// A mass for a rotary axis, an inertia for a linear one.
+    pub fn terms_for(&self, motion: Motion, asymmetric: bool) -> Result<Terms, Error> {
+        let mut terms = self.terms.clone();
+        terms.offset = self.offset.unwrap_or(!asymmetric);
+        if let Some(mass) = &self.given_mass {
+            let wanted = match motion {
+                Motion::Linear => Dimension::MASS,
+                Motion::Rotary => Dimension::INERTIA,
+            };
+            let value = mass.si_of(wanted).map_err(|e| Error::Config {
+                file: self.file.clone(),
+                place: "mass: ".into(),
+                found: e.found,
+                allowed: e.allowed,
+            })?;
+            terms.mass = Mass::Given(value);
+        }
+        Ok(terms)
+    }
+}
+
+/// The resolved axis as it goes into `result.json`.
+#[derive(Clone, Debug, Serialize, serde::Deserialize, PartialEq)]
+pub struct ResolvedAxis {
+    /// Name of the axis.
+    pub name: Option<String>,
+    /// `linear` or `rotary`.
+    pub kind: String,
+    /// Unit of the force channel after scaling.
+    pub force_unit: String,
+    /// How each column was understood.
+    pub columns: Vec<String>,
+    /// How the record was conditioned.
+    pub conditioning: Vec<String>,
+    /// Linear terms beside the friction law.
+    pub terms: Vec<String>,
+}
+
+struct Resolver<'a> {
+    text: &'a str,
+    file: &'a Path,
+}
+
+impl Resolver<'_> {
+    fn resolve(&self, raw: &RawAxis) -> Result<Axis, Error> {
+        let mut axis = Axis {
+            name: raw.name.clone().filter(|n| !n.trim().is_empty()),
+            file: self.file.to_path_buf(),
+            ..Axis::default()
+        };
+        self.mapping(raw, &mut axis.mapping)?;
+        self.text_options(raw, &mut axis.text)?;
+        axis.conditioning = self.conditioning(raw)?;
+        axis.conditioning.resolution = axis.mapping.resolution;
+        self.terms(raw, &mut axis)?;
+        if let Some(text) = &raw.report.low_speed {
+            axis.low_speed = Some(self.positive("report.low_speed", text, &SPEEDS)?);
+        }
+        Ok(axis)
+    }
+
+    fn mapping(&self, raw: &RawAxis, mapping: &mut Mapping) -> Result<(), Error> {
+        mapping.motion = match raw.kind.as_deref() {
+            None => None,
+            Some("linear") => Some(Motion::Linear),
+            Some("rotary") => Some(Motion::Rotary),
+            Some(other) => {
+                return Err(self.refuse("kind", format!("{other:?}"), "linear or rotary"));
+            }
+        };
+        if let Some(text) = &raw.rate {
+            mapping.rate_hz = Some(self.positive("rate", text, &[Dimension::FREQUENCY])?);
+        }
+        let columns = [
+            (Role::Time, &raw.columns.time),
+            (Role::Position, &raw.columns.position),
+            (Role::Velocity, &raw.columns.velocity),
+            (Role::Force, &raw.columns.force),
+            (Role::Reference, &raw.columns.reference),
+            (Role::Temperature, &raw.columns.temperature),
+            (Role::Load, &raw.columns.load),
+        ];
+        for (role, channel) in columns {
+            let Some(channel) = channel else { continue };
+            let channel = self.channel(role, channel)?;
+            let slot = match role {
+                Role::Time => &mut mapping.time,
+                Role::Position => &mut mapping.position,
+                Role::Velocity => &mut mapping.velocity,
+                Role::Force => &mut mapping.force,
+                Role::Reference => &mut mapping.reference,
+                Role::Temperature => &mut mapping.temperature,
+                Role::Load => &mut mapping.load,
+            };
+            *slot = Some(channel);
+        }
+        let lengths = [Dimension::LENGTH, Dimension::ANGLE];
+        if let Some(text) = &raw.log.wrap {
+            let period = self.positive("log.wrap", text, &lengths)?;
+            mapping.wrap = Some(Wrap { period });
+        }
+        if let Some(text) = &raw.log.resolution {
+            mapping.resolution = Some(self.positive("log.resolution", text, &lengths)?);
+        }
+        if let Some(text) = &raw.log.force_limit {
+            let forces =
+                [Dimension::FORCE, Dimension::TORQUE, Dimension::CURRENT, Dimension::VOLTAGE];
+            mapping.force_limit = Some(self.positive("log.force_limit", text, &forces)?);
+        }
+        if let Some([from, to]) = &raw.log.crop {
+            let a = self.value("log.crop", from, &[Dimension::TIME])?;
+            let b = self.value("log.crop", to, &[Dimension::TIME])?;
+            if !(a < b) {
+                return Err(self.refuse(
+                    "log.crop",
+                    format!("{from:?} to {to:?}"),
+                    "two times from the first sample, the first before the second",
+                ));
+            }
+            mapping.crop = Some((a, b));
+        }
+        Ok(())
+    }
+
+    fn channel(&self, role: Role, raw: &RawChannel) -> Result<Channel, Error> {
+        let key = format!("columns.{role}");
+        let select = |selector: &RawSelector| match selector {
+            RawSelector::Name(name) => Ok(Selector::Name(name.clone())),
+            RawSelector::Index(i) => usize::try_from(*i)
+                .ok()
+                .filter(|i| *i > 0)
+                .map(Selector::Index)
+                .ok_or_else(|| {
+                    self.refuse(&key, format!("column number {i}"), "columns count from 1")
+                }),
+        };
+        let full = match raw {
+            RawChannel::Name(name) => {
+                return Ok(Channel::named(name.clone()));
+            }
+            RawChannel::Index(i) => {
+                let column = select(&RawSelector::Index(*i))?;
+                return Ok(Channel { column, unit: None, scale: None, invert: false });
+            }
+            RawChannel::Full(full) => full,
+        };
+        let unit = full.unit.as_deref().map(|text| {
+            Unit::parse(text).map_err(|e| self.refuse(&format!("{key}.unit"), e.found, &e.allowed))
+        });
+        let scale = full.scale.as_ref().map(|scale| match scale {
+            RawScale::Number(x) if x.is_finite() && *x != 0.0 => {
+                Ok(Value { number: *x, unit: Unit::si(Dimension::ONE) })
+            }
+            RawScale::Number(x) => {
+                Err(self.refuse(&format!("{key}.scale"), x.to_string(), "a finite number, not 0"))
+            }
+            RawScale::Text(text) => Value::parse(text)
+                .map_err(|e| self.refuse(&format!("{key}.scale"), e.found, &e.allowed)),
+        });
+        Ok(Channel {
+            column: select(&full.column)?,
+            unit: unit.transpose()?,
+            scale: scale.transpose()?,
+            invert: full.invert,
+        })
+    }
+
+    fn text_options(&self, raw: &RawAxis, out: &mut TextOptions) -> Result<(), Error> {
+        out.header = raw.text.header;
+        out.preamble = raw.text.preamble;
+        out.separator = match raw.text.separator.as_deref() {
+            None => None,
+            Some("tab" | "\t") => Some(Separator::Tab),
+            Some(";" | "semicolon") => Some(Separator::Semicolon),
+            Some("," | "comma") => Some(Separator::Comma),
+            Some("|" | "pipe") => Some(Separator::Pipe),
+            Some(" " | "blanks") => Some(Separator::Blanks),
+            Some(other) => {
+                return Err(self.refuse(
+                    "text.separator",
+                    format!("{other:?}"),
+                    "tab, semicolon, comma, pipe or blanks",
+                ));
+            }
+        };
+        out.decimal = match raw.text.decimal.as_deref() {
+            None => None,
+            Some("." | "point") => Some(Decimal::Point),
+            Some("," | "comma") => Some(Decimal::Comma),
+            Some(other) => {
+                return Err(self.refuse("text.decimal", format!("{other:?}"), "point or comma"));
+            }
+        };
+        Ok(())
+    }
+
+    fn conditioning(&self, raw: &RawAxis) -> Result<Conditioning, Error> {
+        let raw = &raw.conditioning;
+        let source = match raw.source.as_deref() {
+            None | Some("auto") => None,
+            Some("position") => Some(Source::Position),
+            Some("velocity") => Some(Source::Velocity),
+            Some(other) => {
+                return Err(self.refuse(
+                    "conditioning.source",
+                    format!("{other:?}"),
+                    "position, velocity or auto",
+                ));
+            }
+        };
+        let cutoff = |key: &str, text: &Option<String>| match text.as_deref() {
+            None | Some("auto") => Ok(Cutoff::Auto),
+            Some("off") => Ok(Cutoff::Off),
+            Some(text) => self.positive(key, text, &[Dimension::FREQUENCY]).map(Cutoff::Hz),
+        };
+        if raw.decimate == Some(0) {
+            return Err(self.refuse("conditioning.decimate", "0".into(), "a whole number from 1"));
+        }
+        Ok(Conditioning {
+            source,
+            source_cutoff: cutoff("conditioning.source_cutoff", &raw.source_cutoff)?,
+            common_cutoff: cutoff("conditioning.common_cutoff", &raw.common_cutoff)?,
+            decimate: raw.decimate,
+            resolution: None,
+            min_speed: match &raw.min_speed {
+                Some(text) => self.positive("conditioning.min_speed", text, &SPEEDS)?,
+                None => 0.0,
+            },
+        })
+    }
+
+    fn terms(&self, raw: &RawAxis, axis: &mut Axis) -> Result<(), Error> {
+        match raw.mass.as_deref() {
+            None | Some("fit") => axis.terms.mass = Mass::Fitted,
+            Some("none") => axis.terms.mass = Mass::Absent,
+            Some(text) => {
+                let allowed = [Dimension::MASS, Dimension::INERTIA];
+                self.positive("mass", text, &allowed)?;
+                axis.given_mass = Value::parse(text).ok();
+            }
+        }
+        axis.offset = raw.terms.offset;
+        axis.terms.gravity = raw.terms.gravity.unwrap_or(false);
+        for pitch in &raw.terms.cogging {
+            let lengths = [Dimension::LENGTH, Dimension::ANGLE];
+            axis.terms.cogging.push(self.positive("terms.cogging", pitch, &lengths)?);
+        }
+        if axis.terms.cogging.len() > 4 {
+            return Err(self.refuse(
+                "terms.cogging",
+                format!("{} pitches", axis.terms.cogging.len()),
+                "at most 4",
+            ));
+        }
+        if let Some(delta) = raw.terms.stribeck_exponent {
+            if !(0.1..=10.0).contains(&delta) {
+                return Err(self.refuse(
+                    "terms.stribeck_exponent",
+                    delta.to_string(),
+                    "a number from 0.1 to 10",
+                ));
+            }
+            axis.stribeck_exponent = delta;
+        }
+        Ok(())
+    }
+
+    fn value(&self, key: &str, text: &str, dimensions: &[Dimension]) -> Result<f64, Error> {
+        let value =
+            Value::parse(text).map_err(|e| self.refuse(key, e.found, &e.allowed))?;
+        let mut last = None;
+        for &dimension in dimensions {
+            match value.si_of(dimension) {
+                Ok(x) => return Ok(x),
+                Err(e) => last = Some(e),
+            }
+        }
+        let e = last.expect("at least one dimension is allowed");
+        Err(self.refuse(key, e.found, &e.allowed))
+    }
+
+    fn positive(&self, key: &str, text: &str, dimensions: &[Dimension]) -> Result<f64, Error> {
+        let x = self.value(key, text, dimensions)?;
+        if x > 0.0 && x.is_finite() {
+            return Ok(x);
+        }
+        Err(self.refuse(key, format!("{text:?}"), "a finite value above 0"))
+    }
+
+    fn refuse(&self, key: &str, found: String, allowed: &str) -> Error {
+        // `columns.force.unit` stands on the line of `columns.force` where it is an inline table.
+        let parent = key.rsplit_once('.').map_or(key, |(parent, _)| parent);
+        let line = raw::line_of(self.text, key).or_else(|| raw::line_of(self.text, parent));
+        Error::Config {
+            file: self.file.to_path_buf(),
+            place: match line {
+                Some(line) => format!("line {line}, {key}: "),
+                None => format!("{key}: "),
+            },
+            found,
+            allowed: allowed.into(),
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! The identification workflow: logs in, result, model and report out.
+
+mod assemble;
+mod ladder;
+mod trust;
+
+use crate::axis::{Axis, ResolvedAxis};
+use crate::error::{Error, Warning};
+use crate::output::Bundle;
+use crate::result::ResultFile;
+use crate::source::{self, Source};
+use std::path::PathBuf;
+use stiction_identify as engine;
+use stiction_identify::{Estimate, Law, LawKind, Observer, Record, Series, Settings, Status};
+use stiction_log::{Motion, Severity};
+
+/// What to identify, and how.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Logs to fit together; all of one axis.
+    pub logs: Vec<PathBuf>,
+    /// Axis file; `None` leaves all to detection.
+    pub axis: Option<PathBuf>,
+    /// Family of the law.
+    pub law: LawKind,
+    /// Whether each direction has parameters of its own.
+    pub asymmetric: bool,
+    /// Logs to validate on.
+    pub validate: Vec<PathBuf>,
+    /// Fit the first part of the samples (0 to 1) and validate on the rest.
+    pub split: Option<f64>,
+    /// Seed of the search.
+    pub seed: u64,
+}
+
+/// Everything that came out, in memory.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// What goes into `result.json`.
+    pub result: ResultFile,
+    /// The fitted law with its signals.
+    pub estimate: Estimate,
+    /// Signals of each validation, with its name.
+    pub validation: Vec<(String, Series)>,
+    /// The logs.
+    pub sources: Vec<Source>,
+    /// Linear or rotary.
+    pub motion: Motion,
+    /// Unit of the force.
+    pub force_unit: String,
+    /// Known values to compare with, by parameter name; empty unless the axis is simulated.
+    pub truth: Vec<(String, f64)>,
+}
+
+/// Reads, conditions, fits, compares laws and validates.
+///
+/// # Errors
+/// Where an input cannot be read or nothing can be identified from it. A fit that should not be
+/// trusted is not an error: see [`ResultFile::trust`].
+pub fn identify(options: &Options, observer: &mut dyn Observer) -> Result<Outcome, Error> {
+    let clock = std::time::Instant::now();
+    let axis = match &options.axis {
+        Some(file) => Axis::read(file)?,
+        None => Axis::default(),
+    };
+    let sources = load_all(&options.logs, &axis)?;
+    let held_out = load_all(&options.validate, &axis)?;
+    check_together(&sources, &held_out)?;
+    let motion = sources[0].log.motion;
+    let force_unit = sources[0].log.force_unit.clone();
+    let terms = axis.terms_for(motion, options.asymmetric)?;
+    let other = axis.terms_for(motion, !options.asymmetric)?;
+    let full = condition(&sources, &axis)?;
+    let (record, split) = match options.split {
+        None => (full.clone(), None),
+        Some(part) => {
+            let at = cut(&full, part)?;
+            (full.masked(|i| i < at), Some(full.masked(|i| i >= at)))
+        }
+    };
+    refuse_rest(&record, &sources, motion)?;
+    let law = Law {
+        kind: options.law,
+        asymmetric: options.asymmetric,
+        exponent: axis.stribeck_exponent,
+    };
+    let low_speed = axis.low_speed.unwrap_or_else(|| engine::low_speed_bound(&full));
+    let settings = Settings { seed: options.seed, ..Settings::default() };
+    let fail = |source| Error::Identify { inputs: names(&options.logs), source };
+    let optimum =
+        engine::separable(&record, law, &terms, &settings, observer).map_err(fail)?;
+    let estimate = engine::estimate(&record, law, &terms, &optimum, low_speed);
+    let mut validation = Vec::new();
+    if let Some(rest) = &split {
+        validation.push(("rest of the log".to_string(), engine::predict(rest, &estimate)));
+    }
+    for source in &held_out {
+        let record = condition(std::slice::from_ref(source), &axis)?;
+        validation.push((source.path.display().to_string(), engine::predict(&record, &estimate)));
+    }
+    let laws = if optimum.status == Status::Interrupted {
+        Vec::new()
+    } else {
+        let held_out = match (&split, held_out.is_empty()) {
+            (Some(rest), _) => Some(rest.clone()),
+            (None, false) => Some(condition(&held_out, &axis)?),
+            (None, true) => None,
+        };
+        let [symmetric, asymmetric] =
+            if options.asymmetric { [&other, &terms] } else { [&terms, &other] };
+        ladder::Ladder {
+            record: &record,
+            held_out: held_out.as_ref(),
+            symmetric,
+            asymmetric,
+            low_speed,
+        }
+        .climb(&estimate, &optimum.bounds, &settings, observer)
+    };
+    let mut warnings = log_warnings(&sources);
+    let trust = trust::judge(&estimate, &record, &sources, &laws, motion, &mut warnings);
+    let resolved = ResolvedAxis {
+        name: axis.name.clone(),
+        kind: motion.to_string(),
+        force_unit: force_unit.clone(),
+        columns: sources[0].log.detected.clone(),
+        conditioning: record.notes.clone(),
+        terms: assemble::term_names(&estimate, motion),
+    };
+    let result = assemble::result(assemble::Parts {
+        options,
+        sources: &sources,
+        axis: resolved,
+        motion,
+        force_unit: &force_unit,
+        estimate: &estimate,
+        validation: &validation,
+        laws,
+        trust,
+        warnings,
+        wall_s: clock.elapsed().as_secs_f64(),
+    });
+    Ok(Outcome { result, estimate, validation, sources, motion, force_unit, truth: Vec::new() })
+}
+
+impl Outcome {
+    /// The files of an identification: `result.json`, `model.toml`, `report.html`, `fit.csv`.
+    pub fn bundle(&self) -> Bundle {
+        let mut bundle = Bundle::default();
+        let model = crate::model::ModelFile::from_result(&self.result);
+        bundle.add("model.toml", model.to_toml());
+        bundle.add("fit.csv", assemble::fit_csv(self));
+        bundle.add("report.html", crate::report::identification(self).to_html());
+        let mut json = serde_json::to_string_pretty(&self.result).expect("plain data");
+        json.push('\n');
+        bundle.add("result.json", json);
+        bundle
+    }
+}
+
+fn load_all(paths: &[PathBuf], axis: &Axis) -> Result<Vec<Source>, Error> {
+    paths.iter().map(|path| source::load(path, axis)).collect()
+}
+
+/// Conditions logs together; the encoder step of the log is used where the axis states none.
+pub(crate) fn condition(sources: &[Source], axis: &Axis) -> Result<Record, Error> {
+    let samples = sources.iter().map(Source::samples).collect::<Result<Vec<_>, _>>()?;
+    let mut conditioning = axis.conditioning;
+    if conditioning.resolution.is_none() {
+        conditioning.resolution = sources.iter().filter_map(|s| s.log.quantum).reduce(f64::min);
+    }
+    engine::condition(&samples, &conditioning).map_err(|source| Error::Identify {
+        inputs: sources.iter().map(|s| s.path.display().to_string()).collect::<Vec<_>>().join(", "),
+        source,
+    })
+}
+
+/// All logs must be of one kind of axis, with force in one unit.
+fn check_together(sources: &[Source], held_out: &[Source]) -> Result<(), Error> {
+    let Some(first) = sources.first() else {
+        return Err(Error::usage("no log given", "name at least one log file"));
+    };
+    for other in sources.iter().chain(held_out).skip(1) {
+        if other.log.motion != first.log.motion || other.log.force_unit != first.log.force_unit {
+            return Err(Error::usage(
+                format!(
+                    "{} is {} with force in {}, {} is {} with force in {}",
+                    first.path.display(),
+                    first.log.motion,
+                    first.log.force_unit,
+                    other.path.display(),
+                    other.log.motion,
+                    other.log.force_unit
+                ),
+                "logs that are fitted or validated together must be of one axis",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Index of the first sample of the regression that is held out.
+fn cut(record: &Record, part: f64) -> Result<usize, Error> {
+    if !(part > 0.0 && part < 1.0) {
+        return Err(Error::usage(format!("--split {part}"), "a number between 0 and 1, such as 0.5"));
+    }
+    Ok((part * record.len() as f64) as usize)
+}
+
+/// Refuses a log without motion, in the words of its own unit.
+fn refuse_rest(record: &Record, sources: &[Source], motion: Motion) -> Result<(), Error> {
+    let top = record.top_speed();
+    let still = sources.iter().all(|s| {
+        s.log.findings.iter().any(|f| f.code == "no-motion")
+    });
+    if top > 0.0 && !still {
+        return Ok(());
+    }
+    Err(Error::Identify {
+        inputs: sources.iter().map(|s| s.path.display().to_string()).collect::<Vec<_>>().join(", "),
+        source: engine::Error::NoMotion { bound: top, unit: crate::symbols::speed_unit(motion) },
+    })
+}
+
+fn log_warnings(sources: &[Source]) -> Vec<Warning> {
+    sources
+        .iter()
+        .flat_map(|s| {
+            s.log.findings.iter().filter(|f| f.severity == Severity::Warning).map(|f| {
+                Warning::new(f.code, format!("{}: {}", s.path.display(), f.message))
+            })
+        })
+        .collect()
+}
+
+fn names(paths: &[PathBuf]) -> String {
+    paths.iter().map(|p| p.display().to_string()).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,145 @@
+//! From what the engine found to what goes to disk.
+
+use super::{Options, Outcome};
+use crate::axis::ResolvedAxis;
+use crate::error::Warning;
+use crate::result::{
+    CovarianceEntry, FitEntry, LawEntry, LowSpeedEntry, ParameterEntry, ResultFile, SCHEMA, Search,
+    Trust, ValidationEntry,
+};
+use crate::source::Source;
+use crate::symbols;
+use std::fmt::Write;
+use stiction_identify::{Estimate, Fit, Parameter, Series};
+use stiction_log::Motion;
+
+pub(super) struct Parts<'a> {
+    pub options: &'a Options,
+    pub sources: &'a [Source],
+    pub axis: ResolvedAxis,
+    pub motion: Motion,
+    pub force_unit: &'a str,
+    pub estimate: &'a Estimate,
+    pub validation: &'a [(String, Series)],
+    pub laws: Vec<LawEntry>,
+    pub trust: Trust,
+    pub warnings: Vec<Warning>,
+    pub wall_s: f64,
+}
+
+pub(super) fn result(parts: Parts) -> ResultFile {
+    let Parts { estimate, motion, force_unit, .. } = parts;
+    let signal = match motion {
+        Motion::Linear => "force",
+        Motion::Rotary => "torque",
+    };
+    // A current or voltage that was not scaled keeps its own name.
+    let signal = match force_unit {
+        "A" => "current",
+        "V" => "voltage",
+        _ => signal,
+    };
+    let fit_entry = |fit: &Fit| FitEntry::new(fit, signal, force_unit);
+    let low_entry = |fit: &Fit| LowSpeedEntry {
+        bound: estimate.low_speed_bound,
+        bound_unit: symbols::speed_unit(motion).into(),
+        fit: fit_entry(fit),
+    };
+    let validation = parts
+        .validation
+        .iter()
+        .filter_map(|(path, series)| {
+            let residual = series.residual();
+            let fit = Fit::new(&series.measured, &residual)?;
+            let slow = Fit::slow(
+                &series.measured,
+                &residual,
+                &series.velocity,
+                estimate.low_speed_bound,
+            );
+            Some(ValidationEntry {
+                path: path.clone(),
+                fit: fit_entry(&fit),
+                low_speed: slow.as_ref().map(low_entry),
+            })
+        })
+        .collect();
+    ResultFile {
+        schema: SCHEMA.into(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        seed: parts.options.seed,
+        inputs: parts.sources.iter().map(Source::input).collect(),
+        axis: parts.axis,
+        law: estimate.law.kind.name().into(),
+        asymmetric: estimate.law.asymmetric,
+        method: "separable".into(),
+        trust: parts.trust,
+        parameters: estimate
+            .parameters
+            .iter()
+            .map(|p| parameter(p, motion, force_unit))
+            .collect(),
+        covariance: CovarianceEntry {
+            names: estimate.covariance.names.clone(),
+            matrix: estimate.covariance.matrix.clone(),
+        },
+        fit: fit_entry(&estimate.fit),
+        low_speed: estimate.low_speed.as_ref().map(low_entry),
+        validation,
+        laws: parts.laws,
+        search: Search {
+            status: estimate.status.name().into(),
+            evaluations: estimate.counts.total(),
+            with_sensitivities: estimate.counts.sensitivities,
+            thinned: estimate.counts.thinned,
+            iterations: estimate.iterations,
+            wall_s: parts.wall_s,
+        },
+        warnings: parts.warnings,
+    }
+}
+
+fn parameter(p: &Parameter, motion: Motion, force_unit: &str) -> ParameterEntry {
+    ParameterEntry {
+        name: p.name.clone(),
+        symbol: symbols::symbol(&p.name),
+        value: p.value,
+        unit: symbols::unit(p.dimension, motion, force_unit),
+        std: p.std,
+        ci95: p.ci95.map(|(low, high)| [low, high]),
+        identifiable: p.identifiable,
+        origin: if p.identified { "identified" } else { "given" }.into(),
+        reason: p.reason.clone(),
+    }
+}
+
+/// Names of the linear terms that stand beside the law.
+pub(super) fn term_names(estimate: &Estimate, motion: Motion) -> Vec<String> {
+    const LAW: [&str; 6] =
+        ["sigma0", "sigma1", "sigma2", "coulomb", "static", "stribeck_velocity"];
+    estimate
+        .parameters
+        .iter()
+        .filter(|p| !LAW.iter().any(|own| p.name.starts_with(own)))
+        .filter(|p| p.name != "stribeck_exponent")
+        .map(|p| format!("{} ({})", p.name, symbols::meaning(&p.name, motion)))
+        .collect()
+}
+
+/// `fit.csv`: time, measured, model, residual, and the number of the log where there are several.
+pub(super) fn fit_csv(outcome: &Outcome) -> String {
+    let unit = &outcome.force_unit;
+    let series = &outcome.estimate.series;
+    let several = outcome.sources.len() > 1;
+    let mut out = format!("time [s],measured [{unit}],model [{unit}],residual [{unit}]");
+    out.push_str(if several { ",log\n" } else { "\n" });
+    for i in 0..series.time.len() {
+        let (u, y) = (series.measured[i], series.model[i]);
+        let _ = write!(out, "{},{},{},{}", series.time[i], u, y, u - y);
+        if several {
+            let _ = write!(out, ",{}", series.log[i] + 1);
+        }
+        out.push('\n');
+    }
+    out
+}

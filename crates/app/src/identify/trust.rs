@@ -1,0 +1,161 @@
+//! Whether a result may be used: every rule that can say no, in one place.
+
+use crate::error::Warning;
+use crate::result::{LawEntry, Trust};
+use crate::source::Source;
+use crate::symbols;
+use stiction_identify::{Estimate, Record, Status};
+use stiction_log::Motion;
+
+/// Part of the variance that a fit must explain.
+const LEAST_R2: f64 = 0.5;
+/// Part of the samples that may be saturated.
+const MOST_SATURATED: f64 = 0.2;
+/// Correlation above which a pair of parameters is named.
+const STRONG: f64 = 0.9;
+/// How much worse than a simpler law the chosen one may do before it is said, relative.
+const WORSE: f64 = 1.02;
+
+/// Adds warnings about the fit and says whether its numbers may be used.
+pub(super) fn judge(
+    estimate: &Estimate,
+    record: &Record,
+    sources: &[Source],
+    laws: &[LawEntry],
+    motion: Motion,
+    warnings: &mut Vec<Warning>,
+) -> Trust {
+    let mut reasons = Vec::new();
+    match estimate.status {
+        Status::Converged => {}
+        Status::Interrupted => {
+            let text = "the search was interrupted; the best found so far is given";
+            warnings.push(Warning::new("interrupted", text));
+            reasons.push(text.to_string());
+        }
+        Status::Budget | Status::Stalled => {
+            let text =
+                format!("the search did not converge (status {})", estimate.status.name());
+            warnings.push(Warning::new("not-converged", text.clone()));
+            reasons.push(text);
+        }
+    }
+    if !(estimate.fit.r2 >= LEAST_R2) {
+        let text = format!(
+            "the law explains {:.0} % of the variance of the force; at least {:.0} % are needed \
+             to trust its parameters",
+            100.0 * estimate.fit.r2.max(0.0),
+            100.0 * LEAST_R2
+        );
+        warnings.push(Warning::new("poor-fit", text.clone()));
+        reasons.push(text);
+    }
+    if !record.moves_both_ways() {
+        let text = "the axis moves in one direction only: friction cannot be told from a constant \
+                    force";
+        if !warnings.iter().any(|w| w.code == "one-direction") {
+            warnings.push(Warning::new("one-direction", text));
+        }
+        reasons.push(text.to_string());
+    }
+    saturation(sources, &mut reasons);
+    unidentifiable(estimate, motion, warnings, &mut reasons);
+    simpler_wins(estimate, laws, warnings);
+    Trust { trustworthy: reasons.is_empty(), reasons }
+}
+
+fn saturation(sources: &[Source], reasons: &mut Vec<String>) {
+    let total: usize = sources.iter().map(|s| s.log.time.len()).sum();
+    let saturated: usize = sources
+        .iter()
+        .flat_map(|s| s.log.excluded.iter().filter(|e| e.code == "saturation"))
+        .map(|e| e.samples.len())
+        .sum();
+    let part = saturated as f64 / total.max(1) as f64;
+    if part > MOST_SATURATED {
+        reasons.push(format!(
+            "the force is saturated in {:.0} % of the samples (at most {:.0} % can be left out)",
+            100.0 * part,
+            100.0 * MOST_SATURATED
+        ));
+    }
+}
+
+/// Names each parameter that the data do not determine, and the one it is confused with.
+fn unidentifiable(
+    estimate: &Estimate,
+    motion: Motion,
+    warnings: &mut Vec<Warning>,
+    reasons: &mut Vec<String>,
+) {
+    let correlation = estimate.covariance.correlation();
+    for parameter in estimate.parameters.iter().filter(|p| !p.identifiable) {
+        let meaning = symbols::meaning(&parameter.name, motion);
+        let mut text = format!("{} ({meaning}): {}", parameter.name, parameter.reason);
+        let row = estimate.covariance.names.iter().position(|n| *n == parameter.name);
+        if let Some(i) = row {
+            let partner = (0..correlation.len())
+                .filter(|&j| j != i)
+                .max_by(|&a, &b| correlation[i][a].abs().total_cmp(&correlation[i][b].abs()));
+            if let Some(j) = partner
+                && correlation[i][j].abs() >= STRONG
+            {
+                text.push_str(&format!(
+                    "; moves together with {} (correlation {:+.2})",
+                    estimate.covariance.names[j], correlation[i][j]
+                ));
+            }
+        }
+        text.push_str(&format!(". {}", cure(&parameter.name)));
+        warnings.push(Warning::new("not-identifiable", text));
+        if parameter.name.starts_with("coulomb") {
+            reasons.push(format!("{} is not determined by this log", parameter.name));
+        }
+    }
+}
+
+/// What motion would determine a parameter.
+fn cure(name: &str) -> &'static str {
+    let stem = name.trim_end_matches("_pos").trim_end_matches("_neg");
+    match stem {
+        "sigma0" | "sigma1" => {
+            "Record slow reversals within the presliding range, with a finer encoder or a higher \
+             rate"
+        }
+        "sigma2" => "Record constant speeds up to the top speed of the axis",
+        "static" | "stribeck_velocity" => {
+            "Record slow motion through the Stribeck range: speeds well below and above the \
+             Stribeck velocity"
+        }
+        "mass" => "Record faster accelerations",
+        "coulomb" => "Record motion in both directions well above the Stribeck velocity",
+        _ => "Record motion over more of the stroke in both directions",
+    }
+}
+
+fn simpler_wins(estimate: &Estimate, laws: &[LawEntry], warnings: &mut Vec<Warning>) {
+    let is_chosen = |l: &&LawEntry| {
+        l.law == estimate.law.kind.name() && l.asymmetric == estimate.law.asymmetric
+    };
+    let (Some(chosen), Some(best)) =
+        (laws.iter().find(is_chosen), laws.iter().find(|l| l.best))
+    else {
+        return;
+    };
+    if let (Some(mine), Some(least)) =
+        (chosen.held_out_error_percent, best.held_out_error_percent)
+        && best.parameters < chosen.parameters
+        && mine > WORSE * least
+    {
+        let side = if best.asymmetric { " --asymmetric" } else { "" };
+        warnings.push(Warning::new(
+            "simpler-law-holds-better",
+            format!(
+                "on held-out samples --law {}{side} leaves {least:.2} %, {} {mine:.2} %: the richer \
+                 law is not supported by this log",
+                best.law,
+                estimate.law.kind.name()
+            ),
+        ));
+    }
+}

@@ -1,0 +1,163 @@
+//! `model.toml`: a friction law with parameters, units, intervals, and where they came from.
+
+use crate::error::Error;
+use crate::result::{CovarianceEntry, ParameterEntry, ResultFile};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// Name of the schema.
+pub const SCHEMA: &str = "stiction.model/1";
+
+/// The whole file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ModelFile {
+    /// `stiction.model/1`.
+    pub schema: String,
+    /// Name of the axis.
+    pub name: Option<String>,
+    /// `linear` or `rotary`.
+    pub kind: String,
+    /// Family of the law.
+    pub law: String,
+    /// Whether each direction has parameters of its own.
+    pub asymmetric: bool,
+    /// Unit of the force channel.
+    pub force_unit: String,
+    /// Whether the identification stood by its numbers.
+    pub trustworthy: bool,
+    /// Where the numbers came from.
+    pub source: SourceEntry,
+    /// Parameters of the law.
+    pub parameter: Vec<ModelParameter>,
+    /// Covariance of the identified parameters.
+    pub covariance: CovarianceEntry,
+}
+
+/// Where the numbers came from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SourceEntry {
+    /// Version of stiction.
+    pub version: String,
+    /// Search method.
+    pub method: String,
+    /// Seed of the search.
+    pub seed: u64,
+    /// Paths and hashes of the logs.
+    pub inputs: Vec<SourceInput>,
+}
+
+/// One log.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SourceInput {
+    /// Path as given.
+    pub path: String,
+    /// SHA-256 of the file.
+    pub sha256: String,
+}
+
+/// One parameter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ModelParameter {
+    /// Name, such as `sigma0`.
+    pub name: String,
+    /// Symbol for people.
+    pub symbol: String,
+    /// Value in `unit`.
+    pub value: f64,
+    /// SI unit.
+    pub unit: String,
+    /// Standard deviation; absent where the data say nothing.
+    pub std: Option<f64>,
+    /// 95 % interval; absent where the data bound it on no side.
+    pub ci95: Option<[f64; 2]>,
+    /// Whether the data determine it.
+    pub identifiable: bool,
+    /// `identified` or `given`.
+    pub origin: String,
+}
+
+impl From<&ParameterEntry> for ModelParameter {
+    fn from(p: &ParameterEntry) -> Self {
+        Self {
+            name: p.name.clone(),
+            symbol: p.symbol.clone(),
+            value: p.value,
+            unit: p.unit.clone(),
+            std: p.std,
+            ci95: p.ci95,
+            identifiable: p.identifiable,
+            origin: p.origin.clone(),
+        }
+    }
+}
+
+impl ModelFile {
+    /// The model that a result holds.
+    pub fn from_result(result: &ResultFile) -> Self {
+        Self {
+            schema: SCHEMA.into(),
+            name: result.axis.name.clone(),
+            kind: result.axis.kind.clone(),
+            law: result.law.clone(),
+            asymmetric: result.asymmetric,
+            force_unit: result.axis.force_unit.clone(),
+            trustworthy: result.trust.trustworthy,
+            source: SourceEntry {
+                version: result.version.clone(),
+                method: result.method.clone(),
+                seed: result.seed,
+                inputs: result
+                    .inputs
+                    .iter()
+                    .map(|i| SourceInput { path: i.path.clone(), sha256: i.sha256.clone() })
+                    .collect(),
+            },
+            parameter: result.parameters.iter().map(ModelParameter::from).collect(),
+            covariance: result.covariance.clone(),
+        }
+    }
+
+    /// The text of the file.
+    pub fn to_toml(&self) -> String {
+        let body = toml::to_string(self).expect("a model has only tables, numbers and text");
+        format!(
+            "# Friction model identified by stiction. Units are SI; ci95 is the 95 % interval.\n{body}"
+        )
+    }
+
+    /// Reads a model file.
+    ///
+    /// # Errors
+    /// When the text is no model of this schema.
+    pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
+        let refuse = |place: String, found: String, allowed: String| Error::Config {
+            file: file.to_path_buf(),
+            place,
+            found,
+            allowed,
+        };
+        let model: Self = toml::from_str(text).map_err(|e| {
+            let line = e.span().map(|s| {
+                text.as_bytes()[..s.start.min(text.len())].iter().filter(|&&b| b == b'\n').count()
+            });
+            refuse(
+                line.map_or(String::new(), |l| format!("line {}: ", l + 1)),
+                e.message().trim().replace('\n', " "),
+                "a model.toml as written by stiction identify".into(),
+            )
+        })?;
+        if model.schema != SCHEMA {
+            let found = format!("schema {:?}", model.schema);
+            return Err(refuse("schema: ".into(), found, format!("this version reads {SCHEMA:?}")));
+        }
+        if let Some(p) = model.parameter.iter().find(|p| !p.value.is_finite()) {
+            let found = format!("{} is {}", p.name, p.value);
+            return Err(refuse("parameter: ".into(), found, "finite numbers".into()));
+        }
+        Ok(model)
+    }
+}

@@ -1,0 +1,279 @@
+//! The figures of the report.
+
+use crate::identify::Outcome;
+use crate::symbols;
+use stiction_identify::Series;
+use stiction_report::{Axis, Color, Dash, Figure, Heatmap, Layer, Panel, Text};
+use stiction_signal::autocorrelation as correlate;
+
+/// Lags of the autocorrelation, at most.
+const LAGS: usize = 200;
+
+fn signal_name(outcome: &Outcome) -> String {
+    let name = outcome.result.fit.signal.as_str();
+    let mut out: String = name[..1].to_uppercase();
+    out.push_str(&name[1..]);
+    out
+}
+
+fn force_axis(outcome: &Outcome) -> Axis {
+    Axis::new(signal_name(outcome), outcome.force_unit.as_str())
+}
+
+fn friction_axis(outcome: &Outcome) -> Axis {
+    Axis::new(format!("Friction {}", outcome.result.fit.signal), outcome.force_unit.as_str())
+}
+
+fn velocity_axis(outcome: &Outcome) -> Axis {
+    Axis::new("Velocity", symbols::speed_unit(outcome.motion))
+}
+
+/// Friction in the measured force: what is left after inertia and the other terms.
+fn friction(values: &[f64], series: &Series) -> Vec<f64> {
+    values.iter().zip(&series.other).map(|(u, o)| u - o).collect()
+}
+
+/// Friction over velocity: measured cloud, model, the steady curve with its band.
+pub(super) fn velocity_map(outcome: &Outcome) -> Figure {
+    let series = &outcome.estimate.series;
+    let top = series.velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let v: Vec<f64> = grid(top);
+    let curve: Vec<f64> = v.iter().map(|&v| steady(outcome, v)).collect();
+    let band: Vec<f64> = v.iter().map(|&v| 1.96 * steady_std(outcome, v)).collect();
+    let low: Vec<f64> = curve.iter().zip(&band).map(|(f, b)| f - b).collect();
+    let high: Vec<f64> = curve.iter().zip(&band).map(|(f, b)| f + b).collect();
+    let panel = Panel::new(velocity_axis(outcome), friction_axis(outcome))
+        .layer(
+            Layer::points(series.velocity.clone(), friction(&series.measured, series))
+                .color(Color::Grey)
+                .label("Measured, inertia taken off"),
+        )
+        .layer(
+            Layer::line(series.velocity.clone(), friction(&series.model, series))
+                .color(Color::Blue)
+                .width(1.0)
+                .opacity(0.7)
+                .label("Model along the log"),
+        )
+        .layer(Layer::band(v.clone(), low, high).color(Color::Vermilion).label("95 % band"))
+        .layer(Layer::line(v, curve).color(Color::Vermilion).width(2.0).label("Steady curve"))
+        .height(320.0);
+    Figure::new("Friction over velocity").panel(panel).caption(
+        "The steady curve is what the law gives at constant velocity; the model along the log also \
+         shows presliding and lag around reversals.",
+    )
+}
+
+/// Points dense near zero speed, none at it.
+fn grid(top: f64) -> Vec<f64> {
+    let half: Vec<f64> = (0..160).map(|i| top * (i as f64 / 159.0).powi(3)).skip(1).collect();
+    half.iter().rev().map(|v| -v).chain(half.iter().copied()).collect()
+}
+
+fn value(outcome: &Outcome, name: &str, v: f64) -> f64 {
+    let side = if v < 0.0 { "_neg" } else { "_pos" };
+    outcome
+        .estimate
+        .value(name)
+        .or_else(|| outcome.estimate.value(&format!("{name}{side}")))
+        .unwrap_or(0.0)
+}
+
+/// Steady friction at one velocity, without the terms beside the law.
+fn steady(outcome: &Outcome, v: f64) -> f64 {
+    let coulomb = value(outcome, "coulomb", v);
+    let fixed = match value(outcome, "static", v) {
+        0.0 => coulomb,
+        fixed => fixed,
+    };
+    let velocity = value(outcome, "stribeck_velocity", v);
+    let fall = if velocity > 0.0 {
+        (-(v.abs() / velocity).powf(outcome.estimate.law.exponent)).exp()
+    } else {
+        0.0
+    };
+    (coulomb + (fixed - coulomb) * fall) * v.signum() + value(outcome, "sigma2", v) * v
+}
+
+/// Standard deviation of the steady curve, from the covariance of the parameters.
+fn steady_std(outcome: &Outcome, v: f64) -> f64 {
+    let covariance = &outcome.estimate.covariance;
+    let coulomb = value(outcome, "coulomb", v);
+    let fixed = value(outcome, "static", v);
+    let velocity = value(outcome, "stribeck_velocity", v);
+    let exponent = outcome.estimate.law.exponent;
+    let x = if velocity > 0.0 { v.abs() / velocity } else { f64::INFINITY };
+    let fall = (-x.powf(exponent)).exp();
+    let side = if v < 0.0 { "_neg" } else { "_pos" };
+    let slopes: Vec<f64> = covariance
+        .names
+        .iter()
+        .map(|name| {
+            let stem = match name.strip_suffix("_pos").or_else(|| name.strip_suffix("_neg")) {
+                Some(_) if !name.ends_with(side) => return 0.0,
+                Some(stem) => stem,
+                None => name,
+            };
+            match stem {
+                "coulomb" => v.signum() * (1.0 - if fixed > 0.0 { fall } else { 0.0 }),
+                "static" => v.signum() * fall,
+                "stribeck_velocity" if velocity > 0.0 && fall > 0.0 => {
+                    v.signum() * (fixed - coulomb) * fall * exponent * x.powf(exponent) / velocity
+                }
+                "sigma2" => v,
+                _ => 0.0,
+            }
+        })
+        .collect();
+    let mut variance = 0.0;
+    for (row, a) in covariance.matrix.iter().zip(&slopes) {
+        for (c, b) in row.iter().zip(&slopes) {
+            if *a != 0.0 && *b != 0.0 {
+                variance += a * c * b;
+            }
+        }
+    }
+    variance.max(0.0).sqrt()
+}
+
+/// The map near zero speed.
+pub(super) fn low_speed(outcome: &Outcome) -> Figure {
+    let series = &outcome.estimate.series;
+    let bound = 2.0 * outcome.estimate.low_speed_bound;
+    let near: Vec<bool> = series.velocity.iter().map(|v| v.abs() <= bound).collect();
+    // A gap breaks the line, so that two passes are not joined.
+    let pick = |x: &[f64]| -> Vec<f64> {
+        x.iter().zip(&near).map(|(x, &n)| if n { *x } else { f64::NAN }).collect()
+    };
+    let panel = Panel::new(velocity_axis(outcome).range(-bound, bound), friction_axis(outcome))
+        .layer(
+            Layer::points(pick(&series.velocity), pick(&friction(&series.measured, series)))
+                .color(Color::Grey)
+                .label("Measured"),
+        )
+        .layer(
+            Layer::line(pick(&series.velocity), pick(&friction(&series.model, series)))
+                .color(Color::Blue)
+                .label("Model"),
+        );
+    Figure::new("Near zero speed").panel(panel).half()
+}
+
+/// Friction over position around the reversal where most is recorded.
+pub(super) fn presliding(outcome: &Outcome) -> Figure {
+    let series = &outcome.estimate.series;
+    let length = symbols::length_unit(outcome.motion);
+    let window = reversal(outcome, series);
+    let origin = series.position.get(window.start).copied().unwrap_or(0.0);
+    let x: Vec<f64> = series.position[window.clone()].iter().map(|x| x - origin).collect();
+    let measured = friction(&series.measured, series)[window.clone()].to_vec();
+    let model = friction(&series.model, series)[window].to_vec();
+    let panel = Panel::new(Axis::new("Position from the reversal", length), friction_axis(outcome))
+        .layer(Layer::line(x.clone(), measured).color(Color::Grey).label("Measured"))
+        .layer(Layer::line(x, model).color(Color::Blue).label("Model"));
+    Figure::new("Presliding around a reversal").panel(panel).half()
+}
+
+/// Samples around the slowest reversal: from it until the bristle has surely turned over.
+fn reversal(outcome: &Outcome, series: &Series) -> std::ops::Range<usize> {
+    let n = series.velocity.len();
+    let turns = (1..n).filter(|&i| series.velocity[i - 1] * series.velocity[i] < 0.0);
+    let length = match outcome.estimate.value("sigma0") {
+        Some(s) if s > 0.0 => 8.0 * value(outcome, "coulomb", 1.0) / s,
+        _ => 0.0,
+    };
+    let reach = |turn: usize| {
+        let origin = series.position[turn];
+        let mut end = turn;
+        while end + 1 < n
+            && end - turn < n / 10 + 20
+            && (series.position[end] - origin).abs() <= length
+        {
+            end += 1;
+        }
+        let mut start = turn;
+        while start > 0
+            && turn - start < n / 10 + 20
+            && (series.position[start] - origin).abs() <= length
+        {
+            start -= 1;
+        }
+        start..end + 1
+    };
+    turns.map(reach).max_by_key(std::ops::Range::len).unwrap_or(0..n.min(200))
+}
+
+/// Measured, model and residual in time.
+pub(super) fn time(outcome: &Outcome) -> Figure {
+    in_time(outcome, &outcome.estimate.series, "Force in time")
+}
+
+/// The same on data that were not fitted.
+pub(super) fn validation(outcome: &Outcome, path: &str, series: &Series) -> Figure {
+    in_time(outcome, series, &format!("Validation: {path}"))
+}
+
+fn in_time(outcome: &Outcome, series: &Series, title: &str) -> Figure {
+    let time = clock(series);
+    let axis = || Axis::new("Time", "s");
+    let top = Panel::new(axis(), force_axis(outcome))
+        .layer(Layer::line(time.clone(), series.measured.clone()).color(Color::Grey).label("Measured"))
+        .layer(Layer::line(time.clone(), series.model.clone()).color(Color::Blue).label("Model"));
+    let middle = Panel::new(axis(), Axis::new("Residual", outcome.force_unit.as_str()))
+        .layer(Layer::line(time.clone(), series.residual()).color(Color::Vermilion))
+        .height(110.0);
+    let bottom = Panel::new(axis(), velocity_axis(outcome))
+        .layer(Layer::line(time, series.velocity.clone()).color(Color::Green))
+        .height(90.0);
+    Figure::new(title).panel(top).panel(middle).panel(bottom).shared_x()
+}
+
+/// One time axis through all logs: each starts where the one before ended.
+fn clock(series: &Series) -> Vec<f64> {
+    let mut shift = 0.0;
+    let mut out: Vec<f64> = Vec::with_capacity(series.time.len());
+    for i in 0..series.time.len() {
+        if i > 0 && series.log[i] != series.log[i - 1] {
+            shift = out[i - 1] - series.time[i];
+        }
+        out.push(series.time[i] + shift);
+    }
+    out
+}
+
+/// Autocorrelation of the residual with the band of white noise.
+pub(super) fn autocorrelation(outcome: &Outcome) -> Figure {
+    let residual = outcome.estimate.series.residual();
+    let lags = LAGS.min(residual.len().saturating_sub(1));
+    let acf = correlate(&residual, lags).unwrap_or_default();
+    let band = 1.96 / (residual.len().max(1) as f64).sqrt();
+    let x: Vec<f64> = (0..acf.len()).map(|i| i as f64).collect();
+    let panel = Panel::new(Axis::new("Lag", "samples"), Axis::new("Autocorrelation", ""))
+        .layer(Layer::hband(-band, band).label("White noise, 95 %"))
+        .layer(Layer::line(x, acf).color(Color::Blue));
+    Figure::new("Autocorrelation of the residual").panel(panel).half()
+}
+
+/// Relative residual over evaluations.
+pub(super) fn convergence(outcome: &Outcome) -> Figure {
+    let history = &outcome.estimate.history;
+    let x: Vec<f64> = history.iter().map(|(n, _)| *n as f64).collect();
+    let y: Vec<f64> = history.iter().map(|(_, r)| 100.0 * r).collect();
+    let panel = Panel::new(
+        Axis::new("Evaluations", ""),
+        Axis::new("Relative error", "%").log(),
+    )
+    .layer(Layer::line(x.clone(), y.clone()).color(Color::Blue).dash(Dash::Dotted))
+    .layer(Layer::points(x, y).color(Color::Blue));
+    Figure::new("Convergence on the full record").panel(panel).half()
+}
+
+/// Correlation of the parameters.
+pub(super) fn correlation(outcome: &Outcome) -> Heatmap {
+    let covariance = &outcome.estimate.covariance;
+    let names: Vec<Text> =
+        covariance.names.iter().map(|n| Text::from(symbols::symbol(n))).collect();
+    let values: Vec<f64> = covariance.correlation().into_iter().flatten().collect();
+    Heatmap::square("Correlation of the parameters", names, values)
+        .caption("Pairs near ±1 move together: the log tells their combination, not each of them.")
+}

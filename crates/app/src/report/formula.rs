@@ -1,0 +1,109 @@
+//! The identified law as a formula, with its numbers.
+
+use crate::identify::Outcome;
+use stiction_report::math::{Math, abs, dot, frac, id, num, op, paren, quantity, row, sub, sup};
+use stiction_report::{Block, number};
+
+/// The formula of the law, then the same with the identified numbers.
+pub(super) fn with_numbers(outcome: &Outcome) -> Block {
+    let law = outcome.result.law.as_str();
+    let asymmetric = outcome.result.asymmetric;
+    let mut lines = match law {
+        "lugre" | "dahl" => bristle(law == "lugre"),
+        _ => vec![row([
+            id("F"),
+            op("="),
+            id("g"),
+            paren(id("v")),
+            id("sgn"),
+            id("v"),
+            op("+"),
+            sub(id("σ"), num("2")),
+            id("v"),
+        ])],
+    };
+    let sides: &[&str] = if asymmetric { &["_pos", "_neg"] } else { &[""] };
+    for side in sides {
+        lines.push(level(outcome, side));
+    }
+    let sigma = |name: &str, digit: &str| {
+        let p = outcome.result.parameters.iter().find(|p| p.name == name)?;
+        Some(row([
+            sub(id("σ"), num(digit)),
+            op("="),
+            quantity(number::sig(p.value, 4), p.unit.clone()),
+        ]))
+    };
+    let mut numbers: Vec<Math> = Vec::new();
+    numbers.extend(sigma("sigma0", "0"));
+    numbers.extend(sigma("sigma1", "1"));
+    for side in sides {
+        numbers.extend(sigma(&format!("sigma2{side}"), "2"));
+    }
+    lines.extend(numbers);
+    let caption = match law {
+        "lugre" => "LuGre (Canudas de Wit, Olsson, Åström, Lischinsky 1995), g in units of force.",
+        "dahl" => "Dahl: LuGre without Stribeck curve and micro-damping.",
+        "stribeck" => "Static Stribeck curve.",
+        _ => "Coulomb and viscous friction.",
+    };
+    Block::Formula(lines, caption.into())
+}
+
+fn bristle(lugre: bool) -> Vec<Math> {
+    let mut force = vec![id("F"), op("="), sub(id("σ"), num("0")), id("z")];
+    if lugre {
+        force.extend([op("+"), sub(id("σ"), num("1")), dot(id("z"))]);
+    }
+    force.extend([op("+"), sub(id("σ"), num("2")), id("v")]);
+    vec![
+        row(force),
+        row([
+            dot(id("z")),
+            op("="),
+            id("v"),
+            op("−"),
+            frac(
+                row([sub(id("σ"), num("0")), abs(id("v"))]),
+                row([id("g"), paren(id("v"))]),
+            ),
+            id("z"),
+        ]),
+    ]
+}
+
+/// `g(v)` of one direction with its numbers.
+fn level(outcome: &Outcome, side: &str) -> Math {
+    let value = |name: &str| {
+        outcome.result.parameters.iter().find(|p| p.name == format!("{name}{side}"))
+    };
+    let sign = match side {
+        "_pos" => "+",
+        "_neg" => "−",
+        _ => "",
+    };
+    let g = if sign.is_empty() { id("g") } else { sup(id("g"), op(sign)) };
+    let mut parts = vec![g, paren(id("v")), op("=")];
+    if let Some(coulomb) = value("coulomb") {
+        match (value("static"), value("stribeck_velocity")) {
+            (Some(fixed), Some(velocity)) => {
+                parts.push(num(number::sig(coulomb.value, 4)));
+                parts.push(op("+"));
+                parts.push(num(number::sig(fixed.value - coulomb.value, 4)));
+                let ratio = frac(abs(id("v")), num(number::sig(velocity.value, 4)));
+                let exponent = outcome
+                    .result
+                    .parameters
+                    .iter()
+                    .find(|p| p.name == "stribeck_exponent")
+                    .map_or(2.0, |p| p.value);
+                let power = sup(paren(ratio), num(number::sig(exponent, 3).trim_end_matches(".00")));
+                parts.push(id("exp"));
+                parts.push(paren(row([op("−"), power])));
+                parts.push(Math::Unit(coulomb.unit.clone()));
+            }
+            _ => parts.push(quantity(number::sig(coulomb.value, 4), coulomb.unit.clone())),
+        }
+    }
+    row(parts)
+}

@@ -1,0 +1,197 @@
+//! `result.json`: everything an identification found. Schema `stiction.result/1`, only ever extended.
+
+use crate::axis::ResolvedAxis;
+use crate::error::Warning;
+use serde::{Deserialize, Serialize};
+use stiction_identify as identify;
+
+/// Name of the schema.
+pub const SCHEMA: &str = "stiction.result/1";
+
+/// The whole file; described key by key in `docs/result.md`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ResultFile {
+    /// `stiction.result/1`.
+    pub schema: String,
+    /// Version of stiction.
+    pub version: String,
+    /// Seed of the search.
+    pub seed: u64,
+    /// The logs that were fitted.
+    pub inputs: Vec<Input>,
+    /// The axis, resolved.
+    pub axis: ResolvedAxis,
+    /// Family of the law.
+    pub law: String,
+    /// Whether each direction has parameters of its own.
+    pub asymmetric: bool,
+    /// Search method.
+    pub method: String,
+    /// Whether the numbers may be used, and if not, why.
+    pub trust: Trust,
+    /// Parameters of the law.
+    pub parameters: Vec<ParameterEntry>,
+    /// Covariance of the identified parameters.
+    pub covariance: CovarianceEntry,
+    /// Fit on the logs it was fitted to.
+    pub fit: FitEntry,
+    /// The same near zero speed; absent where no sample is slow.
+    pub low_speed: Option<LowSpeedEntry>,
+    /// Fit on logs (or parts of them) that were not fitted.
+    pub validation: Vec<ValidationEntry>,
+    /// Laws side by side on held-out samples.
+    pub laws: Vec<LawEntry>,
+    /// How the search went.
+    pub search: Search,
+    /// What to beware of.
+    pub warnings: Vec<Warning>,
+}
+
+/// One log as it was read.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Input {
+    /// Path as given.
+    pub path: String,
+    /// SHA-256 of the file, hexadecimal.
+    pub sha256: String,
+    /// Samples read.
+    pub samples: usize,
+    /// Median sample rate, Hz.
+    pub rate_hz: f64,
+    /// What was detected.
+    pub detected: Vec<String>,
+}
+
+/// Whether the result may be used.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Trust {
+    /// False makes exit code 1.
+    pub trustworthy: bool,
+    /// Why not; empty if it is.
+    pub reasons: Vec<String>,
+}
+
+/// One parameter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ParameterEntry {
+    /// Name, such as `sigma0`.
+    pub name: String,
+    /// Symbol for people.
+    pub symbol: String,
+    /// Value in `unit`.
+    pub value: f64,
+    /// SI unit.
+    pub unit: String,
+    /// Standard deviation; `null` where the data say nothing.
+    pub std: Option<f64>,
+    /// 95 % interval; `null` where the data bound it on no side.
+    pub ci95: Option<[f64; 2]>,
+    /// Whether the data determine it.
+    pub identifiable: bool,
+    /// `identified` or `given`.
+    pub origin: String,
+    /// Why it is not identifiable; empty if it is.
+    pub reason: String,
+}
+
+/// Covariance matrix with its names.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CovarianceEntry {
+    /// Names of rows and columns.
+    pub names: Vec<String>,
+    /// Row by row; zero rows for parameters that the data do not determine at all.
+    pub matrix: Vec<Vec<f64>>,
+}
+
+/// How well a model explains a force.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FitEntry {
+    /// What was fitted.
+    pub signal: String,
+    /// Its unit.
+    pub unit: String,
+    /// Root mean square of the residual.
+    pub rmse: f64,
+    /// `100 rms(residual) / rms(measured)`.
+    pub relative_error_percent: f64,
+    /// Part of the variance that is explained.
+    pub r2: f64,
+    /// Samples that count.
+    pub samples: usize,
+    /// Independent samples that the residual is worth.
+    pub effective_samples: f64,
+}
+
+impl FitEntry {
+    pub(crate) fn new(fit: &identify::Fit, signal: &str, unit: &str) -> Self {
+        Self {
+            signal: signal.into(),
+            unit: unit.into(),
+            rmse: fit.rmse,
+            relative_error_percent: fit.relative_error_percent,
+            r2: fit.r2,
+            samples: fit.samples,
+            effective_samples: fit.effective_samples,
+        }
+    }
+}
+
+/// A fit near zero speed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LowSpeedEntry {
+    /// Samples slower than this count.
+    pub bound: f64,
+    /// Unit of the bound.
+    pub bound_unit: String,
+    /// The fit.
+    #[serde(flatten)]
+    pub fit: FitEntry,
+}
+
+/// A fit on a log that was not fitted.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ValidationEntry {
+    /// Path as given, or which part of the log.
+    pub path: String,
+    /// The fit.
+    #[serde(flatten)]
+    pub fit: FitEntry,
+    /// The same near zero speed.
+    pub low_speed: Option<LowSpeedEntry>,
+}
+
+/// One law in the comparison.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LawEntry {
+    /// Family.
+    pub law: String,
+    /// Whether each direction has parameters of its own.
+    pub asymmetric: bool,
+    /// Fitted parameters.
+    pub parameters: usize,
+    /// Relative error on the samples it was fitted to, percent.
+    pub fitted_error_percent: f64,
+    /// Relative error on held-out samples, percent; `null` where it could not be had.
+    pub held_out_error_percent: Option<f64>,
+    /// The same near zero speed.
+    pub held_out_low_speed_error_percent: Option<f64>,
+    /// Whether this law has the smallest held-out error.
+    pub best: bool,
+}
+
+/// How the search went.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Search {
+    /// `converged`, `budget`, `stalled` or `interrupted`.
+    pub status: String,
+    /// Evaluations of the model in all.
+    pub evaluations: usize,
+    /// Of those, with sensitivities.
+    pub with_sensitivities: usize,
+    /// Of all, on a thinned record.
+    pub thinned: usize,
+    /// Steps of all descents.
+    pub iterations: usize,
+    /// Time of the whole identification, s.
+    pub wall_s: f64,
+}

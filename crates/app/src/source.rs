@@ -1,0 +1,104 @@
+//! A log file, read, hashed and mapped.
+
+use crate::axis::Axis;
+use crate::error::Error;
+use crate::result::Input;
+use sha2::{Digest, Sha256};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use stiction_identify::Samples;
+use stiction_log::{Log, ReadOptions, Table, read_table};
+
+/// A log with the file it came from.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// Path as given.
+    pub path: PathBuf,
+    /// SHA-256 of the file, hexadecimal.
+    pub sha256: String,
+    /// What the reader detected, and what it left out.
+    pub detected: Vec<String>,
+    /// The log in SI units.
+    pub log: Log,
+}
+
+/// Reads the columns of a file as they stand.
+///
+/// # Errors
+/// With file, place, what was found and what is allowed.
+pub fn table(path: &Path, axis: &Axis) -> Result<Table, Error> {
+    let options = ReadOptions { text: axis.text, ..ReadOptions::default() };
+    Ok(read_table(path, &options)?)
+}
+
+/// Reads a file and maps it by the axis.
+///
+/// # Errors
+/// As [`table`], and where columns or units are missing or ambiguous.
+pub fn load(path: &Path, axis: &Axis) -> Result<Source, Error> {
+    let table = table(path, axis)?;
+    let log = Log::from_table(&table, &axis.mapping).map_err(|e| e.in_file(path))?;
+    let mut detected = log.detected.clone();
+    detected.extend(table.skipped.iter().map(|s| format!("left out: {s}")));
+    Ok(Source { path: path.to_path_buf(), sha256: sha256(path)?, detected, log })
+}
+
+fn sha256(path: &Path) -> Result<String, Error> {
+    let fail = |e: std::io::Error| {
+        let kind = stiction_log::Kind::Io;
+        Error::Log(stiction_log::Error::new(kind, e.to_string(), "").in_file(path))
+    };
+    let mut file = std::fs::File::open(path).map_err(fail)?;
+    let mut hash = Sha256::new();
+    let mut buffer = vec![0; 1 << 16];
+    loop {
+        let n = file.read(&mut buffer).map_err(fail)?;
+        if n == 0 {
+            break;
+        }
+        hash.update(&buffer[..n]);
+    }
+    Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+}
+
+impl Source {
+    /// How the log goes into `result.json`.
+    pub fn input(&self) -> Input {
+        Input {
+            path: self.path.display().to_string(),
+            sha256: self.sha256.clone(),
+            samples: self.log.time.len(),
+            rate_hz: self.log.rate_hz,
+            detected: self.detected.clone(),
+        }
+    }
+
+    /// What an identification needs of it.
+    ///
+    /// # Errors
+    /// When the log has no force, or neither position nor velocity.
+    pub fn samples(&self) -> Result<Samples, Error> {
+        let missing = |what: &str, key: &str| {
+            Error::Log(
+                stiction_log::Error::new(
+                    stiction_log::Kind::Missing,
+                    format!("no {what} column"),
+                    format!("name it in the axis file: [columns] {key} = \"...\""),
+                )
+                .in_file(&self.path),
+            )
+        };
+        let force = self.log.force.clone().ok_or_else(|| missing("force", "force"))?;
+        if self.log.position.is_none() && self.log.velocity.is_none() {
+            return Err(missing("position or velocity", "position"));
+        }
+        Ok(Samples {
+            time: self.log.time.clone(),
+            position: self.log.position.clone(),
+            velocity: self.log.velocity.clone(),
+            force,
+            valid: self.log.valid(),
+            breaks: self.log.segments.iter().skip(1).map(|s| s.start).collect(),
+        })
+    }
+}

@@ -1,0 +1,89 @@
+//! Symbols and units of parameters, for files and people.
+
+use stiction_identify::Dimension;
+use stiction_log::Motion;
+
+/// Unit of a parameter, given the unit of the force channel.
+pub fn unit(dimension: Dimension, motion: Motion, force: &str) -> String {
+    let length = length_unit(motion);
+    match dimension {
+        Dimension::Stiffness => format!("{force}/{length}"),
+        Dimension::Damping => format!("{force}*s/{length}"),
+        Dimension::Force => force.to_string(),
+        Dimension::Speed => speed_unit(motion).to_string(),
+        Dimension::Inertia => match force {
+            "N" => "kg".into(),
+            "N*m" => "kg*m^2".into(),
+            other => format!("{other}*s^2/{length}"),
+        },
+        Dimension::One => "1".into(),
+    }
+}
+
+/// Unit of position.
+pub fn length_unit(motion: Motion) -> &'static str {
+    match motion {
+        Motion::Linear => "m",
+        Motion::Rotary => "rad",
+    }
+}
+
+/// Unit of velocity.
+pub fn speed_unit(motion: Motion) -> &'static str {
+    match motion {
+        Motion::Linear => "m/s",
+        Motion::Rotary => "rad/s",
+    }
+}
+
+/// Symbol of a parameter by its name, in Unicode.
+pub fn symbol(name: &str) -> String {
+    let (stem, side) = match name.strip_suffix("_pos") {
+        Some(stem) => (stem, "⁺"),
+        None => name.strip_suffix("_neg").map_or((name, ""), |stem| (stem, "⁻")),
+    };
+    let symbol = match stem {
+        "sigma0" => "σ₀",
+        "sigma1" => "σ₁",
+        "sigma2" => "σ₂",
+        "coulomb" => "Fc",
+        "static" => "Fs",
+        "stribeck_velocity" => "vs",
+        "stribeck_exponent" => "δ",
+        "mass" => "M",
+        "offset" => "F₀",
+        other => other,
+    };
+    format!("{symbol}{side}")
+}
+
+/// What a parameter is, in the words of the field.
+pub fn meaning(name: &str, motion: Motion) -> String {
+    let stem = name.trim_end_matches("_pos").trim_end_matches("_neg");
+    let side = if name.ends_with("_pos") {
+        ", positive direction"
+    } else if name.ends_with("_neg") {
+        ", negative direction"
+    } else {
+        ""
+    };
+    let text = match stem {
+        "sigma0" => "bristle stiffness",
+        "sigma1" => "micro-damping",
+        "sigma2" => "viscous friction",
+        "coulomb" => "Coulomb friction",
+        "static" => "static friction",
+        "stribeck_velocity" => "Stribeck velocity",
+        "stribeck_exponent" => "Stribeck exponent",
+        "mass" => match motion {
+            Motion::Linear => "moving mass",
+            Motion::Rotary => "inertia",
+        },
+        "offset" => "constant force",
+        "gravity_sin" => "gravity, sin q",
+        "gravity_cos" => "gravity, cos q",
+        other if other.starts_with("cogging") => "cogging",
+        other => other,
+    };
+    format!("{text}{side}")
+}

@@ -1,0 +1,381 @@
+//! From a log to what a fit sees: uniform time, velocity and acceleration, one common filter.
+//!
+//! Why two filters: differentiating a quantised position needs a low-pass on the position alone, and
+//! whatever that leaves is removed by a second low-pass that the force *and every regressor* pass
+//! alike, so it cannot bias the fit (identification of robots: Gautier 1997,
+//! doi 10.1109/ROBOT.1997.606767). Both are zero-phase, so nothing is delayed.
+
+use crate::error::Error;
+use crate::record::{Record, Samples, Segment};
+use stiction_signal::{Sos, gradient};
+
+/// Missing samples up to this many in a row are bridged by a straight line (and do not count in the
+/// fit); longer gaps split the log.
+const BRIDGE: f64 = 5.0;
+/// Spread of the sample times, relative to the sample time, up to which a log counts as uniform.
+const UNIFORM: f64 = 1e-3;
+/// Order of both low-pass filters.
+const ORDER: usize = 4;
+
+/// Which channel gives the motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// Velocity and acceleration are derivatives of the position.
+    Position,
+    /// The logged velocity drives the law; the acceleration is its derivative.
+    Velocity,
+}
+
+/// A low-pass cut-off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cutoff {
+    /// Chosen from the sample rate: a tenth of it on a position, a twentieth in common; none where
+    /// a velocity is the source.
+    Auto,
+    /// No filter.
+    Off,
+    /// This frequency, Hz.
+    Hz(f64),
+}
+
+/// How a log is conditioned.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conditioning {
+    /// Channel that gives the motion; `None` takes the position where there is one.
+    pub source: Option<Source>,
+    /// Low-pass on the source alone, before differentiation.
+    pub source_cutoff: Cutoff,
+    /// Low-pass on the force and every regressor.
+    pub common_cutoff: Cutoff,
+    /// The regression uses every n-th sample; `None` follows from the common cut-off.
+    pub decimate: Option<usize>,
+    /// Smallest displacement that the log resolves, m or rad.
+    pub resolution: Option<f64>,
+    /// Only samples at least this fast count, m/s or rad/s; 0 for all. A static law says nothing of
+    /// an axis at rest, and an encoder may not resolve what a bristle does there.
+    pub min_speed: f64,
+}
+
+impl Default for Conditioning {
+    fn default() -> Self {
+        Self {
+            source: None,
+            source_cutoff: Cutoff::Auto,
+            common_cutoff: Cutoff::Auto,
+            decimate: None,
+            resolution: None,
+            min_speed: 0.0,
+        }
+    }
+}
+
+/// Conditions logs of one axis for a fit. All must have (nearly) the same sample rate.
+pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record, Error> {
+    for (i, log) in logs.iter().enumerate() {
+        check(i + 1, log)?;
+    }
+    let step = logs.iter().map(|log| median_step(&log.time)).fold(0.0_f64, f64::max);
+    let rate = 1.0 / step;
+    let source = match conditioning.source {
+        Some(source) => source,
+        None if logs.iter().all(|log| log.position.is_some()) => Source::Position,
+        None => Source::Velocity,
+    };
+    let from_position = source == Source::Position;
+    let mut notes = vec![match source {
+        Source::Position => "velocity and acceleration: central differences of the position".into(),
+        Source::Velocity => "velocity as logged, acceleration: its central differences".to_string(),
+    }];
+    let hertz = |cutoff, auto: f64| match cutoff {
+        Cutoff::Auto => from_position.then_some(auto),
+        Cutoff::Off => None,
+        Cutoff::Hz(f) => Some(f),
+    };
+    let source_hz = hertz(conditioning.source_cutoff, rate / 10.0);
+    let common_hz = hertz(conditioning.common_cutoff, rate / 20.0);
+    let source_filter = low_pass("source_cutoff", source_hz, rate)?;
+    let common = low_pass("common_cutoff", common_hz, rate)?;
+    let what = if from_position { "position" } else { "velocity" };
+    if let Some(f) = source_hz {
+        notes.push(format!("{what}: zero-phase Butterworth low-pass, order {ORDER}, {f:.4} Hz"));
+    }
+    let decimate = match (conditioning.decimate, common_hz) {
+        (Some(0), _) => {
+            return Err(Error::Setting {
+                name: "decimate",
+                found: 0.0,
+                allowed: "a whole number from 1",
+            });
+        }
+        (Some(n), _) => n,
+        // Just above twice the cut-off: fewer samples would alias, more would only repeat.
+        (None, Some(f)) => ((rate / (2.5 * f)) as usize).max(1),
+        (None, None) => 1,
+    };
+    if let Some(f) = common_hz {
+        notes.push(format!(
+            "force and every regressor: the same zero-phase Butterworth low-pass, order {ORDER}, \
+             {f:.4} Hz, then every {decimate}. sample"
+        ));
+    }
+    let trim = [&source_filter, &common]
+        .into_iter()
+        .flatten()
+        .map(|filter| filter.settling_samples())
+        .max()
+        .unwrap_or(0);
+    if trim > 0 {
+        notes.push(format!("{trim} samples at each end dropped (filters settling)"));
+    }
+    if conditioning.min_speed > 0.0 {
+        notes.push(format!(
+            "only samples faster than {} (SI) count",
+            conditioning.min_speed
+        ));
+    }
+    let filters = Filters {
+        source: source_filter,
+        common,
+        trim,
+        decimate,
+        source_kind: source,
+        min_speed: conditioning.min_speed,
+    };
+    let mut segments = Vec::new();
+    let mut short = 0;
+    for (i, log) in logs.iter().enumerate() {
+        for stretch in stretches(log, step) {
+            match filters.segment(i, log, stretch, step) {
+                Some(segment) => segments.push(segment),
+                None => short += 1,
+            }
+        }
+    }
+    if short > 0 {
+        notes.push(format!("{short} stretches between gaps were too short to filter and left out"));
+    }
+    Ok(Record {
+        segments,
+        common: filters.common,
+        decimate,
+        notes,
+        resolution: conditioning.resolution,
+    })
+}
+
+fn low_pass(name: &'static str, hz: Option<f64>, rate: f64) -> Result<Option<Sos>, Error> {
+    hz.map(|f| Sos::butterworth_low_pass(ORDER, f, rate))
+        .transpose()
+        .map_err(|e| Error::Filter { name, reason: e.to_string() })
+}
+
+fn check(number: usize, log: &Samples) -> Result<(), Error> {
+    let n = log.time.len();
+    let channels = [
+        ("position", log.position.as_ref()),
+        ("velocity", log.velocity.as_ref()),
+        ("force", Some(&log.force)),
+    ];
+    if log.position.is_none() && log.velocity.is_none() {
+        return Err(Error::NoMotionChannel { log: number });
+    }
+    for (channel, values) in channels {
+        let Some(values) = values else { continue };
+        if values.len() != n {
+            return Err(Error::Length { log: number, channel, found: values.len(), expected: n });
+        }
+        if let Some(i) = values.iter().position(|x| !x.is_finite()) {
+            return Err(Error::NotFinite { log: number, channel, index: i + 1 });
+        }
+    }
+    if !log.valid.is_empty() && log.valid.len() != n {
+        let found = log.valid.len();
+        return Err(Error::Length { log: number, channel: "valid", found, expected: n });
+    }
+    if n < 4 {
+        return Err(Error::TooFewSamples { found: n, needed: 4, dropped: 0, total: n });
+    }
+    // A NaN in time compares as "does not increase" too.
+    if let Some(i) = log.time.windows(2).position(|t| !(t[1] > t[0] && t[1].is_finite())) {
+        return Err(Error::Time { log: number, index: i + 2 });
+    }
+    Ok(())
+}
+
+fn median_step(time: &[f64]) -> f64 {
+    let mut steps: Vec<f64> = time.windows(2).map(|t| t[1] - t[0]).collect();
+    let middle = steps.len() / 2;
+    let (_, median, _) = steps.select_nth_unstable_by(middle, f64::total_cmp);
+    *median
+}
+
+/// Index ranges between long gaps.
+fn stretches(log: &Samples, step: f64) -> Vec<std::ops::Range<usize>> {
+    let mut out = Vec::new();
+    let mut start = 0;
+    for i in 1..log.time.len() {
+        let gap = log.time[i] - log.time[i - 1] > (BRIDGE + 1.5) * step;
+        if gap || log.breaks.binary_search(&i).is_ok() {
+            out.push(start..i);
+            start = i;
+        }
+    }
+    out.push(start..log.time.len());
+    out
+}
+
+struct Filters {
+    source: Option<Sos>,
+    common: Option<Sos>,
+    trim: usize,
+    decimate: usize,
+    source_kind: Source,
+    min_speed: f64,
+}
+
+impl Filters {
+    /// One stretch, conditioned; `None` if it is too short.
+    fn segment(
+        &self,
+        log: usize,
+        samples: &Samples,
+        range: std::ops::Range<usize>,
+        step: f64,
+    ) -> Option<Segment> {
+        let grid = Grid::new(&samples.time[range.clone()], step)?;
+        let n = grid.len();
+        if n < 2 * self.trim + 4 * self.decimate.max(4) {
+            return None;
+        }
+        let on_grid = |x: &Vec<f64>| grid.resample(&x[range.clone()]);
+        let smooth = |x: Vec<f64>, filter: &Option<Sos>| match filter {
+            Some(f) => f.zero_phase(&x).ok(),
+            None => Some(x),
+        };
+        let raw_position = samples.position.as_ref().map(on_grid);
+        let (velocity, position) = match self.source_kind {
+            Source::Position => {
+                let x = smooth(raw_position?, &self.source)?;
+                (gradient(&x, step).ok()?, x)
+            }
+            Source::Velocity => {
+                let v = smooth(on_grid(samples.velocity.as_ref()?), &self.source)?;
+                let x = raw_position.unwrap_or_else(|| integrate(&v, step));
+                (v, x)
+            }
+        };
+        let acceleration = smooth(gradient(&velocity, step).ok()?, &self.common)?;
+        let force = smooth(on_grid(&samples.force), &self.common)?;
+        let valid = if samples.valid.is_empty() { &[][..] } else { &samples.valid[range] };
+        let keep = grid.keep(valid);
+        let thin = |x: &[f64]| x.iter().step_by(self.decimate).copied().collect::<Vec<_>>();
+        let keep = keep
+            .iter()
+            .enumerate()
+            .step_by(self.decimate)
+            .map(|(i, &k)| {
+                k && i >= self.trim && i + self.trim < n && velocity[i].abs() >= self.min_speed
+            })
+            .collect();
+        Some(Segment {
+            log,
+            step,
+            time: thin(&grid.times()),
+            force: thin(&force),
+            position: thin(&position),
+            speed: thin(&velocity),
+            acceleration: thin(&acceleration),
+            keep,
+            velocity,
+        })
+    }
+}
+
+fn integrate(v: &[f64], step: f64) -> Vec<f64> {
+    let mut x = 0.0;
+    let mut out = Vec::with_capacity(v.len());
+    for i in 0..v.len() {
+        if i > 0 {
+            x += 0.5 * (v[i - 1] + v[i]) * step;
+        }
+        out.push(x);
+    }
+    out
+}
+
+/// Uniform time over one stretch.
+struct Grid<'a> {
+    time: &'a [f64],
+    start: f64,
+    step: f64,
+    /// `None` where the samples already stand on the grid; else the sample before each grid point.
+    before: Option<Vec<usize>>,
+    count: usize,
+}
+
+impl<'a> Grid<'a> {
+    fn new(time: &'a [f64], step: f64) -> Option<Self> {
+        let (start, end) = (*time.first()?, *time.last()?);
+        if time.len() < 4 {
+            return None;
+        }
+        let uniform = time
+            .iter()
+            .enumerate()
+            .all(|(i, t)| (t - start - i as f64 * step).abs() <= 0.5 * step)
+            && time.windows(2).all(|t| ((t[1] - t[0]) / step - 1.0).abs() <= UNIFORM);
+        if uniform {
+            return Some(Self { time, start, step, before: None, count: time.len() });
+        }
+        let count = ((end - start) / step * (1.0 + 1e-12)) as usize + 1;
+        // Gaps are bridged up to a few samples each, so the grid cannot be much longer than the log.
+        if count as f64 > (BRIDGE + 3.0) * time.len() as f64 {
+            return None;
+        }
+        let mut before = Vec::with_capacity(count);
+        let mut at = 0;
+        for k in 0..count {
+            let t = start + k as f64 * step;
+            while at + 2 < time.len() && time[at + 1] <= t {
+                at += 1;
+            }
+            before.push(at);
+        }
+        Some(Self { time, start, step, before: Some(before), count })
+    }
+
+    fn len(&self) -> usize {
+        self.count
+    }
+
+    fn times(&self) -> Vec<f64> {
+        (0..self.count).map(|k| self.start + k as f64 * self.step).collect()
+    }
+
+    fn resample(&self, x: &[f64]) -> Vec<f64> {
+        let Some(before) = &self.before else { return x.to_vec() };
+        before
+            .iter()
+            .enumerate()
+            .map(|(k, &i)| {
+                let t = self.start + k as f64 * self.step;
+                let w = ((t - self.time[i]) / (self.time[i + 1] - self.time[i])).clamp(0.0, 1.0);
+                x[i] + w * (x[i + 1] - x[i])
+            })
+            .collect()
+    }
+
+    /// Which grid points stand on valid samples with no gap around them.
+    fn keep(&self, valid: &[bool]) -> Vec<bool> {
+        let ok = |i: usize| valid.get(i).copied().unwrap_or(true);
+        match &self.before {
+            None => (0..self.count).map(ok).collect(),
+            Some(before) => before
+                .iter()
+                .map(|&i| {
+                    ok(i) && ok(i + 1) && self.time[i + 1] - self.time[i] < 1.75 * self.step
+                })
+                .collect(),
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! Why a record cannot be identified at all.
+
+/// Input from which nothing can be identified. A search that ends badly is a
+/// [`Status`](crate::Status), not an error.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// Channels of one recording differ in length.
+    #[error("log {log}: {channel} has {found} samples, time has {expected}")]
+    Length {
+        /// Which log, counted from 1.
+        log: usize,
+        /// Which channel.
+        channel: &'static str,
+        /// Samples found.
+        found: usize,
+        /// Samples expected.
+        expected: usize,
+    },
+    /// Neither position nor velocity is known.
+    #[error("log {log}: neither position nor velocity is given; one of them is needed")]
+    NoMotionChannel {
+        /// Which log, counted from 1.
+        log: usize,
+    },
+    /// A number that is not finite.
+    #[error("log {log}: {channel}, sample {index} is not a finite number")]
+    NotFinite {
+        /// Which log, counted from 1.
+        log: usize,
+        /// Which channel.
+        channel: &'static str,
+        /// Sample, counted from 1.
+        index: usize,
+    },
+    /// Time stamps do not increase.
+    #[error("log {log}: time does not increase at sample {index}")]
+    Time {
+        /// Which log, counted from 1.
+        log: usize,
+        /// Sample, counted from 1.
+        index: usize,
+    },
+    /// Fewer usable samples than the law needs.
+    #[error(
+        "{found} usable samples after conditioning, at least {needed} are needed for this law \
+         ({dropped} of {total} were dropped: filter ends, gaps, invalid samples)"
+    )]
+    TooFewSamples {
+        /// Usable samples.
+        found: usize,
+        /// Needed samples.
+        needed: usize,
+        /// Samples that conditioning dropped.
+        dropped: usize,
+        /// Samples before.
+        total: usize,
+    },
+    /// The axis does not move.
+    #[error("the axis does not move in this log (|v| stays below {bound:.3e} {unit}): friction cannot be identified from it")]
+    NoMotion {
+        /// Largest speed seen.
+        bound: f64,
+        /// Unit of speed.
+        unit: &'static str,
+    },
+    /// The force is zero throughout.
+    #[error("the force is {value} throughout: there is nothing to identify")]
+    NoForce {
+        /// The constant value.
+        value: f64,
+    },
+    /// A setting outside its range.
+    #[error("{name} = {found}: {allowed}")]
+    Setting {
+        /// Which setting.
+        name: &'static str,
+        /// What was given.
+        found: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// A filter could not be made.
+    #[error("{name}: {reason}")]
+    Filter {
+        /// Which filter.
+        name: &'static str,
+        /// Why.
+        reason: String,
+    },
+}

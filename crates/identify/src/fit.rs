@@ -1,0 +1,61 @@
+//! How well a model explains a force.
+
+use crate::record::Record;
+use stiction_signal::effective_sample_size;
+
+/// Lags that the effective sample size looks at, at most.
+const MOST_LAGS: usize = 2000;
+
+/// Size of the residual on one set of samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fit {
+    /// Root mean square of the residual, in the unit of the force.
+    pub rmse: f64,
+    /// `100 rms(residual) / rms(measured)`.
+    pub relative_error_percent: f64,
+    /// `1 - sum(residual^2) / sum((measured - mean)^2)`.
+    pub r2: f64,
+    /// Samples that count.
+    pub samples: usize,
+    /// How many independent samples the residual is worth, by its autocorrelation.
+    pub effective_samples: f64,
+}
+
+impl Fit {
+    /// Compares a residual with the measured force; `None` without samples.
+    pub fn new(measured: &[f64], residual: &[f64]) -> Option<Self> {
+        let n = measured.len().min(residual.len());
+        if n == 0 {
+            return None;
+        }
+        let squares = |x: &[f64]| crate::linear::dot(x, x);
+        let mean = measured.iter().sum::<f64>() / n as f64;
+        let spread: f64 = measured.iter().map(|u| (u - mean) * (u - mean)).sum();
+        let (energy, error) = (squares(measured), squares(residual));
+        Some(Self {
+            rmse: (error / n as f64).sqrt(),
+            relative_error_percent: if energy > 0.0 {
+                100.0 * (error / energy).sqrt()
+            } else {
+                f64::NAN
+            },
+            r2: if spread > 0.0 { 1.0 - error / spread } else { f64::NAN },
+            samples: n,
+            effective_samples: effective_sample_size(residual, MOST_LAGS)
+                .map_or(n as f64, |e| e.size),
+        })
+    }
+
+    /// The same for the samples slower than `bound`, m/s or rad/s.
+    pub fn slow(measured: &[f64], residual: &[f64], speed: &[f64], bound: f64) -> Option<Self> {
+        let pick = |x: &[f64]| -> Vec<f64> {
+            x.iter().zip(speed).filter(|(_, v)| v.abs() < bound).map(|(x, _)| *x).collect()
+        };
+        Self::new(&pick(measured), &pick(residual))
+    }
+}
+
+/// Speed below which a sample counts as slow where nothing else is asked: 2 % of the top speed.
+pub fn low_speed_bound(record: &Record) -> f64 {
+    0.02 * record.top_speed()
+}

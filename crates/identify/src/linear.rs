@@ -1,0 +1,251 @@
+//! The inner problem: linear least squares with a few coefficients that must not be negative.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Columns whose part outside the span of those before is below this (relative, squared) cannot be
+/// told apart from them and are left out.
+const DEPENDENT: f64 = 1e-13;
+
+/// Sum of products in a fixed order: four partial sums for speed, the same bits everywhere.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let (wide_a, rest_a) = a.as_chunks::<4>();
+    let (wide_b, rest_b) = b.as_chunks::<4>();
+    for (x, y) in wide_a.iter().zip(wide_b) {
+        for lane in 0..4 {
+            sums[lane] += x[lane] * y[lane];
+        }
+    }
+    let tail: f64 = rest_a.iter().zip(rest_b).map(|(x, y)| x * y).sum();
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + tail
+}
+
+/// Solution of the inner problem.
+#[derive(Clone, Debug)]
+pub(crate) struct Solution {
+    /// One coefficient per column; zero where the column is not active.
+    pub coefficients: Vec<f64>,
+    /// Which columns take part: neither held at zero by their bound nor dependent on others.
+    pub active: Vec<bool>,
+    /// Columns that depend on the ones before them.
+    pub dependent: Vec<bool>,
+    /// `u - Phi c`.
+    pub residual: Vec<f64>,
+    /// Sum of squares of the residual.
+    pub cost: f64,
+    /// Factor of the scaled Gram matrix of the active columns.
+    factor: Factor,
+}
+
+#[derive(Clone, Debug)]
+struct Factor {
+    /// Indices of the active columns.
+    columns: Vec<usize>,
+    scale: Vec<f64>,
+    lower: DMatrix<f64>,
+}
+
+impl Factor {
+    /// Cholesky of the scaled Gram matrix of `wanted`, leaving out dependent columns.
+    fn new(gram: &DMatrix<f64>, wanted: &[usize]) -> (Self, Vec<usize>) {
+        let mut columns = Vec::new();
+        let mut dropped = Vec::new();
+        let m = wanted.len();
+        let mut lower = DMatrix::zeros(m, m);
+        let mut scale = Vec::new();
+        for &j in wanted {
+            let norm = gram[(j, j)];
+            let at = columns.len();
+            if !(norm > 0.0 && norm.is_finite()) {
+                dropped.push(j);
+                continue;
+            }
+            let s = 1.0 / norm.sqrt();
+            let mut pivot = 1.0;
+            let mut row = vec![0.0; at];
+            for (k, &i) in columns.iter().enumerate() {
+                let mut x: f64 = gram[(j, i)] * s * scale[k];
+                for l in 0..k {
+                    x -= row[l] * lower[(k, l)];
+                }
+                row[k] = x / lower[(k, k)];
+                pivot -= row[k] * row[k];
+            }
+            if pivot <= DEPENDENT {
+                dropped.push(j);
+                continue;
+            }
+            for (k, x) in row.into_iter().enumerate() {
+                lower[(at, k)] = x;
+            }
+            lower[(at, at)] = pivot.sqrt();
+            columns.push(j);
+            scale.push(s);
+        }
+        let n = columns.len();
+        (Self { columns, scale, lower: lower.view((0, 0), (n, n)).into_owned() }, dropped)
+    }
+
+    /// Solves the normal equations for a right-hand side given for the active columns.
+    fn solve(&self, rhs: &[f64]) -> Vec<f64> {
+        let mut b = DVector::from_iterator(
+            rhs.len(),
+            rhs.iter().zip(&self.scale).map(|(x, s)| x * s),
+        );
+        self.lower.solve_lower_triangular_mut(&mut b);
+        self.lower.tr_solve_lower_triangular_mut(&mut b);
+        b.iter().zip(&self.scale).map(|(x, s)| x * s).collect()
+    }
+}
+
+impl Solution {
+    /// Part of `d` that the active columns cannot express, in place.
+    pub fn project_out(&self, columns: &[&[f64]], d: &mut [f64]) {
+        let rhs: Vec<f64> = self.factor.columns.iter().map(|&j| dot(columns[j], d)).collect();
+        let c = self.factor.solve(&rhs);
+        for (x, &j) in c.iter().zip(&self.factor.columns) {
+            for (d, phi) in d.iter_mut().zip(columns[j]) {
+                *d -= x * phi;
+            }
+        }
+    }
+}
+
+fn residual(columns: &[&[f64]], factor: &Factor, c: &[f64], u: &[f64], out: &mut Vec<f64>) {
+    out.clear();
+    out.extend_from_slice(u);
+    for (x, &j) in c.iter().zip(&factor.columns) {
+        for (r, phi) in out.iter_mut().zip(columns[j]) {
+            *r -= x * phi;
+        }
+    }
+}
+
+/// Least squares of `u` on `columns`, with `nonnegative` coefficients at or above zero.
+///
+/// The normal equations are solved on scaled columns and refined once with the true residual, which
+/// brings the accuracy of an orthogonal factorisation. Every subset of bounded columns that a bound
+/// could hold at zero is tried in turn, the one leaving the least residual and breaking no bound
+/// wins; there are at most a handful.
+pub(crate) fn solve(columns: &[&[f64]], nonnegative: &[bool], u: &[f64]) -> Solution {
+    let m = columns.len();
+    let mut gram = DMatrix::zeros(m, m);
+    let mut rhs = vec![0.0; m];
+    for i in 0..m {
+        for j in 0..=i {
+            let x = dot(columns[i], columns[j]);
+            gram[(i, j)] = x;
+            gram[(j, i)] = x;
+        }
+        rhs[i] = dot(columns[i], u);
+    }
+    let held = feasible_set(&gram, &rhs, nonnegative);
+    let wanted: Vec<usize> = (0..m).filter(|j| !held[*j]).collect();
+    let (factor, dropped) = Factor::new(&gram, &wanted);
+    let pick: Vec<f64> = factor.columns.iter().map(|&j| rhs[j]).collect();
+    let mut c = factor.solve(&pick);
+    let mut r = Vec::with_capacity(u.len());
+    residual(columns, &factor, &c, u, &mut r);
+    let correction: Vec<f64> = factor.columns.iter().map(|&j| dot(columns[j], &r)).collect();
+    for (x, d) in c.iter_mut().zip(factor.solve(&correction)) {
+        *x += d;
+    }
+    residual(columns, &factor, &c, u, &mut r);
+
+    let mut coefficients = vec![0.0; m];
+    let mut active = vec![false; m];
+    for (&j, &x) in factor.columns.iter().zip(&c) {
+        coefficients[j] = x;
+        active[j] = true;
+    }
+    let mut dependent = vec![false; m];
+    for j in dropped {
+        dependent[j] = true;
+    }
+    let cost = dot(&r, &r);
+    Solution { coefficients, active, dependent, residual: r, cost, factor }
+}
+
+/// Which bounded columns are held at zero at the constrained optimum.
+fn feasible_set(gram: &DMatrix<f64>, rhs: &[f64], nonnegative: &[bool]) -> Vec<bool> {
+    let m = rhs.len();
+    let bounded: Vec<usize> = (0..m).filter(|&j| nonnegative[j]).collect();
+    let mut best: Option<(f64, Vec<bool>)> = None;
+    for set in 0_u32..(1 << bounded.len().min(8)) {
+        let mut held = vec![false; m];
+        for (bit, &j) in bounded.iter().enumerate() {
+            held[j] = set >> bit & 1 == 1;
+        }
+        let wanted: Vec<usize> = (0..m).filter(|j| !held[*j]).collect();
+        let (factor, _) = Factor::new(gram, &wanted);
+        let pick: Vec<f64> = factor.columns.iter().map(|&j| rhs[j]).collect();
+        let c = factor.solve(&pick);
+        let broken = factor.columns.iter().zip(&c).any(|(&j, &x)| nonnegative[j] && x < 0.0);
+        if broken {
+            continue;
+        }
+        // Explained sum of squares; the most explained wins.
+        let explained: f64 = c.iter().zip(&pick).map(|(x, b)| x * b).sum();
+        if best.as_ref().is_none_or(|(most, _)| explained > *most) {
+            best = Some((explained, held));
+        }
+        if set == 0 {
+            break; // The free solution breaks no bound: it is the constrained optimum.
+        }
+    }
+    best.map_or_else(|| vec![true; m], |(_, held)| held)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn waves(n: usize) -> Vec<Vec<f64>> {
+        (0..4)
+            .map(|k| (0..n).map(|i| ((i * (k + 2)) as f64 * 0.37 + k as f64).sin()).collect())
+            .collect()
+    }
+
+    #[test]
+    fn exact_data_gives_exact_coefficients() {
+        let columns = waves(501);
+        let views: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        let truth = [1.5e3, 2e-4, 7.0, -3.0];
+        let u: Vec<f64> =
+            (0..501).map(|i| (0..4).map(|k| truth[k] * columns[k][i]).sum()).collect();
+        let found = solve(&views, &[true, true, true, false], &u);
+        for (x, t) in found.coefficients.iter().zip(truth) {
+            assert!((x / t - 1.0).abs() < 1e-9, "{x} instead of {t}");
+        }
+    }
+
+    #[test]
+    fn a_bound_that_would_be_broken_holds_and_satisfies_the_optimality_conditions() {
+        let columns = waves(300);
+        let views: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        let u: Vec<f64> = (0..300)
+            .map(|i| 2.0 * columns[0][i] - 1.0 * columns[1][i] + 0.1 * columns[2][i])
+            .collect();
+        let found = solve(&views, &[true; 4], &u);
+        for j in 0..4 {
+            let slope = dot(&columns[j], &found.residual);
+            if found.active[j] {
+                assert!(found.coefficients[j] >= 0.0);
+                assert!(slope.abs() < 1e-9, "residual not orthogonal to column {j}");
+            } else {
+                assert!(slope <= 1e-9, "column {j} would help if it were let in");
+            }
+        }
+        assert!(!found.active[1]);
+    }
+
+    #[test]
+    fn a_column_that_repeats_another_is_left_out() {
+        let columns = waves(100);
+        let twice: Vec<f64> = columns[0].iter().map(|x| 3.0 * x).collect();
+        let views: Vec<&[f64]> = vec![&columns[0], &twice, &columns[1]];
+        let found = solve(&views, &[false; 3], &columns[0].clone());
+        assert_eq!(found.dependent, [false, true, false]);
+        assert!((found.coefficients[0] - 1.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,288 @@
+//! Cost and sensitivities of a trial of the nonlinear unknowns, everything linear solved exactly.
+
+use crate::law::{ColumnKind, Law, LinearTerm, Mass, Terms};
+use crate::linear::{self, Solution, dot};
+use crate::record::{Record, Segment};
+use crate::recursion::{Trace, trace};
+use nalgebra::{DMatrix, DVector};
+
+/// A record, a law and the linear terms beside it.
+#[derive(Clone, Debug)]
+pub struct Objective<'a> {
+    record: &'a Record,
+    law: Law,
+    linear: Vec<LinearTerm>,
+    nonnegative: Vec<bool>,
+    /// Columns that no nonlinear unknown changes, at the kept samples; `None` for those it does.
+    fixed: Vec<Option<Vec<f64>>>,
+    /// Measured force.
+    force: Vec<f64>,
+    /// Inertia force of a given mass; empty if it is fitted or absent.
+    inertia: Vec<f64>,
+    /// What is left to explain: force minus inertia.
+    target: Vec<f64>,
+    /// Sum of squares of the measured force at the kept samples.
+    energy: f64,
+}
+
+/// One trial.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    /// Sum of squares of the residual at the kept samples.
+    pub cost: f64,
+    pub(crate) solution: Solution,
+    /// Columns at the kept samples.
+    pub(crate) columns: Vec<Vec<f64>>,
+    /// `d(Phi) c` for each nonlinear unknown, at the kept samples; empty without sensitivities.
+    pub(crate) slopes: Vec<Vec<f64>>,
+    /// `J^T J` of the reduced problem (Kaufman).
+    pub(crate) hessian: DMatrix<f64>,
+    /// `-J^T r` of the reduced problem: the direction of descent.
+    pub(crate) descent: DVector<f64>,
+}
+
+impl Evaluation {
+    /// Measured minus modelled force at the kept samples.
+    pub fn residual(&self) -> &[f64] {
+        &self.solution.residual
+    }
+}
+
+impl<'a> Objective<'a> {
+    /// The objective of this law with these terms on this record.
+    pub fn new(record: &'a Record, law: Law, terms: &Terms) -> Self {
+        let linear = terms.columns(&law);
+        let fixed = linear.iter().map(|term| fixed_column(record, term.column)).collect();
+        let force = record.gather(|s| &s.force);
+        let energy = dot(&force, &force);
+        let nonnegative = linear.iter().map(|term| term.nonnegative).collect();
+        let inertia: Vec<f64> = match terms.mass {
+            Mass::Given(mass) => {
+                record.gather(|s| &s.acceleration).iter().map(|a| mass * a).collect()
+            }
+            Mass::Fitted | Mass::Absent => Vec::new(),
+        };
+        let target = if inertia.is_empty() {
+            force.clone()
+        } else {
+            force.iter().zip(&inertia).map(|(u, f)| u - f).collect()
+        };
+        Self { record, law, linear, nonnegative, fixed, force, inertia, target, energy }
+    }
+
+    /// The record.
+    pub fn record(&self) -> &Record {
+        self.record
+    }
+
+    /// The law.
+    pub fn law(&self) -> &Law {
+        &self.law
+    }
+
+    pub(crate) fn linear(&self) -> &[LinearTerm] {
+        &self.linear
+    }
+
+    /// Measured force at the kept samples.
+    pub fn force(&self) -> &[f64] {
+        &self.force
+    }
+
+    /// Sum of squares of the measured force at the kept samples.
+    pub fn energy(&self) -> f64 {
+        self.energy
+    }
+
+    /// `rms(residual) / rms(measured)` of a cost.
+    pub fn relative(&self, cost: f64) -> f64 {
+        if self.energy > 0.0 { (cost / self.energy).sqrt() } else { f64::INFINITY }
+    }
+
+    /// Solves the linear part for the nonlinear unknowns `p` (logarithms, in the order of the law).
+    pub fn evaluate(&self, p: &[f64], slopes: bool) -> Evaluation {
+        let traces: Vec<Trace> = self
+            .record
+            .segments
+            .iter()
+            .map(|s| trace(&self.law, p, s.step, &s.velocity, slopes))
+            .collect();
+        let columns: Vec<Vec<f64>> = self
+            .linear
+            .iter()
+            .zip(&self.fixed)
+            .map(|(term, fixed)| match (fixed, term.column) {
+                (Some(column), _) => column.clone(),
+                (None, ColumnKind::Rate) => self.thin(&traces, |t| &t.rate),
+                (None, _) => self.thin(&traces, |t| &t.eta),
+            })
+            .collect();
+        let views: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        let solution = linear::solve(&views, &self.nonnegative, &self.target);
+        let k = if slopes { self.law.nonlinear() } else { 0 };
+        let mut hessian = DMatrix::zeros(k, k);
+        let mut descent = DVector::zeros(k);
+        let mut slope_columns = Vec::with_capacity(k);
+        let mut projected: Vec<Vec<f64>> = Vec::with_capacity(k);
+        for i in 0..k {
+            let d = self.slope(&traces, i, &solution.coefficients);
+            descent[i] = dot(&d, &solution.residual);
+            let mut outside = d.clone();
+            solution.project_out(&views, &mut outside);
+            for (j, other) in projected.iter().enumerate() {
+                let x = dot(other, &outside);
+                hessian[(i, j)] = x;
+                hessian[(j, i)] = x;
+            }
+            hessian[(i, i)] = dot(&outside, &outside);
+            projected.push(outside);
+            slope_columns.push(d);
+        }
+        Evaluation {
+            cost: solution.cost,
+            solution,
+            columns,
+            slopes: slope_columns,
+            hessian,
+            descent,
+        }
+    }
+
+    /// `-1/2` times the gradient of the cost with respect to the nonlinear unknowns.
+    pub fn descent(&self, p: &[f64]) -> Vec<f64> {
+        self.evaluate(p, true).descent.iter().copied().collect()
+    }
+
+    /// Inertia force of a given mass at the kept samples; empty if it is fitted or absent.
+    pub(crate) fn inertia(&self) -> &[f64] {
+        &self.inertia
+    }
+
+    /// Model force at the kept samples for given coefficients.
+    pub(crate) fn model(&self, p: &[f64], coefficients: &[f64]) -> Vec<f64> {
+        let mut out = self.inertia.clone();
+        out.resize(self.force.len(), 0.0);
+        for part in self.parts(p, coefficients) {
+            for (y, x) in out.iter_mut().zip(part) {
+                *y += x;
+            }
+        }
+        out
+    }
+
+    /// Every term of the model force at the kept samples, in the order of the linear unknowns.
+    pub(crate) fn parts(&self, p: &[f64], coefficients: &[f64]) -> Vec<Vec<f64>> {
+        let traces: Vec<Trace> = self
+            .record
+            .segments
+            .iter()
+            .map(|s| trace(&self.law, p, s.step, &s.velocity, false))
+            .collect();
+        self.linear
+            .iter()
+            .zip(&self.fixed)
+            .zip(coefficients)
+            .map(|((term, fixed), &c)| {
+                let mut column = match (fixed, term.column) {
+                    (Some(column), _) => column.clone(),
+                    (None, ColumnKind::Rate) => self.thin(&traces, |t| &t.rate),
+                    (None, _) => self.thin(&traces, |t| &t.eta),
+                };
+                for x in &mut column {
+                    *x *= c;
+                }
+                column
+            })
+            .collect()
+    }
+
+    /// `d(Phi)/dp_i c`, filtered and thinned like the columns.
+    fn slope(&self, traces: &[Trace], i: usize, coefficients: &[f64]) -> Vec<f64> {
+        let mut c_eta = 0.0;
+        let mut c_rate = 0.0;
+        for ((term, fixed), &c) in self.linear.iter().zip(&self.fixed).zip(coefficients) {
+            match (fixed, term.column) {
+                (None, ColumnKind::Rate) => c_rate += c,
+                (None, _) => c_eta += c,
+                _ => {}
+            }
+        }
+        let mut out = Vec::with_capacity(self.force.len());
+        for (segment, t) in self.record.segments.iter().zip(traces) {
+            let mut d: Vec<f64> = t.eta_slope[i].iter().map(|x| c_eta * x).collect();
+            if let Some(rate) = t.rate_slope.get(i) {
+                for (x, r) in d.iter_mut().zip(rate) {
+                    *x += c_rate * r;
+                }
+            }
+            self.append(segment, &d, &mut out);
+        }
+        out
+    }
+
+    fn thin(&self, traces: &[Trace], channel: impl Fn(&Trace) -> &Vec<f64>) -> Vec<f64> {
+        let mut out = Vec::with_capacity(self.force.len());
+        for (segment, t) in self.record.segments.iter().zip(traces) {
+            self.append(segment, channel(t), &mut out);
+        }
+        out
+    }
+
+    /// Passes a full-rate channel through the common filter and appends its kept samples.
+    fn append(&self, segment: &Segment, full: &[f64], out: &mut Vec<f64>) {
+        append_filtered(self.record, segment, full, out);
+    }
+}
+
+pub(crate) fn append_filtered(
+    record: &Record,
+    segment: &Segment,
+    full: &[f64],
+    out: &mut Vec<f64>,
+) {
+    let filtered;
+    let full = match &record.common {
+        Some(filter) => {
+            // The segment was conditioned by this very filter, so it is long enough and finite.
+            filtered = filter.zero_phase(full).unwrap_or_else(|_| full.to_vec());
+            &filtered
+        }
+        None => full,
+    };
+    out.extend(
+        full.iter()
+            .step_by(record.decimate)
+            .zip(&segment.keep)
+            .filter_map(|(x, &keep)| keep.then_some(*x)),
+    );
+}
+
+/// A column that does not depend on the nonlinear unknowns; `None` if it does.
+fn fixed_column(record: &Record, column: ColumnKind) -> Option<Vec<f64>> {
+    let from_velocity = |f: &dyn Fn(f64) -> f64| {
+        let mut out = Vec::with_capacity(record.kept());
+        for segment in &record.segments {
+            let full: Vec<f64> = segment.velocity.iter().map(|&v| f(v)).collect();
+            append_filtered(record, segment, &full, &mut out);
+        }
+        out
+    };
+    match column {
+        ColumnKind::Level | ColumnKind::Rate => None,
+        ColumnKind::Sign(side) => Some(from_velocity(&|v| {
+            if side.selects(v) { v.signum() } else { 0.0 }
+        })),
+        ColumnKind::Speed(side) => Some(from_velocity(&|v| match side {
+            Some(side) if !side.selects(v) => 0.0,
+            _ => v,
+        })),
+        ColumnKind::Acceleration => Some(record.gather(|s| &s.acceleration)),
+        ColumnKind::One => Some(vec![1.0; record.kept()]),
+        ColumnKind::Sine(rate) => {
+            Some(record.gather(|s| &s.position).iter().map(|x| libm::sin(rate * x)).collect())
+        }
+        ColumnKind::Cosine(rate) => {
+            Some(record.gather(|s| &s.position).iter().map(|x| libm::cos(rate * x)).collect())
+        }
+    }
+}

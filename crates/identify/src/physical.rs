@@ -1,0 +1,177 @@
+//! From the unknowns of the search to the parameters of the law.
+
+use crate::law::{Law, LinearTerm};
+use nalgebra::DMatrix;
+
+/// What a parameter measures; with the units of force and motion this gives its unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dimension {
+    /// Force per length (or torque per angle).
+    Stiffness,
+    /// Force per speed.
+    Damping,
+    /// Force, torque, or what stands for it (current, voltage).
+    Force,
+    /// Length (or angle) per time.
+    Speed,
+    /// Force per acceleration: mass or inertia.
+    Inertia,
+    /// A pure number.
+    One,
+}
+
+/// A parameter of the law as a function of the unknowns `(p, c)`.
+#[derive(Clone, Debug)]
+pub(crate) struct Physical {
+    pub name: String,
+    pub dimension: Dimension,
+    pub value: f64,
+    /// Derivatives with respect to `p` then `c`.
+    pub slope: Vec<f64>,
+    /// Nonlinear unknown that sets this parameter, if any: at its bound the parameter is not known.
+    pub nonlinear: Option<usize>,
+    /// Linear unknown that sets this parameter, if any.
+    pub linear: Option<usize>,
+    pub positive: bool,
+}
+
+/// All identified parameters of a law at the unknowns `p`, `c`.
+pub(crate) fn physical(law: &Law, linear: &[LinearTerm], p: &[f64], c: &[f64]) -> Vec<Physical> {
+    let layout = law.layout();
+    let k = layout.count;
+    let width = k + c.len();
+    let at = |name: &str| linear.iter().position(|t| t.name == name);
+    let suffixes: &[&str] = if law.asymmetric { &["_pos", "_neg"] } else { &[""] };
+    let mut out = Vec::new();
+    let mut push = |name: String,
+                    dimension,
+                    value: f64,
+                    slope: Vec<f64>,
+                    nonlinear: Option<usize>,
+                    linear: Option<usize>,
+                    positive| {
+        out.push(Physical { name, dimension, value, slope, nonlinear, linear, positive });
+    };
+    let unit = |i: usize, x: f64| {
+        let mut slope = vec![0.0; width];
+        slope[i] = x;
+        slope
+    };
+    if let Some(level) = at("coulomb") {
+        let coulomb = c[level];
+        if let Some(i) = layout.kappa {
+            let kappa = libm::exp(p[i]);
+            let mut slope = unit(i, kappa * coulomb);
+            slope[k + level] = kappa;
+            push(
+                "sigma0".into(),
+                Dimension::Stiffness,
+                kappa * coulomb,
+                slope,
+                Some(i),
+                Some(level),
+                true,
+            );
+        }
+        if let Some(i) = at("sigma1") {
+            push(
+                "sigma1".into(),
+                Dimension::Damping,
+                c[i],
+                unit(k + i, 1.0),
+                None,
+                Some(i),
+                true,
+            );
+        }
+        for (side, suffix) in suffixes.iter().enumerate() {
+            let ratio = if side == 1 { layout.ratio } else { None };
+            let scale = ratio.map_or(1.0, |i| libm::exp(p[i]));
+            let value = coulomb * scale;
+            let mut coulomb_slope = unit(k + level, scale);
+            if let Some(i) = ratio {
+                coulomb_slope[i] = value;
+            }
+            push(
+                format!("coulomb{suffix}"),
+                Dimension::Force,
+                value,
+                coulomb_slope.clone(),
+                None,
+                Some(level),
+                true,
+            );
+            if let (Some(e), Some(v)) = (layout.excess[side], layout.velocity[side]) {
+                let excess = libm::exp(p[e]);
+                let mut slope: Vec<f64> =
+                    coulomb_slope.iter().map(|x| x * (1.0 + excess)).collect();
+                slope[e] += value * excess;
+                push(
+                    format!("static{suffix}"),
+                    Dimension::Force,
+                    value * (1.0 + excess),
+                    slope,
+                    Some(e),
+                    Some(level),
+                    true,
+                );
+                let velocity = libm::exp(p[v]);
+                push(
+                    format!("stribeck_velocity{suffix}"),
+                    Dimension::Speed,
+                    velocity,
+                    unit(v, velocity),
+                    Some(v),
+                    None,
+                    true,
+                );
+            }
+        }
+    }
+    for (i, term) in linear.iter().enumerate() {
+        let dimension = match term.name.as_str() {
+            "coulomb" | "sigma1" => continue,
+            "mass" => Dimension::Inertia,
+            name if name.starts_with("sigma2") => Dimension::Damping,
+            _ => Dimension::Force,
+        };
+        push(
+            term.name.clone(),
+            dimension,
+            c[i],
+            unit(k + i, 1.0),
+            None,
+            Some(i),
+            term.nonnegative,
+        );
+    }
+    out.sort_by_key(|parameter| rank(&parameter.name));
+    out
+}
+
+/// Order of parameters in tables and files.
+fn rank(name: &str) -> usize {
+    const ORDER: [&str; 8] = [
+        "sigma0",
+        "sigma1",
+        "sigma2",
+        "coulomb",
+        "static",
+        "stribeck_velocity",
+        "mass",
+        "offset",
+    ];
+    ORDER
+        .iter()
+        .position(|known| {
+            name == *known || name.strip_prefix(known).is_some_and(|s| s == "_pos" || s == "_neg")
+        })
+        .unwrap_or(ORDER.len())
+}
+
+/// Covariance of the physical parameters from that of the unknowns.
+pub(crate) fn propagate(parameters: &[Physical], unknowns: &DMatrix<f64>) -> DMatrix<f64> {
+    let width = unknowns.nrows();
+    let t = DMatrix::from_fn(parameters.len(), width, |i, j| parameters[i].slope[j]);
+    &t * unknowns * t.transpose()
+}

@@ -1,0 +1,190 @@
+//! What goes into an identification, before and after conditioning.
+
+use stiction_signal::Sos;
+
+/// One log in SI units on its own time axis: m or rad, m/s or rad/s, N or N·m (or A, V).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Samples {
+    /// Time, s, strictly increasing.
+    pub time: Vec<f64>,
+    /// Position, m or rad.
+    pub position: Option<Vec<f64>>,
+    /// Velocity, m/s or rad/s.
+    pub velocity: Option<Vec<f64>>,
+    /// Force (torque, current, voltage) that drives the axis.
+    pub force: Vec<f64>,
+    /// Which samples may be used; empty means all.
+    pub valid: Vec<bool>,
+    /// Samples at which something new starts (after a jump of the position, say), in order; the
+    /// record is split there even if the time goes on.
+    pub breaks: Vec<usize>,
+}
+
+/// A stretch of uniform samples without gaps.
+///
+/// `velocity` drives the friction law at the full rate; `force` and the known regressors have passed
+/// the common filter and are thinned to every `decimate`-th sample, and so are the columns that the
+/// law makes, so that both sides of the regression see the same filter.
+#[derive(Clone, Debug)]
+pub struct Segment {
+    /// Which log it comes from, counted from 0.
+    pub log: usize,
+    /// Sample time of `velocity`, s.
+    pub step: f64,
+    /// Velocity that drives the law, at the full rate, m/s or rad/s.
+    pub velocity: Vec<f64>,
+    /// Time of the thinned samples, s.
+    pub time: Vec<f64>,
+    /// Measured force at the thinned samples, filtered.
+    pub force: Vec<f64>,
+    /// Position at the thinned samples where known, m or rad.
+    pub position: Vec<f64>,
+    /// Velocity at the thinned samples, as it drives the law (not passed through the common filter).
+    pub speed: Vec<f64>,
+    /// Acceleration at the thinned samples, filtered with the common filter, m/s^2 or rad/s^2.
+    pub acceleration: Vec<f64>,
+    /// Which thinned samples count.
+    pub keep: Vec<bool>,
+}
+
+/// Everything a fit sees: segments, and the filter that made them.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// The stretches, in order.
+    pub segments: Vec<Segment>,
+    /// The common filter, at the full rate, if any.
+    pub common: Option<Sos>,
+    /// Every how many samples the regression uses.
+    pub decimate: usize,
+    /// How the record was conditioned, for people.
+    pub notes: Vec<String>,
+    /// Smallest displacement that the log resolves (one encoder count), m or rad, where known.
+    pub resolution: Option<f64>,
+}
+
+impl Record {
+    /// Number of samples that count.
+    pub fn kept(&self) -> usize {
+        self.segments.iter().map(|s| s.keep.iter().filter(|&&k| k).count()).sum()
+    }
+
+    /// Number of samples of the regression, kept or not.
+    pub fn len(&self) -> usize {
+        self.segments.iter().map(|s| s.keep.len()).sum()
+    }
+
+    /// Whether there are no samples.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Largest speed, m/s or rad/s.
+    pub fn top_speed(&self) -> f64 {
+        self.segments
+            .iter()
+            .flat_map(|s| &s.velocity)
+            .fold(0.0, |top: f64, v| top.max(v.abs()))
+    }
+
+    /// Largest distance between two positions of one segment, by integration of the velocity, m or
+    /// rad.
+    pub fn stroke(&self) -> f64 {
+        self.segments
+            .iter()
+            .map(|s| {
+                let (mut x, mut low, mut high) = (0.0_f64, 0.0_f64, 0.0_f64);
+                for v in s.velocity.windows(2) {
+                    x += 0.5 * (v[0] + v[1]) * s.step;
+                    low = low.min(x);
+                    high = high.max(x);
+                }
+                high - low
+            })
+            .fold(0.0, f64::max)
+    }
+
+    /// Whether the axis moves in both directions, at speeds above a hundredth of the top speed.
+    pub fn moves_both_ways(&self) -> bool {
+        let bound = 0.01 * self.top_speed();
+        let speeds = || {
+            self.segments.iter().flat_map(|s| {
+                s.speed.iter().zip(&s.keep).filter_map(|(v, &keep)| keep.then_some(*v))
+            })
+        };
+        speeds().any(|v| v > bound) && speeds().any(|v| v < -bound)
+    }
+
+    /// The kept samples of one channel, in order.
+    pub fn gather(&self, channel: impl Fn(&Segment) -> &[f64]) -> Vec<f64> {
+        let mut out = Vec::with_capacity(self.kept());
+        for segment in &self.segments {
+            let values = channel(segment);
+            out.extend(
+                values.iter().zip(&segment.keep).filter_map(|(x, &keep)| keep.then_some(*x)),
+            );
+        }
+        out
+    }
+
+    /// Indices among the kept samples at which a new segment starts (not 0), in order.
+    pub(crate) fn breaks(&self) -> Vec<usize> {
+        let mut at = 0;
+        let mut out = Vec::new();
+        for segment in &self.segments {
+            if at > 0 {
+                out.push(at);
+            }
+            at += segment.keep.iter().filter(|&&k| k).count();
+        }
+        out.dedup();
+        out
+    }
+
+    /// The same record with another choice of what counts: `rule` sees the index of a sample among
+    /// all samples of the regression and says whether it counts (if it counted before).
+    #[must_use]
+    pub fn masked(&self, rule: impl Fn(usize) -> bool) -> Self {
+        let mut out = self.clone();
+        let mut index = 0;
+        for segment in &mut out.segments {
+            for keep in &mut segment.keep {
+                *keep = *keep && rule(index);
+                index += 1;
+            }
+        }
+        out
+    }
+
+    /// A cheap stand-in of about `samples` samples to look for starting points, every n-th sample of
+    /// this record; `None` where that is not to be had: for a short record, or one with a common
+    /// filter, which thinning would take from the law's columns but not from the force.
+    pub(crate) fn thinned(&self, samples: usize) -> Option<Self> {
+        let every = self.len() / samples.max(1);
+        if every < 2 || self.common.is_some() {
+            return None;
+        }
+        let pick = |x: &[f64]| x.iter().step_by(every).copied().collect::<Vec<_>>();
+        let segments = self
+            .segments
+            .iter()
+            .map(|s| Segment {
+                log: s.log,
+                step: s.step * (self.decimate * every) as f64,
+                velocity: pick(&s.speed),
+                time: pick(&s.time),
+                force: pick(&s.force),
+                position: pick(&s.position),
+                speed: pick(&s.speed),
+                acceleration: pick(&s.acceleration),
+                keep: s.keep.iter().step_by(every).copied().collect(),
+            })
+            .collect();
+        Some(Self {
+            segments,
+            common: None,
+            decimate: 1,
+            notes: Vec::new(),
+            resolution: self.resolution,
+        })
+    }
+}

@@ -1,0 +1,218 @@
+//! The law in units of its Coulomb level, along a recorded velocity, with its sensitivities.
+//!
+//! This is the scheme EXPLIN of [`stiction_friction::LuGre::step_record`] written for
+//! `eta = s0 z / Fc` and differentiated by hand with respect to every nonlinear unknown; the
+//! friction crate is the oracle it is tested against.
+
+use crate::law::{Law, Layout};
+use libm::{exp, expm1, fabs, pow};
+
+/// The nonlinear unknowns, unpacked.
+#[derive(Clone, Copy, Debug)]
+struct Curve {
+    kappa: f64,
+    /// `Fc` of each direction over `Fc` of the positive one.
+    scale: [f64; 2],
+    /// `r - 1` of each direction.
+    excess: [f64; 2],
+    inverse_velocity: [f64; 2],
+    exponent: f64,
+}
+
+impl Curve {
+    fn new(law: &Law, layout: &Layout, p: &[f64]) -> Self {
+        let read = |index: Option<usize>| index.map(|i| exp(p[i]));
+        let excess = layout.excess.map(|i| read(i).unwrap_or(0.0));
+        Self {
+            kappa: read(layout.kappa).unwrap_or(0.0),
+            scale: [1.0, read(layout.ratio).unwrap_or(1.0)],
+            excess,
+            inverse_velocity: layout.velocity.map(|i| read(i).map_or(0.0, |v| 1.0 / v)),
+            exponent: law.exponent,
+        }
+    }
+}
+
+/// Friction level `gh` at one velocity, and its derivatives.
+#[derive(Clone, Copy)]
+struct Level<const K: usize> {
+    value: f64,
+    slope: [f64; K],
+}
+
+#[inline(always)]
+fn level<const K: usize>(curve: &Curve, layout: &Layout, v: f64, side: usize) -> Level<K> {
+    let x = fabs(v) * curve.inverse_velocity[side];
+    let power = if curve.exponent == 2.0 { x * x } else { pow(x, curve.exponent) };
+    let fall = curve.scale[side] * curve.excess[side] * exp(-power);
+    let value = curve.scale[side] + fall;
+    let mut slope = [0.0; K];
+    if let Some(i) = layout.excess[side] {
+        slope[i] = fall;
+    }
+    if let Some(i) = layout.velocity[side] {
+        // 0 * inf at extreme speeds is a level that no longer depends on vs.
+        slope[i] = if fall == 0.0 { 0.0 } else { fall * curve.exponent * power };
+    }
+    if side == 1
+        && let Some(i) = layout.ratio
+    {
+        slope[i] = value;
+    }
+    Level { value, slope }
+}
+
+/// `(1 - exp(-a)) / a` and its derivative.
+#[inline(always)]
+fn phi(a: f64, e: f64) -> (f64, f64) {
+    if a < 1e-3 {
+        let value = 1.0 - a * (0.5 - a * (1.0 / 6.0 - a * (1.0 / 24.0 - a / 120.0)));
+        let slope = -0.5 + a * (1.0 / 3.0 - a * (0.125 - a / 30.0));
+        (value, slope)
+    } else {
+        let value = -e / a;
+        (value, ((1.0 + e) - value) / a)
+    }
+}
+
+/// The columns that the law makes, at the full rate of a segment.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Trace {
+    /// `eta`.
+    pub eta: Vec<f64>,
+    /// `v - |v| eta / gh`, which the micro-damping multiplies; empty for a static law.
+    pub rate: Vec<f64>,
+    /// Derivatives of `eta` with respect to each nonlinear unknown.
+    pub eta_slope: Vec<Vec<f64>>,
+    /// Derivatives of `rate`.
+    pub rate_slope: Vec<Vec<f64>>,
+}
+
+/// Runs the law along a velocity; `slopes` asks for the sensitivities too.
+pub(crate) fn trace(law: &Law, p: &[f64], step: f64, velocity: &[f64], slopes: bool) -> Trace {
+    let layout = law.layout();
+    let curve = Curve::new(law, &layout, p);
+    macro_rules! run {
+        ($($k:literal),*) => {
+            match (slopes, layout.count) {
+                $((true, $k) => run::<$k>(law, &layout, &curve, step, velocity),)*
+                _ => run::<0>(law, &without_slopes(&layout), &curve, step, velocity),
+            }
+        };
+    }
+    run!(1, 2, 3, 5, 6)
+}
+
+fn without_slopes(layout: &Layout) -> Layout {
+    Layout { kappa: None, excess: [None; 2], velocity: [None; 2], ratio: None, count: layout.count }
+}
+
+fn run<const K: usize>(
+    law: &Law,
+    layout: &Layout,
+    curve: &Curve,
+    step: f64,
+    velocity: &[f64],
+) -> Trace {
+    let n = velocity.len();
+    let mut out = Trace {
+        eta: vec![0.0; n],
+        rate: Vec::new(),
+        eta_slope: vec![vec![0.0; n]; K],
+        rate_slope: Vec::new(),
+    };
+    if law.kind.has_bristle() {
+        out.rate = vec![0.0; n];
+        out.rate_slope = vec![vec![0.0; n]; K];
+        bristle::<K>(layout, curve, step, velocity, &mut out);
+    } else {
+        for (i, &v) in velocity.iter().enumerate() {
+            let sign = if v > 0.0 { 1.0 } else if v < 0.0 { -1.0 } else { 0.0 };
+            let g = level::<K>(curve, layout, v, usize::from(v < 0.0));
+            out.eta[i] = sign * g.value;
+            for k in 0..K {
+                out.eta_slope[k][i] = sign * g.slope[k];
+            }
+        }
+    }
+    out
+}
+
+fn bristle<const K: usize>(
+    layout: &Layout,
+    curve: &Curve,
+    step: f64,
+    velocity: &[f64],
+    out: &mut Trace,
+) {
+    let half = 0.5 * step * curve.kappa;
+    let rest = [0, 1].map(|side| level::<K>(curve, layout, 0.0, side));
+    let mut eta = 0.0;
+    let mut eta_slope = [0.0; K];
+    let mut before: Option<(f64, Level<K>)> = None;
+    for (i, &v) in velocity.iter().enumerate() {
+        let side = usize::from(v < 0.0);
+        let now = level::<K>(curve, layout, v, side);
+        if let Some((u, old)) = before {
+            if u != 0.0 && v != 0.0 && (u < 0.0) != (v < 0.0) {
+                let theta = u / (u - v);
+                let first = usize::from(u < 0.0);
+                let mut part = |fraction: f64, a: f64, ga: &Level<K>, b: f64, gb: &Level<K>, s: f64| {
+                    advance(layout, half * fraction, a, ga, b, gb, s, &mut eta, &mut eta_slope);
+                };
+                part(theta, u, &old, 0.0, &rest[first], if u < 0.0 { -1.0 } else { 1.0 });
+                part(1.0 - theta, 0.0, &rest[side], v, &now, if v < 0.0 { -1.0 } else { 1.0 });
+            } else if u != 0.0 || v != 0.0 {
+                // A step that starts or ends at rest belongs to the direction it moves in.
+                let s = if u < 0.0 || v < 0.0 { -1.0 } else { 1.0 };
+                let moving = usize::from(s < 0.0);
+                let ga = if u == 0.0 { rest[moving] } else { old };
+                let gb = if v == 0.0 { rest[moving] } else { now };
+                advance(layout, half, u, &ga, v, &gb, s, &mut eta, &mut eta_slope);
+            }
+        }
+        let pull = fabs(v) / now.value;
+        out.eta[i] = eta;
+        out.rate[i] = v - pull * eta;
+        for (k, d) in eta_slope.iter().enumerate() {
+            out.eta_slope[k][i] = *d;
+            out.rate_slope[k][i] = -pull * (d - eta * now.slope[k] / now.value);
+        }
+        before = Some((v, now));
+    }
+}
+
+/// One EXPLIN interval of one sign; `half` is `h kappa / 2`.
+#[allow(clippy::too_many_arguments)]
+#[inline(always)]
+fn advance<const K: usize>(
+    layout: &Layout,
+    half: f64,
+    va: f64,
+    ga: &Level<K>,
+    vb: f64,
+    gb: &Level<K>,
+    s: f64,
+    eta: &mut f64,
+    eta_slope: &mut [f64; K],
+) {
+    let (qa, qb) = (half * fabs(va) / ga.value, half * fabs(vb) / gb.value);
+    let a = (qa + qb).min(700.0);
+    let e = expm1(-a);
+    let (ph, ph_slope) = phi(a, e);
+    let (ea, eb) = (s * ga.value, s * gb.value);
+    let gap = *eta - ea;
+    let rise = eb - ea;
+    for (k, d) in eta_slope.iter_mut().enumerate() {
+        let mut a_slope = -(qa * ga.slope[k] / ga.value + qb * gb.slope[k] / gb.value);
+        if layout.kappa == Some(k) {
+            a_slope += a;
+        }
+        let (da, db) = (s * ga.slope[k], s * gb.slope[k]);
+        *d = db + (*d - da) * (1.0 + e)
+            - gap * (1.0 + e) * a_slope
+            - (db - da) * ph
+            - rise * ph_slope * a_slope;
+    }
+    *eta = eb + gap * (1.0 + e) - rise * ph;
+}

@@ -1,0 +1,128 @@
+//! Where the nonlinear unknowns are looked for.
+
+use crate::error::Error;
+use crate::law::{Law, Layout};
+use crate::record::Record;
+
+/// Bounds of the nonlinear unknowns, in logarithms and in the order of the law.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SearchBox {
+    low: Vec<f64>,
+    high: Vec<f64>,
+}
+
+/// Bounds in physical units from which a [`SearchBox`] is made; the same for both directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Ranges {
+    /// Presliding length Fc/s0, m or rad.
+    length: (f64, f64),
+    /// Fs/Fc - 1.
+    excess: (f64, f64),
+    /// Stribeck velocity, m/s or rad/s.
+    velocity: (f64, f64),
+    /// Fc- / Fc+.
+    ratio: (f64, f64),
+}
+
+impl SearchBox {
+    /// A box around given nonlinear unknowns, reaching `decades` to each side.
+    pub fn around(p: &[f64], decades: f64) -> Self {
+        let reach = decades * std::f64::consts::LN_10;
+        Self {
+            low: p.iter().map(|x| x - reach).collect(),
+            high: p.iter().map(|x| x + reach).collect(),
+        }
+    }
+
+    /// The box that the record itself allows: the presliding length between one count of the encoder
+    /// (or a thousandth of the longest step) and the stroke, the Stribeck velocity between
+    /// 1e-4 of the top speed and the top speed, `Fs/Fc - 1` from .02 to 3.
+    pub fn from_record(record: &Record, law: &Law) -> Result<Self, Error> {
+        let top = record.top_speed();
+        let stroke = record.stroke();
+        if !(top > 0.0 && stroke > 0.0 && top.is_finite()) {
+            return Err(Error::NoMotion { bound: top, unit: "" });
+        }
+        let longest = stroke;
+        let finest = record.resolution.unwrap_or_else(|| {
+            let step = record.segments.iter().map(|s| s.step).fold(f64::INFINITY, f64::min);
+            1e-3 * top * step
+        });
+        let ranges = Ranges {
+            length: (finest.clamp(1e-6 * longest, 0.1 * longest), longest),
+            excess: (0.02, 3.0),
+            velocity: (1e-4 * top, top),
+            ratio: (0.1, 10.0),
+        };
+        let layout = law.layout();
+        let mut low = vec![0.0; layout.count];
+        let mut high = vec![0.0; layout.count];
+        let mut set = |index: Option<usize>, (a, b): (f64, f64)| {
+            if let Some(i) = index {
+                low[i] = libm::log(a);
+                high[i] = libm::log(b);
+            }
+        };
+        set(layout.kappa, (1.0 / ranges.length.1, 1.0 / ranges.length.0));
+        for side in 0..2 {
+            set(layout.excess[side], ranges.excess);
+            set(layout.velocity[side], ranges.velocity);
+        }
+        set(layout.ratio, ranges.ratio);
+        Ok(Self { low, high })
+    }
+
+    /// Number of unknowns.
+    pub fn len(&self) -> usize {
+        self.low.len()
+    }
+
+    /// Whether there are no unknowns.
+    pub fn is_empty(&self) -> bool {
+        self.low.is_empty()
+    }
+
+    /// Lower bound of an unknown.
+    pub fn low(&self, i: usize) -> f64 {
+        self.low[i]
+    }
+
+    /// Upper bound of an unknown.
+    pub fn high(&self, i: usize) -> f64 {
+        self.high[i]
+    }
+
+    /// The box of the symmetric law inside that of an asymmetric one: its positive direction.
+    pub(crate) fn symmetric(&self, layout: &Layout) -> Self {
+        let own = [layout.kappa, layout.excess[0], layout.velocity[0]];
+        let pick = |x: &[f64]| own.iter().flatten().map(|&i| x[i]).collect();
+        Self { low: pick(&self.low), high: pick(&self.high) }
+    }
+
+    /// The same box without one unknown.
+    pub(crate) fn without(&self, i: usize) -> Self {
+        let mut out = self.clone();
+        out.low.remove(i);
+        out.high.remove(i);
+        out
+    }
+
+    /// The nearest point inside.
+    pub fn clamp(&self, p: &[f64]) -> Vec<f64> {
+        p.iter().enumerate().map(|(i, x)| x.clamp(self.low[i], self.high[i])).collect()
+    }
+
+    /// The point at a place in the unit cube.
+    pub fn at(&self, unit: &[f64]) -> Vec<f64> {
+        unit.iter()
+            .enumerate()
+            .map(|(i, x)| self.low[i] + x * (self.high[i] - self.low[i]))
+            .collect()
+    }
+
+    /// Whether an unknown stands at one of its bounds.
+    pub fn at_bound(&self, p: &[f64], i: usize) -> bool {
+        let tolerance = 1e-6 * (self.high[i] - self.low[i]);
+        p[i] - self.low[i] <= tolerance || self.high[i] - p[i] <= tolerance
+    }
+}

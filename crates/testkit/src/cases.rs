@@ -1,0 +1,156 @@
+//! The measured recordings, how each is identified, and what must hold.
+
+/// One identification of a recording.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    /// Name of the recording.
+    pub name: &'static str,
+    /// Axis file in `validation/`.
+    pub axis: &'static str,
+    /// Logs to fit, below the folder of recordings.
+    pub logs: &'static [&'static str],
+    /// Logs to validate on.
+    pub validate: &'static [&'static str],
+    /// Part of the samples to fit; the rest is for validation.
+    pub split: Option<f64>,
+    /// Law.
+    pub law: &'static str,
+    /// Whether each direction has parameters of its own.
+    pub asymmetric: bool,
+    /// What must hold.
+    pub limits: &'static [Limit],
+}
+
+/// A number that must not be exceeded.
+#[derive(Clone, Copy, Debug)]
+pub struct Limit {
+    /// Which number.
+    pub metric: Metric,
+    /// Largest value that is allowed.
+    pub most: f64,
+}
+
+/// A number of a result.
+#[derive(Clone, Copy, Debug)]
+pub enum Metric {
+    /// Distance of a parameter from a reference, percent of the reference.
+    OffPercent(&'static str, f64),
+    /// Relative error of the fit, percent.
+    FitPercent,
+    /// Residual on the last validation, in the unit of the force.
+    HeldOutRms,
+    /// Residual near zero speed over that of the symmetric or asymmetric static law named.
+    LowSpeedOver(&'static str),
+    /// The same on the held-out part.
+    HeldOutLowSpeedOver(&'static str),
+}
+
+const fn most(metric: Metric, most: f64) -> Limit {
+    Limit { metric, most }
+}
+
+/// Every case, in the order of the table in `docs/validation.md`.
+pub const CASES: &[Case] = &[
+    Case {
+        name: "EMPS",
+        axis: "emps.toml",
+        logs: &["emps/DATA_EMPS.mat"],
+        validate: &[],
+        split: None,
+        law: "coulomb-viscous",
+        asymmetric: false,
+        limits: &[
+            most(Metric::OffPercent("mass", 95.1089), 0.5),
+            most(Metric::OffPercent("sigma2", 203.5034), 0.5),
+            most(Metric::OffPercent("coulomb", 20.3935), 0.5),
+            most(Metric::OffPercent("offset", -3.1648), 2.0),
+            most(Metric::FitPercent, 4.13),
+        ],
+    },
+    Case {
+        name: "EMPS",
+        axis: "emps.toml",
+        logs: &["emps/DATA_EMPS.mat"],
+        validate: &[],
+        split: None,
+        law: "coulomb-viscous",
+        asymmetric: true,
+        limits: &[most(Metric::FitPercent, 3.20)],
+    },
+    Case {
+        name: "EMPS",
+        axis: "emps.toml",
+        logs: &["emps/DATA_EMPS.mat"],
+        validate: &[],
+        split: None,
+        law: "lugre",
+        asymmetric: true,
+        limits: &[
+            most(Metric::FitPercent, 2.95),
+            most(Metric::LowSpeedOver("coulomb-viscous"), 0.6),
+        ],
+    },
+    Case {
+        name: "Tribometer",
+        axis: "tribometer.toml",
+        logs: &["tribometer/presliding.tsv"],
+        validate: &[],
+        split: Some(0.5),
+        law: "lugre",
+        asymmetric: false,
+        limits: &[most(Metric::HeldOutRms, 0.23)],
+    },
+    Case {
+        name: "Servo, sliding",
+        axis: "servo.toml",
+        logs: &[
+            "servo/sliding_1.txt",
+            "servo/sliding_2.txt",
+            "servo/sliding_3.txt",
+            "servo/sliding_4.txt",
+            "servo/sliding_5.txt",
+            "servo/sliding_6.txt",
+        ],
+        validate: &["servo/sliding_7.txt"],
+        split: None,
+        law: "coulomb-viscous",
+        asymmetric: false,
+        limits: &[
+            most(Metric::OffPercent("mass", 1.98e-4), 3.0),
+            most(Metric::HeldOutRms, 0.0017),
+        ],
+    },
+    Case {
+        name: "UR10e joint 1",
+        axis: "ur10e_joint_1.toml",
+        logs: &["ur10e/joint_1.csv"],
+        validate: &[],
+        split: Some(0.5),
+        law: "lugre",
+        asymmetric: false,
+        limits: &[most(Metric::HeldOutRms, 0.243)],
+    },
+    Case {
+        name: "UR10e joint 4",
+        axis: "ur10e_joint_4.toml",
+        logs: &["ur10e/joint_4.csv"],
+        validate: &[],
+        split: Some(0.5),
+        law: "lugre",
+        asymmetric: false,
+        limits: &[
+            most(Metric::HeldOutRms, 0.0345),
+            most(Metric::HeldOutLowSpeedOver("coulomb-viscous"), 0.55),
+        ],
+    },
+    Case {
+        name: "Damiao motor 1",
+        axis: "damiao.toml",
+        logs: &["damiao/motor_1.npz"],
+        validate: &[],
+        split: None,
+        law: "coulomb-viscous",
+        asymmetric: false,
+        limits: &[most(Metric::OffPercent("mass", 0.0194), 10.0)],
+    },
+];

@@ -1,0 +1,37 @@
+//! For tests only: where measured recordings are, and what must hold on them.
+
+mod cases;
+
+pub use cases::{CASES, Case, Limit, Metric};
+
+use std::path::{Path, PathBuf};
+
+/// The folder of the workspace.
+pub fn workspace() -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.ancestors().nth(2).unwrap_or(here).to_path_buf()
+}
+
+/// The folder of measured recordings: `STICTION_DATA`, else `../shared/data` beside the workspace.
+///
+/// Where there is none, a test must say so loudly and pass over; with `CI=true` their absence is a
+/// failure.
+///
+/// # Panics
+/// With `CI=true` and no recordings.
+pub fn recordings(test: &str) -> Option<PathBuf> {
+    let dir = match std::env::var_os("STICTION_DATA") {
+        Some(dir) => PathBuf::from(dir),
+        None => workspace().join("../shared/data"),
+    };
+    if dir.is_dir() {
+        return Some(dir);
+    }
+    let message = format!(
+        "SKIPPED {test}: no recordings in {} (set STICTION_DATA to the folder that holds them)",
+        dir.display()
+    );
+    assert!(std::env::var("CI").as_deref() != Ok("true"), "{message}");
+    eprintln!("{message}");
+    None
+}
