@@ -31,6 +31,8 @@ pub struct Options {
     pub split: Option<f64>,
     /// Seed of the search.
     pub seed: u64,
+    /// Whether simpler laws are fitted beside it and compared on held-out samples.
+    pub compare_laws: bool,
 }
 
 /// Everything that came out, in memory.
@@ -98,7 +100,7 @@ pub fn identify(options: &Options, observer: &mut dyn Observer) -> Result<Outcom
         let record = condition(std::slice::from_ref(source), &axis)?;
         validation.push((source.path.display().to_string(), engine::predict(&record, &estimate)));
     }
-    let laws = if optimum.status == Status::Interrupted {
+    let laws = if optimum.status == Status::Interrupted || !options.compare_laws {
         Vec::new()
     } else {
         let held_out = match (&split, held_out.is_empty()) {

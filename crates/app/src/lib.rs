@@ -7,7 +7,9 @@
 #![allow(clippy::result_large_err)]
 
 pub mod axis;
+pub mod check;
 pub mod codes;
+pub mod demo;
 mod error;
 mod identify;
 mod model;
@@ -16,6 +18,7 @@ mod report;
 pub mod result;
 mod source;
 mod symbols;
+pub mod text;
 
 pub use axis::Axis;
 pub use error::{Error, Warning};
@@ -23,3 +26,9 @@ pub use identify::{Options, Outcome, identify};
 pub use model::ModelFile;
 pub use output::{Bundle, check_folder, write_atomic};
 pub use source::{Source, load, table};
+pub use stiction_identify::{Control, LawKind, Observer, Progress, Silent, Stage};
+
+/// Limits the threads of the whole process; the first call counts. Results do not depend on it.
+pub fn set_threads(threads: usize) {
+    let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+}

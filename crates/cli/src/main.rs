@@ -1,2 +1,45 @@
-//! The stiction command line.
-fn main() {}
+//! The `stiction` command line: arguments, progress, exit codes. All work is done by the app crate.
+
+mod arguments;
+mod commands;
+mod interrupt;
+mod progress;
+
+use arguments::Arguments;
+use clap::Parser;
+use std::process::ExitCode;
+
+/// What the process says with its exit code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Exit {
+    /// Done.
+    Done = 0,
+    /// Done, and the result is not trustworthy.
+    NotTrustworthy = 1,
+    /// Bad input or usage.
+    BadInput = 2,
+    /// A fault of stiction itself.
+    Internal = 3,
+    /// Interrupted; what was found so far is saved.
+    Interrupted = 130,
+}
+
+fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(e) => {
+            let _ = e.print();
+            // Help and version are no errors.
+            return ExitCode::from(if e.use_stderr() { Exit::BadInput as u8 } else { 0 });
+        }
+    };
+    // A panic is a fault of ours: say so in a sentence, not with a trace alone.
+    let result = std::panic::catch_unwind(|| commands::run(&arguments));
+    let exit = result.unwrap_or_else(|_| {
+        eprintln!(
+            "stiction: internal error. Please report it with the command and, if you can, the log."
+        );
+        Exit::Internal
+    });
+    ExitCode::from(exit as u8)
+}

@@ -88,7 +88,7 @@ fn steady(outcome: &Outcome, v: f64) -> f64 {
     };
     let velocity = value(outcome, "stribeck_velocity", v);
     let fall = if velocity > 0.0 {
-        (-(v.abs() / velocity).powf(outcome.estimate.law.exponent)).exp()
+        libm::exp(-libm::pow(v.abs() / velocity, outcome.estimate.law.exponent))
     } else {
         0.0
     };
@@ -103,7 +103,8 @@ fn steady_std(outcome: &Outcome, v: f64) -> f64 {
     let velocity = value(outcome, "stribeck_velocity", v);
     let exponent = outcome.estimate.law.exponent;
     let x = if velocity > 0.0 { v.abs() / velocity } else { f64::INFINITY };
-    let fall = (-x.powf(exponent)).exp();
+    let power = libm::pow(x, exponent);
+    let fall = libm::exp(-power);
     let side = if v < 0.0 { "_neg" } else { "_pos" };
     let slopes: Vec<f64> = covariance
         .names
@@ -118,7 +119,7 @@ fn steady_std(outcome: &Outcome, v: f64) -> f64 {
                 "coulomb" => v.signum() * (1.0 - if fixed > 0.0 { fall } else { 0.0 }),
                 "static" => v.signum() * fall,
                 "stribeck_velocity" if velocity > 0.0 && fall > 0.0 => {
-                    v.signum() * (fixed - coulomb) * fall * exponent * x.powf(exponent) / velocity
+                    v.signum() * (fixed - coulomb) * fall * exponent * power / velocity
                 }
                 "sigma2" => v,
                 _ => 0.0,

@@ -56,12 +56,9 @@ pub(super) fn parameters(outcome: &Outcome) -> Table {
 
 /// A value with as many digits as its deviation allows, and two more to compute on.
 fn digits(value: f64, std: f64) -> String {
-    let decades = libm_log10(value.abs() / std);
+    let decades = libm::log10(value.abs() / std);
+    // A value without deviation to speak of gives infinity, a deviation of zero never comes here.
     number::sig(value, (decades.ceil().clamp(0.0, 9.0) as usize) + 2)
-}
-
-fn libm_log10(x: f64) -> f64 {
-    if x > 0.0 && x.is_finite() { x.log10() } else { 2.0 }
 }
 
 /// Identified against true values of a simulated axis.

@@ -1,0 +1,206 @@
+//! The check workflow: what was read and detected, and what a log can and cannot determine.
+
+use crate::axis::{Axis, template};
+use crate::error::Error;
+use crate::identify::{self, Options, Outcome};
+use crate::result::Input;
+use crate::source;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use stiction_identify::{LawKind, Observer};
+use stiction_log::{Mapping, Severity};
+
+/// What a check found, log by log.
+#[derive(Clone, Debug, Serialize)]
+pub struct Check {
+    /// `stiction.check/1`.
+    pub schema: String,
+    /// One entry a log.
+    pub logs: Vec<LogCheck>,
+}
+
+/// What a check found in one log.
+#[derive(Clone, Debug, Serialize)]
+pub struct LogCheck {
+    /// The file, and how it was understood.
+    pub input: Input,
+    /// `linear` or `rotary`.
+    pub kind: String,
+    /// Length of the record, s.
+    pub seconds: f64,
+    /// Ranges of the channels, for people: `position -0.1 .. 0.1 m`.
+    pub ranges: Vec<String>,
+    /// What is wrong or worth knowing.
+    pub findings: Vec<Finding>,
+    /// How it would be conditioned.
+    pub conditioning: Vec<String>,
+    /// What a LuGre fit to this log would and would not determine.
+    pub parameters: Vec<ParameterCheck>,
+    /// Why nothing could be identified, if so.
+    pub refused: Option<String>,
+}
+
+/// A finding about a log.
+#[derive(Clone, Debug, Serialize)]
+pub struct Finding {
+    /// Stable code.
+    pub code: String,
+    /// `note` or `warning`.
+    pub severity: String,
+    /// What was found.
+    pub message: String,
+}
+
+/// Whether a log determines a parameter.
+#[derive(Clone, Debug, Serialize)]
+pub struct ParameterCheck {
+    /// Name.
+    pub name: String,
+    /// Estimate, SI.
+    pub value: f64,
+    /// Unit.
+    pub unit: String,
+    /// Whether the log determines it.
+    pub identifiable: bool,
+    /// Why not.
+    pub reason: String,
+}
+
+/// Reads each log and tries what can be identified from it.
+///
+/// # Errors
+/// Where a log or the axis file is refused.
+pub fn check(
+    logs: &[PathBuf],
+    axis: Option<&Path>,
+    observer: &mut dyn Observer,
+) -> Result<Check, Error> {
+    if logs.is_empty() {
+        return Err(Error::usage("no log given", "name at least one log file"));
+    }
+    let read = match axis {
+        Some(file) => Axis::read(file)?,
+        None => Axis::default(),
+    };
+    let mut out = Vec::new();
+    for path in logs {
+        out.push(one(path, axis, &read, observer)?);
+    }
+    Ok(Check { schema: "stiction.check/1".into(), logs: out })
+}
+
+fn one(
+    path: &Path,
+    axis_file: Option<&Path>,
+    axis: &Axis,
+    observer: &mut dyn Observer,
+) -> Result<LogCheck, Error> {
+    let source = source::load(path, axis)?;
+    let log = &source.log;
+    let options = Options {
+        logs: vec![path.to_path_buf()],
+        axis: axis_file.map(Path::to_path_buf),
+        law: LawKind::LuGre,
+        asymmetric: false,
+        validate: Vec::new(),
+        split: None,
+        seed: 0,
+        compare_laws: false,
+    };
+    let (parameters, conditioning, refused) = match identify::identify(&options, observer) {
+        Ok(outcome) => {
+            let refused = untrusted(&outcome);
+            let conditioning = outcome.result.axis.conditioning.clone();
+            (verdicts(&outcome), conditioning, refused)
+        }
+        Err(e) => (Vec::new(), Vec::new(), Some(format!("{}: {e}", e.code()))),
+    };
+    Ok(LogCheck {
+        kind: log.motion.to_string(),
+        seconds: log.time.last().copied().unwrap_or(0.0),
+        ranges: ranges(&source),
+        findings: log
+            .findings
+            .iter()
+            .map(|f| Finding {
+                code: f.code.into(),
+                severity: match f.severity {
+                    Severity::Note => "note".into(),
+                    Severity::Warning => "warning".into(),
+                },
+                message: f.message.clone(),
+            })
+            .collect(),
+        input: source.input(),
+        conditioning,
+        parameters,
+        refused,
+    })
+}
+
+fn untrusted(outcome: &Outcome) -> Option<String> {
+    let trust = &outcome.result.trust;
+    (!trust.trustworthy).then(|| trust.reasons.join("; "))
+}
+
+fn verdicts(outcome: &Outcome) -> Vec<ParameterCheck> {
+    outcome
+        .result
+        .parameters
+        .iter()
+        .filter(|p| p.origin == "identified")
+        .map(|p| ParameterCheck {
+            name: p.name.clone(),
+            value: p.value,
+            unit: p.unit.clone(),
+            identifiable: p.identifiable,
+            reason: p.reason.clone(),
+        })
+        .collect()
+}
+
+fn ranges(source: &source::Source) -> Vec<String> {
+    let log = &source.log;
+    let length = crate::symbols::length_unit(log.motion);
+    let speed = crate::symbols::speed_unit(log.motion);
+    let channels = [
+        ("position", &log.position, length),
+        ("velocity", &log.velocity, speed),
+        ("force", &log.force, log.force_unit.as_str()),
+        ("reference", &log.reference, length),
+        ("temperature", &log.temperature, "K"),
+        ("load", &log.load, log.load_unit.as_str()),
+    ];
+    channels
+        .iter()
+        .filter_map(|(name, values, unit)| {
+            let values = values.as_ref()?;
+            let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            Some(format!("{name} {} .. {} {unit}", short(low), short(high)))
+        })
+        .collect()
+}
+
+/// Four digits, plain where that is short.
+pub(crate) fn short(x: f64) -> String {
+    let size = x.abs();
+    if x == 0.0 {
+        "0".into()
+    } else if (1e-3..1e5).contains(&size) {
+        let digits = (3 - libm::log10(size).floor() as i32).clamp(0, 7) as usize;
+        format!("{x:.digits$}")
+    } else {
+        format!("{x:.3e}")
+    }
+}
+
+/// An axis file for a log, with what was detected filled in and the rest to fill in.
+///
+/// # Errors
+/// Where the file cannot be read at all; columns that cannot be told apart are left to fill in.
+pub fn init(path: &Path) -> Result<String, Error> {
+    let table = source::table(path, &Axis::default())?;
+    let detected = Mapping::detect(&table).ok().map(|d| d.mapping);
+    Ok(template(&table, detected.as_ref()))
+}

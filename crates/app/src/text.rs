@@ -1,0 +1,209 @@
+//! What a terminal shows: plain text tables, the same on every width.
+
+use crate::check::{Check, LogCheck, short};
+use crate::identify::Outcome;
+use crate::symbols;
+use std::fmt::Write;
+
+/// A table with aligned columns; the first row is the header.
+fn table(rows: &[Vec<String>], right: &[bool]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |c: usize| {
+        rows.iter().filter_map(|r| r.get(c)).map(|s| s.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let mut out = String::new();
+    for row in rows {
+        let mut line = String::new();
+        for (c, cell) in row.iter().enumerate() {
+            let pad = widths[c] - cell.chars().count();
+            if c > 0 {
+                line.push_str("  ");
+            }
+            if right.get(c).copied().unwrap_or(false) {
+                line.push_str(&" ".repeat(pad));
+                line.push_str(cell);
+            } else {
+                line.push_str(cell);
+                line.push_str(&" ".repeat(pad));
+            }
+        }
+        out.push_str(line.trim_end());
+        out.push('\n');
+    }
+    out
+}
+
+/// The outcome of an identification.
+pub fn outcome(outcome: &Outcome) -> String {
+    let result = &outcome.result;
+    let mut out = String::new();
+    for input in &result.inputs {
+        let _ = writeln!(
+            out,
+            "{}: {} samples at {} Hz",
+            input.path,
+            input.samples,
+            short(input.rate_hz)
+        );
+    }
+    let _ = writeln!(out, "\n{}", crate::report::law_name(&result.law, result.asymmetric));
+    let mut rows = vec![
+        ["parameter", "", "value", "unit", "std", "95 % interval", ""].map(String::from).to_vec(),
+    ];
+    for p in &result.parameters {
+        let std = match p.std {
+            _ if p.origin == "given" => "given".to_string(),
+            Some(std) if p.value != 0.0 => format!("{:.2} %", 100.0 * std / p.value.abs()),
+            _ => "-".into(),
+        };
+        let interval = match p.ci95 {
+            Some([low, high]) => format!("{} .. {}", short(low), short(high)),
+            None if p.origin == "given" => String::new(),
+            None => "not bounded".into(),
+        };
+        rows.push(vec![
+            p.name.clone(),
+            p.symbol.clone(),
+            short(p.value),
+            p.unit.clone(),
+            std,
+            interval,
+            if p.identifiable { String::new() } else { "NOT IDENTIFIABLE".into() },
+        ]);
+    }
+    out.push_str(&table(&rows, &[false, false, true, false, true, true, false]));
+    let fit = &result.fit;
+    let _ = writeln!(
+        out,
+        "\nfit         {:.3} % relative error, {} {} rms, R2 {:.5}",
+        fit.relative_error_percent,
+        short(fit.rmse),
+        fit.unit,
+        fit.r2
+    );
+    if let Some(low) = &result.low_speed {
+        let _ = writeln!(
+            out,
+            "low speed   {} {} rms below {} {}",
+            short(low.fit.rmse),
+            low.fit.unit,
+            short(low.bound),
+            low.bound_unit
+        );
+    }
+    for v in &result.validation {
+        let _ = writeln!(
+            out,
+            "validation  {:.3} % relative error, {} {} rms on {}",
+            v.fit.relative_error_percent,
+            short(v.fit.rmse),
+            v.fit.unit,
+            v.path
+        );
+    }
+    if !outcome.truth.is_empty() {
+        out.push_str("\nagainst the truth\n");
+        out.push_str(&truth(outcome));
+    }
+    if !result.laws.is_empty() {
+        out.push_str("\nlaws on held-out samples\n");
+        out.push_str(&laws(outcome));
+    }
+    for warning in &result.warnings {
+        let _ = writeln!(out, "\nwarning [{}] {}", warning.code, warning.message);
+    }
+    if !result.trust.trustworthy {
+        let _ = writeln!(out, "\nNOT TRUSTWORTHY: {}", result.trust.reasons.join("; "));
+    }
+    out
+}
+
+fn truth(outcome: &Outcome) -> String {
+    let mut rows =
+        vec![["parameter", "true", "identified", "error", ""].map(String::from).to_vec()];
+    for (name, truth) in &outcome.truth {
+        let Some(p) = outcome.result.parameters.iter().find(|p| p.name == *name) else { continue };
+        let inside = p.ci95.is_some_and(|[low, high]| low <= *truth && *truth <= high);
+        rows.push(vec![
+            name.clone(),
+            short(*truth),
+            short(p.value),
+            if *truth == 0.0 {
+                format!("{} {}", short(p.value), p.unit)
+            } else {
+                format!("{:+.2} %", 100.0 * (p.value / truth - 1.0))
+            },
+            if inside { String::new() } else { "outside its interval".into() },
+        ]);
+    }
+    table(&rows, &[false, true, true, true, false])
+}
+
+fn laws(outcome: &Outcome) -> String {
+    let mut rows = vec![
+        ["law", "parameters", "fitted", "held out", "near zero speed", ""]
+            .map(String::from)
+            .to_vec(),
+    ];
+    let percent = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.2} %"));
+    for l in &outcome.result.laws {
+        rows.push(vec![
+            crate::report::law_name(&l.law, l.asymmetric),
+            l.parameters.to_string(),
+            percent(Some(l.fitted_error_percent)),
+            percent(l.held_out_error_percent),
+            percent(l.held_out_low_speed_error_percent),
+            if l.best { "best".into() } else { String::new() },
+        ]);
+    }
+    table(&rows, &[false, true, true, true, true, false])
+}
+
+/// The outcome of a check.
+pub fn check(check: &Check) -> String {
+    check.logs.iter().map(log_check).collect::<Vec<_>>().join("\n")
+}
+
+fn log_check(log: &LogCheck) -> String {
+    let mut out = format!(
+        "{}\n  {} axis, {} samples, {} s at {} Hz\n",
+        log.input.path,
+        log.kind,
+        log.input.samples,
+        short(log.seconds),
+        short(log.input.rate_hz)
+    );
+    for line in &log.input.detected {
+        let _ = writeln!(out, "  detected   {line}");
+    }
+    for line in &log.ranges {
+        let _ = writeln!(out, "  range      {line}");
+    }
+    for f in &log.findings {
+        let _ = writeln!(out, "  {:<10} [{}] {}", f.severity, f.code, f.message);
+    }
+    for line in &log.conditioning {
+        let _ = writeln!(out, "  condition  {line}");
+    }
+    if !log.parameters.is_empty() {
+        out.push_str("  a LuGre fit to this log\n");
+        let mut rows = Vec::new();
+        for p in &log.parameters {
+            rows.push(vec![
+                format!("    {}", p.name),
+                symbols::symbol(&p.name),
+                if p.identifiable {
+                    format!("determined, about {} {}", short(p.value), p.unit)
+                } else {
+                    format!("not determined: {}", p.reason)
+                },
+            ]);
+        }
+        out.push_str(&table(&rows, &[]));
+    }
+    if let Some(refused) = &log.refused {
+        let _ = writeln!(out, "  cannot be trusted: {refused}");
+    }
+    out
+}

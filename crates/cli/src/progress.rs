@@ -1,0 +1,53 @@
+//! Progress on standard error, while that is a terminal.
+
+use crate::interrupt;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use stiction_app::{Control, Observer, Progress, Stage};
+
+/// Shows a bar with the best cost so far, and passes the user's interrupt on.
+pub struct Bar {
+    bar: ProgressBar,
+    stage: Option<Stage>,
+}
+
+impl Bar {
+    /// A bar, hidden where nobody would see it or nobody wants it.
+    pub fn new(hidden: bool) -> Self {
+        let bar = ProgressBar::new(1000);
+        if hidden || !std::io::stderr().is_terminal() {
+            bar.set_draw_target(ProgressDrawTarget::hidden());
+        }
+        if let Ok(style) =
+            ProgressStyle::with_template("{prefix:>18} {wide_bar} {percent:>3} %  {msg}  left {eta}")
+        {
+            bar.set_style(style);
+        }
+        Self { bar, stage: None }
+    }
+
+    /// Takes the bar away.
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Observer for Bar {
+    fn progress(&mut self, progress: &Progress) -> Control {
+        if self.stage != Some(progress.stage) {
+            self.stage = Some(progress.stage);
+            self.bar.reset();
+            self.bar.set_prefix(match progress.stage {
+                Stage::Scan => "scanning the box",
+                Stage::Coarse => "first descents",
+                Stage::Fine => "least squares",
+                Stage::CrossValidation => "comparing laws",
+            });
+        }
+        self.bar.set_position((1000.0 * progress.fraction) as u64);
+        if progress.best.is_finite() {
+            self.bar.set_message(format!("error {:.3} %", 100.0 * progress.best));
+        }
+        if interrupt::asked() { Control::Stop } else { Control::Continue }
+    }
+}
