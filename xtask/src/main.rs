@@ -29,6 +29,11 @@ const TASKS: &[Task] = &[
         run: test::run,
     },
     Task {
+        name: "validation",
+        help: "identify the measured recordings and rewrite docs/validation.md",
+        run: validation,
+    },
+    Task {
         name: "licences",
         help: "refuse a dependency whose licence is not permissive",
         run: licences::run,
@@ -38,6 +43,12 @@ const TASKS: &[Task] = &[
 fn setup() -> shell::Outcome {
     debian::install()?;
     python::install()
+}
+
+fn validation() -> shell::Outcome {
+    shell::run(shell::cargo(
+        "run --release --quiet --package stiction-app --example validation",
+    ))
 }
 
 fn main() -> ExitCode {

@@ -86,7 +86,10 @@ pub fn check(
     for path in logs {
         out.push(one(path, axis, &read, observer)?);
     }
-    Ok(Check { schema: "stiction.check/1".into(), logs: out })
+    Ok(Check {
+        schema: "stiction.check/1".into(),
+        logs: out,
+    })
 }
 
 fn one(

@@ -6,11 +6,23 @@ use stiction_log::{CODES as LOG, Kind};
 pub const OWN: &[(&str, &str)] = &[
     ("not-identifiable", "the data do not determine a parameter"),
     ("not-converged", "the search ended without converging"),
-    ("interrupted", "the search was stopped; the best found so far is given"),
+    (
+        "interrupted",
+        "the search was stopped; the best found so far is given",
+    ),
     ("poor-fit", "the law explains too little of the force"),
-    ("simpler-law-holds-better", "a law with fewer parameters predicts unseen samples better"),
-    ("too-few-samples", "too few usable samples are left after conditioning"),
-    ("bad-setting", "a setting of the conditioning is out of range for this log"),
+    (
+        "simpler-law-holds-better",
+        "a law with fewer parameters predicts unseen samples better",
+    ),
+    (
+        "too-few-samples",
+        "too few usable samples are left after conditioning",
+    ),
+    (
+        "bad-setting",
+        "a setting of the conditioning is out of range for this log",
+    ),
     ("bad-record", "the channels of a log do not fit together"),
     ("bad-config", "an axis or model file was refused"),
     ("usage", "the command as typed cannot be carried out"),
@@ -23,12 +35,22 @@ pub fn all() -> Vec<(&'static str, &'static str)> {
         (Kind::Io, "a recording cannot be opened or read"),
         (Kind::Format, "a file does not follow the format it claims"),
         (Kind::Limit, "a file asks for more than is allowed"),
-        (Kind::Ambiguous, "a recording can be read in more than one way"),
-        (Kind::Missing, "something that is needed is not in the recording"),
+        (
+            Kind::Ambiguous,
+            "a recording can be read in more than one way",
+        ),
+        (
+            Kind::Missing,
+            "something that is needed is not in the recording",
+        ),
         (Kind::Unit, "a unit is unknown or does not fit"),
         (Kind::Time, "time stamps that no rule can mend"),
         (Kind::Value, "a number outside what is allowed"),
     ];
     let kinds = KINDS.iter().map(|(kind, meaning)| (kind.code(), *meaning));
-    LOG.iter().copied().chain(kinds).chain(OWN.iter().copied()).collect()
+    LOG.iter()
+        .copied()
+        .chain(kinds)
+        .chain(OWN.iter().copied())
+        .collect()
 }

@@ -69,11 +69,17 @@ impl Error {
     }
 
     pub(crate) fn output(path: &Path, reason: impl Into<String>) -> Self {
-        Error::Output { path: path.to_path_buf(), reason: reason.into() }
+        Error::Output {
+            path: path.to_path_buf(),
+            reason: reason.into(),
+        }
     }
 
     pub(crate) fn usage(found: impl Into<String>, allowed: impl Into<String>) -> Self {
-        Error::Usage { found: found.into(), allowed: allowed.into() }
+        Error::Usage {
+            found: found.into(),
+            allowed: allowed.into(),
+        }
     }
 }
 
@@ -88,6 +94,9 @@ pub struct Warning {
 
 impl Warning {
     pub(crate) fn new(code: &str, message: impl Into<String>) -> Self {
-        Self { code: code.to_string(), message: message.into() }
+        Self {
+            code: code.to_string(),
+            message: message.into(),
+        }
     }
 }

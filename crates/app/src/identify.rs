@@ -86,19 +86,32 @@ pub fn identify(options: &Options, observer: &mut dyn Observer) -> Result<Outcom
         asymmetric: options.asymmetric,
         exponent: axis.stribeck_exponent,
     };
-    let low_speed = axis.low_speed.unwrap_or_else(|| engine::low_speed_bound(&full));
-    let settings = Settings { seed: options.seed, ..Settings::default() };
-    let fail = |source| Error::Identify { inputs: names(&options.logs), source };
-    let optimum =
-        engine::separable(&record, law, &terms, &settings, observer).map_err(fail)?;
+    let low_speed = axis
+        .low_speed
+        .unwrap_or_else(|| engine::low_speed_bound(&full));
+    let settings = Settings {
+        seed: options.seed,
+        ..Settings::default()
+    };
+    let fail = |source| Error::Identify {
+        inputs: names(&options.logs),
+        source,
+    };
+    let optimum = engine::separable(&record, law, &terms, &settings, observer).map_err(fail)?;
     let estimate = engine::estimate(&record, law, &terms, &optimum, low_speed);
     let mut validation = Vec::new();
     if let Some(rest) = &split {
-        validation.push(("rest of the log".to_string(), engine::predict(rest, &estimate)));
+        validation.push((
+            "rest of the log".to_string(),
+            engine::predict(rest, &estimate),
+        ));
     }
     for source in &held_out {
         let record = condition(std::slice::from_ref(source), &axis)?;
-        validation.push((source.path.display().to_string(), engine::predict(&record, &estimate)));
+        validation.push((
+            source.path.display().to_string(),
+            engine::predict(&record, &estimate),
+        ));
     }
     let laws = if optimum.status == Status::Interrupted || !options.compare_laws {
         Vec::new()
@@ -108,8 +121,11 @@ pub fn identify(options: &Options, observer: &mut dyn Observer) -> Result<Outcom
             (None, false) => Some(condition(&held_out, &axis)?),
             (None, true) => None,
         };
-        let [symmetric, asymmetric] =
-            if options.asymmetric { [&other, &terms] } else { [&terms, &other] };
+        let [symmetric, asymmetric] = if options.asymmetric {
+            [&other, &terms]
+        } else {
+            [&terms, &other]
+        };
         ladder::Ladder {
             record: &record,
             held_out: held_out.as_ref(),
@@ -142,7 +158,15 @@ pub fn identify(options: &Options, observer: &mut dyn Observer) -> Result<Outcom
         warnings,
         wall_s: clock.elapsed().as_secs_f64(),
     });
-    Ok(Outcome { result, estimate, validation, sources, motion, force_unit, truth: Vec::new() })
+    Ok(Outcome {
+        result,
+        estimate,
+        validation,
+        sources,
+        motion,
+        force_unit,
+        truth: Vec::new(),
+    })
 }
 
 impl Outcome {
@@ -166,13 +190,23 @@ fn load_all(paths: &[PathBuf], axis: &Axis) -> Result<Vec<Source>, Error> {
 
 /// Conditions logs together; the encoder step of the log is used where the axis states none.
 pub(crate) fn condition(sources: &[Source], axis: &Axis) -> Result<Record, Error> {
-    let samples = sources.iter().map(Source::samples).collect::<Result<Vec<_>, _>>()?;
+    let samples = sources
+        .iter()
+        .map(Source::samples)
+        .collect::<Result<Vec<_>, _>>()?;
     let mut conditioning = axis.conditioning;
     if conditioning.resolution.is_none() {
-        conditioning.resolution = sources.iter().filter_map(|s| s.log.quantum).reduce(f64::min);
+        conditioning.resolution = sources
+            .iter()
+            .filter_map(|s| s.log.quantum)
+            .reduce(f64::min);
     }
     engine::condition(&samples, &conditioning).map_err(|source| Error::Identify {
-        inputs: sources.iter().map(|s| s.path.display().to_string()).collect::<Vec<_>>().join(", "),
+        inputs: sources
+            .iter()
+            .map(|s| s.path.display().to_string())
+            .collect::<Vec<_>>()
+            .join(", "),
         source,
     })
 }
@@ -204,7 +238,10 @@ fn check_together(sources: &[Source], held_out: &[Source]) -> Result<(), Error> 
 /// Index of the first sample of the regression that is held out.
 fn cut(record: &Record, part: f64) -> Result<usize, Error> {
     if !(part > 0.0 && part < 1.0) {
-        return Err(Error::usage(format!("--split {part}"), "a number between 0 and 1, such as 0.5"));
+        return Err(Error::usage(
+            format!("--split {part}"),
+            "a number between 0 and 1, such as 0.5",
+        ));
     }
     Ok((part * record.len() as f64) as usize)
 }
@@ -212,15 +249,22 @@ fn cut(record: &Record, part: f64) -> Result<usize, Error> {
 /// Refuses a log without motion, in the words of its own unit.
 fn refuse_rest(record: &Record, sources: &[Source], motion: Motion) -> Result<(), Error> {
     let top = record.top_speed();
-    let still = sources.iter().all(|s| {
-        s.log.findings.iter().any(|f| f.code == "no-motion")
-    });
+    let still = sources
+        .iter()
+        .all(|s| s.log.findings.iter().any(|f| f.code == "no-motion"));
     if top > 0.0 && !still {
         return Ok(());
     }
     Err(Error::Identify {
-        inputs: sources.iter().map(|s| s.path.display().to_string()).collect::<Vec<_>>().join(", "),
-        source: engine::Error::NoMotion { bound: top, unit: crate::symbols::speed_unit(motion) },
+        inputs: sources
+            .iter()
+            .map(|s| s.path.display().to_string())
+            .collect::<Vec<_>>()
+            .join(", "),
+        source: engine::Error::NoMotion {
+            bound: top,
+            unit: crate::symbols::speed_unit(motion),
+        },
     })
 }
 
@@ -228,13 +272,19 @@ fn log_warnings(sources: &[Source]) -> Vec<Warning> {
     sources
         .iter()
         .flat_map(|s| {
-            s.log.findings.iter().filter(|f| f.severity == Severity::Warning).map(|f| {
-                Warning::new(f.code, format!("{}: {}", s.path.display(), f.message))
-            })
+            s.log
+                .findings
+                .iter()
+                .filter(|f| f.severity == Severity::Warning)
+                .map(|f| Warning::new(f.code, format!("{}: {}", s.path.display(), f.message)))
         })
         .collect()
 }
 
 fn names(paths: &[PathBuf]) -> String {
-    paths.iter().map(|p| p.display().to_string()).collect::<Vec<_>>().join(", ")
+    paths
+        .iter()
+        .map(|p| p.display().to_string())
+        .collect::<Vec<_>>()
+        .join(", ")
 }

@@ -3,9 +3,6 @@
 //! Each workflow takes what a user typed, resolved to plain data, and returns what came out; nothing
 //! here prints. Files are written only by [`Bundle::write`].
 
-// An error carries where, what and what instead, and is made once, at the end.
-#![allow(clippy::result_large_err)]
-
 pub mod axis;
 pub mod check;
 pub mod codes;
@@ -30,5 +27,7 @@ pub use stiction_identify::{Control, LawKind, Observer, Progress, Silent, Stage}
 
 /// Limits the threads of the whole process; the first call counts. Results do not depend on it.
 pub fn set_threads(threads: usize) {
-    let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+    let _ = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build_global();
 }

@@ -113,7 +113,10 @@ impl ModelFile {
                 inputs: result
                     .inputs
                     .iter()
-                    .map(|i| SourceInput { path: i.path.clone(), sha256: i.sha256.clone() })
+                    .map(|i| SourceInput {
+                        path: i.path.clone(),
+                        sha256: i.sha256.clone(),
+                    })
                     .collect(),
             },
             parameter: result.parameters.iter().map(ModelParameter::from).collect(),
@@ -142,7 +145,10 @@ impl ModelFile {
         };
         let model: Self = toml::from_str(text).map_err(|e| {
             let line = e.span().map(|s| {
-                text.as_bytes()[..s.start.min(text.len())].iter().filter(|&&b| b == b'\n').count()
+                text.as_bytes()[..s.start.min(text.len())]
+                    .iter()
+                    .filter(|&&b| b == b'\n')
+                    .count()
             });
             refuse(
                 line.map_or(String::new(), |l| format!("line {}: ", l + 1)),
@@ -152,7 +158,11 @@ impl ModelFile {
         })?;
         if model.schema != SCHEMA {
             let found = format!("schema {:?}", model.schema);
-            return Err(refuse("schema: ".into(), found, format!("this version reads {SCHEMA:?}")));
+            return Err(refuse(
+                "schema: ".into(),
+                found,
+                format!("this version reads {SCHEMA:?}"),
+            ));
         }
         if let Some(p) = model.parameter.iter().find(|p| !p.value.is_finite()) {
             let found = format!("{} is {}", p.name, p.value);

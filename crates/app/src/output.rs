@@ -54,13 +54,18 @@ pub fn write_atomic(path: &Path, content: &[u8]) -> Result<(), Error> {
         _ => Path::new("."),
     };
     let fail = |e: std::io::Error| Error::output(path, describe(&e));
-    let mut file = tempfile::Builder::new().prefix(".stiction-").tempfile_in(dir).map_err(fail)?;
+    let mut file = tempfile::Builder::new()
+        .prefix(".stiction-")
+        .tempfile_in(dir)
+        .map_err(fail)?;
     file.write_all(content).map_err(fail)?;
     file.as_file().sync_all().map_err(fail)?;
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        file.as_file().set_permissions(fs::Permissions::from_mode(0o644)).map_err(fail)?;
+        file.as_file()
+            .set_permissions(fs::Permissions::from_mode(0o644))
+            .map_err(fail)?;
     }
     file.persist(path).map_err(|e| fail(e.error))?;
     Ok(())
@@ -92,7 +97,9 @@ pub fn check_folder(dir: &Path, force: bool) -> Result<(), Error> {
 }
 
 fn is_ours(mark: &Path) -> bool {
-    let Ok(file) = fs::File::open(mark) else { return false };
+    let Ok(file) = fs::File::open(mark) else {
+        return false;
+    };
     let mut head = Vec::new();
     use std::io::Read;
     file.take(4096).read_to_end(&mut head).is_ok()

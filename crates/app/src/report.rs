@@ -5,9 +5,7 @@ mod formula;
 mod tables;
 
 use crate::identify::Outcome;
-use stiction_report::{
-    Block, Callout, Document, KeyFigure, Severity, Text, number,
-};
+use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
 
 /// Where the pages of the codes stand, relative to nothing on the reader's disk: only a hint.
 const CODES: &str = "docs/codes/";
@@ -16,18 +14,26 @@ const CODES: &str = "docs/codes/";
 pub(crate) fn identification(outcome: &Outcome) -> Document {
     let result = &outcome.result;
     let name = result.axis.name.clone().unwrap_or_else(|| {
-        result.inputs.first().map_or_else(String::new, |i| file_name(&i.path))
+        result
+            .inputs
+            .first()
+            .map_or_else(String::new, |i| file_name(&i.path))
     });
     let law = law_name(&result.law, result.asymmetric);
     let mut document = Document::new(format!("Friction of {name}"))
-        .subtitle(format!("{law}, identified from {}", logs(result.inputs.len())))
+        .subtitle(format!(
+            "{law}, identified from {}",
+            logs(result.inputs.len())
+        ))
         .footer(format!(
             "stiction {} · method {} · seed {} · {} evaluations",
             result.version, result.method, result.seed, result.search.evaluations
         ));
     document = document.block(verdict(outcome));
     document = document.block(Block::KeyFigures(key_figures(outcome)));
-    document = document.heading(2, "Parameters").block(tables::parameters(outcome));
+    document = document
+        .heading(2, "Parameters")
+        .block(tables::parameters(outcome));
     if !outcome.truth.is_empty() {
         document = document.block(tables::truth(outcome));
     }
@@ -50,15 +56,21 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
             figures::low_speed(outcome).into(),
             figures::presliding(outcome).into(),
         ]));
-    document = document.heading(2, "Force in time").block(figures::time(outcome));
+    document = document
+        .heading(2, "Force in time")
+        .block(figures::time(outcome));
     if !outcome.validation.is_empty() {
-        document = document.heading(2, "Validation").block(tables::validation(outcome));
+        document = document
+            .heading(2, "Validation")
+            .block(tables::validation(outcome));
         for (path, series) in &outcome.validation {
             document = document.block(figures::validation(outcome, path, series));
         }
     }
     if !result.laws.is_empty() {
-        document = document.heading(2, "Which law").block(tables::laws(outcome));
+        document = document
+            .heading(2, "Which law")
+            .block(tables::laws(outcome));
     }
     document = document
         .heading(2, "How sure")
@@ -73,49 +85,97 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
         document = document.block(tables::input(input));
     }
     document.block(Block::List(
-        result.axis.conditioning.iter().map(|note| Text::from(note.as_str())).collect(),
+        result
+            .axis
+            .conditioning
+            .iter()
+            .map(|note| Text::from(note.as_str()))
+            .collect(),
     ))
 }
 
 fn verdict(outcome: &Outcome) -> Callout {
     let trust = &outcome.result.trust;
-    let flagged = outcome.result.parameters.iter().filter(|p| !p.identifiable).count();
+    let flagged = outcome
+        .result
+        .parameters
+        .iter()
+        .filter(|p| !p.identifiable)
+        .count();
     let (severity, text) = if !trust.trustworthy {
-        (Severity::Error, format!("Do not use these numbers: {}.", trust.reasons.join("; ")))
+        (
+            Severity::Error,
+            format!("Do not use these numbers: {}.", trust.reasons.join("; ")),
+        )
     } else if flagged > 0 {
-        let what = if flagged == 1 { "1 parameter is" } else { &format!("{flagged} parameters are") };
+        let what = if flagged == 1 {
+            "1 parameter is"
+        } else {
+            &format!("{flagged} parameters are")
+        };
         (
             Severity::Warning,
             format!("The fit holds, but {what} not determined by this log; see the flags below."),
         )
     } else {
-        (Severity::Good, "Every parameter is determined by this log.".to_string())
+        (
+            Severity::Good,
+            "Every parameter is determined by this log.".to_string(),
+        )
     };
-    Callout { severity, code: String::new(), text: Text::from(text), link: String::new() }
+    Callout {
+        severity,
+        code: String::new(),
+        text: Text::from(text),
+        link: String::new(),
+    }
 }
 
 fn key_figures(outcome: &Outcome) -> Vec<KeyFigure> {
     let result = &outcome.result;
     let fit = &result.fit;
     let mut out = vec![
-        KeyFigure::new("Relative error", number::sig(fit.relative_error_percent, 3), "%")
-            .note("100 rms(residual) / rms(measured)"),
+        KeyFigure::new(
+            "Relative error",
+            number::sig(fit.relative_error_percent, 3),
+            "%",
+        )
+        .note("100 rms(residual) / rms(measured)"),
         KeyFigure::new("Residual", number::sig(fit.rmse, 3), fit.unit.as_str())
             .note(format!("rms, R² {}", number::sig(fit.r2, 5))),
     ];
     if let Some(low) = &result.low_speed {
         out.push(
-            KeyFigure::new("Near zero speed", number::sig(low.fit.rmse, 3), fit.unit.as_str())
-                .note(format!("rms below {} {}", number::sig(low.bound, 3), low.bound_unit)),
+            KeyFigure::new(
+                "Near zero speed",
+                number::sig(low.fit.rmse, 3),
+                fit.unit.as_str(),
+            )
+            .note(format!(
+                "rms below {} {}",
+                number::sig(low.bound, 3),
+                low.bound_unit
+            )),
         );
     }
     if let Some(v) = result.validation.last() {
         out.push(
-            KeyFigure::new("On unseen data", number::sig(v.fit.rmse, 3), fit.unit.as_str())
-                .note(format!("rms, {} %", number::sig(v.fit.relative_error_percent, 3))),
+            KeyFigure::new(
+                "On unseen data",
+                number::sig(v.fit.rmse, 3),
+                fit.unit.as_str(),
+            )
+            .note(format!(
+                "rms, {} %",
+                number::sig(v.fit.relative_error_percent, 3)
+            )),
         );
     }
-    let total = result.parameters.iter().filter(|p| p.origin == "identified").count();
+    let total = result
+        .parameters
+        .iter()
+        .filter(|p| p.origin == "identified")
+        .count();
     let known = result
         .parameters
         .iter()
@@ -147,11 +207,19 @@ pub(crate) fn law_name(law: &str, asymmetric: bool) -> String {
         "lugre" => "LuGre",
         other => other,
     };
-    if asymmetric { format!("{name}, asymmetric") } else { name.to_string() }
+    if asymmetric {
+        format!("{name}, asymmetric")
+    } else {
+        name.to_string()
+    }
 }
 
 fn logs(n: usize) -> String {
-    if n == 1 { "one log".into() } else { format!("{n} logs") }
+    if n == 1 {
+        "one log".into()
+    } else {
+        format!("{n} logs")
+    }
 }
 
 fn file_name(path: &str) -> String {

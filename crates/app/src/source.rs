@@ -27,7 +27,10 @@ pub struct Source {
 /// # Errors
 /// With file, place, what was found and what is allowed.
 pub fn table(path: &Path, axis: &Axis) -> Result<Table, Error> {
-    let options = ReadOptions { text: axis.text, ..ReadOptions::default() };
+    let options = ReadOptions {
+        text: axis.text,
+        ..ReadOptions::default()
+    };
     Ok(read_table(path, &options)?)
 }
 
@@ -40,7 +43,12 @@ pub fn load(path: &Path, axis: &Axis) -> Result<Source, Error> {
     let log = Log::from_table(&table, &axis.mapping).map_err(|e| e.in_file(path))?;
     let mut detected = log.detected.clone();
     detected.extend(table.skipped.iter().map(|s| format!("left out: {s}")));
-    Ok(Source { path: path.to_path_buf(), sha256: sha256(path)?, detected, log })
+    Ok(Source {
+        path: path.to_path_buf(),
+        sha256: sha256(path)?,
+        detected,
+        log,
+    })
 }
 
 fn sha256(path: &Path) -> Result<String, Error> {
@@ -58,7 +66,11 @@ fn sha256(path: &Path) -> Result<String, Error> {
         }
         hash.update(&buffer[..n]);
     }
-    Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+    Ok(hash
+        .finalize()
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect())
 }
 
 impl Source {
@@ -88,7 +100,11 @@ impl Source {
                 .in_file(&self.path),
             )
         };
-        let force = self.log.force.clone().ok_or_else(|| missing("force", "force"))?;
+        let force = self
+            .log
+            .force
+            .clone()
+            .ok_or_else(|| missing("force", "force"))?;
         if self.log.position.is_none() && self.log.velocity.is_none() {
             return Err(missing("position or velocity", "position"));
         }

@@ -40,7 +40,9 @@ pub fn speed_unit(motion: Motion) -> &'static str {
 pub fn symbol(name: &str) -> String {
     let (stem, side) = match name.strip_suffix("_pos") {
         Some(stem) => (stem, "⁺"),
-        None => name.strip_suffix("_neg").map_or((name, ""), |stem| (stem, "⁻")),
+        None => name
+            .strip_suffix("_neg")
+            .map_or((name, ""), |stem| (stem, "⁻")),
     };
     let symbol = match stem {
         "sigma0" => "σ₀",

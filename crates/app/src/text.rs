@@ -9,7 +9,11 @@ use std::fmt::Write;
 fn table(rows: &[Vec<String>], right: &[bool]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |c: usize| {
-        rows.iter().filter_map(|r| r.get(c)).map(|s| s.chars().count()).max().unwrap_or(0)
+        rows.iter()
+            .filter_map(|r| r.get(c))
+            .map(|s| s.chars().count())
+            .max()
+            .unwrap_or(0)
     };
     let widths: Vec<usize> = (0..columns).map(width).collect();
     let mut out = String::new();
@@ -47,9 +51,15 @@ pub fn outcome(outcome: &Outcome) -> String {
             short(input.rate_hz)
         );
     }
-    let _ = writeln!(out, "\n{}", crate::report::law_name(&result.law, result.asymmetric));
+    let _ = writeln!(
+        out,
+        "\n{}",
+        crate::report::law_name(&result.law, result.asymmetric)
+    );
     let mut rows = vec![
-        ["parameter", "", "value", "unit", "std", "95 % interval", ""].map(String::from).to_vec(),
+        ["parameter", "", "value", "unit", "std", "95 % interval", ""]
+            .map(String::from)
+            .to_vec(),
     ];
     for p in &result.parameters {
         let std = match p.std {
@@ -69,10 +79,17 @@ pub fn outcome(outcome: &Outcome) -> String {
             p.unit.clone(),
             std,
             interval,
-            if p.identifiable { String::new() } else { "NOT IDENTIFIABLE".into() },
+            if p.identifiable {
+                String::new()
+            } else {
+                "NOT IDENTIFIABLE".into()
+            },
         ]);
     }
-    out.push_str(&table(&rows, &[false, false, true, false, true, true, false]));
+    out.push_str(&table(
+        &rows,
+        &[false, false, true, false, true, true, false],
+    ));
     let fit = &result.fit;
     let _ = writeln!(
         out,
@@ -114,17 +131,28 @@ pub fn outcome(outcome: &Outcome) -> String {
         let _ = writeln!(out, "\nwarning [{}] {}", warning.code, warning.message);
     }
     if !result.trust.trustworthy {
-        let _ = writeln!(out, "\nNOT TRUSTWORTHY: {}", result.trust.reasons.join("; "));
+        let _ = writeln!(
+            out,
+            "\nNOT TRUSTWORTHY: {}",
+            result.trust.reasons.join("; ")
+        );
     }
     out
 }
 
 fn truth(outcome: &Outcome) -> String {
-    let mut rows =
-        vec![["parameter", "true", "identified", "error", ""].map(String::from).to_vec()];
+    let mut rows = vec![
+        ["parameter", "true", "identified", "error", ""]
+            .map(String::from)
+            .to_vec(),
+    ];
     for (name, truth) in &outcome.truth {
-        let Some(p) = outcome.result.parameters.iter().find(|p| p.name == *name) else { continue };
-        let inside = p.ci95.is_some_and(|[low, high]| low <= *truth && *truth <= high);
+        let Some(p) = outcome.result.parameters.iter().find(|p| p.name == *name) else {
+            continue;
+        };
+        let inside = p
+            .ci95
+            .is_some_and(|[low, high]| low <= *truth && *truth <= high);
         rows.push(vec![
             name.clone(),
             short(*truth),
@@ -134,7 +162,11 @@ fn truth(outcome: &Outcome) -> String {
             } else {
                 format!("{:+.2} %", 100.0 * (p.value / truth - 1.0))
             },
-            if inside { String::new() } else { "outside its interval".into() },
+            if inside {
+                String::new()
+            } else {
+                "outside its interval".into()
+            },
         ]);
     }
     table(&rows, &[false, true, true, true, false])
@@ -142,9 +174,16 @@ fn truth(outcome: &Outcome) -> String {
 
 fn laws(outcome: &Outcome) -> String {
     let mut rows = vec![
-        ["law", "parameters", "fitted", "held out", "near zero speed", ""]
-            .map(String::from)
-            .to_vec(),
+        [
+            "law",
+            "parameters",
+            "fitted",
+            "held out",
+            "near zero speed",
+            "",
+        ]
+        .map(String::from)
+        .to_vec(),
     ];
     let percent = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.2} %"));
     for l in &outcome.result.laws {
@@ -162,7 +201,12 @@ fn laws(outcome: &Outcome) -> String {
 
 /// The outcome of a check.
 pub fn check(check: &Check) -> String {
-    check.logs.iter().map(log_check).collect::<Vec<_>>().join("\n")
+    check
+        .logs
+        .iter()
+        .map(log_check)
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 fn log_check(log: &LogCheck) -> String {

@@ -22,7 +22,8 @@ pub fn run(arguments: &Arguments) -> Exit {
     result.unwrap_or_else(|e| {
         eprintln!("stiction: [{}] {e}", e.code());
         if common.json {
-            let error = serde_json::json!({ "error": { "code": e.code(), "message": e.to_string() } });
+            let error =
+                serde_json::json!({ "error": { "code": e.code(), "message": e.to_string() } });
             println!("{error}");
         }
         Exit::BadInput
@@ -46,7 +47,10 @@ fn check(check: &arguments::Check, common: &Common) -> Result<Exit, Error> {
     bar.finish();
     let found = found?;
     if common.json {
-        println!("{}", serde_json::to_string_pretty(&found).expect("plain data"));
+        println!(
+            "{}",
+            serde_json::to_string_pretty(&found).expect("plain data")
+        );
     } else if !common.quiet {
         print!("{}", stiction_app::text::check(&found));
     }
@@ -54,7 +58,11 @@ fn check(check: &arguments::Check, common: &Common) -> Result<Exit, Error> {
         return Ok(Exit::Interrupted);
     }
     let refused = found.logs.iter().any(|log| log.refused.is_some());
-    Ok(if refused { Exit::NotTrustworthy } else { Exit::Done })
+    Ok(if refused {
+        Exit::NotTrustworthy
+    } else {
+        Exit::Done
+    })
 }
 
 fn init(check: &arguments::Check, file: &Path, common: &Common) -> Result<Exit, Error> {
@@ -107,7 +115,10 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
 fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error> {
     let written = outcome.bundle().write(dir)?;
     if common.json {
-        println!("{}", serde_json::to_string_pretty(&outcome.result).expect("plain data"));
+        println!(
+            "{}",
+            serde_json::to_string_pretty(&outcome.result).expect("plain data")
+        );
     } else if !common.quiet {
         print!("{}", stiction_app::text::outcome(outcome));
         let names: Vec<_> = written
@@ -119,5 +130,9 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
     if outcome.result.search.status == "interrupted" {
         return Ok(Exit::Interrupted);
     }
-    Ok(if outcome.result.trust.trustworthy { Exit::Done } else { Exit::NotTrustworthy })
+    Ok(if outcome.result.trust.trustworthy {
+        Exit::Done
+    } else {
+        Exit::NotTrustworthy
+    })
 }

@@ -30,7 +30,11 @@ fn main() -> ExitCode {
         Err(e) => {
             let _ = e.print();
             // Help and version are no errors.
-            return ExitCode::from(if e.use_stderr() { Exit::BadInput as u8 } else { 0 });
+            return ExitCode::from(if e.use_stderr() {
+                Exit::BadInput as u8
+            } else {
+                0
+            });
         }
     };
     // A panic is a fault of ours: say so in a sentence, not with a trace alone.

@@ -18,9 +18,9 @@ impl Bar {
         if hidden || !std::io::stderr().is_terminal() {
             bar.set_draw_target(ProgressDrawTarget::hidden());
         }
-        if let Ok(style) =
-            ProgressStyle::with_template("{prefix:>18} {wide_bar} {percent:>3} %  {msg}  left {eta}")
-        {
+        if let Ok(style) = ProgressStyle::with_template(
+            "{prefix:>18} {wide_bar} {percent:>3} %  {msg}  left {eta}",
+        ) {
             bar.set_style(style);
         }
         Self { bar, stage: None }
@@ -46,8 +46,13 @@ impl Observer for Bar {
         }
         self.bar.set_position((1000.0 * progress.fraction) as u64);
         if progress.best.is_finite() {
-            self.bar.set_message(format!("error {:.3} %", 100.0 * progress.best));
+            self.bar
+                .set_message(format!("error {:.3} %", 100.0 * progress.best));
         }
-        if interrupt::asked() { Control::Stop } else { Control::Continue }
+        if interrupt::asked() {
+            Control::Stop
+        } else {
+            Control::Continue
+        }
     }
 }

@@ -74,7 +74,10 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
     for (i, log) in logs.iter().enumerate() {
         check(i + 1, log)?;
     }
-    let step = logs.iter().map(|log| median_step(&log.time)).fold(0.0_f64, f64::max);
+    let step = logs
+        .iter()
+        .map(|log| median_step(&log.time))
+        .fold(0.0_f64, f64::max);
     let rate = 1.0 / step;
     let source = match conditioning.source {
         Some(source) => source,
@@ -95,9 +98,15 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
     let common_hz = hertz(conditioning.common_cutoff, rate / 20.0);
     let source_filter = low_pass("source_cutoff", source_hz, rate)?;
     let common = low_pass("common_cutoff", common_hz, rate)?;
-    let what = if from_position { "position" } else { "velocity" };
+    let what = if from_position {
+        "position"
+    } else {
+        "velocity"
+    };
     if let Some(f) = source_hz {
-        notes.push(format!("{what}: zero-phase Butterworth low-pass, order {ORDER}, {f:.4} Hz"));
+        notes.push(format!(
+            "{what}: zero-phase Butterworth low-pass, order {ORDER}, {f:.4} Hz"
+        ));
     }
     let decimate = match (conditioning.decimate, common_hz) {
         (Some(0), _) => {
@@ -125,7 +134,9 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
         .max()
         .unwrap_or(0);
     if trim > 0 {
-        notes.push(format!("{trim} samples at each end dropped (filters settling)"));
+        notes.push(format!(
+            "{trim} samples at each end dropped (filters settling)"
+        ));
     }
     if conditioning.min_speed > 0.0 {
         notes.push(format!(
@@ -152,7 +163,9 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
         }
     }
     if short > 0 {
-        notes.push(format!("{short} stretches between gaps were too short to filter and left out"));
+        notes.push(format!(
+            "{short} stretches between gaps were too short to filter and left out"
+        ));
     }
     Ok(Record {
         segments,
@@ -160,13 +173,17 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
         decimate,
         notes,
         resolution: conditioning.resolution,
+        is_thinned: false,
     })
 }
 
 fn low_pass(name: &'static str, hz: Option<f64>, rate: f64) -> Result<Option<Sos>, Error> {
     hz.map(|f| Sos::butterworth_low_pass(ORDER, f, rate))
         .transpose()
-        .map_err(|e| Error::Filter { name, reason: e.to_string() })
+        .map_err(|e| Error::Filter {
+            name,
+            reason: e.to_string(),
+        })
 }
 
 fn check(number: usize, log: &Samples) -> Result<(), Error> {
@@ -182,22 +199,48 @@ fn check(number: usize, log: &Samples) -> Result<(), Error> {
     for (channel, values) in channels {
         let Some(values) = values else { continue };
         if values.len() != n {
-            return Err(Error::Length { log: number, channel, found: values.len(), expected: n });
+            return Err(Error::Length {
+                log: number,
+                channel,
+                found: values.len(),
+                expected: n,
+            });
         }
         if let Some(i) = values.iter().position(|x| !x.is_finite()) {
-            return Err(Error::NotFinite { log: number, channel, index: i + 1 });
+            return Err(Error::NotFinite {
+                log: number,
+                channel,
+                index: i + 1,
+            });
         }
     }
     if !log.valid.is_empty() && log.valid.len() != n {
         let found = log.valid.len();
-        return Err(Error::Length { log: number, channel: "valid", found, expected: n });
+        return Err(Error::Length {
+            log: number,
+            channel: "valid",
+            found,
+            expected: n,
+        });
     }
     if n < 4 {
-        return Err(Error::TooFewSamples { found: n, needed: 4, dropped: 0, total: n });
+        return Err(Error::TooFewSamples {
+            found: n,
+            needed: 4,
+            dropped: 0,
+            total: n,
+        });
     }
     // A NaN in time compares as "does not increase" too.
-    if let Some(i) = log.time.windows(2).position(|t| !(t[1] > t[0] && t[1].is_finite())) {
-        return Err(Error::Time { log: number, index: i + 2 });
+    if let Some(i) = log
+        .time
+        .windows(2)
+        .position(|t| !(t[1] > t[0] && t[1].is_finite()))
+    {
+        return Err(Error::Time {
+            log: number,
+            index: i + 2,
+        });
     }
     Ok(())
 }
@@ -266,7 +309,11 @@ impl Filters {
         };
         let acceleration = smooth(gradient(&velocity, step).ok()?, &self.common)?;
         let force = smooth(on_grid(&samples.force), &self.common)?;
-        let valid = if samples.valid.is_empty() { &[][..] } else { &samples.valid[range] };
+        let valid = if samples.valid.is_empty() {
+            &[][..]
+        } else {
+            &samples.valid[range]
+        };
         let keep = grid.keep(valid);
         let thin = |x: &[f64]| x.iter().step_by(self.decimate).copied().collect::<Vec<_>>();
         let keep = keep
@@ -323,9 +370,17 @@ impl<'a> Grid<'a> {
             .iter()
             .enumerate()
             .all(|(i, t)| (t - start - i as f64 * step).abs() <= 0.5 * step)
-            && time.windows(2).all(|t| ((t[1] - t[0]) / step - 1.0).abs() <= UNIFORM);
+            && time
+                .windows(2)
+                .all(|t| ((t[1] - t[0]) / step - 1.0).abs() <= UNIFORM);
         if uniform {
-            return Some(Self { time, start, step, before: None, count: time.len() });
+            return Some(Self {
+                time,
+                start,
+                step,
+                before: None,
+                count: time.len(),
+            });
         }
         let count = ((end - start) / step * (1.0 + 1e-12)) as usize + 1;
         // Gaps are bridged up to a few samples each, so the grid cannot be much longer than the log.
@@ -341,7 +396,13 @@ impl<'a> Grid<'a> {
             }
             before.push(at);
         }
-        Some(Self { time, start, step, before: Some(before), count })
+        Some(Self {
+            time,
+            start,
+            step,
+            before: Some(before),
+            count,
+        })
     }
 
     fn len(&self) -> usize {
@@ -349,11 +410,15 @@ impl<'a> Grid<'a> {
     }
 
     fn times(&self) -> Vec<f64> {
-        (0..self.count).map(|k| self.start + k as f64 * self.step).collect()
+        (0..self.count)
+            .map(|k| self.start + k as f64 * self.step)
+            .collect()
     }
 
     fn resample(&self, x: &[f64]) -> Vec<f64> {
-        let Some(before) = &self.before else { return x.to_vec() };
+        let Some(before) = &self.before else {
+            return x.to_vec();
+        };
         before
             .iter()
             .enumerate()
@@ -372,9 +437,7 @@ impl<'a> Grid<'a> {
             None => (0..self.count).map(ok).collect(),
             Some(before) => before
                 .iter()
-                .map(|&i| {
-                    ok(i) && ok(i + 1) && self.time[i + 1] - self.time[i] < 1.75 * self.step
-                })
+                .map(|&i| ok(i) && ok(i + 1) && self.time[i + 1] - self.time[i] < 1.75 * self.step)
                 .collect(),
         }
     }

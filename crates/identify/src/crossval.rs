@@ -51,8 +51,14 @@ pub fn cross_validate(
         let inside = |i: usize| order[i].is_some_and(|k| k * blocks / total == block);
         let train = record.masked(|i| !inside(i));
         let test = record.masked(inside);
-        let (p, c, status, _) =
-            refine(&train, fitted.law, &fitted.terms, bounds, fitted.unknowns(), observer);
+        let (p, c, status, _) = refine(
+            &train,
+            fitted.law,
+            &fitted.terms,
+            bounds,
+            fitted.unknowns(),
+            observer,
+        );
         if status == Status::Interrupted {
             complete = false;
             break;
@@ -63,9 +69,13 @@ pub fn cross_validate(
         measured.extend_from_slice(objective.force());
         speed.extend(test.gather(|s| &s.speed));
     }
-    let held_out = if complete { Fit::new(&measured, &residual) } else { None };
-    let held_out_low_speed = held_out
-        .and_then(|_| Fit::slow(&measured, &residual, &speed, fitted.low_speed_bound));
+    let held_out = if complete {
+        Fit::new(&measured, &residual)
+    } else {
+        None
+    };
+    let held_out_low_speed =
+        held_out.and_then(|_| Fit::slow(&measured, &residual, &speed, fitted.low_speed_bound));
     LawScore {
         law: fitted.law,
         parameters: unknowns,

@@ -56,7 +56,9 @@ pub enum Error {
         total: usize,
     },
     /// The axis does not move.
-    #[error("the axis does not move in this log (|v| stays below {bound:.3e} {unit}): friction cannot be identified from it")]
+    #[error(
+        "the axis does not move in this log (|v| stays below {bound:.3e} {unit}): friction cannot be identified from it"
+    )]
     NoMotion {
         /// Largest speed seen.
         bound: f64,

@@ -59,7 +59,11 @@ pub struct Series {
 impl Series {
     /// Measured minus model.
     pub fn residual(&self) -> Vec<f64> {
-        self.measured.iter().zip(&self.model).map(|(u, y)| u - y).collect()
+        self.measured
+            .iter()
+            .zip(&self.model)
+            .map(|(u, y)| u - y)
+            .collect()
     }
 }
 
@@ -142,19 +146,35 @@ pub fn estimate(
         parameters.insert(at, given("stribeck_exponent", law.exponent));
     }
     if let Mass::Given(mass) = terms.mass {
-        let at = parameters.iter().position(|p| p.name == "offset").unwrap_or(parameters.len());
-        parameters.insert(at, Parameter { dimension: Dimension::Inertia, ..given("mass", mass) });
+        let at = parameters
+            .iter()
+            .position(|p| p.name == "offset")
+            .unwrap_or(parameters.len());
+        parameters.insert(
+            at,
+            Parameter {
+                dimension: Dimension::Inertia,
+                ..given("mass", mass)
+            },
+        );
     }
     let names: Vec<String> = raw.iter().map(|p| p.name.clone()).collect();
     let n = names.len();
     let covariance = Covariance {
         names,
-        matrix: (0..n).map(|i| (0..n).map(|j| matrix[(i, j)]).collect()).collect(),
+        matrix: (0..n)
+            .map(|i| (0..n).map(|j| matrix[(i, j)]).collect())
+            .collect(),
     };
     let series = series(&objective, &optimum.p, c);
     let residual = at.residual();
     let fit = Fit::new(&series.measured, residual).expect("a fit has samples");
-    let low_speed = Fit::slow(&series.measured, residual, &series.velocity, low_speed_bound);
+    let low_speed = Fit::slow(
+        &series.measured,
+        residual,
+        &series.velocity,
+        low_speed_bound,
+    );
     Estimate {
         law,
         terms: terms.clone(),
@@ -215,16 +235,24 @@ fn describe(
     }
     let known = reason.is_empty() && variance.is_finite() && variance >= 0.0;
     let std = known.then(|| variance.sqrt());
-    let size = if p.positive { p.value.abs() } else { p.value.abs().max(level) };
+    let size = if p.positive {
+        p.value.abs()
+    } else {
+        p.value.abs().max(level)
+    };
     let relative = std.map(|s| s / size);
     if let Some(r) = relative
         && (r > IDENTIFIABLE || r.is_nan())
     {
-        reason = format!("standard deviation {:.0} % of its {}", 100.0 * r, if p.positive {
-            "value"
-        } else {
-            "value or of the Coulomb level"
-        });
+        reason = format!(
+            "standard deviation {:.0} % of its {}",
+            100.0 * r,
+            if p.positive {
+                "value"
+            } else {
+                "value or of the Coulomb level"
+            }
+        );
     }
     let ci95 = std.and_then(|s| {
         if p.positive {

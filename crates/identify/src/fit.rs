@@ -39,7 +39,11 @@ impl Fit {
             } else {
                 f64::NAN
             },
-            r2: if spread > 0.0 { 1.0 - error / spread } else { f64::NAN },
+            r2: if spread > 0.0 {
+                1.0 - error / spread
+            } else {
+                f64::NAN
+            },
             samples: n,
             effective_samples: effective_sample_size(residual, MOST_LAGS)
                 .map_or(n as f64, |e| e.size),
@@ -49,7 +53,11 @@ impl Fit {
     /// The same for the samples slower than `bound`, m/s or rad/s.
     pub fn slow(measured: &[f64], residual: &[f64], speed: &[f64], bound: f64) -> Option<Self> {
         let pick = |x: &[f64]| -> Vec<f64> {
-            x.iter().zip(speed).filter(|(_, v)| v.abs() < bound).map(|(x, _)| *x).collect()
+            x.iter()
+                .zip(speed)
+                .filter(|(_, v)| v.abs() < bound)
+                .map(|(x, _)| *x)
+                .collect()
         };
         Self::new(&pick(measured), &pick(residual))
     }

@@ -17,8 +17,12 @@ pub enum LawKind {
 
 impl LawKind {
     /// All families, from the simplest to the richest.
-    pub const ALL: [LawKind; 4] =
-        [LawKind::CoulombViscous, LawKind::Stribeck, LawKind::Dahl, LawKind::LuGre];
+    pub const ALL: [LawKind; 4] = [
+        LawKind::CoulombViscous,
+        LawKind::Stribeck,
+        LawKind::Dahl,
+        LawKind::LuGre,
+    ];
 
     /// Name as typed on the command line and written to files.
     pub fn name(self) -> &'static str {
@@ -46,6 +50,13 @@ impl LawKind {
     }
 }
 
+/// A name for the law as a person writes it.
+impl std::fmt::Display for LawKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
 /// A law to fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Law {
@@ -60,7 +71,11 @@ pub struct Law {
 impl Law {
     /// The symmetric law of this family with the Gaussian Stribeck curve.
     pub fn new(kind: LawKind) -> Self {
-        Self { kind, asymmetric: false, exponent: 2.0 }
+        Self {
+            kind,
+            asymmetric: false,
+            exponent: 2.0,
+        }
     }
 
     /// The same law with parameters per direction.
@@ -146,7 +161,12 @@ pub enum Mass {
 
 impl Default for Terms {
     fn default() -> Self {
-        Self { mass: Mass::Fitted, offset: true, gravity: false, cogging: Vec::new() }
+        Self {
+            mass: Mass::Fitted,
+            offset: true,
+            gravity: false,
+            cogging: Vec::new(),
+        }
     }
 }
 
@@ -200,7 +220,11 @@ impl Terms {
     pub(crate) fn columns(&self, law: &Law) -> Vec<LinearTerm> {
         let mut out = Vec::new();
         let mut push = |name: &str, column, nonnegative| {
-            out.push(LinearTerm { name: name.to_string(), column, nonnegative });
+            out.push(LinearTerm {
+                name: name.to_string(),
+                column,
+                nonnegative,
+            });
         };
         let split = law.kind == LawKind::CoulombViscous && law.asymmetric;
         if split {
@@ -229,8 +253,16 @@ impl Terms {
             push("gravity_cos", ColumnKind::Cosine(1.0), false);
         }
         for (k, pitch) in self.cogging.iter().enumerate() {
-            push(&format!("cogging{}_sin", k + 1), ColumnKind::Sine(TAU / pitch), false);
-            push(&format!("cogging{}_cos", k + 1), ColumnKind::Cosine(TAU / pitch), false);
+            push(
+                &format!("cogging{}_sin", k + 1),
+                ColumnKind::Sine(TAU / pitch),
+                false,
+            );
+            push(
+                &format!("cogging{}_cos", k + 1),
+                ColumnKind::Cosine(TAU / pitch),
+                false,
+            );
         }
         out
     }

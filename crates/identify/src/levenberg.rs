@@ -50,20 +50,19 @@ pub(crate) struct Watch<'o> {
     pub stage: Stage,
     pub fraction: f64,
     pub counts: Counts,
-    pub thinned: bool,
     pub best: f64,
     /// Whether the observer has asked to stop.
     pub stopped: bool,
 }
 
 impl Watch<'_> {
-    pub fn count(&mut self, sensitivities: bool) {
+    pub fn count(&mut self, objective: &Objective, sensitivities: bool) {
         if sensitivities {
             self.counts.sensitivities += 1;
         } else {
             self.counts.cost += 1;
         }
-        if self.thinned {
+        if objective.record().is_thinned {
             self.counts.thinned += 1;
         }
     }
@@ -98,7 +97,7 @@ pub(crate) fn descend(
 ) -> Descent {
     let mut p = bounds.clamp(start);
     let mut now = objective.evaluate(&p, true);
-    watch.count(true);
+    watch.count(objective, true);
     let mut history = vec![(watch.counts.total(), objective.relative(now.cost))];
     let mut lambda = 1e-3;
     let mut grow = 2.0;
@@ -117,8 +116,17 @@ pub(crate) fn descend(
             status = Status::Converged;
             break;
         };
-        let trial = bounds.clamp(&p.iter().zip(step.iter()).map(|(x, d)| x + d).collect::<Vec<_>>());
-        let length = p.iter().zip(&trial).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let trial = bounds.clamp(
+            &p.iter()
+                .zip(step.iter())
+                .map(|(x, d)| x + d)
+                .collect::<Vec<_>>(),
+        );
+        let length = p
+            .iter()
+            .zip(&trial)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f64::max);
         if length < SETTLED {
             status = if lambda <= 1.0 || flat_at(&now, &trial, &p) {
                 Status::Converged
@@ -128,11 +136,15 @@ pub(crate) fn descend(
             break;
         }
         let next = objective.evaluate(&trial, true);
-        watch.count(true);
+        watch.count(objective, true);
         let predicted = predicted_gain(&now, &trial, &p);
         let gained = now.cost - next.cost;
         if next.cost.is_finite() && gained > 0.0 {
-            let ratio = if predicted > 0.0 { gained / predicted } else { 1.0 };
+            let ratio = if predicted > 0.0 {
+                gained / predicted
+            } else {
+                1.0
+            };
             let flat = gained <= FLAT * now.cost;
             p = trial;
             now = next;
@@ -158,7 +170,13 @@ pub(crate) fn descend(
             }
         }
     }
-    Descent { p, evaluation: now, status, iterations, history }
+    Descent {
+        p,
+        evaluation: now,
+        status,
+        iterations,
+        history,
+    }
 }
 
 /// Fall of the cost that the quadratic model promises for a step.
@@ -169,7 +187,11 @@ fn predicted_gain(now: &Evaluation, to: &[f64], from: &[f64]) -> f64 {
 
 /// Whether the gradient is so small that a step of one in the logarithms would promise nothing.
 fn flat_at(now: &Evaluation, to: &[f64], from: &[f64]) -> bool {
-    let length = to.iter().zip(from).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let length = to
+        .iter()
+        .zip(from)
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f64::max);
     length == 0.0 || predicted_gain(now, to, from) / length <= 1e-9 * now.cost
 }
 
@@ -233,8 +255,10 @@ fn solve_free(
 ) -> Option<Vec<f64>> {
     let n = free.len();
     // Scaled to a unit diagonal: the unknowns differ in size by many decades.
-    let scale: Vec<f64> =
-        free.iter().map(|&i| 1.0 / (now.hessian[(i, i)] * (1.0 + lambda)).sqrt()).collect();
+    let scale: Vec<f64> = free
+        .iter()
+        .map(|&i| 1.0 / (now.hessian[(i, i)] * (1.0 + lambda)).sqrt())
+        .collect();
     let mut matrix = DMatrix::zeros(n, n);
     let mut rhs = DVector::zeros(n);
     let pulled = &now.hessian * others;
@@ -247,5 +271,11 @@ fn solve_free(
     }
     let solved = matrix.cholesky()?.solve(&rhs);
     // A step of more than e^3 in one go leaves the region where the model means anything.
-    Some(solved.iter().zip(&scale).map(|(x, s)| (x * s).clamp(-3.0, 3.0)).collect())
+    Some(
+        solved
+            .iter()
+            .zip(&scale)
+            .map(|(x, s)| (x * s).clamp(-3.0, 3.0))
+            .collect(),
+    )
 }

@@ -83,15 +83,20 @@ impl Factor {
             scale.push(s);
         }
         let n = columns.len();
-        (Self { columns, scale, lower: lower.view((0, 0), (n, n)).into_owned() }, dropped)
+        (
+            Self {
+                columns,
+                scale,
+                lower: lower.view((0, 0), (n, n)).into_owned(),
+            },
+            dropped,
+        )
     }
 
     /// Solves the normal equations for a right-hand side given for the active columns.
     fn solve(&self, rhs: &[f64]) -> Vec<f64> {
-        let mut b = DVector::from_iterator(
-            rhs.len(),
-            rhs.iter().zip(&self.scale).map(|(x, s)| x * s),
-        );
+        let mut b =
+            DVector::from_iterator(rhs.len(), rhs.iter().zip(&self.scale).map(|(x, s)| x * s));
         self.lower.solve_lower_triangular_mut(&mut b);
         self.lower.tr_solve_lower_triangular_mut(&mut b);
         b.iter().zip(&self.scale).map(|(x, s)| x * s).collect()
@@ -101,7 +106,12 @@ impl Factor {
 impl Solution {
     /// Part of `d` that the active columns cannot express, in place.
     pub fn project_out(&self, columns: &[&[f64]], d: &mut [f64]) {
-        let rhs: Vec<f64> = self.factor.columns.iter().map(|&j| dot(columns[j], d)).collect();
+        let rhs: Vec<f64> = self
+            .factor
+            .columns
+            .iter()
+            .map(|&j| dot(columns[j], d))
+            .collect();
         let c = self.factor.solve(&rhs);
         for (x, &j) in c.iter().zip(&self.factor.columns) {
             for (d, phi) in d.iter_mut().zip(columns[j]) {
@@ -146,7 +156,11 @@ pub(crate) fn solve(columns: &[&[f64]], nonnegative: &[bool], u: &[f64]) -> Solu
     let mut c = factor.solve(&pick);
     let mut r = Vec::with_capacity(u.len());
     residual(columns, &factor, &c, u, &mut r);
-    let correction: Vec<f64> = factor.columns.iter().map(|&j| dot(columns[j], &r)).collect();
+    let correction: Vec<f64> = factor
+        .columns
+        .iter()
+        .map(|&j| dot(columns[j], &r))
+        .collect();
     for (x, d) in c.iter_mut().zip(factor.solve(&correction)) {
         *x += d;
     }
@@ -163,7 +177,14 @@ pub(crate) fn solve(columns: &[&[f64]], nonnegative: &[bool], u: &[f64]) -> Solu
         dependent[j] = true;
     }
     let cost = dot(&r, &r);
-    Solution { coefficients, active, dependent, residual: r, cost, factor }
+    Solution {
+        coefficients,
+        active,
+        dependent,
+        residual: r,
+        cost,
+        factor,
+    }
 }
 
 /// Which bounded columns are held at zero at the constrained optimum.
@@ -180,7 +201,11 @@ fn feasible_set(gram: &DMatrix<f64>, rhs: &[f64], nonnegative: &[bool]) -> Vec<b
         let (factor, _) = Factor::new(gram, &wanted);
         let pick: Vec<f64> = factor.columns.iter().map(|&j| rhs[j]).collect();
         let c = factor.solve(&pick);
-        let broken = factor.columns.iter().zip(&c).any(|(&j, &x)| nonnegative[j] && x < 0.0);
+        let broken = factor
+            .columns
+            .iter()
+            .zip(&c)
+            .any(|(&j, &x)| nonnegative[j] && x < 0.0);
         if broken {
             continue;
         }
@@ -202,7 +227,11 @@ mod tests {
 
     fn waves(n: usize) -> Vec<Vec<f64>> {
         (0..4)
-            .map(|k| (0..n).map(|i| ((i * (k + 2)) as f64 * 0.37 + k as f64).sin()).collect())
+            .map(|k| {
+                (0..n)
+                    .map(|i| ((i * (k + 2)) as f64 * 0.37 + k as f64).sin())
+                    .collect()
+            })
             .collect()
     }
 
@@ -211,8 +240,9 @@ mod tests {
         let columns = waves(501);
         let views: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
         let truth = [1.5e3, 2e-4, 7.0, -3.0];
-        let u: Vec<f64> =
-            (0..501).map(|i| (0..4).map(|k| truth[k] * columns[k][i]).sum()).collect();
+        let u: Vec<f64> = (0..501)
+            .map(|i| (0..4).map(|k| truth[k] * columns[k][i]).sum())
+            .collect();
         let found = solve(&views, &[true, true, true, false], &u);
         for (x, t) in found.coefficients.iter().zip(truth) {
             assert!((x / t - 1.0).abs() < 1e-9, "{x} instead of {t}");
@@ -227,8 +257,8 @@ mod tests {
             .map(|i| 2.0 * columns[0][i] - 1.0 * columns[1][i] + 0.1 * columns[2][i])
             .collect();
         let found = solve(&views, &[true; 4], &u);
-        for j in 0..4 {
-            let slope = dot(&columns[j], &found.residual);
+        for (j, column) in columns.iter().enumerate() {
+            let slope = dot(column, &found.residual);
             if found.active[j] {
                 assert!(found.coefficients[j] >= 0.0);
                 assert!(slope.abs() < 1e-9, "residual not orthogonal to column {j}");

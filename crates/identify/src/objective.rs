@@ -2,7 +2,7 @@
 
 use crate::law::{ColumnKind, Law, LinearTerm, Mass, Terms};
 use crate::linear::{self, Solution, dot};
-use crate::record::{Record, Segment};
+use crate::record::Record;
 use crate::recursion::{Trace, trace};
 use nalgebra::{DMatrix, DVector};
 
@@ -52,14 +52,19 @@ impl<'a> Objective<'a> {
     /// The objective of this law with these terms on this record.
     pub fn new(record: &'a Record, law: Law, terms: &Terms) -> Self {
         let linear = terms.columns(&law);
-        let fixed = linear.iter().map(|term| fixed_column(record, term.column)).collect();
+        let fixed = linear
+            .iter()
+            .map(|term| fixed_column(record, term.column))
+            .collect();
         let force = record.gather(|s| &s.force);
         let energy = dot(&force, &force);
         let nonnegative = linear.iter().map(|term| term.nonnegative).collect();
         let inertia: Vec<f64> = match terms.mass {
-            Mass::Given(mass) => {
-                record.gather(|s| &s.acceleration).iter().map(|a| mass * a).collect()
-            }
+            Mass::Given(mass) => record
+                .gather(|s| &s.acceleration)
+                .iter()
+                .map(|a| mass * a)
+                .collect(),
             Mass::Fitted | Mass::Absent => Vec::new(),
         };
         let target = if inertia.is_empty() {
@@ -67,7 +72,17 @@ impl<'a> Objective<'a> {
         } else {
             force.iter().zip(&inertia).map(|(u, f)| u - f).collect()
         };
-        Self { record, law, linear, nonnegative, fixed, force, inertia, target, energy }
+        Self {
+            record,
+            law,
+            linear,
+            nonnegative,
+            fixed,
+            force,
+            inertia,
+            target,
+            energy,
+        }
     }
 
     /// The record.
@@ -96,37 +111,26 @@ impl<'a> Objective<'a> {
 
     /// `rms(residual) / rms(measured)` of a cost.
     pub fn relative(&self, cost: f64) -> f64 {
-        if self.energy > 0.0 { (cost / self.energy).sqrt() } else { f64::INFINITY }
+        if self.energy > 0.0 {
+            (cost / self.energy).sqrt()
+        } else {
+            f64::INFINITY
+        }
     }
 
     /// Solves the linear part for the nonlinear unknowns `p` (logarithms, in the order of the law).
     pub fn evaluate(&self, p: &[f64], slopes: bool) -> Evaluation {
-        let traces: Vec<Trace> = self
-            .record
-            .segments
-            .iter()
-            .map(|s| trace(&self.law, p, s.step, &s.velocity, slopes))
-            .collect();
-        let columns: Vec<Vec<f64>> = self
-            .linear
-            .iter()
-            .zip(&self.fixed)
-            .map(|(term, fixed)| match (fixed, term.column) {
-                (Some(column), _) => column.clone(),
-                (None, ColumnKind::Rate) => self.thin(&traces, |t| &t.rate),
-                (None, _) => self.thin(&traces, |t| &t.eta),
-            })
-            .collect();
+        let traces = self.traces(p, slopes);
+        let columns = self.columns(&traces);
         let views: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
         let solution = linear::solve(&views, &self.nonnegative, &self.target);
         let k = if slopes { self.law.nonlinear() } else { 0 };
         let mut hessian = DMatrix::zeros(k, k);
         let mut descent = DVector::zeros(k);
-        let mut slope_columns = Vec::with_capacity(k);
+        let slope_columns = self.slopes(&traces, k, &solution.coefficients);
         let mut projected: Vec<Vec<f64>> = Vec::with_capacity(k);
-        for i in 0..k {
-            let d = self.slope(&traces, i, &solution.coefficients);
-            descent[i] = dot(&d, &solution.residual);
+        for (i, d) in slope_columns.iter().enumerate() {
+            descent[i] = dot(d, &solution.residual);
             let mut outside = d.clone();
             solution.project_out(&views, &mut outside);
             for (j, other) in projected.iter().enumerate() {
@@ -136,7 +140,6 @@ impl<'a> Objective<'a> {
             }
             hessian[(i, i)] = dot(&outside, &outside);
             projected.push(outside);
-            slope_columns.push(d);
         }
         Evaluation {
             cost: solution.cost,
@@ -172,32 +175,44 @@ impl<'a> Objective<'a> {
 
     /// Every term of the model force at the kept samples, in the order of the linear unknowns.
     pub(crate) fn parts(&self, p: &[f64], coefficients: &[f64]) -> Vec<Vec<f64>> {
-        let traces: Vec<Trace> = self
-            .record
-            .segments
-            .iter()
-            .map(|s| trace(&self.law, p, s.step, &s.velocity, false))
-            .collect();
+        let mut parts = self.columns(&self.traces(p, false));
+        for (column, c) in parts.iter_mut().zip(coefficients) {
+            column.iter_mut().for_each(|x| *x *= c);
+        }
+        parts
+    }
+
+    fn traces(&self, p: &[f64], slopes: bool) -> Vec<Trace> {
+        let segments = self.record.segments.iter();
+        segments
+            .map(|s| trace(&self.law, p, s.step, &s.velocity, slopes))
+            .collect()
+    }
+
+    /// The columns of the regression at the kept samples.
+    fn columns(&self, traces: &[Trace]) -> Vec<Vec<f64>> {
+        let mut own = [Vec::new(), Vec::new()];
+        for (segment, t) in self.record.segments.iter().zip(traces) {
+            // The rate is empty for a static law, and then no column asks for it.
+            let full = vec![t.eta.clone(), t.rate.clone()];
+            for (out, column) in own.iter_mut().zip(self.record.filtered(segment, full)) {
+                out.extend(column);
+            }
+        }
+        let [eta, rate] = own;
         self.linear
             .iter()
             .zip(&self.fixed)
-            .zip(coefficients)
-            .map(|((term, fixed), &c)| {
-                let mut column = match (fixed, term.column) {
-                    (Some(column), _) => column.clone(),
-                    (None, ColumnKind::Rate) => self.thin(&traces, |t| &t.rate),
-                    (None, _) => self.thin(&traces, |t| &t.eta),
-                };
-                for x in &mut column {
-                    *x *= c;
-                }
-                column
+            .map(|(term, fixed)| match (fixed, term.column) {
+                (Some(column), _) => column.clone(),
+                (None, ColumnKind::Rate) => rate.clone(),
+                (None, _) => eta.clone(),
             })
             .collect()
     }
 
-    /// `d(Phi)/dp_i c`, filtered and thinned like the columns.
-    fn slope(&self, traces: &[Trace], i: usize, coefficients: &[f64]) -> Vec<f64> {
+    /// `d(Phi)/dp_i c` of the first `k` unknowns, filtered and thinned like the columns.
+    fn slopes(&self, traces: &[Trace], k: usize, coefficients: &[f64]) -> Vec<Vec<f64>> {
         let mut c_eta = 0.0;
         let mut c_rate = 0.0;
         for ((term, fixed), &c) in self.linear.iter().zip(&self.fixed).zip(coefficients) {
@@ -207,54 +222,25 @@ impl<'a> Objective<'a> {
                 _ => {}
             }
         }
-        let mut out = Vec::with_capacity(self.force.len());
+        let mut out = vec![Vec::with_capacity(self.force.len()); k];
         for (segment, t) in self.record.segments.iter().zip(traces) {
-            let mut d: Vec<f64> = t.eta_slope[i].iter().map(|x| c_eta * x).collect();
-            if let Some(rate) = t.rate_slope.get(i) {
-                for (x, r) in d.iter_mut().zip(rate) {
-                    *x += c_rate * r;
-                }
+            let full = (0..k)
+                .map(|i| {
+                    let mut d: Vec<f64> = t.eta_slope[i].iter().map(|x| c_eta * x).collect();
+                    if let Some(rate) = t.rate_slope.get(i) {
+                        for (x, r) in d.iter_mut().zip(rate) {
+                            *x += c_rate * r;
+                        }
+                    }
+                    d
+                })
+                .collect();
+            for (out, column) in out.iter_mut().zip(self.record.filtered(segment, full)) {
+                out.extend(column);
             }
-            self.append(segment, &d, &mut out);
         }
         out
     }
-
-    fn thin(&self, traces: &[Trace], channel: impl Fn(&Trace) -> &Vec<f64>) -> Vec<f64> {
-        let mut out = Vec::with_capacity(self.force.len());
-        for (segment, t) in self.record.segments.iter().zip(traces) {
-            self.append(segment, channel(t), &mut out);
-        }
-        out
-    }
-
-    /// Passes a full-rate channel through the common filter and appends its kept samples.
-    fn append(&self, segment: &Segment, full: &[f64], out: &mut Vec<f64>) {
-        append_filtered(self.record, segment, full, out);
-    }
-}
-
-pub(crate) fn append_filtered(
-    record: &Record,
-    segment: &Segment,
-    full: &[f64],
-    out: &mut Vec<f64>,
-) {
-    let filtered;
-    let full = match &record.common {
-        Some(filter) => {
-            // The segment was conditioned by this very filter, so it is long enough and finite.
-            filtered = filter.zero_phase(full).unwrap_or_else(|_| full.to_vec());
-            &filtered
-        }
-        None => full,
-    };
-    out.extend(
-        full.iter()
-            .step_by(record.decimate)
-            .zip(&segment.keep)
-            .filter_map(|(x, &keep)| keep.then_some(*x)),
-    );
 }
 
 /// A column that does not depend on the nonlinear unknowns; `None` if it does.
@@ -262,8 +248,8 @@ fn fixed_column(record: &Record, column: ColumnKind) -> Option<Vec<f64>> {
     let from_velocity = |f: &dyn Fn(f64) -> f64| {
         let mut out = Vec::with_capacity(record.kept());
         for segment in &record.segments {
-            let full: Vec<f64> = segment.velocity.iter().map(|&v| f(v)).collect();
-            append_filtered(record, segment, &full, &mut out);
+            let full = segment.velocity.iter().map(|&v| f(v)).collect();
+            out.extend(record.filtered(segment, vec![full]).into_iter().flatten());
         }
         out
     };
@@ -278,11 +264,19 @@ fn fixed_column(record: &Record, column: ColumnKind) -> Option<Vec<f64>> {
         })),
         ColumnKind::Acceleration => Some(record.gather(|s| &s.acceleration)),
         ColumnKind::One => Some(vec![1.0; record.kept()]),
-        ColumnKind::Sine(rate) => {
-            Some(record.gather(|s| &s.position).iter().map(|x| libm::sin(rate * x)).collect())
-        }
-        ColumnKind::Cosine(rate) => {
-            Some(record.gather(|s| &s.position).iter().map(|x| libm::cos(rate * x)).collect())
-        }
+        ColumnKind::Sine(rate) => Some(
+            record
+                .gather(|s| &s.position)
+                .iter()
+                .map(|x| libm::sin(rate * x))
+                .collect(),
+        ),
+        ColumnKind::Cosine(rate) => Some(
+            record
+                .gather(|s| &s.position)
+                .iter()
+                .map(|x| libm::cos(rate * x))
+                .collect(),
+        ),
     }
 }

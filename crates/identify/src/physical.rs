@@ -41,7 +41,11 @@ pub(crate) fn physical(law: &Law, linear: &[LinearTerm], p: &[f64], c: &[f64]) -
     let k = layout.count;
     let width = k + c.len();
     let at = |name: &str| linear.iter().position(|t| t.name == name);
-    let suffixes: &[&str] = if law.asymmetric { &["_pos", "_neg"] } else { &[""] };
+    let suffixes: &[&str] = if law.asymmetric {
+        &["_pos", "_neg"]
+    } else {
+        &[""]
+    };
     let mut out = Vec::new();
     let mut push = |name: String,
                     dimension,
@@ -50,7 +54,15 @@ pub(crate) fn physical(law: &Law, linear: &[LinearTerm], p: &[f64], c: &[f64]) -
                     nonlinear: Option<usize>,
                     linear: Option<usize>,
                     positive| {
-        out.push(Physical { name, dimension, value, slope, nonlinear, linear, positive });
+        out.push(Physical {
+            name,
+            dimension,
+            value,
+            slope,
+            nonlinear,
+            linear,
+            positive,
+        });
     };
     let unit = |i: usize, x: f64| {
         let mut slope = vec![0.0; width];
@@ -164,7 +176,10 @@ fn rank(name: &str) -> usize {
     ORDER
         .iter()
         .position(|known| {
-            name == *known || name.strip_prefix(known).is_some_and(|s| s == "_pos" || s == "_neg")
+            name == *known
+                || name
+                    .strip_prefix(known)
+                    .is_some_and(|s| s == "_pos" || s == "_neg")
         })
         .unwrap_or(ORDER.len())
 }

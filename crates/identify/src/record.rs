@@ -60,12 +60,17 @@ pub struct Record {
     pub notes: Vec<String>,
     /// Smallest displacement that the log resolves (one encoder count), m or rad, where known.
     pub resolution: Option<f64>,
+    /// Whether this is a thinned stand-in.
+    pub(crate) is_thinned: bool,
 }
 
 impl Record {
     /// Number of samples that count.
     pub fn kept(&self) -> usize {
-        self.segments.iter().map(|s| s.keep.iter().filter(|&&k| k).count()).sum()
+        self.segments
+            .iter()
+            .map(|s| s.keep.iter().filter(|&&k| k).count())
+            .sum()
     }
 
     /// Number of samples of the regression, kept or not.
@@ -108,7 +113,10 @@ impl Record {
         let bound = 0.01 * self.top_speed();
         let speeds = || {
             self.segments.iter().flat_map(|s| {
-                s.speed.iter().zip(&s.keep).filter_map(|(v, &keep)| keep.then_some(*v))
+                s.speed
+                    .iter()
+                    .zip(&s.keep)
+                    .filter_map(|(v, &keep)| keep.then_some(*v))
             })
         };
         speeds().any(|v| v > bound) && speeds().any(|v| v < -bound)
@@ -120,10 +128,37 @@ impl Record {
         for segment in &self.segments {
             let values = channel(segment);
             out.extend(
-                values.iter().zip(&segment.keep).filter_map(|(x, &keep)| keep.then_some(*x)),
+                values
+                    .iter()
+                    .zip(&segment.keep)
+                    .filter_map(|(x, &keep)| keep.then_some(*x)),
             );
         }
         out
+    }
+
+    /// Passes full-rate channels of a segment through the common filter and takes their kept samples.
+    pub(crate) fn filtered(&self, segment: &Segment, mut full: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+        if let Some(filter) = &self.common {
+            let mut columns: Vec<&mut [f64]> = full
+                .iter_mut()
+                .filter(|c| !c.is_empty())
+                .map(Vec::as_mut_slice)
+                .collect();
+            // The segment was conditioned by this very filter, so it is long enough; a column that is
+            // not finite stays as it is and makes the cost of this trial not finite.
+            let _ = filter.zero_phase_columns(&mut columns);
+        }
+        full.iter()
+            .map(|column| {
+                column
+                    .iter()
+                    .step_by(self.decimate)
+                    .zip(&segment.keep)
+                    .filter_map(|(x, &keep)| keep.then_some(*x))
+                    .collect()
+            })
+            .collect()
     }
 
     /// Indices among the kept samples at which a new segment starts (not 0), in order.
@@ -185,6 +220,7 @@ impl Record {
             decimate: 1,
             notes: Vec::new(),
             resolution: self.resolution,
+            is_thinned: true,
         })
     }
 }

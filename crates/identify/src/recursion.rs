@@ -43,7 +43,11 @@ struct Level<const K: usize> {
 #[inline(always)]
 fn level<const K: usize>(curve: &Curve, layout: &Layout, v: f64, side: usize) -> Level<K> {
     let x = fabs(v) * curve.inverse_velocity[side];
-    let power = if curve.exponent == 2.0 { x * x } else { pow(x, curve.exponent) };
+    let power = if curve.exponent == 2.0 {
+        x * x
+    } else {
+        pow(x, curve.exponent)
+    };
     let fall = curve.scale[side] * curve.excess[side] * exp(-power);
     let value = curve.scale[side] + fall;
     let mut slope = [0.0; K];
@@ -52,7 +56,11 @@ fn level<const K: usize>(curve: &Curve, layout: &Layout, v: f64, side: usize) ->
     }
     if let Some(i) = layout.velocity[side] {
         // 0 * inf at extreme speeds is a level that no longer depends on vs.
-        slope[i] = if fall == 0.0 { 0.0 } else { fall * curve.exponent * power };
+        slope[i] = if fall == 0.0 {
+            0.0
+        } else {
+            fall * curve.exponent * power
+        };
     }
     if side == 1
         && let Some(i) = layout.ratio
@@ -104,7 +112,13 @@ pub(crate) fn trace(law: &Law, p: &[f64], step: f64, velocity: &[f64], slopes: b
 }
 
 fn without_slopes(layout: &Layout) -> Layout {
-    Layout { kappa: None, excess: [None; 2], velocity: [None; 2], ratio: None, count: layout.count }
+    Layout {
+        kappa: None,
+        excess: [None; 2],
+        velocity: [None; 2],
+        ratio: None,
+        count: layout.count,
+    }
 }
 
 fn run<const K: usize>(
@@ -127,7 +141,13 @@ fn run<const K: usize>(
         bristle::<K>(layout, curve, step, velocity, &mut out);
     } else {
         for (i, &v) in velocity.iter().enumerate() {
-            let sign = if v > 0.0 { 1.0 } else if v < 0.0 { -1.0 } else { 0.0 };
+            let sign = if v > 0.0 {
+                1.0
+            } else if v < 0.0 {
+                -1.0
+            } else {
+                0.0
+            };
             let g = level::<K>(curve, layout, v, usize::from(v < 0.0));
             out.eta[i] = sign * g.value;
             for k in 0..K {
@@ -157,11 +177,36 @@ fn bristle<const K: usize>(
             if u != 0.0 && v != 0.0 && (u < 0.0) != (v < 0.0) {
                 let theta = u / (u - v);
                 let first = usize::from(u < 0.0);
-                let mut part = |fraction: f64, a: f64, ga: &Level<K>, b: f64, gb: &Level<K>, s: f64| {
-                    advance(layout, half * fraction, a, ga, b, gb, s, &mut eta, &mut eta_slope);
-                };
-                part(theta, u, &old, 0.0, &rest[first], if u < 0.0 { -1.0 } else { 1.0 });
-                part(1.0 - theta, 0.0, &rest[side], v, &now, if v < 0.0 { -1.0 } else { 1.0 });
+                let mut part =
+                    |fraction: f64, a: f64, ga: &Level<K>, b: f64, gb: &Level<K>, s: f64| {
+                        advance(
+                            layout,
+                            half * fraction,
+                            a,
+                            ga,
+                            b,
+                            gb,
+                            s,
+                            &mut eta,
+                            &mut eta_slope,
+                        );
+                    };
+                part(
+                    theta,
+                    u,
+                    &old,
+                    0.0,
+                    &rest[first],
+                    if u < 0.0 { -1.0 } else { 1.0 },
+                );
+                part(
+                    1.0 - theta,
+                    0.0,
+                    &rest[side],
+                    v,
+                    &now,
+                    if v < 0.0 { -1.0 } else { 1.0 },
+                );
             } else if u != 0.0 || v != 0.0 {
                 // A step that starts or ends at rest belongs to the direction it moves in.
                 let s = if u < 0.0 || v < 0.0 { -1.0 } else { 1.0 };

@@ -41,11 +41,18 @@ impl SearchBox {
         let top = record.top_speed();
         let stroke = record.stroke();
         if !(top > 0.0 && stroke > 0.0 && top.is_finite()) {
-            return Err(Error::NoMotion { bound: top, unit: "" });
+            return Err(Error::NoMotion {
+                bound: top,
+                unit: "",
+            });
         }
         let longest = stroke;
         let finest = record.resolution.unwrap_or_else(|| {
-            let step = record.segments.iter().map(|s| s.step).fold(f64::INFINITY, f64::min);
+            let step = record
+                .segments
+                .iter()
+                .map(|s| s.step)
+                .fold(f64::INFINITY, f64::min);
             1e-3 * top * step
         });
         let ranges = Ranges {
@@ -96,7 +103,10 @@ impl SearchBox {
     pub(crate) fn symmetric(&self, layout: &Layout) -> Self {
         let own = [layout.kappa, layout.excess[0], layout.velocity[0]];
         let pick = |x: &[f64]| own.iter().flatten().map(|&i| x[i]).collect();
-        Self { low: pick(&self.low), high: pick(&self.high) }
+        Self {
+            low: pick(&self.low),
+            high: pick(&self.high),
+        }
     }
 
     /// The same box without one unknown.
@@ -109,7 +119,10 @@ impl SearchBox {
 
     /// The nearest point inside.
     pub fn clamp(&self, p: &[f64]) -> Vec<f64> {
-        p.iter().enumerate().map(|(i, x)| x.clamp(self.low[i], self.high[i])).collect()
+        p.iter()
+            .enumerate()
+            .map(|(i, x)| x.clamp(self.low[i], self.high[i]))
+            .collect()
     }
 
     /// The point at a place in the unit cube.

@@ -30,7 +30,11 @@ impl Covariance {
                 (0..n)
                     .map(|j| {
                         let x = self.matrix[i][j] / (sd[i] * sd[j]);
-                        if x.is_finite() { x.clamp(-1.0, 1.0) } else { 0.0 }
+                        if x.is_finite() {
+                            x.clamp(-1.0, 1.0)
+                        } else {
+                            0.0
+                        }
                     })
                     .collect()
             })
@@ -42,7 +46,12 @@ impl Covariance {
 const ROUNDING: f64 = 1e-15;
 
 /// Covariance of `(p, c)`; unknowns at a bound or left out have zero rows.
-pub(crate) fn unknowns(objective: &Objective, at: &Evaluation, p: &[f64], bounds: &SearchBox) -> DMatrix<f64> {
+pub(crate) fn unknowns(
+    objective: &Objective,
+    at: &Evaluation,
+    p: &[f64],
+    bounds: &SearchBox,
+) -> DMatrix<f64> {
     let k = p.len();
     let width = k + at.columns.len();
     let mut index = Vec::new();
@@ -96,7 +105,11 @@ fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) -> DMatrix<
         .map(|i| {
             let white = variance * bread[(i, i)];
             let hac = correction * long_run[(i, i)];
-            if hac > 0.0 { (white / hac).max(1.0).sqrt() } else { 0.0 }
+            if hac > 0.0 {
+                (white / hac).max(1.0).sqrt()
+            } else {
+                0.0
+            }
         })
         .collect();
     DMatrix::from_fn(q, q, |i, j| {
@@ -115,10 +128,15 @@ fn inverse(matrix: DMatrix<f64>) -> DMatrix<f64> {
     let q = matrix.nrows();
     let eigen = SymmetricEigen::new(matrix);
     let most = eigen.eigenvalues.iter().fold(0.0_f64, |m, x| m.max(*x));
-    let inverse: Vec<f64> =
-        eigen.eigenvalues.iter().map(|x| 1.0 / x.max(ROUNDING * most)).collect();
+    let inverse: Vec<f64> = eigen
+        .eigenvalues
+        .iter()
+        .map(|x| 1.0 / x.max(ROUNDING * most))
+        .collect();
     DMatrix::from_fn(q, q, |i, j| {
-        (0..q).map(|l| eigen.eigenvectors[(i, l)] * inverse[l] * eigen.eigenvectors[(j, l)]).sum()
+        (0..q)
+            .map(|l| eigen.eigenvectors[(i, l)] * inverse[l] * eigen.eigenvectors[(j, l)])
+            .sum()
     })
 }
 

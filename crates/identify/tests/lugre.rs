@@ -10,7 +10,12 @@ use stiction_identify::{
 const SEEDS: u64 = 100;
 
 fn friction_only() -> Terms {
-    Terms { mass: Mass::Absent, offset: false, gravity: false, cogging: Vec::new() }
+    Terms {
+        mass: Mass::Absent,
+        offset: false,
+        gravity: false,
+        cogging: Vec::new(),
+    }
 }
 
 /// Two decades to each side of a point that is off the truth.
@@ -31,8 +36,11 @@ fn noise_free(set: &Set) {
     let mut worst: (f64, &str) = (0.0, "");
     let mut evaluations = 0;
     for seed in 0..SEEDS {
-        let settings =
-            Settings { seed, bounds: Some(four_decades(set)), ..Settings::default() };
+        let settings = Settings {
+            seed,
+            bounds: Some(four_decades(set)),
+            ..Settings::default()
+        };
         let found = separable(&record, law, &terms, &settings, &mut Silent).unwrap();
         assert_eq!(found.status, Status::Converged, "{} seed {seed}", set.name);
         evaluations += found.counts.total() - found.counts.thinned;
@@ -42,7 +50,11 @@ fn noise_free(set: &Set) {
             if error > worst.0 {
                 worst = (error, name);
             }
-            assert!(error < 1e-5, "{} seed {seed}: {name} is off by {error:.2e}", set.name);
+            assert!(
+                error < 1e-5,
+                "{} seed {seed}: {name} is off by {error:.2e}",
+                set.name
+            );
         }
     }
     println!(
@@ -82,19 +94,35 @@ fn noisy(set: &Set) {
     let mut worst: f64 = 0.0;
     for seed in 0..SEEDS {
         let mut noise = Noise::new(seed + 1);
-        let u = clean.iter().map(|f| f + 0.01 * set.coulomb * noise.normal()).collect();
+        let u = clean
+            .iter()
+            .map(|f| f + 0.01 * set.coulomb * noise.normal())
+            .collect();
         let record = record(1e-4, v.clone(), u);
-        let settings =
-            Settings { seed, bounds: Some(four_decades(set)), ..Settings::default() };
+        let settings = Settings {
+            seed,
+            bounds: Some(four_decades(set)),
+            ..Settings::default()
+        };
         let found = separable(&record, law, &terms, &settings, &mut Silent).unwrap();
         // A box so small that only the basin of the truth is in it.
-        let local = Settings { bounds: Some(SearchBox::around(&truth, 0.2)), ..Settings::default() };
+        let local = Settings {
+            bounds: Some(SearchBox::around(&truth, 0.2)),
+            ..Settings::default()
+        };
         let best = separable(&record, law, &terms, &local, &mut Silent).unwrap();
         let excess = found.evaluation.cost / best.evaluation.cost - 1.0;
         worst = worst.max(excess);
-        assert!(excess < 1e-6, "{} seed {seed}: cost above the optimum by {excess:.2e}", set.name);
+        assert!(
+            excess < 1e-6,
+            "{} seed {seed}: cost above the optimum by {excess:.2e}",
+            set.name
+        );
     }
-    println!("{}: worst relative excess of the cost {worst:.2e}", set.name);
+    println!(
+        "{}: worst relative excess of the cost {worst:.2e}",
+        set.name
+    );
 }
 
 #[test]
@@ -119,7 +147,10 @@ fn gradient_matches_finite_differences() {
     let v: Vec<f64> = v.into_iter().step_by(10).collect();
     let u: Vec<f64> = u.into_iter().step_by(10).collect();
     let record = record(1e-3, v, u);
-    let terms = Terms { mass: Mass::Absent, ..Terms::default() };
+    let terms = Terms {
+        mass: Mass::Absent,
+        ..Terms::default()
+    };
     for kind in LawKind::ALL {
         for law in [Law::new(kind), Law::new(kind).asymmetric()] {
             if law.nonlinear() == 0 {
@@ -181,8 +212,14 @@ fn asymmetric_with_mass_and_offset() {
         .collect();
     let record = record(1e-4, v, u);
     let law = Law::new(LawKind::LuGre).asymmetric();
-    let found =
-        separable(&record, law, &Terms::default(), &Settings::default(), &mut Silent).unwrap();
+    let found = separable(
+        &record,
+        law,
+        &Terms::default(),
+        &Settings::default(),
+        &mut Silent,
+    )
+    .unwrap();
     let estimate = estimate(&record, law, &Terms::default(), &found, 0.0);
     for (name, truth) in [
         ("sigma0", 1.2e5),
@@ -200,6 +237,9 @@ fn asymmetric_with_mass_and_offset() {
     ] {
         let value = estimate.value(name).unwrap();
         // The acceleration is a difference of the velocity: (w h)^2/6 of it at 6.5 Hz is 3e-6.
-        assert!((value / truth - 1.0).abs() < 2e-4, "{name} = {value} instead of {truth}");
+        assert!(
+            (value / truth - 1.0).abs() < 2e-4,
+            "{name} = {value} instead of {truth}"
+        );
     }
 }

@@ -5,9 +5,6 @@
 //! [`Log`] (SI, checked). A reader never guesses silently: what it detected is in
 //! [`Table::detected`], what it cannot decide is an [`Error`] that lists the choices.
 
-// An error says where, what and what instead in 136 bytes, and is made once, at the end.
-#![allow(clippy::result_large_err)]
-
 #[cfg(any(
     feature = "matlab",
     feature = "hdf5",

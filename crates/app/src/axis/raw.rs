@@ -41,7 +41,10 @@ pub(crate) struct RawColumns {
 
 /// A column by name, by number, or with all that is known of it.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(untagged, expecting = "a column name, a column number from 1, or a table such as { column = \"qm\", unit = \"m\" }")]
+#[serde(
+    untagged,
+    expecting = "a column name, a column number from 1, or a table such as { column = \"qm\", unit = \"m\" }"
+)]
 pub(crate) enum RawChannel {
     Name(String),
     Index(i64),
@@ -69,7 +72,10 @@ pub(crate) enum RawSelector {
 
 /// A scale with its unit, or a plain number.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(untagged, expecting = "a scale such as \"35.15 N/V\" or a plain number")]
+#[serde(
+    untagged,
+    expecting = "a scale such as \"35.15 N/V\" or a plain number"
+)]
 pub(crate) enum RawScale {
     Text(String),
     Number(f64),
@@ -138,7 +144,8 @@ pub(crate) fn line_of(text: &str, key: &str) -> Option<usize> {
         if let Some(name) = line.strip_prefix('[').and_then(|l| l.split(']').next()) {
             table = format!("{}.", name.trim());
         } else if let Some((name, _)) = line.split_once('=') {
-            seen.entry(format!("{table}{}", name.trim().trim_matches('"'))).or_insert(i + 1);
+            seen.entry(format!("{table}{}", name.trim().trim_matches('"')))
+                .or_insert(i + 1);
         }
     }
     seen.get(key).copied()

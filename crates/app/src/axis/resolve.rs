@@ -66,16 +66,28 @@ impl Axis {
             found,
             allowed: allowed.into(),
         };
-        let meta = std::fs::metadata(file)
-            .map_err(|e| refuse(format!("cannot be read ({e})"), "give the path of an axis file"))?;
+        let meta = std::fs::metadata(file).map_err(|e| {
+            refuse(
+                format!("cannot be read ({e})"),
+                "give the path of an axis file",
+            )
+        })?;
         if !meta.is_file() || meta.len() > MAX_BYTES {
             return Err(refuse(
-                if meta.is_file() { format!("{} bytes", meta.len()) } else { "not a file".into() },
+                if meta.is_file() {
+                    format!("{} bytes", meta.len())
+                } else {
+                    "not a file".into()
+                },
                 "an axis file is a text file of at most 1 MiB",
             ));
         }
-        let bytes = std::fs::read(file)
-            .map_err(|e| refuse(format!("cannot be read ({e})"), "give the path of an axis file"))?;
+        let bytes = std::fs::read(file).map_err(|e| {
+            refuse(
+                format!("cannot be read ({e})"),
+                "give the path of an axis file",
+            )
+        })?;
         let text = String::from_utf8(bytes)
             .map_err(|_| refuse("is not UTF-8 text".into(), "save it as UTF-8"))?;
         Self::parse(&text, file)
@@ -214,14 +226,18 @@ impl Resolver<'_> {
             mapping.resolution = Some(self.positive("log.resolution", text, &lengths)?);
         }
         if let Some(text) = &raw.log.force_limit {
-            let forces =
-                [Dimension::FORCE, Dimension::TORQUE, Dimension::CURRENT, Dimension::VOLTAGE];
+            let forces = [
+                Dimension::FORCE,
+                Dimension::TORQUE,
+                Dimension::CURRENT,
+                Dimension::VOLTAGE,
+            ];
             mapping.force_limit = Some(self.positive("log.force_limit", text, &forces)?);
         }
         if let Some([from, to]) = &raw.log.crop {
             let a = self.value("log.crop", from, &[Dimension::TIME])?;
             let b = self.value("log.crop", to, &[Dimension::TIME])?;
-            if !(a < b) {
+            if a >= b {
                 return Err(self.refuse(
                     "log.crop",
                     format!("{from:?} to {to:?}"),
@@ -251,7 +267,12 @@ impl Resolver<'_> {
             }
             RawChannel::Index(i) => {
                 let column = select(&RawSelector::Index(*i))?;
-                return Ok(Channel { column, unit: None, scale: None, invert: false });
+                return Ok(Channel {
+                    column,
+                    unit: None,
+                    scale: None,
+                    invert: false,
+                });
             }
             RawChannel::Full(full) => full,
         };
@@ -259,12 +280,15 @@ impl Resolver<'_> {
             Unit::parse(text).map_err(|e| self.refuse(&format!("{key}.unit"), e.found, &e.allowed))
         });
         let scale = full.scale.as_ref().map(|scale| match scale {
-            RawScale::Number(x) if x.is_finite() && *x != 0.0 => {
-                Ok(Value { number: *x, unit: Unit::si(Dimension::ONE) })
-            }
-            RawScale::Number(x) => {
-                Err(self.refuse(&format!("{key}.scale"), x.to_string(), "a finite number, not 0"))
-            }
+            RawScale::Number(x) if x.is_finite() && *x != 0.0 => Ok(Value {
+                number: *x,
+                unit: Unit::si(Dimension::ONE),
+            }),
+            RawScale::Number(x) => Err(self.refuse(
+                &format!("{key}.scale"),
+                x.to_string(),
+                "a finite number, not 0",
+            )),
             RawScale::Text(text) => Value::parse(text)
                 .map_err(|e| self.refuse(&format!("{key}.scale"), e.found, &e.allowed)),
         });
@@ -322,7 +346,9 @@ impl Resolver<'_> {
         let cutoff = |key: &str, text: &Option<String>| match text.as_deref() {
             None | Some("auto") => Ok(Cutoff::Auto),
             Some("off") => Ok(Cutoff::Off),
-            Some(text) => self.positive(key, text, &[Dimension::FREQUENCY]).map(Cutoff::Hz),
+            Some(text) => self
+                .positive(key, text, &[Dimension::FREQUENCY])
+                .map(Cutoff::Hz),
         };
         if raw.decimate == Some(0) {
             return Err(self.refuse("conditioning.decimate", "0".into(), "a whole number from 1"));
@@ -354,7 +380,9 @@ impl Resolver<'_> {
         axis.terms.gravity = raw.terms.gravity.unwrap_or(false);
         for pitch in &raw.terms.cogging {
             let lengths = [Dimension::LENGTH, Dimension::ANGLE];
-            axis.terms.cogging.push(self.positive("terms.cogging", pitch, &lengths)?);
+            axis.terms
+                .cogging
+                .push(self.positive("terms.cogging", pitch, &lengths)?);
         }
         if axis.terms.cogging.len() > 4 {
             return Err(self.refuse(
@@ -377,8 +405,7 @@ impl Resolver<'_> {
     }
 
     fn value(&self, key: &str, text: &str, dimensions: &[Dimension]) -> Result<f64, Error> {
-        let value =
-            Value::parse(text).map_err(|e| self.refuse(key, e.found, &e.allowed))?;
+        let value = Value::parse(text).map_err(|e| self.refuse(key, e.found, &e.allowed))?;
         let mut last = None;
         for &dimension in dimensions {
             match value.si_of(dimension) {

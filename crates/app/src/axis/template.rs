@@ -18,15 +18,24 @@ pub fn template(table: &Table, detected: Option<&Mapping>) -> String {
         None => out.push_str("# kind = \"linear\"    # or \"rotary\"\n"),
     }
     out.push_str("# name = \"X axis\"\n");
-    out.push_str("# mass = \"4.6 kg\"     # known mass or inertia; \"fit\" (default) or \"none\"\n");
+    out.push_str(
+        "# mass = \"4.6 kg\"     # known mass or inertia; \"fit\" (default) or \"none\"\n",
+    );
     let has_time = detected.is_some_and(|m| m.time.is_some());
     if !has_time {
         out.push_str("# rate = \"1 kHz\"      # where there is no time column\n");
     }
     out.push_str("\n[columns]\n# The file has:\n");
     for (i, column) in table.columns.iter().enumerate().take(64) {
-        let name = if column.name.is_empty() { "(no name)" } else { &column.name };
-        let unit = column.unit.as_deref().map_or(String::new(), |u| format!(" [{u}]"));
+        let name = if column.name.is_empty() {
+            "(no name)"
+        } else {
+            &column.name
+        };
+        let unit = column
+            .unit
+            .as_deref()
+            .map_or(String::new(), |u| format!(" [{u}]"));
         // A name from a file must not break out of its comment.
         let line = format!("{name}{unit}").replace(['\n', '\r'], " ");
         let _ = writeln!(out, "#   {}: {line}", i + 1);
@@ -41,7 +50,9 @@ pub fn template(table: &Table, detected: Option<&Mapping>) -> String {
                     Role::Time => "{ column = 1, unit = \"s\" }",
                     Role::Position => "{ column = 2, unit = \"mm\" }",
                     Role::Velocity => "{ column = 3, unit = \"mm/s\" }",
-                    Role::Force => "{ column = 4, unit = \"A\", scale = \"96 N/A\", invert = false }",
+                    Role::Force => {
+                        "{ column = 4, unit = \"A\", scale = \"96 N/A\", invert = false }"
+                    }
                     Role::Reference => "{ column = 5, unit = \"mm\" }",
                     Role::Temperature => "{ column = 6, unit = \"degC\" }",
                     Role::Load => "{ column = 7, unit = \"N\" }",
@@ -69,7 +80,11 @@ fn entry(channel: &Channel) -> String {
     };
     let mut out = format!("{{ column = {column}");
     if let Some(unit) = &channel.unit {
-        let _ = write!(out, ", unit = {}", toml::Value::String(unit.text().to_string()));
+        let _ = write!(
+            out,
+            ", unit = {}",
+            toml::Value::String(unit.text().to_string())
+        );
     }
     if let Some(scale) = &channel.scale {
         let _ = write!(out, ", scale = {}", toml::Value::String(scale.to_string()));

@@ -28,7 +28,12 @@ pub(super) struct Parts<'a> {
 }
 
 pub(super) fn result(parts: Parts) -> ResultFile {
-    let Parts { estimate, motion, force_unit, .. } = parts;
+    let Parts {
+        estimate,
+        motion,
+        force_unit,
+        ..
+    } = parts;
     let signal = match motion {
         Motion::Linear => "force",
         Motion::Rotary => "torque",
@@ -115,8 +120,14 @@ fn parameter(p: &Parameter, motion: Motion, force_unit: &str) -> ParameterEntry 
 
 /// Names of the linear terms that stand beside the law.
 pub(super) fn term_names(estimate: &Estimate, motion: Motion) -> Vec<String> {
-    const LAW: [&str; 6] =
-        ["sigma0", "sigma1", "sigma2", "coulomb", "static", "stribeck_velocity"];
+    const LAW: [&str; 6] = [
+        "sigma0",
+        "sigma1",
+        "sigma2",
+        "coulomb",
+        "static",
+        "stribeck_velocity",
+    ];
     estimate
         .parameters
         .iter()

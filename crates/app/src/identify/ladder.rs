@@ -36,7 +36,11 @@ impl Ladder<'_> {
                 scores.push(self.score(chosen, bounds, observer));
                 continue;
             }
-            let terms = if law.asymmetric { self.asymmetric } else { self.symmetric };
+            let terms = if law.asymmetric {
+                self.asymmetric
+            } else {
+                self.symmetric
+            };
             let Ok(optimum) = engine::separable(self.record, law, terms, settings, &mut Silent)
             else {
                 continue;
@@ -77,12 +81,19 @@ impl Ladder<'_> {
 fn below(law: &Law) -> Vec<Law> {
     let mut out = Vec::new();
     for kind in [LawKind::CoulombViscous, LawKind::Stribeck] {
-        let base = Law { kind, asymmetric: false, exponent: law.exponent };
+        let base = Law {
+            kind,
+            asymmetric: false,
+            exponent: law.exponent,
+        };
         out.push(base);
         out.push(base.asymmetric());
     }
     if law.asymmetric {
-        out.push(Law { asymmetric: false, ..*law });
+        out.push(Law {
+            asymmetric: false,
+            ..*law
+        });
     }
     out.push(*law);
     let mut seen: Vec<Law> = Vec::new();
@@ -96,7 +107,10 @@ fn below(law: &Law) -> Vec<Law> {
 
 fn entries(scores: &[LawScore]) -> Vec<LawEntry> {
     let error = |s: &LawScore| s.held_out.map(|f| f.relative_error_percent);
-    let best = scores.iter().filter_map(error).fold(f64::INFINITY, f64::min);
+    let best = scores
+        .iter()
+        .filter_map(error)
+        .fold(f64::INFINITY, f64::min);
     scores
         .iter()
         .map(|s| LawEntry {
@@ -105,7 +119,9 @@ fn entries(scores: &[LawScore]) -> Vec<LawEntry> {
             parameters: s.parameters,
             fitted_error_percent: s.fitted.relative_error_percent,
             held_out_error_percent: error(s),
-            held_out_low_speed_error_percent: s.held_out_low_speed.map(|f| f.relative_error_percent),
+            held_out_low_speed_error_percent: s
+                .held_out_low_speed
+                .map(|f| f.relative_error_percent),
             best: error(s) == Some(best),
         })
         .collect()

@@ -34,13 +34,15 @@ pub(super) fn judge(
             reasons.push(text.to_string());
         }
         Status::Budget | Status::Stalled => {
-            let text =
-                format!("the search did not converge (status {})", estimate.status.name());
+            let text = format!(
+                "the search did not converge (status {})",
+                estimate.status.name()
+            );
             warnings.push(Warning::new("not-converged", text.clone()));
             reasons.push(text);
         }
     }
-    if !(estimate.fit.r2 >= LEAST_R2) {
+    if estimate.fit.r2 < LEAST_R2 || estimate.fit.r2.is_nan() {
         let text = format!(
             "the law explains {:.0} % of the variance of the force; at least {:.0} % are needed \
              to trust its parameters",
@@ -61,7 +63,10 @@ pub(super) fn judge(
     saturation(sources, &mut reasons);
     unidentifiable(estimate, motion, warnings, &mut reasons);
     simpler_wins(estimate, laws, warnings);
-    Trust { trustworthy: reasons.is_empty(), reasons }
+    Trust {
+        trustworthy: reasons.is_empty(),
+        reasons,
+    }
 }
 
 fn saturation(sources: &[Source], reasons: &mut Vec<String>) {
@@ -92,7 +97,11 @@ fn unidentifiable(
     for parameter in estimate.parameters.iter().filter(|p| !p.identifiable) {
         let meaning = symbols::meaning(&parameter.name, motion);
         let mut text = format!("{} ({meaning}): {}", parameter.name, parameter.reason);
-        let row = estimate.covariance.names.iter().position(|n| *n == parameter.name);
+        let row = estimate
+            .covariance
+            .names
+            .iter()
+            .position(|n| *n == parameter.name);
         if let Some(i) = row {
             let partner = (0..correlation.len())
                 .filter(|&j| j != i)
@@ -137,13 +146,11 @@ fn simpler_wins(estimate: &Estimate, laws: &[LawEntry], warnings: &mut Vec<Warni
     let is_chosen = |l: &&LawEntry| {
         l.law == estimate.law.kind.name() && l.asymmetric == estimate.law.asymmetric
     };
-    let (Some(chosen), Some(best)) =
-        (laws.iter().find(is_chosen), laws.iter().find(|l| l.best))
+    let (Some(chosen), Some(best)) = (laws.iter().find(is_chosen), laws.iter().find(|l| l.best))
     else {
         return;
     };
-    if let (Some(mine), Some(least)) =
-        (chosen.held_out_error_percent, best.held_out_error_percent)
+    if let (Some(mine), Some(least)) = (chosen.held_out_error_percent, best.held_out_error_percent)
         && best.parameters < chosen.parameters
         && mine > WORSE * least
     {

@@ -21,7 +21,10 @@ fn force_axis(outcome: &Outcome) -> Axis {
 }
 
 fn friction_axis(outcome: &Outcome) -> Axis {
-    Axis::new(format!("Friction {}", outcome.result.fit.signal), outcome.force_unit.as_str())
+    Axis::new(
+        format!("Friction {}", outcome.result.fit.signal),
+        outcome.force_unit.as_str(),
+    )
 }
 
 fn velocity_axis(outcome: &Outcome) -> Axis {
@@ -30,7 +33,11 @@ fn velocity_axis(outcome: &Outcome) -> Axis {
 
 /// Friction in the measured force: what is left after inertia and the other terms.
 fn friction(values: &[f64], series: &Series) -> Vec<f64> {
-    values.iter().zip(&series.other).map(|(u, o)| u - o).collect()
+    values
+        .iter()
+        .zip(&series.other)
+        .map(|(u, o)| u - o)
+        .collect()
 }
 
 /// Friction over velocity: measured cloud, model, the steady curve with its band.
@@ -55,8 +62,17 @@ pub(super) fn velocity_map(outcome: &Outcome) -> Figure {
                 .opacity(0.7)
                 .label("Model along the log"),
         )
-        .layer(Layer::band(v.clone(), low, high).color(Color::Vermilion).label("95 % band"))
-        .layer(Layer::line(v, curve).color(Color::Vermilion).width(2.0).label("Steady curve"))
+        .layer(
+            Layer::band(v.clone(), low, high)
+                .color(Color::Vermilion)
+                .label("95 % band"),
+        )
+        .layer(
+            Layer::line(v, curve)
+                .color(Color::Vermilion)
+                .width(2.0)
+                .label("Steady curve"),
+        )
         .height(320.0);
     Figure::new("Friction over velocity").panel(panel).caption(
         "The steady curve is what the law gives at constant velocity; the model along the log also \
@@ -66,8 +82,15 @@ pub(super) fn velocity_map(outcome: &Outcome) -> Figure {
 
 /// Points dense near zero speed, none at it.
 fn grid(top: f64) -> Vec<f64> {
-    let half: Vec<f64> = (0..160).map(|i| top * (i as f64 / 159.0).powi(3)).skip(1).collect();
-    half.iter().rev().map(|v| -v).chain(half.iter().copied()).collect()
+    let half: Vec<f64> = (0..160)
+        .map(|i| top * (i as f64 / 159.0).powi(3))
+        .skip(1)
+        .collect();
+    half.iter()
+        .rev()
+        .map(|v| -v)
+        .chain(half.iter().copied())
+        .collect()
 }
 
 fn value(outcome: &Outcome, name: &str, v: f64) -> f64 {
@@ -88,7 +111,10 @@ fn steady(outcome: &Outcome, v: f64) -> f64 {
     };
     let velocity = value(outcome, "stribeck_velocity", v);
     let fall = if velocity > 0.0 {
-        libm::exp(-libm::pow(v.abs() / velocity, outcome.estimate.law.exponent))
+        libm::exp(-libm::pow(
+            v.abs() / velocity,
+            outcome.estimate.law.exponent,
+        ))
     } else {
         0.0
     };
@@ -102,7 +128,11 @@ fn steady_std(outcome: &Outcome, v: f64) -> f64 {
     let fixed = value(outcome, "static", v);
     let velocity = value(outcome, "stribeck_velocity", v);
     let exponent = outcome.estimate.law.exponent;
-    let x = if velocity > 0.0 { v.abs() / velocity } else { f64::INFINITY };
+    let x = if velocity > 0.0 {
+        v.abs() / velocity
+    } else {
+        f64::INFINITY
+    };
     let power = libm::pow(x, exponent);
     let fall = libm::exp(-power);
     let side = if v < 0.0 { "_neg" } else { "_pos" };
@@ -110,7 +140,10 @@ fn steady_std(outcome: &Outcome, v: f64) -> f64 {
         .names
         .iter()
         .map(|name| {
-            let stem = match name.strip_suffix("_pos").or_else(|| name.strip_suffix("_neg")) {
+            let stem = match name
+                .strip_suffix("_pos")
+                .or_else(|| name.strip_suffix("_neg"))
+            {
                 Some(_) if !name.ends_with(side) => return 0.0,
                 Some(stem) => stem,
                 None => name,
@@ -144,19 +177,31 @@ pub(super) fn low_speed(outcome: &Outcome) -> Figure {
     let near: Vec<bool> = series.velocity.iter().map(|v| v.abs() <= bound).collect();
     // A gap breaks the line, so that two passes are not joined.
     let pick = |x: &[f64]| -> Vec<f64> {
-        x.iter().zip(&near).map(|(x, &n)| if n { *x } else { f64::NAN }).collect()
+        x.iter()
+            .zip(&near)
+            .map(|(x, &n)| if n { *x } else { f64::NAN })
+            .collect()
     };
-    let panel = Panel::new(velocity_axis(outcome).range(-bound, bound), friction_axis(outcome))
-        .layer(
-            Layer::points(pick(&series.velocity), pick(&friction(&series.measured, series)))
-                .color(Color::Grey)
-                .label("Measured"),
+    let panel = Panel::new(
+        velocity_axis(outcome).range(-bound, bound),
+        friction_axis(outcome),
+    )
+    .layer(
+        Layer::points(
+            pick(&series.velocity),
+            pick(&friction(&series.measured, series)),
         )
-        .layer(
-            Layer::line(pick(&series.velocity), pick(&friction(&series.model, series)))
-                .color(Color::Blue)
-                .label("Model"),
-        );
+        .color(Color::Grey)
+        .label("Measured"),
+    )
+    .layer(
+        Layer::line(
+            pick(&series.velocity),
+            pick(&friction(&series.model, series)),
+        )
+        .color(Color::Blue)
+        .label("Model"),
+    );
     Figure::new("Near zero speed").panel(panel).half()
 }
 
@@ -166,13 +211,25 @@ pub(super) fn presliding(outcome: &Outcome) -> Figure {
     let length = symbols::length_unit(outcome.motion);
     let window = reversal(outcome, series);
     let origin = series.position.get(window.start).copied().unwrap_or(0.0);
-    let x: Vec<f64> = series.position[window.clone()].iter().map(|x| x - origin).collect();
+    let x: Vec<f64> = series.position[window.clone()]
+        .iter()
+        .map(|x| x - origin)
+        .collect();
     let measured = friction(&series.measured, series)[window.clone()].to_vec();
     let model = friction(&series.model, series)[window].to_vec();
-    let panel = Panel::new(Axis::new("Position from the reversal", length), friction_axis(outcome))
-        .layer(Layer::line(x.clone(), measured).color(Color::Grey).label("Measured"))
-        .layer(Layer::line(x, model).color(Color::Blue).label("Model"));
-    Figure::new("Presliding around a reversal").panel(panel).half()
+    let panel = Panel::new(
+        Axis::new("Position from the reversal", length),
+        friction_axis(outcome),
+    )
+    .layer(
+        Layer::line(x.clone(), measured)
+            .color(Color::Grey)
+            .label("Measured"),
+    )
+    .layer(Layer::line(x, model).color(Color::Blue).label("Model"));
+    Figure::new("Presliding around a reversal")
+        .panel(panel)
+        .half()
 }
 
 /// Samples around the slowest reversal: from it until the bristle has surely turned over.
@@ -201,7 +258,10 @@ fn reversal(outcome: &Outcome, series: &Series) -> std::ops::Range<usize> {
         }
         start..end + 1
     };
-    turns.map(reach).max_by_key(std::ops::Range::len).unwrap_or(0..n.min(200))
+    turns
+        .map(reach)
+        .max_by_key(std::ops::Range::len)
+        .unwrap_or(0..n.min(200))
 }
 
 /// Measured, model and residual in time.
@@ -218,15 +278,27 @@ fn in_time(outcome: &Outcome, series: &Series, title: &str) -> Figure {
     let time = clock(series);
     let axis = || Axis::new("Time", "s");
     let top = Panel::new(axis(), force_axis(outcome))
-        .layer(Layer::line(time.clone(), series.measured.clone()).color(Color::Grey).label("Measured"))
-        .layer(Layer::line(time.clone(), series.model.clone()).color(Color::Blue).label("Model"));
+        .layer(
+            Layer::line(time.clone(), series.measured.clone())
+                .color(Color::Grey)
+                .label("Measured"),
+        )
+        .layer(
+            Layer::line(time.clone(), series.model.clone())
+                .color(Color::Blue)
+                .label("Model"),
+        );
     let middle = Panel::new(axis(), Axis::new("Residual", outcome.force_unit.as_str()))
         .layer(Layer::line(time.clone(), series.residual()).color(Color::Vermilion))
         .height(110.0);
     let bottom = Panel::new(axis(), velocity_axis(outcome))
         .layer(Layer::line(time, series.velocity.clone()).color(Color::Green))
         .height(90.0);
-    Figure::new(title).panel(top).panel(middle).panel(bottom).shared_x()
+    Figure::new(title)
+        .panel(top)
+        .panel(middle)
+        .panel(bottom)
+        .shared_x()
 }
 
 /// One time axis through all logs: each starts where the one before ended.
@@ -249,10 +321,15 @@ pub(super) fn autocorrelation(outcome: &Outcome) -> Figure {
     let acf = correlate(&residual, lags).unwrap_or_default();
     let band = 1.96 / (residual.len().max(1) as f64).sqrt();
     let x: Vec<f64> = (0..acf.len()).map(|i| i as f64).collect();
-    let panel = Panel::new(Axis::new("Lag", "samples"), Axis::new("Autocorrelation", ""))
-        .layer(Layer::hband(-band, band).label("White noise, 95 %"))
-        .layer(Layer::line(x, acf).color(Color::Blue));
-    Figure::new("Autocorrelation of the residual").panel(panel).half()
+    let panel = Panel::new(
+        Axis::new("Lag", "samples"),
+        Axis::new("Autocorrelation", ""),
+    )
+    .layer(Layer::hband(-band, band).label("White noise, 95 %"))
+    .layer(Layer::line(x, acf).color(Color::Blue));
+    Figure::new("Autocorrelation of the residual")
+        .panel(panel)
+        .half()
 }
 
 /// Relative residual over evaluations.
@@ -264,16 +341,25 @@ pub(super) fn convergence(outcome: &Outcome) -> Figure {
         Axis::new("Evaluations", ""),
         Axis::new("Relative error", "%").log(),
     )
-    .layer(Layer::line(x.clone(), y.clone()).color(Color::Blue).dash(Dash::Dotted))
+    .layer(
+        Layer::line(x.clone(), y.clone())
+            .color(Color::Blue)
+            .dash(Dash::Dotted),
+    )
     .layer(Layer::points(x, y).color(Color::Blue));
-    Figure::new("Convergence on the full record").panel(panel).half()
+    Figure::new("Convergence on the full record")
+        .panel(panel)
+        .half()
 }
 
 /// Correlation of the parameters.
 pub(super) fn correlation(outcome: &Outcome) -> Heatmap {
     let covariance = &outcome.estimate.covariance;
-    let names: Vec<Text> =
-        covariance.names.iter().map(|n| Text::from(symbols::symbol(n))).collect();
+    let names: Vec<Text> = covariance
+        .names
+        .iter()
+        .map(|n| Text::from(symbols::symbol(n)))
+        .collect();
     let values: Vec<f64> = covariance.correlation().into_iter().flatten().collect();
     Heatmap::square("Correlation of the parameters", names, values)
         .caption("Pairs near ±1 move together: the log tells their combination, not each of them.")

@@ -75,14 +75,22 @@ fn bristle(lugre: bool) -> Vec<Math> {
 /// `g(v)` of one direction with its numbers.
 fn level(outcome: &Outcome, side: &str) -> Math {
     let value = |name: &str| {
-        outcome.result.parameters.iter().find(|p| p.name == format!("{name}{side}"))
+        outcome
+            .result
+            .parameters
+            .iter()
+            .find(|p| p.name == format!("{name}{side}"))
     };
     let sign = match side {
         "_pos" => "+",
         "_neg" => "−",
         _ => "",
     };
-    let g = if sign.is_empty() { id("g") } else { sup(id("g"), op(sign)) };
+    let g = if sign.is_empty() {
+        id("g")
+    } else {
+        sup(id("g"), op(sign))
+    };
     let mut parts = vec![g, paren(id("v")), op("=")];
     if let Some(coulomb) = value("coulomb") {
         match (value("static"), value("stribeck_velocity")) {
@@ -97,12 +105,18 @@ fn level(outcome: &Outcome, side: &str) -> Math {
                     .iter()
                     .find(|p| p.name == "stribeck_exponent")
                     .map_or(2.0, |p| p.value);
-                let power = sup(paren(ratio), num(number::sig(exponent, 3).trim_end_matches(".00")));
+                let power = sup(
+                    paren(ratio),
+                    num(number::sig(exponent, 3).trim_end_matches(".00")),
+                );
                 parts.push(id("exp"));
                 parts.push(paren(row([op("−"), power])));
                 parts.push(Math::Unit(coulomb.unit.clone()));
             }
-            _ => parts.push(quantity(number::sig(coulomb.value, 4), coulomb.unit.clone())),
+            _ => parts.push(quantity(
+                number::sig(coulomb.value, 4),
+                coulomb.unit.clone(),
+            )),
         }
     }
     row(parts)

@@ -35,7 +35,11 @@ pub(super) fn parameters(outcome: &Outcome) -> Table {
             (None, "given") => String::new(),
             _ => "not bounded by the data".into(),
         };
-        let flag = if p.identifiable { String::new() } else { format!("not identifiable: {}", p.reason) };
+        let flag = if p.identifiable {
+            String::new()
+        } else {
+            format!("not identifiable: {}", p.reason)
+        };
         let cells = [
             Text::from(symbols::meaning(&p.name, outcome.motion)),
             Text::from(p.symbol.as_str()),
@@ -72,8 +76,12 @@ pub(super) fn truth(outcome: &Outcome) -> Table {
     ])
     .caption("The axis is simulated, so the truth is known.");
     for (name, truth) in &outcome.truth {
-        let Some(p) = outcome.result.parameters.iter().find(|p| p.name == *name) else { continue };
-        let inside = p.ci95.is_some_and(|[low, high]| low <= *truth && *truth <= high);
+        let Some(p) = outcome.result.parameters.iter().find(|p| p.name == *name) else {
+            continue;
+        };
+        let inside = p
+            .ci95
+            .is_some_and(|[low, high]| low <= *truth && *truth <= high);
         let error = if *truth == 0.0 {
             number::sig(p.value, 2)
         } else {
@@ -86,7 +94,11 @@ pub(super) fn truth(outcome: &Outcome) -> Table {
             error,
             if inside { "yes" } else { "no" }.to_string(),
         ];
-        table = if inside { table.row(cells) } else { table.marked(Severity::Warning, cells) };
+        table = if inside {
+            table.row(cells)
+        } else {
+            table.marked(Severity::Warning, cells)
+        };
     }
     table
 }
@@ -108,7 +120,9 @@ pub(super) fn validation(outcome: &Outcome) -> Table {
             number::count(v.fit.samples as u64),
             number::sig(v.fit.rmse, 3),
             format!("{} %", number::sig(v.fit.relative_error_percent, 3)),
-            v.low_speed.as_ref().map_or("–".into(), |l| number::sig(l.fit.rmse, 3)),
+            v.low_speed
+                .as_ref()
+                .map_or("–".into(), |l| number::sig(l.fit.rmse, 3)),
         ]);
     }
     table
@@ -136,7 +150,11 @@ pub(super) fn laws(outcome: &Outcome) -> Table {
             percent(l.held_out_error_percent),
             percent(l.held_out_low_speed_error_percent),
         ];
-        table = if l.best { table.marked(Severity::Good, cells) } else { table.row(cells) };
+        table = if l.best {
+            table.marked(Severity::Good, cells)
+        } else {
+            table.row(cells)
+        };
     }
     table
 }
@@ -145,7 +163,10 @@ pub(super) fn laws(outcome: &Outcome) -> Table {
 pub(super) fn input(input: &Input) -> Block {
     let mut facts = vec![
         (Text::from("File"), Text::new().code(input.path.as_str())),
-        (Text::from("SHA-256"), Text::new().code(input.sha256.as_str())),
+        (
+            Text::from("SHA-256"),
+            Text::new().code(input.sha256.as_str()),
+        ),
         (
             Text::from("Samples"),
             Text::from(format!(

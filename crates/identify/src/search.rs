@@ -1,0 +1,329 @@
+//! Where the descents of the separable method start, and which of them are followed to the end.
+
+use crate::law::{Law, LawKind, Terms};
+use crate::levenberg::{Descent, Status, Watch, descend};
+use crate::objective::Objective;
+use crate::observe::{Control, Stage};
+use crate::record::Record;
+use crate::search_box::SearchBox;
+use crate::separable::Settings;
+
+/// Starts from the thinned record that go on to the full one.
+const MOST_FINE: usize = 3;
+/// Steps on the full record before the starts are compared.
+const SHORT: usize = 12;
+/// Minima of the symmetric law that are paired for an asymmetric one.
+const MOST_PAIRED: usize = 3;
+/// Distance in the logarithms within which two minima are one.
+const SAME: f64 = 1e-2;
+/// How far a start's cost may be above that of the best start and still be tried.
+const FAR: f64 = 3.0;
+/// How much worse a start may then be and still be followed to the end.
+const CLOSE: f64 = 1.05;
+/// Stiffnesses tried with the curve of the static law.
+const LINE: usize = 16;
+
+/// One search: an objective on the full record and what is known of the way so far.
+pub(crate) struct Search<'a> {
+    pub full: &'a Objective<'a>,
+    /// A thinned stand-in for the record, where there is one.
+    pub thinned: Option<&'a Record>,
+    pub law: Law,
+    pub terms: &'a Terms,
+    pub settings: &'a Settings,
+    pub iterations: usize,
+}
+
+impl<'a> Search<'a> {
+    /// The best descent, and how the whole search ended.
+    pub fn run(&mut self, bounds: &SearchBox, watch: &mut Watch) -> (Descent, Status) {
+        if self.law.nonlinear() == 0 {
+            watch.stage = Stage::Fine;
+            let found = descend(self.full, bounds, &[], 1, watch);
+            watch.fraction = 1.0;
+            watch.report(self.full.relative(found.evaluation.cost));
+            let status = found.status;
+            return (found, status);
+        }
+        let starts = if self.law.layout().ratio.is_some() {
+            self.symmetric_starts(bounds, watch)
+        } else {
+            self.scan_starts(bounds, watch)
+        };
+        let minima = self.short_descents(bounds, &starts, watch);
+        self.finish(bounds, minima, watch)
+    }
+
+    /// The record to look for starts on.
+    fn near(&self) -> &'a Record {
+        self.thinned.unwrap_or(self.full.record())
+    }
+
+    /// Starts for a symmetric law: the best descents from a scan of the box, and the static law's
+    /// curve with the stiffness that suits it.
+    fn scan_starts(&mut self, bounds: &SearchBox, watch: &mut Watch) -> Vec<Vec<f64>> {
+        let objective = Objective::new(self.near(), self.law, self.terms);
+        let points = self.scan(&objective, bounds, watch);
+        watch.stage = Stage::Coarse;
+        let many = points.len().min(self.settings.starts);
+        let mut found = Vec::new();
+        for (i, start) in points.iter().take(many).enumerate() {
+            if watch.stopped {
+                break;
+            }
+            watch.fraction = i as f64 / many as f64;
+            let descent = descend(&objective, bounds, start, SHORT, watch);
+            self.iterations += descent.iterations;
+            found.push(descent);
+        }
+        let mut starts: Vec<Vec<f64>> = distinct(found)
+            .into_iter()
+            .take(MOST_FINE)
+            .map(|d| d.p)
+            .collect();
+        if starts.is_empty() {
+            starts = points.into_iter().take(1).collect();
+        }
+        starts.extend(self.static_starts(bounds, watch));
+        starts
+    }
+
+    /// Starts for a law with its own parameters per direction: every pairing of two minima of the
+    /// symmetric law, one for each direction, and the static law's curve.
+    fn symmetric_starts(&mut self, bounds: &SearchBox, watch: &mut Watch) -> Vec<Vec<f64>> {
+        let layout = self.law.layout();
+        let law = Law {
+            asymmetric: false,
+            ..self.law
+        };
+        let objective = Objective::new(self.near(), law, self.terms);
+        let inner = bounds.symmetric(&layout);
+        let mut search = Search {
+            full: &objective,
+            thinned: None,
+            law,
+            iterations: 0,
+            ..*self
+        };
+        let starts = search.scan_starts(&inner, watch);
+        let minima = search.short_descents(&inner, &starts, watch);
+        self.iterations += search.iterations;
+        let from = law.layout();
+        let mut pairs = Vec::new();
+        for plus in minima.iter().take(MOST_PAIRED) {
+            for minus in minima.iter().take(MOST_PAIRED) {
+                let mut p = vec![0.0; layout.count];
+                let mut copy = |to: Option<usize>, from: Option<usize>, source: &Descent| {
+                    if let (Some(to), Some(from)) = (to, from) {
+                        p[to] = source.p[from];
+                    }
+                };
+                copy(layout.kappa, from.kappa, plus);
+                for (side, source) in [(0, plus), (1, minus)] {
+                    copy(layout.excess[side], from.excess[0], source);
+                    copy(layout.velocity[side], from.velocity[0], source);
+                }
+                let p = bounds.clamp(&p);
+                if watch.stopped && !pairs.is_empty() {
+                    continue;
+                }
+                let cost = self.full.evaluate(&p, false).cost;
+                watch.count(self.full, false);
+                watch.report(self.full.relative(cost));
+                pairs.push((cost, p));
+            }
+        }
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut starts: Vec<Vec<f64>> = pairs.into_iter().take(MOST_FINE).map(|(_, p)| p).collect();
+        starts.extend(self.static_starts(bounds, watch));
+        starts
+    }
+
+    /// Starts whose cost on the full record is not far above that of the best, best first.
+    fn promising(&self, starts: &[Vec<f64>], watch: &mut Watch) -> Vec<Vec<f64>> {
+        if starts.len() < 2 || watch.stopped {
+            return starts.to_vec();
+        }
+        let mut costs: Vec<(f64, &Vec<f64>)> = Vec::with_capacity(starts.len());
+        for start in starts {
+            costs.push((self.full.evaluate(start, false).cost, start));
+            watch.count(self.full, false);
+        }
+        costs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let most = FAR * costs[0].0;
+        costs
+            .into_iter()
+            .filter(|(cost, _)| *cost <= most)
+            .map(|(_, p)| p.clone())
+            .collect()
+    }
+
+    /// Short descents on the full record from the promising starts; distinct minima, best first.
+    fn short_descents(
+        &mut self,
+        bounds: &SearchBox,
+        starts: &[Vec<f64>],
+        watch: &mut Watch,
+    ) -> Vec<Descent> {
+        watch.stage = Stage::Fine;
+        watch.best = f64::INFINITY;
+        let starts = self.promising(starts, watch);
+        let mut found: Vec<Descent> = Vec::new();
+        for (i, start) in starts.iter().enumerate() {
+            if watch.stopped && !found.is_empty() {
+                break;
+            }
+            watch.fraction = i as f64 / (starts.len() + 1) as f64;
+            let steps = if watch.stopped {
+                0
+            } else {
+                SHORT.min(self.settings.steps)
+            };
+            let descent = descend(self.full, bounds, start, steps, watch);
+            self.iterations += descent.iterations;
+            found.push(descent);
+        }
+        distinct(found)
+    }
+
+    /// Follows the best minimum, and the next if it is nearly as good, to the end.
+    fn finish(
+        &mut self,
+        bounds: &SearchBox,
+        minima: Vec<Descent>,
+        watch: &mut Watch,
+    ) -> (Descent, Status) {
+        let mut minima = minima.into_iter();
+        let mut best = minima.next().expect("there is always a start");
+        let close = CLOSE * best.evaluation.cost;
+        let rival = minima
+            .next()
+            .filter(|r| r.status == Status::Budget && r.evaluation.cost < close)
+            .map(|r| r.p);
+        let own = (best.status == Status::Budget).then(|| best.p.clone());
+        for start in own.into_iter().chain(rival) {
+            if watch.stopped {
+                break;
+            }
+            let mut descent = descend(self.full, bounds, &start, self.settings.steps, watch);
+            self.iterations += descent.iterations;
+            if descent.evaluation.cost <= best.evaluation.cost {
+                let mut history = std::mem::take(&mut best.history);
+                history.append(&mut descent.history);
+                best = Descent { history, ..descent };
+            }
+        }
+        let status = if watch.stopped {
+            Status::Interrupted
+        } else {
+            best.status
+        };
+        watch.fraction = 1.0;
+        watch.report(self.full.relative(best.evaluation.cost));
+        (best, status)
+    }
+
+    /// Starts for a law with bristle and Stribeck curve: the curve of the static law on this record,
+    /// with the stiffness that suits it best. A stiff bristle comes near the static law, so the
+    /// search never ends much worse than that.
+    fn static_starts(&mut self, bounds: &SearchBox, watch: &mut Watch) -> Vec<Vec<f64>> {
+        let (LawKind::LuGre, Some(kappa)) = (self.law.kind, self.law.layout().kappa) else {
+            return Vec::new();
+        };
+        let law = Law {
+            kind: LawKind::Stribeck,
+            ..self.law
+        };
+        let inner = bounds.without(kappa);
+        let objective = Objective::new(self.near(), law, self.terms);
+        let own = Objective::new(self.near(), self.law, self.terms);
+        let mut search = Search {
+            full: &objective,
+            thinned: None,
+            law,
+            iterations: 0,
+            ..*self
+        };
+        let starts = if law.layout().ratio.is_some() {
+            search.symmetric_starts(&inner, watch)
+        } else {
+            search
+                .scan(&objective, &inner, watch)
+                .into_iter()
+                .take(3)
+                .collect()
+        };
+        let curves = search.short_descents(&inner, &starts, watch);
+        self.iterations += search.iterations;
+        let Some(curve) = curves.first().filter(|_| !watch.stopped) else {
+            return Vec::new();
+        };
+        let mut line = Vec::with_capacity(LINE);
+        for i in 0..LINE {
+            let part = i as f64 / (LINE - 1) as f64;
+            let mut p = curve.p.clone();
+            p.insert(
+                kappa,
+                bounds.low(kappa) + part * (bounds.high(kappa) - bounds.low(kappa)),
+            );
+            let cost = own.evaluate(&p, false).cost;
+            watch.count(&own, false);
+            if watch.report(own.relative(cost)) == Control::Stop {
+                break;
+            }
+            line.push((cost, p));
+        }
+        let many = line.len();
+        let mut minima: Vec<_> = (0..many)
+            .filter(|&i| {
+                (i == 0 || line[i].0 <= line[i - 1].0)
+                    && (i + 1 == many || line[i].0 <= line[i + 1].0)
+            })
+            .map(|i| line[i].clone())
+            .collect();
+        minima.sort_by(|a, b| a.0.total_cmp(&b.0));
+        minima.into_iter().take(2).map(|(_, p)| p).collect()
+    }
+
+    /// Sobol points of the box, best first.
+    fn scan(&self, objective: &Objective, bounds: &SearchBox, watch: &mut Watch) -> Vec<Vec<f64>> {
+        watch.stage = Stage::Scan;
+        let seed = (self.settings.seed ^ (self.settings.seed >> 32)) as u32;
+        let many = self.settings.scan.max(1);
+        let mut points = Vec::with_capacity(many);
+        for i in 0..many {
+            let unit: Vec<f64> = (0..bounds.len())
+                .map(|d| f64::from(sobol_burley::sample(i as u32, d as u32, seed)))
+                .collect();
+            let p = bounds.at(&unit);
+            let cost = objective.evaluate(&p, false).cost;
+            watch.count(objective, false);
+            points.push((if cost.is_nan() { f64::INFINITY } else { cost }, p));
+            watch.fraction = (i + 1) as f64 / many as f64;
+            if watch.report(objective.relative(cost)) == Control::Stop {
+                break;
+            }
+        }
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        points.into_iter().map(|(_, p)| p).collect()
+    }
+}
+
+/// Best first, without those that stand where a better one stands.
+fn distinct(mut found: Vec<Descent>) -> Vec<Descent> {
+    found.sort_by(|a, b| a.evaluation.cost.total_cmp(&b.evaluation.cost));
+    let mut out: Vec<Descent> = Vec::new();
+    for descent in found {
+        let near = |other: &Descent| {
+            descent
+                .p
+                .iter()
+                .zip(&other.p)
+                .all(|(a, b)| (a - b).abs() < SAME)
+        };
+        if !out.iter().any(near) {
+            out.push(descent);
+        }
+    }
+    out
+}
