@@ -126,7 +126,7 @@ pub fn estimate(
     let at = &optimum.evaluation;
     let c = &at.solution.coefficients;
     let raw = physical::physical(&law, objective.linear(), &optimum.p, c);
-    let unknowns = uncertainty::unknowns(&objective, at, &optimum.p, &optimum.bounds);
+    let unknowns = uncertainty::unknowns(&objective, at);
     let matrix = physical::propagate(&raw, &unknowns);
     let level = raw
         .iter()

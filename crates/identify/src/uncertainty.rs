@@ -8,7 +8,6 @@
 //! covariance for white residuals.
 
 use crate::objective::{Evaluation, Objective};
-use crate::search_box::SearchBox;
 use nalgebra::{DMatrix, SymmetricEigen};
 
 /// Covariance of named parameters.
@@ -45,23 +44,15 @@ impl Covariance {
 /// Relative size of an eigenvalue of the scaled `J^T J` that is rounding only.
 const ROUNDING: f64 = 1e-15;
 
-/// Covariance of `(p, c)`; unknowns at a bound or left out have zero rows.
-pub(crate) fn unknowns(
-    objective: &Objective,
-    at: &Evaluation,
-    p: &[f64],
-    bounds: &SearchBox,
-) -> DMatrix<f64> {
-    let k = p.len();
+/// Covariance of `(p, c)`; coefficients held at zero or left out have zero rows.
+///
+/// A nonlinear unknown at the bound of its search range counts as free here: the bound is ours, not
+/// nature's, and holding it would make the others look surer than the data allow.
+pub(crate) fn unknowns(objective: &Objective, at: &Evaluation) -> DMatrix<f64> {
+    let k = at.slopes.len();
     let width = k + at.columns.len();
-    let mut index = Vec::new();
-    let mut jacobian: Vec<&[f64]> = Vec::new();
-    for (i, slope) in at.slopes.iter().enumerate() {
-        if !bounds.at_bound(p, i) {
-            index.push(i);
-            jacobian.push(slope);
-        }
-    }
+    let mut index: Vec<usize> = (0..k).collect();
+    let mut jacobian: Vec<&[f64]> = at.slopes.iter().map(Vec::as_slice).collect();
     for (j, column) in at.columns.iter().enumerate() {
         if at.solution.active[j] {
             index.push(k + j);

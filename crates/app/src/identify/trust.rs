@@ -118,7 +118,11 @@ fn unidentifiable(
         text.push_str(&format!(". {}", cure(&parameter.name)));
         warnings.push(Warning::new("not-identifiable", text));
         if parameter.name.starts_with("coulomb") {
-            reasons.push(format!("{} is not determined by this log", parameter.name));
+            reasons.push(format!(
+                "{} is not determined by this log: the law may predict such motion, its parameters \
+                 do not stand for the machine",
+                parameter.name
+            ));
         }
     }
 }

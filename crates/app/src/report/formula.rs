@@ -26,21 +26,26 @@ pub(super) fn with_numbers(outcome: &Outcome) -> Block {
     for side in sides {
         lines.push(level(outcome, side));
     }
-    let sigma = |name: &str, digit: &str| {
-        let p = outcome.result.parameters.iter().find(|p| p.name == name)?;
-        Some(row([
-            sub(id("σ"), num(digit)),
-            op("="),
-            quantity(number::sig(p.value, 4), p.unit.clone()),
-        ]))
+    let sigma = |name: &str, digit: &str, side: &str| {
+        let wanted = format!("{name}{side}");
+        let p = outcome
+            .result
+            .parameters
+            .iter()
+            .find(|p| p.name == wanted)?;
+        let symbol = sub(id("σ"), num(digit));
+        let symbol = match sign(side) {
+            "" => symbol,
+            sign => sup(symbol, op(sign)),
+        };
+        let value = quantity(number::sig(p.value, 4), p.unit.clone());
+        Some(row([symbol, op("="), value]))
     };
-    let mut numbers: Vec<Math> = Vec::new();
-    numbers.extend(sigma("sigma0", "0"));
-    numbers.extend(sigma("sigma1", "1"));
+    lines.extend(sigma("sigma0", "0", ""));
+    lines.extend(sigma("sigma1", "1", ""));
     for side in sides {
-        numbers.extend(sigma(&format!("sigma2{side}"), "2"));
+        lines.extend(sigma("sigma2", "2", side));
     }
-    lines.extend(numbers);
     let caption = match law {
         "lugre" => "LuGre (Canudas de Wit, Olsson, Åström, Lischinsky 1995), g in units of force.",
         "dahl" => "Dahl: LuGre without Stribeck curve and micro-damping.",
@@ -48,6 +53,15 @@ pub(super) fn with_numbers(outcome: &Outcome) -> Block {
         _ => "Coulomb and viscous friction.",
     };
     Block::Formula(lines, caption.into())
+}
+
+/// Sign of a direction by the suffix of its parameters.
+fn sign(side: &str) -> &'static str {
+    match side {
+        "_pos" => "+",
+        "_neg" => "−",
+        _ => "",
+    }
 }
 
 fn bristle(lugre: bool) -> Vec<Math> {
@@ -81,15 +95,9 @@ fn level(outcome: &Outcome, side: &str) -> Math {
             .iter()
             .find(|p| p.name == format!("{name}{side}"))
     };
-    let sign = match side {
-        "_pos" => "+",
-        "_neg" => "−",
-        _ => "",
-    };
-    let g = if sign.is_empty() {
-        id("g")
-    } else {
-        sup(id("g"), op(sign))
+    let g = match sign(side) {
+        "" => id("g"),
+        sign => sup(id("g"), op(sign)),
     };
     let mut parts = vec![g, paren(id("v")), op("=")];
     if let Some(coulomb) = value("coulomb") {
