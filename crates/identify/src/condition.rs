@@ -149,6 +149,7 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
         common,
         trim,
         decimate,
+        reach: common_hz.map_or(0, |f| (0.5 * rate / f) as usize),
         source_kind: source,
         min_speed: conditioning.min_speed,
     };
@@ -161,6 +162,16 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
                 None => short += 1,
             }
         }
+    }
+    if segments.is_empty() {
+        let total = logs.iter().map(|log| log.time.len()).sum();
+        let needed = filters.least();
+        return Err(Error::TooFewSamples {
+            found: 0,
+            needed,
+            dropped: total,
+            total,
+        });
     }
     if short > 0 {
         notes.push(format!(
@@ -272,11 +283,18 @@ struct Filters {
     common: Option<Sos>,
     trim: usize,
     decimate: usize,
+    /// Samples to each side that the common filter mixes into one.
+    reach: usize,
     source_kind: Source,
     min_speed: f64,
 }
 
 impl Filters {
+    /// Fewest samples of a stretch that leave something to fit.
+    fn least(&self) -> usize {
+        2 * self.trim + 4 * self.decimate.max(4)
+    }
+
     /// One stretch, conditioned; `None` if it is too short.
     fn segment(
         &self,
@@ -287,7 +305,7 @@ impl Filters {
     ) -> Option<Segment> {
         let grid = Grid::new(&samples.time[range.clone()], step)?;
         let n = grid.len();
-        if n < 2 * self.trim + 4 * self.decimate.max(4) {
+        if n < self.least() {
             return None;
         }
         let on_grid = |x: &Vec<f64>| grid.resample(&x[range.clone()]);
@@ -314,7 +332,7 @@ impl Filters {
         } else {
             &samples.valid[range]
         };
-        let keep = grid.keep(valid);
+        let keep = apart(&grid.keep(valid), self.reach);
         let thin = |x: &[f64]| x.iter().step_by(self.decimate).copied().collect::<Vec<_>>();
         let keep = keep
             .iter()
@@ -336,6 +354,22 @@ impl Filters {
             velocity,
         })
     }
+}
+
+/// Keeps what stands at least `reach` samples from anything that is not kept.
+fn apart(keep: &[bool], reach: usize) -> Vec<bool> {
+    let mut out = keep.to_vec();
+    if reach == 0 {
+        return out;
+    }
+    for (i, &k) in keep.iter().enumerate() {
+        // Only the borders of a hole reach beyond it.
+        let border = !k && (i == 0 || i + 1 == keep.len() || keep[i - 1] || keep[i + 1]);
+        if border {
+            out[i.saturating_sub(reach)..(i + reach + 1).min(keep.len())].fill(false);
+        }
+    }
+    out
 }
 
 fn integrate(v: &[f64], step: f64) -> Vec<f64> {

@@ -136,7 +136,7 @@ pub fn estimate(
     let mut parameters: Vec<Parameter> = raw
         .iter()
         .enumerate()
-        .map(|(i, p)| describe(p, matrix[(i, i)], optimum, level, objective.linear()))
+        .map(|(i, p)| describe(p, matrix[(i, i)], optimum, level))
         .collect();
     if law.kind.has_stribeck() {
         let at = parameters
@@ -212,13 +212,7 @@ fn given(name: &str, value: f64) -> Parameter {
     }
 }
 
-fn describe(
-    p: &Physical,
-    variance: f64,
-    optimum: &Optimum,
-    level: f64,
-    linear: &[crate::law::LinearTerm],
-) -> Parameter {
+fn describe(p: &Physical, variance: f64, optimum: &Optimum, level: f64) -> Parameter {
     let solution = &optimum.evaluation.solution;
     let mut reason = String::new();
     if let Some(i) = p.nonlinear
@@ -228,7 +222,7 @@ fn describe(
     }
     if let Some(j) = p.linear {
         if solution.dependent[j] {
-            reason = format!("cannot be told apart from other terms ({})", linear[j].name);
+            reason = "cannot be told apart from the other terms on this motion".into();
         } else if !solution.active[j] {
             reason = "held at zero: the data ask for a negative value".into();
         }

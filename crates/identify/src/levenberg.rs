@@ -80,8 +80,13 @@ impl Watch<'_> {
     }
 }
 
-/// Relative change of the cost below which a step counts as none.
+/// Relative fall of the cost below which a step counts as none.
 const FLAT: f64 = 1e-13;
+/// Relative fall below which a few steps in a row end the search: along a valley that the data leave
+/// this flat, the unknowns move by a small part of their own uncertainty.
+const VALLEY: f64 = 1e-9;
+/// How many.
+const IN_A_ROW: usize = 5;
 /// Step in the logarithms below which the unknowns count as settled.
 const SETTLED: f64 = 1e-9;
 /// Cost relative to the energy of the force that is rounding only.
@@ -103,6 +108,7 @@ pub(crate) fn descend(
     let mut grow = 2.0;
     let mut status = Status::Budget;
     let mut iterations = 0;
+    let mut slow = 0;
     if p.is_empty() {
         status = Status::Converged;
     }
@@ -145,7 +151,12 @@ pub(crate) fn descend(
             } else {
                 1.0
             };
-            let flat = gained <= FLAT * now.cost;
+            slow = if gained <= VALLEY * now.cost {
+                slow + 1
+            } else {
+                0
+            };
+            let flat = gained <= FLAT * now.cost || slow >= IN_A_ROW;
             p = trial;
             now = next;
             let relative = objective.relative(now.cost);

@@ -78,7 +78,7 @@ fn design(order: usize, cutoff: f64, rate: f64, zeros: Zeros) -> Result<Sos, Sig
         return Err(SignalError::Parameter {
             parameter: "cut-off frequency in Hz",
             found: cutoff,
-            allowed: format!("{lowest} to {highest} (half the sample rate is {nyquist})"),
+            allowed: format!("above 0 and below half the sample rate, {nyquist:.6}"),
         });
     }
     // The analogue prototype, its cut-off warped so that the bilinear transform lands on `cutoff`.
