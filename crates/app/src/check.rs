@@ -116,7 +116,16 @@ fn one(
             let conditioning = outcome.result.axis.conditioning.clone();
             (verdicts(&outcome), conditioning, refused)
         }
-        Err(e) => (Vec::new(), Vec::new(), Some(format!("{}: {e}", e.code()))),
+        // What the log cannot give is a verdict on the log; a bad axis file is an error of its own.
+        Err(e @ Error::Identify { .. }) if e.code() != "bad-setting" => {
+            (Vec::new(), Vec::new(), Some(format!("{}: {e}", e.code())))
+        }
+        Err(Error::Log(e)) => (
+            Vec::new(),
+            Vec::new(),
+            Some(format!("{}: {e}", e.kind.code())),
+        ),
+        Err(e) => return Err(e),
     };
     Ok(LogCheck {
         kind: log.motion.to_string(),

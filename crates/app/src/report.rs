@@ -51,11 +51,15 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
     }
     document = document
         .heading(2, "Friction and velocity")
-        .block(figures::velocity_map(outcome))
-        .block(Block::Columns(vec![
-            figures::low_speed(outcome).into(),
-            figures::presliding(outcome).into(),
-        ]));
+        .block(figures::velocity_map(outcome));
+    let close: Vec<Block> = [figures::low_speed(outcome), figures::presliding(outcome)]
+        .into_iter()
+        .flatten()
+        .map(Block::from)
+        .collect();
+    if !close.is_empty() {
+        document = document.block(Block::Columns(close));
+    }
     document = document
         .heading(2, "Force in time")
         .block(figures::time(outcome));

@@ -9,6 +9,9 @@ use stiction_signal::autocorrelation as correlate;
 /// Lags of the autocorrelation, at most.
 const LAGS: usize = 200;
 
+/// Fewer samples than this make no picture.
+const FEW: usize = 10;
+
 fn signal_name(outcome: &Outcome) -> String {
     let name = outcome.result.fit.signal.as_str();
     let mut out: String = name[..1].to_uppercase();
@@ -40,9 +43,41 @@ fn friction(values: &[f64], series: &Series) -> Vec<f64> {
         .collect()
 }
 
+/// Where a line must not be drawn on: samples were left out before this one, or a log begins.
+fn breaks(series: &Series) -> Vec<bool> {
+    let n = series.time.len();
+    let mut steps: Vec<f64> = series.time.windows(2).map(|t| t[1] - t[0]).collect();
+    let usual = if steps.is_empty() {
+        0.0
+    } else {
+        let middle = steps.len() / 2;
+        *steps.select_nth_unstable_by(middle, f64::total_cmp).1
+    };
+    (0..n)
+        .map(|i| {
+            i > 0
+                && (series.log[i] != series.log[i - 1]
+                    || series.time[i] - series.time[i - 1] > 1.5 * usual)
+        })
+        .collect()
+}
+
+/// A channel with a hole before each break.
+fn broken(values: &[f64], breaks: &[bool]) -> Vec<f64> {
+    let mut out = Vec::with_capacity(values.len() + 16);
+    for (x, &hole) in values.iter().zip(breaks) {
+        if hole {
+            out.push(f64::NAN);
+        }
+        out.push(*x);
+    }
+    out
+}
+
 /// Friction over velocity: measured cloud, model, the steady curve with its band.
 pub(super) fn velocity_map(outcome: &Outcome) -> Figure {
     let series = &outcome.estimate.series;
+    let holes = breaks(series);
     let top = series.velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let v: Vec<f64> = grid(top);
     let curve: Vec<f64> = v.iter().map(|&v| steady(outcome, v)).collect();
@@ -56,11 +91,14 @@ pub(super) fn velocity_map(outcome: &Outcome) -> Figure {
                 .label("Measured, inertia taken off"),
         )
         .layer(
-            Layer::line(series.velocity.clone(), friction(&series.model, series))
-                .color(Color::Blue)
-                .width(1.0)
-                .opacity(0.7)
-                .label("Model along the log"),
+            Layer::line(
+                broken(&series.velocity, &holes),
+                broken(&friction(&series.model, series), &holes),
+            )
+            .color(Color::Blue)
+            .width(1.0)
+            .opacity(0.7)
+            .label("Model along the log"),
         )
         .layer(
             Layer::band(v.clone(), low, high)
@@ -171,10 +209,13 @@ fn steady_std(outcome: &Outcome, v: f64) -> f64 {
 }
 
 /// The map near zero speed.
-pub(super) fn low_speed(outcome: &Outcome) -> Figure {
+pub(super) fn low_speed(outcome: &Outcome) -> Option<Figure> {
     let series = &outcome.estimate.series;
     let bound = 2.0 * outcome.estimate.low_speed_bound;
     let near: Vec<bool> = series.velocity.iter().map(|v| v.abs() <= bound).collect();
+    if near.iter().filter(|&&n| n).count() < FEW {
+        return None;
+    }
     // A gap breaks the line, so that two passes are not joined.
     let pick = |x: &[f64]| -> Vec<f64> {
         x.iter()
@@ -202,14 +243,17 @@ pub(super) fn low_speed(outcome: &Outcome) -> Figure {
         .color(Color::Blue)
         .label("Model"),
     );
-    Figure::new("Near zero speed").panel(panel).half()
+    Some(Figure::new("Near zero speed").panel(panel).half())
 }
 
 /// Friction over position around the reversal where most is recorded.
-pub(super) fn presliding(outcome: &Outcome) -> Figure {
+pub(super) fn presliding(outcome: &Outcome) -> Option<Figure> {
     let series = &outcome.estimate.series;
     let length = symbols::length_unit(outcome.motion);
     let window = reversal(outcome, series);
+    if window.len() < FEW || !outcome.estimate.law.kind.has_bristle() {
+        return None;
+    }
     let origin = series.position.get(window.start).copied().unwrap_or(0.0);
     let x: Vec<f64> = series.position[window.clone()]
         .iter()
@@ -227,9 +271,8 @@ pub(super) fn presliding(outcome: &Outcome) -> Figure {
             .label("Measured"),
     )
     .layer(Layer::line(x, model).color(Color::Blue).label("Model"));
-    Figure::new("Presliding around a reversal")
-        .panel(panel)
-        .half()
+    let figure = Figure::new("Presliding around a reversal");
+    Some(figure.panel(panel).half())
 }
 
 /// Samples around the slowest reversal: from it until the bristle has surely turned over.
@@ -275,24 +318,18 @@ pub(super) fn validation(outcome: &Outcome, path: &str, series: &Series) -> Figu
 }
 
 fn in_time(outcome: &Outcome, series: &Series, title: &str) -> Figure {
-    let time = clock(series);
+    let holes = breaks(series);
+    let time = broken(&clock(series), &holes);
+    let line = |values: &[f64]| Layer::line(time.clone(), broken(values, &holes));
     let axis = || Axis::new("Time", "s");
     let top = Panel::new(axis(), force_axis(outcome))
-        .layer(
-            Layer::line(time.clone(), series.measured.clone())
-                .color(Color::Grey)
-                .label("Measured"),
-        )
-        .layer(
-            Layer::line(time.clone(), series.model.clone())
-                .color(Color::Blue)
-                .label("Model"),
-        );
+        .layer(line(&series.measured).color(Color::Grey).label("Measured"))
+        .layer(line(&series.model).color(Color::Blue).label("Model"));
     let middle = Panel::new(axis(), Axis::new("Residual", outcome.force_unit.as_str()))
-        .layer(Layer::line(time.clone(), series.residual()).color(Color::Vermilion))
+        .layer(line(&series.residual()).color(Color::Vermilion))
         .height(110.0);
     let bottom = Panel::new(axis(), velocity_axis(outcome))
-        .layer(Layer::line(time, series.velocity.clone()).color(Color::Green))
+        .layer(line(&series.velocity).color(Color::Green))
         .height(90.0);
     Figure::new(title)
         .panel(top)
