@@ -2,6 +2,7 @@
 
 mod raw;
 mod resolve;
+mod syntax;
 mod template;
 
 pub use resolve::{Axis, ResolvedAxis};

@@ -12,6 +12,18 @@ pub const OWN: &[(&str, &str)] = &[
     ),
     ("poor-fit", "the law explains too little of the force"),
     (
+        "richer-law-holds-better",
+        "a law with more parameters predicts unseen samples much better",
+    ),
+    (
+        "correlated-residual",
+        "the residual is not noise: something systematic is left",
+    ),
+    (
+        "static-law-at-rest",
+        "a static law is fitted to an axis at rest or in presliding",
+    ),
+    (
         "simpler-law-holds-better",
         "a law with fewer parameters predicts unseen samples better",
     ),

@@ -35,6 +35,9 @@ pub struct Options {
     pub compare_laws: bool,
 }
 
+/// Fewest samples that a split may leave to validate on.
+const LEAST_HELD_OUT: usize = 20;
+
 /// Everything that came out, in memory.
 #[derive(Clone, Debug)]
 pub struct Outcome {
@@ -70,14 +73,27 @@ pub fn identify(options: &Options, observer: &mut dyn Observer) -> Result<Outcom
     check_together(&sources, &held_out)?;
     let motion = sources[0].log.motion;
     let force_unit = sources[0].log.force_unit.clone();
-    let terms = axis.terms_for(motion, options.asymmetric)?;
-    let other = axis.terms_for(motion, !options.asymmetric)?;
+    let terms = axis.terms_for(&sources[0].log, options.asymmetric)?;
+    let other = axis.terms_for(&sources[0].log, !options.asymmetric)?;
     let full = condition(&sources, &axis)?;
     let (record, split) = match options.split {
         None => (full.clone(), None),
         Some(part) => {
             let at = cut(&full, part)?;
-            (full.masked(|i| i < at), Some(full.masked(|i| i >= at)))
+            let rest = full.masked(|i| i >= at);
+            if rest.kept() < LEAST_HELD_OUT {
+                return Err(Error::usage(
+                    format!(
+                        "--split {part} leaves {} samples to validate on",
+                        rest.kept()
+                    ),
+                    format!(
+                        "at least {LEAST_HELD_OUT} of the {} usable ones",
+                        full.kept()
+                    ),
+                ));
+            }
+            (full.masked(|i| i < at), Some(rest))
         }
     };
     refuse_rest(&record, &sources, motion)?;
@@ -136,6 +152,10 @@ pub fn identify(options: &Options, observer: &mut dyn Observer) -> Result<Outcom
         .climb(&estimate, &optimum.bounds, &settings, observer)
     };
     let mut warnings = log_warnings(&sources);
+    if laws.is_empty() && options.compare_laws && optimum.status != Status::Interrupted {
+        let text = "the comparison of laws was interrupted and is left out; the fit is complete";
+        warnings.push(Warning::new("interrupted", text));
+    }
     let trust = trust::judge(&estimate, &record, &sources, &laws, motion, &mut warnings);
     let resolved = ResolvedAxis {
         name: axis.name.clone(),
@@ -211,11 +231,24 @@ pub(crate) fn condition(sources: &[Source], axis: &Axis) -> Result<Record, Error
     })
 }
 
-/// All logs must be of one kind of axis, with force in one unit.
+/// All logs must be of one kind of axis, with force in one unit, and no log may count twice.
 fn check_together(sources: &[Source], held_out: &[Source]) -> Result<(), Error> {
     let Some(first) = sources.first() else {
         return Err(Error::usage("no log given", "name at least one log file"));
     };
+    let all: Vec<&Source> = sources.iter().chain(held_out).collect();
+    for (i, log) in all.iter().enumerate() {
+        if let Some(twin) = all[..i].iter().find(|other| other.sha256 == log.sha256) {
+            return Err(Error::usage(
+                format!(
+                    "{} and {} are the same log",
+                    twin.path.display(),
+                    log.path.display()
+                ),
+                "give each log once, and validate on logs that are not fitted",
+            ));
+        }
+    }
     for other in sources.iter().chain(held_out).skip(1) {
         if other.log.motion != first.log.motion || other.log.force_unit != first.log.force_unit {
             return Err(Error::usage(

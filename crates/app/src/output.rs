@@ -4,6 +4,7 @@ use crate::error::Error;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
 
 /// File that marks a folder as one that stiction wrote and may replace.
 const MARK: &str = "result.json";
@@ -25,8 +26,8 @@ impl Bundle {
         &self.files
     }
 
-    /// Writes every file into `dir`, each under a temporary name first and renamed when complete;
-    /// `result.json` comes last, so a folder that has it is whole.
+    /// Writes every file into `dir`: all under temporary names first, renamed once the last one is
+    /// complete, `result.json` at the very end. A full disk or an interrupt leaves what was there.
     ///
     /// # Errors
     /// When the folder cannot be made or a file cannot be written.
@@ -34,10 +35,21 @@ impl Bundle {
         fs::create_dir_all(dir).map_err(|e| Error::output(dir, describe(&e)))?;
         let mut order: Vec<_> = self.files.iter().collect();
         order.sort_by_key(|(name, _)| *name == MARK);
-        let mut written = Vec::new();
+        let mut staged = Vec::new();
         for (name, content) in order {
             let path = dir.join(name);
-            write_atomic(&path, content)?;
+            if path.is_dir() {
+                return Err(Error::output(
+                    &path,
+                    "is a folder; a file of this name is to be written",
+                ));
+            }
+            let file = stage(&path, content)?;
+            staged.push((path, file));
+        }
+        let mut written = Vec::new();
+        for (path, file) in staged {
+            publish(file, &path)?;
             written.push(path);
         }
         Ok(written)
@@ -49,15 +61,13 @@ impl Bundle {
 /// # Errors
 /// When the folder is not writable or the disk is full.
 pub fn write_atomic(path: &Path, content: &[u8]) -> Result<(), Error> {
-    let dir = match path.parent() {
-        Some(dir) if !dir.as_os_str().is_empty() => dir,
-        _ => Path::new("."),
-    };
+    publish(stage(path, content)?, path)
+}
+
+/// The content under a temporary name beside `path`; it vanishes unless it is published.
+fn stage(path: &Path, content: &[u8]) -> Result<NamedTempFile, Error> {
     let fail = |e: std::io::Error| Error::output(path, describe(&e));
-    let mut file = tempfile::Builder::new()
-        .prefix(".stiction-")
-        .tempfile_in(dir)
-        .map_err(fail)?;
+    let mut file = temporary_beside(path).map_err(fail)?;
     file.write_all(content).map_err(fail)?;
     file.as_file().sync_all().map_err(fail)?;
     #[cfg(unix)]
@@ -67,22 +77,54 @@ pub fn write_atomic(path: &Path, content: &[u8]) -> Result<(), Error> {
             .set_permissions(fs::Permissions::from_mode(0o644))
             .map_err(fail)?;
     }
-    file.persist(path).map_err(|e| fail(e.error))?;
+    Ok(file)
+}
+
+fn publish(file: NamedTempFile, path: &Path) -> Result<(), Error> {
+    file.persist(path)
+        .map_err(|e| Error::output(path, describe(&e.error)))?;
     Ok(())
+}
+
+fn temporary_beside(path: &Path) -> std::io::Result<NamedTempFile> {
+    let dir = match path.parent() {
+        Some(dir) if !dir.as_os_str().is_empty() => dir,
+        _ => Path::new("."),
+    };
+    tempfile::Builder::new()
+        .prefix(".stiction-")
+        .tempfile_in(dir)
 }
 
 /// Refuses a folder that holds something that stiction did not write, unless `force`.
 ///
-/// A folder that is empty, absent, or holds an earlier `result.json` of ours is fine.
+/// A folder that is empty, absent, or holds an earlier `result.json` of ours is fine, if it can be
+/// written: better said before a long search than after it.
 ///
 /// # Errors
 /// With the reason and the way out.
 pub fn check_folder(dir: &Path, force: bool) -> Result<(), Error> {
-    if !dir.exists() {
-        return Ok(());
+    // The nearest folder that exists; `symlink_metadata` so that a dangling link counts as something.
+    let existing = dir
+        .ancestors()
+        .map(|a| {
+            if a.as_os_str().is_empty() {
+                Path::new(".")
+            } else {
+                a
+            }
+        })
+        .find(|a| a.symlink_metadata().is_ok())
+        .unwrap_or(Path::new("."));
+    if !existing.is_dir() {
+        return Err(Error::output(
+            existing,
+            "is not a folder; --out takes a folder",
+        ));
     }
-    if !dir.is_dir() {
-        return Err(Error::output(dir, "is a file; --out takes a folder"));
+    temporary_beside(&existing.join("probe")).map_err(|e| Error::output(existing, describe(&e)))?;
+    if existing != dir {
+        return Ok(());
     }
     let mut entries = fs::read_dir(dir).map_err(|e| Error::output(dir, describe(&e)))?;
     let empty = entries.next().is_none();
@@ -97,6 +139,10 @@ pub fn check_folder(dir: &Path, force: bool) -> Result<(), Error> {
 }
 
 fn is_ours(mark: &Path) -> bool {
+    // Opening a pipe of this name would wait for ever.
+    if !mark.is_file() {
+        return false;
+    }
     let Ok(file) = fs::File::open(mark) else {
         return false;
     };

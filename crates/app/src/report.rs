@@ -7,9 +7,6 @@ mod tables;
 use crate::identify::Outcome;
 use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
 
-/// Where the pages of the codes stand, relative to nothing on the reader's disk: only a hint.
-const CODES: &str = "docs/codes/";
-
 /// The report of one identification.
 pub(crate) fn identification(outcome: &Outcome) -> Document {
     let result = &outcome.result;
@@ -45,7 +42,7 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
                 severity: Severity::Warning,
                 code: warning.code.clone(),
                 text: Text::from(warning.message.as_str()),
-                link: format!("{CODES}{}.md", warning.code),
+                link: String::new(),
             });
         }
     }
@@ -145,8 +142,10 @@ fn key_figures(outcome: &Outcome) -> Vec<KeyFigure> {
             "%",
         )
         .note("100 rms(residual) / rms(measured)"),
-        KeyFigure::new("Residual", number::sig(fit.rmse, 3), fit.unit.as_str())
-            .note(format!("rms, R² {}", number::sig(fit.r2, 5))),
+        KeyFigure::new("Residual", number::sig(fit.rmse, 3), fit.unit.as_str()).note(format!(
+            "rms, R² {}",
+            number::sig(fit.r2.unwrap_or(f64::NAN), 5)
+        )),
     ];
     if let Some(low) = &result.low_speed {
         out.push(
@@ -197,7 +196,10 @@ fn sureness(outcome: &Outcome) -> String {
     format!(
         "The residual is worth about {} independent samples of {}: neighbouring residuals resemble \
          each other, and the intervals count that. What is left outside the band in the \
-         autocorrelation is friction, cogging or dynamics that the law does not describe.",
+         autocorrelation is friction, cogging or dynamics that the law does not describe. The \
+         intervals do not cover the bias of a wrong law, nor of force and position that were logged \
+         at different instants: half a sample between them can move the micro-damping by many of \
+         its intervals.",
         number::count(fit.effective_samples.max(0.0) as u64),
         number::count(fit.samples as u64)
     )

@@ -114,8 +114,8 @@ pub struct FitEntry {
     pub rmse: f64,
     /// `100 rms(residual) / rms(measured)`.
     pub relative_error_percent: f64,
-    /// Part of the variance that is explained.
-    pub r2: f64,
+    /// Part of the variance that is explained; `null` for a force that does not vary.
+    pub r2: Option<f64>,
     /// Samples that count.
     pub samples: usize,
     /// Independent samples that the residual is worth.
@@ -129,7 +129,7 @@ impl FitEntry {
             unit: unit.into(),
             rmse: fit.rmse,
             relative_error_percent: fit.relative_error_percent,
-            r2: fit.r2,
+            r2: Some(fit.r2).filter(|x| x.is_finite()),
             samples: fit.samples,
             effective_samples: fit.effective_samples,
         }

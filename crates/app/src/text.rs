@@ -4,6 +4,7 @@ use crate::check::{Check, LogCheck, short};
 use crate::identify::Outcome;
 use crate::symbols;
 use std::fmt::Write;
+use stiction_identify::IDENTIFIABLE;
 
 /// A table with aligned columns; the first row is the header.
 fn table(rows: &[Vec<String>], right: &[bool]) -> String {
@@ -64,6 +65,10 @@ pub fn outcome(outcome: &Outcome) -> String {
     for p in &result.parameters {
         let std = match p.std {
             _ if p.origin == "given" => "given".to_string(),
+            // Only a parameter that may be zero is identifiable with a large deviation.
+            Some(std) if p.identifiable && std > IDENTIFIABLE * p.value.abs() => {
+                format!("{} {}", short(std), p.unit)
+            }
             Some(std) if p.value != 0.0 => format!("{:.2} %", 100.0 * std / p.value.abs()),
             _ => "-".into(),
         };
@@ -93,11 +98,11 @@ pub fn outcome(outcome: &Outcome) -> String {
     let fit = &result.fit;
     let _ = writeln!(
         out,
-        "\nfit         {:.3} % relative error, {} {} rms, R2 {:.5}",
+        "\nfit         {:.3} % relative error, {} {} rms, R2 {}",
         fit.relative_error_percent,
         short(fit.rmse),
         fit.unit,
-        fit.r2
+        fit.r2.map_or("-".into(), |r2| format!("{r2:.5}"))
     );
     if let Some(low) = &result.low_speed {
         let _ = writeln!(

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 /// Exit codes: 0 done, 1 the result is not trustworthy (it says why), 2 bad input or usage, 3 internal
 /// error, 130 interrupted (what was found so far is saved).
 #[derive(Clone, Debug, Parser)]
-#[command(name = "stiction", version, max_term_width = 100)]
+#[command(name = "stiction", version, term_width = 100)]
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Command,

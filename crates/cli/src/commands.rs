@@ -3,6 +3,7 @@
 use crate::Exit;
 use crate::arguments::{self, Arguments, Command, Common};
 use crate::interrupt;
+use crate::output;
 use crate::progress::Bar;
 use std::path::Path;
 use stiction_app::{Error, LawKind, Options, Outcome, check_folder, write_atomic};
@@ -24,7 +25,8 @@ pub fn run(arguments: &Arguments) -> Exit {
         if common.json {
             let error =
                 serde_json::json!({ "error": { "code": e.code(), "message": e.to_string() } });
-            println!("{error}");
+            // The same was said on standard error; there is nowhere else to complain.
+            let _ = output::json(&error);
         }
         Exit::BadInput
     })
@@ -47,12 +49,9 @@ fn check(check: &arguments::Check, common: &Common) -> Result<Exit, Error> {
     bar.finish();
     let found = found?;
     if common.json {
-        println!(
-            "{}",
-            serde_json::to_string_pretty(&found).expect("plain data")
-        );
+        output::json(&found)?;
     } else if !common.quiet {
-        print!("{}", stiction_app::text::check(&found));
+        output::print(&stiction_app::text::check(&found))?;
     }
     if interrupt::asked() {
         return Ok(Exit::Interrupted);
@@ -66,23 +65,24 @@ fn check(check: &arguments::Check, common: &Common) -> Result<Exit, Error> {
 }
 
 fn init(check: &arguments::Check, file: &Path, common: &Common) -> Result<Exit, Error> {
-    let text = stiction_app::check::init(&check.logs[0])?;
-    if file.exists() {
+    // A dangling link is something too, and renaming onto it would replace it.
+    if file.symlink_metadata().is_ok() {
         return Err(Error::Output {
             path: file.to_path_buf(),
             reason: "exists already and is kept; name another file: --init OTHER.toml".into(),
         });
     }
+    let text = stiction_app::check::init(&check.logs[0])?;
     write_atomic(file, text.as_bytes())?;
     if common.json {
-        println!("{}", serde_json::json!({ "written": file }));
+        output::json(&serde_json::json!({ "written": file.to_string_lossy() }))?;
     } else if !common.quiet {
-        println!(
-            "{} written; fill in what is missing, then: stiction check {} --axis {}",
+        output::print(&format!(
+            "{} written; fill in what is missing, then: stiction check {} --axis {}\n",
             file.display(),
             check.logs[0].display(),
             file.display()
-        );
+        ))?;
     }
     Ok(Exit::Done)
 }
@@ -115,19 +115,21 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
 fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error> {
     let written = outcome.bundle().write(dir)?;
     if common.json {
-        println!(
-            "{}",
-            serde_json::to_string_pretty(&outcome.result).expect("plain data")
-        );
+        output::json(&outcome.result)?;
     } else if !common.quiet {
-        print!("{}", stiction_app::text::outcome(outcome));
         let names: Vec<_> = written
             .iter()
             .filter_map(|p| p.file_name().map(|n| n.to_string_lossy().into_owned()))
             .collect();
-        println!("\nwritten to {}: {}", dir.display(), names.join(", "));
+        output::print(&format!(
+            "{}\nwritten to {}: {}\n",
+            stiction_app::text::outcome(outcome),
+            dir.display(),
+            names.join(", ")
+        ))?;
     }
-    if outcome.result.search.status == "interrupted" {
+    // An interrupt may also have come while laws were compared, after the search had converged.
+    if outcome.result.search.status == "interrupted" || interrupt::asked() {
         return Ok(Exit::Interrupted);
     }
     Ok(if outcome.result.trust.trustworthy {

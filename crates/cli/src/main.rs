@@ -3,6 +3,7 @@
 mod arguments;
 mod commands;
 mod interrupt;
+mod output;
 mod progress;
 
 use arguments::Arguments;

@@ -74,6 +74,20 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
     for (i, log) in logs.iter().enumerate() {
         check(i + 1, log)?;
     }
+    let settings = [
+        ("min_speed", Some(conditioning.min_speed)),
+        ("resolution", conditioning.resolution),
+    ];
+    for (name, found) in settings {
+        if let Some(found) = found.filter(|x| !(*x >= 0.0 && x.is_finite())) {
+            let allowed = "a finite number, not negative";
+            return Err(Error::Setting {
+                name,
+                found,
+                allowed,
+            });
+        }
+    }
     let step = logs
         .iter()
         .map(|log| median_step(&log.time))
@@ -292,7 +306,9 @@ struct Filters {
 impl Filters {
     /// Fewest samples of a stretch that leave something to fit.
     fn least(&self) -> usize {
-        2 * self.trim + 4 * self.decimate.max(4)
+        4usize
+            .saturating_mul(self.decimate.max(4))
+            .saturating_add(2 * self.trim)
     }
 
     /// One stretch, conditioned; `None` if it is too short.
@@ -356,18 +372,21 @@ impl Filters {
     }
 }
 
-/// Keeps what stands at least `reach` samples from anything that is not kept.
+/// Keeps what stands at least `reach` samples from a hole that is worth it: one or two samples bridged
+/// by a line cost the filter next to nothing.
 fn apart(keep: &[bool], reach: usize) -> Vec<bool> {
     let mut out = keep.to_vec();
-    if reach == 0 {
-        return out;
-    }
-    for (i, &k) in keep.iter().enumerate() {
-        // Only the borders of a hole reach beyond it.
-        let border = !k && (i == 0 || i + 1 == keep.len() || keep[i - 1] || keep[i + 1]);
-        if border {
-            out[i.saturating_sub(reach)..(i + reach + 1).min(keep.len())].fill(false);
+    let mut start = 0;
+    while start < keep.len() {
+        let length = keep[start..]
+            .iter()
+            .take_while(|&&k| k == keep[start])
+            .count();
+        if !keep[start] && length > 2 {
+            let end = (start + length + reach).min(keep.len());
+            out[start.saturating_sub(reach)..end].fill(false);
         }
+        start += length;
     }
     out
 }

@@ -66,7 +66,7 @@ pub enum Error {
         unit: &'static str,
     },
     /// The force is zero throughout.
-    #[error("the force is {value} throughout: there is nothing to identify")]
+    #[error("the force is {value:.6} throughout: there is nothing to identify")]
     NoForce {
         /// The constant value.
         value: f64,

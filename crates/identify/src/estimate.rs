@@ -168,7 +168,14 @@ pub fn estimate(
     };
     let series = series(&objective, &optimum.p, c);
     let residual = at.residual();
-    let fit = Fit::new(&series.measured, residual).expect("a fit has samples");
+    // The search refuses a force without energy; what is left is a residual too large to square.
+    let fit = Fit::new(&series.measured, residual).unwrap_or(Fit {
+        rmse: f64::MAX,
+        relative_error_percent: f64::MAX,
+        r2: f64::NAN,
+        samples: residual.len(),
+        effective_samples: 1.0,
+    });
     let low_speed = Fit::slow(
         &series.measured,
         residual,
@@ -229,6 +236,9 @@ fn describe(p: &Physical, variance: f64, optimum: &Optimum, level: f64) -> Param
     }
     let known = reason.is_empty() && variance.is_finite() && variance >= 0.0;
     let std = known.then(|| variance.sqrt());
+    if reason.is_empty() && std.is_none() {
+        reason = "its deviation is beyond the range of numbers".into();
+    }
     let size = if p.positive {
         p.value.abs()
     } else {

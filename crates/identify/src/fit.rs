@@ -22,7 +22,8 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// Compares a residual with the measured force; `None` without samples.
+    /// Compares a residual with the measured force; `None` without samples, or where all of them are
+    /// zero or beyond what can be squared.
     pub fn new(measured: &[f64], residual: &[f64]) -> Option<Self> {
         let n = measured.len().min(residual.len());
         if n == 0 {
@@ -32,13 +33,12 @@ impl Fit {
         let mean = measured.iter().sum::<f64>() / n as f64;
         let spread: f64 = measured.iter().map(|u| (u - mean) * (u - mean)).sum();
         let (energy, error) = (squares(measured), squares(residual));
+        if !(energy > 0.0 && energy.is_finite() && error.is_finite()) {
+            return None;
+        }
         Some(Self {
             rmse: (error / n as f64).sqrt(),
-            relative_error_percent: if energy > 0.0 {
-                100.0 * (error / energy).sqrt()
-            } else {
-                f64::NAN
-            },
+            relative_error_percent: 100.0 * (error / energy).sqrt(),
             r2: if spread > 0.0 {
                 1.0 - error / spread
             } else {

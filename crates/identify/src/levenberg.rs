@@ -169,7 +169,8 @@ pub(crate) fn descend(
                 status = Status::Converged;
             }
         } else {
-            if predicted <= FLAT * now.cost {
+            // A step that a bound cut short may promise a rise: a shorter one follows the gradient.
+            if predicted.abs() <= FLAT * now.cost {
                 status = Status::Converged;
             } else if lambda > 1e12 {
                 status = Status::Stalled;

@@ -146,7 +146,9 @@ impl<'a> Search<'a> {
         }
         let mut costs: Vec<(f64, &Vec<f64>)> = Vec::with_capacity(starts.len());
         for start in starts {
-            costs.push((self.full.evaluate(start, false).cost, start));
+            let cost = self.full.evaluate(start, false).cost;
+            // So that no number is the worst, and still a start.
+            costs.push((if cost.is_nan() { f64::INFINITY } else { cost }, start));
             watch.count(self.full, false);
         }
         costs.sort_by(|a, b| a.0.total_cmp(&b.0));

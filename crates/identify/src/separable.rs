@@ -84,8 +84,15 @@ pub fn separable(
         });
     }
     let full = Objective::new(record, law, terms);
-    if full.energy() <= 0.0 {
-        return Err(Error::NoForce { value: 0.0 });
+    if !full.energy().is_finite() {
+        return Err(Error::Setting {
+            name: "force",
+            found: full.energy(),
+            allowed: "numbers whose squares add up to a finite number",
+        });
+    }
+    if let Some(value) = constant(full.force()) {
+        return Err(Error::NoForce { value });
     }
     let mut watch = Watch {
         observer,
@@ -114,6 +121,17 @@ pub fn separable(
         history: descent.history,
         evaluation: descent.evaluation,
     })
+}
+
+/// The value of a force that never changes, rounding of the filters apart.
+fn constant(force: &[f64]) -> Option<f64> {
+    let (low, high) = force
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &u| {
+            (low.min(u), high.max(u))
+        });
+    let still = high - low <= 1e-9 * low.abs().max(high.abs());
+    still.then_some(high)
 }
 
 /// Fits from a known starting point on the full record, without a scan.

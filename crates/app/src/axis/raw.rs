@@ -3,6 +3,9 @@
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
+/// How every message begins that says what a value may be where several kinds are allowed.
+pub(crate) const EXPECTS: &str = "give ";
+
 /// The whole file.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -43,7 +46,7 @@ pub(crate) struct RawColumns {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(
     untagged,
-    expecting = "a column name, a column number from 1, or a table such as { column = \"qm\", unit = \"m\" }"
+    expecting = "give a column name, a column number from 1, or a table with column and, where needed, unit, scale and invert, such as { column = \"qm\", unit = \"m\" }"
 )]
 pub(crate) enum RawChannel {
     Name(String),
@@ -64,7 +67,7 @@ pub(crate) struct RawFull {
 
 /// A column by name or number.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(untagged, expecting = "a column name or a column number from 1")]
+#[serde(untagged, expecting = "give a column name or a column number from 1")]
 pub(crate) enum RawSelector {
     Name(String),
     Index(i64),
@@ -74,7 +77,7 @@ pub(crate) enum RawSelector {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(
     untagged,
-    expecting = "a scale such as \"35.15 N/V\" or a plain number"
+    expecting = "give a scale such as \"35.15 N/V\" or a plain number"
 )]
 pub(crate) enum RawScale {
     Text(String),

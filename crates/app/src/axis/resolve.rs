@@ -1,12 +1,14 @@
 //! From the axis file as typed to SI values that the libraries take.
 
 use super::raw::{self, RawAxis, RawChannel, RawScale, RawSelector};
+use super::syntax;
 use crate::error::Error;
 use serde::Serialize;
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use stiction_identify::{Conditioning, Cutoff, Mass, Source, Terms};
 use stiction_log::text::{Decimal, Separator, TextOptions};
-use stiction_log::{Channel, Dimension, Mapping, Motion, Role, Selector, Unit, Value, Wrap};
+use stiction_log::{Channel, Dimension, Log, Mapping, Motion, Role, Selector, Unit, Value, Wrap};
 
 /// Everything an axis file says, resolved; `Axis::default()` leaves all to detection.
 #[derive(Clone, Debug)]
@@ -27,8 +29,8 @@ pub struct Axis {
     pub low_speed: Option<f64>,
     /// Whether to fit a constant force; `None` follows from the law.
     offset: Option<bool>,
-    /// A given mass as typed: its unit can only be checked when the motion is known.
-    given_mass: Option<Value>,
+    /// Values whose unit fits one kind of axis only, checked when the log says which it is.
+    tied: Vec<Tied>,
     file: PathBuf,
 }
 
@@ -43,13 +45,24 @@ impl Default for Axis {
             stribeck_exponent: 2.0,
             low_speed: None,
             offset: None,
-            given_mass: None,
+            tied: Vec::new(),
             file: PathBuf::new(),
         }
     }
 }
 
+/// A value of the file with its place, text and dimension.
+#[derive(Clone, Debug)]
+struct Tied {
+    place: String,
+    text: String,
+    dimension: Dimension,
+}
+
 const SPEEDS: [Dimension; 2] = [Dimension::LINEAR_VELOCITY, Dimension::ANGULAR_VELOCITY];
+
+/// Largest decimation: 10 kHz down to 1 Hz.
+const MAX_DECIMATE: usize = 10_000;
 
 /// Largest axis file that is read, bytes.
 const MAX_BYTES: u64 = 1 << 20;
@@ -99,46 +112,102 @@ impl Axis {
     /// As [`Axis::read`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
         let raw = raw::parse(text).map_err(|e| {
-            let place = e.span().map_or(String::new(), |span| {
-                let line = text.as_bytes()[..span.start.min(text.len())]
-                    .iter()
-                    .filter(|&&b| b == b'\n')
-                    .count();
-                format!("line {}: ", line + 1)
-            });
+            let refusal = syntax::refusal(text, &e);
             Error::Config {
                 file: file.to_path_buf(),
-                place,
-                found: e.message().trim().replace('\n', " "),
-                allowed: "see docs/axis.md for every key".into(),
+                place: refusal.place,
+                found: refusal.found,
+                allowed: refusal.allowed,
             }
         })?;
-        Resolver { text, file }.resolve(&raw)
+        let resolver = Resolver {
+            text,
+            file,
+            tied: RefCell::default(),
+        };
+        let mut axis = resolver.resolve(&raw)?;
+        axis.tied = resolver.tied.into_inner();
+        Ok(axis)
     }
 
-    /// The linear terms once motion and law are known: a given mass must have the right unit, and a
-    /// constant force is fitted beside a symmetric law only, unless the axis file says otherwise. It
+    /// The linear terms for a log and a law.
+    ///
+    /// A constant force is fitted beside a symmetric law only, unless the axis file says otherwise: it
     /// cannot be told from Coulomb levels that differ between the directions.
     ///
     /// # Errors
-    /// A mass for a rotary axis, an inertia for a linear one.
-    pub fn terms_for(&self, motion: Motion, asymmetric: bool) -> Result<Terms, Error> {
+    /// Where a unit of the file does not fit the log: an angle on a linear axis, a mass where the force
+    /// is a current, a force limit in another unit than the force.
+    pub fn terms_for(&self, log: &Log, asymmetric: bool) -> Result<Terms, Error> {
+        for tied in &self.tied {
+            if let Some(allowed) = tied.misfit(log) {
+                return Err(self.misfit(&tied.place, &tied.text, allowed));
+            }
+        }
+        if self.terms.gravity && log.motion == Motion::Linear {
+            let allowed = "sin q and cos q need the angle of a rotary axis; gravity on a linear axis is \
+                           the constant force";
+            return Err(self.misfit("terms.gravity: ", "true on a linear axis", allowed.into()));
+        }
         let mut terms = self.terms.clone();
         terms.offset = self.offset.unwrap_or(!asymmetric);
-        if let Some(mass) = &self.given_mass {
-            let wanted = match motion {
-                Motion::Linear => Dimension::MASS,
-                Motion::Rotary => Dimension::INERTIA,
-            };
-            let value = mass.si_of(wanted).map_err(|e| Error::Config {
-                file: self.file.clone(),
-                place: "mass: ".into(),
-                found: e.found,
-                allowed: e.allowed,
-            })?;
-            terms.mass = Mass::Given(value);
-        }
         Ok(terms)
+    }
+
+    fn misfit(&self, place: &str, found: &str, allowed: String) -> Error {
+        Error::Config {
+            file: self.file.clone(),
+            place: place.into(),
+            found: found.into(),
+            allowed,
+        }
+    }
+}
+
+impl Tied {
+    /// What is allowed instead, if this does not fit the log.
+    fn misfit(&self, log: &Log) -> Option<String> {
+        let forces = [
+            Dimension::FORCE,
+            Dimension::TORQUE,
+            Dimension::CURRENT,
+            Dimension::VOLTAGE,
+        ];
+        let inertia = [Dimension::MASS, Dimension::INERTIA];
+        if forces.contains(&self.dimension) {
+            let fits = self.dimension.si_text() == log.force_unit;
+            return (!fits).then(|| format!("the force of this log is in {}", log.force_unit));
+        }
+        let (motion, mass) = match log.motion {
+            Motion::Linear => (
+                [Dimension::LENGTH, Dimension::LINEAR_VELOCITY],
+                Dimension::MASS,
+            ),
+            Motion::Rotary => (
+                [Dimension::ANGLE, Dimension::ANGULAR_VELOCITY],
+                Dimension::INERTIA,
+            ),
+        };
+        if inertia.contains(&self.dimension) {
+            if log.force_unit != log.motion.force().si_text() {
+                return Some(format!(
+                    "a known mass needs the force in {}, this log has it in {}: give the force a scale",
+                    log.motion.force().si_text(),
+                    log.force_unit
+                ));
+            }
+            let fits = self.dimension == mass;
+            return (!fits).then(|| format!("a {} axis takes {}", log.motion, mass.si_text()));
+        }
+        let fits = motion.contains(&self.dimension);
+        (!fits).then(|| {
+            format!(
+                "a {} axis takes {} or {}",
+                log.motion,
+                motion[0].si_text(),
+                motion[1].si_text()
+            )
+        })
     }
 }
 
@@ -162,6 +231,7 @@ pub struct ResolvedAxis {
 struct Resolver<'a> {
     text: &'a str,
     file: &'a Path,
+    tied: RefCell<Vec<Tied>>,
 }
 
 impl Resolver<'_> {
@@ -350,8 +420,14 @@ impl Resolver<'_> {
                 .positive(key, text, &[Dimension::FREQUENCY])
                 .map(Cutoff::Hz),
         };
-        if raw.decimate == Some(0) {
-            return Err(self.refuse("conditioning.decimate", "0".into(), "a whole number from 1"));
+        if let Some(n) = raw.decimate
+            && !(1..=MAX_DECIMATE).contains(&n)
+        {
+            return Err(self.refuse(
+                "conditioning.decimate",
+                n.to_string(),
+                "a whole number from 1 to 10000",
+            ));
         }
         Ok(Conditioning {
             source,
@@ -372,8 +448,7 @@ impl Resolver<'_> {
             Some("none") => axis.terms.mass = Mass::Absent,
             Some(text) => {
                 let allowed = [Dimension::MASS, Dimension::INERTIA];
-                self.positive("mass", text, &allowed)?;
-                axis.given_mass = Value::parse(text).ok();
+                axis.terms.mass = Mass::Given(self.positive("mass", text, &allowed)?);
             }
         }
         axis.offset = raw.terms.offset;
@@ -406,15 +481,33 @@ impl Resolver<'_> {
 
     fn value(&self, key: &str, text: &str, dimensions: &[Dimension]) -> Result<f64, Error> {
         let value = Value::parse(text).map_err(|e| self.refuse(key, e.found, &e.allowed))?;
-        let mut last = None;
+        let mut found = String::new();
+        let mut allowed: Vec<String> = Vec::new();
         for &dimension in dimensions {
             match value.si_of(dimension) {
-                Ok(x) => return Ok(x),
-                Err(e) => last = Some(e),
+                Ok(x) => {
+                    self.tie(key, text, dimension);
+                    return Ok(x);
+                }
+                Err(e) => {
+                    found = e.found;
+                    allowed.push(e.allowed);
+                }
             }
         }
-        let e = last.expect("at least one dimension is allowed");
-        Err(self.refuse(key, e.found, &e.allowed))
+        Err(self.refuse(key, found, &allowed.join("; or ")))
+    }
+
+    /// Remembers a value whose dimension does not fit every axis.
+    fn tie(&self, key: &str, text: &str, dimension: Dimension) {
+        let free = [Dimension::TIME, Dimension::FREQUENCY, Dimension::ONE];
+        if !free.contains(&dimension) {
+            self.tied.borrow_mut().push(Tied {
+                place: self.place(key),
+                text: format!("{text:?}"),
+                dimension,
+            });
+        }
     }
 
     fn positive(&self, key: &str, text: &str, dimensions: &[Dimension]) -> Result<f64, Error> {
@@ -426,17 +519,22 @@ impl Resolver<'_> {
     }
 
     fn refuse(&self, key: &str, found: String, allowed: &str) -> Error {
+        Error::Config {
+            file: self.file.to_path_buf(),
+            place: self.place(key),
+            found,
+            allowed: allowed.into(),
+        }
+    }
+
+    /// Line and key, as errors begin.
+    fn place(&self, key: &str) -> String {
         // `columns.force.unit` stands on the line of `columns.force` where it is an inline table.
         let parent = key.rsplit_once('.').map_or(key, |(parent, _)| parent);
         let line = raw::line_of(self.text, key).or_else(|| raw::line_of(self.text, parent));
-        Error::Config {
-            file: self.file.to_path_buf(),
-            place: match line {
-                Some(line) => format!("line {line}, {key}: "),
-                None => format!("{key}: "),
-            },
-            found,
-            allowed: allowed.into(),
+        match line {
+            Some(line) => format!("line {line}, {key}: "),
+            None => format!("{key}: "),
         }
     }
 }

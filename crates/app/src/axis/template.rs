@@ -36,8 +36,9 @@ pub fn template(table: &Table, detected: Option<&Mapping>) -> String {
             .unit
             .as_deref()
             .map_or(String::new(), |u| format!(" [{u}]"));
-        // A name from a file must not break out of its comment.
-        let line = format!("{name}{unit}").replace(['\n', '\r'], " ");
+        // A name from a file must not break out of its comment, and TOML allows no control
+        // characters there.
+        let line = format!("{name}{unit}").replace(char::is_control, " ");
         let _ = writeln!(out, "#   {}: {line}", i + 1);
     }
     for role in Role::ALL {

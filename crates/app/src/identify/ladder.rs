@@ -1,9 +1,10 @@
-//! The chosen law beside simpler ones, on samples that none of them was fitted to.
+//! The chosen law beside others, on samples that none of them was fitted to.
 
 use crate::result::LawEntry;
 use stiction_identify as engine;
 use stiction_identify::{
-    Estimate, Fit, Law, LawKind, LawScore, Observer, Record, SearchBox, Settings, Silent, Terms,
+    Control, Estimate, Fit, Law, LawKind, LawScore, Observer, Progress, Record, SearchBox,
+    Settings, Stage, Terms,
 };
 
 /// Blocks of the cross-validation where no validation data are given.
@@ -22,7 +23,9 @@ pub(super) struct Ladder<'a> {
 }
 
 impl Ladder<'_> {
-    /// Scores the fitted law and the simpler ones below it; the smallest held-out error is best.
+    /// Scores the fitted law, its asymmetric or symmetric twin and the simpler ones; the smallest
+    /// held-out error is best. Nothing if the observer stopped it half way: a table of some laws
+    /// would name the wrong one.
     pub fn climb(
         &self,
         chosen: &Estimate,
@@ -30,23 +33,33 @@ impl Ladder<'_> {
         settings: &Settings,
         observer: &mut dyn Observer,
     ) -> Vec<LawEntry> {
+        let laws = beside(&chosen.law);
+        let mut relay = Relay {
+            observer,
+            done: 0,
+            laws: laws.len(),
+            stopped: false,
+        };
         let mut scores = Vec::new();
-        for law in below(&chosen.law) {
+        for law in laws {
             if law == chosen.law {
-                scores.push(self.score(chosen, bounds, observer));
-                continue;
-            }
-            let terms = if law.asymmetric {
-                self.asymmetric
+                scores.push(self.score(chosen, bounds, &mut relay));
             } else {
-                self.symmetric
-            };
-            let Ok(optimum) = engine::separable(self.record, law, terms, settings, &mut Silent)
-            else {
-                continue;
-            };
-            let fitted = engine::estimate(self.record, law, terms, &optimum, self.low_speed);
-            scores.push(self.score(&fitted, &optimum.bounds, observer));
+                let terms = if law.asymmetric {
+                    self.asymmetric
+                } else {
+                    self.symmetric
+                };
+                if let Ok(found) = engine::separable(self.record, law, terms, settings, &mut relay)
+                {
+                    let fitted = engine::estimate(self.record, law, terms, &found, self.low_speed);
+                    scores.push(self.score(&fitted, &found.bounds, &mut relay));
+                }
+            }
+            if relay.stopped {
+                return Vec::new();
+            }
+            relay.done += 1;
         }
         entries(&scores)
     }
@@ -77,43 +90,58 @@ impl Ladder<'_> {
     }
 }
 
-/// The static laws, symmetric and as asked, and the law itself.
-fn below(law: &Law) -> Vec<Law> {
-    let mut out = Vec::new();
-    for kind in [LawKind::CoulombViscous, LawKind::Stribeck] {
-        let base = Law {
-            kind,
-            asymmetric: false,
-            exponent: law.exponent,
-        };
-        out.push(base);
-        out.push(base.asymmetric());
-    }
-    if law.asymmetric {
-        out.push(Law {
-            asymmetric: false,
-            ..*law
+/// Passes progress on as that of the comparison, and remembers whether it was stopped.
+struct Relay<'o> {
+    observer: &'o mut dyn Observer,
+    done: usize,
+    laws: usize,
+    stopped: bool,
+}
+
+impl Observer for Relay<'_> {
+    fn progress(&mut self, progress: &Progress) -> Control {
+        let control = self.observer.progress(&Progress {
+            stage: Stage::CrossValidation,
+            fraction: self.done as f64 / self.laws as f64,
+            ..*progress
         });
+        self.stopped |= control == Control::Stop;
+        control
     }
-    out.push(*law);
-    let mut seen: Vec<Law> = Vec::new();
-    out.retain(|l| {
-        let new = !seen.contains(l);
-        seen.push(*l);
-        new
-    });
-    out
+}
+
+/// The laws to compare a law with, from the simplest to the richest: every family up to its own, each
+/// symmetric and asymmetric.
+fn beside(law: &Law) -> Vec<Law> {
+    LawKind::ALL
+        .into_iter()
+        .filter(|kind| *kind <= law.kind.max(LawKind::Stribeck))
+        .flat_map(|kind| {
+            let base = Law {
+                kind,
+                asymmetric: false,
+                exponent: law.exponent,
+            };
+            // Dahl beside LuGre stands for "no Stribeck curve"; one of its kind is enough.
+            let both = kind != LawKind::Dahl || law.kind == LawKind::Dahl;
+            std::iter::once(base).chain(both.then(|| base.asymmetric()))
+        })
+        .collect()
 }
 
 fn entries(scores: &[LawScore]) -> Vec<LawEntry> {
     let error = |s: &LawScore| s.held_out.map(|f| f.relative_error_percent);
+    // Of equals the first, which is the simplest.
     let best = scores
         .iter()
-        .filter_map(error)
-        .fold(f64::INFINITY, f64::min);
+        .enumerate()
+        .filter_map(|(i, s)| Some((i, error(s)?)))
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .map(|(i, _)| i);
     scores
         .iter()
-        .map(|s| LawEntry {
+        .enumerate()
+        .map(|(i, s)| LawEntry {
             law: s.law.kind.name().into(),
             asymmetric: s.law.asymmetric,
             parameters: s.parameters,
@@ -122,7 +150,7 @@ fn entries(scores: &[LawScore]) -> Vec<LawEntry> {
             held_out_low_speed_error_percent: s
                 .held_out_low_speed
                 .map(|f| f.relative_error_percent),
-            best: error(s) == Some(best),
+            best: best == Some(i),
         })
         .collect()
 }

@@ -16,6 +16,15 @@ const STRONG: f64 = 0.9;
 /// How much worse than a simpler law the chosen one may do before it is said, relative.
 const WORSE: f64 = 1.02;
 
+/// How much better a richer law must do before it is said, relative.
+const BETTER: f64 = 0.8;
+/// How much better it must do for the chosen law not to be trusted, relative.
+const MUCH_BETTER: f64 = 0.5;
+/// Independent samples of the residual, as a part of all, below which something systematic is left.
+const SYSTEMATIC: f64 = 0.05;
+/// Part of the samples near rest above which a static law is told of them.
+const AT_REST: f64 = 0.05;
+
 /// Adds warnings about the fit and says whether its numbers may be used.
 pub(super) fn judge(
     estimate: &Estimate,
@@ -62,7 +71,9 @@ pub(super) fn judge(
     }
     saturation(sources, &mut reasons);
     unidentifiable(estimate, motion, warnings, &mut reasons);
-    simpler_wins(estimate, laws, warnings);
+    another_wins(estimate, laws, warnings, &mut reasons);
+    systematic(estimate, warnings);
+    static_at_rest(estimate, motion, warnings);
     Trust {
         trustworthy: reasons.is_empty(),
         reasons,
@@ -146,7 +157,12 @@ fn cure(name: &str) -> &'static str {
     }
 }
 
-fn simpler_wins(estimate: &Estimate, laws: &[LawEntry], warnings: &mut Vec<Warning>) {
+fn another_wins(
+    estimate: &Estimate,
+    laws: &[LawEntry],
+    warnings: &mut Vec<Warning>,
+    reasons: &mut Vec<String>,
+) {
     let is_chosen = |l: &&LawEntry| {
         l.law == estimate.law.kind.name() && l.asymmetric == estimate.law.asymmetric
     };
@@ -154,18 +170,66 @@ fn simpler_wins(estimate: &Estimate, laws: &[LawEntry], warnings: &mut Vec<Warni
     else {
         return;
     };
-    if let (Some(mine), Some(least)) = (chosen.held_out_error_percent, best.held_out_error_percent)
-        && best.parameters < chosen.parameters
-        && mine > WORSE * least
-    {
-        let side = if best.asymmetric { " --asymmetric" } else { "" };
+    let (Some(mine), Some(least)) = (chosen.held_out_error_percent, best.held_out_error_percent)
+    else {
+        return;
+    };
+    let side = if best.asymmetric { " --asymmetric" } else { "" };
+    let errors = format!(
+        "on held-out samples --law {}{side} leaves {least:.2} %, this law {mine:.2} %",
+        best.law
+    );
+    if best.parameters < chosen.parameters && mine > WORSE * least {
         warnings.push(Warning::new(
             "simpler-law-holds-better",
+            format!("{errors}: the richer law is not supported by this log"),
+        ));
+    } else if best.parameters > chosen.parameters && least < BETTER * mine {
+        warnings.push(Warning::new(
+            "richer-law-holds-better",
+            format!("{errors}: this law is too simple for the axis, its parameters are biased"),
+        ));
+        if least < MUCH_BETTER * mine {
+            reasons.push(errors);
+        }
+    }
+}
+
+/// A residual that resembles itself over many samples is not noise.
+fn systematic(estimate: &Estimate, warnings: &mut Vec<Warning>) {
+    let fit = &estimate.fit;
+    if fit.effective_samples < SYSTEMATIC * fit.samples as f64 {
+        warnings.push(Warning::new(
+            "correlated-residual",
             format!(
-                "on held-out samples --law {}{side} leaves {least:.2} %, {} {mine:.2} %: the richer \
-                 law is not supported by this log",
-                best.law,
-                estimate.law.kind.name()
+                "the residual is worth {:.0} independent samples of {}: something systematic is left \
+                 (another law, cogging, gravity, force and position logged at different instants); it \
+                 may bias the parameters by more than their intervals",
+                fit.effective_samples, fit.samples
+            ),
+        ));
+    }
+}
+
+/// A static law says nothing of an axis at rest or in presliding.
+fn static_at_rest(estimate: &Estimate, motion: Motion, warnings: &mut Vec<Warning>) {
+    let Some(slow) = estimate
+        .low_speed
+        .filter(|_| !estimate.law.kind.has_bristle())
+    else {
+        return;
+    };
+    let part = slow.samples as f64 / estimate.fit.samples as f64;
+    if part > AT_REST && slow.rmse > 1.5 * estimate.fit.rmse {
+        warnings.push(Warning::new(
+            "static-law-at-rest",
+            format!(
+                "{:.0} % of the samples are slower than {:.3e} {}, where a static law says nothing and \
+                 most of the residual is: leave them out with [conditioning] min_speed in the axis \
+                 file, or use --law lugre",
+                100.0 * part,
+                estimate.low_speed_bound,
+                symbols::speed_unit(motion)
             ),
         ));
     }

@@ -304,7 +304,7 @@ fn reversal(outcome: &Outcome, series: &Series) -> std::ops::Range<usize> {
     turns
         .map(reach)
         .max_by_key(std::ops::Range::len)
-        .unwrap_or(0..n.min(200))
+        .unwrap_or(0..0)
 }
 
 /// Measured, model and residual in time.

@@ -4,6 +4,7 @@ use super::law_name;
 use crate::identify::Outcome;
 use crate::result::Input;
 use crate::symbols;
+use stiction_identify::IDENTIFIABLE;
 use stiction_report::{Align, Block, Severity, Table, Text, number};
 
 /// Parameters with value, unit, deviation, interval and flag.
@@ -25,6 +26,9 @@ pub(super) fn parameters(outcome: &Outcome) -> Table {
         };
         let std = match p.std {
             _ if p.origin == "given" => "given".to_string(),
+            Some(std) if p.identifiable && std > IDENTIFIABLE * p.value.abs() => {
+                format!("{} {}", number::sig(std, 2), p.unit)
+            }
             Some(std) if p.value != 0.0 => {
                 format!("{} %", number::sig(100.0 * std / p.value.abs(), 2))
             }

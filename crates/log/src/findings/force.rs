@@ -141,9 +141,18 @@ pub(super) fn sign(log: &mut Log) {
         way += moved.abs();
     }
     if net < NEGATIVE_WORK * gross && travel.abs() < 0.5 * way {
+        let turned =
+            log.mapping.force.as_ref().is_some_and(|f| {
+                f.invert != f.scale.as_ref().is_some_and(|scale| scale.number < 0.0)
+            });
+        let cure = if turned {
+            "its sign is turned round already (invert or a negative scale): take that back"
+        } else {
+            "if it is the friction rather than the drive force, set invert = true"
+        };
         let message = format!(
             "the force takes {} % of the work it does out of the motion, as a force that opposes \
-             motion does; if it is the friction rather than the drive force, set invert = true",
+             motion does; {cure}",
             short(-100.0 * net / gross)
         );
         log.findings

@@ -1,0 +1,460 @@
+//! The command line as a user or a script meets it: exit codes, streams, files.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use tempfile::TempDir;
+
+#[test]
+fn help_and_usage() {
+    trycmd::TestCases::new().case("tests/cmd/*.trycmd");
+}
+
+/// A folder to run in, with logs.
+struct Bench(TempDir);
+
+impl Bench {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_stiction"));
+        command
+            .args(arguments)
+            .current_dir(self.0.path())
+            .stdin(Stdio::null());
+        command
+    }
+
+    /// Exit code, standard output, standard error.
+    fn run(&self, arguments: &[&str]) -> (i32, String, String) {
+        split(self.command(arguments).output().unwrap())
+    }
+
+    /// A log of an axis of 9 kg with 20 N, 60 N s/m and bristles too stiff to be seen.
+    fn log(&self, name: &str, samples: usize) {
+        let mut text = String::from("Time [s],Position [mm],Force [N]\n");
+        for i in 0..samples {
+            let t = i as f64 * 1e-3;
+            let (mut x, mut v, mut a) = (0.0, 0.0, 0.0);
+            for (size, w) in [(0.05, 6.3), (0.008, 22.0)] {
+                x += size * (w * t).sin();
+                v += size * w * (w * t).cos();
+                a -= size * w * w * (w * t).sin();
+            }
+            // A sum of incommensurable tones stands in for noise.
+            let noise = 0.2 * ((1e4 * t).sin() + (2.3e4 * t).sin() + (3.1e4 * t * t).sin());
+            let force = 20.0 * f64::tanh(v / 1e-4) + 60.0 * v + 9.0 * a + 1.0 + noise;
+            let _ = writeln!(text, "{t:.4},{:.6},{force:.4}", 1e3 * x);
+        }
+        std::fs::write(self.path(name), text).unwrap();
+    }
+
+    fn rest(&self, name: &str) {
+        let mut text = String::from("Time [s],Position [mm],Force [N]\n");
+        for i in 0..3000 {
+            let _ = writeln!(text, "{:.4},5.0,{}", f64::from(i) * 1e-3, f64::from(i % 7));
+        }
+        std::fs::write(self.path(name), text).unwrap();
+    }
+
+    fn names(&self, folder: &str) -> Vec<String> {
+        let mut names: Vec<String> = std::fs::read_dir(self.path(folder))
+            .unwrap()
+            .map(|e| e.unwrap().file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+}
+
+fn split(output: Output) -> (i32, String, String) {
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    let (out, err) = (text(output.stdout), text(output.stderr));
+    assert!(!err.contains("panicked"), "{err}");
+    (output.status.code().unwrap_or(-1), out, err)
+}
+
+fn json(text: &str) -> serde_json::Value {
+    serde_json::from_str(text).unwrap_or_else(|e| panic!("{e}: {text}"))
+}
+
+const FOUR: [&str; 4] = ["fit.csv", "model.toml", "report.html", "result.json"];
+const PLAIN: [&str; 3] = ["identify", "log.csv", "--law=coulomb-viscous"];
+
+fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    PLAIN.iter().chain(more).copied().collect()
+}
+
+#[test]
+fn exit_codes() {
+    let bench = Bench::new();
+    bench.log("log.csv", 4000);
+    bench.rest("rest.csv");
+    let (code, out, err) = bench.run(&with(&["--out", "a"]));
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    assert!(out.contains("coulomb") && out.contains("written to a"));
+    // No friction can be told from motion in one direction: a result that says so.
+    let one_way: String = std::fs::read_to_string(bench.path("log.csv"))
+        .unwrap()
+        .lines()
+        .enumerate()
+        .map(|(i, line)| {
+            if i == 0 {
+                return format!("{line}\n");
+            }
+            let cells: Vec<f64> = line.split(',').map(|c| c.parse().unwrap()).collect();
+            format!(
+                "{:.4},{:.6},{:.4}\n",
+                cells[0],
+                cells[1] + 900.0 * cells[0],
+                cells[2]
+            )
+        })
+        .collect();
+    std::fs::write(bench.path("oneway.csv"), one_way).unwrap();
+    let (code, out, err) = bench.run(&[
+        "identify",
+        "oneway.csv",
+        "--law=coulomb-viscous",
+        "--out",
+        "b",
+    ]);
+    assert_eq!((code, err.as_str()), (1, ""), "{out}");
+    assert!(out.contains("NOT TRUSTWORTHY"), "{out}");
+    assert_eq!(bench.names("b"), FOUR);
+    let (code, out, err) = bench.run(&["identify", "rest.csv", "--out", "c"]);
+    assert_eq!((code, out.as_str()), (2, ""));
+    assert!(err.starts_with("stiction: [no-motion] rest.csv: "), "{err}");
+    assert!(!bench.path("c").exists(), "nothing is made for nothing");
+    let (code, out, _) = bench.run(&["check", "rest.csv"]);
+    assert_eq!(code, 1, "{out}");
+    let (code, _, _) = bench.run(&["check", "log.csv"]);
+    assert_eq!(code, 0);
+}
+
+#[test]
+fn json_is_one_value_and_nothing_else() {
+    let bench = Bench::new();
+    bench.log("log.csv", 4000);
+    let (code, out, err) = bench.run(&with(&["--out", "a", "--json"]));
+    assert_eq!((code, err.as_str()), (0, ""));
+    let value = json(&out);
+    assert_eq!(value["schema"], "stiction.result/1");
+    let file = std::fs::read_to_string(bench.path("a/result.json")).unwrap();
+    assert_eq!(value, json(&file));
+    let (_, out, err) = bench.run(&["check", "log.csv", "--json"]);
+    assert_eq!(
+        (json(&out)["schema"].as_str(), err.as_str()),
+        (Some("stiction.check/1"), "")
+    );
+    let (code, out, _) = bench.run(&["check", "log.csv", "--init", "x.toml", "--json"]);
+    assert_eq!((code, json(&out)["written"].as_str()), (0, Some("x.toml")));
+    // An error is JSON too, and still on standard error for people.
+    let (code, out, err) = bench.run(&["check", "no.csv", "--json"]);
+    assert_eq!(
+        (code, json(&out)["error"]["code"].as_str()),
+        (2, Some("log-io"))
+    );
+    assert!(err.contains("[log-io]"));
+}
+
+#[test]
+fn quiet_says_nothing_but_errors() {
+    let bench = Bench::new();
+    bench.log("log.csv", 4000);
+    for arguments in [
+        with(&["--out", "a", "--quiet"]),
+        vec!["check", "log.csv", "--quiet"],
+        vec!["check", "log.csv", "--init", "--quiet"],
+    ] {
+        let (code, out, err) = bench.run(&arguments);
+        assert_eq!(
+            (code, out.as_str(), err.as_str()),
+            (0, "", ""),
+            "{arguments:?}"
+        );
+    }
+    assert_eq!(bench.names("a"), FOUR);
+    let (code, out, err) = bench.run(&["check", "no.csv", "--quiet"]);
+    assert_eq!((code, out.as_str()), (2, ""));
+    assert!(err.contains("[log-io]"));
+}
+
+#[test]
+fn a_folder_of_others_is_kept() {
+    let bench = Bench::new();
+    bench.log("log.csv", 4000);
+    std::fs::create_dir(bench.path("mine")).unwrap();
+    std::fs::write(bench.path("mine/thesis.tex"), "work").unwrap();
+    let (code, out, err) = bench.run(&with(&["--out", "mine"]));
+    assert_eq!((code, out.as_str()), (2, ""));
+    assert!(err.contains("[output]") && err.contains("--force"), "{err}");
+    assert_eq!(bench.names("mine"), ["thesis.tex"]);
+    assert_eq!(bench.run(&with(&["--out", "mine", "--force"])).0, 0);
+    assert_eq!(bench.names("mine").len(), 5);
+    for bad in ["log.csv", "log.csv/sub"] {
+        let (code, _, err) = bench.run(&with(&["--out", bad, "--force"]));
+        assert_eq!(code, 2);
+        assert!(err.contains("[output]"), "{err}");
+    }
+    // Twice into its own folder is fine.
+    assert_eq!(bench.run(&with(&["--out", "own"])).0, 0);
+    assert_eq!(bench.run(&with(&["--out", "own"])).0, 0);
+    assert_eq!(bench.names("own"), FOUR);
+}
+
+#[test]
+fn init_keeps_a_file_and_leads_on() {
+    let bench = Bench::new();
+    bench.log("log.csv", 4000);
+    let (code, out, _) = bench.run(&["check", "log.csv", "--init"]);
+    assert_eq!(code, 0, "{out}");
+    let written = std::fs::read_to_string(bench.path("axis.toml")).unwrap();
+    std::fs::write(bench.path("axis.toml"), written.clone() + "# mine\n").unwrap();
+    let (code, _, err) = bench.run(&["check", "log.csv", "--init"]);
+    assert_eq!(code, 2);
+    assert!(err.contains("[output] axis.toml: exists already"), "{err}");
+    assert!(
+        std::fs::read_to_string(bench.path("axis.toml"))
+            .unwrap()
+            .ends_with("# mine\n")
+    );
+    // The file as written is used as it is and changes nothing.
+    let (code, out, err) = bench.run(&with(&["--axis", "axis.toml", "--out", "a"]));
+    assert_eq!(code, 0, "{out}{err}");
+    assert_eq!(bench.run(&with(&["--out", "b"])).0, 0);
+    let read = |name: &str| std::fs::read(bench.path(name)).unwrap();
+    assert_eq!(read("a/fit.csv"), read("b/fit.csv"));
+    // A link that leads nowhere is kept as well.
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("nowhere", bench.path("link.toml")).unwrap();
+        let (code, _, _) = bench.run(&["check", "log.csv", "--init", "link.toml"]);
+        assert_eq!(code, 2);
+        assert!(
+            bench
+                .path("link.toml")
+                .symlink_metadata()
+                .unwrap()
+                .is_symlink()
+        );
+    }
+}
+
+/// Results do not depend on the number of threads.
+#[test]
+fn threads_do_not_change_a_bit() {
+    let bench = Bench::new();
+    bench.log("log.csv", 4000);
+    for n in ["1", "3"] {
+        assert_eq!(
+            bench
+                .run(&with(&["--threads", n, "--seed", "7", "--out", n]))
+                .0,
+            0
+        );
+    }
+    for name in ["model.toml", "fit.csv", "report.html"] {
+        let read = |n: &str| std::fs::read(bench.path(n).join(name)).unwrap();
+        assert!(read("1") == read("3"), "{name}");
+    }
+}
+
+#[test]
+fn odd_paths_work_and_nothing_else_is_written() {
+    let bench = Bench::new();
+    std::fs::create_dir(bench.path("Prüf stand")).unwrap();
+    std::fs::create_dir(bench.path("sub")).unwrap();
+    bench.log("Prüf stand/Achse 'x' \"中\".csv", 4000);
+    let (code, out, err) = bench.run(&[
+        "identify",
+        "sub/../Prüf stand/Achse 'x' \"中\".csv",
+        "--law=coulomb-viscous",
+        "--out",
+        "sub/../aus gabe/ü",
+    ]);
+    assert_eq!(code, 0, "{out}{err}");
+    assert_eq!(bench.names("aus gabe/ü"), FOUR);
+    assert_eq!(bench.names("."), ["Prüf stand", "aus gabe", "sub"]);
+    assert_eq!(bench.names("Prüf stand").len(), 1);
+    assert_eq!(bench.names("sub").len(), 0);
+    let result = json(&std::fs::read_to_string(bench.path("aus gabe/ü/result.json")).unwrap());
+    assert_eq!(
+        result["inputs"][0]["path"],
+        "sub/../Prüf stand/Achse 'x' \"中\".csv"
+    );
+}
+
+/// Bytes that are no text are fine in names.
+#[cfg(target_os = "linux")]
+#[test]
+fn names_need_not_be_text() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let bench = Bench::new();
+    bench.log("log.csv", 4000);
+    let odd = OsStr::from_bytes(b"a\xff\xfe.csv");
+    std::fs::rename(bench.path("log.csv"), bench.0.path().join(odd)).unwrap();
+    let out = OsStr::from_bytes(b"out\xff");
+    let output = bench
+        .command(&["identify", "--law=coulomb-viscous", "--json"])
+        .args([odd, OsStr::new("--out"), out])
+        .output()
+        .unwrap();
+    let (code, text, err) = split(output);
+    assert_eq!(code, 0, "{err}");
+    json(&text);
+    assert!(bench.0.path().join(out).join("result.json").is_file());
+}
+
+/// What is no file is refused at once, and nothing waits.
+#[cfg(unix)]
+#[test]
+fn devices_pipes_and_loops_are_refused() {
+    let bench = Bench::new();
+    bench.log("log.csv", 4000);
+    let pipe = bench.path("pipe");
+    assert!(
+        Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .unwrap()
+            .success()
+    );
+    std::os::unix::fs::symlink("loop", bench.path("loop")).unwrap();
+    for bad in ["/dev/zero", "pipe", "loop", "."] {
+        let (code, _, err) = bench.run(&["identify", bad, "--out", "x"]);
+        assert_eq!(code, 2, "{bad}: {err}");
+        assert!(err.starts_with("stiction: [log-io] "), "{err}");
+        let (code, _, err) = bench.run(&with(&["--axis", bad, "--out", "x"]));
+        assert_eq!(code, 2, "{bad}: {err}");
+        assert!(err.starts_with("stiction: [bad-config] "), "{err}");
+    }
+    for bad in ["pipe", "loop", "/dev/null"] {
+        let (code, _, err) = bench.run(&with(&["--out", bad, "--force"]));
+        assert_eq!(code, 2, "{bad}: {err}");
+        assert!(err.starts_with("stiction: [output] "), "{err}");
+    }
+    assert!(!bench.path("x").exists());
+}
+
+/// A reader that goes away early is no fault; a full disk behind the output is one, said in words.
+#[cfg(target_os = "linux")]
+#[test]
+fn closed_and_full_outputs() {
+    let bench = Bench::new();
+    bench.log("log.csv", 4000);
+    let mut child = bench
+        .command(&with(&["--out", "a"]))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let (code, _, err) = split(child.wait_with_output().unwrap());
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert_eq!(bench.names("a"), FOUR);
+    let full = || {
+        std::fs::OpenOptions::new()
+            .write(true)
+            .open("/dev/full")
+            .unwrap()
+    };
+    let output = bench
+        .command(&with(&["--out", "b"]))
+        .stdout(full())
+        .output()
+        .unwrap();
+    let (code, _, err) = split(output);
+    assert_eq!(code, 2);
+    assert!(
+        err.starts_with("stiction: [output] standard output: "),
+        "{err}"
+    );
+}
+
+/// Ctrl-C in the middle of a search: what was found so far is saved, and says what it is.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_saves_what_was_found() {
+    let bench = Bench::new();
+    bench.log("log.csv", 300_000);
+    let mut child = bench
+        .command(&["identify", "log.csv", "--asymmetric", "--out", "a"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(700));
+    assert!(
+        child.try_wait().unwrap().is_none(),
+        "the log is too short to interrupt"
+    );
+    let kill = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(kill.success());
+    let clock = std::time::Instant::now();
+    let (code, out, err) = split(child.wait_with_output().unwrap());
+    assert_eq!(code, 130, "{out}{err}");
+    assert!(
+        clock.elapsed().as_secs() < 15,
+        "took {:?} to stop",
+        clock.elapsed()
+    );
+    assert_eq!(bench.names("a"), FOUR);
+    let result = json(&std::fs::read_to_string(bench.path("a/result.json")).unwrap());
+    assert_eq!(result["search"]["status"], "interrupted");
+    assert_eq!(result["trust"]["trustworthy"], false);
+    let codes: Vec<&str> = result["warnings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(|w| w["code"].as_str())
+        .collect();
+    assert!(codes.contains(&"interrupted"), "{codes:?}");
+}
+
+/// The demo needs nothing, and finds what it simulated.
+#[test]
+fn the_demo_finds_the_truth() {
+    let bench = Bench::new();
+    let (code, out, err) = bench.run(&["demo"]);
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    assert!(out.contains("against the truth"));
+    let mut files = bench.names("stiction-demo");
+    files.retain(|name| name != "demo.csv");
+    assert_eq!(files, FOUR);
+    let result = json(&std::fs::read_to_string(bench.path("stiction-demo/result.json")).unwrap());
+    let value = |name: &str| {
+        let all = result["parameters"].as_array().unwrap();
+        let found = all.iter().find(|p| p["name"] == name);
+        found.unwrap_or_else(|| panic!("no {name}"))["value"]
+            .as_f64()
+            .unwrap()
+    };
+    // The axis `machine` of the simulator.
+    for (name, truth) in [
+        ("sigma0", 1.2e5),
+        ("sigma1", 600.0),
+        ("sigma2", 60.0),
+        ("coulomb", 20.0),
+        ("static", 30.0),
+        ("stribeck_velocity", 5e-3),
+    ] {
+        let off = value(name) / truth - 1.0;
+        assert!(off.abs() < 0.02, "{name} is off by {:.2} %", 100.0 * off);
+    }
+    // A second demo replaces the first; one in a folder of others does not happen.
+    assert_eq!(bench.names("."), ["stiction-demo"]);
+    let refused = bench.run(&["demo", "--out", "."]);
+    assert_eq!(refused.0, 2, "{}", refused.2);
+    assert!(Path::new(&bench.path("stiction-demo/demo.csv")).is_file());
+}
