@@ -4,6 +4,146 @@ mod raw;
 mod resolve;
 mod syntax;
 mod template;
+mod tied;
 
-pub use resolve::{Axis, ResolvedAxis};
+use crate::error::Error;
+use std::path::{Path, PathBuf};
+use stiction_identify::{Conditioning, Terms};
+use stiction_log::text::TextOptions;
+use stiction_log::{Log, Mapping, Motion};
 pub use template::template;
+use tied::Tied;
+
+/// Everything an axis file says, resolved; `Axis::default()` leaves all to detection.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    /// Name of the axis for reports.
+    pub name: Option<String>,
+    /// Which column is what.
+    pub mapping: Mapping,
+    /// How text logs are written, where stated.
+    pub text: TextOptions,
+    /// Filters and decimation.
+    pub conditioning: Conditioning,
+    /// Linear terms beside the friction law; a mass in kg or kg m^2.
+    pub terms: Terms,
+    /// Stribeck exponent, dimensionless.
+    pub stribeck_exponent: f64,
+    /// Speed below which a sample counts as slow, m/s or rad/s; `None` follows from the log.
+    pub low_speed: Option<f64>,
+    /// Whether to fit a constant force; `None` follows from the law.
+    offset: Option<bool>,
+    /// Values whose unit fits one kind of axis only, checked when the log says which it is.
+    tied: Vec<Tied>,
+    file: PathBuf,
+}
+
+impl Default for Axis {
+    fn default() -> Self {
+        Self {
+            name: None,
+            mapping: Mapping::default(),
+            text: TextOptions::default(),
+            conditioning: Conditioning::default(),
+            terms: Terms::default(),
+            stribeck_exponent: 2.0,
+            low_speed: None,
+            offset: None,
+            tied: Vec::new(),
+            file: PathBuf::new(),
+        }
+    }
+}
+
+/// Largest axis file that is read, bytes.
+const MAX_BYTES: u64 = 1 << 20;
+
+impl Axis {
+    /// Reads and checks an axis file.
+    ///
+    /// # Errors
+    /// With file, line, key, what was found and what is allowed.
+    pub fn read(file: &Path) -> Result<Self, Error> {
+        let refuse = |found: String, allowed: &str| Error::Config {
+            file: file.to_path_buf(),
+            place: String::new(),
+            found,
+            allowed: allowed.into(),
+        };
+        let meta = std::fs::metadata(file).map_err(|e| {
+            refuse(
+                format!("cannot be read ({e})"),
+                "give the path of an axis file",
+            )
+        })?;
+        if !meta.is_file() || meta.len() > MAX_BYTES {
+            return Err(refuse(
+                if meta.is_file() {
+                    format!("{} bytes", meta.len())
+                } else {
+                    "not a file".into()
+                },
+                "an axis file is a text file of at most 1 MiB",
+            ));
+        }
+        let bytes = std::fs::read(file).map_err(|e| {
+            refuse(
+                format!("cannot be read ({e})"),
+                "give the path of an axis file",
+            )
+        })?;
+        let text = String::from_utf8(bytes)
+            .map_err(|_| refuse("is not UTF-8 text".into(), "save it as UTF-8"))?;
+        Self::parse(&text, file)
+    }
+
+    /// Checks the text of an axis file; `file` is named in errors.
+    ///
+    /// # Errors
+    /// As [`Axis::read`].
+    pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
+        let raw = raw::parse(text).map_err(|e| {
+            let refusal = syntax::refusal(text, &e);
+            Error::Config {
+                file: file.to_path_buf(),
+                place: refusal.place,
+                found: refusal.found,
+                allowed: refusal.allowed,
+            }
+        })?;
+        resolve::resolve(&raw, text, file)
+    }
+
+    /// The linear terms for a log and a law.
+    ///
+    /// A constant force is fitted beside a symmetric law only, unless the axis file says otherwise: it
+    /// cannot be told from Coulomb levels that differ between the directions.
+    ///
+    /// # Errors
+    /// Where a unit of the file does not fit the log: an angle on a linear axis, a mass where the force
+    /// is a current, a force limit in another unit than the force.
+    pub fn terms_for(&self, log: &Log, asymmetric: bool) -> Result<Terms, Error> {
+        for tied in &self.tied {
+            if let Some(allowed) = tied.misfit(log) {
+                return Err(self.misfit(&tied.place, &tied.text, allowed));
+            }
+        }
+        if self.terms.gravity && log.motion == Motion::Linear {
+            let allowed = "sin q and cos q need the angle of a rotary axis; gravity on a linear axis is \
+                           the constant force";
+            return Err(self.misfit("terms.gravity: ", "true on a linear axis", allowed.into()));
+        }
+        let mut terms = self.terms.clone();
+        terms.offset = self.offset.unwrap_or(!asymmetric);
+        Ok(terms)
+    }
+
+    fn misfit(&self, place: &str, found: &str, allowed: String) -> Error {
+        Error::Config {
+            file: self.file.clone(),
+            place: place.into(),
+            found: found.into(),
+            allowed,
+        }
+    }
+}

@@ -213,6 +213,9 @@ pub(crate) fn short(x: f64) -> String {
 /// Where the file cannot be read at all; columns that cannot be told apart are left to fill in.
 pub fn init(path: &Path) -> Result<String, Error> {
     let table = source::table(path, &Axis::default())?;
-    let detected = Mapping::detect(&table).ok().map(|d| d.mapping);
-    Ok(template(&table, detected.as_ref()))
+    let detected = Mapping::detect(&table);
+    Ok(match &detected {
+        Ok(found) => template(&table, Ok(&found.mapping)),
+        Err(e) => template(&table, Err(&e.to_string())),
+    })
 }

@@ -4,10 +4,10 @@ mod assemble;
 mod ladder;
 mod trust;
 
-use crate::axis::{Axis, ResolvedAxis};
+use crate::axis::Axis;
 use crate::error::{Error, Warning};
 use crate::output::Bundle;
-use crate::result::ResultFile;
+use crate::result::{ResolvedAxis, ResultFile};
 use crate::source::{self, Source};
 use std::path::PathBuf;
 use stiction_identify as engine;

@@ -1,6 +1,5 @@
 //! `result.json`: everything an identification found. Schema `stiction.result/1`, only ever extended.
 
-use crate::axis::ResolvedAxis;
 use crate::error::Warning;
 use serde::{Deserialize, Serialize};
 use stiction_identify as identify;
@@ -45,6 +44,23 @@ pub struct ResultFile {
     pub search: Search,
     /// What to beware of.
     pub warnings: Vec<Warning>,
+}
+
+/// The resolved axis as it goes into `result.json`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ResolvedAxis {
+    /// Name of the axis.
+    pub name: Option<String>,
+    /// `linear` or `rotary`.
+    pub kind: String,
+    /// Unit of the force channel after scaling.
+    pub force_unit: String,
+    /// How each column was understood.
+    pub columns: Vec<String>,
+    /// How the record was conditioned.
+    pub conditioning: Vec<String>,
+    /// Linear terms beside the friction law.
+    pub terms: Vec<String>,
 }
 
 /// One log as it was read.

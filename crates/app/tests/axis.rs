@@ -322,9 +322,9 @@ proptest! {
         force in name(),
     ) {
         let table = table(&names);
-        parse(&template(&table, None)).unwrap();
+        parse(&template(&table, Err("two columns\nfit"))).unwrap();
         let mut mapping = Mapping::detect(&table).map(|d| d.mapping).unwrap_or_default();
-        parse(&template(&table, Some(&mapping))).unwrap();
+        parse(&template(&table, Ok(&mapping))).unwrap();
         mapping.motion = Some(Motion::Rotary);
         mapping.position = Some(Channel {
             unit: Some(Unit::parse("deg").unwrap()),
@@ -336,7 +336,7 @@ proptest! {
             invert: true,
             ..Channel::named(force.clone())
         });
-        let text = template(&table, Some(&mapping));
+        let text = template(&table, Ok(&mapping));
         let axis = parse(&text).unwrap();
         // What was filled in comes back, and nothing else got in.
         prop_assert_eq!(axis.mapping.motion, Some(Motion::Rotary));

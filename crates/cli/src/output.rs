@@ -21,7 +21,7 @@ pub fn print(text: &str) -> Result<(), Error> {
 /// Prints one JSON value and a line feed.
 ///
 /// # Errors
-/// As [`print`].
+/// As [`print()`].
 pub fn json(value: &impl serde::Serialize) -> Result<(), Error> {
     let text = serde_json::to_string_pretty(value).expect("plain data");
     print(&(text + "\n"))

@@ -6,14 +6,13 @@
 //! doi 10.1109/ROBOT.1997.606767). Both are zero-phase, so nothing is delayed.
 
 use crate::error::Error;
+use crate::grid::Grid;
 use crate::record::{Record, Samples, Segment};
 use stiction_signal::{Sos, gradient};
 
 /// Missing samples up to this many in a row are bridged by a straight line (and do not count in the
 /// fit); longer gaps split the log.
-const BRIDGE: f64 = 5.0;
-/// Spread of the sample times, relative to the sample time, up to which a log counts as uniform.
-const UNIFORM: f64 = 1e-3;
+pub(crate) const BRIDGE: f64 = 5.0;
 /// Order of both low-pass filters.
 const ORDER: usize = 4;
 
@@ -401,97 +400,4 @@ fn integrate(v: &[f64], step: f64) -> Vec<f64> {
         out.push(x);
     }
     out
-}
-
-/// Uniform time over one stretch.
-struct Grid<'a> {
-    time: &'a [f64],
-    start: f64,
-    step: f64,
-    /// `None` where the samples already stand on the grid; else the sample before each grid point.
-    before: Option<Vec<usize>>,
-    count: usize,
-}
-
-impl<'a> Grid<'a> {
-    fn new(time: &'a [f64], step: f64) -> Option<Self> {
-        let (start, end) = (*time.first()?, *time.last()?);
-        if time.len() < 4 {
-            return None;
-        }
-        let uniform = time
-            .iter()
-            .enumerate()
-            .all(|(i, t)| (t - start - i as f64 * step).abs() <= 0.5 * step)
-            && time
-                .windows(2)
-                .all(|t| ((t[1] - t[0]) / step - 1.0).abs() <= UNIFORM);
-        if uniform {
-            return Some(Self {
-                time,
-                start,
-                step,
-                before: None,
-                count: time.len(),
-            });
-        }
-        let count = ((end - start) / step * (1.0 + 1e-12)) as usize + 1;
-        // Gaps are bridged up to a few samples each, so the grid cannot be much longer than the log.
-        if count as f64 > (BRIDGE + 3.0) * time.len() as f64 {
-            return None;
-        }
-        let mut before = Vec::with_capacity(count);
-        let mut at = 0;
-        for k in 0..count {
-            let t = start + k as f64 * step;
-            while at + 2 < time.len() && time[at + 1] <= t {
-                at += 1;
-            }
-            before.push(at);
-        }
-        Some(Self {
-            time,
-            start,
-            step,
-            before: Some(before),
-            count,
-        })
-    }
-
-    fn len(&self) -> usize {
-        self.count
-    }
-
-    fn times(&self) -> Vec<f64> {
-        (0..self.count)
-            .map(|k| self.start + k as f64 * self.step)
-            .collect()
-    }
-
-    fn resample(&self, x: &[f64]) -> Vec<f64> {
-        let Some(before) = &self.before else {
-            return x.to_vec();
-        };
-        before
-            .iter()
-            .enumerate()
-            .map(|(k, &i)| {
-                let t = self.start + k as f64 * self.step;
-                let w = ((t - self.time[i]) / (self.time[i + 1] - self.time[i])).clamp(0.0, 1.0);
-                x[i] + w * (x[i + 1] - x[i])
-            })
-            .collect()
-    }
-
-    /// Which grid points stand on valid samples with no gap around them.
-    fn keep(&self, valid: &[bool]) -> Vec<bool> {
-        let ok = |i: usize| valid.get(i).copied().unwrap_or(true);
-        match &self.before {
-            None => (0..self.count).map(ok).collect(),
-            Some(before) => before
-                .iter()
-                .map(|&i| ok(i) && ok(i + 1) && self.time[i + 1] - self.time[i] < 1.75 * self.step)
-                .collect(),
-        }
-    }
 }

@@ -27,6 +27,7 @@ mod crossval;
 mod error;
 mod estimate;
 mod fit;
+mod grid;
 mod law;
 mod levenberg;
 mod linear;

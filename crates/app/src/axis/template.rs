@@ -1,16 +1,55 @@
 //! `check --init`: an axis file to fill in, with what was detected already in it.
 
 use std::fmt::Write;
-use stiction_log::{Channel, Mapping, Role, Selector, Table};
+use stiction_log::{Channel, Dimension, Mapping, Motion, Role, Selector, Table};
 
-/// Text of an axis file for a table: detected columns filled in, everything else as comments that say
-/// what may stand there.
-pub fn template(table: &Table, detected: Option<&Mapping>) -> String {
+/// Words of the examples, for one kind of axis.
+struct Words {
+    length: &'static str,
+    mass: &'static str,
+    scale: &'static str,
+    count: &'static str,
+    travel: &'static str,
+    limit: &'static str,
+}
+
+const LINEAR: Words = Words {
+    length: "mm",
+    mass: "4.6 kg",
+    scale: "96 N/A",
+    count: "50 nm",
+    travel: "24 mm",
+    limit: "100 N",
+};
+const ROTARY: Words = Words {
+    length: "deg",
+    mass: "2e-4 kg m^2",
+    scale: "0.65 N*m/A",
+    count: "0.001 deg",
+    travel: "360 deg",
+    limit: "10 N*m",
+};
+
+/// Text of an axis file for a table: detected columns filled in, or why they could not be; everything
+/// else as comments that say what may stand there.
+pub fn template(table: &Table, detected: Result<&Mapping, &str>) -> String {
     let mut out = String::from(
         "# Axis file for stiction. Values carry their unit: \"5 mm/s\", \"35.15 N/V\". Every key is\n\
          # described in docs/axis.md; lines that start with # are off.\n\n",
     );
+    if let Err(reason) = detected {
+        let _ = writeln!(
+            out,
+            "# To decide: {}\n",
+            reason.replace(char::is_control, " ")
+        );
+    }
+    let detected = detected.ok();
     let kind = detected.and_then(|m| m.motion);
+    let words = match kind {
+        Some(Motion::Rotary) => &ROTARY,
+        _ => &LINEAR,
+    };
     match kind {
         Some(kind) => {
             let _ = writeln!(out, "kind = \"{kind}\"");
@@ -18,8 +57,10 @@ pub fn template(table: &Table, detected: Option<&Mapping>) -> String {
         None => out.push_str("# kind = \"linear\"    # or \"rotary\"\n"),
     }
     out.push_str("# name = \"X axis\"\n");
-    out.push_str(
-        "# mass = \"4.6 kg\"     # known mass or inertia; \"fit\" (default) or \"none\"\n",
+    let _ = writeln!(
+        out,
+        "# mass = \"{}\"     # known mass or inertia; \"fit\" (default) or \"none\"",
+        words.mass
     );
     let has_time = detected.is_some_and(|m| m.time.is_some());
     if !has_time {
@@ -45,31 +86,56 @@ pub fn template(table: &Table, detected: Option<&Mapping>) -> String {
         match detected.and_then(|m| m.channel(role)) {
             Some(channel) => {
                 let _ = writeln!(out, "{role} = {}", entry(channel));
+                let unit = channel.unit.as_ref().map(|u| u.dimension());
+                let raw = [Dimension::CURRENT, Dimension::VOLTAGE]
+                    .map(Some)
+                    .contains(&unit);
+                if role == Role::Force && raw && channel.scale.is_none() {
+                    let _ = writeln!(
+                        out,
+                        "# with a force constant add, such as: scale = \"{}\"",
+                        words.scale
+                    );
+                }
             }
             None => {
-                let example = match role {
-                    Role::Time => "{ column = 1, unit = \"s\" }",
-                    Role::Position => "{ column = 2, unit = \"mm\" }",
-                    Role::Velocity => "{ column = 3, unit = \"mm/s\" }",
-                    Role::Force => {
-                        "{ column = 4, unit = \"A\", scale = \"96 N/A\", invert = false }"
-                    }
-                    Role::Reference => "{ column = 5, unit = \"mm\" }",
-                    Role::Temperature => "{ column = 6, unit = \"degC\" }",
-                    Role::Load => "{ column = 7, unit = \"N\" }",
+                let length = words.length;
+                let unit = match role {
+                    Role::Time => "s".to_string(),
+                    Role::Position | Role::Reference => length.to_string(),
+                    Role::Velocity => format!("{length}/s"),
+                    Role::Force => format!("A\", scale = \"{}", words.scale),
+                    Role::Temperature => "degC".to_string(),
+                    Role::Load => "N".to_string(),
                 };
+                let example = format!("{{ column = \"NAME\", unit = \"{unit}\" }}");
                 let _ = writeln!(out, "# {role} = {example}");
             }
         }
     }
-    out.push_str(
-        "\n[log]\n# crop = [\"1 s\", \"20 s\"]\n# wrap = \"360 deg\"        # travel after which the position \
-         starts again\n# resolution = \"50 nm\"    # one encoder count\n# force_limit = \"100 N\"   # where \
-         the force saturates\n\n[conditioning]\n# source_cutoff = \"100 Hz\"   # \"auto\" (default), \"off\" \
-         or a frequency\n# common_cutoff = \"50 Hz\"\n# min_speed = \"1 mm/s\"       # only faster samples \
-         count\n\n[terms]\n# gravity = true           # rotary axis: sin q and cos q\n# cogging = [\"24 \
-         mm\"]      # pitch of each cogging wave\n\n[report]\n# low_speed = \"1 mm/s\"       # what counts as \
-         near zero speed\n",
+    let Words {
+        length,
+        count,
+        travel,
+        limit,
+        ..
+    } = words;
+    let _ = write!(
+        out,
+        "\n[log]\n\
+         # crop = [\"1 s\", \"20 s\"]\n\
+         # wrap = \"360 deg\"         # travel after which the position starts again\n\
+         # resolution = \"{count}\"    # one encoder count\n\
+         # force_limit = \"{limit}\"   # where the force saturates\n\n\
+         [conditioning]\n\
+         # source_cutoff = \"100 Hz\" # \"auto\" (default), \"off\" or a frequency\n\
+         # common_cutoff = \"50 Hz\"\n\
+         # min_speed = \"1 {length}/s\"   # only faster samples count\n\n\
+         [terms]\n\
+         # gravity = true           # rotary axis: sin q and cos q\n\
+         # cogging = [\"{travel}\"]    # pitch of each cogging wave\n\n\
+         [report]\n\
+         # low_speed = \"1 {length}/s\"   # what counts as near zero speed\n"
     );
     out
 }

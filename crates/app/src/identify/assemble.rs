@@ -1,8 +1,8 @@
 //! From what the engine found to what goes to disk.
 
 use super::{Options, Outcome};
-use crate::axis::ResolvedAxis;
 use crate::error::Warning;
+use crate::result::ResolvedAxis;
 use crate::result::{
     CovarianceEntry, FitEntry, LawEntry, LowSpeedEntry, ParameterEntry, ResultFile, SCHEMA, Search,
     Trust, ValidationEntry,
