@@ -191,7 +191,7 @@ pub struct LawEntry {
     pub held_out_error_percent: Option<f64>,
     /// The same near zero speed.
     pub held_out_low_speed_error_percent: Option<f64>,
-    /// Whether this law has the smallest held-out error.
+    /// Whether this is the simplest law within 1 % of the least held-out error.
     pub best: bool,
 }
 

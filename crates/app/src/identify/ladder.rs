@@ -10,6 +10,9 @@ use stiction_identify::{
 /// Blocks of the cross-validation where no validation data are given.
 const BLOCKS: usize = 4;
 
+/// Held-out errors within this factor of the least count as equal, and the simplest of them is best.
+const EQUAL: f64 = 1.01;
+
 /// What the laws are compared on.
 pub(super) struct Ladder<'a> {
     pub record: &'a Record,
@@ -23,8 +26,8 @@ pub(super) struct Ladder<'a> {
 }
 
 impl Ladder<'_> {
-    /// Scores the fitted law, its asymmetric or symmetric twin and the simpler ones; the smallest
-    /// held-out error is best. Nothing if the observer stopped it half way: a table of some laws
+    /// Scores the fitted law, its asymmetric or symmetric twin and the simpler ones; the simplest of
+    /// those with the least held-out error is best. Nothing if the observer stopped it half way: a table of some laws
     /// would name the wrong one.
     pub fn climb(
         &self,
@@ -131,12 +134,15 @@ fn beside(law: &Law) -> Vec<Law> {
 
 fn entries(scores: &[LawScore]) -> Vec<LawEntry> {
     let error = |s: &LawScore| s.held_out.map(|f| f.relative_error_percent);
-    // Of equals the first, which is the simplest.
+    let least = scores
+        .iter()
+        .filter_map(error)
+        .fold(f64::INFINITY, f64::min);
     let best = scores
         .iter()
         .enumerate()
-        .filter_map(|(i, s)| Some((i, error(s)?)))
-        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .filter(|(_, s)| error(s).is_some_and(|e| e <= EQUAL * least))
+        .min_by_key(|(_, s)| s.parameters)
         .map(|(i, _)| i);
     scores
         .iter()

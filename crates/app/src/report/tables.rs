@@ -143,7 +143,8 @@ pub(super) fn laws(outcome: &Outcome) -> Table {
     ])
     .caption(
         "Relative error where the law was fitted and on held-out samples (validation data where \
-         given, else four blocks left out in turn). The smallest held-out error is marked.",
+         given, else four blocks left out in turn). Marked: the simplest law within 1 % of the \
+         least held-out error.",
     );
     let percent = |x: Option<f64>| x.map_or("–".into(), |x| format!("{} %", number::sig(x, 3)));
     for l in &outcome.result.laws {
