@@ -8,7 +8,7 @@ use std::fmt::Write;
 use stiction_testkit::{CASES, recordings, workspace};
 
 fn main() -> std::io::Result<()> {
-    let Some(data) = recordings("validation") else {
+    let Some(data) = recordings() else {
         std::process::exit(2)
     };
     let mut out = String::from(

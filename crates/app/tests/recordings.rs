@@ -6,7 +6,7 @@ use stiction_testkit::{CASES, recordings};
 
 #[test]
 fn every_limit_holds() {
-    let Some(data) = recordings("every_limit_holds") else {
+    let Some(data) = recordings() else {
         return;
     };
     let mut broken = Vec::new();
@@ -29,7 +29,7 @@ fn every_limit_holds() {
 
 #[test]
 fn damiao_reports_its_gaps() {
-    let Some(data) = recordings("damiao_reports_its_gaps") else {
+    let Some(data) = recordings() else {
         return;
     };
     let axis =

@@ -6,7 +6,7 @@
 mod binary_common;
 
 use std::cell::Cell;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use binary_common::{recordings, written};
 use peak_alloc::PeakAlloc;
@@ -170,7 +170,7 @@ fn hostile_files() {
     eprintln!("{some} of {all} damaged files refused, {panics} at a panic of a decoder");
 
     let mut refused = (0, 0, 0);
-    if let Some(folder) = measured() {
+    if let Some(folder) = stiction_testkit::recordings() {
         for file in MEASURED {
             assert!(read(&folder.join(file)).is_ok(), "{file}");
             damaged(&folder.join(file), &path, 12, &mut refused);
@@ -188,20 +188,6 @@ const MEASURED: [&str; 5] = [
     "servo/breakaway_1.txt",
     "ur10e/joint_1.csv",
 ];
-
-/// The folder of measured recordings; absent it is said, and refused where everything must run.
-fn measured() -> Option<PathBuf> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    let folder = std::env::var_os("STICTION_DATA").map_or(beside, PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    let ci = std::env::var("CI").is_ok_and(|value| value == "true");
-    let missing = format!("no recordings in {}; set STICTION_DATA", folder.display());
-    assert!(!ci, "{missing}");
-    eprintln!("SKIPPED: {missing}");
-    None
-}
 
 /// Damages a file in many ways and reads it; counts refusals, cases, and panics that were caught.
 fn damaged(recording: &Path, scratch: &Path, cases: u32, count: &mut (u32, u32, u32)) {

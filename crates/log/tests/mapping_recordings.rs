@@ -3,30 +3,11 @@
 mod mapping_common;
 
 use mapping_common::{codes, told, warnings};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use stiction_log::{
     Channel, Kind, Log, Mapping, Motion, ReadOptions, Table, Unit, Value, Wrap, read_table,
 };
-
-/// The folder of recordings; absent it is said, and refused where everything must run.
-fn data() -> Option<PathBuf> {
-    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    let folder = std::env::var_os("STICTION_DATA").map_or_else(beside, PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    let ci = std::env::var("CI").is_ok_and(|v| v == "true");
-    assert!(
-        !ci,
-        "no recordings in {}; set STICTION_DATA",
-        folder.display()
-    );
-    eprintln!(
-        "SKIPPED: no recordings in {}; set STICTION_DATA",
-        folder.display()
-    );
-    None
-}
+use stiction_testkit::recordings;
 
 fn table(folder: &Path, file: &str) -> Table {
     read_table(&folder.join(file), &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}"))
@@ -42,7 +23,7 @@ fn log(table: &Table, mapping: &Mapping) -> Log {
 
 #[test]
 fn emps_force_is_the_voltage_times_its_gain() {
-    let Some(folder) = data() else { return };
+    let Some(folder) = recordings() else { return };
     let table = table(&folder, "emps/DATA_EMPS.mat");
     let gain = table
         .scalars
@@ -94,7 +75,7 @@ fn emps_force_is_the_voltage_times_its_gain() {
 
 #[test]
 fn tribometer_has_179_single_gaps_and_a_friction_force() {
-    let Some(folder) = data() else { return };
+    let Some(folder) = recordings() else { return };
     let table = table(&folder, "tribometer/presliding.tsv");
     let detected = log(&table, &Mapping::default());
     eprintln!("{}", told(&detected));
@@ -127,7 +108,7 @@ fn tribometer_has_179_single_gaps_and_a_friction_force() {
 
 #[test]
 fn servo_logs_have_neither_names_nor_time() {
-    let Some(folder) = data() else { return };
+    let Some(folder) = recordings() else { return };
     let mapping = Mapping {
         rate_hz: Some(1000.0),
         position: Some(Channel::index(1).unit(unit("rad"))),
@@ -171,7 +152,7 @@ fn servo_logs_have_neither_names_nor_time() {
 
 #[test]
 fn ur10e_by_number_with_its_short_and_long_steps() {
-    let Some(folder) = data() else { return };
+    let Some(folder) = recordings() else { return };
     for joint in [1, 4] {
         let table = table(&folder, &format!("ur10e/joint_{joint}.csv"));
         let mapping = Mapping {
@@ -194,7 +175,7 @@ fn ur10e_by_number_with_its_short_and_long_steps() {
 
 #[test]
 fn damiao_wraps_and_one_motor_misses_five_seconds() {
-    let Some(folder) = data() else { return };
+    let Some(folder) = recordings() else { return };
     for motor in [1, 2] {
         let table = table(&folder, &format!("damiao/motor_{motor}.npz"));
         let open = log(&table, &Mapping::default());

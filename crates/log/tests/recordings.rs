@@ -2,23 +2,10 @@
 //!
 //! The facts are those of the README beside the recordings, and counts that NumPy and SciPy gave.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use stiction_log::{ReadOptions, Table, read_table};
-
-/// The folder of recordings; absent it is said, and refused where everything must run.
-fn data() -> Option<PathBuf> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    let folder = std::env::var_os("STICTION_DATA").map_or(beside, PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    let ci = std::env::var("CI").is_ok_and(|value| value == "true");
-    let missing = format!("no recordings in {}; set STICTION_DATA", folder.display());
-    assert!(!ci, "{missing}");
-    eprintln!("SKIPPED: {missing}");
-    None
-}
+use stiction_testkit::recordings;
 
 fn table(file: PathBuf) -> Table {
     read_table(&file, &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}"))
@@ -60,7 +47,7 @@ fn off_grid(values: &[f64], step: f64) -> f64 {
 
 #[test]
 fn emps() {
-    let Some(folder) = data() else { return };
+    let Some(folder) = recordings() else { return };
     let table = table(folder.join("emps/DATA_EMPS.mat"));
     columns(&table, &["qg", "qm", "t", "vir"], 24_841);
     let scalars: Vec<(&str, f64)> = table
@@ -85,7 +72,7 @@ fn emps() {
 
 #[test]
 fn damiao() {
-    let Some(folder) = data() else { return };
+    let Some(folder) = recordings() else { return };
     let names = [
         "time",
         "motor_id",
@@ -118,7 +105,7 @@ fn damiao() {
 
 #[test]
 fn tribometer() {
-    let Some(folder) = data() else { return };
+    let Some(folder) = recordings() else { return };
     let table = table(folder.join("tribometer/presliding.tsv"));
     columns(&table, &["Time", "Normal", "Position", "Friction"], 42_579);
     let units: Vec<Option<&str>> = table.columns.iter().map(|c| c.unit.as_deref()).collect();
@@ -138,7 +125,7 @@ fn tribometer() {
 
 #[test]
 fn servo() {
-    let Some(folder) = data() else { return };
+    let Some(folder) = recordings() else { return };
     for (kind, runs, samples, torque) in [
         ("sliding", 7, 12_000, (-0.05, 0.05)),
         ("presliding", 5, 8_000, (-0.012, 0.012)),
@@ -165,7 +152,7 @@ fn servo() {
 
 #[test]
 fn ur10e() {
-    let Some(folder) = data() else { return };
+    let Some(folder) = recordings() else { return };
     for (joint, samples, seconds) in [(1, 5889, 62.908), (4, 6288, 67.154)] {
         let table = table(folder.join(format!("ur10e/joint_{joint}.csv")));
         columns(&table, &[""; 31], samples);

@@ -19,7 +19,7 @@ pub fn workspace() -> PathBuf {
 ///
 /// # Panics
 /// With `CI=true` and no recordings.
-pub fn recordings(test: &str) -> Option<PathBuf> {
+pub fn recordings() -> Option<PathBuf> {
     let dir = match std::env::var_os("STICTION_DATA") {
         Some(dir) => PathBuf::from(dir),
         None => workspace().join("../shared/data"),
@@ -27,6 +27,9 @@ pub fn recordings(test: &str) -> Option<PathBuf> {
     if dir.is_dir() {
         return Some(dir);
     }
+    // A test runs in a thread of its own name.
+    let thread = std::thread::current();
+    let test = thread.name().unwrap_or("test");
     let message = format!(
         "SKIPPED {test}: no recordings in {} (set STICTION_DATA to the folder that holds them)",
         dir.display()

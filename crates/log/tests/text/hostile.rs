@@ -1,6 +1,6 @@
 //! Whatever the bytes, the reader answers: a table or an error, in bounded memory, without a panic.
 
-use crate::{detect, recordings};
+use crate::detect;
 use proptest::prelude::*;
 use stiction_log::text::{Decimal, Separator, TextOptions, read};
 use stiction_log::{Error, Kind, Table};
@@ -138,7 +138,7 @@ fn apply(mut bytes: Vec<u8>, changes: &[Change]) -> Vec<u8> {
 /// The first part of every real recording, and a Scope export.
 fn real_files() -> Vec<Vec<u8>> {
     let mut files = vec![crate::twincat::example().into_bytes()];
-    if let Some(folder) = recordings::folder() {
+    if let Some(folder) = stiction_testkit::recordings() {
         for name in [
             "tribometer/presliding.tsv",
             "servo/sliding_1.txt",

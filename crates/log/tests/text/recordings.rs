@@ -1,31 +1,18 @@
 //! Real recordings, which are never committed: found beside the workspace or by `STICTION_DATA`.
 
 use crate::detect;
-use std::path::PathBuf;
 use stiction_log::Table;
 use stiction_log::text::{TextOptions, read_file};
-
-/// The folder of recordings; says loudly that a test is skipped where there is none.
-pub(crate) fn folder() -> Option<PathBuf> {
-    let beside = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data"));
-    let data = std::env::var_os("STICTION_DATA").map_or(beside, PathBuf::from);
-    if data.join("tribometer").is_dir() {
-        return Some(data);
-    }
-    let why = format!("no recordings in {} (or STICTION_DATA)", data.display());
-    assert!(std::env::var_os("CI").is_none(), "{why}");
-    eprintln!("SKIPPED: {why}");
-    None
-}
+use stiction_testkit::recordings;
 
 fn table(path: &str) -> Option<Table> {
-    let path = folder()?.join(path);
+    let path = recordings()?.join(path);
     Some(read_file(&path, &TextOptions::default()).unwrap_or_else(|e| panic!("{e}")))
 }
 
 /// The same file read by splitting at blanks and commas and by the standard library's parser.
 fn plainly(path: &str, skip: usize) -> Option<Vec<Vec<f64>>> {
-    let text = std::fs::read_to_string(folder()?.join(path)).unwrap();
+    let text = std::fs::read_to_string(recordings()?.join(path)).unwrap();
     let mut columns: Vec<Vec<f64>> = Vec::new();
     for line in text.lines().skip(skip) {
         let cells = line.split([',', '\t']).filter(|c| !c.is_empty());
@@ -116,7 +103,7 @@ fn servo_axis() {
 
 #[test]
 fn a_recording_in_another_dialect_is_the_same_recording() {
-    let Some(folder) = folder() else { return };
+    let Some(folder) = recordings() else { return };
     let text = std::fs::read_to_string(folder.join("tribometer/presliding.tsv")).unwrap();
     let values = |t: Table| t.columns.into_iter().map(|c| c.values).collect::<Vec<_>>();
     let original = values(detect(&text).unwrap());
