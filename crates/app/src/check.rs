@@ -7,6 +7,7 @@ use crate::result::Input;
 use crate::source;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 use stiction_identify::{LawKind, Observer};
 use stiction_log::{Mapping, Severity};
 
@@ -84,7 +85,7 @@ pub fn check(
     };
     let mut out = Vec::new();
     for path in logs {
-        out.push(one(path, axis, &read, observer)?);
+        out.push(one(path, &read, observer)?);
     }
     Ok(Check {
         schema: "stiction.check/1".into(),
@@ -92,42 +93,12 @@ pub fn check(
     })
 }
 
-fn one(
-    path: &Path,
-    axis_file: Option<&Path>,
-    axis: &Axis,
-    observer: &mut dyn Observer,
-) -> Result<LogCheck, Error> {
+fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck, Error> {
+    let clock = Instant::now();
     let source = source::load(path, axis)?;
     let log = &source.log;
-    let options = Options {
-        logs: vec![path.to_path_buf()],
-        axis: axis_file.map(Path::to_path_buf),
-        law: LawKind::LuGre,
-        asymmetric: false,
-        validate: Vec::new(),
-        split: None,
-        seed: 0,
-        compare_laws: false,
-    };
-    let (parameters, conditioning, refused) = match identify::identify(&options, observer) {
-        Ok(outcome) => {
-            let refused = untrusted(&outcome);
-            let conditioning = outcome.result.axis.conditioning.clone();
-            (verdicts(&outcome), conditioning, refused)
-        }
-        // What the log cannot give is a verdict on the log; a bad axis file is an error of its own.
-        Err(e @ Error::Identify { .. }) if e.code() != "bad-setting" => {
-            (Vec::new(), Vec::new(), Some(format!("{}: {e}", e.code())))
-        }
-        Err(Error::Log(e)) => (
-            Vec::new(),
-            Vec::new(),
-            Some(format!("{}: {e}", e.kind.code())),
-        ),
-        Err(e) => return Err(e),
-    };
-    Ok(LogCheck {
+    let mut out = LogCheck {
+        input: source.input(),
         kind: log.motion.to_string(),
         seconds: log.time.last().copied().unwrap_or(0.0),
         ranges: ranges(&source),
@@ -143,11 +114,34 @@ fn one(
                 message: f.message.clone(),
             })
             .collect(),
-        input: source.input(),
-        conditioning,
-        parameters,
-        refused,
-    })
+        conditioning: Vec::new(),
+        parameters: Vec::new(),
+        refused: None,
+    };
+    let options = Options {
+        logs: vec![path.to_path_buf()],
+        axis: None,
+        law: LawKind::LuGre,
+        asymmetric: false,
+        validate: Vec::new(),
+        split: None,
+        seed: 0,
+        compare_laws: false,
+    };
+    match identify::fit(&options, axis, vec![source], Vec::new(), clock, observer) {
+        Ok(outcome) => {
+            out.refused = untrusted(&outcome);
+            out.parameters = verdicts(&outcome);
+            out.conditioning = outcome.result.axis.conditioning;
+        }
+        // What the log cannot give is a verdict on the log; a bad axis file is an error of its own.
+        Err(e @ Error::Identify { .. }) if e.code() != "bad-setting" => {
+            out.refused = Some(format!("{}: {e}", e.code()));
+        }
+        Err(Error::Log(e)) => out.refused = Some(format!("{}: {e}", e.kind.code())),
+        Err(e) => return Err(e),
+    }
+    Ok(out)
 }
 
 fn untrusted(outcome: &Outcome) -> Option<String> {

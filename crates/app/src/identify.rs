@@ -10,6 +10,7 @@ use crate::output::Bundle;
 use crate::result::{ResolvedAxis, ResultFile};
 use crate::source::{self, Source};
 use std::path::PathBuf;
+use std::time::Instant;
 use stiction_identify as engine;
 use stiction_identify::{Estimate, Law, LawKind, Observer, Record, Series, Settings, Status};
 use stiction_log::{Motion, Severity};
@@ -63,19 +64,31 @@ pub struct Outcome {
 /// Where an input cannot be read or nothing can be identified from it. A fit that should not be
 /// trusted is not an error: see [`ResultFile::trust`].
 pub fn identify(options: &Options, observer: &mut dyn Observer) -> Result<Outcome, Error> {
-    let clock = std::time::Instant::now();
+    let clock = Instant::now();
     let axis = match &options.axis {
         Some(file) => Axis::read(file)?,
         None => Axis::default(),
     };
     let sources = load_all(&options.logs, &axis)?;
     let held_out = load_all(&options.validate, &axis)?;
+    fit(options, &axis, sources, held_out, clock, observer)
+}
+
+/// The same for logs that are in memory already, on a clock that started with the work.
+pub(crate) fn fit(
+    options: &Options,
+    axis: &Axis,
+    sources: Vec<Source>,
+    held_out: Vec<Source>,
+    clock: Instant,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, Error> {
     check_together(&sources, &held_out)?;
     let motion = sources[0].log.motion;
     let force_unit = sources[0].log.force_unit.clone();
     let terms = axis.terms_for(&sources[0].log, options.asymmetric)?;
     let other = axis.terms_for(&sources[0].log, !options.asymmetric)?;
-    let full = condition(&sources, &axis)?;
+    let full = condition(&sources, axis)?;
     let (record, split) = match options.split {
         None => (full.clone(), None),
         Some(part) => {
@@ -123,7 +136,7 @@ pub fn identify(options: &Options, observer: &mut dyn Observer) -> Result<Outcom
         ));
     }
     for source in &held_out {
-        let record = condition(std::slice::from_ref(source), &axis)?;
+        let record = condition(std::slice::from_ref(source), axis)?;
         validation.push((
             source.path.display().to_string(),
             engine::predict(&record, &estimate),
@@ -134,7 +147,7 @@ pub fn identify(options: &Options, observer: &mut dyn Observer) -> Result<Outcom
     } else {
         let held_out = match (&split, held_out.is_empty()) {
             (Some(rest), _) => Some(rest.clone()),
-            (None, false) => Some(condition(&held_out, &axis)?),
+            (None, false) => Some(condition(&held_out, axis)?),
             (None, true) => None,
         };
         let [symmetric, asymmetric] = if options.asymmetric {

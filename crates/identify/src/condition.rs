@@ -137,7 +137,7 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
     if let Some(f) = common_hz {
         notes.push(format!(
             "force and every regressor: the same zero-phase Butterworth low-pass, order {ORDER}, \
-             {f:.4} Hz, then every {decimate}. sample"
+             {f:.4} Hz, then one sample in {decimate}"
         ));
     }
     let trim = [&source_filter, &common]

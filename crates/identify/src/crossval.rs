@@ -51,7 +51,7 @@ pub fn cross_validate(
         let inside = |i: usize| order[i].is_some_and(|k| k * blocks / total == block);
         let train = record.masked(|i| !inside(i));
         let test = record.masked(inside);
-        let (p, c, status, _) = refine(
+        let (p, c, status) = refine(
             &train,
             fitted.law,
             &fitted.terms,

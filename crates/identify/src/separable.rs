@@ -134,7 +134,7 @@ fn constant(force: &[f64]) -> Option<f64> {
     still.then_some(high)
 }
 
-/// Fits from a known starting point on the full record, without a scan.
+/// Fits from a known starting point, without a scan: nonlinear unknowns, coefficients, status.
 pub(crate) fn refine(
     record: &Record,
     law: Law,
@@ -142,7 +142,7 @@ pub(crate) fn refine(
     bounds: &SearchBox,
     start: &[f64],
     observer: &mut dyn Observer,
-) -> (Vec<f64>, Vec<f64>, Status, Counts) {
+) -> (Vec<f64>, Vec<f64>, Status) {
     let objective = Objective::new(record, law, terms);
     let mut watch = Watch {
         observer,
@@ -157,6 +157,5 @@ pub(crate) fn refine(
         found.p,
         found.evaluation.solution.coefficients,
         found.status,
-        watch.counts,
     )
 }
