@@ -3,15 +3,15 @@
 //! Blocks are contiguous stretches of time, because neighbouring samples share their noise and their
 //! model error; leaving out single samples would flatter every law.
 
+use crate::conditioning::record::Record;
 use crate::estimate::Estimate;
 use crate::fit::Fit;
 use crate::law::Law;
-use crate::levenberg::Status;
-use crate::objective::Objective;
 use crate::observe::Observer;
-use crate::record::Record;
-use crate::search_box::SearchBox;
+use crate::separable::levenberg::Status;
+use crate::separable::objective::Objective;
 use crate::separable::refine;
+use crate::separable::search_box::SearchBox;
 
 /// How a law does on held-out blocks.
 #[derive(Clone, Debug, PartialEq)]

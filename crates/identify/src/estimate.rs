@@ -1,14 +1,17 @@
 //! The result of a fit: parameters with their uncertainty, residuals, and what to beware of.
 
+pub(crate) mod uncertainty;
+
+use crate::conditioning::record::Record;
+use crate::estimate::uncertainty::Covariance;
 use crate::fit::Fit;
-use crate::law::{ColumnKind, Law, Mass, Terms};
-use crate::levenberg::Status;
-use crate::objective::Objective;
+use crate::law::Law;
+use crate::law::physical::{self, Dimension, Physical};
+use crate::law::terms::{ColumnKind, Mass, Terms};
 use crate::observe::Counts;
-use crate::physical::{self, Dimension, Physical};
-use crate::record::Record;
 use crate::separable::Optimum;
-use crate::uncertainty::{self, Covariance};
+use crate::separable::levenberg::Status;
+use crate::separable::objective::Objective;
 
 /// Relative standard deviation above which a parameter counts as not determined by the data.
 pub const IDENTIFIABLE: f64 = 0.10;

@@ -1,6 +1,6 @@
 //! How well a model explains a force.
 
-use crate::record::Record;
+use crate::conditioning::record::Record;
 use stiction_signal::effective_sample_size;
 
 /// Lags that the effective sample size looks at, at most.
@@ -29,7 +29,7 @@ impl Fit {
         if n == 0 {
             return None;
         }
-        let squares = |x: &[f64]| crate::linear::dot(x, x);
+        let squares = |x: &[f64]| crate::separable::linear::dot(x, x);
         let mean = measured.iter().sum::<f64>() / n as f64;
         let spread: f64 = measured.iter().map(|u| (u - mean) * (u - mean)).sum();
         let (energy, error) = (squares(measured), squares(residual));

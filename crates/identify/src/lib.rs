@@ -22,36 +22,27 @@
 //!
 //! Nothing here prints, sleeps or reads a clock; an [`Observer`] sees progress and may stop a run.
 
-mod condition;
+mod conditioning;
 mod crossval;
 mod error;
 mod estimate;
 mod fit;
-mod grid;
 mod law;
-mod levenberg;
-mod linear;
-mod objective;
 mod observe;
-mod physical;
-mod record;
-mod recursion;
-mod search;
-mod search_box;
 mod separable;
-mod uncertainty;
 
-pub use condition::{Conditioning, Cutoff, Source, condition};
+pub use conditioning::record::{Record, Samples, Segment};
+pub use conditioning::{Conditioning, Cutoff, Source, condition};
 pub use crossval::{LawScore, cross_validate};
 pub use error::Error;
+pub use estimate::uncertainty::Covariance;
 pub use estimate::{Estimate, IDENTIFIABLE, Parameter, Series, estimate, predict};
 pub use fit::{Fit, low_speed_bound};
-pub use law::{Law, LawKind, Mass, Terms};
-pub use levenberg::Status;
-pub use objective::{Evaluation, Objective};
+pub use law::physical::Dimension;
+pub use law::terms::{Mass, Terms};
+pub use law::{Law, LawKind};
 pub use observe::{Control, Counts, Observer, Progress, Silent, Stage};
-pub use physical::Dimension;
-pub use record::{Record, Samples, Segment};
-pub use search_box::SearchBox;
+pub use separable::levenberg::Status;
+pub use separable::objective::{Evaluation, Objective};
+pub use separable::search_box::SearchBox;
 pub use separable::{Optimum, Settings, separable};
-pub use uncertainty::Covariance;

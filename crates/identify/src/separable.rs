@@ -1,13 +1,21 @@
 //! The separable method: scan the box, descend from the best points, finish on the full record.
 
+pub(crate) mod levenberg;
+pub(crate) mod linear;
+pub(crate) mod objective;
+pub(crate) mod recursion;
+pub(crate) mod search;
+pub(crate) mod search_box;
+
+use crate::conditioning::record::Record;
 use crate::error::Error;
-use crate::law::{Law, Terms};
-use crate::levenberg::{Status, Watch, descend};
-use crate::objective::{Evaluation, Objective};
+use crate::law::Law;
+use crate::law::terms::Terms;
 use crate::observe::{Counts, Observer, Stage};
-use crate::record::Record;
-use crate::search::Search;
-use crate::search_box::SearchBox;
+use crate::separable::levenberg::{Status, Watch, descend};
+use crate::separable::objective::{Evaluation, Objective};
+use crate::separable::search::Search;
+use crate::separable::search_box::SearchBox;
 
 /// How the separable search works.
 #[derive(Clone, Debug, PartialEq)]

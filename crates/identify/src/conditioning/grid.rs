@@ -1,6 +1,6 @@
 //! Uniform time: log samples onto an even grid by straight lines, gaps remembered.
 
-use crate::condition::BRIDGE;
+use crate::conditioning::BRIDGE;
 
 /// Spread of the sample times, relative to the sample time, up to which a log counts as uniform.
 const UNIFORM: f64 = 1e-3;

@@ -1,8 +1,8 @@
 //! Where the nonlinear unknowns are looked for.
 
+use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::law::{Law, Layout};
-use crate::record::Record;
 
 /// Bounds of the nonlinear unknowns, in logarithms and in the order of the law.
 #[derive(Clone, Debug, PartialEq)]

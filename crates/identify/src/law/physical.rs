@@ -1,6 +1,7 @@
 //! From the unknowns of the search to the parameters of the law.
 
-use crate::law::{Law, LinearTerm};
+use crate::law::Law;
+use crate::law::terms::LinearTerm;
 use nalgebra::DMatrix;
 
 /// What a parameter measures; with the units of force and motion this gives its unit.

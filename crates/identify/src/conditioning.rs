@@ -5,9 +5,12 @@
 //! alike, so it cannot bias the fit (identification of robots: Gautier 1997,
 //! doi 10.1109/ROBOT.1997.606767). Both are zero-phase, so nothing is delayed.
 
+pub(crate) mod grid;
+pub(crate) mod record;
+
+use crate::conditioning::grid::Grid;
+use crate::conditioning::record::{Record, Samples, Segment};
 use crate::error::Error;
-use crate::grid::Grid;
-use crate::record::{Record, Samples, Segment};
 use stiction_signal::{Sos, gradient};
 
 /// Missing samples up to this many in a row are bridged by a straight line (and do not count in the

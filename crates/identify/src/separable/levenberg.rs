@@ -3,9 +3,9 @@
 //! Moré's scaling by the diagonal of `J^T J` with the gain-ratio update of Nielsen 1999; unknowns
 //! that stand at their bound with the descent pointing outward are frozen for the step.
 
-use crate::objective::{Evaluation, Objective};
 use crate::observe::{Control, Counts, Observer, Progress, Stage};
-use crate::search_box::SearchBox;
+use crate::separable::objective::{Evaluation, Objective};
+use crate::separable::search_box::SearchBox;
 use nalgebra::{DMatrix, DVector};
 
 /// How a search ended.

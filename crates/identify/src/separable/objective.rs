@@ -1,9 +1,10 @@
 //! Cost and sensitivities of a trial of the nonlinear unknowns, everything linear solved exactly.
 
-use crate::law::{ColumnKind, Law, LinearTerm, Mass, Terms};
-use crate::linear::{self, Solution, dot};
-use crate::record::Record;
-use crate::recursion::{Trace, trace};
+use crate::conditioning::record::Record;
+use crate::law::Law;
+use crate::law::terms::{ColumnKind, LinearTerm, Mass, Terms};
+use crate::separable::linear::{self, Solution, dot};
+use crate::separable::recursion::{Trace, trace};
 use nalgebra::{DMatrix, DVector};
 
 /// A record, a law and the linear terms beside it.

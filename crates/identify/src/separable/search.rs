@@ -1,12 +1,13 @@
 //! Where the descents of the separable method start, and which of them are followed to the end.
 
-use crate::law::{Law, LawKind, Terms};
-use crate::levenberg::{Descent, Status, Watch, descend};
-use crate::objective::Objective;
+use crate::conditioning::record::Record;
+use crate::law::terms::Terms;
+use crate::law::{Law, LawKind};
 use crate::observe::{Control, Stage};
-use crate::record::Record;
-use crate::search_box::SearchBox;
 use crate::separable::Settings;
+use crate::separable::levenberg::{Descent, Status, Watch, descend};
+use crate::separable::objective::Objective;
+use crate::separable::search_box::SearchBox;
 
 /// Starts from the thinned record that go on to the full one.
 const MOST_FINE: usize = 3;

@@ -7,7 +7,7 @@
 //! which costs one pass whatever the lag, and the whitening is undone. The result is never below the
 //! covariance for white residuals.
 
-use crate::objective::{Evaluation, Objective};
+use crate::separable::objective::{Evaluation, Objective};
 use nalgebra::{DMatrix, SymmetricEigen};
 
 /// Covariance of named parameters.
@@ -79,17 +79,17 @@ fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) -> DMatrix<
     let scale: Vec<f64> = jacobian
         .iter()
         .map(|c| {
-            let norm = crate::linear::dot(c, c).sqrt();
+            let norm = crate::separable::linear::dot(c, c).sqrt();
             if norm > 0.0 { 1.0 / norm } else { 1.0 }
         })
         .collect();
     let gram = DMatrix::from_fn(q, q, |i, j| {
-        crate::linear::dot(jacobian[i], jacobian[j]) * scale[i] * scale[j]
+        crate::separable::linear::dot(jacobian[i], jacobian[j]) * scale[i] * scale[j]
     });
     let bread = inverse(gram);
     let scores = influence(jacobian, residual, &scale, &bread);
     let long_run = long_run_covariance(&scores, breaks);
-    let variance = crate::linear::dot(residual, residual) / (n - q) as f64;
+    let variance = crate::separable::linear::dot(residual, residual) / (n - q) as f64;
     let correction = n as f64 / (n - q) as f64;
     // Never below what white residuals would give.
     let widen: Vec<f64> = (0..q)
@@ -160,7 +160,7 @@ fn long_run_covariance(scores: &[Vec<f64>], breaks: &[usize]) -> DMatrix<f64> {
     let lag = bandwidth(&whitened, breaks).min(n / 4).max(1);
     let sums: Vec<Vec<f64>> = whitened.iter().map(|(_, e)| batch_sums(e, lag)).collect();
     DMatrix::from_fn(q, q, |i, j| {
-        let sum = crate::linear::dot(&sums[i], &sums[j]) / lag as f64;
+        let sum = crate::separable::linear::dot(&sums[i], &sums[j]) / lag as f64;
         sum / ((1.0 - whitened[i].0) * (1.0 - whitened[j].0))
     })
 }
@@ -179,7 +179,7 @@ fn whiten(w: &[f64], breaks: &[usize]) -> (f64, Vec<f64>) {
 }
 
 fn lag_one(w: &[f64], breaks: &[usize]) -> f64 {
-    let energy = crate::linear::dot(w, w);
+    let energy = crate::separable::linear::dot(w, w);
     if energy <= 0.0 {
         return 0.0;
     }
@@ -195,7 +195,7 @@ fn bandwidth(whitened: &[(f64, Vec<f64>)], breaks: &[usize]) -> usize {
     let n = whitened.first().map_or(0, |(_, e)| e.len()) as f64;
     let (mut above, mut below) = (0.0, 0.0);
     for (_, e) in whitened {
-        let energy = crate::linear::dot(e, e);
+        let energy = crate::separable::linear::dot(e, e);
         if energy <= 0.0 {
             continue;
         }
