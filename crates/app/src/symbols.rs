@@ -16,6 +16,7 @@ pub fn unit(dimension: Dimension, motion: Motion, force: &str) -> String {
             "N*m" => "kg*m^2".into(),
             other => format!("{other}*s^2/{length}"),
         },
+        Dimension::Time => "s".into(),
         Dimension::One => "1".into(),
     }
 }
@@ -54,6 +55,7 @@ pub fn symbol(name: &str) -> String {
         "stribeck_exponent" => "δ",
         "mass" => "M",
         "offset" => "F₀",
+        "delay" => "τ",
         other => other,
     };
     format!("{symbol}{side}")
@@ -82,6 +84,7 @@ pub fn meaning(name: &str, motion: Motion) -> String {
             Motion::Rotary => "inertia",
         },
         "offset" => "constant force",
+        "delay" => "delay of the force against the motion",
         "gravity_sin" => "gravity, sin q",
         "gravity_cos" => "gravity, cos q",
         other if other.starts_with("cogging") => "cogging",

@@ -6,12 +6,14 @@
 //! doi 10.1109/ROBOT.1997.606767). Both are zero-phase, so nothing is delayed.
 
 pub(crate) mod grid;
+pub(crate) mod noise;
 pub(crate) mod record;
+pub(crate) mod shift;
 
 use crate::conditioning::grid::Grid;
 use crate::conditioning::record::{Record, Samples, Segment};
 use crate::error::Error;
-use stiction_signal::{Sos, gradient};
+use stiction_signal::{Sos, gradient, gradient_sixth_order};
 
 /// Missing samples up to this many in a row are bridged by a straight line (and do not count in the
 /// fit); longer gaps split the log.
@@ -198,6 +200,8 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
         segments,
         common: filters.common,
         decimate,
+        position_noise: noise::deviation(logs.iter().filter_map(|log| log.position.as_deref())),
+        common_hz,
         notes,
         resolution: conditioning.resolution,
         is_thinned: false,
@@ -331,11 +335,17 @@ impl Filters {
             Some(f) => f.zero_phase(&x).ok(),
             None => Some(x),
         };
+        // Differences over seven samples lose less of what the low-pass has left, and let more noise
+        // pass where there is none.
+        let derivative = |x: &[f64]| match self.source {
+            Some(_) => gradient_sixth_order(x, step).ok(),
+            None => gradient(x, step).ok(),
+        };
         let raw_position = samples.position.as_ref().map(on_grid);
         let (velocity, position) = match self.source_kind {
             Source::Position => {
                 let x = smooth(raw_position?, &self.source)?;
-                (gradient(&x, step).ok()?, x)
+                (derivative(&x)?, x)
             }
             Source::Velocity => {
                 let v = smooth(on_grid(samples.velocity.as_ref()?), &self.source)?;
@@ -343,14 +353,16 @@ impl Filters {
                 (v, x)
             }
         };
-        let acceleration = smooth(gradient(&velocity, step).ok()?, &self.common)?;
-        let force = smooth(on_grid(&samples.force), &self.common)?;
+        let acceleration = derivative(&velocity)?;
+        let drive = on_grid(&samples.force);
+        let force = smooth(drive.clone(), &self.common)?;
         let valid = if samples.valid.is_empty() {
             &[][..]
         } else {
             &samples.valid[range]
         };
-        let keep = apart(&grid.keep(valid), self.reach);
+        let valid = grid.keep(valid);
+        let keep = apart(&valid, self.reach);
         let thin = |x: &[f64]| x.iter().step_by(self.decimate).copied().collect::<Vec<_>>();
         let keep = keep
             .iter()
@@ -363,13 +375,14 @@ impl Filters {
         Some(Segment {
             log,
             step,
+            velocity,
+            position,
+            acceleration,
+            drive,
+            valid,
             time: thin(&grid.times()),
             force: thin(&force),
-            position: thin(&position),
-            speed: thin(&velocity),
-            acceleration: thin(&acceleration),
             keep,
-            velocity,
         })
     }
 }

@@ -67,7 +67,7 @@ pub fn cross_validate(
         let model = objective.model(&p, &c);
         residual.extend(objective.force().iter().zip(&model).map(|(u, y)| u - y));
         measured.extend_from_slice(objective.force());
-        speed.extend(test.gather(|s| &s.speed));
+        speed.extend(test.pick(|s| &s.velocity));
     }
     let held_out = if complete {
         Fit::new(&measured, &residual)

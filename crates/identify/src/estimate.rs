@@ -7,11 +7,12 @@ use crate::estimate::uncertainty::Covariance;
 use crate::fit::Fit;
 use crate::law::Law;
 use crate::law::physical::{self, Dimension, Physical};
-use crate::law::terms::{ColumnKind, Mass, Terms};
+use crate::law::terms::{ColumnKind, Delay, Mass, Terms};
 use crate::observe::Counts;
 use crate::separable::Optimum;
 use crate::separable::levenberg::Status;
 use crate::separable::objective::Objective;
+use nalgebra::DMatrix;
 
 /// Relative standard deviation above which a parameter counts as not determined by the data.
 pub const IDENTIFIABLE: f64 = 0.10;
@@ -32,6 +33,9 @@ pub struct Parameter {
     /// 95 % interval (log-normal for parameters that are positive by nature); `None` where the data
     /// bound it on no side.
     pub ci95: Option<(f64, f64)>,
+    /// What was added to the least-squares value to undo the bias of conditioning and noise; 0 if
+    /// nothing.
+    pub correction: f64,
     /// Whether the data determine it: standard deviation at most 10 % and not at a bound.
     pub identifiable: bool,
     /// Whether it was fitted; a given parameter has no deviation.
@@ -97,6 +101,8 @@ pub struct Estimate {
     pub iterations: usize,
     /// Evaluations and relative residual over the last descent.
     pub history: Vec<(usize, f64)>,
+    /// Sample time of the record, s.
+    step: f64,
     p: Vec<f64>,
     coefficients: Vec<f64>,
 }
@@ -115,6 +121,19 @@ impl Estimate {
     pub(crate) fn unknowns(&self) -> &[f64] {
         &self.p
     }
+
+    pub(crate) fn coefficients(&self) -> &[f64] {
+        &self.coefficients
+    }
+
+    /// Delay of the force against the motion, in samples.
+    pub(crate) fn delay_samples(&self) -> f64 {
+        match (self.terms.delay, self.p.last()) {
+            (Delay::Fitted, Some(&delay)) => delay,
+            (Delay::Fitted, None) => 0.0,
+            (Delay::Given(time), _) => time / self.step,
+        }
+    }
 }
 
 /// Parameters, uncertainty and residuals at an optimum.
@@ -125,12 +144,58 @@ pub fn estimate(
     optimum: &Optimum,
     low_speed_bound: f64,
 ) -> Estimate {
+    let found = Found::optimum(optimum);
+    assemble(record, law, terms, optimum, low_speed_bound, &found)
+}
+
+/// The numbers that an estimate states, and what is known of their error beside the residual.
+pub(crate) struct Found {
+    /// Nonlinear unknowns.
+    pub p: Vec<f64>,
+    /// Linear ones.
+    pub c: Vec<f64>,
+    /// Covariance of both over replicas: the stated variances are no smaller.
+    pub scatter: Option<DMatrix<f64>>,
+    /// Covariance of the error of the numbers themselves, to be added.
+    pub doubt: Option<DMatrix<f64>>,
+}
+
+impl Found {
+    /// What the search found, as it stands.
+    pub fn optimum(optimum: &Optimum) -> Self {
+        Self {
+            p: optimum.p.clone(),
+            c: optimum.evaluation.solution.coefficients.clone(),
+            scatter: None,
+            doubt: None,
+        }
+    }
+}
+
+/// An estimate that states other numbers than the optimum, near it.
+pub(crate) fn assemble(
+    record: &Record,
+    law: Law,
+    terms: &Terms,
+    optimum: &Optimum,
+    low_speed_bound: f64,
+    found: &Found,
+) -> Estimate {
     let objective = Objective::new(record, law, terms);
     let at = &optimum.evaluation;
-    let c = &at.solution.coefficients;
-    let raw = physical::physical(&law, objective.linear(), &optimum.p, c);
-    let unknowns = uncertainty::unknowns(&objective, at);
+    let c = &found.c;
+    let step = record.step();
+    let raw = physical::physical(&law, objective.linear(), step, &found.p, c);
+    let mut unknowns = uncertainty::unknowns(&objective, at);
+    if let Some(scatter) = &found.scatter {
+        unknowns = uncertainty::widened(&unknowns, scatter);
+    }
+    if let Some(doubt) = &found.doubt {
+        unknowns += doubt;
+    }
     let matrix = physical::propagate(&raw, &unknowns);
+    let plain = Found::optimum(optimum);
+    let before = physical::physical(&law, objective.linear(), step, &plain.p, &plain.c);
     let level = raw
         .iter()
         .filter(|p| p.name.starts_with("coulomb"))
@@ -139,7 +204,10 @@ pub fn estimate(
     let mut parameters: Vec<Parameter> = raw
         .iter()
         .enumerate()
-        .map(|(i, p)| describe(p, matrix[(i, i)], optimum, level))
+        .map(|(i, p)| Parameter {
+            correction: p.value - before[i].value,
+            ..describe(p, matrix[(i, i)], optimum, level, step)
+        })
         .collect();
     if law.kind.has_stribeck() {
         let at = parameters
@@ -169,8 +237,8 @@ pub fn estimate(
             .map(|i| (0..n).map(|j| matrix[(i, j)]).collect())
             .collect(),
     };
-    let series = series(&objective, &optimum.p, c);
-    let residual = at.residual();
+    let series = series(&objective, &found.p, c);
+    let residual = &series.residual();
     // The search refuses a force without energy; what is left is a residual too large to square.
     let fit = Fit::new(&series.measured, residual).unwrap_or(Fit {
         rmse: f64::MAX,
@@ -198,7 +266,8 @@ pub fn estimate(
         counts: optimum.counts,
         iterations: optimum.iterations,
         history: optimum.history.clone(),
-        p: optimum.p.clone(),
+        step,
+        p: found.p.clone(),
         coefficients: c.clone(),
     }
 }
@@ -216,13 +285,14 @@ fn given(name: &str, value: f64) -> Parameter {
         value,
         std: None,
         ci95: None,
+        correction: 0.0,
         identifiable: true,
         identified: false,
         reason: String::new(),
     }
 }
 
-fn describe(p: &Physical, variance: f64, optimum: &Optimum, level: f64) -> Parameter {
+fn describe(p: &Physical, variance: f64, optimum: &Optimum, level: f64, step: f64) -> Parameter {
     let solution = &optimum.evaluation.solution;
     let mut reason = String::new();
     if let Some(i) = p.nonlinear
@@ -242,24 +312,21 @@ fn describe(p: &Physical, variance: f64, optimum: &Optimum, level: f64) -> Param
     if reason.is_empty() && std.is_none() {
         reason = "its deviation is beyond the range of numbers".into();
     }
-    let size = if p.positive {
-        p.value.abs()
-    } else {
-        p.value.abs().max(level)
+    let (size, what) = match p.dimension {
+        _ if p.positive => (p.value.abs(), "value"),
+        Dimension::Time => (step, "the sample time"),
+        _ => (p.value.abs().max(level), "value or of the Coulomb level"),
     };
     let relative = std.map(|s| s / size);
     if let Some(r) = relative
         && (r > IDENTIFIABLE || r.is_nan())
     {
-        reason = format!(
-            "standard deviation {:.0} % of its {}",
-            100.0 * r,
-            if p.positive {
-                "value"
-            } else {
-                "value or of the Coulomb level"
-            }
-        );
+        let of = if p.dimension == Dimension::Time {
+            ""
+        } else {
+            "its "
+        };
+        reason = format!("standard deviation {:.0} % of {of}{what}", 100.0 * r);
     }
     let ci95 = std.and_then(|s| {
         if p.positive {
@@ -277,6 +344,7 @@ fn describe(p: &Physical, variance: f64, optimum: &Optimum, level: f64) -> Param
         value: p.value,
         std,
         ci95,
+        correction: 0.0,
         identifiable: reason.is_empty(),
         identified: true,
         reason,
@@ -287,7 +355,7 @@ fn series(objective: &Objective, p: &[f64], coefficients: &[f64]) -> Series {
     let record = objective.record();
     let parts = objective.parts(p, coefficients);
     let n = objective.force().len();
-    let mut other = objective.inertia().to_vec();
+    let mut other = objective.inertia(p);
     other.resize(n, 0.0);
     let mut model = other.clone();
     for (term, part) in objective.linear().iter().zip(&parts) {
@@ -309,8 +377,8 @@ fn series(objective: &Objective, p: &[f64], coefficients: &[f64]) -> Series {
     Series {
         log,
         time: record.gather(|s| &s.time),
-        position: record.gather(|s| &s.position),
-        velocity: record.gather(|s| &s.speed),
+        position: record.pick(|s| &s.position),
+        velocity: record.pick(|s| &s.velocity),
         measured: objective.force().to_vec(),
         model,
         other,

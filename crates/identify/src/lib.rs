@@ -22,6 +22,7 @@
 //!
 //! Nothing here prints, sleeps or reads a clock; an [`Observer`] sees progress and may stop a run.
 
+mod calibrate;
 mod conditioning;
 mod crossval;
 mod error;
@@ -29,8 +30,11 @@ mod estimate;
 mod fit;
 mod law;
 mod observe;
+mod replica;
 mod separable;
+mod tune;
 
+pub use calibrate::calibrate;
 pub use conditioning::record::{Record, Samples, Segment};
 pub use conditioning::{Conditioning, Cutoff, Source, condition};
 pub use crossval::{LawScore, cross_validate};
@@ -39,10 +43,11 @@ pub use estimate::uncertainty::Covariance;
 pub use estimate::{Estimate, IDENTIFIABLE, Parameter, Series, estimate, predict};
 pub use fit::{Fit, low_speed_bound};
 pub use law::physical::Dimension;
-pub use law::terms::{Mass, Terms};
+pub use law::terms::{Delay, Mass, Terms};
 pub use law::{Law, LawKind};
 pub use observe::{Control, Counts, Observer, Progress, Silent, Stage};
 pub use separable::levenberg::Status;
 pub use separable::objective::{Evaluation, Objective};
 pub use separable::search_box::SearchBox;
 pub use separable::{Optimum, Settings, separable};
+pub use tune::{Trial, Tuned, tune};

@@ -3,12 +3,16 @@
 /// What a search is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
+    /// Cut-offs tried on replicas.
+    Tuning,
     /// Low-discrepancy scan of the box.
     Scan,
     /// Least squares on a thinned record, from the best points of the scan.
     Coarse,
     /// Least squares on the full record.
     Fine,
+    /// The bias measured on replicas.
+    Calibration,
     /// Law comparison on held-out blocks.
     CrossValidation,
 }

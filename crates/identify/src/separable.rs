@@ -10,7 +10,7 @@ pub(crate) mod search_box;
 use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::law::Law;
-use crate::law::terms::Terms;
+use crate::law::terms::{Delay, Terms};
 use crate::observe::{Counts, Observer, Stage};
 use crate::separable::levenberg::{Status, Watch, descend};
 use crate::separable::objective::{Evaluation, Objective};
@@ -78,11 +78,15 @@ pub fn separable(
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<Optimum, Error> {
-    let bounds = match &settings.bounds {
+    let mut bounds = match &settings.bounds {
         Some(bounds) => bounds.clone(),
         None => SearchBox::from_record(record, &law)?,
     };
-    let unknowns = law.nonlinear() + terms.columns(&law).len();
+    let fitted = terms.delay == Delay::Fitted;
+    if fitted {
+        bounds = bounds.with_delay();
+    }
+    let unknowns = bounds.len() + terms.columns(&law).len();
     if record.kept() < 10 * unknowns {
         return Err(Error::TooFewSamples {
             found: record.kept(),
@@ -91,7 +95,12 @@ pub fn separable(
             total: record.len(),
         });
     }
-    let full = Objective::new(record, law, terms);
+    let mut still = terms.clone();
+    if fitted {
+        still.delay = Delay::NONE;
+    }
+    let full = Objective::new(record, law, &still);
+    let delayed = fitted.then(|| Objective::new(record, law, terms));
     if !full.energy().is_finite() {
         return Err(Error::Setting {
             name: "force",
@@ -113,9 +122,10 @@ pub fn separable(
     let thinned = record.thinned(settings.thin);
     let mut search = Search {
         full: &full,
+        delayed: delayed.as_ref(),
         thinned: thinned.as_ref(),
         law,
-        terms,
+        terms: &still,
         settings,
         iterations: 0,
     };

@@ -3,8 +3,9 @@
 
 use proptest::prelude::*;
 use stiction_identify::{
-    Conditioning, Control, Cutoff, Law, LawKind, Mass, Observer, Progress, Samples, Settings,
-    Source, Terms, condition, cross_validate, estimate, low_speed_bound, predict, separable,
+    Conditioning, Control, Cutoff, Delay, Law, LawKind, Mass, Observer, Progress, Samples,
+    Settings, Source, Terms, condition, cross_validate, estimate, low_speed_bound, predict,
+    separable,
 };
 
 #[derive(Clone, Copy, Debug)]
@@ -275,6 +276,7 @@ fn terms() -> impl Strategy<Value = Terms> {
             mass,
             offset,
             gravity,
+            delay: Delay::NONE,
             cogging,
         }
     })

@@ -4,7 +4,8 @@ mod common;
 
 use common::{C95, MACHINE, MOTOR, Noise, Set, record, sine_record};
 use stiction_identify::{
-    Law, LawKind, Mass, Objective, SearchBox, Settings, Silent, Status, Terms, estimate, separable,
+    Delay, Law, LawKind, Mass, Objective, SearchBox, Settings, Silent, Status, Terms, estimate,
+    separable,
 };
 
 const SEEDS: u64 = 100;
@@ -15,6 +16,7 @@ fn friction_only() -> Terms {
         offset: false,
         gravity: false,
         cogging: Vec::new(),
+        delay: Delay::NONE,
     }
 }
 

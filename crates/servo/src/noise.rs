@@ -31,8 +31,8 @@ impl Noise {
         radius * libm::cos(angle)
     }
 
-    /// Uniform in [0, 1), from the upper 53 bits.
-    fn uniform(&mut self) -> f64 {
+    /// The next number uniform in [0, 1), from the upper 53 bits.
+    pub fn uniform(&mut self) -> f64 {
         (self.bits.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
     }
 }

@@ -29,6 +29,23 @@ pub fn gradient(signal: &[f64], step: f64) -> Result<Vec<f64>, SignalError> {
     Ok(output)
 }
 
+/// The first derivative by central differences over seven samples.
+///
+/// Of a component at the frequency `f` it loses `(2 pi f step)^6 / 140` where [`gradient`] loses
+/// `(2 pi f step)^2 / 6`: at a tenth of the sample rate 0.04 % instead of 6.6 %. It lets more of the
+/// noise pass above that, so it is for signals that a low-pass has smoothed. Within three samples of an
+/// end the differences are those of [`gradient`].
+///
+/// # Errors
+/// If there are fewer than three samples, one is not finite or the step is not positive.
+pub fn gradient_sixth_order(signal: &[f64], step: f64) -> Result<Vec<f64>, SignalError> {
+    let mut slopes = gradient(signal, step)?;
+    for (slope, x) in slopes.iter_mut().skip(3).zip(signal.windows(7)) {
+        *slope = (45.0 * (x[4] - x[2]) - 9.0 * (x[5] - x[1]) + (x[6] - x[0])) / (60.0 * step);
+    }
+    Ok(slopes)
+}
+
 /// First derivative of a signal sampled at the given `times`, s: the slope at each sample of the
 /// parabola through it and its neighbours (at the ends, through the nearest three samples).
 ///

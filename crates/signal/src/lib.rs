@@ -39,7 +39,7 @@ mod zero_phase;
 
 pub use correlation::{EffectiveSize, autocorrelation, effective_sample_size};
 pub use decimate::{anti_alias, decimate};
-pub use derivative::{gradient, gradient_irregular, second_derivative};
+pub use derivative::{gradient, gradient_irregular, gradient_sixth_order, second_derivative};
 pub use error::SignalError;
 pub use gaps::{Gaps, fill_gaps};
 pub use resample::{interpolate, resample_uniform};

@@ -5,7 +5,7 @@ mod common;
 use common::{Case, error, reference};
 use stiction_signal::{
     SavitzkyGolay, autocorrelation, effective_sample_size, gradient, gradient_irregular,
-    interpolate,
+    gradient_sixth_order, interpolate,
 };
 
 fn filtered(case: &Case) -> Vec<f64> {
@@ -90,5 +90,26 @@ fn autocorrelation_and_effective_size() {
             (ratio - 1.0).abs() < 3.0 * deviation,
             "rho {rho}: {ratio} within 3 x {deviation}"
         );
+    }
+}
+
+/// A polynomial of degree 6 has an exact slope; a sine of a tenth of the rate one to 0.05 %.
+#[test]
+fn the_gradient_over_seven_samples_is_of_sixth_order() {
+    let f = |t: f64| 1.0 - t * (2.0 - t * t * (0.3 + t * (0.1 - t * (0.02 + 0.003 * t))));
+    let slope =
+        |t: f64| -2.0 + t * t * (3.0 * 0.3 + t * (4.0 * 0.1 - t * (5.0 * 0.02 + 6.0 * 0.003 * t)));
+    let times: Vec<f64> = (0..40).map(|i| 0.1 * f64::from(i) - 2.0).collect();
+    let signal: Vec<f64> = times.iter().map(|&t| f(t)).collect();
+    let found = gradient_sixth_order(&signal, 0.1).unwrap();
+    for i in 3..37 {
+        assert!((found[i] - slope(times[i])).abs() < 1e-11);
+    }
+    let omega = std::f64::consts::TAU * 0.1;
+    let sine: Vec<f64> = (0..200).map(|i| (omega * f64::from(i)).sin()).collect();
+    let found = gradient_sixth_order(&sine, 1.0).unwrap();
+    for i in 3..197 {
+        let want = omega * (omega * i as f64).cos();
+        assert!((found[i] - want).abs() < 5e-4 * omega);
     }
 }

@@ -1,5 +1,6 @@
 //! What goes into an identification, before and after conditioning.
 
+use crate::conditioning::shift::Shift;
 use stiction_signal::Sos;
 
 /// One log in SI units on its own time axis: m or rad, m/s or rad/s, N or N·m (or A, V).
@@ -22,27 +23,29 @@ pub struct Samples {
 
 /// A stretch of uniform samples without gaps.
 ///
-/// `velocity` drives the friction law at the full rate; `force` and the known regressors have passed
-/// the common filter and are thinned to every `decimate`-th sample, and so are the columns that the
-/// law makes, so that both sides of the regression see the same filter.
+/// The motion stands at the full rate; `force` has passed the common filter and is thinned to every
+/// `decimate`-th sample, and so are the columns that the law and the other terms make from the motion,
+/// so that both sides of the regression see the same filter.
 #[derive(Clone, Debug)]
 pub struct Segment {
     /// Which log it comes from, counted from 0.
     pub log: usize,
-    /// Sample time of `velocity`, s.
+    /// Sample time of the motion, s.
     pub step: f64,
     /// Velocity that drives the law, at the full rate, m/s or rad/s.
     pub velocity: Vec<f64>,
+    /// Position at the full rate, from zero where none was logged, m or rad.
+    pub position: Vec<f64>,
+    /// Acceleration at the full rate, not yet passed through the common filter, m/s^2 or rad/s^2.
+    pub acceleration: Vec<f64>,
+    /// Force as logged, at the full rate, no filter.
+    pub drive: Vec<f64>,
+    /// Which samples of the full rate may be used.
+    pub valid: Vec<bool>,
     /// Time of the thinned samples, s.
     pub time: Vec<f64>,
     /// Measured force at the thinned samples, filtered.
     pub force: Vec<f64>,
-    /// Position at the thinned samples where known, m or rad.
-    pub position: Vec<f64>,
-    /// Velocity at the thinned samples, as it drives the law (not passed through the common filter).
-    pub speed: Vec<f64>,
-    /// Acceleration at the thinned samples, filtered with the common filter, m/s^2 or rad/s^2.
-    pub acceleration: Vec<f64>,
     /// Which thinned samples count.
     pub keep: Vec<bool>,
 }
@@ -56,6 +59,10 @@ pub struct Record {
     pub common: Option<Sos>,
     /// Every how many samples the regression uses.
     pub decimate: usize,
+    /// Standard deviation of the noise of the position as logged, its encoder steps included, m or rad.
+    pub position_noise: f64,
+    /// Cut-off of the common filter, Hz.
+    pub common_hz: Option<f64>,
     /// How the record was conditioned, for people.
     pub notes: Vec<String>,
     /// Smallest displacement that the log resolves (one encoder count), m or rad, where known.
@@ -81,6 +88,18 @@ impl Record {
     /// Whether there are no samples.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// Sample time of the motion, s; the same in all segments.
+    pub fn step(&self) -> f64 {
+        self.segments.first().map_or(0.0, |s| s.step)
+    }
+
+    /// Part of the variance of white noise that the common filter lets through: a Butterworth low-pass
+    /// of order 4, run both ways, has the noise bandwidth of .898 of its cut-off.
+    pub(crate) fn noise_gain(&self) -> f64 {
+        self.common_hz
+            .map_or(1.0, |f| (2.0 * 0.898 * f * self.step()).min(1.0))
     }
 
     /// Largest speed, m/s or rad/s.
@@ -111,37 +130,34 @@ impl Record {
     /// Whether the axis moves in both directions, at speeds above a hundredth of the top speed.
     pub fn moves_both_ways(&self) -> bool {
         let bound = 0.01 * self.top_speed();
-        let speeds = || {
-            self.segments.iter().flat_map(|s| {
-                s.speed
-                    .iter()
-                    .zip(&s.keep)
-                    .filter_map(|(v, &keep)| keep.then_some(*v))
-            })
-        };
-        speeds().any(|v| v > bound) && speeds().any(|v| v < -bound)
+        let speeds = self.pick(|s| &s.velocity);
+        speeds.iter().any(|&v| v > bound) && speeds.iter().any(|&v| v < -bound)
     }
 
-    /// The kept samples of one channel, in order.
+    /// The kept samples of a thinned channel, in order.
     pub fn gather(&self, channel: impl Fn(&Segment) -> &[f64]) -> Vec<f64> {
         let mut out = Vec::with_capacity(self.kept());
         for segment in &self.segments {
-            let values = channel(segment);
-            out.extend(
-                values
-                    .iter()
-                    .zip(&segment.keep)
-                    .filter_map(|(x, &keep)| keep.then_some(*x)),
-            );
+            let values = channel(segment).iter().zip(&segment.keep);
+            out.extend(values.filter_map(|(x, &keep)| keep.then_some(*x)));
         }
         out
     }
 
-    /// Passes full-rate channels of a segment through the common filter and takes their kept samples.
-    pub(crate) fn filtered(&self, segment: &Segment, mut full: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    /// The kept samples of a channel at the full rate, in order.
+    pub fn pick(&self, channel: impl Fn(&Segment) -> &[f64]) -> Vec<f64> {
+        let mut out = Vec::with_capacity(self.kept());
+        for segment in &self.segments {
+            self.thin(segment, channel(segment), Shift::NONE, &mut out);
+        }
+        out
+    }
+
+    /// Passes full-rate channels of a segment through the common filter, in place.
+    pub(crate) fn filter<'c>(&self, full: impl IntoIterator<Item = &'c mut Vec<f64>>) {
         if let Some(filter) = &self.common {
             let mut columns: Vec<&mut [f64]> = full
-                .iter_mut()
+                .into_iter()
                 .filter(|c| !c.is_empty())
                 .map(Vec::as_mut_slice)
                 .collect();
@@ -149,16 +165,19 @@ impl Record {
             // not finite stays as it is and makes the cost of this trial not finite.
             let _ = filter.zero_phase_columns(&mut columns);
         }
-        full.iter()
-            .map(|column| {
-                column
-                    .iter()
-                    .step_by(self.decimate)
-                    .zip(&segment.keep)
-                    .filter_map(|(x, &keep)| keep.then_some(*x))
-                    .collect()
-            })
-            .collect()
+    }
+
+    /// Appends the kept samples of a full-rate channel of a segment, taken earlier by a shift; an
+    /// empty channel has none.
+    pub(crate) fn thin(&self, segment: &Segment, full: &[f64], shift: Shift, out: &mut Vec<f64>) {
+        if full.is_empty() {
+            return;
+        }
+        for (i, &keep) in segment.keep.iter().enumerate() {
+            if keep {
+                out.push(shift.at(full, i * self.decimate));
+            }
+        }
     }
 
     /// Indices among the kept samples at which a new segment starts (not 0), in order.
@@ -199,18 +218,28 @@ impl Record {
             return None;
         }
         let pick = |x: &[f64]| x.iter().step_by(every).copied().collect::<Vec<_>>();
+        let coarse = |x: &[f64]| {
+            let every = self.decimate * every;
+            x.iter().step_by(every).copied().collect::<Vec<_>>()
+        };
         let segments = self
             .segments
             .iter()
             .map(|s| Segment {
                 log: s.log,
                 step: s.step * (self.decimate * every) as f64,
-                velocity: pick(&s.speed),
+                velocity: coarse(&s.velocity),
+                position: coarse(&s.position),
+                acceleration: coarse(&s.acceleration),
+                drive: coarse(&s.drive),
+                valid: s
+                    .valid
+                    .iter()
+                    .step_by(self.decimate * every)
+                    .copied()
+                    .collect(),
                 time: pick(&s.time),
                 force: pick(&s.force),
-                position: pick(&s.position),
-                speed: pick(&s.speed),
-                acceleration: pick(&s.acceleration),
                 keep: s.keep.iter().step_by(every).copied().collect(),
             })
             .collect();
@@ -218,6 +247,8 @@ impl Record {
             segments,
             common: None,
             decimate: 1,
+            position_noise: self.position_noise,
+            common_hz: None,
             notes: Vec::new(),
             resolution: self.resolution,
             is_thinned: true,

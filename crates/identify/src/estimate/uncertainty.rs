@@ -69,6 +69,23 @@ pub(crate) fn unknowns(objective: &Objective, at: &Evaluation) -> DMatrix<f64> {
     out
 }
 
+/// A covariance scaled up, row by row, to variances of at least those of another.
+pub(crate) fn widened(covariance: &DMatrix<f64>, least: &DMatrix<f64>) -> DMatrix<f64> {
+    let n = covariance.nrows();
+    let factor: Vec<f64> = (0..n)
+        .map(|i| {
+            let ratio = least[(i, i)] / covariance[(i, i)];
+            // No variance at all is a coefficient that is held.
+            if ratio > 1.0 && ratio.is_finite() {
+                ratio.sqrt()
+            } else {
+                1.0
+            }
+        })
+        .collect();
+    DMatrix::from_fn(n, n, |i, j| covariance[(i, j)] * factor[i] * factor[j])
+}
+
 /// `B S B` for Jacobian columns and residual; `breaks` are the indices at which a new segment starts.
 fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) -> DMatrix<f64> {
     let q = jacobian.len();

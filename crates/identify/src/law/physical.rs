@@ -17,6 +17,8 @@ pub enum Dimension {
     Speed,
     /// Force per acceleration: mass or inertia.
     Inertia,
+    /// Time, s.
+    Time,
     /// A pure number.
     One,
 }
@@ -36,10 +38,16 @@ pub(crate) struct Physical {
     pub positive: bool,
 }
 
-/// All identified parameters of a law at the unknowns `p`, `c`.
-pub(crate) fn physical(law: &Law, linear: &[LinearTerm], p: &[f64], c: &[f64]) -> Vec<Physical> {
+/// All identified parameters of a law at the unknowns `p`, `c`; `step` is the sample time, s.
+pub(crate) fn physical(
+    law: &Law,
+    linear: &[LinearTerm],
+    step: f64,
+    p: &[f64],
+    c: &[f64],
+) -> Vec<Physical> {
     let layout = law.layout();
-    let k = layout.count;
+    let k = p.len();
     let width = k + c.len();
     let at = |name: &str| linear.iter().position(|t| t.name == name);
     let suffixes: &[&str] = if law.asymmetric {
@@ -158,13 +166,25 @@ pub(crate) fn physical(law: &Law, linear: &[LinearTerm], p: &[f64], c: &[f64]) -
             term.nonnegative,
         );
     }
+    if k > layout.count {
+        let delay = k - 1;
+        push(
+            "delay".into(),
+            Dimension::Time,
+            p[delay] * step,
+            unit(delay, step),
+            Some(delay),
+            None,
+            false,
+        );
+    }
     out.sort_by_key(|parameter| rank(&parameter.name));
     out
 }
 
 /// Order of parameters in tables and files.
 fn rank(name: &str) -> usize {
-    const ORDER: [&str; 8] = [
+    const ORDER: [&str; 9] = [
         "sigma0",
         "sigma1",
         "sigma2",
@@ -173,6 +193,7 @@ fn rank(name: &str) -> usize {
         "stribeck_velocity",
         "mass",
         "offset",
+        "delay",
     ];
     ORDER
         .iter()

@@ -15,6 +15,24 @@ pub struct Terms {
     pub gravity: bool,
     /// Cogging: `sin` and `cos` of `2 pi x / pitch` for each pitch, m or rad.
     pub cogging: Vec<f64>,
+    /// How much later the force was logged than the motion it belongs to. Not linear, but like the
+    /// terms above no part of the law.
+    pub delay: Delay,
+}
+
+/// What is known of the delay of the force against the motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Delay {
+    /// One more unknown, up to four samples either way.
+    Fitted,
+    /// Known, s; negative where the force stands in the log before its motion, as a command does that
+    /// is held from its sample to the next.
+    Given(f64),
+}
+
+impl Delay {
+    /// Force and motion of a row belong together.
+    pub const NONE: Self = Delay::Given(0.0);
 }
 
 /// What is known of the moving mass or inertia.
@@ -35,6 +53,7 @@ impl Default for Terms {
             offset: true,
             gravity: false,
             cogging: Vec::new(),
+            delay: Delay::NONE,
         }
     }
 }

@@ -1,8 +1,9 @@
 //! Cost and sensitivities of a trial of the nonlinear unknowns, everything linear solved exactly.
 
-use crate::conditioning::record::Record;
+use crate::conditioning::record::{Record, Segment};
+use crate::conditioning::shift::Shift;
 use crate::law::Law;
-use crate::law::terms::{ColumnKind, LinearTerm, Mass, Terms};
+use crate::law::terms::{ColumnKind, Delay, LinearTerm, Mass, Side, Terms};
 use crate::separable::linear::{self, Solution, dot};
 use crate::separable::recursion::{Trace, trace};
 use nalgebra::{DMatrix, DVector};
@@ -12,18 +13,27 @@ use nalgebra::{DMatrix, DVector};
 pub struct Objective<'a> {
     record: &'a Record,
     law: Law,
+    /// What is known of the delay; where it is fitted it is the last nonlinear unknown, in samples.
+    delay: Delay,
     linear: Vec<LinearTerm>,
     nonnegative: Vec<bool>,
-    /// Columns that no nonlinear unknown changes, at the kept samples; `None` for those it does.
-    fixed: Vec<Option<Vec<f64>>>,
+    /// Columns that no parameter of the law changes; `None` for those that one does.
+    fixed: Vec<Option<Fixed>>,
     /// Measured force.
     force: Vec<f64>,
-    /// Inertia force of a given mass; empty if it is fitted or absent.
-    inertia: Vec<f64>,
-    /// What is left to explain: force minus inertia.
-    target: Vec<f64>,
+    /// A mass that is given, and the acceleration.
+    inertia: Option<(f64, Fixed)>,
     /// Sum of squares of the measured force at the kept samples.
     energy: f64,
+}
+
+/// A known column of the regression.
+#[derive(Clone, Debug)]
+enum Fixed {
+    /// At the kept samples: without a delay it never changes.
+    Thin(Vec<f64>),
+    /// At the full rate, filtered, for each segment: a delay moves it.
+    Full(Vec<Vec<f64>>),
 }
 
 /// One trial.
@@ -53,37 +63,37 @@ impl<'a> Objective<'a> {
     /// The objective of this law with these terms on this record.
     pub fn new(record: &'a Record, law: Law, terms: &Terms) -> Self {
         let linear = terms.columns(&law);
+        let delay = terms.delay;
+        let moves = delay != Delay::NONE;
         let fixed = linear
             .iter()
-            .map(|term| fixed_column(record, term.column))
+            .map(|term| fixed_column(record, term.column, moves))
             .collect();
         let force = record.gather(|s| &s.force);
         let energy = dot(&force, &force);
         let nonnegative = linear.iter().map(|term| term.nonnegative).collect();
-        let inertia: Vec<f64> = match terms.mass {
-            Mass::Given(mass) => record
-                .gather(|s| &s.acceleration)
-                .iter()
-                .map(|a| mass * a)
-                .collect(),
-            Mass::Fitted | Mass::Absent => Vec::new(),
-        };
-        let target = if inertia.is_empty() {
-            force.clone()
-        } else {
-            force.iter().zip(&inertia).map(|(u, f)| u - f).collect()
+        let inertia = match terms.mass {
+            Mass::Given(mass) => {
+                fixed_column(record, ColumnKind::Acceleration, moves).map(|a| (mass, a))
+            }
+            Mass::Fitted | Mass::Absent => None,
         };
         Self {
             record,
             law,
+            delay,
             linear,
             nonnegative,
             fixed,
             force,
             inertia,
-            target,
             energy,
         }
+    }
+
+    /// Number of nonlinear unknowns: those of the law, and the delay where it is one.
+    pub fn nonlinear(&self) -> usize {
+        self.law.nonlinear() + usize::from(self.delay == Delay::Fitted)
     }
 
     /// The record.
@@ -119,16 +129,33 @@ impl<'a> Objective<'a> {
         }
     }
 
-    /// Solves the linear part for the nonlinear unknowns `p` (logarithms, in the order of the law).
+    /// Solves the linear part for the nonlinear unknowns `p`: logarithms in the order of the law, then
+    /// the delay in samples where it is unknown.
     pub fn evaluate(&self, p: &[f64], slopes: bool) -> Evaluation {
         let traces = self.traces(p, slopes);
-        let columns = self.columns(&traces);
+        let shift = self.shift(p);
+        let columns = self.columns(&traces, shift);
         let views: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-        let solution = linear::solve(&views, &self.nonnegative, &self.target);
-        let k = if slopes { self.law.nonlinear() } else { 0 };
+        let solution = match self.inertia_force(shift) {
+            Some(inertia) => {
+                let target: Vec<f64> = self
+                    .force
+                    .iter()
+                    .zip(&inertia)
+                    .map(|(u, f)| u - f)
+                    .collect();
+                linear::solve(&views, &self.nonnegative, &target)
+            }
+            None => linear::solve(&views, &self.nonnegative, &self.force),
+        };
+        let slope_columns = if slopes {
+            self.slopes(&traces, p, &solution.coefficients)
+        } else {
+            Vec::new()
+        };
+        let k = slope_columns.len();
         let mut hessian = DMatrix::zeros(k, k);
         let mut descent = DVector::zeros(k);
-        let slope_columns = self.slopes(&traces, k, &solution.coefficients);
         let mut projected: Vec<Vec<f64>> = Vec::with_capacity(k);
         for (i, d) in slope_columns.iter().enumerate() {
             descent[i] = dot(d, &solution.residual);
@@ -158,13 +185,13 @@ impl<'a> Objective<'a> {
     }
 
     /// Inertia force of a given mass at the kept samples; empty if it is fitted or absent.
-    pub(crate) fn inertia(&self) -> &[f64] {
-        &self.inertia
+    pub(crate) fn inertia(&self, p: &[f64]) -> Vec<f64> {
+        self.inertia_force(self.shift(p)).unwrap_or_default()
     }
 
     /// Model force at the kept samples for given coefficients.
     pub(crate) fn model(&self, p: &[f64], coefficients: &[f64]) -> Vec<f64> {
-        let mut out = self.inertia.clone();
+        let mut out = self.inertia(p);
         out.resize(self.force.len(), 0.0);
         for part in self.parts(p, coefficients) {
             for (y, x) in out.iter_mut().zip(part) {
@@ -176,44 +203,78 @@ impl<'a> Objective<'a> {
 
     /// Every term of the model force at the kept samples, in the order of the linear unknowns.
     pub(crate) fn parts(&self, p: &[f64], coefficients: &[f64]) -> Vec<Vec<f64>> {
-        let mut parts = self.columns(&self.traces(p, false));
+        let mut parts = self.columns(&self.traces(p, false), self.shift(p));
         for (column, c) in parts.iter_mut().zip(coefficients) {
             column.iter_mut().for_each(|x| *x *= c);
         }
         parts
     }
 
-    fn traces(&self, p: &[f64], slopes: bool) -> Vec<Trace> {
-        let segments = self.record.segments.iter();
-        segments
-            .map(|s| trace(&self.law, p, s.step, &s.velocity, slopes))
-            .collect()
+    /// How much earlier the motion stands that belongs to a force.
+    fn shift(&self, p: &[f64]) -> Shift {
+        match (self.delay, p.last()) {
+            (Delay::Fitted, Some(&samples)) => Shift::earlier(samples),
+            (Delay::Fitted, None) => Shift::NONE,
+            (Delay::Given(time), _) if time == 0.0 => Shift::NONE,
+            (Delay::Given(time), _) => Shift::earlier(time / self.record.step()),
+        }
     }
 
-    /// The columns of the regression at the kept samples.
-    fn columns(&self, traces: &[Trace]) -> Vec<Vec<f64>> {
-        let mut own = [Vec::new(), Vec::new()];
-        for (segment, t) in self.record.segments.iter().zip(traces) {
-            // The rate is empty for a static law, and then no column asks for it.
-            let full = vec![t.eta.clone(), t.rate.clone()];
-            for (out, column) in own.iter_mut().zip(self.record.filtered(segment, full)) {
-                out.extend(column);
+    fn inertia_force(&self, shift: Shift) -> Option<Vec<f64>> {
+        let (mass, acceleration) = self.inertia.as_ref()?;
+        let mut force = self.at(acceleration, shift);
+        force.iter_mut().for_each(|a| *a *= mass);
+        Some(force)
+    }
+
+    /// A known column at the kept samples.
+    fn at(&self, column: &Fixed, shift: Shift) -> Vec<f64> {
+        match column {
+            Fixed::Thin(thin) => thin.clone(),
+            Fixed::Full(full) => {
+                let mut out = Vec::with_capacity(self.force.len());
+                for (segment, full) in self.record.segments.iter().zip(full) {
+                    self.record.thin(segment, full, shift, &mut out);
+                }
+                out
             }
         }
-        let [eta, rate] = own;
-        self.linear
-            .iter()
-            .zip(&self.fixed)
-            .map(|(term, fixed)| match (fixed, term.column) {
-                (Some(column), _) => column.clone(),
-                (None, ColumnKind::Rate) => rate.clone(),
-                (None, _) => eta.clone(),
+    }
+
+    fn traces(&self, p: &[f64], slopes: bool) -> Vec<Trace> {
+        let p = &p[..self.law.nonlinear()];
+        let segments = self.record.segments.iter();
+        segments
+            .map(|s| {
+                let mut trace = trace(&self.law, p, s.step, &s.velocity, slopes);
+                self.record.filter(trace.columns_mut());
+                trace
             })
             .collect()
     }
 
-    /// `d(Phi)/dp_i c` of the first `k` unknowns, filtered and thinned like the columns.
-    fn slopes(&self, traces: &[Trace], k: usize, coefficients: &[f64]) -> Vec<Vec<f64>> {
+    /// The columns of the regression at the kept samples.
+    fn columns(&self, traces: &[Trace], shift: Shift) -> Vec<Vec<f64>> {
+        let own = |pick: fn(&Trace) -> &Vec<f64>| {
+            let mut out = Vec::with_capacity(self.force.len());
+            for (segment, t) in self.record.segments.iter().zip(traces) {
+                self.record.thin(segment, pick(t), shift, &mut out);
+            }
+            out
+        };
+        self.linear
+            .iter()
+            .zip(&self.fixed)
+            .map(|(term, fixed)| match (fixed, term.column) {
+                (Some(column), _) => self.at(column, shift),
+                (None, ColumnKind::Rate) => own(|t| &t.rate),
+                (None, _) => own(|t| &t.eta),
+            })
+            .collect()
+    }
+
+    /// `d(Phi)/dp_i c` of every nonlinear unknown, filtered and thinned like the columns.
+    fn slopes(&self, traces: &[Trace], p: &[f64], coefficients: &[f64]) -> Vec<Vec<f64>> {
         let mut c_eta = 0.0;
         let mut c_rate = 0.0;
         for ((term, fixed), &c) in self.linear.iter().zip(&self.fixed).zip(coefficients) {
@@ -223,9 +284,11 @@ impl<'a> Objective<'a> {
                 _ => {}
             }
         }
+        let k = self.law.nonlinear();
+        let shift = self.shift(p);
         let mut out = vec![Vec::with_capacity(self.force.len()); k];
         for (segment, t) in self.record.segments.iter().zip(traces) {
-            let full = (0..k)
+            let mut full: Vec<Vec<f64>> = (0..k)
                 .map(|i| {
                     let mut d: Vec<f64> = t.eta_slope[i].iter().map(|x| c_eta * x).collect();
                     if let Some(rate) = t.rate_slope.get(i) {
@@ -236,48 +299,69 @@ impl<'a> Objective<'a> {
                     d
                 })
                 .collect();
-            for (out, column) in out.iter_mut().zip(self.record.filtered(segment, full)) {
-                out.extend(column);
+            self.record.filter(&mut full);
+            for (out, column) in out.iter_mut().zip(&full) {
+                self.record.thin(segment, column, shift, out);
             }
+        }
+        if self.delay == Delay::Fitted {
+            out.push(self.delay_slope(traces, p, coefficients));
+        }
+        out
+    }
+
+    /// Derivative of the model with respect to the delay, per sample.
+    fn delay_slope(&self, traces: &[Trace], p: &[f64], coefficients: &[f64]) -> Vec<f64> {
+        let slope = Shift::slope(p.last().copied().unwrap_or(0.0));
+        let mut out = vec![0.0; self.force.len()];
+        let mut add = |c: f64, column: Vec<f64>| {
+            for (y, x) in out.iter_mut().zip(column) {
+                *y += c * x;
+            }
+        };
+        for (column, &c) in self.columns(traces, slope).into_iter().zip(coefficients) {
+            add(c, column);
+        }
+        if let Some(inertia) = self.inertia_force(slope) {
+            add(1.0, inertia);
         }
         out
     }
 }
 
-/// A column that does not depend on the nonlinear unknowns; `None` if it does.
-fn fixed_column(record: &Record, column: ColumnKind) -> Option<Vec<f64>> {
-    let from_velocity = |f: &dyn Fn(f64) -> f64| {
-        let mut out = Vec::with_capacity(record.kept());
-        for segment in &record.segments {
-            let full = segment.velocity.iter().map(|&v| f(v)).collect();
-            out.extend(record.filtered(segment, vec![full]).into_iter().flatten());
-        }
-        out
+/// A column that does not depend on the parameters of the law; `None` if it does.
+fn fixed_column(record: &Record, column: ColumnKind, moves: bool) -> Option<Fixed> {
+    let each = |f: fn(f64, f64) -> f64, rate: f64, channel: fn(&Segment) -> &Vec<f64>| {
+        let segments = record.segments.iter();
+        let full = segments.map(|s| channel(s).iter().map(|&x| f(rate, x)).collect());
+        full.collect::<Vec<Vec<f64>>>()
     };
-    match column {
-        ColumnKind::Level | ColumnKind::Rate => None,
-        ColumnKind::Sign(side) => Some(from_velocity(&|v| {
-            if side.selects(v) { v.signum() } else { 0.0 }
-        })),
-        ColumnKind::Speed(side) => Some(from_velocity(&|v| match side {
-            Some(side) if !side.selects(v) => 0.0,
-            _ => v,
-        })),
-        ColumnKind::Acceleration => Some(record.gather(|s| &s.acceleration)),
-        ColumnKind::One => Some(vec![1.0; record.kept()]),
-        ColumnKind::Sine(rate) => Some(
-            record
-                .gather(|s| &s.position)
-                .iter()
-                .map(|x| libm::sin(rate * x))
-                .collect(),
-        ),
-        ColumnKind::Cosine(rate) => Some(
-            record
-                .gather(|s| &s.position)
-                .iter()
-                .map(|x| libm::cos(rate * x))
-                .collect(),
-        ),
+    let select = |side: Option<Side>, f: fn(f64) -> f64| {
+        let segments = record.segments.iter();
+        let chosen = |v: f64| side.is_none_or(|side| side.selects(v));
+        let one = |&v: &f64| if chosen(v) { f(v) } else { 0.0 };
+        let full = segments.map(|s| s.velocity.iter().map(one).collect());
+        full.collect::<Vec<Vec<f64>>>()
+    };
+    let mut full = match column {
+        ColumnKind::Level | ColumnKind::Rate => return None,
+        ColumnKind::Sign(side) => select(Some(side), f64::signum),
+        ColumnKind::Speed(side) => select(side, |v| v),
+        ColumnKind::Acceleration => each(|_, a| a, 1.0, |s| &s.acceleration),
+        ColumnKind::One if !moves => return Some(Fixed::Thin(vec![1.0; record.kept()])),
+        ColumnKind::One => each(|_, _| 1.0, 1.0, |s| &s.velocity),
+        ColumnKind::Sine(rate) => each(|k, x| libm::sin(k * x), rate, |s| &s.position),
+        ColumnKind::Cosine(rate) => each(|k, x| libm::cos(k * x), rate, |s| &s.position),
+    };
+    for column in &mut full {
+        record.filter([column]);
     }
+    if moves {
+        return Some(Fixed::Full(full));
+    }
+    let mut thin = Vec::with_capacity(record.kept());
+    for (segment, full) in record.segments.iter().zip(&full) {
+        record.thin(segment, full, Shift::NONE, &mut thin);
+    }
+    Some(Fixed::Thin(thin))
 }

@@ -27,6 +27,8 @@ const LINE: usize = 16;
 /// One search: an objective on the full record and what is known of the way so far.
 pub(crate) struct Search<'a> {
     pub full: &'a Objective<'a>,
+    /// The same with the delay as one more unknown, where it is one: only the last descent sees it.
+    pub delayed: Option<&'a Objective<'a>>,
     /// A thinned stand-in for the record, where there is one.
     pub thinned: Option<&'a Record>,
     pub law: Law,
@@ -41,17 +43,18 @@ impl<'a> Search<'a> {
         if self.law.nonlinear() == 0 {
             watch.stage = Stage::Fine;
             let found = descend(self.full, bounds, &[], 1, watch);
-            watch.fraction = 1.0;
-            watch.report(self.full.relative(found.evaluation.cost));
-            let status = found.status;
-            return (found, status);
+            return self.finish(bounds, vec![found], watch);
         }
-        let starts = if self.law.layout().ratio.is_some() {
-            self.symmetric_starts(bounds, watch)
-        } else {
-            self.scan_starts(bounds, watch)
+        let inner = match self.delayed {
+            Some(_) => &bounds.without(bounds.len() - 1),
+            None => bounds,
         };
-        let minima = self.short_descents(bounds, &starts, watch);
+        let starts = if self.law.layout().ratio.is_some() {
+            self.symmetric_starts(inner, watch)
+        } else {
+            self.scan_starts(inner, watch)
+        };
+        let minima = self.short_descents(inner, &starts, watch);
         self.finish(bounds, minima, watch)
     }
 
@@ -101,6 +104,7 @@ impl<'a> Search<'a> {
         let inner = bounds.symmetric(&layout);
         let mut search = Search {
             full: &objective,
+            delayed: None,
             thinned: None,
             law,
             iterations: 0,
@@ -203,14 +207,23 @@ impl<'a> Search<'a> {
             .next()
             .filter(|r| r.status == Status::Budget && r.evaluation.cost < close)
             .map(|r| r.p);
-        let own = (best.status == Status::Budget).then(|| best.p.clone());
-        for start in own.into_iter().chain(rival) {
-            if watch.stopped {
+        let open = best.status == Status::Budget || self.delayed.is_some();
+        let own = open.then(|| best.p.clone());
+        let objective = self.delayed.unwrap_or(self.full);
+        for mut start in own.into_iter().chain(rival) {
+            if watch.stopped && best.p.len() == objective.nonlinear() {
                 break;
             }
-            let mut descent = descend(self.full, bounds, &start, self.settings.steps, watch);
+            start.resize(objective.nonlinear(), 0.0);
+            let steps = if watch.stopped {
+                0
+            } else {
+                self.settings.steps
+            };
+            let mut descent = descend(objective, bounds, &start, steps, watch);
             self.iterations += descent.iterations;
-            if descent.evaluation.cost <= best.evaluation.cost {
+            let first = best.p.len() < descent.p.len();
+            if first || descent.evaluation.cost <= best.evaluation.cost {
                 let mut history = std::mem::take(&mut best.history);
                 history.append(&mut descent.history);
                 best = Descent { history, ..descent };
@@ -242,6 +255,7 @@ impl<'a> Search<'a> {
         let own = Objective::new(self.near(), self.law, self.terms);
         let mut search = Search {
             full: &objective,
+            delayed: None,
             thinned: None,
             law,
             iterations: 0,

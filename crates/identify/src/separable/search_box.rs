@@ -4,6 +4,9 @@ use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::law::{Law, Layout};
 
+/// Longest delay between force and motion that is looked for, either way, in samples.
+const MOST_DELAY: f64 = 4.0;
+
 /// Bounds of the nonlinear unknowns, in logarithms and in the order of the law.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SearchBox {
@@ -107,6 +110,14 @@ impl SearchBox {
             low: pick(&self.low),
             high: pick(&self.high),
         }
+    }
+
+    /// The same box with the delay as its last unknown.
+    pub(crate) fn with_delay(&self) -> Self {
+        let mut out = self.clone();
+        out.low.push(-MOST_DELAY);
+        out.high.push(MOST_DELAY);
+        out
     }
 
     /// The same box without one unknown.

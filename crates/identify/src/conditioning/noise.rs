@@ -1,0 +1,55 @@
+//! How noisy a channel is, without knowing the signal.
+
+/// Order of the differences.
+const ORDER: usize = 6;
+/// Sum of the squared weights of a sixth difference.
+const GAIN: f64 = 924.0;
+/// Largest part of the differences that is left out: jumps and gaps are not noise.
+const OUTLIERS: f64 = 0.01;
+
+/// Standard deviation of the white noise of channels that are smooth between samples, from their
+/// sixth differences. Encoder steps passed at speed count as noise, of step/sqrt(12); whatever the
+/// signal itself has near the Nyquist frequency counts too.
+pub(crate) fn deviation<'a>(channels: impl Iterator<Item = &'a [f64]>) -> f64 {
+    let mut squares: Vec<f64> = Vec::new();
+    for channel in channels {
+        let differences = channel.windows(ORDER + 1).map(|x| {
+            let pairs = (x[0] + x[6]) - 6.0 * (x[1] + x[5]) + 15.0 * (x[2] + x[4]);
+            pairs - 20.0 * x[3]
+        });
+        squares.extend(differences.map(|d| d * d));
+    }
+    if squares.is_empty() {
+        return 0.0;
+    }
+    let most = ((1.0 - OUTLIERS) * squares.len() as f64) as usize;
+    let most = most.clamp(1, squares.len());
+    if most < squares.len() {
+        squares.select_nth_unstable_by(most, f64::total_cmp);
+        squares.truncate(most);
+        // A fixed order of summation, whatever the selection left.
+        squares.sort_unstable_by(f64::total_cmp);
+    }
+    (squares.iter().sum::<f64>() / (GAIN * most as f64)).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::deviation;
+
+    #[test]
+    fn encoder_steps_at_speed_are_noise_of_a_step_over_the_root_of_twelve() {
+        let steps: Vec<f64> = (0..20_000)
+            .map(|i| (1e5 * (3e-3 * f64::from(i)).sin()).round())
+            .collect();
+        let found = deviation(std::iter::once(&steps[..]));
+        assert!((found * 12.0_f64.sqrt() - 1.0).abs() < 0.1, "{found}");
+    }
+
+    #[test]
+    fn a_smooth_signal_has_none_and_a_short_one_too() {
+        let smooth: Vec<f64> = (0..1000).map(|i| (0.05 * f64::from(i)).sin()).collect();
+        assert!(deviation(std::iter::once(&smooth[..])) < 1e-9);
+        assert_eq!(deviation(std::iter::once(&smooth[..5])), 0.0);
+    }
+}

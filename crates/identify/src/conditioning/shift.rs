@@ -1,0 +1,129 @@
+//! A channel read between its samples: what a delay between force and motion asks for.
+
+/// Points of the interpolation.
+const POINTS: usize = 6;
+
+/// A shift by a fraction of a sample: reads a channel `samples` earlier.
+///
+/// Lagrange interpolation through six samples. It is exact for polynomials of degree 5; of a component
+/// at a tenth of the sample rate it loses 6e-5, at a twentieth 1e-6.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Shift {
+    /// First of the samples that the interpolation reads, relative to the one asked for.
+    first: isize,
+    weights: [f64; POINTS],
+    /// Where no weight but one counts, the sample that it stands for: the shift is whole.
+    whole: Option<isize>,
+}
+
+impl Shift {
+    /// No shift.
+    pub const NONE: Self = Self {
+        first: 0,
+        weights: [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        whole: Some(0),
+    };
+
+    /// The value `samples` earlier (later, if negative).
+    pub fn earlier(samples: f64) -> Self {
+        let (base, part) = split(samples);
+        Self {
+            first: base - 2,
+            weights: weights(part),
+            whole: (part == 0.0).then_some(base),
+        }
+    }
+
+    /// The derivative of [`earlier`](Self::earlier) with respect to `samples`.
+    pub fn slope(samples: f64) -> Self {
+        let (base, part) = split(samples);
+        Self {
+            first: base - 2,
+            weights: slopes(part).map(|w| -w),
+            whole: None,
+        }
+    }
+
+    /// The shifted channel at sample `at`; beyond the ends the end values go on.
+    #[inline]
+    pub fn at(&self, full: &[f64], at: usize) -> f64 {
+        let last = full.len() as isize - 1;
+        let read = |i: isize| full[(at as isize + i).clamp(0, last) as usize];
+        if let Some(whole) = self.whole {
+            return read(whole);
+        }
+        let start = at as isize + self.first;
+        if start >= 0 && start + (POINTS as isize) <= last + 1 {
+            let start = start as usize;
+            return crate::separable::linear::dot(&full[start..start + POINTS], &self.weights);
+        }
+        (0..POINTS)
+            .map(|i| self.weights[i] * read(self.first + i as isize))
+            .sum()
+    }
+}
+
+/// The sample before the point asked for, relative, and how far beyond it the point stands.
+fn split(samples: f64) -> (isize, f64) {
+    let base = libm::floor(-samples);
+    (base as isize, -samples - base)
+}
+
+/// Lagrange weights of the samples at -2..=3 for a point at `t`, 0 <= t < 1.
+fn weights(t: f64) -> [f64; POINTS] {
+    std::array::from_fn(|i| {
+        let node = i as f64 - 2.0;
+        others(node).map(|x| (t - x) / (node - x)).product()
+    })
+}
+
+/// Derivatives of [`weights`] with respect to `t`.
+fn slopes(t: f64) -> [f64; POINTS] {
+    std::array::from_fn(|i| {
+        let node = i as f64 - 2.0;
+        others(node)
+            .map(|left| {
+                others(node)
+                    .map(|x| {
+                        let top = if x == left { 1.0 } else { t - x };
+                        top / (node - x)
+                    })
+                    .product::<f64>()
+            })
+            .sum()
+    })
+}
+
+fn others(node: f64) -> impl Iterator<Item = f64> {
+    (-2..=3).map(f64::from).filter(move |x| *x != node)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_polynomial_of_degree_five_is_shifted_exactly_with_its_derivative() {
+        let f = |t: f64| 1.0 + t * (0.5 - t * (0.3 + t * (0.02 - t * (0.01 - 0.002 * t))));
+        let full: Vec<f64> = (0..20).map(|i| f(0.3 * f64::from(i))).collect();
+        for samples in [-1.7, -0.5, 0.0, 0.25, 2.0, 2.9] {
+            let (value, slope) = (Shift::earlier(samples), Shift::slope(samples));
+            for at in 6..14 {
+                let t = 0.3 * (at as f64 - samples);
+                let want = (f(t + 1e-5) - f(t - 1e-5)) / 2e-5 * -0.3;
+                assert!((value.at(&full, at) - f(t)).abs() < 1e-11);
+                assert!((slope.at(&full, at) - want).abs() < 1e-8);
+            }
+        }
+    }
+
+    #[test]
+    fn beyond_an_end_the_end_value_goes_on() {
+        let full = [2.0, 2.0, 2.0];
+        for samples in [-40.0, -0.5, 0.0, 0.5, 40.0] {
+            for at in 0..3 {
+                assert!((Shift::earlier(samples).at(&full, at) - 2.0).abs() < 1e-13);
+            }
+        }
+    }
+}

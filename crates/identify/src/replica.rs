@@ -1,0 +1,260 @@
+//! A log like the real one, of an axis whose parameters are known.
+//!
+//! The fitted axis is simulated under the logged force, and a soft spring and damper keep it on the
+//! recorded motion; the force that it then got and the position that it reached, read by an encoder of
+//! the same steps, are a log whose truth is known to the last digit. Refitting it shows what
+//! conditioning and noise do to the parameters: the parametric bootstrap (Efron and Tibshirani 1993,
+//! ISBN 0-412-04231-2, section 6.5) with the recorded motion in place of resampled data.
+
+use crate::conditioning::record::{Record, Samples, Segment};
+use crate::conditioning::shift::Shift;
+use crate::conditioning::{Conditioning, condition};
+use crate::estimate::Estimate;
+use crate::law::terms::{ColumnKind, Delay, Terms};
+use crate::law::{Law, LawKind};
+use crate::observe::Counts;
+use crate::separable::objective::Objective;
+use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
+use stiction_servo::encoder::Encoder;
+use stiction_servo::noise::Noise;
+use stiction_servo::plant::{Load, Motion, Plant};
+
+/// Delay of the force in a replica, samples: it is held from its sample to the next.
+const DELAY: f64 = -0.5;
+/// Seed of the replica without noise of the force.
+const SILENT: u64 = 999;
+/// The spring that keeps the simulated axis on the recorded motion: its frequency over the sample rate.
+const TRACKING: f64 = 0.01;
+
+/// Logs of a known axis.
+pub(crate) struct Replica {
+    /// One log for each segment of the record.
+    pub logs: Vec<Samples>,
+    /// The nonlinear unknowns behind them.
+    pub p: Vec<f64>,
+    /// The terms to fit them with: those of the estimate, with the delay that the replica has.
+    terms: Terms,
+}
+
+/// Simulates the axis of an estimate along its record; `None` for an axis that cannot be simulated:
+/// without inertia, without a bristle, or one that does not follow the recorded motion.
+///
+/// `force_noise` is the standard deviation of the white noise of the logged force.
+pub(crate) fn replica(
+    record: &Record,
+    fitted: &Estimate,
+    force_noise: f64,
+    seed: u64,
+) -> Option<Replica> {
+    let plant = plant(fitted)?;
+    let axis = Axis {
+        record,
+        substeps: substeps(&plant, record.step()),
+        plant,
+        fitted,
+        force_noise,
+        lead: 0.5 + fitted.delay_samples(),
+        stroke: record.stroke(),
+    };
+    let objective = Objective::new(record, fitted.law, &fitted.terms);
+    let mut noise = Noise::new(seed);
+    let mut logs = Vec::with_capacity(record.segments.len());
+    for segment in &record.segments {
+        let other = axis.other(&objective, segment)?;
+        logs.push(axis.run(segment, &other, &mut noise)?);
+    }
+    let mut p = fitted.unknowns().to_vec();
+    let mut terms = fitted.terms.clone();
+    match (terms.delay, p.last_mut()) {
+        (Delay::Fitted, Some(delay)) => *delay = DELAY,
+        _ => terms.delay = Delay::Given(DELAY * record.step()),
+    }
+    Some(Replica { logs, p, terms })
+}
+
+struct Axis<'a> {
+    record: &'a Record,
+    plant: Plant,
+    fitted: &'a Estimate,
+    /// How much later than the start of a step its force was logged, samples.
+    lead: f64,
+    stroke: f64,
+    force_noise: f64,
+    substeps: u32,
+}
+
+impl Axis<'_> {
+    /// The force beside friction and inertia along a segment.
+    fn other(&self, objective: &Objective, segment: &Segment) -> Option<Vec<f64>> {
+        let mut out = vec![0.0; segment.position.len()];
+        for (term, c) in objective.linear().iter().zip(self.fitted.coefficients()) {
+            match term.column {
+                ColumnKind::Level
+                | ColumnKind::Rate
+                | ColumnKind::Speed(_)
+                | ColumnKind::Acceleration => {}
+                ColumnKind::One => out.iter_mut().for_each(|y| *y += c),
+                ColumnKind::Sine(k) => {
+                    for (y, x) in out.iter_mut().zip(&segment.position) {
+                        *y += c * libm::sin(k * x);
+                    }
+                }
+                ColumnKind::Cosine(k) => {
+                    for (y, x) in out.iter_mut().zip(&segment.position) {
+                        *y += c * libm::cos(k * x);
+                    }
+                }
+                ColumnKind::Sign(_) => return None,
+            }
+        }
+        Some(out)
+    }
+
+    fn run(&self, segment: &Segment, other: &[f64], noise: &mut Noise) -> Option<Samples> {
+        let record = self.record;
+        let h = segment.step;
+        let fine = h / f64::from(self.substeps);
+        let n = segment.position.len();
+        let omega = std::f64::consts::TAU * TRACKING / h;
+        let spring = self.plant.mass() * omega * omega;
+        let damper = 1.4 * self.plant.mass() * omega;
+        // Motion that repeats meets the encoder steps at the same places again and again: where they
+        // stand is one more accident of the log.
+        let encoder = Encoder::new(record.resolution.unwrap_or(0.0)).ok()?;
+        let encoder = encoder.with_phase(noise.uniform()).ok()?;
+        // What the steps do not explain of the noise of the position.
+        let steps = encoder.resolution() / 12.0_f64.sqrt();
+        let rest = (record.position_noise * record.position_noise - steps * steps).max(0.0);
+        let rest = if rest > steps * steps {
+            rest.sqrt()
+        } else {
+            0.0
+        };
+        let drive = Shift::earlier(-self.lead);
+        let mut motion = Motion {
+            position: segment.position[0],
+            velocity: segment.velocity[0],
+            deflection: 0.0,
+        };
+        let (mut position, mut force) = (Vec::with_capacity(n), Vec::with_capacity(n));
+        for k in 0..n {
+            let error = segment.position[k] - motion.position;
+            let slip = segment.velocity[k] - motion.velocity;
+            // NaN fails this too.
+            if !(error.abs() <= self.stroke) {
+                return None;
+            }
+            let applied = drive.at(&segment.drive, k) + spring * error + damper * slip;
+            position.push(encoder.read(motion.position + rest * noise.normal()));
+            force.push(applied + self.force_noise * noise.normal());
+            let load = Load::force(applied - other[k]);
+            for _ in 0..self.substeps {
+                motion = self.plant.step(motion, fine, load).motion;
+            }
+        }
+        Some(Samples {
+            time: (0..n).map(|k| k as f64 * h).collect(),
+            position: Some(position),
+            velocity: None,
+            force,
+            valid: segment.valid.clone(),
+            breaks: Vec::new(),
+        })
+    }
+}
+
+/// Plant steps in a sample: the implicit midpoint is off by a twelfth of `(h omega)^2` in the frequency
+/// of the mass on its bristles, which is to be a small part of a percent.
+fn substeps(plant: &Plant, h: f64) -> u32 {
+    let omega = (plant.law().stiffness() / plant.mass()).sqrt();
+    (h * omega / 0.05).ceil().clamp(1.0, 8.0) as u32
+}
+
+/// The plant of an estimate, friction as the friction crate defines it.
+fn plant(fitted: &Estimate) -> Option<Plant> {
+    let Law {
+        kind,
+        asymmetric,
+        exponent,
+    } = fitted.law;
+    if !matches!(kind, LawKind::Dahl | LawKind::LuGre) {
+        return None;
+    }
+    let value = |name: &str| fitted.value(name);
+    let side = |suffix: &str| {
+        let suffix = if asymmetric { suffix } else { "" };
+        let read = |stem: &str| value(&format!("{stem}{suffix}"));
+        let coulomb = read("coulomb")?;
+        Some(Direction {
+            coulomb,
+            static_friction: read("static").unwrap_or(coulomb),
+            stribeck_velocity: read("stribeck_velocity").unwrap_or(1.0),
+            viscous: read("sigma2")?,
+        })
+    };
+    let shape = if exponent == 2.0 {
+        Shape::Gaussian
+    } else {
+        Shape::Power(exponent)
+    };
+    let curve = Stribeck::new(shape, side("_pos")?, side("_neg")?, 0.0).ok()?;
+    let damping = Damping::Constant(value("sigma1").unwrap_or(0.0));
+    let law = LuGre::new(value("sigma0")?, damping, curve).ok()?;
+    Plant::new(value("mass")?, law).ok()
+}
+
+/// Unknowns and coefficients that a fit of a replica finds, from its truth in `steps` Gauss-Newton
+/// steps: the errors are small, so one shows them to first order, two all but exactly.
+pub(crate) fn refitted(
+    replica: &Replica,
+    conditioning: &Conditioning,
+    fitted: &Estimate,
+    steps: usize,
+    counts: &mut Counts,
+) -> Option<Refit> {
+    let record = condition(&replica.logs, conditioning).ok()?;
+    let objective = Objective::new(&record, fitted.law, &replica.terms);
+    let mut p = replica.p.clone();
+    for _ in 0..steps {
+        let at = objective.evaluate(&p, true);
+        counts.sensitivities += 1;
+        let step = at.hessian.cholesky()?.solve(&at.descent);
+        for (x, d) in p.iter_mut().zip(step.iter()) {
+            *x += d.clamp(-1.0, 1.0);
+        }
+    }
+    let at = objective.evaluate(&p, false);
+    counts.cost += 1;
+    let refit = Refit {
+        p,
+        square: at.cost / at.residual().len().max(1) as f64,
+        c: at.solution.coefficients,
+    };
+    let finite = |x: &[f64]| x.iter().all(|x| x.is_finite());
+    (finite(&refit.p) && finite(&refit.c) && refit.square.is_finite()).then_some(refit)
+}
+
+/// What a fit of a replica finds.
+pub(crate) struct Refit {
+    /// Nonlinear unknowns.
+    pub p: Vec<f64>,
+    /// Linear ones.
+    pub c: Vec<f64>,
+    /// Mean square of the residual.
+    square: f64,
+}
+
+/// White noise of the logged force that the residual of a fit shows: what a replica without any does
+/// not leave. The logged force itself does not tell, because a controller answers every step of its
+/// encoder with a force that the axis did get.
+pub(crate) fn force_noise(
+    record: &Record,
+    conditioning: &Conditioning,
+    fitted: &Estimate,
+    counts: &mut Counts,
+) -> Option<f64> {
+    let quiet = replica(record, fitted, 0.0, SILENT)?;
+    let refit = refitted(&quiet, conditioning, fitted, 1, counts)?;
+    let left = (fitted.fit.rmse * fitted.fit.rmse - refit.square).max(0.0);
+    Some((left / record.noise_gain()).sqrt())
+}
