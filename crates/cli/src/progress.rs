@@ -38,6 +38,8 @@ impl Observer for Bar {
             self.stage = Some(progress.stage);
             self.bar.reset();
             self.bar.set_prefix(match progress.stage {
+                Stage::Tuning => "choosing cut-offs",
+                Stage::Calibration => "measuring the bias",
                 Stage::Scan => "scanning the box",
                 Stage::Coarse => "first descents",
                 Stage::Fine => "least squares",

@@ -3,7 +3,9 @@
 //! Each sample runs 1000 steps along a sine through its reversals; the item rate that divan prints is steps per second.
 
 use divan::{Bencher, black_box, counter::ItemsCount};
-use stiction_friction::{Damping, Direction, LuGre, Real, Shape, Stribeck};
+use stiction_friction::{
+    Damping, Direction, ElastoPlastic, Element, Elements, Gms, LuGre, Real, Shape, Stribeck,
+};
 
 const STEPS: usize = 1000;
 const H: f64 = 250e-6;
@@ -43,6 +45,39 @@ fn step_record(bencher: Bencher, shape: &str) {
         black_box(&v)
             .windows(2)
             .fold(0.0, |z, ends| law.step_record(z, H, ends[0], ends[1]))
+    });
+}
+
+/// The elasto-plastic record step; a part of the sine is elastic, the rest takes four stages.
+#[divan::bench]
+fn step_record_elasto_plastic(bencher: Bencher) {
+    let law = ElastoPlastic::new(law("gaussian", Damping::Constant(600.0)), 0.7)
+        .expect("parameters of the bench");
+    let v = velocity();
+    bencher.counter(ItemsCount::new(STEPS)).bench(|| {
+        black_box(&v)
+            .windows(2)
+            .fold(0.0, |z, ends| law.step_record(z, H, ends[0], ends[1]))
+    });
+}
+
+/// The record step of Maxwell slip with `N` elements.
+#[divan::bench(consts = [1, 4, 10])]
+fn step_record_gms<const N: usize>(bencher: Bencher) {
+    let curve = *law("gaussian", Damping::Constant(600.0)).curve();
+    let elements = std::array::from_fn(|i| Element {
+        stiffness: 1e5 / (i + 1) as f64,
+        share: 1.0,
+    });
+    let law = Gms::<f64, N>::new(elements, 400.0, 0.0, curve).expect("parameters of the bench");
+    let v = velocity();
+    bencher.counter(ItemsCount::new(STEPS)).bench(|| {
+        black_box(&v)
+            .windows(2)
+            .fold(Elements::default(), |at, ends| {
+                law.step_record(at, H, ends[0], ends[1])
+            })
+            .total()
     });
 }
 

@@ -6,6 +6,8 @@
 //! | type | memory | use |
 //! |---|---|---|
 //! | [`LuGre`] | bristle deflection z | presliding, Stribeck, frictional lag, stick-slip |
+//! | [`ElastoPlastic`] | z | the same without creep below break-away |
+//! | [`Gms`] | one force an element | presliding with non-local memory, Stribeck, frictional lag |
 //! | [`Dahl`] | z | presliding and Coulomb only |
 //! | [`Stribeck`] | none | the steady curve, any [`Shape`], either direction its own |
 //! | [`CoulombViscous`] | none | the plainest law |
@@ -63,6 +65,25 @@
 //! # Ok::<(), stiction_friction::ParamError>(())
 //! ```
 //!
+//! The laws with other memory step in the same way; [`Held`] is what a simulated axis needs of any of them:
+//!
+//! ```
+//! # use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
+//! # let both = Direction { coulomb: 20.0, static_friction: 30.0, stribeck_velocity: 5e-3, viscous: 60.0 };
+//! # let curve = Stribeck::symmetric(Shape::Gaussian, both, 0.0)?;
+//! # let lugre = LuGre::new(1.2e5, Damping::Constant(600.0), curve)?;
+//! use stiction_friction::{ElastoPlastic, Element, Elements, Gms};
+//!
+//! let law = ElastoPlastic::new(lugre, 0.7)?; // elastic up to 0.7 Fs
+//! assert_eq!(law.step_record(0.0, 1e-3, 0.05, 0.05), 0.05 * 1e-3); // 6 N: the deflection is the path
+//!
+//! let element = |stiffness, share| Element { stiffness, share }; // N/m, part of the friction level
+//! let law = Gms::new([element(8e5, 0.4), element(2e5, 0.6)], 1e3, 600.0, curve)?;
+//! let at = law.step_record(Elements::default(), 1e-3, 0.0, 0.02); // 10 um in all
+//! assert_eq!(at.force, [8.0, 2.0]);
+//! # Ok::<(), stiction_friction::ParamError>(())
+//! ```
+//!
 //! Laws without memory:
 //!
 //! ```
@@ -86,8 +107,11 @@
 
 mod dahl;
 mod damping;
+mod elasto_plastic;
 mod error;
 pub mod explicit;
+mod gms;
+mod held;
 mod lugre;
 mod real;
 mod realtime;
@@ -98,7 +122,10 @@ mod stribeck;
 
 pub use dahl::Dahl;
 pub use damping::Damping;
+pub use elasto_plastic::ElastoPlastic;
 pub use error::ParamError;
+pub use gms::{Element, Elements, Gms, GmsState};
+pub use held::Held;
 pub use lugre::LuGre;
 pub use real::Real;
 pub use realtime::State;

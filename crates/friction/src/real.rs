@@ -57,6 +57,8 @@ pub trait Real:
     fn exp(self) -> Self;
     /// `exp(self) - 1` without loss of digits near 0.
     fn expm1(self) -> Self;
+    /// Sine of an angle in rad.
+    fn sin(self) -> Self;
     /// Hyperbolic tangent.
     fn tanh(self) -> Self;
     /// Self to the power of `exponent`.
@@ -64,7 +66,7 @@ pub trait Real:
 }
 
 macro_rules! real {
-    ($t:ident, $series_below:literal, $sqrt:ident, $exp:ident, $expm1:ident, $tanh:ident, $pow:ident) => {
+    ($t:ident, $series_below:literal, $sqrt:ident, $exp:ident, $expm1:ident, $sin:ident, $tanh:ident, $pow:ident) => {
         impl Real for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -108,6 +110,10 @@ macro_rules! real {
                 libm::$expm1(self)
             }
             #[inline]
+            fn sin(self) -> Self {
+                libm::$sin(self)
+            }
+            #[inline]
             fn tanh(self) -> Self {
                 libm::$tanh(self)
             }
@@ -119,5 +125,5 @@ macro_rules! real {
     };
 }
 
-real!(f32, 0.2, sqrtf, expf, expm1f, tanhf, powf);
-real!(f64, 0.01, sqrt, exp, expm1, tanh, pow);
+real!(f32, 0.2, sqrtf, expf, expm1f, sinf, tanhf, powf);
+real!(f64, 0.01, sqrt, exp, expm1, sin, tanh, pow);

@@ -89,7 +89,7 @@ impl<T: Real> LuGre<T> {
     /// whole length, and where a bristle unloads that is the smallest force of the sample: up to 13 % of Fs |v| h would
     /// be missing. So the balance of the sample itself is kept: work done on the law >= growth of sigma0 z^2/2.
     #[inline]
-    fn sampled_cap(&self, z: T, end: T, rate: T, v: T) -> T {
+    pub(crate) fn sampled_cap(&self, z: T, end: T, rate: T, v: T) -> T {
         let returned = -(rate * v);
         if returned <= T::ZERO {
             return T::MAX;
@@ -114,7 +114,7 @@ impl<T: Real> LuGre<T> {
     }
 
     #[inline]
-    fn clamp(&self, z: T) -> T {
+    pub(crate) fn clamp(&self, z: T) -> T {
         z.max(-self.bound()).min(self.bound())
     }
 }

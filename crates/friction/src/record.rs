@@ -51,7 +51,7 @@ impl<T: Real> LuGre<T> {
 
 /// `1 + e/a` for `e = expm1(-a)`, `a >= 0`: the share of the linear run that the deflection follows, in 0..1.
 #[inline]
-fn one_plus_ratio<T: Real>(a: T, e: T) -> T {
+pub(crate) fn one_plus_ratio<T: Real>(a: T, e: T) -> T {
     if a >= T::SERIES_BELOW {
         return T::ONE + e / a;
     }

@@ -6,56 +6,6 @@ use common::*;
 use proptest::prelude::*;
 use stiction_friction::{CoulombViscous, Damping, LuGre, Shape, State, Stribeck};
 
-/// Usual velocities, 1e-7 to 1 m/s, of either sign.
-fn motion() -> impl Strategy<Value = Vec<f64>> {
-    prop::collection::vec(
-        (-7.0..0.0_f64, any::<bool>())
-            .prop_map(|(e, up)| if up { 10f64.powf(e) } else { -10f64.powf(e) }),
-        2..30,
-    )
-}
-
-/// The same law seen from the other side: directions exchanged, offset turned.
-fn mirrored(law: &LuGre<f64>) -> LuGre<f64> {
-    let c = law.curve();
-    let curve = Stribeck::new(c.shape(), *c.negative(), *c.positive(), -c.offset()).unwrap();
-    LuGre::new(law.stiffness(), law.damping(), curve).unwrap()
-}
-
-fn scaled_damping(d: Damping<f64>, by: f64, velocity_by: f64) -> Damping<f64> {
-    match d {
-        Damping::Constant(s) => Damping::Constant(s * by),
-        Damping::Capped(s) => Damping::Capped(s * by),
-        Damping::Olsson { sigma1, velocity } => Damping::Olsson {
-            sigma1: sigma1 * by,
-            velocity: velocity * velocity_by,
-        },
-    }
-}
-
-/// The law in other units of force, length and time.
-fn in_units(law: &LuGre<f64>, force: f64, length: f64, time: f64) -> LuGre<f64> {
-    let speed = length / time;
-    let c = law.curve();
-    let side = |d: &stiction_friction::Direction<f64>| {
-        direction(
-            d.coulomb * force,
-            d.static_friction * force,
-            d.stribeck_velocity * speed,
-            d.viscous * force / speed,
-        )
-    };
-    let curve = Stribeck::new(
-        c.shape(),
-        side(c.positive()),
-        side(c.negative()),
-        c.offset() * force,
-    )
-    .unwrap();
-    let damping = scaled_damping(law.damping(), force / speed, speed);
-    LuGre::new(law.stiffness() * force / length, damping, curve).unwrap()
-}
-
 /// Deflections and forces of all forms along a motion.
 fn run(law: &LuGre<f64>, h: f64, motion: &[f64]) -> Vec<(f64, f64)> {
     let (mut z, mut state) = (0.0, law.rest());

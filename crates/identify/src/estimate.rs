@@ -30,7 +30,8 @@ pub struct Parameter {
     pub value: f64,
     /// Standard deviation with correlated residuals counted; `None` where the data say nothing.
     pub std: Option<f64>,
-    /// 95 % interval (log-normal for parameters that are positive by nature); `None` where the data
+    /// 95 % interval (log-normal for parameters that are positive by nature, normal in the
+    /// logarithm of the odds for shares); `None` where the data
     /// bound it on no side.
     pub ci95: Option<(f64, f64)>,
     /// What was added to the least-squares value to undo the bias of conditioning and noise; 0 if
@@ -329,7 +330,13 @@ fn describe(p: &Physical, variance: f64, optimum: &Optimum, level: f64, step: f6
         reason = format!("standard deviation {:.0} % of {of}{what}", 100.0 * r);
     }
     let ci95 = std.and_then(|s| {
-        if p.positive {
+        if p.share {
+            // Normal in the logarithm of the odds, so that it stays between 0 and 1.
+            let odds = p.value / (1.0 - p.value);
+            let r = s / (p.value * (1.0 - p.value));
+            let at = |x: f64| 1.0 / (1.0 + libm::exp(-x) / odds);
+            (r.is_finite() && r * Q95 <= 4.0).then(|| (at(-Q95 * r), at(Q95 * r)))
+        } else if p.positive {
             let r = s / p.value;
             // Wider than a factor of e^4 to each side, the data bound it on no side.
             (r.is_finite() && r * Q95 <= 4.0)

@@ -14,15 +14,18 @@ pub enum LawKind {
     Dahl,
     /// Canudas de Wit et al. 1995, doi 10.1109/9.376053.
     LuGre,
+    /// LuGre that does not creep below break-away: Dupont et al. 2002, doi 10.1109/TAC.2002.1000274.
+    ElastoPlastic,
 }
 
 impl LawKind {
     /// All families, from the simplest to the richest.
-    pub const ALL: [LawKind; 4] = [
+    pub const ALL: [LawKind; 5] = [
         LawKind::CoulombViscous,
         LawKind::Stribeck,
         LawKind::Dahl,
         LawKind::LuGre,
+        LawKind::ElastoPlastic,
     ];
 
     /// Name as typed on the command line and written to files.
@@ -32,6 +35,7 @@ impl LawKind {
             LawKind::Stribeck => "stribeck",
             LawKind::Dahl => "dahl",
             LawKind::LuGre => "lugre",
+            LawKind::ElastoPlastic => "elasto-plastic",
         }
     }
 
@@ -42,12 +46,23 @@ impl LawKind {
 
     /// Whether the law has a bristle, and so memory and a stiffness.
     pub fn has_bristle(self) -> bool {
-        matches!(self, LawKind::Dahl | LawKind::LuGre)
+        matches!(
+            self,
+            LawKind::Dahl | LawKind::LuGre | LawKind::ElastoPlastic
+        )
     }
 
     /// Whether the friction level falls with speed.
     pub fn has_stribeck(self) -> bool {
-        matches!(self, LawKind::Stribeck | LawKind::LuGre)
+        matches!(
+            self,
+            LawKind::Stribeck | LawKind::LuGre | LawKind::ElastoPlastic
+        )
+    }
+
+    /// Whether the bristle has a micro-damping.
+    pub fn has_micro_damping(self) -> bool {
+        matches!(self, LawKind::LuGre | LawKind::ElastoPlastic)
     }
 }
 
@@ -110,11 +125,13 @@ impl Law {
         let ratio = next(two);
         let excess_neg = next(two && curve);
         let velocity_neg = next(two && curve);
+        let breakaway = next(self.kind == LawKind::ElastoPlastic);
         Layout {
             kappa,
             excess: [excess_pos, if two { excess_neg } else { excess_pos }],
             velocity: [velocity_pos, if two { velocity_neg } else { velocity_pos }],
             ratio,
+            breakaway,
             count,
         }
     }
@@ -131,6 +148,15 @@ pub(crate) struct Layout {
     pub velocity: [Option<usize>; 2],
     /// `ln (Fc- / Fc+)`.
     pub ratio: Option<usize>,
+    /// `ln (b/(1 - b))`, b = z_ba/z_ss, of an elasto-plastic bristle.
+    pub breakaway: Option<usize>,
     /// How many there are.
     pub count: usize,
+}
+
+/// The share, between 0 and 1, of these odds in logarithms, and its derivative.
+pub(crate) fn share_of_odds(odds: f64) -> (f64, f64) {
+    let share = 1.0 / (1.0 + libm::exp(-odds));
+    let rest = 1.0 / (1.0 + libm::exp(odds));
+    (share, share * rest)
 }

@@ -1,5 +1,7 @@
 //! The separable method: scan the box, descend from the best points, finish on the full record.
 
+pub(crate) mod dual;
+pub(crate) mod elasto_plastic;
 pub(crate) mod levenberg;
 pub(crate) mod linear;
 pub(crate) mod objective;

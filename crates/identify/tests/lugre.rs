@@ -163,6 +163,8 @@ fn gradient_matches_finite_differences() {
                 (LawKind::Dahl, true) => &[8.2, 0.1],
                 (LawKind::Stribeck, false) => &[-0.5, -5.0],
                 (LawKind::Stribeck, true) => &[-0.5, -5.0, 0.1, -0.8, -4.8],
+                (LawKind::ElastoPlastic, false) => &[8.2, -0.5, -5.0, 0.4],
+                (LawKind::ElastoPlastic, true) => &[8.2, -0.5, -5.0, 0.1, -0.8, -4.8, 0.4],
                 (_, false) => &[8.2, -0.5, -5.0],
                 (_, true) => &[8.2, -0.5, -5.0, 0.1, -0.8, -4.8],
             };

@@ -2,7 +2,7 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`plant`] | a mass with LuGre friction under a force or a spring |
+//! | [`plant`] | a mass with friction, of any law, under a force or a spring |
 //! | [`cascade`] | the controller: P in position, PI in speed, feedforward, force limit |
 //! | [`encoder`] | the position sensor with its steps |
 //! | [`path`] | reference motions |

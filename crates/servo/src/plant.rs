@@ -1,23 +1,23 @@
 //! A mass with friction, driven by a force: the implicit-midpoint step MID.
 
-use stiction_friction::{Damping, LuGre, ParamError};
+use stiction_friction::{Held, LuGre, ParamError};
 
-/// A mass (inertia) on a guide with LuGre friction.
+/// A mass (inertia) on a guide with friction: LuGre unless said otherwise, any law that is [`Held`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plant {
+pub struct Plant<L = LuGre<f64>> {
     mass: f64,
-    law: LuGre<f64>,
+    law: L,
 }
 
 /// Where the axis is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Motion {
+pub struct Motion<S = f64> {
     /// Position, m (rad).
     pub position: f64,
     /// Velocity, m/s (rad/s).
     pub velocity: f64,
-    /// Bristle deflection, m (rad).
-    pub deflection: f64,
+    /// Bristle deflection, m (rad), or what else the law remembers.
+    pub deflection: S,
 }
 
 /// The force on the axis over one step: `force - stiffness * position`.
@@ -43,9 +43,9 @@ impl Load {
 
 /// What one step led to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step {
+pub struct Step<S = f64> {
     /// The motion at the end of the step.
-    pub motion: Motion,
+    pub motion: Motion<S>,
     /// Mean velocity over the step, m/s (rad/s): the position moved by `h` times this.
     pub mean_velocity: f64,
     /// Mean friction force over the step, N (N m), offset included.
@@ -54,9 +54,9 @@ pub struct Step {
     pub evaluations: u32,
 }
 
-impl Plant {
+impl<L: Held<f64>> Plant<L> {
     /// `mass` in kg (kg m^2), finite and > 0.
-    pub fn new(mass: f64, law: LuGre<f64>) -> Result<Self, ParamError> {
+    pub fn new(mass: f64, law: L) -> Result<Self, ParamError> {
         ParamError::positive("mass", mass)?;
         Ok(Plant { mass, law })
     }
@@ -67,13 +67,13 @@ impl Plant {
     }
 
     /// The friction law.
-    pub fn law(&self) -> &LuGre<f64> {
+    pub fn law(&self) -> &L {
         &self.law
     }
 
     /// Advances `from` by `h` > 0 seconds under `load`.
     ///
-    /// MID: implicit midpoint in velocity and position, the exponential map in the bristle at the mean velocity w,
+    /// MID: implicit midpoint in velocity and position, the law's own step at the mean velocity w, for LuGre
     /// ```text
     /// 2 M (w - v)/h = u(t + h/2, x + h w/2) - [sigma0 (z + z+(w))/2 + sigma1 (z+(w) - z)/h + sigma2 w + F0]
     /// x+ = x + h w,  v+ = 2 w - v
@@ -82,7 +82,7 @@ impl Plant {
     /// damp what is too fast for the step: keep `h sqrt(sigma0/M)` below about 2.
     ///
     /// A load that is not finite gives a motion that is not.
-    pub fn step(&self, from: Motion, h: f64, load: Load) -> Step {
+    pub fn step(&self, from: Motion<L::State>, h: f64, load: Load) -> Step<L::State> {
         let balance = Balance {
             plant: self,
             from,
@@ -90,7 +90,7 @@ impl Plant {
             load,
         };
         let (w, evaluations) = balance.solve();
-        let end = self.law.step_held(from.deflection, h, w);
+        let end = self.law.hold(from.deflection, h, w);
         let motion = Motion {
             position: from.position + h * w,
             velocity: 2.0 * w - from.velocity,
@@ -99,13 +99,9 @@ impl Plant {
         Step {
             motion,
             mean_velocity: w,
-            friction: self.mean_friction(from.deflection, end, h, w),
+            friction: self.law.mean_force(from.deflection, end, h, w),
             evaluations,
         }
-    }
-
-    fn mean_friction(&self, z: f64, end: f64, h: f64, w: f64) -> f64 {
-        self.law.force_at_rate(0.5 * (z + end), (end - z) / h, w)
     }
 }
 
@@ -113,14 +109,14 @@ impl Plant {
 const MOST_EVALUATIONS: u32 = 200;
 
 /// The force balance of one step as an equation for the mean velocity.
-struct Balance<'a> {
-    plant: &'a Plant,
-    from: Motion,
+struct Balance<'a, L: Held<f64>> {
+    plant: &'a Plant<L>,
+    from: Motion<L::State>,
     h: f64,
     load: Load,
 }
 
-impl Balance<'_> {
+impl<L: Held<f64>> Balance<'_, L> {
     /// Inertia and friction less drive at the mean velocity `w`, and the derivative.
     fn at(&self, w: f64) -> (f64, f64) {
         let Balance {
@@ -129,18 +125,11 @@ impl Balance<'_> {
             h,
             load,
         } = *self;
-        let law = &plant.law;
-        let (end, end_slope) = law.step_held_slope(from.deflection, h, w);
-        let rate = (end - from.deflection) / h;
+        let (friction, friction_slope) = plant.law.mean_force_slope(from.deflection, h, w);
         let inertia = 2.0 * plant.mass / h;
         let drive = load.force - load.stiffness * (from.position + 0.5 * h * w);
-        let excess =
-            inertia * (w - from.velocity) + plant.mean_friction(from.deflection, end, h, w) - drive;
-        let slope = inertia
-            + 0.5 * h * load.stiffness
-            + end_slope * (0.5 * law.stiffness() + law.micro_damping(w) / h)
-            + rate * damping_slope(law, w)
-            + law.curve().direction(w).viscous;
+        let excess = inertia * (w - from.velocity) + friction - drive;
+        let slope = inertia + 0.5 * h * load.stiffness + friction_slope;
         (excess, slope)
     }
 
@@ -149,8 +138,7 @@ impl Balance<'_> {
         let law = &self.plant.law;
         let inertia = 2.0 * self.plant.mass / self.h;
         // Whatever w is, the bristle contributes no more than this; the viscous part and the spring only brake.
-        let bristle =
-            law.stiffness() * law.bound() + law.damping().at_rest() * 2.0 * law.bound() / self.h;
+        let bristle = law.reach(self.h);
         let drive =
             self.load.force - self.load.stiffness * self.from.position - law.curve().offset();
         let free =
@@ -176,7 +164,8 @@ impl Balance<'_> {
             if moves <= 1e-8 * w.abs() + negligible {
                 return (newton, count);
             }
-            let shut = high - low <= 4.0 * f64::EPSILON * w.abs();
+            // At standstill the force of a law may jump, as where slipping elements come to stick.
+            let shut = high - low <= (4.0 * f64::EPSILON * w.abs()).max(1e-3 * negligible);
             if shut {
                 return (w, count);
             }
@@ -186,18 +175,5 @@ impl Balance<'_> {
             w = next;
         }
         (w, MOST_EVALUATIONS)
-    }
-}
-
-/// Derivative of sigma1 in velocity; a difference will do where it only steers Newton's method.
-fn damping_slope(law: &LuGre<f64>, w: f64) -> f64 {
-    match law.damping() {
-        Damping::Constant(_) => 0.0,
-        _ => {
-            let d = 1e-6
-                * w.abs()
-                    .max(1e-6 * law.curve().direction(w).stribeck_velocity);
-            (law.micro_damping(w + d) - law.micro_damping(w - d)) / (2.0 * d)
-        }
     }
 }

@@ -1,6 +1,7 @@
 //! The 1995 experiments that need a mass (doi 10.1109/9.376053). The expected values come from an adaptive Radau integration
 //! at a relative tolerance of 1e-9 to 1e-10, not from this crate.
 
+use stiction_friction::{Damping, ElastoPlastic, Element, Gms, Held};
 use stiction_servo::known;
 use stiction_servo::plant::{Load, Motion, Plant};
 
@@ -147,10 +148,8 @@ fn stick_slip() {
     close("x(40)", at[4], 3.306801, 1e-3);
 }
 
-/// G: drift. A force that oscillates below the static level moves a LuGre block slowly, which a real one does not.
-#[test]
-fn drift_below_break_away() {
-    let plant = block();
+/// Positions every second under G's force, .9 + .3 sin(2 pi t) N, up to 20 s.
+fn under_oscillating_force<L: Held<f64>>(plant: &Plant<L>) -> Vec<f64> {
     let h = 1e-4;
     let force = |t: f64| 0.9 + 0.3 * libm::sin(2.0 * std::f64::consts::PI * t);
     let mut m = Motion::default();
@@ -163,5 +162,46 @@ fn drift_below_break_away() {
             .step(m, h, Load::force(force((k as f64 + 0.5) * h)))
             .motion;
     }
+    at
+}
+
+/// G: drift. A force that oscillates below the static level moves a LuGre block slowly, which a real one does not.
+#[test]
+fn drift_below_break_away() {
+    let at = under_oscillating_force(&block());
     close("drift", (at[20] - at[10]) / 10.0, 12.75e-6, 1e-3);
+}
+
+/// G with bristles that are elastic up to 1.35 N = .9 Fs: the block stays (Dupont et al. 2002,
+/// doi 10.1109/TAC.2002.1000274, is about this). Position and deflection are the same number, bit for bit.
+#[test]
+fn an_elasto_plastic_block_does_not_drift() {
+    let axis = known::find("C95").unwrap();
+    let law = ElastoPlastic::new(axis.law, 0.9).unwrap();
+    let at = under_oscillating_force(&Plant::new(axis.mass, law).unwrap());
+    // Held by the spring alone at the mean force, .9 N/1e5 N/m, at every full second.
+    close("position", at[20], 9e-6, 1e-2);
+    for second in 2..20 {
+        // Steps of 1e-4 s hit the same phases each second to rounding.
+        let moved = at[second + 1] - at[second];
+        assert!(moved.abs() < 1e-18, "{second} s: {moved} m");
+    }
+    // Above break-away it is no longer elastic: the same block with .5 Fs creeps on.
+    let weak = ElastoPlastic::new(axis.law, 0.5).unwrap();
+    let at = under_oscillating_force(&Plant::new(axis.mass, weak).unwrap());
+    assert!((at[20] - at[10]) / 10.0 > 1e-6, "{}", at[20] - at[10]);
+}
+
+/// G with Maxwell slip: after the first swing the hysteresis loop closes, nothing drifts.
+#[test]
+fn a_maxwell_slip_block_does_not_drift() {
+    let axis = known::find("C95").unwrap();
+    let element = |stiffness, share| Element { stiffness, share };
+    let elements = [element(6e4, 0.3), element(3e4, 0.4), element(1e4, 0.3)];
+    let Damping::Constant(sigma1) = axis.law.damping() else {
+        panic!("C95 has a constant sigma1");
+    };
+    let law = Gms::new(elements, f64::INFINITY, sigma1, *axis.law.curve()).unwrap();
+    let at = under_oscillating_force(&Plant::new(axis.mass, law).unwrap());
+    assert!((at[20] - at[10]).abs() < 1e-12, "{:?}", at);
 }

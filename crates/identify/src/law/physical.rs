@@ -1,7 +1,7 @@
 //! From the unknowns of the search to the parameters of the law.
 
-use crate::law::Law;
 use crate::law::terms::LinearTerm;
+use crate::law::{Law, share_of_odds};
 use nalgebra::DMatrix;
 
 /// What a parameter measures; with the units of force and motion this gives its unit.
@@ -36,6 +36,8 @@ pub(crate) struct Physical {
     /// Linear unknown that sets this parameter, if any.
     pub linear: Option<usize>,
     pub positive: bool,
+    /// Whether it is a share, between 0 and 1.
+    pub share: bool,
 }
 
 /// All identified parameters of a law at the unknowns `p`, `c`; `step` is the sample time, s.
@@ -71,6 +73,7 @@ pub(crate) fn physical(
             nonlinear,
             linear,
             positive,
+            share: false,
         });
     };
     let unit = |i: usize, x: f64| {
@@ -178,19 +181,33 @@ pub(crate) fn physical(
             false,
         );
     }
+    if let Some(i) = layout.breakaway {
+        let (value, slope) = share_of_odds(p[i]);
+        out.push(Physical {
+            name: "breakaway_ratio".into(),
+            dimension: Dimension::One,
+            value,
+            slope: unit(i, slope),
+            nonlinear: Some(i),
+            linear: None,
+            positive: true,
+            share: true,
+        });
+    }
     out.sort_by_key(|parameter| rank(&parameter.name));
     out
 }
 
 /// Order of parameters in tables and files.
 fn rank(name: &str) -> usize {
-    const ORDER: [&str; 9] = [
+    const ORDER: [&str; 10] = [
         "sigma0",
         "sigma1",
         "sigma2",
         "coulomb",
         "static",
         "stribeck_velocity",
+        "breakaway_ratio",
         "mass",
         "offset",
         "delay",

@@ -121,7 +121,7 @@ impl Terms {
         } else {
             push("coulomb", ColumnKind::Level, true);
         }
-        if law.kind == LawKind::LuGre {
+        if law.kind.has_micro_damping() {
             push("sigma1", ColumnKind::Rate, true);
         }
         if law.asymmetric {

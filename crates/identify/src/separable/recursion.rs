@@ -4,13 +4,14 @@
 //! `eta = s0 z / Fc` and differentiated by hand with respect to every nonlinear unknown; the
 //! friction crate is the oracle it is tested against.
 
-use crate::law::{Law, Layout};
+use crate::law::{Law, LawKind, Layout};
+use crate::separable::elasto_plastic;
 use libm::{exp, expm1, fabs, pow};
 
 /// The nonlinear unknowns, unpacked.
 #[derive(Clone, Copy, Debug)]
-struct Curve {
-    kappa: f64,
+pub(super) struct Curve {
+    pub kappa: f64,
     /// `Fc` of each direction over `Fc` of the positive one.
     scale: [f64; 2],
     /// `r - 1` of each direction.
@@ -35,13 +36,18 @@ impl Curve {
 
 /// Friction level `gh` at one velocity, and its derivatives.
 #[derive(Clone, Copy)]
-struct Level<const K: usize> {
-    value: f64,
-    slope: [f64; K],
+pub(super) struct Level<const K: usize> {
+    pub value: f64,
+    pub slope: [f64; K],
 }
 
 #[inline(always)]
-fn level<const K: usize>(curve: &Curve, layout: &Layout, v: f64, side: usize) -> Level<K> {
+pub(super) fn level<const K: usize>(
+    curve: &Curve,
+    layout: &Layout,
+    v: f64,
+    side: usize,
+) -> Level<K> {
     let x = fabs(v) * curve.inverse_velocity[side];
     let power = if curve.exponent == 2.0 {
         x * x
@@ -107,6 +113,14 @@ impl Trace {
 pub(crate) fn trace(law: &Law, p: &[f64], step: f64, velocity: &[f64], slopes: bool) -> Trace {
     let layout = law.layout();
     let curve = Curve::new(law, &layout, p);
+    if let (LawKind::ElastoPlastic, Some(i)) = (law.kind, layout.breakaway) {
+        let bare = without_slopes(&layout);
+        return match (slopes, law.asymmetric) {
+            (true, false) => elasto_plastic::run::<4>(&layout, &curve, p[i], step, velocity),
+            (true, true) => elasto_plastic::run::<7>(&layout, &curve, p[i], step, velocity),
+            (false, _) => elasto_plastic::run::<0>(&bare, &curve, p[i], step, velocity),
+        };
+    }
     macro_rules! run {
         ($($k:literal),*) => {
             match (slopes, layout.count) {
@@ -124,6 +138,7 @@ fn without_slopes(layout: &Layout) -> Layout {
         excess: [None; 2],
         velocity: [None; 2],
         ratio: None,
+        breakaway: None,
         count: layout.count,
     }
 }

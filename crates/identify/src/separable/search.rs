@@ -124,6 +124,7 @@ impl<'a> Search<'a> {
                     }
                 };
                 copy(layout.kappa, from.kappa, plus);
+                copy(layout.breakaway, from.breakaway, plus);
                 for (side, source) in [(0, plus), (1, minus)] {
                     copy(layout.excess[side], from.excess[0], source);
                     copy(layout.velocity[side], from.velocity[0], source);
@@ -243,14 +244,19 @@ impl<'a> Search<'a> {
     /// with the stiffness that suits it best. A stiff bristle comes near the static law, so the
     /// search never ends much worse than that.
     fn static_starts(&mut self, bounds: &SearchBox, watch: &mut Watch) -> Vec<Vec<f64>> {
-        let (LawKind::LuGre, Some(kappa)) = (self.law.kind, self.law.layout().kappa) else {
+        let layout = self.law.layout();
+        let (Some(kappa), true) = (layout.kappa, self.law.kind.has_stribeck()) else {
             return Vec::new();
         };
         let law = Law {
             kind: LawKind::Stribeck,
             ..self.law
         };
-        let inner = bounds.without(kappa);
+        // The break-away part of an elasto-plastic law stands behind the curve.
+        let inner = layout
+            .breakaway
+            .map_or_else(|| bounds.clone(), |i| bounds.without(i))
+            .without(kappa);
         let objective = Objective::new(self.near(), law, self.terms);
         let own = Objective::new(self.near(), self.law, self.terms);
         let mut search = Search {
@@ -282,6 +288,11 @@ impl<'a> Search<'a> {
             p.insert(
                 kappa,
                 bounds.low(kappa) + part * (bounds.high(kappa) - bounds.low(kappa)),
+            );
+            p.extend(
+                layout
+                    .breakaway
+                    .map(|i| 0.5 * (bounds.low(i) + bounds.high(i))),
             );
             let cost = own.evaluate(&p, false).cost;
             watch.count(&own, false);

@@ -25,6 +25,8 @@ struct Ranges {
     velocity: (f64, f64),
     /// Fc- / Fc+.
     ratio: (f64, f64),
+    /// Break-away part of the steady deflection, as the odds b/(1 - b).
+    breakaway: (f64, f64),
 }
 
 impl SearchBox {
@@ -39,7 +41,8 @@ impl SearchBox {
 
     /// The box that the record itself allows: the presliding length between one count of the encoder
     /// (or a thousandth of the longest step) and the stroke, the Stribeck velocity between
-    /// 1e-4 of the top speed and the top speed, `Fs/Fc - 1` from .02 to 3.
+    /// 1e-4 of the top speed and the top speed, `Fs/Fc - 1` from .02 to 3, the break-away part of an
+    /// elasto-plastic law from .02 to .98.
     pub fn from_record(record: &Record, law: &Law) -> Result<Self, Error> {
         let top = record.top_speed();
         let stroke = record.stroke();
@@ -63,6 +66,7 @@ impl SearchBox {
             excess: (0.02, 3.0),
             velocity: (1e-4 * top, top),
             ratio: (0.1, 10.0),
+            breakaway: (0.02 / 0.98, 0.98 / 0.02),
         };
         let layout = law.layout();
         let mut low = vec![0.0; layout.count];
@@ -79,6 +83,7 @@ impl SearchBox {
             set(layout.velocity[side], ranges.velocity);
         }
         set(layout.ratio, ranges.ratio);
+        set(layout.breakaway, ranges.breakaway);
         Ok(Self { low, high })
     }
 
@@ -104,7 +109,12 @@ impl SearchBox {
 
     /// The box of the symmetric law inside that of an asymmetric one: its positive direction.
     pub(crate) fn symmetric(&self, layout: &Layout) -> Self {
-        let own = [layout.kappa, layout.excess[0], layout.velocity[0]];
+        let own = [
+            layout.kappa,
+            layout.excess[0],
+            layout.velocity[0],
+            layout.breakaway,
+        ];
         let pick = |x: &[f64]| own.iter().flatten().map(|&i| x[i]).collect();
         Self {
             low: pick(&self.low),

@@ -1,0 +1,155 @@
+//! What a simulated axis asks of a law, whatever its state is.
+
+use crate::{Damping, ElastoPlastic, Elements, Gms, LuGre, Real, Stribeck};
+
+/// A law stepped at a velocity that is held over the step, with the mean force over the step: enough for an implicit
+/// simulation of an axis that has this law.
+///
+/// The mean force takes the mean of the spring forces at both ends and their change over the step as their rate.
+pub trait Held<T: Real>: Copy {
+    /// What the law remembers; its default is unloaded.
+    type State: Copy + Default + core::fmt::Debug + PartialEq;
+
+    /// The steady curve, with sigma2 and the offset.
+    fn curve(&self) -> &Stribeck<T>;
+
+    /// The state after `h > 0` seconds at the velocity `v` (m/s, rad/s).
+    fn hold(&self, from: Self::State, h: T, v: T) -> Self::State;
+
+    /// Mean friction force, N (N m), over `h > 0` seconds at the velocity `v` that led from one state to another.
+    fn mean_force(&self, from: Self::State, to: Self::State, h: T, v: T) -> T;
+
+    /// The mean force over the next `h > 0` seconds at the velocity `v`, and its derivative with respect to `v`
+    /// (N s/m, N m s/rad).
+    fn mean_force_slope(&self, from: Self::State, h: T, v: T) -> (T, T);
+
+    /// Friction force, N (N m), at a state and the velocity `v` (m/s, rad/s).
+    fn force_now(&self, state: Self::State, v: T) -> T;
+
+    /// No mean force over `h > 0` seconds, less the viscous part and the offset, is larger than this, N (N m).
+    fn reach(&self, h: T) -> T;
+}
+
+impl<T: Real> Held<T> for LuGre<T> {
+    type State = T;
+
+    fn curve(&self) -> &Stribeck<T> {
+        LuGre::curve(self)
+    }
+
+    #[inline]
+    fn hold(&self, from: T, h: T, v: T) -> T {
+        self.step_held(from, h, v)
+    }
+
+    #[inline]
+    fn mean_force(&self, from: T, to: T, h: T, v: T) -> T {
+        self.force_at_rate(T::from_f64(0.5) * (from + to), (to - from) / h, v)
+    }
+
+    #[inline]
+    fn mean_force_slope(&self, from: T, h: T, v: T) -> (T, T) {
+        bristle_slope(self, from, self.step_held_slope(from, h, v), h, v)
+    }
+
+    fn force_now(&self, state: T, v: T) -> T {
+        self.force(state, v)
+    }
+
+    fn reach(&self, h: T) -> T {
+        let swing = T::from_f64(2.0) * self.bound();
+        self.stiffness() * self.bound() + self.damping().at_rest() * swing / h
+    }
+}
+
+impl<T: Real> Held<T> for ElastoPlastic<T> {
+    type State = T;
+
+    fn curve(&self) -> &Stribeck<T> {
+        self.bristle().curve()
+    }
+
+    #[inline]
+    fn hold(&self, from: T, h: T, v: T) -> T {
+        self.step_held(from, h, v)
+    }
+
+    #[inline]
+    fn mean_force(&self, from: T, to: T, h: T, v: T) -> T {
+        self.bristle().mean_force(from, to, h, v)
+    }
+
+    #[inline]
+    fn mean_force_slope(&self, from: T, h: T, v: T) -> (T, T) {
+        bristle_slope(self.bristle(), from, self.step_held_slope(from, h, v), h, v)
+    }
+
+    fn force_now(&self, state: T, v: T) -> T {
+        self.force(state, v)
+    }
+
+    fn reach(&self, h: T) -> T {
+        self.bristle().reach(h)
+    }
+}
+
+impl<T: Real, const N: usize> Held<T> for Gms<T, N> {
+    type State = Elements<T, N>;
+
+    fn curve(&self) -> &Stribeck<T> {
+        Gms::curve(self)
+    }
+
+    fn hold(&self, from: Elements<T, N>, h: T, v: T) -> Elements<T, N> {
+        self.step_held(from, h, v)
+    }
+
+    fn mean_force(&self, from: Elements<T, N>, to: Elements<T, N>, h: T, v: T) -> T {
+        let (begin, end) = (from.total(), to.total());
+        self.force_at_rate(T::from_f64(0.5) * (begin + end), (end - begin) / h, v)
+    }
+
+    fn mean_force_slope(&self, from: Elements<T, N>, h: T, v: T) -> (T, T) {
+        let (end, end_slope) = self.total_held_slope(&from, h, v);
+        let begin = from.total();
+        let half = T::from_f64(0.5);
+        let force = self.force_at_rate(half * (begin + end), (end - begin) / h, v);
+        let slope = end_slope * (half + self.damping() / (self.stiffness() * h))
+            + Gms::curve(self).direction(v).viscous;
+        (force, slope)
+    }
+
+    fn force_now(&self, state: Elements<T, N>, v: T) -> T {
+        self.force(&state, v)
+    }
+
+    fn reach(&self, h: T) -> T {
+        let swing = T::from_f64(2.0) * self.bound();
+        self.bound() + self.damping() * (swing / self.stiffness()) / h
+    }
+}
+
+/// Mean force of one bristle that ends at `end`, where both come with their derivatives with respect to `v`.
+#[inline]
+fn bristle_slope<T: Real>(law: &LuGre<T>, from: T, end: (T, T), h: T, v: T) -> (T, T) {
+    let (end, end_slope) = end;
+    let rate = (end - from) / h;
+    let half = T::from_f64(0.5);
+    let slope = end_slope * (half * law.stiffness() + law.micro_damping(v) / h)
+        + rate * damping_slope(law, v)
+        + law.curve().direction(v).viscous;
+    (law.force_at_rate(half * (from + end), rate, v), slope)
+}
+
+/// Derivative of sigma1 in velocity; a difference will do where it only steers Newton's method.
+fn damping_slope<T: Real>(law: &LuGre<T>, v: T) -> T {
+    match law.damping() {
+        Damping::Constant(_) => T::ZERO,
+        _ => {
+            let part = T::from_f64(1e-6);
+            let vs = law.curve().direction(v).stribeck_velocity;
+            let d = part * v.abs().max(part * vs);
+            (law.micro_damping(v + d) - law.micro_damping(v - d)) / (T::from_f64(2.0) * d)
+        }
+    }
+}
