@@ -27,6 +27,7 @@ fn terms() -> Terms {
         offset: false,
         gravity: false,
         cogging: Vec::new(),
+        ..Terms::default()
     }
 }
 

@@ -5,9 +5,11 @@
 //! alike, so it cannot bias the fit (identification of robots: Gautier 1997,
 //! doi 10.1109/ROBOT.1997.606767). Both are zero-phase, so nothing is delayed.
 
+pub(crate) mod channels;
 pub(crate) mod grid;
 pub(crate) mod record;
 
+use crate::conditioning::channels::Channels;
 use crate::conditioning::grid::Grid;
 use crate::conditioning::record::{Record, Samples, Segment};
 use crate::error::Error;
@@ -219,6 +221,8 @@ fn check(number: usize, log: &Samples) -> Result<(), Error> {
         ("position", log.position.as_ref()),
         ("velocity", log.velocity.as_ref()),
         ("force", Some(&log.force)),
+        ("load", log.load.as_ref()),
+        ("temperature", log.temperature.as_ref()),
     ];
     if log.position.is_none() && log.velocity.is_none() {
         return Err(Error::NoMotionChannel { log: number });
@@ -332,6 +336,7 @@ impl Filters {
             None => Some(x),
         };
         let raw_position = samples.position.as_ref().map(on_grid);
+        let has_position = raw_position.is_some();
         let (velocity, position) = match self.source_kind {
             Source::Position => {
                 let x = smooth(raw_position?, &self.source)?;
@@ -348,7 +353,7 @@ impl Filters {
         let valid = if samples.valid.is_empty() {
             &[][..]
         } else {
-            &samples.valid[range]
+            &samples.valid[range.clone()]
         };
         let keep = apart(&grid.keep(valid), self.reach);
         let thin = |x: &[f64]| x.iter().step_by(self.decimate).copied().collect::<Vec<_>>();
@@ -370,6 +375,11 @@ impl Filters {
             acceleration: thin(&acceleration),
             keep,
             velocity,
+            channels: Channels {
+                position: if has_position { position } else { Vec::new() },
+                load: samples.load.as_ref().map_or_else(Vec::new, on_grid),
+                temperature: samples.temperature.as_ref().map_or_else(Vec::new, on_grid),
+            },
         })
     }
 }

@@ -6,6 +6,7 @@ use crate::conditioning::record::Record;
 use crate::estimate::uncertainty::Covariance;
 use crate::fit::Fit;
 use crate::law::Law;
+use crate::law::dependence::Dependence;
 use crate::law::physical::{self, Dimension, Physical};
 use crate::law::terms::{ColumnKind, Mass, Terms};
 use crate::observe::Counts;
@@ -32,7 +33,8 @@ pub struct Parameter {
     /// 95 % interval (log-normal for parameters that are positive by nature); `None` where the data
     /// bound it on no side.
     pub ci95: Option<(f64, f64)>,
-    /// Whether the data determine it: standard deviation at most 10 % and not at a bound.
+    /// Whether the data determine it: standard deviation at most 10 % of the value (of a signed
+    /// parameter also of the value that would be worth the Coulomb level in use), not at a bound.
     pub identifiable: bool,
     /// Whether it was fitted; a given parameter has no deviation.
     pub identified: bool,
@@ -133,13 +135,17 @@ pub fn estimate(
     let matrix = physical::propagate(&raw, &unknowns);
     let level = raw
         .iter()
-        .filter(|p| p.name.starts_with("coulomb"))
+        .filter(|p| matches!(p.name.as_str(), "coulomb" | "coulomb_pos" | "coulomb_neg"))
         .map(|p| p.value.abs())
         .fold(0.0, f64::max);
+    let spans = objective.spans();
     let mut parameters: Vec<Parameter> = raw
         .iter()
         .enumerate()
-        .map(|(i, p)| describe(p, matrix[(i, i)], optimum, level))
+        .map(|(i, p)| {
+            let span = p.linear.map_or(1.0, |j| spans[j]);
+            describe(p, matrix[(i, i)], optimum, level / span)
+        })
         .collect();
     if law.kind.has_stribeck() {
         let at = parameters
@@ -160,6 +166,19 @@ pub fn estimate(
                 ..given("mass", mass)
             },
         );
+    }
+    for (name, value) in terms.dependences.iter().filter_map(Dependence::reference) {
+        if parameters.iter().all(|p| p.name != name) {
+            let dimension = match name {
+                "load_reference" => Dimension::Load,
+                "temperature_reference" => Dimension::Temperature,
+                _ => Dimension::Length,
+            };
+            parameters.push(Parameter {
+                dimension,
+                ..given(name, value)
+            });
+        }
     }
     let names: Vec<String> = raw.iter().map(|p| p.name.clone()).collect();
     let n = names.len();
@@ -293,7 +312,13 @@ fn series(objective: &Objective, p: &[f64], coefficients: &[f64]) -> Series {
     for (term, part) in objective.linear().iter().zip(&parts) {
         let friction = matches!(
             term.column,
-            ColumnKind::Level | ColumnKind::Sign(_) | ColumnKind::Rate | ColumnKind::Speed(_)
+            ColumnKind::Level
+                | ColumnKind::Sign(_)
+                | ColumnKind::Rate
+                | ColumnKind::Speed(_)
+                | ColumnKind::Square(_)
+                | ColumnKind::LevelTimes(..)
+                | ColumnKind::SpeedTimes(..)
         );
         for (i, x) in part.iter().enumerate() {
             model[i] += x;

@@ -31,6 +31,7 @@ mod law;
 mod observe;
 mod separable;
 
+pub use conditioning::channels::Channels;
 pub use conditioning::record::{Record, Samples, Segment};
 pub use conditioning::{Conditioning, Cutoff, Source, condition};
 pub use crossval::{LawScore, cross_validate};
@@ -38,6 +39,7 @@ pub use error::Error;
 pub use estimate::uncertainty::Covariance;
 pub use estimate::{Estimate, IDENTIFIABLE, Parameter, Series, estimate, predict};
 pub use fit::{Fit, low_speed_bound};
+pub use law::dependence::Dependence;
 pub use law::physical::Dimension;
 pub use law::terms::{Mass, Terms};
 pub use law::{Law, LawKind};

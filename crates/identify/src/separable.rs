@@ -82,6 +82,7 @@ pub fn separable(
         Some(bounds) => bounds.clone(),
         None => SearchBox::from_record(record, &law)?,
     };
+    terms.check(record)?;
     let unknowns = law.nonlinear() + terms.columns(&law).len();
     if record.kept() < 10 * unknowns {
         return Err(Error::TooFewSamples {

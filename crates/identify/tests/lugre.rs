@@ -15,6 +15,7 @@ fn friction_only() -> Terms {
         offset: false,
         gravity: false,
         cogging: Vec::new(),
+        ..Terms::default()
     }
 }
 

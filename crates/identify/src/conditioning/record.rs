@@ -1,5 +1,6 @@
 //! What goes into an identification, before and after conditioning.
 
+use crate::conditioning::channels::Channels;
 use stiction_signal::Sos;
 
 /// One log in SI units on its own time axis: m or rad, m/s or rad/s, N or N·m (or A, V).
@@ -13,6 +14,10 @@ pub struct Samples {
     pub velocity: Option<Vec<f64>>,
     /// Force (torque, current, voltage) that drives the axis.
     pub force: Vec<f64>,
+    /// Normal load, in any unit.
+    pub load: Option<Vec<f64>>,
+    /// Temperature, K.
+    pub temperature: Option<Vec<f64>>,
     /// Which samples may be used; empty means all.
     pub valid: Vec<bool>,
     /// Samples at which something new starts (after a jump of the position, say), in order; the
@@ -45,6 +50,8 @@ pub struct Segment {
     pub acceleration: Vec<f64>,
     /// Which thinned samples count.
     pub keep: Vec<bool>,
+    /// What friction may depend on beside the velocity, at the full rate.
+    pub channels: Channels,
 }
 
 /// Everything a fit sees: segments, and the filter that made them.
@@ -137,6 +144,21 @@ impl Record {
         out
     }
 
+    /// The kept samples of a channel at the full rate, in order; none where the log has no such
+    /// channel.
+    pub(crate) fn at_kept(&self, channel: impl Fn(&Segment) -> &[f64]) -> Vec<f64> {
+        let mut out = Vec::new();
+        for segment in &self.segments {
+            let values = channel(segment).iter().step_by(self.decimate);
+            out.extend(
+                values
+                    .zip(&segment.keep)
+                    .filter_map(|(x, &keep)| keep.then_some(*x)),
+            );
+        }
+        out
+    }
+
     /// Passes full-rate channels of a segment through the common filter and takes their kept samples.
     pub(crate) fn filtered(&self, segment: &Segment, mut full: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         if let Some(filter) = &self.common {
@@ -212,6 +234,7 @@ impl Record {
                 speed: pick(&s.speed),
                 acceleration: pick(&s.acceleration),
                 keep: s.keep.iter().step_by(every).copied().collect(),
+                channels: s.channels.every(self.decimate.saturating_mul(every)),
             })
             .collect();
         Some(Self {

@@ -1,8 +1,9 @@
 //! Cost and sensitivities of a trial of the nonlinear unknowns, everything linear solved exactly.
 
-use crate::conditioning::record::Record;
+use crate::conditioning::record::{Record, Segment};
 use crate::law::Law;
-use crate::law::terms::{ColumnKind, LinearTerm, Mass, Terms};
+use crate::law::dependence::product;
+use crate::law::terms::{ColumnKind, LinearTerm, Mass, Side, Terms};
 use crate::separable::linear::{self, Solution, dot};
 use crate::separable::recursion::{Trace, trace};
 use nalgebra::{DMatrix, DVector};
@@ -16,6 +17,9 @@ pub struct Objective<'a> {
     nonnegative: Vec<bool>,
     /// Columns that no nonlinear unknown changes, at the kept samples; `None` for those it does.
     fixed: Vec<Option<Vec<f64>>>,
+    /// Levels that change with another channel: which linear unknown, and the factor at the full
+    /// rate of each segment.
+    varying: Vec<Varying>,
     /// Measured force.
     force: Vec<f64>,
     /// Inertia force of a given mass; empty if it is fitted or absent.
@@ -24,6 +28,14 @@ pub struct Objective<'a> {
     target: Vec<f64>,
     /// Sum of squares of the measured force at the kept samples.
     energy: f64,
+}
+
+/// A column `f(t) eta`.
+#[derive(Clone, Debug)]
+struct Varying {
+    linear: usize,
+    side: Option<Side>,
+    factors: Vec<Vec<f64>>,
 }
 
 /// One trial.
@@ -57,6 +69,18 @@ impl<'a> Objective<'a> {
             .iter()
             .map(|term| fixed_column(record, term.column))
             .collect();
+        let varying = linear
+            .iter()
+            .enumerate()
+            .filter_map(|(i, term)| match term.column {
+                ColumnKind::LevelTimes(factor, side) => Some(Varying {
+                    linear: i,
+                    side,
+                    factors: record.segments.iter().map(|s| factor.along(s)).collect(),
+                }),
+                _ => None,
+            })
+            .collect();
         let force = record.gather(|s| &s.force);
         let energy = dot(&force, &force);
         let nonnegative = linear.iter().map(|term| term.nonnegative).collect();
@@ -79,6 +103,7 @@ impl<'a> Objective<'a> {
             linear,
             nonnegative,
             fixed,
+            varying,
             force,
             inertia,
             target,
@@ -192,21 +217,28 @@ impl<'a> Objective<'a> {
 
     /// The columns of the regression at the kept samples.
     fn columns(&self, traces: &[Trace]) -> Vec<Vec<f64>> {
-        let mut own = [Vec::new(), Vec::new()];
-        for (segment, t) in self.record.segments.iter().zip(traces) {
+        let mut own = vec![Vec::new(); 2 + self.varying.len()];
+        for (i, (segment, t)) in self.record.segments.iter().zip(traces).enumerate() {
             // The rate is empty for a static law, and then no column asks for it.
-            let full = vec![t.eta.clone(), t.rate.clone()];
+            let mut full = vec![t.eta.clone(), t.rate.clone()];
+            for varying in &self.varying {
+                full.push(product(&t.eta, &varying.factors[i], varying.side));
+            }
             for (out, column) in own.iter_mut().zip(self.record.filtered(segment, full)) {
                 out.extend(column);
             }
         }
-        let [eta, rate] = own;
+        let mut own = own.into_iter();
+        let eta = own.next().unwrap_or_default();
+        let rate = own.next().unwrap_or_default();
         self.linear
             .iter()
             .zip(&self.fixed)
             .map(|(term, fixed)| match (fixed, term.column) {
                 (Some(column), _) => column.clone(),
                 (None, ColumnKind::Rate) => rate.clone(),
+                // They were made in the order of the linear unknowns.
+                (None, ColumnKind::LevelTimes(..)) => own.next().unwrap_or_default(),
                 (None, _) => eta.clone(),
             })
             .collect()
@@ -219,15 +251,21 @@ impl<'a> Objective<'a> {
         for ((term, fixed), &c) in self.linear.iter().zip(&self.fixed).zip(coefficients) {
             match (fixed, term.column) {
                 (None, ColumnKind::Rate) => c_rate += c,
+                // Different at each sample: see below.
+                (None, ColumnKind::LevelTimes(..)) | (Some(_), _) => {}
                 (None, _) => c_eta += c,
-                _ => {}
             }
         }
         let mut out = vec![Vec::with_capacity(self.force.len()); k];
-        for (segment, t) in self.record.segments.iter().zip(traces) {
+        for (s, (segment, t)) in self.record.segments.iter().zip(traces).enumerate() {
+            let level = self.level(s, &t.eta, c_eta, coefficients);
             let full = (0..k)
                 .map(|i| {
-                    let mut d: Vec<f64> = t.eta_slope[i].iter().map(|x| c_eta * x).collect();
+                    let slope = t.eta_slope[i].iter();
+                    let mut d: Vec<f64> = match &level {
+                        None => slope.map(|x| c_eta * x).collect(),
+                        Some(level) => slope.zip(level).map(|(x, c)| c * x).collect(),
+                    };
                     if let Some(rate) = t.rate_slope.get(i) {
                         for (x, r) in d.iter_mut().zip(rate) {
                             *x += c_rate * r;
@@ -242,26 +280,66 @@ impl<'a> Objective<'a> {
         }
         out
     }
+
+    /// What multiplies `eta` at each sample of a segment; `None` where nothing but `c_eta` does.
+    fn level(&self, segment: usize, eta: &[f64], c_eta: f64, c: &[f64]) -> Option<Vec<f64>> {
+        if self.varying.is_empty() {
+            return None;
+        }
+        let mut level = vec![c_eta; eta.len()];
+        for varying in &self.varying {
+            let factors = &varying.factors[segment];
+            for ((level, f), &eta) in level.iter_mut().zip(factors).zip(eta) {
+                if varying.side.is_none_or(|side| side.selects(eta)) {
+                    *level += c[varying.linear] * f;
+                }
+            }
+        }
+        Some(level)
+    }
+
+    /// For each linear unknown, how large its column is in use: the coefficient times this compares
+    /// with the Coulomb level.
+    pub(crate) fn spans(&self) -> Vec<f64> {
+        let top = self.record.top_speed();
+        self.linear
+            .iter()
+            .map(|term| match term.column {
+                ColumnKind::Square(_) => top * top,
+                ColumnKind::LevelTimes(factor, _) => factor.span(self.record),
+                ColumnKind::SpeedTimes(factor, _) => top * factor.span(self.record),
+                _ => 1.0,
+            })
+            .collect()
+    }
 }
 
 /// A column that does not depend on the nonlinear unknowns; `None` if it does.
 fn fixed_column(record: &Record, column: ColumnKind) -> Option<Vec<f64>> {
-    let from_velocity = |f: &dyn Fn(f64) -> f64| {
+    let at_full_rate = |f: &dyn Fn(&Segment) -> Vec<f64>| {
         let mut out = Vec::with_capacity(record.kept());
         for segment in &record.segments {
-            let full = segment.velocity.iter().map(|&v| f(v)).collect();
+            let full = f(segment);
             out.extend(record.filtered(segment, vec![full]).into_iter().flatten());
         }
         out
     };
+    let from_velocity =
+        |f: &dyn Fn(f64) -> f64| at_full_rate(&|s| s.velocity.iter().map(|&v| f(v)).collect());
+    let one_way = |side: Option<Side>, v: f64| match side {
+        Some(side) if !side.selects(v) => 0.0,
+        _ => v,
+    };
     match column {
-        ColumnKind::Level | ColumnKind::Rate => None,
+        ColumnKind::Level | ColumnKind::Rate | ColumnKind::LevelTimes(..) => None,
         ColumnKind::Sign(side) => Some(from_velocity(&|v| {
             if side.selects(v) { v.signum() } else { 0.0 }
         })),
-        ColumnKind::Speed(side) => Some(from_velocity(&|v| match side {
-            Some(side) if !side.selects(v) => 0.0,
-            _ => v,
+        ColumnKind::Speed(side) => Some(from_velocity(&|v| one_way(side, v))),
+        ColumnKind::Square(side) => Some(from_velocity(&|v| one_way(side, v) * v.abs())),
+        ColumnKind::SpeedTimes(factor, side) => Some(at_full_rate(&|s| {
+            let velocity = s.velocity.iter().map(|&v| one_way(side, v));
+            velocity.zip(factor.along(s)).map(|(v, f)| v * f).collect()
         })),
         ColumnKind::Acceleration => Some(record.gather(|s| &s.acceleration)),
         ColumnKind::One => Some(vec![1.0; record.kept()]),
