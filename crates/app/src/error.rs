@@ -58,6 +58,7 @@ impl Error {
                 Fit::NoForce { .. } => "no-force",
                 Fit::Setting { .. } | Fit::Filter { .. } => "bad-setting",
                 Fit::NoMotionChannel { .. }
+                | Fit::MissingChannel { .. }
                 | Fit::Length { .. }
                 | Fit::NotFinite { .. }
                 | Fit::Time { .. } => "bad-record",

@@ -84,6 +84,9 @@ pub(crate) fn fit(
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
     check_together(&sources, &held_out)?;
+    for source in sources.iter().chain(&held_out) {
+        source.check_channels(&axis.terms)?;
+    }
     let motion = sources[0].log.motion;
     let force_unit = sources[0].log.force_unit.clone();
     let terms = axis.terms_for(&sources[0].log, options.asymmetric)?;
@@ -110,6 +113,7 @@ pub(crate) fn fit(
         }
     };
     refuse_rest(&record, &sources, motion)?;
+    let (terms, other) = (terms.about(&record), other.about(&record));
     let law = Law {
         kind: options.law,
         asymmetric: options.asymmetric,

@@ -1,5 +1,6 @@
 //! `report.html`: an identification as a person reads it.
 
+mod dependences;
 mod figures;
 mod formula;
 mod tables;

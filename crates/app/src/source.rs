@@ -6,7 +6,7 @@ use crate::result::Input;
 use sha2::{Digest, Sha256};
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use stiction_identify::Samples;
+use stiction_identify::{Samples, Terms};
 use stiction_log::{Log, ReadOptions, Table, read_table};
 
 /// A log with the file it came from.
@@ -85,6 +85,29 @@ impl Source {
         }
     }
 
+    /// Whether the log has every column that the terms need.
+    ///
+    /// # Errors
+    /// When one is missing, with the term that needs it.
+    pub fn check_channels(&self, terms: &Terms) -> Result<(), Error> {
+        for term in &terms.dependences {
+            let channel = term.channel();
+            let column = match channel {
+                "load" => &self.log.load,
+                "temperature" => &self.log.temperature,
+                _ => &self.log.position,
+            };
+            if column.is_none() {
+                let found = format!("no {channel} column, and [terms] {} needs one", term.name());
+                let allowed = format!("name it in the axis file: [columns] {channel} = \"...\"");
+                let kind = stiction_log::Kind::Missing;
+                let error = stiction_log::Error::new(kind, found, allowed);
+                return Err(Error::Log(error.in_file(&self.path)));
+            }
+        }
+        Ok(())
+    }
+
     /// What an identification needs of it.
     ///
     /// # Errors
@@ -113,6 +136,8 @@ impl Source {
             position: self.log.position.clone(),
             velocity: self.log.velocity.clone(),
             force,
+            load: self.log.load.clone(),
+            temperature: self.log.temperature.clone(),
             valid: self.log.valid(),
             breaks: self.log.segments.iter().skip(1).map(|s| s.start).collect(),
         })

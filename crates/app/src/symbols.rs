@@ -3,8 +3,8 @@
 use stiction_identify::Dimension;
 use stiction_log::Motion;
 
-/// Unit of a parameter, given the unit of the force channel.
-pub fn unit(dimension: Dimension, motion: Motion, force: &str) -> String {
+/// Unit of a parameter, given the units of the force and the load channel.
+pub fn unit(dimension: Dimension, motion: Motion, force: &str, load: &str) -> String {
     let length = length_unit(motion);
     match dimension {
         Dimension::Stiffness => format!("{force}/{length}"),
@@ -17,6 +17,19 @@ pub fn unit(dimension: Dimension, motion: Motion, force: &str) -> String {
             other => format!("{other}*s^2/{length}"),
         },
         Dimension::Time => "s".into(),
+        Dimension::QuadraticDamping => format!("{force}*s^2/{length}^2"),
+        Dimension::ForcePerLoad if load == force => "1".into(),
+        Dimension::ForcePerLoad => match load {
+            "" | "1" => force.to_string(),
+            simple if simple.chars().all(char::is_alphanumeric) => format!("{force}/{load}"),
+            product => format!("{force}/({product})"),
+        },
+        Dimension::ForcePerTemperature => format!("{force}/K"),
+        Dimension::DampingPerTemperature => format!("{force}*s/({length}*K)"),
+        Dimension::Load if load.is_empty() => "1".into(),
+        Dimension::Load => load.to_string(),
+        Dimension::Temperature => "K".into(),
+        Dimension::Length => length.into(),
         Dimension::One => "1".into(),
     }
 }
@@ -56,6 +69,14 @@ pub fn symbol(name: &str) -> String {
         "mass" => "M",
         "offset" => "F₀",
         "delay" => "τ",
+        "quadratic_viscous" => "σ₂₂",
+        "coulomb_load" => "∂Fc/∂N",
+        "coulomb_temperature" => "∂Fc/∂T",
+        "coulomb_position" => "∂Fc/∂x",
+        "sigma2_temperature" => "∂σ₂/∂T",
+        "load_reference" => "N₀",
+        "temperature_reference" => "T₀",
+        "position_reference" => "x₀",
         other => other,
     };
     format!("{symbol}{side}")
@@ -87,7 +108,16 @@ pub fn meaning(name: &str, motion: Motion) -> String {
         "delay" => "delay of the force against the motion",
         "gravity_sin" => "gravity, sin q",
         "gravity_cos" => "gravity, cos q",
+        "quadratic_viscous" => "quadratic viscous friction",
+        "coulomb_load" => "Coulomb friction per normal load",
+        "coulomb_temperature" => "Coulomb friction per temperature",
+        "coulomb_position" => "Coulomb friction along the stroke",
+        "sigma2_temperature" => "viscous friction per temperature",
+        "load_reference" => "mean normal load",
+        "temperature_reference" => "mean temperature",
+        "position_reference" => "middle of the stroke",
         other if other.starts_with("cogging") => "cogging",
+        other if other.starts_with("coulomb_pitch") => "Coulomb friction, wave along the stroke",
         other => other,
     };
     format!("{text}{side}")

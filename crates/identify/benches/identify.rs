@@ -7,7 +7,7 @@ use common::{MACHINE, Noise, record, sine_record};
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use stiction_identify::{
-    Delay, Law, LawKind, Mass, Objective, Record, Settings, Silent, Terms, estimate, separable,
+    Law, LawKind, Mass, Objective, Record, Settings, Silent, Terms, estimate, separable,
 };
 
 fn main() {
@@ -27,7 +27,7 @@ fn terms() -> Terms {
         offset: false,
         gravity: false,
         cogging: Vec::new(),
-        delay: Delay::NONE,
+        ..Terms::default()
     }
 }
 

@@ -5,11 +5,13 @@
 //! alike, so it cannot bias the fit (identification of robots: Gautier 1997,
 //! doi 10.1109/ROBOT.1997.606767). Both are zero-phase, so nothing is delayed.
 
+pub(crate) mod channels;
 pub(crate) mod grid;
 pub(crate) mod noise;
 pub(crate) mod record;
 pub(crate) mod shift;
 
+use crate::conditioning::channels::Channels;
 use crate::conditioning::grid::Grid;
 use crate::conditioning::record::{Record, Samples, Segment};
 use crate::error::Error;
@@ -223,6 +225,8 @@ fn check(number: usize, log: &Samples) -> Result<(), Error> {
         ("position", log.position.as_ref()),
         ("velocity", log.velocity.as_ref()),
         ("force", Some(&log.force)),
+        ("load", log.load.as_ref()),
+        ("temperature", log.temperature.as_ref()),
     ];
     if log.position.is_none() && log.velocity.is_none() {
         return Err(Error::NoMotionChannel { log: number });
@@ -342,6 +346,7 @@ impl Filters {
             None => gradient(x, step).ok(),
         };
         let raw_position = samples.position.as_ref().map(on_grid);
+        let has_position = raw_position.is_some();
         let (velocity, position) = match self.source_kind {
             Source::Position => {
                 let x = smooth(raw_position?, &self.source)?;
@@ -359,7 +364,7 @@ impl Filters {
         let valid = if samples.valid.is_empty() {
             &[][..]
         } else {
-            &samples.valid[range]
+            &samples.valid[range.clone()]
         };
         let valid = grid.keep(valid);
         let keep = apart(&valid, self.reach);
@@ -376,13 +381,22 @@ impl Filters {
             log,
             step,
             velocity,
-            position,
             acceleration,
             drive,
             valid,
             time: thin(&grid.times()),
             force: thin(&force),
             keep,
+            channels: Channels {
+                position: if has_position {
+                    position.clone()
+                } else {
+                    Vec::new()
+                },
+                load: samples.load.as_ref().map_or_else(Vec::new, on_grid),
+                temperature: samples.temperature.as_ref().map_or_else(Vec::new, on_grid),
+            },
+            position,
         })
     }
 }

@@ -22,6 +22,16 @@ pub enum Error {
         /// Which log, counted from 1.
         log: usize,
     },
+    /// A term needs a channel that a log does not have.
+    #[error("log {log}: {term} needs a {channel} channel, and there is none")]
+    MissingChannel {
+        /// Which log, counted from 1.
+        log: usize,
+        /// Which channel.
+        channel: &'static str,
+        /// Which term.
+        term: &'static str,
+    },
     /// A number that is not finite.
     #[error("log {log}: {channel}, sample {index} is not a finite number")]
     NotFinite {

@@ -6,6 +6,7 @@ use crate::conditioning::record::Record;
 use crate::estimate::uncertainty::Covariance;
 use crate::fit::Fit;
 use crate::law::Law;
+use crate::law::dependence::Dependence;
 use crate::law::physical::{self, Dimension, Physical};
 use crate::law::terms::{ColumnKind, Delay, Mass, Terms};
 use crate::observe::Counts;
@@ -37,7 +38,8 @@ pub struct Parameter {
     /// What was added to the least-squares value to undo the bias of conditioning and noise; 0 if
     /// nothing.
     pub correction: f64,
-    /// Whether the data determine it: standard deviation at most 10 % and not at a bound.
+    /// Whether the data determine it: standard deviation at most 10 % of the value (of a signed
+    /// parameter also of the value that would be worth the Coulomb level in use), not at a bound.
     pub identifiable: bool,
     /// Whether it was fitted; a given parameter has no deviation.
     pub identified: bool,
@@ -199,15 +201,19 @@ pub(crate) fn assemble(
     let before = physical::physical(&law, objective.linear(), step, &plain.p, &plain.c);
     let level = raw
         .iter()
-        .filter(|p| p.name.starts_with("coulomb"))
+        .filter(|p| matches!(p.name.as_str(), "coulomb" | "coulomb_pos" | "coulomb_neg"))
         .map(|p| p.value.abs())
         .fold(0.0, f64::max);
+    let spans = objective.spans();
     let mut parameters: Vec<Parameter> = raw
         .iter()
         .enumerate()
-        .map(|(i, p)| Parameter {
-            correction: p.value - before[i].value,
-            ..describe(p, matrix[(i, i)], optimum, level, step)
+        .map(|(i, p)| {
+            let span = p.linear.map_or(1.0, |j| spans[j]);
+            Parameter {
+                correction: p.value - before[i].value,
+                ..describe(p, matrix[(i, i)], optimum, level / span, step)
+            }
         })
         .collect();
     if law.kind.has_stribeck() {
@@ -229,6 +235,19 @@ pub(crate) fn assemble(
                 ..given("mass", mass)
             },
         );
+    }
+    for (name, value) in terms.dependences.iter().filter_map(Dependence::reference) {
+        if parameters.iter().all(|p| p.name != name) {
+            let dimension = match name {
+                "load_reference" => Dimension::Load,
+                "temperature_reference" => Dimension::Temperature,
+                _ => Dimension::Length,
+            };
+            parameters.push(Parameter {
+                dimension,
+                ..given(name, value)
+            });
+        }
     }
     let names: Vec<String> = raw.iter().map(|p| p.name.clone()).collect();
     let n = names.len();
@@ -368,7 +387,13 @@ fn series(objective: &Objective, p: &[f64], coefficients: &[f64]) -> Series {
     for (term, part) in objective.linear().iter().zip(&parts) {
         let friction = matches!(
             term.column,
-            ColumnKind::Level | ColumnKind::Sign(_) | ColumnKind::Rate | ColumnKind::Speed(_)
+            ColumnKind::Level
+                | ColumnKind::Sign(_)
+                | ColumnKind::Rate
+                | ColumnKind::Speed(_)
+                | ColumnKind::Square(_)
+                | ColumnKind::LevelTimes(..)
+                | ColumnKind::SpeedTimes(..)
         );
         for (i, x) in part.iter().enumerate() {
             model[i] += x;

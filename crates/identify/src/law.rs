@@ -1,5 +1,6 @@
 //! Which law is fitted, and which linear terms beside it.
 
+pub(crate) mod dependence;
 pub(crate) mod physical;
 pub(crate) mod terms;
 

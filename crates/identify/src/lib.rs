@@ -35,6 +35,7 @@ mod separable;
 mod tune;
 
 pub use calibrate::calibrate;
+pub use conditioning::channels::Channels;
 pub use conditioning::record::{Record, Samples, Segment};
 pub use conditioning::{Conditioning, Cutoff, Source, condition};
 pub use crossval::{LawScore, cross_validate};
@@ -42,6 +43,7 @@ pub use error::Error;
 pub use estimate::uncertainty::Covariance;
 pub use estimate::{Estimate, IDENTIFIABLE, Parameter, Series, estimate, predict};
 pub use fit::{Fit, low_speed_bound};
+pub use law::dependence::Dependence;
 pub use law::physical::Dimension;
 pub use law::terms::{Delay, Mass, Terms};
 pub use law::{Law, LawKind};

@@ -104,7 +104,10 @@ impl Axis<'_> {
                         *y += c * libm::cos(k * x);
                     }
                 }
-                ColumnKind::Sign(_) => return None,
+                ColumnKind::Sign(_)
+                | ColumnKind::Square(_)
+                | ColumnKind::LevelTimes(..)
+                | ColumnKind::SpeedTimes(..) => return None,
             }
         }
         Some(out)
@@ -155,10 +158,9 @@ impl Axis<'_> {
         Some(Samples {
             time: (0..n).map(|k| k as f64 * h).collect(),
             position: Some(position),
-            velocity: None,
             force,
             valid: segment.valid.clone(),
-            breaks: Vec::new(),
+            ..Samples::default()
         })
     }
 }

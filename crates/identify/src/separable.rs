@@ -84,6 +84,7 @@ pub fn separable(
         Some(bounds) => bounds.clone(),
         None => SearchBox::from_record(record, &law)?,
     };
+    terms.check(record)?;
     let fitted = terms.delay == Delay::Fitted;
     if fitted {
         bounds = bounds.with_delay();

@@ -3,9 +3,9 @@
 
 use proptest::prelude::*;
 use stiction_identify::{
-    Conditioning, Control, Cutoff, Delay, Law, LawKind, Mass, Observer, Progress, Samples,
-    Settings, Source, Terms, condition, cross_validate, estimate, low_speed_bound, predict,
-    separable,
+    Conditioning, Control, Cutoff, Delay, Dependence, Law, LawKind, Mass, Observer, Progress,
+    Samples, Settings, Source, Terms, condition, cross_validate, estimate, low_speed_bound,
+    predict, separable,
 };
 
 #[derive(Clone, Copy, Debug)]
@@ -90,6 +90,8 @@ impl Case {
             force: u.map(|u| u * force).collect(),
             position: Some(x.iter().map(|x| x * length).collect()),
             velocity: Some(v.iter().map(|v| v * (length / time)).collect()),
+            load: Some((0..self.n).map(|i| force * (2.0 + noise(7, i))).collect()),
+            temperature: (self.seed & 1 == 0).then(|| vec![300.0; self.n]),
             ..Samples::default()
         }
     }
@@ -271,14 +273,31 @@ fn terms() -> impl Strategy<Value = Terms> {
         (-30.0..30.0).prop_map(|e: f64| Mass::Given(10f64.powf(e)))
     ];
     let pitches = prop::collection::vec((-9.0..9.0).prop_map(|e: f64| 10f64.powf(e)), 0..3);
-    (mass, any::<bool>(), any::<bool>(), pitches).prop_map(|(mass, offset, gravity, cogging)| {
-        Terms {
-            mass,
-            offset,
-            gravity,
-            delay: Delay::NONE,
-            cogging,
-        }
+    let dependence = prop_oneof![
+        Just(Dependence::CoulombLoad(0.0)),
+        Just(Dependence::CoulombTemperature(0.0)),
+        Just(Dependence::CoulombPosition(0.0)),
+        (-9.0..9.0).prop_map(|e: f64| Dependence::CoulombPitch(10f64.powf(e))),
+        Just(Dependence::ViscousTemperature(0.0)),
+    ];
+    let dependences = prop_oneof![
+        2 => Just(Vec::new()),
+        1 => prop::collection::vec(dependence, 0..4),
+    ];
+    let flags = (any::<bool>(), any::<bool>(), any::<bool>());
+    let delay = prop_oneof![
+        Just(Delay::Fitted),
+        (-9.0..9.0).prop_map(|e: f64| Delay::Given(10f64.powf(e)))
+    ];
+    let parts = (mass, flags, pitches, dependences, delay);
+    parts.prop_map(|(mass, flags, cogging, dependences, delay)| Terms {
+        mass,
+        offset: flags.0,
+        gravity: flags.1,
+        cogging,
+        quadratic_viscous: flags.2,
+        dependences,
+        delay,
     })
 }
 
@@ -304,6 +323,7 @@ fn run(
         return Ok(());
     };
     prop_assert!(record.kept() <= record.len());
+    let terms = &terms.about(&record);
     let total: usize = samples.iter().map(|s| s.time.len()).sum();
     prop_assert!(record.len() <= 10 * total, "{} from {total}", record.len());
     let mut counter = Counter(0);

@@ -4,8 +4,7 @@ mod common;
 
 use common::{C95, MACHINE, MOTOR, Noise, Set, record, sine_record};
 use stiction_identify::{
-    Delay, Law, LawKind, Mass, Objective, SearchBox, Settings, Silent, Status, Terms, estimate,
-    separable,
+    Law, LawKind, Mass, Objective, SearchBox, Settings, Silent, Status, Terms, estimate, separable,
 };
 
 const SEEDS: u64 = 100;
@@ -16,7 +15,7 @@ fn friction_only() -> Terms {
         offset: false,
         gravity: false,
         cogging: Vec::new(),
-        delay: Delay::NONE,
+        ..Terms::default()
     }
 }
 

@@ -123,6 +123,13 @@ pub(crate) struct RawTerms {
     pub gravity: Option<bool>,
     #[serde(default)]
     pub cogging: Vec<String>,
+    pub quadratic_viscous: Option<bool>,
+    pub coulomb_load: Option<bool>,
+    pub coulomb_temperature: Option<bool>,
+    pub coulomb_position: Option<bool>,
+    #[serde(default)]
+    pub coulomb_pitch: Vec<String>,
+    pub sigma2_temperature: Option<bool>,
     pub stribeck_exponent: Option<f64>,
 }
 

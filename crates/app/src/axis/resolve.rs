@@ -1,12 +1,12 @@
 //! From the axis file as typed to SI values that the libraries take.
 
 use super::Axis;
-use super::raw::{self, RawAxis, RawChannel, RawScale, RawSelector};
+use super::raw::{self, RawAxis, RawChannel, RawScale, RawSelector, RawTerms};
 use super::tied::Tied;
 use crate::error::Error;
 use std::cell::RefCell;
 use std::path::Path;
-use stiction_identify::{Conditioning, Cutoff, Mass, Source};
+use stiction_identify::{Conditioning, Cutoff, Dependence, Mass, Source};
 use stiction_log::text::{Decimal, Separator, TextOptions};
 use stiction_log::{Channel, Dimension, Mapping, Motion, Role, Selector, Unit, Value, Wrap};
 
@@ -252,19 +252,9 @@ impl Resolver<'_> {
         }
         axis.offset = raw.terms.offset;
         axis.terms.gravity = raw.terms.gravity.unwrap_or(false);
-        for pitch in &raw.terms.cogging {
-            let lengths = [Dimension::LENGTH, Dimension::ANGLE];
-            axis.terms
-                .cogging
-                .push(self.positive("terms.cogging", pitch, &lengths)?);
-        }
-        if axis.terms.cogging.len() > 4 {
-            return Err(self.refuse(
-                "terms.cogging",
-                format!("{} pitches", axis.terms.cogging.len()),
-                "at most 4",
-            ));
-        }
+        axis.terms.cogging = self.pitches("terms.cogging", &raw.terms.cogging)?;
+        axis.terms.quadratic_viscous = raw.terms.quadratic_viscous.unwrap_or(false);
+        axis.terms.dependences = self.dependences(&raw.terms)?;
         if let Some(delta) = raw.terms.stribeck_exponent {
             if !(0.1..=10.0).contains(&delta) {
                 return Err(self.refuse(
@@ -276,6 +266,33 @@ impl Resolver<'_> {
             axis.stribeck_exponent = delta;
         }
         Ok(())
+    }
+
+    /// What friction depends on, about references that the log will give.
+    fn dependences(&self, raw: &RawTerms) -> Result<Vec<Dependence>, Error> {
+        let asked = [
+            (raw.coulomb_load, Dependence::CoulombLoad(0.0)),
+            (raw.coulomb_temperature, Dependence::CoulombTemperature(0.0)),
+            (raw.coulomb_position, Dependence::CoulombPosition(0.0)),
+            (raw.sigma2_temperature, Dependence::ViscousTemperature(0.0)),
+        ];
+        let mut out: Vec<Dependence> = asked
+            .into_iter()
+            .filter_map(|(asked, dependence)| (asked == Some(true)).then_some(dependence))
+            .collect();
+        let pitches = self.pitches("terms.coulomb_pitch", &raw.coulomb_pitch)?;
+        out.extend(pitches.into_iter().map(Dependence::CoulombPitch));
+        Ok(out)
+    }
+
+    fn pitches(&self, key: &str, raw: &[String]) -> Result<Vec<f64>, Error> {
+        let lengths = [Dimension::LENGTH, Dimension::ANGLE];
+        if raw.len() > 4 {
+            return Err(self.refuse(key, format!("{} pitches", raw.len()), "at most 4"));
+        }
+        raw.iter()
+            .map(|pitch| self.positive(key, pitch, &lengths))
+            .collect()
     }
 
     fn value(&self, key: &str, text: &str, dimensions: &[Dimension]) -> Result<f64, Error> {

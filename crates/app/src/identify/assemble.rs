@@ -82,7 +82,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         parameters: estimate
             .parameters
             .iter()
-            .map(|p| parameter(p, motion, force_unit))
+            .map(|p| parameter(p, motion, force_unit, &parts.sources[0].log.load_unit))
             .collect(),
         covariance: CovarianceEntry {
             names: estimate.covariance.names.clone(),
@@ -104,12 +104,12 @@ pub(super) fn result(parts: Parts) -> ResultFile {
     }
 }
 
-fn parameter(p: &Parameter, motion: Motion, force_unit: &str) -> ParameterEntry {
+fn parameter(p: &Parameter, motion: Motion, force_unit: &str, load_unit: &str) -> ParameterEntry {
     ParameterEntry {
         name: p.name.clone(),
         symbol: symbols::symbol(&p.name),
         value: p.value,
-        unit: symbols::unit(p.dimension, motion, force_unit),
+        unit: symbols::unit(p.dimension, motion, force_unit, load_unit),
         std: p.std,
         ci95: p.ci95.map(|(low, high)| [low, high]),
         identifiable: p.identifiable,
@@ -131,8 +131,8 @@ pub(super) fn term_names(estimate: &Estimate, motion: Motion) -> Vec<String> {
     estimate
         .parameters
         .iter()
-        .filter(|p| !LAW.iter().any(|own| p.name.starts_with(own)))
-        .filter(|p| p.name != "stribeck_exponent")
+        .filter(|p| !LAW.contains(&p.name.trim_end_matches("_pos").trim_end_matches("_neg")))
+        .filter(|p| p.name != "stribeck_exponent" && !p.name.ends_with("_reference"))
         .map(|p| format!("{} ({})", p.name, symbols::meaning(&p.name, motion)))
         .collect()
 }

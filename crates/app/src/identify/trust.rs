@@ -128,7 +128,10 @@ fn unidentifiable(
         }
         text.push_str(&format!(". {}", cure(&parameter.name)));
         warnings.push(Warning::new("not-identifiable", text));
-        if parameter.name.starts_with("coulomb") {
+        if matches!(
+            parameter.name.as_str(),
+            "coulomb" | "coulomb_pos" | "coulomb_neg"
+        ) {
             reasons.push(format!(
                 "{} is not determined by this log: the law may predict such motion, its parameters \
                  do not stand for the machine",
@@ -152,6 +155,11 @@ fn cure(name: &str) -> &'static str {
              Stribeck velocity"
         }
         "mass" => "Record faster accelerations",
+        "quadratic_viscous" => "Record speeds from slow to the top speed of the axis",
+        "coulomb_load" => "Record several loads, each in both directions",
+        "coulomb_temperature" | "sigma2_temperature" => {
+            "Record the axis cold and warm, at the same speeds"
+        }
         "coulomb" => "Record motion in both directions well above the Stribeck velocity",
         _ => "Record motion over more of the stroke in both directions",
     }

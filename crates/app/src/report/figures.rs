@@ -140,7 +140,7 @@ fn value(outcome: &Outcome, name: &str, v: f64) -> f64 {
         .unwrap_or(0.0)
 }
 
-/// Steady friction at one velocity, without the terms beside the law.
+/// Steady friction at one velocity, where load, temperature and position are at their references.
 fn steady(outcome: &Outcome, v: f64) -> f64 {
     let coulomb = value(outcome, "coulomb", v);
     let fixed = match value(outcome, "static", v) {
@@ -156,7 +156,9 @@ fn steady(outcome: &Outcome, v: f64) -> f64 {
     } else {
         0.0
     };
-    (coulomb + (fixed - coulomb) * fall) * v.signum() + value(outcome, "sigma2", v) * v
+    let square = value(outcome, "quadratic_viscous", v);
+    (coulomb + (fixed - coulomb) * fall) * v.signum()
+        + (value(outcome, "sigma2", v) + square * v.abs()) * v
 }
 
 /// Standard deviation of the steady curve, from the covariance of the parameters.
@@ -193,6 +195,7 @@ fn steady_std(outcome: &Outcome, v: f64) -> f64 {
                     v.signum() * (fixed - coulomb) * fall * exponent * power / velocity
                 }
                 "sigma2" => v,
+                "quadratic_viscous" => v * v.abs(),
                 _ => 0.0,
             }
         })

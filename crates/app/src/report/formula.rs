@@ -1,5 +1,6 @@
 //! The identified law as a formula, with its numbers.
 
+use super::dependences;
 use crate::identify::Outcome;
 use stiction_report::math::{Math, abs, dot, frac, id, num, op, paren, quantity, row, sub, sup};
 use stiction_report::{Block, number};
@@ -8,20 +9,26 @@ use stiction_report::{Block, number};
 pub(super) fn with_numbers(outcome: &Outcome) -> Block {
     let law = outcome.result.law.as_str();
     let asymmetric = outcome.result.asymmetric;
-    let mut lines = match law {
-        "lugre" | "dahl" => bristle(law == "lugre"),
-        _ => vec![row([
-            id("F"),
-            op("="),
-            id("g"),
-            paren(id("v")),
-            id("sgn"),
-            id("v"),
-            op("+"),
-            sub(id("σ"), num("2")),
-            id("v"),
-        ])],
-    };
+    let mut force = vec![id("F"), op("=")];
+    if dependences::level_changes(outcome) {
+        force.push(id("L"));
+    }
+    let mut lines = Vec::new();
+    match law {
+        "lugre" | "dahl" => {
+            force.extend([sub(id("σ"), num("0")), id("z")]);
+            if law == "lugre" {
+                force.extend([op("+"), sub(id("σ"), num("1")), dot(id("z"))]);
+            }
+            lines.push(deflection());
+        }
+        _ => force.extend([id("g"), paren(id("v")), id("sgn"), id("v")]),
+    }
+    force.extend([op("+"), sub(id("σ"), num("2")), id("v")]);
+    if outcome.estimate.terms.quadratic_viscous {
+        force.extend([op("+"), sub(id("σ"), num("22")), abs(id("v")), id("v")]);
+    }
+    lines.insert(0, row(force));
     let sides: &[&str] = if asymmetric { &["_pos", "_neg"] } else { &[""] };
     for side in sides {
         lines.push(level(outcome, side));
@@ -45,6 +52,7 @@ pub(super) fn with_numbers(outcome: &Outcome) -> Block {
     lines.extend(sigma("sigma1", "1", ""));
     for side in sides {
         lines.extend(sigma("sigma2", "2", side));
+        lines.extend(dependences::lines(outcome, side));
     }
     let caption = match law {
         "lugre" => "LuGre (Canudas de Wit, Olsson, Åström, Lischinsky 1995), g in units of force.",
@@ -56,7 +64,7 @@ pub(super) fn with_numbers(outcome: &Outcome) -> Block {
 }
 
 /// Sign of a direction by the suffix of its parameters.
-fn sign(side: &str) -> &'static str {
+pub(super) fn sign(side: &str) -> &'static str {
     match side {
         "_pos" => "+",
         "_neg" => "−",
@@ -64,26 +72,19 @@ fn sign(side: &str) -> &'static str {
     }
 }
 
-fn bristle(lugre: bool) -> Vec<Math> {
-    let mut force = vec![id("F"), op("="), sub(id("σ"), num("0")), id("z")];
-    if lugre {
-        force.extend([op("+"), sub(id("σ"), num("1")), dot(id("z"))]);
-    }
-    force.extend([op("+"), sub(id("σ"), num("2")), id("v")]);
-    vec![
-        row(force),
-        row([
-            dot(id("z")),
-            op("="),
-            id("v"),
-            op("−"),
-            frac(
-                row([sub(id("σ"), num("0")), abs(id("v"))]),
-                row([id("g"), paren(id("v"))]),
-            ),
-            id("z"),
-        ]),
-    ]
+/// How the bristle deflects.
+fn deflection() -> Math {
+    row([
+        dot(id("z")),
+        op("="),
+        id("v"),
+        op("−"),
+        frac(
+            row([sub(id("σ"), num("0")), abs(id("v"))]),
+            row([id("g"), paren(id("v"))]),
+        ),
+        id("z"),
+    ])
 }
 
 /// `g(v)` of one direction with its numbers.

@@ -1,5 +1,6 @@
 //! What goes into an identification, before and after conditioning.
 
+use crate::conditioning::channels::Channels;
 use crate::conditioning::shift::Shift;
 use stiction_signal::Sos;
 
@@ -14,6 +15,10 @@ pub struct Samples {
     pub velocity: Option<Vec<f64>>,
     /// Force (torque, current, voltage) that drives the axis.
     pub force: Vec<f64>,
+    /// Normal load, in any unit.
+    pub load: Option<Vec<f64>>,
+    /// Temperature, K.
+    pub temperature: Option<Vec<f64>>,
     /// Which samples may be used; empty means all.
     pub valid: Vec<bool>,
     /// Samples at which something new starts (after a jump of the position, say), in order; the
@@ -48,6 +53,8 @@ pub struct Segment {
     pub force: Vec<f64>,
     /// Which thinned samples count.
     pub keep: Vec<bool>,
+    /// What friction may depend on beside the velocity, at the full rate.
+    pub channels: Channels,
 }
 
 /// Everything a fit sees: segments, and the filter that made them.
@@ -144,7 +151,8 @@ impl Record {
         out
     }
 
-    /// The kept samples of a channel at the full rate, in order.
+    /// The kept samples of a channel at the full rate, in order; none where the log has no such
+    /// channel.
     pub fn pick(&self, channel: impl Fn(&Segment) -> &[f64]) -> Vec<f64> {
         let mut out = Vec::with_capacity(self.kept());
         for segment in &self.segments {
@@ -241,6 +249,7 @@ impl Record {
                 time: pick(&s.time),
                 force: pick(&s.force),
                 keep: s.keep.iter().step_by(every).copied().collect(),
+                channels: s.channels.every(self.decimate.saturating_mul(every)),
             })
             .collect();
         Some(Self {

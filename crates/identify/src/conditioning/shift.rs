@@ -65,6 +65,12 @@ impl Shift {
 
 /// The sample before the point asked for, relative, and how far beyond it the point stands.
 fn split(samples: f64) -> (isize, f64) {
+    // No log is longer; and it keeps the index in range whatever delay was given.
+    let samples = if samples.is_nan() {
+        0.0
+    } else {
+        samples.clamp(-1e12, 1e12)
+    };
     let base = libm::floor(-samples);
     (base as isize, -samples - base)
 }

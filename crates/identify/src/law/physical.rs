@@ -1,6 +1,7 @@
 //! From the unknowns of the search to the parameters of the law.
 
-use crate::law::terms::LinearTerm;
+use crate::law::dependence::Factor;
+use crate::law::terms::{ColumnKind, LinearTerm, Side};
 use crate::law::{Law, share_of_odds};
 use nalgebra::DMatrix;
 
@@ -19,6 +20,20 @@ pub enum Dimension {
     Inertia,
     /// Time, s.
     Time,
+    /// Force per squared speed.
+    QuadraticDamping,
+    /// Force per normal load; a pure number where both are in one unit.
+    ForcePerLoad,
+    /// Force per temperature.
+    ForcePerTemperature,
+    /// Force per speed and temperature.
+    DampingPerTemperature,
+    /// Normal load, in the unit of its channel.
+    Load,
+    /// Temperature, K.
+    Temperature,
+    /// Length, or angle.
+    Length,
     /// A pure number.
     One,
 }
@@ -153,17 +168,25 @@ pub(crate) fn physical(
         }
     }
     for (i, term) in linear.iter().enumerate() {
-        let dimension = match term.name.as_str() {
-            "coulomb" | "sigma1" => continue,
-            "mass" => Dimension::Inertia,
-            name if name.starts_with("sigma2") => Dimension::Damping,
-            _ => Dimension::Force,
+        if matches!(term.name.as_str(), "coulomb" | "sigma1") {
+            continue;
+        }
+        // The level of the negative direction is a multiple of that of the positive one, and so is
+        // how it changes.
+        let ratio = match term.column {
+            ColumnKind::LevelTimes(_, Some(Side::Negative)) => layout.ratio,
+            _ => None,
         };
+        let scale = ratio.map_or(1.0, |i| libm::exp(p[i]));
+        let mut slope = unit(k + i, scale);
+        if let Some(at) = ratio {
+            slope[at] = scale * c[i];
+        }
         push(
             term.name.clone(),
-            dimension,
-            c[i],
-            unit(k + i, 1.0),
+            dimension(term.column),
+            scale * c[i],
+            slope,
             None,
             Some(i),
             term.nonnegative,
@@ -198,12 +221,35 @@ pub(crate) fn physical(
     out
 }
 
+/// What the coefficient of a column measures.
+fn dimension(column: ColumnKind) -> Dimension {
+    match column {
+        ColumnKind::Rate | ColumnKind::Speed(_) => Dimension::Damping,
+        ColumnKind::Square(_) => Dimension::QuadraticDamping,
+        ColumnKind::Acceleration => Dimension::Inertia,
+        ColumnKind::LevelTimes(factor, _) => match factor {
+            Factor::Load(_) => Dimension::ForcePerLoad,
+            Factor::Temperature(_) => Dimension::ForcePerTemperature,
+            Factor::Position(_) => Dimension::Stiffness,
+            Factor::Sine(_) | Factor::Cosine(_) => Dimension::Force,
+        },
+        // Only a temperature changes the viscous term.
+        ColumnKind::SpeedTimes(..) => Dimension::DampingPerTemperature,
+        ColumnKind::Level
+        | ColumnKind::Sign(_)
+        | ColumnKind::One
+        | ColumnKind::Sine(_)
+        | ColumnKind::Cosine(_) => Dimension::Force,
+    }
+}
+
 /// Order of parameters in tables and files.
 fn rank(name: &str) -> usize {
-    const ORDER: [&str; 10] = [
+    const ORDER: [&str; 11] = [
         "sigma0",
         "sigma1",
         "sigma2",
+        "quadratic_viscous",
         "coulomb",
         "static",
         "stribeck_velocity",

@@ -1,5 +1,8 @@
 //! The linear terms of the force: the law's own and those that stand beside it.
 
+use crate::conditioning::record::Record;
+use crate::error::Error;
+use crate::law::dependence::{Dependence, Factor};
 use crate::law::{Law, LawKind};
 use std::f64::consts::TAU;
 
@@ -15,6 +18,11 @@ pub struct Terms {
     pub gravity: bool,
     /// Cogging: `sin` and `cos` of `2 pi x / pitch` for each pitch, m or rad.
     pub cogging: Vec<f64>,
+    /// Viscous friction that grows with the square of the speed, `v |v|`; negative where it bends
+    /// the other way.
+    pub quadratic_viscous: bool,
+    /// Friction that changes with load, temperature or position.
+    pub dependences: Vec<Dependence>,
     /// How much later the force was logged than the motion it belongs to. Not linear, but like the
     /// terms above no part of the law.
     pub delay: Delay,
@@ -54,6 +62,8 @@ impl Default for Terms {
             gravity: false,
             cogging: Vec::new(),
             delay: Delay::NONE,
+            quadratic_viscous: false,
+            dependences: Vec::new(),
         }
     }
 }
@@ -78,6 +88,12 @@ pub(crate) enum ColumnKind {
     Rate,
     /// `v`, or `v` in one direction only.
     Speed(Option<Side>),
+    /// `v |v|`, or that in one direction only.
+    Square(Option<Side>),
+    /// `eta` times a factor, or that in one direction of the deflection only.
+    LevelTimes(Factor, Option<Side>),
+    /// `v` times a factor, or that in one direction only.
+    SpeedTimes(Factor, Option<Side>),
     Acceleration,
     One,
     /// `sin` of a rate times position, 1/m or 1/rad.
@@ -103,6 +119,39 @@ impl Side {
 }
 
 impl Terms {
+    /// The same terms with the references of the dependences taken from a record: the mean load and
+    /// temperature, the middle of the stroke.
+    #[must_use]
+    pub fn about(&self, record: &Record) -> Self {
+        let dependences = self.dependences.iter().map(|d| d.about(record)).collect();
+        Self {
+            dependences,
+            ..self.clone()
+        }
+    }
+
+    /// Refuses a record without a channel that a term needs.
+    pub(crate) fn check(&self, record: &Record) -> Result<(), Error> {
+        for dependence in &self.dependences {
+            let missing = record.segments.iter().find(|s| {
+                let channel = match dependence.channel() {
+                    "load" => &s.channels.load,
+                    "temperature" => &s.channels.temperature,
+                    _ => &s.channels.position,
+                };
+                channel.is_empty()
+            });
+            if let Some(segment) = missing {
+                return Err(Error::MissingChannel {
+                    log: segment.log + 1,
+                    channel: dependence.channel(),
+                    term: dependence.name(),
+                });
+            }
+        }
+        Ok(())
+    }
+
     /// The linear unknowns of a law with these terms, in the order of the columns; the law's own
     /// (those that depend on the nonlinear unknowns) come first.
     pub(crate) fn columns(&self, law: &Law) -> Vec<LinearTerm> {
@@ -130,6 +179,15 @@ impl Terms {
         } else {
             push("sigma2", ColumnKind::Speed(None), true);
         }
+        if self.quadratic_viscous {
+            for (side, suffix) in sides(law) {
+                push(
+                    &format!("quadratic_viscous{suffix}"),
+                    ColumnKind::Square(side),
+                    false,
+                );
+            }
+        }
         if self.mass == Mass::Fitted {
             push("mass", ColumnKind::Acceleration, true);
         }
@@ -152,6 +210,32 @@ impl Terms {
                 false,
             );
         }
+        let mut pitches = 0;
+        for dependence in &self.dependences {
+            for (name, factor) in dependence.factors(pitches) {
+                for (side, suffix) in sides(law) {
+                    let column = if dependence.is_viscous() {
+                        ColumnKind::SpeedTimes(factor, side)
+                    } else {
+                        ColumnKind::LevelTimes(factor, side)
+                    };
+                    push(&format!("{name}{suffix}"), column, false);
+                }
+            }
+            pitches += usize::from(matches!(dependence, Dependence::CoulombPitch(_)));
+        }
         out
+    }
+}
+
+/// The directions that have unknowns of their own, and the suffix of their names.
+fn sides(law: &Law) -> Vec<(Option<Side>, &'static str)> {
+    if law.asymmetric {
+        vec![
+            (Some(Side::Positive), "_pos"),
+            (Some(Side::Negative), "_neg"),
+        ]
+    } else {
+        vec![(None, "")]
     }
 }

@@ -3,6 +3,7 @@
 use crate::conditioning::record::{Record, Segment};
 use crate::conditioning::shift::Shift;
 use crate::law::Law;
+use crate::law::dependence::product;
 use crate::law::terms::{ColumnKind, Delay, LinearTerm, Mass, Side, Terms};
 use crate::separable::linear::{self, Solution, dot};
 use crate::separable::recursion::{Trace, trace};
@@ -19,6 +20,9 @@ pub struct Objective<'a> {
     nonnegative: Vec<bool>,
     /// Columns that no parameter of the law changes; `None` for those that one does.
     fixed: Vec<Option<Fixed>>,
+    /// Levels that change with another channel: which linear unknown, and the factor at the full
+    /// rate of each segment.
+    varying: Vec<Varying>,
     /// Measured force.
     force: Vec<f64>,
     /// A mass that is given, and the acceleration.
@@ -34,6 +38,14 @@ enum Fixed {
     Thin(Vec<f64>),
     /// At the full rate, filtered, for each segment: a delay moves it.
     Full(Vec<Vec<f64>>),
+}
+
+/// A column `f(t) eta`.
+#[derive(Clone, Debug)]
+struct Varying {
+    linear: usize,
+    side: Option<Side>,
+    factors: Vec<Vec<f64>>,
 }
 
 /// One trial.
@@ -69,6 +81,18 @@ impl<'a> Objective<'a> {
             .iter()
             .map(|term| fixed_column(record, term.column, moves))
             .collect();
+        let varying = linear
+            .iter()
+            .enumerate()
+            .filter_map(|(i, term)| match term.column {
+                ColumnKind::LevelTimes(factor, side) => Some(Varying {
+                    linear: i,
+                    side,
+                    factors: record.segments.iter().map(|s| factor.along(s)).collect(),
+                }),
+                _ => None,
+            })
+            .collect();
         let force = record.gather(|s| &s.force);
         let energy = dot(&force, &force);
         let nonnegative = linear.iter().map(|term| term.nonnegative).collect();
@@ -85,6 +109,7 @@ impl<'a> Objective<'a> {
             linear,
             nonnegative,
             fixed,
+            varying,
             force,
             inertia,
             energy,
@@ -241,56 +266,72 @@ impl<'a> Objective<'a> {
         }
     }
 
-    fn traces(&self, p: &[f64], slopes: bool) -> Vec<Trace> {
+    fn traces(&self, p: &[f64], slopes: bool) -> Vec<Run> {
         let p = &p[..self.law.nonlinear()];
-        let segments = self.record.segments.iter();
+        let segments = self.record.segments.iter().enumerate();
         segments
-            .map(|s| {
-                let mut trace = trace(&self.law, p, s.step, &s.velocity, slopes);
-                self.record.filter(trace.columns_mut());
-                trace
+            .map(|(i, s)| {
+                let trace = trace(&self.law, p, s.step, &s.velocity, slopes);
+                // The rate is empty for a static law, and then no column asks for it.
+                let mut columns = vec![trace.eta.clone(), trace.rate.clone()];
+                for varying in &self.varying {
+                    columns.push(product(&trace.eta, &varying.factors[i], varying.side));
+                }
+                self.record.filter(&mut columns);
+                Run { trace, columns }
             })
             .collect()
     }
 
     /// The columns of the regression at the kept samples.
-    fn columns(&self, traces: &[Trace], shift: Shift) -> Vec<Vec<f64>> {
-        let own = |pick: fn(&Trace) -> &Vec<f64>| {
+    fn columns(&self, runs: &[Run], shift: Shift) -> Vec<Vec<f64>> {
+        let own = |column: usize| {
             let mut out = Vec::with_capacity(self.force.len());
-            for (segment, t) in self.record.segments.iter().zip(traces) {
-                self.record.thin(segment, pick(t), shift, &mut out);
+            for (segment, run) in self.record.segments.iter().zip(runs) {
+                self.record
+                    .thin(segment, &run.columns[column], shift, &mut out);
             }
             out
         };
+        // They were made in the order of the linear unknowns.
+        let mut next = 2..;
         self.linear
             .iter()
             .zip(&self.fixed)
             .map(|(term, fixed)| match (fixed, term.column) {
                 (Some(column), _) => self.at(column, shift),
-                (None, ColumnKind::Rate) => own(|t| &t.rate),
-                (None, _) => own(|t| &t.eta),
+                (None, ColumnKind::Rate) => own(1),
+                (None, ColumnKind::LevelTimes(..)) => next.next().map(&own).unwrap_or_default(),
+                (None, _) => own(0),
             })
             .collect()
     }
 
     /// `d(Phi)/dp_i c` of every nonlinear unknown, filtered and thinned like the columns.
-    fn slopes(&self, traces: &[Trace], p: &[f64], coefficients: &[f64]) -> Vec<Vec<f64>> {
+    fn slopes(&self, runs: &[Run], p: &[f64], coefficients: &[f64]) -> Vec<Vec<f64>> {
         let mut c_eta = 0.0;
         let mut c_rate = 0.0;
         for ((term, fixed), &c) in self.linear.iter().zip(&self.fixed).zip(coefficients) {
             match (fixed, term.column) {
                 (None, ColumnKind::Rate) => c_rate += c,
+                // Different at each sample: see below.
+                (None, ColumnKind::LevelTimes(..)) | (Some(_), _) => {}
                 (None, _) => c_eta += c,
-                _ => {}
             }
         }
         let k = self.law.nonlinear();
         let shift = self.shift(p);
         let mut out = vec![Vec::with_capacity(self.force.len()); k];
-        for (segment, t) in self.record.segments.iter().zip(traces) {
+        for (s, (segment, run)) in self.record.segments.iter().zip(runs).enumerate() {
+            let t = &run.trace;
+            let level = self.level(s, &t.eta, c_eta, coefficients);
             let mut full: Vec<Vec<f64>> = (0..k)
                 .map(|i| {
-                    let mut d: Vec<f64> = t.eta_slope[i].iter().map(|x| c_eta * x).collect();
+                    let slope = t.eta_slope[i].iter();
+                    let mut d: Vec<f64> = match &level {
+                        None => slope.map(|x| c_eta * x).collect(),
+                        Some(level) => slope.zip(level).map(|(x, c)| c * x).collect(),
+                    };
                     if let Some(rate) = t.rate_slope.get(i) {
                         for (x, r) in d.iter_mut().zip(rate) {
                             *x += c_rate * r;
@@ -305,13 +346,13 @@ impl<'a> Objective<'a> {
             }
         }
         if self.delay == Delay::Fitted {
-            out.push(self.delay_slope(traces, p, coefficients));
+            out.push(self.delay_slope(runs, p, coefficients));
         }
         out
     }
 
     /// Derivative of the model with respect to the delay, per sample.
-    fn delay_slope(&self, traces: &[Trace], p: &[f64], coefficients: &[f64]) -> Vec<f64> {
+    fn delay_slope(&self, runs: &[Run], p: &[f64], coefficients: &[f64]) -> Vec<f64> {
         let slope = Shift::slope(p.last().copied().unwrap_or(0.0));
         let mut out = vec![0.0; self.force.len()];
         let mut add = |c: f64, column: Vec<f64>| {
@@ -319,7 +360,7 @@ impl<'a> Objective<'a> {
                 *y += c * x;
             }
         };
-        for (column, &c) in self.columns(traces, slope).into_iter().zip(coefficients) {
+        for (column, &c) in self.columns(runs, slope).into_iter().zip(coefficients) {
             add(c, column);
         }
         if let Some(inertia) = self.inertia_force(slope) {
@@ -327,31 +368,76 @@ impl<'a> Objective<'a> {
         }
         out
     }
+
+    /// What multiplies `eta` at each sample of a segment; `None` where nothing but `c_eta` does.
+    fn level(&self, segment: usize, eta: &[f64], c_eta: f64, c: &[f64]) -> Option<Vec<f64>> {
+        if self.varying.is_empty() {
+            return None;
+        }
+        let mut level = vec![c_eta; eta.len()];
+        for varying in &self.varying {
+            let factors = &varying.factors[segment];
+            for ((level, f), &eta) in level.iter_mut().zip(factors).zip(eta) {
+                if varying.side.is_none_or(|side| side.selects(eta)) {
+                    *level += c[varying.linear] * f;
+                }
+            }
+        }
+        Some(level)
+    }
+
+    /// For each linear unknown, how large its column is in use: the coefficient times this compares
+    /// with the Coulomb level.
+    pub(crate) fn spans(&self) -> Vec<f64> {
+        let top = self.record.top_speed();
+        self.linear
+            .iter()
+            .map(|term| match term.column {
+                ColumnKind::Square(_) => top * top,
+                ColumnKind::LevelTimes(factor, _) => factor.span(self.record),
+                ColumnKind::SpeedTimes(factor, _) => top * factor.span(self.record),
+                _ => 1.0,
+            })
+            .collect()
+    }
+}
+
+/// The law along one segment.
+struct Run {
+    trace: Trace,
+    /// The columns that the law makes, filtered, at the full rate: `eta`, its rate, and the levels
+    /// that change with another channel.
+    columns: Vec<Vec<f64>>,
 }
 
 /// A column that does not depend on the parameters of the law; `None` if it does.
 fn fixed_column(record: &Record, column: ColumnKind, moves: bool) -> Option<Fixed> {
-    let each = |f: fn(f64, f64) -> f64, rate: f64, channel: fn(&Segment) -> &Vec<f64>| {
-        let segments = record.segments.iter();
-        let full = segments.map(|s| channel(s).iter().map(|&x| f(rate, x)).collect());
-        full.collect::<Vec<Vec<f64>>>()
+    let each = |f: &dyn Fn(&Segment) -> Vec<f64>| -> Vec<Vec<f64>> {
+        record.segments.iter().map(f).collect()
     };
-    let select = |side: Option<Side>, f: fn(f64) -> f64| {
-        let segments = record.segments.iter();
-        let chosen = |v: f64| side.is_none_or(|side| side.selects(v));
-        let one = |&v: &f64| if chosen(v) { f(v) } else { 0.0 };
-        let full = segments.map(|s| s.velocity.iter().map(one).collect());
-        full.collect::<Vec<Vec<f64>>>()
+    let of = |x: &[f64], f: &dyn Fn(f64) -> f64| -> Vec<f64> { x.iter().map(|&x| f(x)).collect() };
+    let one_way = |side: Option<Side>, v: f64| match side {
+        Some(side) if !side.selects(v) => 0.0,
+        _ => v,
     };
     let mut full = match column {
-        ColumnKind::Level | ColumnKind::Rate => return None,
-        ColumnKind::Sign(side) => select(Some(side), f64::signum),
-        ColumnKind::Speed(side) => select(side, |v| v),
-        ColumnKind::Acceleration => each(|_, a| a, 1.0, |s| &s.acceleration),
+        ColumnKind::Level | ColumnKind::Rate | ColumnKind::LevelTimes(..) => return None,
+        ColumnKind::Sign(side) => each(&|s| {
+            of(&s.velocity, &|v| {
+                if side.selects(v) { v.signum() } else { 0.0 }
+            })
+        }),
+        ColumnKind::Speed(side) => each(&|s| of(&s.velocity, &|v| one_way(side, v))),
+        ColumnKind::Square(side) => each(&|s| of(&s.velocity, &|v| one_way(side, v) * v.abs())),
+        ColumnKind::SpeedTimes(factor, side) => each(&|s| {
+            let velocity = s.velocity.iter().map(|&v| one_way(side, v));
+            velocity.zip(factor.along(s)).map(|(v, f)| v * f).collect()
+        }),
+        ColumnKind::Acceleration => each(&|s| s.acceleration.clone()),
         ColumnKind::One if !moves => return Some(Fixed::Thin(vec![1.0; record.kept()])),
-        ColumnKind::One => each(|_, _| 1.0, 1.0, |s| &s.velocity),
-        ColumnKind::Sine(rate) => each(|k, x| libm::sin(k * x), rate, |s| &s.position),
-        ColumnKind::Cosine(rate) => each(|k, x| libm::cos(k * x), rate, |s| &s.position),
+        ColumnKind::One => each(&|s| vec![1.0; s.velocity.len()]),
+        ColumnKind::Sine(rate) => each(&|s| of(&s.position, &|x| libm::sin(rate * x))),
+        ColumnKind::Cosine(rate) => each(&|s| of(&s.position, &|x| libm::cos(rate * x))),
     };
     for column in &mut full {
         record.filter([column]);

@@ -102,13 +102,6 @@ pub(crate) struct Trace {
     pub rate_slope: Vec<Vec<f64>>,
 }
 
-impl Trace {
-    /// The columns, to be filtered in place; not their derivatives.
-    pub fn columns_mut(&mut self) -> [&mut Vec<f64>; 2] {
-        [&mut self.eta, &mut self.rate]
-    }
-}
-
 /// Runs the law along a velocity; `slopes` asks for the sensitivities too.
 pub(crate) fn trace(law: &Law, p: &[f64], step: f64, velocity: &[f64], slopes: bool) -> Trace {
     let layout = law.layout();

@@ -1,0 +1,189 @@
+//! Friction that changes with more than the velocity: normal load, temperature, place on the stroke.
+//!
+//! The level of friction becomes `Fc + sum c_k f_k(t)` with a known factor `f_k` of another channel.
+//! In the separable form `Fc eta` becomes `(Fc + sum c_k f_k) eta`, so each `c_k` is one more linear
+//! unknown with the column `f_k eta`. Static friction and bristle stiffness change in proportion with
+//! the level: `Fs/Fc` and the presliding length `Fc/s0` are those of the whole log.
+
+use crate::conditioning::channels::Channels;
+use crate::conditioning::record::{Record, Segment};
+use crate::law::terms::Side;
+use std::f64::consts::TAU;
+
+/// Change of temperature over which a dependence on it is judged, K; a log that spans more is judged
+/// over what it spans.
+const USUAL_SPAN: f64 = 10.0;
+
+/// A part of friction and what it changes with. References are where `coulomb` and `sigma2` hold;
+/// [`Terms::about`](crate::Terms::about) takes them from a record.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Dependence {
+    /// Coulomb level, linear in the normal load about this load (unit of the load channel). Its
+    /// coefficient is a coefficient of friction where load and force are in one unit.
+    CoulombLoad(f64),
+    /// Coulomb level, linear in the temperature about this one, K.
+    CoulombTemperature(f64),
+    /// Coulomb level, linear in the position about this one, m or rad.
+    CoulombPosition(f64),
+    /// Coulomb level with `sin` and `cos` of `2 pi x / pitch`, m or rad.
+    CoulombPitch(f64),
+    /// Viscous friction, linear in the temperature about this one, K.
+    ViscousTemperature(f64),
+}
+
+/// What multiplies a column of the law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Factor {
+    /// A channel minus its reference.
+    Load(f64),
+    Temperature(f64),
+    Position(f64),
+    /// `sin` of a rate times position, 1/m or 1/rad.
+    Sine(f64),
+    Cosine(f64),
+}
+
+impl Dependence {
+    /// Name of the key of the axis file, and stem of its parameters.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Dependence::CoulombLoad(_) => "coulomb_load",
+            Dependence::CoulombTemperature(_) => "coulomb_temperature",
+            Dependence::CoulombPosition(_) => "coulomb_position",
+            Dependence::CoulombPitch(_) => "coulomb_pitch",
+            Dependence::ViscousTemperature(_) => "sigma2_temperature",
+        }
+    }
+
+    /// The channel of the log that it needs.
+    pub fn channel(&self) -> &'static str {
+        match self {
+            Dependence::CoulombLoad(_) => "load",
+            Dependence::CoulombTemperature(_) | Dependence::ViscousTemperature(_) => "temperature",
+            Dependence::CoulombPosition(_) | Dependence::CoulombPitch(_) => "position",
+        }
+    }
+
+    /// Name and value of the reference as a given parameter; none for a pitch.
+    pub(crate) fn reference(&self) -> Option<(&'static str, f64)> {
+        match *self {
+            Dependence::CoulombLoad(x) => Some(("load_reference", x)),
+            Dependence::CoulombTemperature(x) | Dependence::ViscousTemperature(x) => {
+                Some(("temperature_reference", x))
+            }
+            Dependence::CoulombPosition(x) => Some(("position_reference", x)),
+            Dependence::CoulombPitch(_) => None,
+        }
+    }
+
+    /// Whether it changes the viscous term rather than the level.
+    pub(crate) fn is_viscous(&self) -> bool {
+        matches!(self, Dependence::ViscousTemperature(_))
+    }
+
+    /// Its columns: name of the parameter, and the factor.
+    pub(crate) fn factors(&self, pitches_before: usize) -> Vec<(String, Factor)> {
+        let name = self.name();
+        match *self {
+            Dependence::CoulombLoad(x) => vec![(name.into(), Factor::Load(x))],
+            Dependence::CoulombTemperature(x) | Dependence::ViscousTemperature(x) => {
+                vec![(name.into(), Factor::Temperature(x))]
+            }
+            Dependence::CoulombPosition(x) => vec![(name.into(), Factor::Position(x))],
+            Dependence::CoulombPitch(pitch) => {
+                let k = pitches_before + 1;
+                vec![
+                    (format!("{name}{k}_sin"), Factor::Sine(TAU / pitch)),
+                    (format!("{name}{k}_cos"), Factor::Cosine(TAU / pitch)),
+                ]
+            }
+        }
+    }
+
+    /// The same about what a record holds: the mean of load and temperature over the samples that
+    /// count, the middle of the stroke.
+    pub(crate) fn about(self, record: &Record) -> Self {
+        let mean = |channel: &dyn Fn(&Channels) -> &[f64]| {
+            let values = record.pick(|s| channel(&s.channels));
+            let n = values.len().max(1) as f64;
+            // Divided first, so that no load is too large to be added up.
+            values.iter().map(|x| x / n).sum::<f64>()
+        };
+        match self {
+            Dependence::CoulombLoad(_) => Dependence::CoulombLoad(mean(&|c| &c.load)),
+            Dependence::CoulombTemperature(_) => {
+                Dependence::CoulombTemperature(mean(&|c| &c.temperature))
+            }
+            Dependence::ViscousTemperature(_) => {
+                Dependence::ViscousTemperature(mean(&|c| &c.temperature))
+            }
+            Dependence::CoulombPosition(_) => {
+                let x = record.pick(|s| &s.channels.position);
+                let low = x.iter().copied().fold(f64::INFINITY, f64::min);
+                let high = x.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                Dependence::CoulombPosition(if low <= high {
+                    low + 0.5 * (high - low)
+                } else {
+                    0.0
+                })
+            }
+            Dependence::CoulombPitch(_) => self,
+        }
+    }
+}
+
+impl Factor {
+    fn channel<'a>(&self, channels: &'a Channels) -> &'a [f64] {
+        match self {
+            Factor::Load(_) => &channels.load,
+            Factor::Temperature(_) => &channels.temperature,
+            Factor::Position(_) | Factor::Sine(_) | Factor::Cosine(_) => &channels.position,
+        }
+    }
+
+    /// The factor at the full rate of a segment; zero (as at the reference) where the channel is
+    /// missing, which a fit refuses.
+    pub fn along(&self, segment: &Segment) -> Vec<f64> {
+        let values = self.channel(&segment.channels);
+        if values.len() != segment.velocity.len() {
+            return vec![0.0; segment.velocity.len()];
+        }
+        let at = |x: f64| match *self {
+            Factor::Load(reference)
+            | Factor::Temperature(reference)
+            | Factor::Position(reference) => x - reference,
+            Factor::Sine(rate) => libm::sin(rate * x),
+            Factor::Cosine(rate) => libm::cos(rate * x),
+        };
+        values.iter().map(|&x| at(x)).collect()
+    }
+
+    /// How far the factor reaches in use, at least: what the log spans, but never less than the mean
+    /// load itself and 10 K. A coefficient times this compares with the level it changes; a load that
+    /// only shows its noise would else look well known.
+    pub fn span(&self, record: &Record) -> f64 {
+        let largest = record
+            .segments
+            .iter()
+            .flat_map(|s| self.along(s))
+            .fold(0.0, |most: f64, x| most.max(x.abs()));
+        match self {
+            Factor::Load(reference) => largest.max(reference.abs()),
+            Factor::Temperature(_) => largest.max(USUAL_SPAN),
+            Factor::Position(_) => largest,
+            Factor::Sine(_) | Factor::Cosine(_) => 1.0,
+        }
+    }
+}
+
+/// `eta` times a factor, in one direction of the deflection or both. It goes through zero with `eta`,
+/// so the force stays continuous where the direction changes.
+pub(crate) fn product(eta: &[f64], factor: &[f64], side: Option<Side>) -> Vec<f64> {
+    eta.iter()
+        .zip(factor)
+        .map(|(&eta, &f)| match side {
+            Some(side) if !side.selects(eta) => 0.0,
+            _ => eta * f,
+        })
+        .collect()
+}
