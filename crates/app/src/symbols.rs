@@ -52,6 +52,7 @@ pub fn symbol(name: &str) -> String {
         "static" => "Fs",
         "stribeck_velocity" => "vs",
         "stribeck_exponent" => "δ",
+        "breakaway_ratio" => "zba/zss",
         "mass" => "M",
         "offset" => "F₀",
         other => other,
@@ -77,6 +78,7 @@ pub fn meaning(name: &str, motion: Motion) -> String {
         "static" => "static friction",
         "stribeck_velocity" => "Stribeck velocity",
         "stribeck_exponent" => "Stribeck exponent",
+        "breakaway_ratio" => "break-away part of the steady deflection",
         "mass" => match motion {
             Motion::Linear => "moving mass",
             Motion::Rotary => "inertia",

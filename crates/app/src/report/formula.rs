@@ -10,6 +10,7 @@ pub(super) fn with_numbers(outcome: &Outcome) -> Block {
     let asymmetric = outcome.result.asymmetric;
     let mut lines = match law {
         "lugre" | "dahl" => bristle(law == "lugre"),
+        "elasto-plastic" => elasto_plastic(outcome),
         _ => vec![row([
             id("F"),
             op("="),
@@ -48,6 +49,11 @@ pub(super) fn with_numbers(outcome: &Outcome) -> Block {
     }
     let caption = match law {
         "lugre" => "LuGre (Canudas de Wit, Olsson, Åström, Lischinsky 1995), g in units of force.",
+        "elasto-plastic" => {
+            "Elasto-plastic (Dupont, Hayward, Armstrong, Altpeter 2002): α is 0 where z and v point \
+             opposite ways and up to the break-away deflection, rises as half a sine, and is 1 from \
+             the steady deflection g/σ₀ on."
+        }
         "dahl" => "Dahl: LuGre without Stribeck curve and micro-damping.",
         "stribeck" => "Static Stribeck curve.",
         _ => "Coulomb and viscous friction.",
@@ -62,6 +68,23 @@ fn sign(side: &str) -> &'static str {
         "_neg" => "−",
         _ => "",
     }
+}
+
+/// The bristle of LuGre with its alpha, and the break-away deflection with its number.
+fn elasto_plastic(outcome: &Outcome) -> Vec<Math> {
+    let share = outcome.estimate.value("breakaway_ratio").unwrap_or(0.0);
+    let mut lines = bristle(true);
+    if let Some(Math::Row(rate)) = lines.get_mut(1) {
+        let alpha = [id("α"), paren(row([id("z"), op(","), id("v")]))];
+        rate.splice(4..4, alpha);
+    }
+    lines.push(row([
+        sub(id("z"), row([id("b"), id("a")])),
+        op("="),
+        num(number::sig(share, 3)),
+        frac(row([id("g"), paren(id("v"))]), sub(id("σ"), num("0"))),
+    ]));
+    lines
 }
 
 fn bristle(lugre: bool) -> Vec<Math> {
