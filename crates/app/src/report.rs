@@ -212,6 +212,7 @@ pub(crate) fn law_name(law: &str, asymmetric: bool) -> String {
         "stribeck" => "Stribeck",
         "dahl" => "Dahl",
         "lugre" => "LuGre",
+        "elasto-plastic" => "Elasto-plastic",
         other => other,
     };
     if asymmetric {

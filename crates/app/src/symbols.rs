@@ -66,6 +66,7 @@ pub fn symbol(name: &str) -> String {
         "static" => "Fs",
         "stribeck_velocity" => "vs",
         "stribeck_exponent" => "δ",
+        "breakaway_ratio" => "zba/zss",
         "mass" => "M",
         "offset" => "F₀",
         "delay" => "τ",
@@ -100,6 +101,7 @@ pub fn meaning(name: &str, motion: Motion) -> String {
         "static" => "static friction",
         "stribeck_velocity" => "Stribeck velocity",
         "stribeck_exponent" => "Stribeck exponent",
+        "breakaway_ratio" => "break-away part of the steady deflection",
         "mass" => match motion {
             Motion::Linear => "moving mass",
             Motion::Rotary => "inertia",

@@ -110,6 +110,8 @@ pub enum Law {
     Dahl,
     /// Presliding, Stribeck curve, frictional lag.
     Lugre,
+    /// LuGre that does not creep below break-away.
+    ElastoPlastic,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -53,6 +53,19 @@ fn cost_and_sensitivities(bencher: Bencher) {
         .bench(|| objective.evaluate(&P, true).cost);
 }
 
+/// The elasto-plastic bristle beside LuGre's: four stages a step where it is not elastic.
+#[divan::bench(args = [false, true])]
+fn elasto_plastic(bencher: Bencher, sensitivities: bool) {
+    let record = noisy();
+    let terms = terms();
+    let law = Law::new(LawKind::ElastoPlastic);
+    let objective = Objective::new(&record, law, &terms);
+    let p = [P[0], P[1], P[2], 0.8];
+    bencher
+        .counter(ItemsCount::new(30_001_usize))
+        .bench(|| objective.evaluate(&p, sensitivities).cost);
+}
+
 #[divan::bench]
 fn whole_identification(bencher: Bencher) {
     let record = noisy();

@@ -120,13 +120,14 @@ fn parameter(p: &Parameter, motion: Motion, force_unit: &str, load_unit: &str) -
 
 /// Names of the linear terms that stand beside the law.
 pub(super) fn term_names(estimate: &Estimate, motion: Motion) -> Vec<String> {
-    const LAW: [&str; 6] = [
+    const LAW: [&str; 7] = [
         "sigma0",
         "sigma1",
         "sigma2",
         "coulomb",
         "static",
         "stribeck_velocity",
+        "breakaway_ratio",
     ];
     estimate
         .parameters

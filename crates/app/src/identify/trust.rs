@@ -149,6 +149,9 @@ fn cure(name: &str) -> &'static str {
             "Record slow reversals within the presliding range, with a finer encoder or a higher \
              rate"
         }
+        "breakaway_ratio" => {
+            "Record slow reversals that just break away, with a finer encoder or a higher rate"
+        }
         "sigma2" => "Record constant speeds up to the top speed of the axis",
         "static" | "stribeck_velocity" => {
             "Record slow motion through the Stribeck range: speeds well below and above the \

@@ -15,14 +15,17 @@ pub(super) fn with_numbers(outcome: &Outcome) -> Block {
     }
     let mut lines = Vec::new();
     match law {
-        "lugre" | "dahl" => {
+        "lugre" | "dahl" | "elasto-plastic" => {
             force.extend([sub(id("σ"), num("0")), id("z")]);
-            if law == "lugre" {
+            if law != "dahl" {
                 force.extend([op("+"), sub(id("σ"), num("1")), dot(id("z"))]);
             }
-            lines.push(deflection());
+            lines.push(deflection(law == "elasto-plastic"));
         }
         _ => force.extend([id("g"), paren(id("v")), id("sgn"), id("v")]),
+    }
+    if law == "elasto-plastic" {
+        lines.push(breakaway(outcome));
     }
     force.extend([op("+"), sub(id("σ"), num("2")), id("v")]);
     if outcome.estimate.terms.quadratic_viscous {
@@ -56,6 +59,11 @@ pub(super) fn with_numbers(outcome: &Outcome) -> Block {
     }
     let caption = match law {
         "lugre" => "LuGre (Canudas de Wit, Olsson, Åström, Lischinsky 1995), g in units of force.",
+        "elasto-plastic" => {
+            "Elasto-plastic (Dupont, Hayward, Armstrong, Altpeter 2002): α is 0 where z and v point \
+             opposite ways and up to the break-away deflection, rises as half a sine, and is 1 from \
+             the steady deflection g/σ₀ on."
+        }
         "dahl" => "Dahl: LuGre without Stribeck curve and micro-damping.",
         "stribeck" => "Static Stribeck curve.",
         _ => "Coulomb and viscous friction.",
@@ -72,18 +80,30 @@ pub(super) fn sign(side: &str) -> &'static str {
     }
 }
 
-/// How the bristle deflects.
-fn deflection() -> Math {
-    row([
-        dot(id("z")),
-        op("="),
-        id("v"),
-        op("−"),
+/// How the bristle deflects; the elasto-plastic one only in part.
+fn deflection(in_part: bool) -> Math {
+    let mut rate = vec![dot(id("z")), op("="), id("v"), op("−")];
+    if in_part {
+        rate.extend([id("α"), paren(row([id("z"), op(","), id("v")]))]);
+    }
+    rate.extend([
         frac(
             row([sub(id("σ"), num("0")), abs(id("v"))]),
             row([id("g"), paren(id("v"))]),
         ),
         id("z"),
+    ]);
+    row(rate)
+}
+
+/// The break-away deflection of the elasto-plastic law with its number.
+fn breakaway(outcome: &Outcome) -> Math {
+    let share = outcome.estimate.value("breakaway_ratio").unwrap_or(0.0);
+    row([
+        sub(id("z"), row([id("b"), id("a")])),
+        op("="),
+        num(number::sig(share, 3)),
+        frac(row([id("g"), paren(id("v"))]), sub(id("σ"), num("0"))),
     ])
 }
 

@@ -66,6 +66,10 @@ impl<T: Real> ElastoPlastic<T> {
             way.stretched = (T::ONE - part) * way.stretched;
             z = self.breakaway * way.from;
         }
+        if z >= way.from && way.to <= way.from {
+            // Beyond the steady deflection all along: LuGre, every stage would say 1.
+            return (z - start) + way.change(z, T::ONE, T::ONE);
+        }
         let half = T::from_f64(0.5);
         // The pull after a part of the way, if it was `m` on that part.
         let pull = |part: T, m: T| {

@@ -41,6 +41,12 @@ impl<const K: usize> Dual<K> {
         self.with(value, |k| derivative * self.slope[k])
     }
 
+    /// The same value, which depends on `on` with this derivative too.
+    #[inline(always)]
+    pub fn moved(self, on: Self, derivative: f64) -> Self {
+        self.with(self.value, |k| self.slope[k] + derivative * on.slope[k])
+    }
+
     #[inline(always)]
     pub fn scaled(self, by: f64) -> Self {
         self.mapped(self.value * by, by)
@@ -105,8 +111,8 @@ impl<const K: usize> Div for Dual<K> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: Self) -> Self {
-        let value = self.value / other.value;
         let inverse = 1.0 / other.value;
+        let value = self.value / other.value;
         self.with(value, |k| {
             (self.slope[k] - value * other.slope[k]) * inverse
         })

@@ -44,11 +44,13 @@ impl<const K: usize> Plasticity<K> {
         } else if e.value <= 0.0 {
             Dual::constant(1.0)
         } else {
-            let angle = self.turn * e;
-            let s = sin(angle.value);
+            let s = sin(self.turn.value * e.value);
             let c = sqrt((1.0 - s * s).max(0.0));
-            let s = angle.mapped(s, c);
-            Dual::constant(1.0) + (Dual::constant(1.0) - e) * s * (s / e)
+            let rest = 1.0 - e.value;
+            let r = s / e.value;
+            let by_turn = 2.0 * rest * s * c;
+            let by_e = r * (2.0 * self.turn.value * rest * c - r);
+            e.mapped(1.0 + rest * s * r, by_e).moved(self.turn, by_turn)
         }
     }
 }
@@ -89,6 +91,10 @@ impl<const K: usize> Way<K> {
             self.from = self.from + part * (self.to - self.from);
             self.stretched = (Dual::constant(1.0) - part) * self.stretched;
             y = plasticity.breakaway * self.from;
+        }
+        if y.value >= self.from.value && self.to.value <= self.from.value {
+            // Beyond the steady deflection all along: LuGre, every stage would say 1.
+            return y + self.change(y, 1.0, Dual::constant(1.0));
         }
         // The pull after a part of the way, if it was `m` on that part.
         let pull = |part: f64, m: Dual<K>| {
