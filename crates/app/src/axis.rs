@@ -8,7 +8,7 @@ mod tied;
 
 use crate::error::Error;
 use std::path::{Path, PathBuf};
-use stiction_identify::{Conditioning, Terms};
+use stiction_identify::{Conditioning, Delay, Terms};
 use stiction_log::text::TextOptions;
 use stiction_log::{Log, Mapping, Motion};
 pub use template::template;
@@ -45,7 +45,10 @@ impl Default for Axis {
             mapping: Mapping::default(),
             text: TextOptions::default(),
             conditioning: Conditioning::default(),
-            terms: Terms::default(),
+            terms: Terms {
+                delay: Delay::Fitted,
+                ..Terms::default()
+            },
             stribeck_exponent: 2.0,
             low_speed: None,
             offset: None,

@@ -20,6 +20,10 @@ pub const OWN: &[(&str, &str)] = &[
         "the residual is not noise: something systematic is left",
     ),
     (
+        "delay-out-of-range",
+        "the fitted delay between force and motion is too long to be one",
+    ),
+    (
         "static-law-at-rest",
         "a static law is fitted to an axis at rest or in presliding",
     ),

@@ -1,6 +1,7 @@
 //! The identification workflow: logs in, result, model and report out.
 
 mod assemble;
+mod conditioning;
 mod ladder;
 mod trust;
 
@@ -9,10 +10,13 @@ use crate::error::{Error, Warning};
 use crate::output::Bundle;
 use crate::result::{ResolvedAxis, ResultFile};
 use crate::source::{self, Source};
+use conditioning::condition;
 use std::path::PathBuf;
 use std::time::Instant;
 use stiction_identify as engine;
-use stiction_identify::{Estimate, Law, LawKind, Observer, Record, Series, Settings, Status};
+use stiction_identify::{
+    Delay, Estimate, Law, LawKind, Observer, Record, Series, Settings, Status,
+};
 use stiction_log::{Motion, Severity};
 
 /// What to identify, and how.
@@ -91,7 +95,20 @@ pub(crate) fn fit(
     let force_unit = sources[0].log.force_unit.clone();
     let terms = axis.terms_for(&sources[0].log, options.asymmetric)?;
     let other = axis.terms_for(&sources[0].log, !options.asymmetric)?;
-    let full = condition(&sources, axis)?;
+    let settings = Settings {
+        seed: options.seed,
+        ..Settings::default()
+    };
+    let wanted = conditioning::wanted(&sources, axis);
+    let (chosen, note) = conditioning::choose(
+        &sources,
+        &wanted,
+        &terms,
+        options.asymmetric,
+        &settings,
+        observer,
+    )?;
+    let full = condition(&sources, &chosen)?;
     let (record, split) = match options.split {
         None => (full.clone(), None),
         Some(part) => {
@@ -122,16 +139,23 @@ pub(crate) fn fit(
     let low_speed = axis
         .low_speed
         .unwrap_or_else(|| engine::low_speed_bound(&full));
-    let settings = Settings {
-        seed: options.seed,
-        ..Settings::default()
-    };
     let fail = |source| Error::Identify {
         inputs: names(&options.logs),
         source,
     };
-    let optimum = engine::separable(&record, law, &terms, &settings, observer).map_err(fail)?;
+    let mut terms = terms;
+    let mut optimum = engine::separable(&record, law, &terms, &settings, observer).map_err(fail)?;
+    let undelayed = terms.delay == Delay::Fitted && optimum.delay_at_bound();
+    if undelayed {
+        // A delay that wants to leave its range explains something else.
+        terms.delay = Delay::NONE;
+        optimum = engine::separable(&record, law, &terms, &settings, observer).map_err(fail)?;
+    }
     let estimate = engine::estimate(&record, law, &terms, &optimum, low_speed);
+    let estimate = match optimum.status {
+        Status::Interrupted => estimate,
+        _ => engine::calibrate(&record, &chosen, &optimum, estimate, observer),
+    };
     let mut validation = Vec::new();
     if let Some(rest) = &split {
         validation.push((
@@ -140,7 +164,7 @@ pub(crate) fn fit(
         ));
     }
     for source in &held_out {
-        let record = condition(std::slice::from_ref(source), axis)?;
+        let record = condition(std::slice::from_ref(source), &chosen)?;
         validation.push((
             source.path.display().to_string(),
             engine::predict(&record, &estimate),
@@ -151,7 +175,7 @@ pub(crate) fn fit(
     } else {
         let held_out = match (&split, held_out.is_empty()) {
             (Some(rest), _) => Some(rest.clone()),
-            (None, false) => Some(condition(&held_out, axis)?),
+            (None, false) => Some(condition(&held_out, &chosen)?),
             (None, true) => None,
         };
         let [symmetric, asymmetric] = if options.asymmetric {
@@ -169,6 +193,11 @@ pub(crate) fn fit(
         .climb(&estimate, &optimum.bounds, &settings, observer)
     };
     let mut warnings = log_warnings(&sources);
+    if undelayed {
+        let text = "the delay between force and motion would be more than four samples, which is \
+                    something else that the law does not explain; it is taken as none";
+        warnings.push(Warning::new("delay-out-of-range", text));
+    }
     if laws.is_empty() && options.compare_laws && optimum.status != Status::Interrupted {
         let text = "the comparison of laws was interrupted and is left out; the fit is complete";
         warnings.push(Warning::new("interrupted", text));
@@ -179,7 +208,13 @@ pub(crate) fn fit(
         kind: motion.to_string(),
         force_unit: force_unit.clone(),
         columns: sources[0].log.detected.clone(),
-        conditioning: record.notes.clone(),
+        conditioning: record
+            .notes
+            .iter()
+            .cloned()
+            .chain(note)
+            .chain(assemble::correction_note(&estimate))
+            .collect(),
         terms: assemble::term_names(&estimate, motion),
     };
     let result = assemble::result(assemble::Parts {
@@ -223,29 +258,6 @@ impl Outcome {
 
 fn load_all(paths: &[PathBuf], axis: &Axis) -> Result<Vec<Source>, Error> {
     paths.iter().map(|path| source::load(path, axis)).collect()
-}
-
-/// Conditions logs together; the encoder step of the log is used where the axis states none.
-pub(crate) fn condition(sources: &[Source], axis: &Axis) -> Result<Record, Error> {
-    let samples = sources
-        .iter()
-        .map(Source::samples)
-        .collect::<Result<Vec<_>, _>>()?;
-    let mut conditioning = axis.conditioning;
-    if conditioning.resolution.is_none() {
-        conditioning.resolution = sources
-            .iter()
-            .filter_map(|s| s.log.quantum)
-            .reduce(f64::min);
-    }
-    engine::condition(&samples, &conditioning).map_err(|source| Error::Identify {
-        inputs: sources
-            .iter()
-            .map(|s| s.path.display().to_string())
-            .collect::<Vec<_>>()
-            .join(", "),
-        source,
-    })
 }
 
 /// All logs must be of one kind of axis, with force in one unit, and no log may count twice.

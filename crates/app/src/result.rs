@@ -102,6 +102,9 @@ pub struct ParameterEntry {
     pub std: Option<f64>,
     /// 95 % interval; `null` where the data bound it on no side.
     pub ci95: Option<[f64; 2]>,
+    /// What was added to the least-squares value to undo the bias of filters, encoder and noise.
+    #[serde(default)]
+    pub correction: f64,
     /// Whether the data determine it.
     pub identifiable: bool,
     /// `identified` or `given`.

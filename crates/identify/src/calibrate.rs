@@ -15,12 +15,16 @@ use crate::replica::{force_noise, refitted, replica};
 use crate::separable::Optimum;
 use nalgebra::{DMatrix, DVector};
 
-/// Replicas that the bias is averaged over, pass by pass.
-const PASSES: [u64; 1] = [10];
+/// Replicas that the bias is averaged over.
+const REPLICAS: u64 = 10;
 /// Part of the correction that counts as one standard deviation of its own error. A replica knows the
 /// encoder and the motion, not how the controller answered each step of the encoder; on simulated
 /// closed loops it shows between half of the bias and all of it.
 const DOUBT: f64 = 0.5;
+/// Largest shift that is taken out, relative; of a signed coefficient any.
+const MOST: f64 = 0.2;
+/// Largest rise of the residual that taking the bias out may cost.
+const RISE: f64 = 1.02;
 /// Seeds of these replicas begin here: not those that the cut-offs were chosen on.
 const SEED: u64 = 1000;
 
@@ -44,15 +48,22 @@ pub fn calibrate(
         counts,
         observer,
     };
-    // The bias depends on the parameters, so it is measured again where the first measure leads to.
-    let mut out = fitted.clone();
-    for (pass, many) in PASSES.into_iter().enumerate() {
-        let Some(errors) = bench.errors(&out, pass, many) else {
-            return fitted;
-        };
-        let found = corrected(&fitted, &errors);
+    let Some(errors) = bench.errors(&fitted) else {
+        return fitted;
+    };
+    let bias = Bias::new(&errors);
+    let state = |found: Found| {
         let bound = fitted.low_speed_bound;
-        out = assemble(record, fitted.law, &fitted.terms, optimum, bound, &found);
+        assemble(record, fitted.law, &fitted.terms, optimum, bound, &found)
+    };
+    let mut out = match bias.corrected(&fitted) {
+        Some(found) => state(found),
+        None => state(bias.widened(&fitted)),
+    };
+    // The bias of a law that holds costs next to nothing in the residual. Where it does, what is left
+    // there is not noise, and a replica, whose law holds, says little of this axis.
+    if out.fit.rmse > RISE * fitted.fit.rmse {
+        out = state(bias.widened(&fitted));
     }
     out.counts.cost += bench.counts.cost;
     out.counts.sensitivities += bench.counts.sensitivities;
@@ -70,9 +81,9 @@ struct Bench<'a, 'o> {
 
 impl Bench<'_, '_> {
     /// What fits of replicas of `fitted` are off by, unknowns then coefficients.
-    fn errors(&mut self, fitted: &Estimate, pass: usize, many: u64) -> Option<Vec<Vec<f64>>> {
+    fn errors(&mut self, fitted: &Estimate) -> Option<Vec<Vec<f64>>> {
         let mut out = Vec::new();
-        for i in 0..many {
+        for i in 0..REPLICAS {
             let replica = replica(self.record, fitted, self.noise, SEED + i)?;
             let refit = refitted(&replica, self.conditioning, fitted, 2, &mut self.counts)?;
             let nonlinear = refit.p.iter().zip(&replica.p).map(|(a, b)| a - b);
@@ -84,7 +95,7 @@ impl Bench<'_, '_> {
             out.push(nonlinear.chain(linear).collect());
             let progress = Progress {
                 stage: Stage::Calibration,
-                fraction: (pass as f64 + (i + 1) as f64 / many as f64) / PASSES.len() as f64,
+                fraction: (i + 1) as f64 / REPLICAS as f64,
                 counts: self.counts,
                 best: f64::INFINITY,
             };
@@ -96,35 +107,71 @@ impl Bench<'_, '_> {
     }
 }
 
-/// The fit with the mean error of its replicas taken out.
-fn corrected(fitted: &Estimate, errors: &[Vec<f64>]) -> Found {
-    let width = errors[0].len();
-    let many = errors.len() as f64;
-    let mean: Vec<f64> = (0..width)
-        .map(|i| errors.iter().map(|e| e[i]).sum::<f64>() / many)
-        .collect();
-    let scatter = DMatrix::from_fn(width, width, |i, j| {
-        let product = |e: &Vec<f64>| (e[i] - mean[i]) * (e[j] - mean[j]);
-        errors.iter().map(product).sum::<f64>() / (many - 1.0)
-    });
-    let shift = DVector::from_column_slice(&mean);
-    let nonlinear = fitted.unknowns().len();
-    let terms = fitted.terms.columns(&fitted.law);
-    let p = fitted.unknowns().iter().zip(&mean).map(|(x, b)| x - b);
-    let c = fitted
-        .coefficients()
-        .iter()
-        .zip(&mean[nonlinear..])
-        .zip(&terms)
-        .map(|((&x, &b), term)| match term.nonnegative {
-            // Never to zero or below.
-            true => (x - b).max(0.5 * x),
-            false => x - b,
+/// What fits of replicas are off by.
+struct Bias {
+    mean: DVector<f64>,
+    scatter: DMatrix<f64>,
+    many: f64,
+}
+
+impl Bias {
+    fn new(errors: &[Vec<f64>]) -> Self {
+        let width = errors.first().map_or(0, Vec::len);
+        let many = errors.len() as f64;
+        let mean = DVector::from_fn(width, |i, _| {
+            errors.iter().map(|e| e[i]).sum::<f64>() / many
         });
-    Found {
-        p: p.collect(),
-        c: c.collect(),
-        doubt: Some(&scatter / many + DOUBT * DOUBT * &shift * shift.transpose()),
-        scatter: Some(scatter),
+        let scatter = DMatrix::from_fn(width, width, |i, j| {
+            let product = |e: &Vec<f64>| (e[i] - mean[i]) * (e[j] - mean[j]);
+            errors.iter().map(product).sum::<f64>() / (many - 1.0)
+        });
+        Self {
+            mean,
+            scatter,
+            many,
+        }
+    }
+
+    /// The fit with the bias taken out; `None` where an unknown would move far. The data do not hold
+    /// it then, its replicas run off, and what is measured on them tells how little is known, not where
+    /// to go.
+    fn corrected(&self, fitted: &Estimate) -> Option<Found> {
+        let (p, c) = (fitted.unknowns(), fitted.coefficients());
+        let terms = fitted.terms.columns(&fitted.law);
+        let size =
+            p.iter().map(|_| 1.0).chain(c.iter().zip(&terms).map(
+                |(c, term)| match term.nonnegative {
+                    true => c.abs(),
+                    false => f64::INFINITY,
+                },
+            ));
+        for (i, size) in size.enumerate() {
+            let accident = 2.0 * (self.scatter[(i, i)] / self.many).sqrt();
+            if size > 0.0 && self.mean[i].abs() > MOST * size + accident {
+                return None;
+            }
+        }
+        let mut rest = self.mean.iter();
+        let mut less = |x: &[f64]| x.iter().zip(&mut rest).map(|(x, b)| x - b).collect();
+        Some(Found {
+            p: less(p),
+            c: less(c),
+            doubt: Some(&self.scatter / self.many + DOUBT * DOUBT * self.square()),
+            scatter: Some(self.scatter.clone()),
+        })
+    }
+
+    /// The fit as it is, with the bias as part of its uncertainty.
+    fn widened(&self, fitted: &Estimate) -> Found {
+        Found {
+            p: fitted.unknowns().to_vec(),
+            c: fitted.coefficients().to_vec(),
+            doubt: Some(self.square()),
+            scatter: Some(self.scatter.clone()),
+        }
+    }
+
+    fn square(&self) -> DMatrix<f64> {
+        &self.mean * self.mean.transpose()
     }
 }

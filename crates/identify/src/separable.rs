@@ -65,8 +65,18 @@ pub struct Optimum {
     pub iterations: usize,
     /// Evaluations and best `rms(residual)/rms(measured)` until then, over the last descent.
     pub history: Vec<(usize, f64)>,
+    /// Whether the last nonlinear unknown is the delay.
+    pub(crate) delay: bool,
     /// The evaluation at the optimum, with sensitivities.
     pub evaluation: Evaluation,
+}
+
+impl Optimum {
+    /// Whether the delay was fitted and stands at the bound of its range.
+    pub fn delay_at_bound(&self) -> bool {
+        let last = self.p.len().checked_sub(1);
+        self.delay && last.is_some_and(|i| self.bounds.at_bound(&self.p, i))
+    }
 }
 
 /// Fits a law to a record: the global least-squares optimum inside the box.
@@ -140,6 +150,7 @@ pub fn separable(
         counts: watch.counts,
         iterations: search.iterations,
         history: descent.history,
+        delay: fitted,
         evaluation: descent.evaluation,
     })
 }

@@ -131,6 +131,7 @@ pub(crate) struct RawTerms {
     pub coulomb_pitch: Vec<String>,
     pub sigma2_temperature: Option<bool>,
     pub stribeck_exponent: Option<f64>,
+    pub delay: Option<String>,
 }
 
 /// `[report]`

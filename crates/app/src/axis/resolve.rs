@@ -6,7 +6,7 @@ use super::tied::Tied;
 use crate::error::Error;
 use std::cell::RefCell;
 use std::path::Path;
-use stiction_identify::{Conditioning, Cutoff, Dependence, Mass, Source};
+use stiction_identify::{Conditioning, Cutoff, Delay, Dependence, Mass, Source};
 use stiction_log::text::{Decimal, Separator, TextOptions};
 use stiction_log::{Channel, Dimension, Mapping, Motion, Role, Selector, Unit, Value, Wrap};
 
@@ -255,6 +255,11 @@ impl Resolver<'_> {
         axis.terms.cogging = self.pitches("terms.cogging", &raw.terms.cogging)?;
         axis.terms.quadratic_viscous = raw.terms.quadratic_viscous.unwrap_or(false);
         axis.terms.dependences = self.dependences(&raw.terms)?;
+        axis.terms.delay = match raw.terms.delay.as_deref() {
+            None | Some("fit") => Delay::Fitted,
+            Some("none") => Delay::NONE,
+            Some(text) => Delay::Given(self.delay("terms.delay", text)?),
+        };
         if let Some(delta) = raw.terms.stribeck_exponent {
             if !(0.1..=10.0).contains(&delta) {
                 return Err(self.refuse(
@@ -266,6 +271,16 @@ impl Resolver<'_> {
             axis.stribeck_exponent = delta;
         }
         Ok(())
+    }
+
+    /// A time of either sign, up to a second.
+    fn delay(&self, key: &str, text: &str) -> Result<f64, Error> {
+        let time = self.value(key, text, &[Dimension::TIME])?;
+        if time.abs() <= 1.0 {
+            return Ok(time);
+        }
+        let allowed = "fit, none, or a time from -1 s to 1 s";
+        Err(self.refuse(key, format!("{text:?}"), allowed))
     }
 
     /// What friction depends on, about references that the log will give.

@@ -133,6 +133,7 @@ pub fn template(table: &Table, detected: Result<&Mapping, &str>) -> String {
          # min_speed = \"1 {length}/s\"   # only faster samples count\n\n\
          [terms]\n\
          # gravity = true           # rotary axis: sin q and cos q\n\
+         # delay = \"none\"            # \"fit\" (default), \"none\" or a time: force after motion\n\
          # cogging = [\"{travel}\"]    # pitch of each cogging wave\n\n\
          [report]\n\
          # low_speed = \"1 {length}/s\"   # what counts as near zero speed\n"

@@ -112,10 +112,28 @@ fn parameter(p: &Parameter, motion: Motion, force_unit: &str, load_unit: &str) -
         unit: symbols::unit(p.dimension, motion, force_unit, load_unit),
         std: p.std,
         ci95: p.ci95.map(|(low, high)| [low, high]),
+        correction: p.correction,
         identifiable: p.identifiable,
         origin: if p.identified { "identified" } else { "given" }.into(),
         reason: p.reason.clone(),
     }
+}
+
+/// What the correction of the bias did to the parameters; nothing where there was none.
+pub(super) fn correction_note(estimate: &Estimate) -> Option<String> {
+    let relative = |p: &&Parameter| (p.correction / p.value).abs();
+    let most = estimate
+        .parameters
+        .iter()
+        .filter(|p| p.identifiable && p.correction != 0.0 && p.value != 0.0)
+        .filter(|p| !["offset", "delay"].contains(&p.name.as_str()))
+        .max_by(|a, b| relative(a).total_cmp(&relative(b)))?;
+    Some(format!(
+        "bias of filters, encoder steps and noise measured on simulated logs of the fitted axis and \
+         taken out: {} changed most, by {:+.2} %",
+        most.name,
+        100.0 * most.correction / most.value
+    ))
 }
 
 /// Names of the linear terms that stand beside the law.
