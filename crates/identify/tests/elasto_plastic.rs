@@ -299,7 +299,7 @@ fn prediction_is_the_law() {
     }
 }
 
-/// A closed loop as a drive logs it: encoder of 10 nm, noise on the force, mass and offset unknown. The velocity that
+/// A closed loop as a drive logs it: encoder of 100 nm, noise on the force, mass and offset unknown. The velocity that
 /// drives the law is what the filters leave of the position.
 #[test]
 fn found_in_a_closed_loop() {
@@ -314,7 +314,7 @@ fn found_in_a_closed_loop() {
         plant: Plant::new(axis.mass, law).unwrap(),
         controller: Cascade::tuned(axis.mass, 50.0, 500.0).unwrap(),
         path: Path::three_segments(0.196, 9.0).unwrap(),
-        encoder: Encoder::new(10e-9).unwrap(),
+        encoder: Encoder::new(100e-9).unwrap(),
         rate: 4000.0,
         substeps: 5,
         force_noise: 0.2,
