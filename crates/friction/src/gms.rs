@@ -13,7 +13,8 @@ pub use realtime::GmsState;
 pub struct Element<T> {
     /// Stiffness k_i > 0, N/m (N m/rad).
     pub stiffness: T,
-    /// Share nu_i > 0 of the friction level; only the ratios of the shares count, [`Gms::new`] makes their sum 1.
+    /// Share nu_i > 0 of the friction level; only the ratios of the shares count, [`Gms::new`] makes their sum 1. So where
+    /// the deflections are known at which the elements yield, stiffness times yield deflection serves as it is.
     pub share: T,
 }
 

@@ -18,7 +18,8 @@
 //!
 //! with `kappa = s0/Fc` and `r = Fs/Fc`: only `ln kappa`, `ln (r - 1)` and `ln vs` enter
 //! nonlinearly, all else is found exactly for each trial of those three. The static laws and Dahl are
-//! the same form with fewer nonlinear unknowns.
+//! the same form with fewer nonlinear unknowns, the elasto-plastic law with one more, the part of the
+//! steady deflection at which it breaks away.
 //!
 //! Nothing here prints, sleeps or reads a clock; an [`Observer`] sees progress and may stop a run.
 

@@ -298,3 +298,56 @@ fn prediction_is_the_law() {
         );
     }
 }
+
+/// A closed loop as a drive logs it: encoder of 100 nm, noise on the force, mass and offset unknown. The velocity that
+/// drives the law is what the filters leave of the position.
+#[test]
+fn found_in_a_closed_loop() {
+    use stiction_servo::cascade::Cascade;
+    use stiction_servo::closed_loop::{ClosedLoop, ForceLog};
+    use stiction_servo::encoder::Encoder;
+    use stiction_servo::{known, path::Path, plant::Plant};
+
+    let axis = known::find("machine").unwrap();
+    let law = ElastoPlastic::new(axis.law, 0.7).unwrap();
+    let log = ClosedLoop {
+        plant: Plant::new(axis.mass, law).unwrap(),
+        controller: Cascade::tuned(axis.mass, 50.0, 500.0).unwrap(),
+        path: Path::three_segments(0.196, 9.0).unwrap(),
+        encoder: Encoder::new(100e-9).unwrap(),
+        rate: 4000.0,
+        substeps: 5,
+        force_noise: 0.2,
+        force_log: ForceLog::Centred,
+        seed: 3,
+    }
+    .run()
+    .unwrap();
+    let samples = stiction_identify::Samples {
+        time: log.time,
+        position: Some(log.position),
+        force: log.force,
+        ..Default::default()
+    };
+    let record = stiction_identify::condition(&[samples], &Default::default()).unwrap();
+    let law_to_fit = elasto_plastic(false);
+    let terms = Terms::default();
+    let found = separable(
+        &record,
+        law_to_fit,
+        &terms,
+        &Settings::default(),
+        &mut Silent,
+    )
+    .unwrap();
+    let fitted = estimate(&record, law_to_fit, &terms, &found, 1e-3);
+    for (name, truth) in truth(&law, false)
+        .into_iter()
+        .chain([("mass".to_string(), axis.mass)])
+    {
+        let p = fitted.parameter(&name).unwrap();
+        let off = p.value / truth - 1.0;
+        println!("{name}: {:+.2} %, {:?}", 100.0 * off, p.ci95);
+        assert!(off.abs() < 0.02, "{name} = {}, not {truth}", p.value);
+    }
+}

@@ -259,7 +259,7 @@ fn conditioning() -> impl Strategy<Value = Conditioning> {
 
 fn law() -> impl Strategy<Value = Law> {
     let exponent = prop_oneof![3 => Just(2.0), 1 => Just(1.0), 1 => Just(0.1), 1 => Just(10.0)];
-    (0usize..4, any::<bool>(), exponent).prop_map(|(kind, asymmetric, exponent)| Law {
+    (0..LawKind::ALL.len(), any::<bool>(), exponent).prop_map(|(kind, asymmetric, exponent)| Law {
         asymmetric,
         exponent,
         ..Law::new(LawKind::ALL[kind])

@@ -5,7 +5,7 @@ use crate::encoder::Encoder;
 use crate::noise::Noise;
 use crate::path::Path;
 use crate::plant::{Load, Motion, Plant};
-use stiction_friction::ParamError;
+use stiction_friction::{Held, LuGre, ParamError};
 
 /// Which force stands in a row of the log beside the position of the instant t_k.
 ///
@@ -20,9 +20,9 @@ pub enum ForceLog {
 
 /// A closed loop to run. Plain settings; [`run`](Self::run) validates what the parts have not.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ClosedLoop {
+pub struct ClosedLoop<L = LuGre<f64>> {
     /// The axis.
-    pub plant: Plant,
+    pub plant: Plant<L>,
     /// The controller.
     pub controller: Cascade,
     /// The reference, from rest.
@@ -76,7 +76,7 @@ pub struct Truth {
 /// The most samples one run may have: with ten channels of them it stays below a gigabyte.
 const MOST_SAMPLES: f64 = 1e7;
 
-impl ClosedLoop {
+impl<L: Held<f64, State = f64>> ClosedLoop<L> {
     /// Runs the loop from rest at the origin over the whole path.
     pub fn run(&self) -> Result<Record, ParamError> {
         let n = self.validate()?;
@@ -111,7 +111,7 @@ impl ClosedLoop {
             record
                 .truth
                 .friction
-                .push(law.force(motion.deflection, motion.velocity));
+                .push(law.force_now(motion.deflection, motion.velocity));
             record.truth.force.push(force);
 
             for _ in 0..self.substeps {

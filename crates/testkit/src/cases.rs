@@ -101,6 +101,16 @@ pub const CASES: &[Case] = &[
         limits: &[most(Metric::HeldOutRms, 0.23)],
     },
     Case {
+        name: "Tribometer, elasto-plastic",
+        axis: "tribometer.toml",
+        logs: &["tribometer/presliding.tsv"],
+        validate: &[],
+        split: Some(0.5),
+        law: "elasto-plastic",
+        asymmetric: false,
+        limits: &[most(Metric::HeldOutRms, 0.12)],
+    },
+    Case {
         name: "Servo, sliding",
         axis: "servo.toml",
         logs: &[

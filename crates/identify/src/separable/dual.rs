@@ -101,9 +101,7 @@ impl<const K: usize> Mul for Dual<K> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        self.with(self.value * other.value, |k| {
-            self.slope[k] * other.value + self.value * other.slope[k]
-        })
+        self.scaled(other.value).moved(other, self.value)
     }
 }
 
