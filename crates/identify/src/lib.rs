@@ -22,6 +22,7 @@
 //!
 //! Nothing here prints, sleeps or reads a clock; an [`Observer`] sees progress and may stop a run.
 
+mod choice;
 mod conditioning;
 mod crossval;
 mod error;
@@ -31,6 +32,7 @@ mod law;
 mod observe;
 mod separable;
 
+pub use choice::{Standing, choose};
 pub use conditioning::channels::Channels;
 pub use conditioning::record::{Record, Samples, Segment};
 pub use conditioning::{Conditioning, Cutoff, Source, condition};

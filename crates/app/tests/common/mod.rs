@@ -93,7 +93,7 @@ pub fn options(logs: &[&Path], law: LawKind) -> Options {
     Options {
         logs: logs.iter().map(|p| p.to_path_buf()).collect(),
         axis: None,
-        law,
+        law: Some(law),
         asymmetric: false,
         validate: Vec::new(),
         split: None,

@@ -1,0 +1,87 @@
+//! The law that was asked for, or the one that the data choose.
+
+use super::ladder::{self, Climb, Ladder};
+use crate::result::LawEntry;
+use stiction_identify as engine;
+use stiction_identify::{Estimate, Law, LawKind, Observer, Settings, Status};
+
+/// A fitted law and the laws it was compared with.
+pub(super) struct Choice {
+    pub estimate: Estimate,
+    /// Empty where laws were not compared, or not to the end.
+    pub laws: Vec<LawEntry>,
+    /// Who chose the law, as written to `result.json`.
+    pub by: &'static str,
+}
+
+/// Fits the law that was asked for and, if wanted, others beside it.
+pub(super) fn asked(
+    law: Law,
+    ladder: &Ladder,
+    compare: bool,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Result<Choice, engine::Error> {
+    let terms = ladder.terms(&law);
+    let optimum = engine::separable(ladder.record, law, terms, settings, observer)?;
+    let estimate = engine::estimate(ladder.record, law, terms, &optimum, ladder.low_speed);
+    let laws = if compare && optimum.status != Status::Interrupted {
+        let known = Some((&estimate, &optimum.bounds));
+        let climb = ladder.climb(&ladder::beside(&law), known, settings, observer);
+        // A table of some laws would name the wrong one.
+        if climb.stopped {
+            Vec::new()
+        } else {
+            climb.entries().0
+        }
+    } else {
+        Vec::new()
+    };
+    Ok(Choice {
+        estimate,
+        laws,
+        by: "user",
+    })
+}
+
+/// Fits every law and takes the one that the data support.
+pub(super) fn auto(
+    exponent: f64,
+    ladder: &Ladder,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Result<Choice, engine::Error> {
+    let climb = ladder.climb(&ladder::every(exponent), None, settings, observer);
+    let (laws, best) = climb.entries();
+    let Climb { mut rungs, stopped } = climb;
+    let (at, by) = match best {
+        Some(at) if ladder.held_out.is_empty() => (at, "cross-validation"),
+        Some(at) => (at, "validation"),
+        // Too few samples to hold some out.
+        None => (least(&laws), "bic"),
+    };
+    if at >= rungs.len() {
+        // Not one could be fitted: the simplest says why.
+        let simplest = Law::new(LawKind::CoulombViscous);
+        return asked(simplest, ladder, false, settings, observer);
+    }
+    let mut estimate = rungs.swap_remove(at).estimate;
+    if stopped {
+        // Not all laws were tried, so even a converged one is only the best so far.
+        estimate.status = Status::Interrupted;
+    }
+    Ok(Choice {
+        estimate,
+        laws: if stopped { Vec::new() } else { laws },
+        by,
+    })
+}
+
+/// The law with the least BIC.
+fn least(laws: &[LawEntry]) -> usize {
+    let bic = |law: &LawEntry| law.bic_difference.unwrap_or(f64::INFINITY);
+    laws.iter()
+        .enumerate()
+        .min_by(|a, b| bic(a.1).total_cmp(&bic(b.1)))
+        .map_or(0, |(i, _)| i)
+}
