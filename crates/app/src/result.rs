@@ -199,8 +199,7 @@ pub struct LawEntry {
     pub held_out_error_percent: Option<f64>,
     /// The same near zero speed.
     pub held_out_low_speed_error_percent: Option<f64>,
-    /// Mean squared held-out residual above the least of all laws, percent of it; `null` without a
-    /// held-out error.
+    /// Held-out error above the least of all laws, percent of it; `null` without a held-out error.
     #[serde(default)]
     pub held_out_excess_percent: Option<f64>,
     /// Standard error of that difference, percent of the same.

@@ -6,7 +6,7 @@ use common::{Bench, noise, options};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::PathBuf;
-use stiction_app::{LawKind, Outcome, Silent};
+use stiction_app::{Control, LawKind, Observer, Outcome, Progress, Silent};
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 
 const SAMPLES: usize = 8000;
@@ -86,31 +86,142 @@ fn auto(log: PathBuf) -> Outcome {
     stiction_app::identify(&options, &mut Silent).unwrap()
 }
 
+/// Every law, symmetric or not, is chosen on an axis that follows it.
 #[test]
-fn experiment() {
+fn the_data_choose_the_law_of_the_axis() {
     let bench = Bench::new();
-    for count in [50e-9, 1e-6] {
-        for kind in LawKind::ALL {
-            for asymmetric in [false, true] {
-                for seed in 0..4 {
-                    let outcome = auto(log(&bench, kind, asymmetric, seed, count));
-                    let r = &outcome.result;
-                    let right = r.law == kind.name() && r.asymmetric == asymmetric;
-                    println!("{count} {kind} {asymmetric} {seed}: {} {} {right}", r.law, r.asymmetric);
-                    for l in &r.laws {
-                        println!(
-                            "      {:16} {:5} k {:2} fit {:.3} held {:.3} excess {:.3} +- {:.3} aic {:.0} bic {:.0}{}",
-                            l.law, l.asymmetric, l.parameters, l.fitted_error_percent,
-                            l.held_out_error_percent.unwrap_or(f64::NAN),
-                            l.held_out_excess_percent.unwrap_or(f64::NAN),
-                            l.held_out_excess_std_percent.unwrap_or(f64::NAN),
-                            l.aic_difference.unwrap_or(f64::NAN),
-                            l.bic_difference.unwrap_or(f64::NAN),
-                            if l.best { " *" } else { "" }
-                        );
-                    }
+    let mut wrong = String::new();
+    let (mut right, mut all) = (0, 0);
+    for kind in LawKind::ALL {
+        for asymmetric in [false, true] {
+            for seed in 0..3 {
+                let result = auto(log(&bench, kind, asymmetric, seed, 50e-9)).result;
+                assert_eq!(result.law_chosen_by, "cross-validation");
+                assert_eq!(result.laws.len(), 2 * LawKind::ALL.len());
+                let best: Vec<_> = result.laws.iter().filter(|l| l.best).collect();
+                assert_eq!(best.len(), 1);
+                assert_eq!(
+                    (best[0].law.as_str(), best[0].asymmetric),
+                    (result.law.as_str(), result.asymmetric)
+                );
+                all += 1;
+                if result.law == kind.name() && result.asymmetric == asymmetric {
+                    right += 1;
+                } else {
+                    let _ = writeln!(
+                        wrong,
+                        "{kind} {asymmetric} seed {seed}: {} {}",
+                        result.law, result.asymmetric
+                    );
                 }
             }
         }
     }
+    println!("{right} of {all} laws chosen rightly");
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+/// The law that was chosen is reported as if it had been asked for, bit for bit.
+#[test]
+fn a_chosen_law_is_the_same_as_an_asked_one() {
+    let bench = Bench::new();
+    let file = log(&bench, LawKind::Stribeck, true, 1, 50e-9);
+    let chosen = auto(file.clone()).result;
+    let mut asked = options(&[&file], LawKind::Stribeck);
+    asked.asymmetric = true;
+    let asked = stiction_app::identify(&asked, &mut Silent).unwrap().result;
+    assert_eq!(chosen.parameters, asked.parameters);
+    assert_eq!(chosen.covariance, asked.covariance);
+    assert_eq!(chosen.fit, asked.fit);
+    assert_eq!(
+        (chosen.law_chosen_by, asked.law_chosen_by),
+        ("cross-validation".into(), "user".into())
+    );
+}
+
+/// The same bits whatever the number of threads.
+#[test]
+fn threads_change_nothing() {
+    let bench = Bench::new();
+    let file = log(&bench, LawKind::LuGre, false, 2, 50e-9);
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        let mut result = pool.install(|| auto(file.clone())).result;
+        result.search.wall_s = 0.0;
+        result
+    };
+    let one = with(1);
+    assert_eq!(one, with(4));
+}
+
+/// Stops after some looks at the search.
+struct Patience(usize);
+
+impl Observer for Patience {
+    fn progress(&mut self, progress: &Progress) -> Control {
+        assert!((0.0..=1.0).contains(&progress.fraction));
+        self.0 = self.0.saturating_sub(1);
+        if self.0 == 0 {
+            Control::Stop
+        } else {
+            Control::Continue
+        }
+    }
+}
+
+/// An interrupted choice gives what it has, says so, and names no best law.
+#[test]
+fn an_interrupted_choice_is_not_trusted() {
+    let bench = Bench::new();
+    let file = log(&bench, LawKind::LuGre, false, 3, 50e-9);
+    for patience in [1, 30, 300] {
+        let mut options = options(&[&file], LawKind::LuGre);
+        options.law = None;
+        options.compare_laws = true;
+        let outcome = stiction_app::identify(&options, &mut Patience(patience)).unwrap();
+        assert_eq!(outcome.result.search.status, "interrupted");
+        assert!(outcome.result.laws.is_empty());
+        assert!(!outcome.result.trust.trustworthy);
+        assert!(
+            outcome
+                .result
+                .warnings
+                .iter()
+                .any(|w| w.code == "interrupted")
+        );
+    }
+}
+
+/// Validation data decide where they are given; `--asymmetric` has nothing to add.
+#[test]
+fn validation_data_choose() {
+    let bench = Bench::new();
+    let (a, b) = (
+        log(&bench, LawKind::CoulombViscous, true, 4, 50e-9),
+        log(&bench, LawKind::CoulombViscous, true, 5, 50e-9),
+    );
+    let mut options = options(&[&a], LawKind::LuGre);
+    options.law = None;
+    options.compare_laws = true;
+    options.validate = vec![b];
+    let result = stiction_app::identify(&options, &mut Silent)
+        .unwrap()
+        .result;
+    assert_eq!(result.law_chosen_by, "validation");
+    assert_eq!(
+        (result.law.as_str(), result.asymmetric),
+        ("coulomb-viscous", true)
+    );
+    let best = result.laws.iter().find(|l| l.best).unwrap();
+    let validated = &result.validation[0].fit;
+    assert_eq!(
+        best.held_out_error_percent,
+        Some(validated.relative_error_percent)
+    );
+    options.asymmetric = true;
+    let refused = stiction_app::identify(&options, &mut Silent).unwrap_err();
+    assert_eq!(refused.code(), "usage");
 }

@@ -78,7 +78,8 @@ pub fn cross_validate(
     let order = kept_order(record);
     let total = record.kept();
     let unknowns = fitted.parameters.iter().filter(|p| p.identified).count();
-    if total < blocks * 10 * unknowns {
+    // What is left of the record must still be enough for a fit.
+    if total - total / blocks.max(1) < 10 * unknowns {
         complete = false;
     }
     for block in 0..if complete { blocks } else { 0 } {

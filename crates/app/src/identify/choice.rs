@@ -54,11 +54,13 @@ pub(super) fn auto(
     let climb = ladder.climb(&ladder::every(exponent), None, settings, observer);
     let (laws, best) = climb.entries();
     let Climb { mut rungs, stopped } = climb;
-    let (at, by) = match best {
-        Some(at) if ladder.held_out.is_empty() => (at, "cross-validation"),
-        Some(at) => (at, "validation"),
+    let at = best.unwrap_or(0);
+    let held_out = laws.iter().all(|law| law.held_out_error_percent.is_some());
+    let by = match (held_out, ladder.held_out.is_empty()) {
+        (true, true) => "cross-validation",
+        (true, false) => "validation",
         // Too few samples to hold some out.
-        None => (least(&laws), "bic"),
+        (false, _) => "bic",
     };
     if at >= rungs.len() {
         // Not one could be fitted: the simplest says why.
@@ -75,13 +77,4 @@ pub(super) fn auto(
         laws: if stopped { Vec::new() } else { laws },
         by,
     })
-}
-
-/// The law with the least BIC.
-fn least(laws: &[LawEntry]) -> usize {
-    let bic = |law: &LawEntry| law.bic_difference.unwrap_or(f64::INFINITY);
-    laws.iter()
-        .enumerate()
-        .min_by(|a, b| bic(a.1).total_cmp(&bic(b.1)))
-        .map_or(0, |(i, _)| i)
 }

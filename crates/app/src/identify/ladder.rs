@@ -108,7 +108,6 @@ impl Climb {
         let standings = engine::choose(&scores);
         let best = standings.iter().position(|s| s.best);
         let entries = scores.iter().zip(standings);
-        let percent = |x: Option<f64>| x.map(|x| 100.0 * x);
         let entry = |(s, standing): (&LawScore, engine::Standing)| LawEntry {
             law: s.law.kind.name().into(),
             asymmetric: s.law.asymmetric,
@@ -118,8 +117,10 @@ impl Climb {
             held_out_low_speed_error_percent: s
                 .held_out_low_speed
                 .map(|f| f.relative_error_percent),
-            held_out_excess_percent: percent(standing.excess),
-            held_out_excess_std_percent: percent(standing.excess_std),
+            held_out_excess_percent: standing.excess.map(|x| 100.0 * libm::expm1(x)),
+            // To first order: of a ratio from its logarithm.
+            held_out_excess_std_percent: (standing.excess.zip(standing.excess_std))
+                .map(|(x, std)| 100.0 * std * libm::exp(x)),
             aic_difference: standing.aic,
             bic_difference: standing.bic,
             best: standing.best,

@@ -146,8 +146,8 @@ pub(super) fn laws(outcome: &Outcome) -> Table {
     ])
     .caption(
         "Relative error where the law was fitted and on held-out samples (validation data where \
-         given, else four blocks left out in turn). Above the least: mean squared held-out residual \
-         above that of the law which leaves the least, with the standard error of the difference. \
+         given, else four blocks left out in turn). Above the least: by how much the held-out error \
+         is above the least of all laws, with the standard error of that difference. \
          ΔAIC and ΔBIC: information criteria of the fit on effective samples, above the least. \
          Marked: the simplest law whose held-out error is within its noise, or 1 %, of the least.",
     );

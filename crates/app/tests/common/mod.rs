@@ -1,5 +1,7 @@
 //! Logs made on the spot, each in its own folder.
 
+#![allow(dead_code)]
+
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use stiction_app::{LawKind, Options};
