@@ -121,7 +121,7 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
     let options = Options {
         logs: vec![path.to_path_buf()],
         axis: None,
-        law: LawKind::LuGre,
+        law: Some(LawKind::LuGre),
         asymmetric: false,
         validate: Vec::new(),
         split: None,

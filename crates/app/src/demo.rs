@@ -38,7 +38,7 @@ pub fn demo(dir: &Path, seed: u64, observer: &mut dyn Observer) -> Result<Outcom
     let options = Options {
         logs: vec![log],
         axis: None,
-        law: LawKind::LuGre,
+        law: Some(LawKind::LuGre),
         asymmetric: false,
         validate: Vec::new(),
         split: None,

@@ -1,8 +1,10 @@
 //! The identification workflow: logs in, result, model and report out.
 
 mod assemble;
+mod choice;
 mod conditioning;
 mod ladder;
+mod relay;
 mod trust;
 
 use crate::axis::Axis;
@@ -10,7 +12,9 @@ use crate::error::{Error, Warning};
 use crate::output::Bundle;
 use crate::result::{ResolvedAxis, ResultFile};
 use crate::source::{self, Source};
+use choice::Choice;
 use conditioning::condition;
+use ladder::Ladder;
 use std::path::PathBuf;
 use std::time::Instant;
 use stiction_identify as engine;
@@ -26,8 +30,8 @@ pub struct Options {
     pub logs: Vec<PathBuf>,
     /// Axis file; `None` leaves all to detection.
     pub axis: Option<PathBuf>,
-    /// Family of the law.
-    pub law: LawKind,
+    /// Family of the law; `None` lets the data choose it, and whether it is asymmetric.
+    pub law: Option<LawKind>,
     /// Whether each direction has parameters of its own.
     pub asymmetric: bool,
     /// Logs to validate on.
@@ -87,6 +91,12 @@ pub(crate) fn fit(
     clock: Instant,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
+    if options.law.is_none() && options.asymmetric {
+        return Err(Error::usage(
+            "--law auto with --asymmetric",
+            "leave one out: auto tries every law symmetric and asymmetric",
+        ));
+    }
     check_together(&sources, &held_out)?;
     for source in sources.iter().chain(&held_out) {
         source.check_channels(&axis.terms)?;
@@ -131,74 +141,63 @@ pub(crate) fn fit(
     };
     refuse_rest(&record, &sources, motion)?;
     let (terms, other) = (terms.about(&record), other.about(&record));
-    let law = Law {
-        kind: options.law,
-        asymmetric: options.asymmetric,
-        exponent: axis.stribeck_exponent,
-    };
     let low_speed = axis
         .low_speed
         .unwrap_or_else(|| engine::low_speed_bound(&full));
-    let fail = |source| Error::Identify {
-        inputs: names(&options.logs),
-        source,
+    let settings = Settings {
+        seed: options.seed,
+        ..Settings::default()
     };
-    let mut terms = terms;
-    let mut optimum = engine::separable(&record, law, &terms, &settings, observer).map_err(fail)?;
-    let undelayed = terms.delay == Delay::Fitted && optimum.delay_at_bound();
-    if undelayed {
-        // A delay that wants to leave its range explains something else.
-        terms.delay = Delay::NONE;
-        optimum = engine::separable(&record, law, &terms, &settings, observer).map_err(fail)?;
+    let mut names = vec!["rest of the log".to_string()];
+    let mut unseen: Vec<Record> = split.into_iter().collect();
+    if unseen.is_empty() {
+        names = paths(&held_out);
+        unseen = held_out
+            .iter()
+            .map(|source| condition(std::slice::from_ref(source), &chosen))
+            .collect::<Result<_, _>>()?;
     }
-    let estimate = engine::estimate(&record, law, &terms, &optimum, low_speed);
-    let estimate = match optimum.status {
-        Status::Interrupted => estimate,
-        _ => engine::calibrate(&record, &chosen, &optimum, estimate, observer),
-    };
-    let mut validation = Vec::new();
-    if let Some(rest) = &split {
-        validation.push((
-            "rest of the log".to_string(),
-            engine::predict(rest, &estimate),
-        ));
-    }
-    for source in &held_out {
-        let record = condition(std::slice::from_ref(source), &chosen)?;
-        validation.push((
-            source.path.display().to_string(),
-            engine::predict(&record, &estimate),
-        ));
-    }
-    let laws = if optimum.status == Status::Interrupted || !options.compare_laws {
-        Vec::new()
+    let [symmetric, asymmetric] = if options.asymmetric {
+        [&other, &terms]
     } else {
-        let held_out = match (&split, held_out.is_empty()) {
-            (Some(rest), _) => Some(rest.clone()),
-            (None, false) => Some(condition(&held_out, &chosen)?),
-            (None, true) => None,
-        };
-        let [symmetric, asymmetric] = if options.asymmetric {
-            [&other, &terms]
-        } else {
-            [&terms, &other]
-        };
-        ladder::Ladder {
-            record: &record,
-            held_out: held_out.as_ref(),
-            symmetric,
-            asymmetric,
-            low_speed,
-        }
-        .climb(&estimate, &optimum.bounds, &settings, observer)
+        [&terms, &other]
     };
+    let ladder = Ladder {
+        record: &record,
+        held_out: &unseen,
+        conditioning: &chosen,
+        symmetric,
+        asymmetric,
+        low_speed,
+    };
+    let choice = match options.law {
+        Some(kind) => {
+            let law = Law {
+                kind,
+                asymmetric: options.asymmetric,
+                exponent: axis.stribeck_exponent,
+            };
+            choice::asked(law, &ladder, options.compare_laws, &settings, observer)
+        }
+        None => choice::auto(axis.stribeck_exponent, &ladder, &settings, observer),
+    };
+    let choice = choice.map_err(|source| Error::Identify {
+        inputs: paths(&sources).join(", "),
+        source,
+    })?;
+    let Choice { estimate, laws, by } = choice;
+    let validation: Vec<(String, Series)> = names
+        .into_iter()
+        .zip(&unseen)
+        .map(|(name, record)| (name, engine::predict(record, &estimate)))
+        .collect();
     let mut warnings = log_warnings(&sources);
-    if undelayed {
+    if axis.terms.delay == Delay::Fitted && estimate.terms.delay != Delay::Fitted {
         let text = "the delay between force and motion would be more than four samples, which is \
                     something else that the law does not explain; it is taken as none";
         warnings.push(Warning::new("delay-out-of-range", text));
     }
-    if laws.is_empty() && options.compare_laws && optimum.status != Status::Interrupted {
+    if laws.is_empty() && options.compare_laws && estimate.status != Status::Interrupted {
         let text = "the comparison of laws was interrupted and is left out; the fit is complete";
         warnings.push(Warning::new("interrupted", text));
     }
@@ -226,6 +225,7 @@ pub(crate) fn fit(
         estimate: &estimate,
         validation: &validation,
         laws,
+        law_chosen_by: by,
         trust,
         warnings,
         wall_s: clock.elapsed().as_secs_f64(),
@@ -343,10 +343,9 @@ fn log_warnings(sources: &[Source]) -> Vec<Warning> {
         .collect()
 }
 
-fn names(paths: &[PathBuf]) -> String {
-    paths
+fn paths(sources: &[Source]) -> Vec<String> {
+    sources
         .iter()
-        .map(|p| p.display().to_string())
-        .collect::<Vec<_>>()
-        .join(", ")
+        .map(|s| s.path.display().to_string())
+        .collect()
 }

@@ -3,6 +3,7 @@
 mod dependences;
 mod figures;
 mod formula;
+mod ladder;
 mod tables;
 
 use crate::identify::Outcome;
@@ -20,7 +21,8 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
     let law = law_name(&result.law, result.asymmetric);
     let mut document = Document::new(format!("Friction of {name}"))
         .subtitle(format!(
-            "{law}, identified from {}",
+            "{law}{}, identified from {}",
+            chosen_by(&result.law_chosen_by),
             logs(result.inputs.len())
         ))
         .footer(format!(
@@ -72,7 +74,8 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
     if !result.laws.is_empty() {
         document = document
             .heading(2, "Which law")
-            .block(tables::laws(outcome));
+            .block(tables::laws(outcome))
+            .block(ladder::figure(outcome));
     }
     document = document
         .heading(2, "How sure")
@@ -219,6 +222,16 @@ pub(crate) fn law_name(law: &str, asymmetric: bool) -> String {
         format!("{name}, asymmetric")
     } else {
         name.to_string()
+    }
+}
+
+/// What stands after the name of a law that the data chose.
+pub(crate) fn chosen_by(who: &str) -> &'static str {
+    match who {
+        "cross-validation" => " (chosen by cross-validation)",
+        "validation" => " (chosen on the validation data)",
+        "bic" => " (chosen by the Bayesian criterion: too few samples to hold some out)",
+        _ => "",
     }
 }
 

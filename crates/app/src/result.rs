@@ -24,6 +24,9 @@ pub struct ResultFile {
     pub law: String,
     /// Whether each direction has parameters of its own.
     pub asymmetric: bool,
+    /// Who chose the law: `user`, or by what the data did: `cross-validation`, `validation`, `bic`.
+    #[serde(default = "by_user")]
+    pub law_chosen_by: String,
     /// Search method.
     pub method: String,
     /// Whether the numbers may be used, and if not, why.
@@ -44,6 +47,11 @@ pub struct ResultFile {
     pub search: Search,
     /// What to beware of.
     pub warnings: Vec<Warning>,
+}
+
+/// What results say that were written before the data could choose a law.
+fn by_user() -> String {
+    "user".into()
 }
 
 /// The resolved axis as it goes into `result.json`.
@@ -194,7 +202,20 @@ pub struct LawEntry {
     pub held_out_error_percent: Option<f64>,
     /// The same near zero speed.
     pub held_out_low_speed_error_percent: Option<f64>,
-    /// Whether this is the simplest law within 1 % of the least held-out error.
+    /// Held-out error above the least of all laws, percent of it; `null` without a held-out error.
+    #[serde(default)]
+    pub held_out_excess_percent: Option<f64>,
+    /// Standard error of that difference, percent of the same.
+    #[serde(default)]
+    pub held_out_excess_std_percent: Option<f64>,
+    /// Akaike's criterion above the least of all laws, on effective samples.
+    #[serde(default)]
+    pub aic_difference: Option<f64>,
+    /// Bayesian criterion (Schwarz) above the least of all laws.
+    #[serde(default)]
+    pub bic_difference: Option<f64>,
+    /// Whether this is the simplest law whose held-out error is within its noise, or 1 %, of the
+    /// least.
     pub best: bool,
 }
 

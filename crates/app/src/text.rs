@@ -54,8 +54,9 @@ pub fn outcome(outcome: &Outcome) -> String {
     }
     let _ = writeln!(
         out,
-        "\n{}",
-        crate::report::law_name(&result.law, result.asymmetric)
+        "\n{}{}",
+        crate::report::law_name(&result.law, result.asymmetric),
+        crate::report::chosen_by(&result.law_chosen_by)
     );
     let mut rows = vec![
         ["parameter", "", "value", "unit", "std", "95 % interval", ""]
@@ -185,12 +186,15 @@ fn laws(outcome: &Outcome) -> String {
             "fitted",
             "held out",
             "near zero speed",
+            "AIC",
+            "BIC",
             "",
         ]
         .map(String::from)
         .to_vec(),
     ];
     let percent = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.2} %"));
+    let above = |x: Option<f64>| x.map_or("-".into(), |x| format!("+{x:.0}"));
     for l in &outcome.result.laws {
         rows.push(vec![
             crate::report::law_name(&l.law, l.asymmetric),
@@ -198,10 +202,12 @@ fn laws(outcome: &Outcome) -> String {
             percent(Some(l.fitted_error_percent)),
             percent(l.held_out_error_percent),
             percent(l.held_out_low_speed_error_percent),
+            above(l.aic_difference),
+            above(l.bic_difference),
             if l.best { "best".into() } else { String::new() },
         ]);
     }
-    table(&rows, &[false, true, true, true, true, false])
+    table(&rows, &[false, true, true, true, true, true, true, false])
 }
 
 /// The outcome of a check.

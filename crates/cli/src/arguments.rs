@@ -102,6 +102,8 @@ pub struct Identify {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Law {
+    /// Every law, symmetric and asymmetric; the one that holds on unseen samples is taken.
+    Auto,
     /// Coulomb and viscous friction, no memory.
     CoulombViscous,
     /// Static Stribeck curve, no memory.

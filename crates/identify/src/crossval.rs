@@ -4,7 +4,7 @@
 //! model error; leaving out single samples would flatter every law.
 
 use crate::conditioning::record::Record;
-use crate::estimate::Estimate;
+use crate::estimate::{Estimate, predict};
 use crate::fit::Fit;
 use crate::law::Law;
 use crate::observe::Observer;
@@ -26,6 +26,40 @@ pub struct LawScore {
     pub held_out: Option<Fit>,
     /// The same at low speed.
     pub held_out_low_speed: Option<Fit>,
+    /// Residual on held-out samples, in their order; empty where there is no such fit.
+    pub residual: Vec<f64>,
+}
+
+impl LawScore {
+    /// How a fitted law does on other records, nothing fitted again.
+    pub fn on(held_out: &[Record], fitted: &Estimate) -> Self {
+        let (mut measured, mut residual, mut speed) = (Vec::new(), Vec::new(), Vec::new());
+        for record in held_out {
+            let series = predict(record, fitted);
+            residual.extend(series.residual());
+            measured.extend(series.measured);
+            speed.extend(series.velocity);
+        }
+        Self::of(fitted, &measured, residual, &speed)
+    }
+
+    fn of(fitted: &Estimate, measured: &[f64], residual: Vec<f64>, speed: &[f64]) -> Self {
+        let held_out = Fit::new(measured, &residual);
+        let held_out_low_speed =
+            held_out.and_then(|_| Fit::slow(measured, &residual, speed, fitted.low_speed_bound));
+        Self {
+            law: fitted.law,
+            parameters: fitted.parameters.iter().filter(|p| p.identified).count(),
+            fitted: fitted.fit,
+            held_out,
+            held_out_low_speed,
+            residual: if held_out.is_some() {
+                residual
+            } else {
+                Vec::new()
+            },
+        }
+    }
 }
 
 /// Refits a law with each of `blocks` contiguous blocks left out, starting from the full fit, and
@@ -44,7 +78,8 @@ pub fn cross_validate(
     let order = kept_order(record);
     let total = record.kept();
     let unknowns = fitted.parameters.iter().filter(|p| p.identified).count();
-    if total < blocks * 10 * unknowns {
+    // What is left of the record must still be enough for a fit.
+    if total - total / blocks.max(1) < 10 * unknowns {
         complete = false;
     }
     for block in 0..if complete { blocks } else { 0 } {
@@ -69,20 +104,11 @@ pub fn cross_validate(
         measured.extend_from_slice(objective.force());
         speed.extend(test.pick(|s| &s.velocity));
     }
-    let held_out = if complete {
-        Fit::new(&measured, &residual)
-    } else {
-        None
-    };
-    let held_out_low_speed =
-        held_out.and_then(|_| Fit::slow(&measured, &residual, &speed, fitted.low_speed_bound));
-    LawScore {
-        law: fitted.law,
-        parameters: unknowns,
-        fitted: fitted.fit,
-        held_out,
-        held_out_low_speed,
+    if !complete {
+        residual.clear();
+        measured.clear();
     }
+    LawScore::of(fitted, &measured, residual, &speed)
 }
 
 /// For each sample of the regression its place among the kept ones.

@@ -24,11 +24,13 @@
 //! Nothing here prints, sleeps or reads a clock; an [`Observer`] sees progress and may stop a run.
 
 mod calibrate;
+mod choice;
 mod conditioning;
 mod crossval;
 mod error;
 mod estimate;
 mod fit;
+mod identify;
 mod law;
 mod observe;
 mod replica;
@@ -36,6 +38,7 @@ mod separable;
 mod tune;
 
 pub use calibrate::calibrate;
+pub use choice::{Standing, choose};
 pub use conditioning::channels::Channels;
 pub use conditioning::record::{Record, Samples, Segment};
 pub use conditioning::{Conditioning, Cutoff, Source, condition};
@@ -44,6 +47,7 @@ pub use error::Error;
 pub use estimate::uncertainty::Covariance;
 pub use estimate::{Estimate, IDENTIFIABLE, Parameter, Series, estimate, predict};
 pub use fit::{Fit, low_speed_bound};
+pub use identify::identify;
 pub use law::dependence::Dependence;
 pub use law::physical::Dimension;
 pub use law::terms::{Delay, Mass, Terms};

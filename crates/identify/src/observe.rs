@@ -57,8 +57,9 @@ pub enum Control {
     Stop,
 }
 
-/// Sees the progress of a search and may stop it.
-pub trait Observer {
+/// Sees the progress of a search and may stop it. It is called from one thread at a time, which need
+/// not be the one that started the work.
+pub trait Observer: Send {
     /// Called after every few evaluations.
     fn progress(&mut self, progress: &Progress) -> Control;
 }

@@ -134,7 +134,8 @@ pub fn template(table: &Table, detected: Result<&Mapping, &str>) -> String {
          [terms]\n\
          # gravity = true           # rotary axis: sin q and cos q\n\
          # delay = \"none\"            # \"fit\" (default), \"none\" or a time: force after motion\n\
-         # cogging = [\"{travel}\"]    # pitch of each cogging wave\n\n\
+         # cogging = [\"{travel}\"]    # pitch of each cogging wave\n\
+         # coulomb_load = true      # friction that changes with the load column\n\n\
          [report]\n\
          # low_speed = \"1 {length}/s\"   # what counts as near zero speed\n"
     );

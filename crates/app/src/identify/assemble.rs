@@ -22,6 +22,7 @@ pub(super) struct Parts<'a> {
     pub estimate: &'a Estimate,
     pub validation: &'a [(String, Series)],
     pub laws: Vec<LawEntry>,
+    pub law_chosen_by: &'static str,
     pub trust: Trust,
     pub warnings: Vec<Warning>,
     pub wall_s: f64,
@@ -77,6 +78,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         axis: parts.axis,
         law: estimate.law.kind.name().into(),
         asymmetric: estimate.law.asymmetric,
+        law_chosen_by: parts.law_chosen_by.into(),
         method: "separable".into(),
         trust: parts.trust,
         parameters: estimate

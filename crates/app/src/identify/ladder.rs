@@ -1,162 +1,170 @@
-//! The chosen law beside others, on samples that none of them was fitted to.
+//! Laws beside each other, on samples that none of them was fitted to.
 
+use super::relay::Shared;
 use crate::result::LawEntry;
+use rayon::prelude::*;
 use stiction_identify as engine;
 use stiction_identify::{
-    Control, Estimate, Fit, Law, LawKind, LawScore, Observer, Progress, Record, SearchBox,
-    Settings, Stage, Terms,
+    Conditioning, Estimate, Law, LawKind, LawScore, Observer, Optimum, Record, Settings, Terms,
 };
 
 /// Blocks of the cross-validation where no validation data are given.
 const BLOCKS: usize = 4;
 
-/// Held-out errors within this factor of the least count as equal, and the simplest of them is best.
-const EQUAL: f64 = 1.01;
-
 /// What the laws are compared on.
 pub(super) struct Ladder<'a> {
     pub record: &'a Record,
     /// Data to validate on; without them the record is cross-validated in blocks.
-    pub held_out: Option<&'a Record>,
+    pub held_out: &'a [Record],
     /// Linear terms beside a symmetric law.
     pub symmetric: &'a Terms,
     /// Linear terms beside an asymmetric law.
     pub asymmetric: &'a Terms,
     pub low_speed: f64,
+    /// How the record was conditioned.
+    pub conditioning: &'a Conditioning,
+}
+
+/// A law, fitted and scored.
+pub(super) struct Rung {
+    pub estimate: Estimate,
+    pub optimum: Optimum,
+    score: LawScore,
+}
+
+/// What came of fitting several laws.
+pub(super) struct Climb {
+    /// Those that could be fitted, in the order of the laws.
+    pub rungs: Vec<Rung>,
+    /// Whether the observer stopped it half way: some laws are missing or unfinished.
+    pub stopped: bool,
 }
 
 impl Ladder<'_> {
-    /// Scores the fitted law, its asymmetric or symmetric twin and the simpler ones; the simplest of
-    /// those with the least held-out error is best. Nothing if the observer stopped it half way: a table of some laws
-    /// would name the wrong one.
+    /// Fits and scores laws, each on a thread of its own; `fitted` is one that was fitted already.
     pub fn climb(
         &self,
-        chosen: &Estimate,
-        bounds: &SearchBox,
+        laws: &[Law],
+        fitted: Option<(&Estimate, &Optimum)>,
         settings: &Settings,
         observer: &mut dyn Observer,
-    ) -> Vec<LawEntry> {
-        let laws = beside(&chosen.law);
-        let mut relay = Relay {
-            observer,
-            done: 0,
-            laws: laws.len(),
-            stopped: false,
-        };
-        let mut scores = Vec::new();
-        for law in laws {
-            if law == chosen.law {
-                scores.push(self.score(chosen, bounds, &mut relay));
-            } else {
-                let terms = if law.asymmetric {
-                    self.asymmetric
-                } else {
-                    self.symmetric
-                };
-                if let Ok(found) = engine::separable(self.record, law, terms, settings, &mut relay)
-                {
-                    let fitted = engine::estimate(self.record, law, terms, &found, self.low_speed);
-                    scores.push(self.score(&fitted, &found.bounds, &mut relay));
-                }
-            }
-            if relay.stopped {
-                return Vec::new();
-            }
-            relay.done += 1;
+    ) -> Climb {
+        let shared = Shared::new(observer, laws.len());
+        // The richest first: it takes longest. One at a time, so that no thread keeps two of them.
+        let mut found: Vec<_> = laws
+            .par_iter()
+            .rev()
+            .with_max_len(1)
+            .map(|law| {
+                let known = fitted.filter(|(estimate, _)| estimate.law == *law);
+                let rung = self.rung(*law, known, settings, &shared);
+                shared.one_more();
+                rung
+            })
+            .collect();
+        found.reverse();
+        Climb {
+            rungs: found.into_iter().flatten().collect(),
+            stopped: shared.stopped(),
         }
-        entries(&scores)
     }
 
-    fn score(
+    /// The linear terms beside a law.
+    pub fn terms(&self, law: &Law) -> &Terms {
+        if law.asymmetric {
+            self.asymmetric
+        } else {
+            self.symmetric
+        }
+    }
+
+    /// Fits one law.
+    pub fn fit(
         &self,
-        fitted: &Estimate,
-        bounds: &SearchBox,
+        law: Law,
+        settings: &Settings,
         observer: &mut dyn Observer,
-    ) -> LawScore {
-        let Some(record) = self.held_out else {
-            return engine::cross_validate(self.record, fitted, bounds, BLOCKS, observer);
+    ) -> Result<(Estimate, Optimum), engine::Error> {
+        let terms = self.terms(&law);
+        engine::identify(self.record, law, terms, self.low_speed, settings, observer)
+    }
+
+    fn rung(
+        &self,
+        law: Law,
+        fitted: Option<(&Estimate, &Optimum)>,
+        settings: &Settings,
+        shared: &Shared,
+    ) -> Result<Rung, engine::Error> {
+        let mut relay = shared.relay();
+        let (estimate, optimum) = match fitted {
+            Some((estimate, optimum)) => (estimate.clone(), optimum.clone()),
+            None => self.fit(law, settings, &mut relay)?,
         };
-        let series = engine::predict(record, fitted);
-        let residual = series.residual();
-        LawScore {
-            law: fitted.law,
-            parameters: fitted.parameters.iter().filter(|p| p.identified).count(),
-            fitted: fitted.fit,
-            held_out: Fit::new(&series.measured, &residual),
-            held_out_low_speed: Fit::slow(
-                &series.measured,
-                &residual,
-                &series.velocity,
-                self.low_speed,
-            ),
-        }
-    }
-}
-
-/// Passes progress on as that of the comparison, and remembers whether it was stopped.
-struct Relay<'o> {
-    observer: &'o mut dyn Observer,
-    done: usize,
-    laws: usize,
-    stopped: bool,
-}
-
-impl Observer for Relay<'_> {
-    fn progress(&mut self, progress: &Progress) -> Control {
-        let control = self.observer.progress(&Progress {
-            stage: Stage::CrossValidation,
-            fraction: self.done as f64 / self.laws as f64,
-            ..*progress
-        });
-        self.stopped |= control == Control::Stop;
-        control
-    }
-}
-
-/// The laws to compare a law with, from the simplest to the richest: every family up to its own, each
-/// symmetric and asymmetric.
-fn beside(law: &Law) -> Vec<Law> {
-    LawKind::ALL
-        .into_iter()
-        .filter(|kind| *kind <= law.kind.max(LawKind::Stribeck))
-        .flat_map(|kind| {
-            let base = Law {
-                kind,
-                asymmetric: false,
-                exponent: law.exponent,
-            };
-            // Dahl beside LuGre stands for "no Stribeck curve"; one of its kind is enough.
-            let both = kind != LawKind::Dahl || law.kind == LawKind::Dahl;
-            std::iter::once(base).chain(both.then(|| base.asymmetric()))
+        let score = if self.held_out.is_empty() {
+            engine::cross_validate(self.record, &estimate, &optimum.bounds, BLOCKS, &mut relay)
+        } else {
+            LawScore::on(self.held_out, &estimate)
+        };
+        Ok(Rung {
+            estimate,
+            optimum,
+            score,
         })
-        .collect()
+    }
 }
 
-fn entries(scores: &[LawScore]) -> Vec<LawEntry> {
-    let error = |s: &LawScore| s.held_out.map(|f| f.relative_error_percent);
-    let least = scores
-        .iter()
-        .filter_map(error)
-        .fold(f64::INFINITY, f64::min);
-    let best = scores
-        .iter()
-        .enumerate()
-        .filter(|(_, s)| error(s).is_some_and(|e| e <= EQUAL * least))
-        .min_by_key(|(_, s)| s.parameters)
-        .map(|(i, _)| i);
-    scores
-        .iter()
-        .enumerate()
-        .map(|(i, s)| LawEntry {
+impl Climb {
+    /// The table of the laws, and which of them is best.
+    pub fn entries(&self) -> (Vec<LawEntry>, Option<usize>) {
+        let scores: Vec<LawScore> = self.rungs.iter().map(|r| r.score.clone()).collect();
+        let standings = engine::choose(&scores);
+        let best = standings.iter().position(|s| s.best);
+        let entries = scores.iter().zip(standings);
+        let entry = |(s, standing): (&LawScore, engine::Standing)| LawEntry {
             law: s.law.kind.name().into(),
             asymmetric: s.law.asymmetric,
             parameters: s.parameters,
             fitted_error_percent: s.fitted.relative_error_percent,
-            held_out_error_percent: error(s),
+            held_out_error_percent: s.held_out.map(|f| f.relative_error_percent),
             held_out_low_speed_error_percent: s
                 .held_out_low_speed
                 .map(|f| f.relative_error_percent),
-            best: best == Some(i),
+            held_out_excess_percent: standing.excess.map(|x| 100.0 * libm::expm1(x)),
+            // To first order: of a ratio from its logarithm.
+            held_out_excess_std_percent: (standing.excess.zip(standing.excess_std))
+                .map(|(x, std)| 100.0 * std * libm::exp(x)),
+            aic_difference: standing.aic,
+            bic_difference: standing.bic,
+            best: standing.best,
+        };
+        (entries.map(entry).collect(), best)
+    }
+}
+
+/// Every law, symmetric and asymmetric, from the simplest to the richest.
+pub(super) fn every(exponent: f64) -> Vec<Law> {
+    LawKind::ALL
+        .into_iter()
+        .flat_map(|kind| {
+            let base = Law {
+                exponent,
+                ..Law::new(kind)
+            };
+            [base, base.asymmetric()]
+        })
+        .collect()
+}
+
+/// The laws to compare a law with: every family up to its own, each symmetric and asymmetric.
+pub(super) fn beside(law: &Law) -> Vec<Law> {
+    let top = law.kind.max(LawKind::Stribeck);
+    every(law.exponent)
+        .into_iter()
+        .filter(|other| other.kind <= top)
+        // Dahl beside LuGre stands for "no Stribeck curve"; one of its kind is enough.
+        .filter(|other| {
+            other.kind != LawKind::Dahl || !other.asymmetric || law.kind == LawKind::Dahl
         })
         .collect()
 }

@@ -2,7 +2,7 @@
 
 use super::law_name;
 use crate::identify::Outcome;
-use crate::result::Input;
+use crate::result::{Input, LawEntry};
 use crate::symbols;
 use stiction_identify::IDENTIFIABLE;
 use stiction_report::{Align, Block, Severity, Table, Text, number};
@@ -140,12 +140,25 @@ pub(super) fn laws(outcome: &Outcome) -> Table {
         ("Fitted", Align::Right),
         ("Held out", Align::Right),
         ("Held out, near zero speed", Align::Right),
+        ("Above the least", Align::Right),
+        ("ΔAIC", Align::Right),
+        ("ΔBIC", Align::Right),
     ])
     .caption(
         "Relative error where the law was fitted and on held-out samples (validation data where \
-         given, else four blocks left out in turn). Marked: the simplest law within 1 % of the \
-         least held-out error.",
+         given, else four blocks left out in turn). Above the least: by how much the held-out error \
+         is above the least of all laws, with the standard error of that difference. \
+         ΔAIC and ΔBIC: information criteria of the fit on effective samples, above the least. \
+         Marked: the simplest law whose held-out error is within its noise, or 1 %, of the least.",
     );
+    let above = |l: &LawEntry| match (l.held_out_excess_percent, l.held_out_excess_std_percent) {
+        (Some(0.0), _) => "least".into(),
+        (Some(mean), Some(std)) => {
+            format!("{} ± {} %", number::sig(mean, 2), number::sig(std, 2))
+        }
+        _ => "–".into(),
+    };
+    let criterion = |x: Option<f64>| x.map_or("–".into(), |x| number::sig(x, 3));
     let percent = |x: Option<f64>| x.map_or("–".into(), |x| format!("{} %", number::sig(x, 3)));
     for l in &outcome.result.laws {
         let cells = [
@@ -154,6 +167,9 @@ pub(super) fn laws(outcome: &Outcome) -> Table {
             percent(Some(l.fitted_error_percent)),
             percent(l.held_out_error_percent),
             percent(l.held_out_low_speed_error_percent),
+            above(l),
+            criterion(l.aic_difference),
+            criterion(l.bic_difference),
         ];
         table = if l.best {
             table.marked(Severity::Good, cells)

@@ -1,5 +1,7 @@
 //! Logs made on the spot, each in its own folder.
 
+#![allow(dead_code)]
+
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use stiction_app::{LawKind, Options};
@@ -93,7 +95,7 @@ pub fn options(logs: &[&Path], law: LawKind) -> Options {
     Options {
         logs: logs.iter().map(|p| p.to_path_buf()).collect(),
         axis: None,
-        law,
+        law: Some(law),
         asymmetric: false,
         validate: Vec::new(),
         split: None,

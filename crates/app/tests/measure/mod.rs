@@ -26,7 +26,7 @@ fn with_law(case: &Case, data: &Path, law: &str) -> Outcome {
     let options = Options {
         logs: case.logs.iter().map(|log| data.join(log)).collect(),
         axis: Some(workspace().join("validation").join(case.axis)),
-        law: LawKind::from_name(law).expect("a law of the cases exists"),
+        law: Some(LawKind::from_name(law).expect("a law of the cases exists")),
         asymmetric: case.asymmetric,
         validate: case.validate.iter().map(|log| data.join(log)).collect(),
         split: case.split,

@@ -1,0 +1,100 @@
+//! The law that was asked for, or the one that the data choose.
+
+use super::ladder::{self, Climb, Ladder, Rung};
+use crate::result::LawEntry;
+use stiction_identify as engine;
+use stiction_identify::{Estimate, Law, LawKind, Observer, Optimum, Settings, Status};
+
+/// A fitted law and the laws it was compared with.
+pub(super) struct Choice {
+    pub estimate: Estimate,
+    /// Empty where laws were not compared, or not to the end.
+    pub laws: Vec<LawEntry>,
+    /// Who chose the law, as written to `result.json`.
+    pub by: &'static str,
+}
+
+/// Fits the law that was asked for and, if wanted, others beside it.
+pub(super) fn asked(
+    law: Law,
+    ladder: &Ladder,
+    compare: bool,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Result<Choice, engine::Error> {
+    let (estimate, optimum) = ladder.fit(law, settings, observer)?;
+    let laws = if compare && optimum.status != Status::Interrupted {
+        let known = Some((&estimate, &optimum));
+        let climb = ladder.climb(&ladder::beside(&law), known, settings, observer);
+        // A table of some laws would name the wrong one.
+        if climb.stopped {
+            Vec::new()
+        } else {
+            climb.entries().0
+        }
+    } else {
+        Vec::new()
+    };
+    Ok(Choice {
+        estimate: calibrated(ladder, &optimum, estimate, observer),
+        laws,
+        by: "user",
+    })
+}
+
+/// Fits every law and takes the one that the data support.
+pub(super) fn auto(
+    exponent: f64,
+    ladder: &Ladder,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Result<Choice, engine::Error> {
+    let climb = ladder.climb(&ladder::every(exponent), None, settings, observer);
+    let (laws, best) = climb.entries();
+    let Climb { mut rungs, stopped } = climb;
+    let at = best.unwrap_or(0);
+    let held_out = laws.iter().all(|law| law.held_out_error_percent.is_some());
+    let by = match (held_out, ladder.held_out.is_empty()) {
+        (true, true) => "cross-validation",
+        (true, false) => "validation",
+        // Too few samples to hold some out.
+        (false, _) => "bic",
+    };
+    if at >= rungs.len() {
+        // Not one could be fitted: the simplest says why.
+        let simplest = Law::new(LawKind::CoulombViscous);
+        return asked(simplest, ladder, false, settings, observer);
+    }
+    let Rung {
+        estimate, optimum, ..
+    } = rungs.swap_remove(at);
+    let mut estimate = calibrated(ladder, &optimum, estimate, observer);
+    if stopped {
+        // Not all laws were tried, so even a converged one is only the best so far.
+        estimate.status = Status::Interrupted;
+    }
+    Ok(Choice {
+        estimate,
+        laws: if stopped { Vec::new() } else { laws },
+        by,
+    })
+}
+
+/// The estimate with the bias of its conditioning taken out, unless the search was interrupted.
+fn calibrated(
+    ladder: &Ladder,
+    optimum: &Optimum,
+    estimate: Estimate,
+    observer: &mut dyn Observer,
+) -> Estimate {
+    if estimate.status == Status::Interrupted {
+        return estimate;
+    }
+    engine::calibrate(
+        ladder.record,
+        ladder.conditioning,
+        optimum,
+        estimate,
+        observer,
+    )
+}
