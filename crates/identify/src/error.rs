@@ -71,6 +71,19 @@ pub enum Error {
         /// The constant value.
         value: f64,
     },
+    /// Fewer constant-velocity runs than the static map needs.
+    #[error(
+        "{found} constant-velocity stretches{direction}, at least {needed} are needed for this map; \
+         12 speeds each way, spaced evenly in their logarithm, are better"
+    )]
+    TooFewSpeeds {
+        /// Stretches found.
+        found: usize,
+        /// Stretches needed.
+        needed: usize,
+        /// Of which direction of motion, in words; empty for both together.
+        direction: &'static str,
+    },
     /// A setting outside its range.
     #[error("{name} = {found}: {allowed}")]
     Setting {

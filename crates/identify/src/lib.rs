@@ -29,6 +29,7 @@ mod estimate;
 mod fit;
 mod law;
 mod observe;
+pub mod procedure;
 mod separable;
 
 pub use conditioning::record::{Record, Samples, Segment};

@@ -163,14 +163,15 @@ pub(crate) fn physical(law: &Law, linear: &[LinearTerm], p: &[f64], c: &[f64]) -
 }
 
 /// Order of parameters in tables and files.
-fn rank(name: &str) -> usize {
-    const ORDER: [&str; 8] = [
+pub(crate) fn rank(name: &str) -> usize {
+    const ORDER: [&str; 9] = [
         "sigma0",
         "sigma1",
         "sigma2",
         "coulomb",
         "static",
         "stribeck_velocity",
+        "stribeck_exponent",
         "mass",
         "offset",
     ];
