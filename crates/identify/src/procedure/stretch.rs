@@ -15,8 +15,14 @@ pub const MOST_DRIFT: f64 = 0.015;
 const LEAST: usize = 40;
 /// Fewest counts of the position in a quarter of a stretch: with fewer its slope is that of the steps.
 const COUNTS: f64 = 5.0;
-/// Parts of a stretch that are looked at for standstill.
-const PARTS: usize = 16;
+/// Most parts of a stretch that are looked at for standstill.
+const PARTS: usize = 128;
+/// Share of a stretch that is cut off at either end: a corner is rounded off by as much.
+const CORNER: f64 = 0.03;
+/// A stretch this much shorter than one near it in time and velocity is a piece of the way to it.
+const PIECE: f64 = 0.2;
+/// How near in velocity, relative, and in time, in lengths of the longer one.
+const NEAR: (f64, f64) = (0.4, 0.5);
 /// A part slower than this share of the mean is a standstill.
 const STOPPED: f64 = 0.25;
 /// Lags of the autocorrelation of the force, at most.
@@ -58,27 +64,33 @@ pub struct StaticPoint {
     pub pitches: usize,
 }
 
+impl StaticPoint {
+    /// Whether this is but a piece of the way to or from another point of the same log.
+    fn leads_to(&self, other: &Self) -> bool {
+        let seconds = |time: (f64, f64)| time.1 - time.0;
+        let longer = seconds(other.time);
+        let gap = (other.time.0 - self.time.1).max(self.time.0 - other.time.1);
+        seconds(self.time) < PIECE * longer
+            && gap < NEAR.1 * longer
+            && (self.velocity / other.velocity - 1.0).abs() < NEAR.0
+    }
+}
+
 /// Why a stretch of nearly constant velocity is no point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unsteady {
-    /// The velocity drifts.
-    Drift,
     /// The axis stops and goes on.
     StickSlip,
     /// The force has not settled by the middle.
     Unsettled,
-    /// Too few samples are left.
-    Short,
 }
 
 impl Unsteady {
     /// The reason in words.
     pub fn name(self) -> &'static str {
         match self {
-            Unsteady::Drift => "the velocity drifts",
             Unsteady::StickSlip => "the axis stops and goes on",
             Unsteady::Unsettled => "the force does not settle",
-            Unsteady::Short => "too short",
         }
     }
 }
@@ -109,8 +121,10 @@ pub struct Stretches {
 ///
 /// A stretch is steady if every quarter of it moves within 3 % of its mean velocity, beyond what the
 /// steps of the position allow; it is grown as far as that holds, the longest first. Then its velocity
-/// may not drift by more than [`MOST_DRIFT`] from the first quarter to the last, nor stop in between.
-/// The start is dropped until force and velocity have settled (marginal standard error rule). With
+/// may not drift by more than [`MOST_DRIFT`] from the first quarter to the last once at most half of it
+/// is dropped at the start, nor may the axis stop in between.
+/// Both ends are cut by 3 %, and further until the force has settled (marginal standard error rule;
+/// at most half). With
 /// `pitches` (m or rad, positive) the force is averaged over a whole number of the longest that fits.
 ///
 /// Where a reference is given, the stretches are looked for in it, and the measured motion has only to
@@ -206,6 +220,22 @@ impl<'a> Search<'a> {
             }
             length = length * 3 / 4;
         }
+        let own = out.points.split_off(first);
+        let kept = own.iter().filter(|p| !own.iter().any(|q| p.leads_to(q)));
+        out.points.extend(kept);
+        // A short piece of what lies between two speeds is not worth a word.
+        let seconds = |time: (f64, f64)| time.1 - time.0;
+        let shortest = out.points[first..]
+            .iter()
+            .map(|p| seconds(p.time))
+            .fold(f64::INFINITY, f64::min);
+        if shortest.is_finite() {
+            let mut index = 0;
+            out.rejected.retain(|r| {
+                index += 1;
+                index <= first_rejected || seconds(r.time) >= shortest
+            });
+        }
         out.points[first..].sort_by(|a, b| a.time.0.total_cmp(&b.time.0));
         out.rejected[first_rejected..].sort_by(|a, b| a.time.0.total_cmp(&b.time.0));
     }
@@ -288,30 +318,24 @@ impl<'a> Search<'a> {
 
     /// The point of a stretch, or why it is none; `None` where it is not worth a word.
     fn point(&self, from: usize, to: usize) -> Result<StaticPoint, Option<Unsteady>> {
-        let quarter = (to - from) / 4;
-        let mean = self.moved.slope(from, to);
-        let asked = self.asked.slope(from, to);
-        // A reference that the axis does not follow.
-        if !(mean * asked > 0.0) {
+        // The axis may approach a speed that was asked for at once.
+        let from = self.after_drift(&self.asked, from, to).ok_or(None)?;
+        let from = self.after_drift(&self.moved, from, to).ok_or(Some(Unsteady::StickSlip))?;
+        let corner = (CORNER * (to - from) as f64) as usize;
+        let (start, to) = (from + corner, to - corner);
+        if to - start < LEAST {
+            return Err(None);
+        }
+        let mean = self.moved.slope(start, to);
+        // A reference that the axis does not follow is a standstill too.
+        let follows = mean * self.asked.slope(start, to) > 0.0;
+        if !follows || self.stops(start, to, mean) {
             return Err(Some(Unsteady::StickSlip));
         }
-        let first = self.asked.slope(from, from + quarter);
-        let last = self.asked.slope(to - quarter, to);
-        let counts = asked.abs() * self.seconds(from, to) / 4.0 / self.asked_step;
-        if (last - first).abs() > asked.abs() * (MOST_DRIFT + 2.0 / (counts * counts)) {
-            return Err(Some(Unsteady::Drift));
-        }
-        let force = &self.samples.force[from..to];
-        let speed = self.parts(from, to);
-        let a = from + transient(force).ok_or(Some(Unsteady::Unsettled))?;
-        let (a, b, pitches) = self.whole_pitches(a, to);
+        let (a, b) = self.settled(start, to).ok_or(Some(Unsteady::Unsettled))?;
+        let (a, b, pitches) = self.whole_pitches(a, b);
         if b - a < LEAST {
-            return Err(Some(Unsteady::Short));
-        }
-        if let Some(speed) = speed
-            && speed.iter().any(|v| v / mean < STOPPED)
-        {
-            return Err(Some(Unsteady::StickSlip));
+            return Err(None);
         }
         let force = &self.samples.force[a..b];
         let n = force.len() as f64;
@@ -334,15 +358,51 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// Velocities of the parts of a stretch; `None` where the position is too coarse to tell.
-    fn parts(&self, from: usize, to: usize) -> Option<Vec<f64>> {
-        let part = (to - from) / PARTS;
-        let travel = self.moved.slope(from, to).abs() * self.seconds(from, to) / PARTS as f64;
-        (part >= 3 && travel > 3.0 * self.step).then(|| {
-            (0..PARTS)
-                .map(|k| self.moved.slope(from + k * part, from + (k + 1) * part))
-                .collect()
+    /// The first sample from which the velocity no longer drifts; `None` where that is beyond the
+    /// middle: a piece of a ramp, not the end of an approach.
+    fn after_drift(&self, motion: &Moments, from: usize, to: usize) -> Option<usize> {
+        let hop = ((to - from) / 32).max(1);
+        (from..=from + (to - from) / 2).step_by(hop).find(|&from| {
+            let quarter = (to - from) / 4;
+            let mean = motion.slope(from, to).abs();
+            let first = motion.slope(from, from + quarter);
+            let last = motion.slope(to - quarter, to);
+            let counts = mean * self.seconds(from, to) / 4.0 / self.step;
+            (last - first).abs() <= mean * (MOST_DRIFT + 2.0 / (counts * counts))
         })
+    }
+
+    /// Whether the axis stands still in some part of a stretch, as far as the position can tell.
+    fn stops(&self, from: usize, to: usize, mean: f64) -> bool {
+        let travel = mean.abs() * self.seconds(from, to);
+        let told = if self.step > 0.0 {
+            travel / (4.0 * self.step)
+        } else {
+            f64::INFINITY
+        };
+        let parts = PARTS.min((to - from) / 8).min(told as usize);
+        if parts < 4 {
+            return false;
+        }
+        let part = (to - from) / parts;
+        (0..parts).any(|k| {
+            let a = from + k * part;
+            self.moved.slope(a, a + part) / mean < STOPPED
+        })
+    }
+
+    /// The part of a stretch over which the force has settled; `None` if it has not by the middle.
+    fn settled(&self, from: usize, to: usize) -> Option<(usize, usize)> {
+        let force = &self.samples.force[from..to];
+        let mut back = force.to_vec();
+        back.reverse();
+        match (transient(force), transient(&back)) {
+            (Some(start), Some(end)) if start + end <= force.len() / 2 => {
+                Some((from + start, to - end))
+            }
+            // A slow ripple has no beginning to drop.
+            _ => (!drifts(force)).then_some((from, to)),
+        }
     }
 
     /// The end of a stretch that covers a whole number of the longest pitch that fits into it.
@@ -373,6 +433,20 @@ impl<'a> Search<'a> {
             reason,
         }
     }
+}
+
+/// Whether the two halves of a signal differ by more than its own correlation explains.
+fn drifts(signal: &[f64]) -> bool {
+    let (a, b) = signal.split_at(signal.len() / 2);
+    let of = |x: &[f64]| {
+        let n = x.len() as f64;
+        let mean = x.iter().sum::<f64>() / n;
+        let variance = x.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / n;
+        let size = effective_sample_size(x, LAGS.min(x.len() / 2)).map_or(1.0, |e| e.size);
+        (mean, variance / size.max(1.0))
+    };
+    let ((first, p), (second, q)) = (of(a), of(b));
+    (first - second).abs() > 3.0 * (p + q).sqrt()
 }
 
 fn integral(time: &[f64], velocity: &[f64]) -> Vec<f64> {
