@@ -84,6 +84,22 @@ pub enum Error {
         /// Of which direction of motion, in words; empty for both together.
         direction: &'static str,
     },
+    /// The force does not step, or the axis does not answer as it does in presliding.
+    #[error("log {log}: {reason}")]
+    NoStep {
+        /// Which log, counted from 1.
+        log: usize,
+        /// What is missing.
+        reason: &'static str,
+    },
+    /// The force does not rise in a line, or the axis does not break away under it.
+    #[error("log {log}: {reason}")]
+    NoBreakAway {
+        /// Which log, counted from 1.
+        log: usize,
+        /// What is missing.
+        reason: &'static str,
+    },
     /// A setting outside its range.
     #[error("{name} = {found}: {allowed}")]
     Setting {

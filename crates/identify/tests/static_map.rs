@@ -4,9 +4,7 @@ mod common;
 
 use common::Noise;
 use stiction_friction::{Direction, Shape, Stribeck};
-use stiction_identify::procedure::{
-    Exponent, StaticMap, StaticPoint, StaticSettings, static_map,
-};
+use stiction_identify::procedure::{Exponent, StaticMap, StaticPoint, StaticSettings, static_map};
 use stiction_identify::{Error, Parameter};
 
 /// Fc, Fs, sigma2, vs of one direction.
@@ -100,7 +98,12 @@ fn published_sets_without_noise() {
                 let p = parameter(&map, &format!("{stem}{suffix}"));
                 assert!(p.identifiable, "{name} {}: {}", p.name, p.reason);
                 let off = (p.value / truth - 1.0).abs();
-                assert!(off < 1e-5, "{name} {}: {} instead of {truth}", p.name, p.value);
+                assert!(
+                    off < 1e-5,
+                    "{name} {}: {} instead of {truth}",
+                    p.name,
+                    p.value
+                );
             }
         }
     }
@@ -158,7 +161,12 @@ fn v2_is_flagged() {
                 let p = parameter(&map, &format!("{stem}{suffix}"));
                 let off = (p.value - truth).abs();
                 let bound = p.std.map_or(f64::INFINITY, |std| 4.0 * std);
-                assert!(off < bound.max(1e-3 * truth), "{sd}: {} = {}", p.name, p.value);
+                assert!(
+                    off < bound.max(1e-3 * truth),
+                    "{sd}: {} = {}",
+                    p.name,
+                    p.value
+                );
                 assert!(p.identifiable || sd > 0.0, "{}: {}", p.name, p.reason);
             }
         }
@@ -179,7 +187,12 @@ fn outliers_do_not_pull() {
     for stem in STEMS {
         let (a, b) = (parameter(&clean, stem), parameter(&map, stem));
         let moved = (a.value - b.value).abs();
-        assert!(moved < 1.5 * a.std.unwrap(), "{stem}: {} {}", a.value, b.value);
+        assert!(
+            moved < 1.5 * a.std.unwrap(),
+            "{stem}: {} {}",
+            a.value,
+            b.value
+        );
     }
     let thrown = map.weights.iter().filter(|w| **w < 0.01).count();
     assert_eq!(thrown, 3);
@@ -220,7 +233,12 @@ fn the_optimum_is_global() {
         let found = loss(&|v| at(value("stribeck_velocity"), [1.0; 3])(v) + offset);
         for i in 0..1200 {
             let velocity = 1e-4 * (5e3_f64).powf(f64::from(i) / 1200.0);
-            for by in [[1.0; 3], [1.02, 1.0, 1.0], [1.0, 0.97, 1.0], [1.0, 1.0, 1.1]] {
+            for by in [
+                [1.0; 3],
+                [1.02, 1.0, 1.0],
+                [1.0, 0.97, 1.0],
+                [1.0, 1.0, 1.1],
+            ] {
                 let other = loss(&|v| at(velocity, by)(v) + offset);
                 assert!(other >= found - 1e-9, "{velocity}: {other} < {found}");
             }
@@ -252,7 +270,10 @@ fn the_exponent_as_an_unknown() {
 #[test]
 fn no_rise_is_said() {
     let side = [20.0, 20.0, 60.0, 5e-3];
-    let map = fit(&points(&curve(side, side, 0.0), &speeds(1e-3, 0.5, 12), 0.05, 2), false);
+    let map = fit(
+        &points(&curve(side, side, 0.0), &speeds(1e-3, 0.5, 12), 0.05, 2),
+        false,
+    );
     assert!(!parameter(&map, "stribeck_velocity").identifiable);
     assert!((parameter(&map, "coulomb").value / 20.0 - 1.0).abs() < 0.02);
     let one_way: Vec<StaticPoint> = points(&curve(side, side, 0.0), &speeds(1e-3, 0.5, 12), 0.0, 2)
@@ -269,9 +290,16 @@ fn bad_points_are_refused() {
     let good = points(&curve(side, side, 0.0), &speeds(1e-3, 0.5, 4), 0.1, 2);
     assert!(matches!(
         static_map(&good[..4], &settings),
-        Err(Error::TooFewSpeeds { found: 4, needed: 6, .. })
+        Err(Error::TooFewSpeeds {
+            found: 4,
+            needed: 6,
+            ..
+        })
     ));
-    assert!(matches!(static_map(&[], &settings), Err(Error::TooFewSpeeds { .. })));
+    assert!(matches!(
+        static_map(&[], &settings),
+        Err(Error::TooFewSpeeds { .. })
+    ));
     for bad in [f64::NAN, f64::INFINITY] {
         for k in 0..3 {
             let mut points = good.clone();
@@ -280,7 +308,10 @@ fn bad_points_are_refused() {
                 1 => points[1].force = bad,
                 _ => points[1].error = bad,
             }
-            assert!(matches!(static_map(&points, &settings), Err(Error::NotFinite { .. })));
+            assert!(matches!(
+                static_map(&points, &settings),
+                Err(Error::NotFinite { .. })
+            ));
         }
     }
     // Sizes at the ends of the range of numbers are no panic.

@@ -17,7 +17,14 @@ struct Log {
 }
 
 /// Position in steps and force with noise and cogging, along constant speeds, at 1 kHz.
-fn drive(plant: &Plant, pd: &Cascade, speeds: &Speeds, count: f64, noise: f64, cogging: (f64, f64)) -> Log {
+fn drive(
+    plant: &Plant,
+    pd: &Cascade,
+    speeds: &Speeds,
+    count: f64,
+    noise: f64,
+    cogging: (f64, f64),
+) -> Log {
     let h = 1e-3;
     let encoder = Encoder::new(count).unwrap();
     let mut random = Noise::new(11);
@@ -93,7 +100,10 @@ fn v3_from_a_closed_loop_log() {
             };
             let found = stretches(&[run], &[]).unwrap();
             for p in &found.points {
-                println!("{:.4} {:+.4} {:.5} +- {:.5}, {} dropped {:.3}", p.time.0, p.velocity, p.force, p.error, p.samples, p.dropped);
+                println!(
+                    "{:.4} {:+.4} {:.5} +- {:.5}, {} dropped {:.3}",
+                    p.time.0, p.velocity, p.force, p.error, p.samples, p.dropped
+                );
             }
             println!("{:?}", found.rejected);
             assert_eq!(found.points.len(), 28, "{:?}", found.rejected);
@@ -115,7 +125,11 @@ fn v3_from_a_closed_loop_log() {
                 if noise == 0.0 {
                     assert!(off < 0.01, "{name}: {}", p.value);
                 } else {
-                    assert!((p.value - truth).abs() < 4.0 * p.std.unwrap(), "{name}: {}", p.value);
+                    assert!(
+                        (p.value - truth).abs() < 4.0 * p.std.unwrap(),
+                        "{name}: {}",
+                        p.value
+                    );
                 }
             }
         }
@@ -136,12 +150,18 @@ fn whole_pitches_average_cogging_out() {
         reference: Some(&log.reference),
         resolution: None,
     };
-    let plain = static_map(&stretches(&[run], &[]).unwrap().points, &StaticSettings::default()).unwrap();
+    let plain = static_map(
+        &stretches(&[run], &[]).unwrap().points,
+        &StaticSettings::default(),
+    )
+    .unwrap();
     let found = stretches(&[run], &[pitch]).unwrap();
     assert!(found.points.iter().filter(|p| p.pitches >= 2).count() >= 14);
     let averaged = static_map(&found.points, &StaticSettings::default()).unwrap();
     let worst = |map: &stiction_identify::procedure::StaticMap| {
-        let off = |p: &stiction_identify::procedure::StaticPoint| (p.force - axis.law.curve().force(p.velocity)).abs();
+        let off = |p: &stiction_identify::procedure::StaticPoint| {
+            (p.force - axis.law.curve().force(p.velocity)).abs()
+        };
         map.points.iter().map(off).fold(0.0, f64::max)
     };
     println!("{} {}", worst(&plain), worst(&averaged));
@@ -173,8 +193,14 @@ fn what_is_not_steady_gives_no_point() {
     let noise = |t: f64| 0.1 * ((1e4 * t).sin() + (2.3e4 * t).sin());
     for (what, log) in [
         ("rest", made(4000, |_| 0.3, |t| 5.0 + noise(t))),
-        ("a ramp of velocity", made(4000, |t| 0.2 * t * t, |t| 20.0 + noise(t))),
-        ("a sweep", made(4000, |t| 0.01 * (20.0 * t + 10.0 * t * t).sin(), noise)),
+        (
+            "a ramp of velocity",
+            made(4000, |t| 0.2 * t * t, |t| 20.0 + noise(t)),
+        ),
+        (
+            "a sweep",
+            made(4000, |t| 0.01 * (20.0 * t + 10.0 * t * t).sin(), noise),
+        ),
     ] {
         let found = found(&log, None);
         let long: f64 = found.points.iter().map(|p| p.time.1 - p.time.0).sum();
@@ -183,7 +209,11 @@ fn what_is_not_steady_gives_no_point() {
     let jerky = made(8000, |t| 1e-3 * (t + 0.9 / 12.0 * (12.0 * t).sin()), noise);
     let all = found(&jerky, Some(1e-7));
     assert!(all.points.is_empty(), "{:?}", all.points);
-    assert!(all.rejected.iter().any(|r| r.reason == Unsteady::StickSlip), "{:?}", all.rejected);
+    assert!(
+        all.rejected.iter().any(|r| r.reason == Unsteady::StickSlip),
+        "{:?}",
+        all.rejected
+    );
     // A force that drifts all the way is not a mean.
     let warming = made(4000, |t| 0.1 * t, |t| 20.0 - 2.0 * t + noise(t));
     let all = found(&warming, None);

@@ -79,8 +79,18 @@ mod tests {
     /// Against the table of Student's t (Abramowitz and Stegun, table 26.10).
     #[test]
     fn quantile_of_student() {
-        for (free, t) in [(3.0, 3.182), (5.0, 2.571), (10.0, 2.228), (30.0, 2.042), (120.0, 1.980)] {
-            assert!((quantile(free) / t - 1.0).abs() < 0.01, "{free}: {}", quantile(free));
+        for (free, t) in [
+            (3.0, 3.182),
+            (5.0, 2.571),
+            (10.0, 2.228),
+            (30.0, 2.042),
+            (120.0, 1.980),
+        ] {
+            assert!(
+                (quantile(free) / t - 1.0).abs() < 0.01,
+                "{free}: {}",
+                quantile(free)
+            );
         }
     }
 }

@@ -68,18 +68,17 @@ impl Block {
         let mut nonnegative = self.nonnegative.clone();
         if self.range.is_some() {
             let level = self.columns[0].iter().zip(&self.speed);
-            columns.push(level.map(|(s, v)| s * fall(*v, velocity, exponent)).collect());
+            columns.push(
+                level
+                    .map(|(s, v)| s * fall(*v, velocity, exponent))
+                    .collect(),
+            );
             nonnegative.push(true);
         }
         (columns, nonnegative)
     }
 
-    fn solve(
-        &self,
-        velocity: f64,
-        exponent: f64,
-        how: impl Fn(&Rows<'_>) -> Solved,
-    ) -> Solved {
+    fn solve(&self, velocity: f64, exponent: f64, how: impl Fn(&Rows<'_>) -> Solved) -> Solved {
         let (columns, nonnegative) = self.columns_at(velocity, exponent);
         how(&Rows {
             columns: &columns,
@@ -126,7 +125,9 @@ impl Block {
         };
         let cost = |i: usize| grid[i].1.cost;
         let mut minima: Vec<usize> = (0..GRID)
-            .filter(|&i| (i == 0 || cost(i) <= cost(i - 1)) && (i + 1 == GRID || cost(i) <= cost(i + 1)))
+            .filter(|&i| {
+                (i == 0 || cost(i) <= cost(i - 1)) && (i + 1 == GRID || cost(i) <= cost(i + 1))
+            })
             .collect();
         minima.sort_by(|&a, &b| cost(a).total_cmp(&cost(b)));
         minima.truncate(FOLLOWED);
@@ -163,18 +164,25 @@ impl Block {
 
 /// The exponent with the least loss over all blocks together.
 pub(super) fn best_exponent(blocks: &[Block], scale: f64) -> f64 {
-    let cost = |delta: f64| -> f64 { blocks.iter().map(|b| b.best(delta, scale).solved.cost).sum() };
+    let cost = |delta: f64| -> f64 {
+        blocks
+            .iter()
+            .map(|b| b.best(delta, scale).solved.cost)
+            .sum()
+    };
     let costs = EXPONENTS.map(cost);
     let best = (0..costs.len())
         .min_by(|&a, &b| costs[a].total_cmp(&costs[b]))
         .unwrap_or(0);
-    let low = best.checked_sub(1).map_or(EXPONENT_RANGE.0, |i| EXPONENTS[i]);
+    let low = best
+        .checked_sub(1)
+        .map_or(EXPONENT_RANGE.0, |i| EXPONENTS[i]);
     let high = EXPONENTS.get(best + 1).copied().unwrap_or(EXPONENT_RANGE.1);
     golden((low, high), EXPONENT_FINE, cost)
 }
 
 /// Least of a function with one minimum between two ends, by golden section.
-fn golden(ends: (f64, f64), width: f64, f: impl Fn(f64) -> f64) -> f64 {
+pub(super) fn golden(ends: (f64, f64), width: f64, f: impl Fn(f64) -> f64) -> f64 {
     const SHARE: f64 = 0.618_033_988_749_894_9;
     let (mut a, mut b) = ends;
     let (mut c, mut d) = (b - SHARE * (b - a), a + SHARE * (b - a));

@@ -89,7 +89,8 @@ impl Rows<'_> {
             .zip(self.deviation)
             .map(|(w, s)| w.sqrt() / s)
             .collect();
-        let scaled = |x: &[f64]| -> Vec<f64> { x.iter().zip(&factor).map(|(x, f)| x * f).collect() };
+        let scaled =
+            |x: &[f64]| -> Vec<f64> { x.iter().zip(&factor).map(|(x, f)| x * f).collect() };
         let columns: Vec<Vec<f64>> = self.columns.iter().map(|c| scaled(c)).collect();
         let views: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
         let solution = linear::solve(&views, self.nonnegative, &scaled(self.target));

@@ -225,7 +225,11 @@ fn blocks(points: &[StaticPoint], settings: &StaticSettings) -> Result<Vec<Block
 fn unknowns(blocks: &[Block], settings: &StaticSettings) -> usize {
     let curve = if settings.stribeck { 2 } else { 0 };
     let fitted = usize::from(settings.stribeck && settings.exponent == Exponent::Fitted);
-    blocks.iter().map(|b| b.columns.len() + curve).sum::<usize>() + fitted
+    blocks
+        .iter()
+        .map(|b| b.columns.len() + curve)
+        .sum::<usize>()
+        + fitted
 }
 
 fn standardised<'a>(residual: &'a [f64], block: &'a Block) -> impl Iterator<Item = f64> + 'a {
@@ -480,7 +484,13 @@ impl Fitted<'_> {
                 let slopes = [(0, 1.0), (rise, 1.0)];
                 push("static", Dimension::Force, level, &slopes, fixed);
                 let slopes = [(rise + 1, velocity)];
-                push("stribeck_velocity", Dimension::Speed, velocity, &slopes, curve);
+                push(
+                    "stribeck_velocity",
+                    Dimension::Speed,
+                    velocity,
+                    &slopes,
+                    curve,
+                );
             }
             start += c.len() + usize::from(self.settings.stribeck);
         }

@@ -320,7 +320,9 @@ impl<'a> Search<'a> {
     fn point(&self, from: usize, to: usize) -> Result<StaticPoint, Option<Unsteady>> {
         // The axis may approach a speed that was asked for at once.
         let from = self.after_drift(&self.asked, from, to).ok_or(None)?;
-        let from = self.after_drift(&self.moved, from, to).ok_or(Some(Unsteady::StickSlip))?;
+        let from = self
+            .after_drift(&self.moved, from, to)
+            .ok_or(Some(Unsteady::StickSlip))?;
         let corner = (CORNER * (to - from) as f64) as usize;
         let (start, to) = (from + corner, to - corner);
         if to - start < LEAST {
