@@ -2,7 +2,10 @@
 
 mod assemble;
 mod ladder;
+mod procedure;
 mod trust;
+
+pub use procedure::{Method, Procedures};
 
 use crate::axis::Axis;
 use crate::error::{Error, Warning};
@@ -34,6 +37,8 @@ pub struct Options {
     pub seed: u64,
     /// Whether simpler laws are fitted beside it and compared on held-out samples.
     pub compare_laws: bool,
+    /// The method, and the logs and models that it takes beside the logs.
+    pub procedures: Procedures,
 }
 
 /// Fewest samples that a split may leave to validate on.
@@ -83,7 +88,11 @@ pub(crate) fn fit(
     clock: Instant,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
-    check_together(&sources, &held_out)?;
+    let beside = procedure::Beside::load(options, axis)?;
+    check_together(&sources, &[held_out.as_slice(), &beside.statics, &beside.break_away].concat())?;
+    if !options.procedures.method.fits_records() {
+        return procedure::run(options, axis, sources, &beside, clock, observer);
+    }
     let motion = sources[0].log.motion;
     let force_unit = sources[0].log.force_unit.clone();
     let terms = axis.terms_for(&sources[0].log, options.asymmetric)?;
@@ -126,8 +135,29 @@ pub(crate) fn fit(
         inputs: names(&options.logs),
         source,
     };
-    let optimum = engine::separable(&record, law, &terms, &settings, observer).map_err(fail)?;
-    let estimate = engine::estimate(&record, law, &terms, &optimum, low_speed);
+    let mut two_step = None;
+    let (estimate, bounds) = if options.procedures.method == Method::StaticThenDynamic {
+        let found = procedure::two_step(
+            procedure::TwoStep {
+                options,
+                axis,
+                sources: &sources,
+                beside: &beside,
+                record: &record,
+                terms: [&terms, &other],
+                low_speed,
+                settings: &settings,
+            },
+            observer,
+        )?;
+        let estimate = found.estimate.clone();
+        two_step = Some(found);
+        (estimate, None)
+    } else {
+        let optimum = engine::separable(&record, law, &terms, &settings, observer).map_err(fail)?;
+        let estimate = engine::estimate(&record, law, &terms, &optimum, low_speed);
+        (estimate, Some(optimum.bounds))
+    };
     let mut validation = Vec::new();
     if let Some(rest) = &split {
         validation.push((
@@ -142,7 +172,8 @@ pub(crate) fn fit(
             engine::predict(&record, &estimate),
         ));
     }
-    let laws = if optimum.status == Status::Interrupted || !options.compare_laws {
+    let compare_laws = options.compare_laws && bounds.is_some();
+    let laws = if estimate.status == Status::Interrupted || !compare_laws {
         Vec::new()
     } else {
         let held_out = match (&split, held_out.is_empty()) {
@@ -162,10 +193,10 @@ pub(crate) fn fit(
             asymmetric,
             low_speed,
         }
-        .climb(&estimate, &optimum.bounds, &settings, observer)
+        .climb(&estimate, &bounds.expect("a joint fit has bounds"), &settings, observer)
     };
     let mut warnings = log_warnings(&sources);
-    if laws.is_empty() && options.compare_laws && optimum.status != Status::Interrupted {
+    if laws.is_empty() && compare_laws && estimate.status != Status::Interrupted {
         let text = "the comparison of laws was interrupted and is left out; the fit is complete";
         warnings.push(Warning::new("interrupted", text));
     }
@@ -178,7 +209,8 @@ pub(crate) fn fit(
         conditioning: record.notes.clone(),
         terms: assemble::term_names(&estimate, motion),
     };
-    let result = assemble::result(assemble::Parts {
+    let break_away = procedure::break_away(&beside, &estimate, motion)?;
+    let mut result = assemble::result(assemble::Parts {
         options,
         sources: &sources,
         axis: resolved,
@@ -191,6 +223,10 @@ pub(crate) fn fit(
         warnings,
         wall_s: clock.elapsed().as_secs_f64(),
     });
+    result.break_away = break_away;
+    if let Some(found) = two_step {
+        found.into_result(&mut result, motion);
+    }
     Ok(Outcome {
         result,
         estimate,

@@ -12,6 +12,7 @@
 //! A static map knows nothing of acceleration, and break-away is not a point of it: the force at
 //! which an axis starts to move depends on how fast the force rises.
 
+mod assemble;
 mod break_away;
 mod dynamic;
 mod moments;
