@@ -39,10 +39,7 @@ pub const OWN: &[(&str, &str)] = &[
         "too-few-speeds",
         "too few constant-velocity stretches for a static map",
     ),
-    (
-        "few-speeds",
-        "fewer speeds than a static map should have",
-    ),
+    ("few-speeds", "fewer speeds than a static map should have"),
     (
         "unsteady-stretches",
         "stretches of nearly constant velocity were left out",
@@ -63,10 +60,7 @@ pub const OWN: &[(&str, &str)] = &[
         "statics-assumed",
         "the steady curve is not known and was simplified",
     ),
-    (
-        "no-break-away",
-        "the force does not ramp up to break-away",
-    ),
+    ("no-break-away", "the force does not ramp up to break-away"),
     ("bad-record", "the channels of a log do not fit together"),
     ("bad-config", "an axis or model file was refused"),
     ("usage", "the command as typed cannot be carried out"),

@@ -89,7 +89,10 @@ pub(crate) fn fit(
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
     let beside = procedure::Beside::load(options, axis)?;
-    check_together(&sources, &[held_out.as_slice(), &beside.statics, &beside.break_away].concat())?;
+    check_together(
+        &sources,
+        &[held_out.as_slice(), &beside.statics, &beside.break_away].concat(),
+    )?;
     if !options.procedures.method.fits_records() {
         return procedure::run(options, axis, sources, &beside, clock, observer);
     }
@@ -193,7 +196,12 @@ pub(crate) fn fit(
             asymmetric,
             low_speed,
         }
-        .climb(&estimate, &bounds.expect("a joint fit has bounds"), &settings, observer)
+        .climb(
+            &estimate,
+            &bounds.expect("a joint fit has bounds"),
+            &settings,
+            observer,
+        )
     };
     let mut warnings = log_warnings(&sources);
     if laws.is_empty() && compare_laws && estimate.status != Status::Interrupted {

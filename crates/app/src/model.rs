@@ -142,8 +142,8 @@ impl ModelFile {
         if !meta.is_file() || meta.len() > MAX_BYTES {
             return Err(refuse("not a file of that size".into()));
         }
-        let text = std::fs::read_to_string(file)
-            .map_err(|e| refuse(format!("cannot be read ({e})")))?;
+        let text =
+            std::fs::read_to_string(file).map_err(|e| refuse(format!("cannot be read ({e})")))?;
         Self::parse(&text, file)
     }
 

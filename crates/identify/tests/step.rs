@@ -87,6 +87,7 @@ fn fit(axis: &Axis, logs: &[Samples], mass: bool, curve: bool) -> StepFit {
         mass: mass.then_some(axis.plant.mass()),
         curve: curve.then_some(axis.curve),
         exponent: 2.0,
+        given: [[0.0; 5]; 5],
     };
     fit_steps(&runs, &settings, &mut Silent).unwrap()
 }
@@ -274,6 +275,7 @@ fn what_is_no_step_is_refused() {
             viscous: 0.0,
         }),
         exponent: 2.0,
+        given: [[0.0; 5]; 5],
     };
     assert!(matches!(
         fit_steps(&[(run(&good), step)], &settings, &mut Silent),

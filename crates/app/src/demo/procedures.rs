@@ -61,7 +61,7 @@ pub fn procedures(dir: &Path, seed: u64) -> Result<Vec<PathBuf>, Error> {
 fn speeds(axis: &KnownAxis, seed: u64) -> Result<String, ParamError> {
     let plant = Plant::new(axis.mass, axis.law)?;
     let controller = Cascade::tuned(axis.mass, 60.0, 500.0)?;
-    let path = Speeds::ladder((0.5e-3, 0.3), 12, 0.1, (0.5, 4.0), 0.1)?;
+    let path = Speeds::ladder((0.5e-3, 0.3), 12, 0.1, (0.5, 8.0), 0.1)?;
     let encoder = Encoder::new(COUNT)?;
     let mut noise = Noise::new(seed);
     let mut out = String::from("Time [s],Reference [mm],Position [mm],Force [N]\n");

@@ -75,7 +75,10 @@ pub(super) struct Beside {
 impl Beside {
     pub fn load(options: &Options, axis: &Axis) -> Result<Self, Error> {
         let procedures = &options.procedures;
-        if procedures.method == Method::Static && procedures.model.is_some() && procedures.break_away.is_empty() {
+        if procedures.method == Method::Static
+            && procedures.model.is_some()
+            && procedures.break_away.is_empty()
+        {
             return Err(Error::usage(
                 "--model beside --method static",
                 "a static map takes nothing from a model; leave it out",
@@ -101,7 +104,10 @@ impl Beside {
             && (!options.validate.is_empty() || options.split.is_some())
         {
             return Err(Error::usage(
-                format!("--validate or --split beside --method {}", procedures.method.name()),
+                format!(
+                    "--validate or --split beside --method {}",
+                    procedures.method.name()
+                ),
                 "validation needs a law for every sample: separable or static-then-dynamic",
             ));
         }

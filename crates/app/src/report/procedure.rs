@@ -42,7 +42,10 @@ pub(super) fn sections(outcome: &Outcome) -> Vec<Block> {
 
 /// Points with their error bars, the curve with its band; all speeds, and those near zero.
 fn static_figure(outcome: &Outcome, map: &StaticMapEntry) -> Figure {
-    let top = map.points.iter().fold(0.0_f64, |m, p| m.max(p.velocity.abs()));
+    let top = map
+        .points
+        .iter()
+        .fold(0.0_f64, |m, p| m.max(p.velocity.abs()));
     let vs = ["stribeck_velocity", "stribeck_velocity_pos"]
         .iter()
         .find_map(|name| outcome.estimate.value(name))
@@ -165,7 +168,8 @@ fn two_step_table(entry: &TwoStepEntry) -> Table {
             std(p.std),
             number::sig(p.joint, 5),
             std(p.joint_std),
-            p.difference_in_std.map_or("–".into(), |d| number::sig(d, 2)),
+            p.difference_in_std
+                .map_or("–".into(), |d| number::sig(d, 2)),
             p.unit.clone(),
         ]);
     }

@@ -2,7 +2,9 @@
 
 use super::table;
 use crate::check::short;
-use crate::result::{BreakAwayEntry, PreslidingStepEntry, ResultFile, StaticMapEntry, TwoStepEntry};
+use crate::result::{
+    BreakAwayEntry, PreslidingStepEntry, ResultFile, StaticMapEntry, TwoStepEntry,
+};
 use crate::symbols;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -46,7 +48,11 @@ fn static_map(map: &StaticMapEntry) -> String {
             short(p.force_std),
             short(p.model),
             p.samples.to_string(),
-            if p.weight < 0.1 { "left out".into() } else { String::new() },
+            if p.weight < 0.1 {
+                "left out".into()
+            } else {
+                String::new()
+            },
         ]);
     }
     let mut out = format!(
@@ -75,7 +81,8 @@ fn two_step(entry: &TwoStepEntry) -> String {
             std(p.std),
             short(p.joint),
             std(p.joint_std),
-            p.difference_in_std.map_or("-".into(), |d| format!("{d:+.1}")),
+            p.difference_in_std
+                .map_or("-".into(), |d| format!("{d:+.1}")),
         ]);
     }
     let mut out = format!(
@@ -94,13 +101,23 @@ fn presliding_step(entry: &PreslidingStepEntry, result: &ResultFile) -> String {
         let found = result.parameters.iter().find(|p| p.name == name);
         found.map_or("-".into(), |p| short(p.value))
     };
-    let mut rows = vec![cells(["", "step", "overshoot", "zeta", "sigma0", "", "sigma1", ""])];
+    let mut rows = vec![cells([
+        "",
+        "step",
+        "overshoot",
+        "zeta",
+        "sigma0",
+        "",
+        "sigma1",
+        "",
+    ])];
     let percent = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:+.1} %"));
     for p in &entry.published {
         rows.push(vec![
             format!("inverted, {}", p.path),
             format!("{} {}", short(p.height), entry.force_unit),
-            p.overshoot.map_or("none".into(), |x| format!("{:.1} %", 100.0 * x)),
+            p.overshoot
+                .map_or("none".into(), |x| format!("{:.1} %", 100.0 * x)),
             p.damping_ratio.map_or("-".into(), short),
             short(p.sigma0),
             percent(Some(p.sigma0_off_percent)),

@@ -117,7 +117,11 @@ impl StepFit {
                 Dimension::Speed,
                 curve.stribeck_velocity,
             ));
-            parameters.push(given("stribeck_exponent", Dimension::One, settings.exponent));
+            parameters.push(given(
+                "stribeck_exponent",
+                Dimension::One,
+                settings.exponent,
+            ));
         }
         if let Some(mass) = settings.mass {
             parameters.push(given("mass", Dimension::Inertia, mass));

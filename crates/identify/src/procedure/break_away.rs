@@ -21,7 +21,7 @@ const WINDOW: f64 = 0.01;
 /// Steps of the position (or deviations of its noise) within the window that stand out.
 const CLEAR: f64 = 5.0;
 /// Where no threshold is given: share of the top speed on the ramp.
-const SHARE: f64 = 0.01;
+const SHARE: f64 = 1e-3;
 /// Largest deviation of the force from a line until break-away, relative to its rise.
 const STRAIGHT: f64 = 0.1;
 /// Most steps of a prediction.

@@ -39,9 +39,16 @@ impl Response {
         let start = step.onset.saturating_sub(10).max(step.range.start);
         let cut = |x: &[f64]| x[start..end].to_vec();
         let first = samples.time[start];
+        let mut force = cut(&samples.force);
+        quieten(
+            &mut force,
+            step.onset - start,
+            step.before,
+            step.before + step.height,
+        );
         Self {
+            force,
             time: samples.time[start..end].iter().map(|t| t - first).collect(),
-            force: cut(&samples.force),
             // Displacements are some micrometres of what may be metres.
             position: samples
                 .position
@@ -93,6 +100,32 @@ impl Response {
         let at = |t: f64| interpolate(&self.time, &path, t);
         Some(self.time.iter().map(|t| at(t - trial.delay)).collect())
     }
+}
+
+/// Takes the noise off a force that is constant but for it: every swing that noise makes would slip
+/// the bristles a little further than they went. The rise itself stays as it was measured.
+fn quieten(force: &mut [f64], onset: usize, before: f64, after: f64) {
+    let rest = &force[onset..];
+    let half = rest.len() / 2;
+    let scatter = {
+        let squares: f64 = rest[half..].iter().map(|f| (f - after) * (f - after)).sum();
+        (squares / rest[half..].len().max(1) as f64).sqrt()
+    };
+    let close = |f: f64| (f - after).abs() <= 3.0 * scatter;
+    let Some(settled) = rest.iter().position(|f| close(*f)) else {
+        return;
+    };
+    // Block means of a constant with noise scatter as little as they should.
+    let block = (rest.len() / 10).max(1);
+    let wander = rest[settled..].chunks_exact(block).any(|c| {
+        let mean = c.iter().sum::<f64>() / block as f64;
+        (mean - after).abs() > 5.0 * scatter / (block as f64).sqrt()
+    });
+    if wander {
+        return;
+    }
+    force[onset + settled..].fill(after);
+    force[..onset].fill(before);
 }
 
 /// Position at an instant, by the cubic through positions and velocities of the samples around it.

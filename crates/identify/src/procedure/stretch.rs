@@ -25,6 +25,8 @@ const PIECE: f64 = 0.2;
 const NEAR: (f64, f64) = (0.4, 0.5);
 /// A part slower than this share of the mean is a standstill.
 const STOPPED: f64 = 0.25;
+/// Fewest independent samples of each half that tell a slow ripple from a drift.
+const FEWEST: f64 = 4.0;
 /// Lags of the autocorrelation of the force, at most.
 const LAGS: usize = 2000;
 
@@ -437,7 +439,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Whether the two halves of a signal differ by more than its own correlation explains.
+/// Whether the two halves of a signal differ by more than its own correlation explains, or are too
+/// few independent samples to tell.
 fn drifts(signal: &[f64]) -> bool {
     let (a, b) = signal.split_at(signal.len() / 2);
     let of = |x: &[f64]| {
@@ -445,10 +448,11 @@ fn drifts(signal: &[f64]) -> bool {
         let mean = x.iter().sum::<f64>() / n;
         let variance = x.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / n;
         let size = effective_sample_size(x, LAGS.min(x.len() / 2)).map_or(1.0, |e| e.size);
-        (mean, variance / size.max(1.0))
+        (mean, variance / size.max(1.0), size)
     };
-    let ((first, p), (second, q)) = (of(a), of(b));
-    (first - second).abs() > 3.0 * (p + q).sqrt()
+    let (first, second) = (of(a), of(b));
+    let apart = (first.0 - second.0).abs() > 3.0 * (first.1 + second.1).sqrt();
+    apart || first.2.min(second.2) < FEWEST
 }
 
 fn integral(time: &[f64], velocity: &[f64]) -> Vec<f64> {

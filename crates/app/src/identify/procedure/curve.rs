@@ -71,7 +71,10 @@ fn from_model(model: &ModelFile, options: &Options) -> Result<Known, Error> {
         matrix: model.covariance.matrix.clone(),
     };
     let square = covariance.matrix.len() == covariance.names.len()
-        && covariance.matrix.iter().all(|row| row.len() == covariance.names.len());
+        && covariance
+            .matrix
+            .iter()
+            .all(|row| row.len() == covariance.names.len());
     let file = options.procedures.model.clone().unwrap_or_default();
     if !square {
         return Err(Error::Config {
@@ -108,7 +111,11 @@ fn dimension(name: &str) -> Dimension {
 
 /// A value of a model file.
 pub(super) fn value(model: &ModelFile, name: &str) -> Option<f64> {
-    model.parameter.iter().find(|p| p.name == name).map(|p| p.value)
+    model
+        .parameter
+        .iter()
+        .find(|p| p.name == name)
+        .map(|p| p.value)
 }
 
 /// The axis of a LuGre law with one direction's curve, if its numbers make one.

@@ -11,7 +11,7 @@ use crate::source::Source;
 use crate::symbols;
 use std::time::Instant;
 use stiction_friction::Direction;
-use stiction_identify::procedure::{Run, StepFit, StepResponse, StepSettings, fit_steps};
+use stiction_identify::procedure::{Run, Statics, StepFit, StepResponse, StepSettings, fit_steps};
 use stiction_identify::{LawKind, Mass, Observer, Status};
 
 /// Findings about a log that hardly moves, which a step below break-away does on purpose.
@@ -126,12 +126,14 @@ fn settings(
         mass,
         curve: None,
         exponent: axis.stribeck_exponent,
+        given: [[0.0; 5]; 5],
     };
     if beside.model.is_none() && beside.statics.is_empty() {
         warnings.push(Warning::new(
             "statics-assumed",
             "neither --model nor --static gives the steady curve: its level is taken as constant and \
-             fitted, sigma2 as zero. sigma1 then stands for sigma1 + sigma2",
+             fitted, sigma2 as zero. sigma1 then stands for sigma1 + sigma2, and where the axis gets \
+             near the Stribeck velocity all parameters are off by more than their intervals",
         ));
         return Ok((settings, None));
     }
@@ -141,6 +143,12 @@ fn settings(
     let back = runs.iter().all(|(_, step)| step.height < 0.0);
     let [pos, neg] = known.statics.sides;
     settings.exponent = known.statics.exponent;
+    settings.given = given(&known.statics, !back);
+    if matches!(terms.mass, Mass::Given(_)) {
+        // The axis file's mass is exact.
+        settings.given[4] = [0.0; 5];
+        settings.given.iter_mut().for_each(|row| row[4] = 0.0);
+    }
     settings.curve = Some(match (forth, back) {
         (true, _) => pos,
         (_, true) => neg,
@@ -153,6 +161,32 @@ fn settings(
         },
     });
     Ok((settings, known.map))
+}
+
+/// Covariance of the curve and the mass that are given, for steps in one direction.
+fn given(statics: &Statics, positive: bool) -> [[f64; 5]; 5] {
+    let suffix = match (statics.asymmetric, positive) {
+        (false, _) => "",
+        (true, true) => "_pos",
+        (true, false) => "_neg",
+    };
+    let covariance = &statics.covariance;
+    let at = ["coulomb", "static", "stribeck_velocity", "sigma2", "mass"].map(|stem| {
+        let with = format!("{stem}{suffix}");
+        covariance
+            .names
+            .iter()
+            .position(|n| *n == with || n == stem)
+    });
+    let mut out = [[0.0; 5]; 5];
+    for (i, row) in at.iter().enumerate() {
+        for (j, column) in at.iter().enumerate() {
+            if let (Some(a), Some(b)) = (row, column) {
+                out[i][j] = covariance.matrix[*a][*b];
+            }
+        }
+    }
+    out
 }
 
 fn judge(fit: &StepFit, warnings: &mut Vec<Warning>, reasons: &mut Vec<String>) {
@@ -168,7 +202,10 @@ fn judge(fit: &StepFit, warnings: &mut Vec<Warning>, reasons: &mut Vec<String>) 
     }
     for p in fit.parameters.iter().filter(|p| p.name == "sigma0") {
         if !p.identifiable {
-            reasons.push(format!("sigma0 is not determined by these steps: {}", p.reason));
+            reasons.push(format!(
+                "sigma0 is not determined by these steps: {}",
+                p.reason
+            ));
         }
     }
 }

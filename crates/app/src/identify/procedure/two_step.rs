@@ -47,7 +47,10 @@ pub(in crate::identify) fn two_step(
 ) -> Result<TwoSteps, Error> {
     if parts.options.law != LawKind::LuGre {
         return Err(Error::usage(
-            format!("--law {} beside --method static-then-dynamic", parts.options.law),
+            format!(
+                "--law {} beside --method static-then-dynamic",
+                parts.options.law
+            ),
             "the dynamic parameters are those of lugre",
         ));
     }
