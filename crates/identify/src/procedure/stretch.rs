@@ -12,7 +12,7 @@ const STEADY: f64 = 0.03;
 /// piece of a ramp grows until a quarter is off by `STEADY` at either end, and so drifts more.
 pub const MOST_DRIFT: f64 = 0.015;
 /// Fewest samples of a stretch, before and after its transient is dropped.
-const LEAST: usize = 40;
+const LEAST: usize = 20;
 /// Fewest counts of the position in a quarter of a stretch: with fewer its slope is that of the steps.
 const COUNTS: f64 = 5.0;
 /// Most parts of a stretch that are looked at for standstill.
