@@ -72,7 +72,7 @@ impl Speeds {
         ParamError::positive("high", high)?;
         ParamError::positive("travel", travel)?;
         ParamError::positive("hold", hold.0)?;
-        if !(hold.1 >= hold.0) {
+        if hold.1.is_nan() || hold.1 < hold.0 {
             return Err(ParamError::new("hold", hold.1, "not below its lower end"));
         }
         let step = libm::log(high / low) / count.saturating_sub(1).max(1) as f64;

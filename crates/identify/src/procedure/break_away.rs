@@ -125,7 +125,7 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
         .sum::<f64>();
     let scatter = (off / (i + 1 - start) as f64).sqrt();
     let at = line(instant);
-    if !(scatter <= STRAIGHT * at.abs()) {
+    if scatter.is_nan() || scatter > STRAIGHT * at.abs() {
         return Err(none("the force does not rise in a line until break-away"));
     }
     Ok(BreakAway {

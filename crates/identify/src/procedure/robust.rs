@@ -67,7 +67,7 @@ impl Rows<'_> {
             let mut next = self.weighted(weights);
             next.cost = self.sum(&next.residual, &cost);
             let gained = best.cost - next.cost;
-            let done = !(gained > SETTLED * best.cost);
+            let done = gained.is_nan() || gained <= SETTLED * best.cost;
             if gained >= 0.0 {
                 best = next;
             }

@@ -471,7 +471,7 @@ impl Fitted<'_> {
             }
             if self.settings.stribeck {
                 let rise = block.columns.len();
-                let none = !(c[rise] > NO_RISE * c[0]);
+                let none = c[rise] <= NO_RISE * c[0];
                 let most = 0.5 * (BOUNDED * self.scale).powi(2);
                 let open = best.at_bound || best.within(most).is_some_and(|(.., open)| open);
                 let curve = match (none, open) {

@@ -74,7 +74,8 @@ impl Statics {
                 ("coulomb", side.coulomb),
                 ("stribeck_velocity", side.stribeck_velocity),
             ];
-            if let Some((name, found)) = positive.into_iter().find(|(_, x)| !(*x > 0.0)) {
+            if let Some((name, found)) = positive.into_iter().find(|(_, x)| x.is_nan() || *x <= 0.0)
+            {
                 let allowed = "a static parameter above 0";
                 return Err(Error::Setting {
                     name,

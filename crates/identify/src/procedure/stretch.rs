@@ -12,7 +12,7 @@ const STEADY: f64 = 0.03;
 /// piece of a ramp grows until a quarter is off by `STEADY` at either end, and so drifts more.
 pub const MOST_DRIFT: f64 = 0.015;
 /// Fewest samples of a stretch, before and after its transient is dropped.
-const LEAST: usize = 20;
+const LEAST: usize = 40;
 /// Fewest counts of the position in a quarter of a stretch: with fewer its slope is that of the steps.
 const COUNTS: f64 = 5.0;
 /// Most parts of a stretch that are looked at for standstill.
@@ -27,6 +27,8 @@ const NEAR: (f64, f64) = (0.4, 0.5);
 const STOPPED: f64 = 0.25;
 /// Fewest independent samples of each half that tell a slow ripple from a drift.
 const FEWEST: f64 = 4.0;
+/// Difference of the halves that is no matter, relative to their sum: a percent of the force.
+const NEGLIGIBLE: f64 = 5e-3;
 /// Lags of the autocorrelation of the force, at most.
 const LAGS: usize = 2000;
 
@@ -235,7 +237,7 @@ impl<'a> Search<'a> {
             let mut index = 0;
             out.rejected.retain(|r| {
                 index += 1;
-                index <= first_rejected || seconds(r.time) >= shortest
+                index <= first_rejected || seconds(r.time) >= PIECE * shortest
             });
         }
         out.points[first..].sort_by(|a, b| a.time.0.total_cmp(&b.time.0));
@@ -451,8 +453,9 @@ fn drifts(signal: &[f64]) -> bool {
         (mean, variance / size.max(1.0), size)
     };
     let (first, second) = (of(a), of(b));
-    let apart = (first.0 - second.0).abs() > 3.0 * (first.1 + second.1).sqrt();
-    apart || first.2.min(second.2) < FEWEST
+    let apart = (first.0 - second.0).abs();
+    let told = apart > 3.0 * (first.1 + second.1).sqrt() || first.2.min(second.2) < FEWEST;
+    told && apart > NEGLIGIBLE * (first.0 + second.0).abs()
 }
 
 fn integral(time: &[f64], velocity: &[f64]) -> Vec<f64> {
