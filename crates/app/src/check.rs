@@ -127,6 +127,7 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
         split: None,
         seed: 0,
         compare_laws: false,
+        procedures: crate::Procedures::default(),
     };
     match identify::fit(&options, axis, vec![source], Vec::new(), clock, observer) {
         Ok(outcome) => {

@@ -39,6 +39,32 @@ pub const OWN: &[(&str, &str)] = &[
         "bad-setting",
         "a setting of the conditioning is out of range for this log",
     ),
+    (
+        "too-few-speeds",
+        "too few constant-velocity stretches for a static map",
+    ),
+    ("few-speeds", "fewer speeds than a static map should have"),
+    (
+        "unsteady-stretches",
+        "stretches of nearly constant velocity were left out",
+    ),
+    (
+        "outlying-points",
+        "points of the static map lie far off its curve",
+    ),
+    (
+        "no-step",
+        "the force does not step as the procedure needs it",
+    ),
+    (
+        "no-overshoot",
+        "a step response without overshoot cannot be inverted",
+    ),
+    (
+        "statics-assumed",
+        "the steady curve is not known and was simplified",
+    ),
+    ("no-break-away", "the force does not ramp up to break-away"),
     ("bad-record", "the channels of a log do not fit together"),
     ("bad-config", "an axis or model file was refused"),
     ("usage", "the command as typed cannot be carried out"),

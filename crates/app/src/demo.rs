@@ -1,8 +1,11 @@
 //! The demo: a known axis, a realistic log of it, its identification, and the truth beside it.
 
+mod procedures;
+
 use crate::error::Error;
 use crate::identify::{self, Options, Outcome};
 use crate::output::write_atomic;
+pub use procedures::procedures;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use stiction_friction::ParamError;
@@ -44,6 +47,7 @@ pub fn demo(dir: &Path, seed: u64, observer: &mut dyn Observer) -> Result<Outcom
         split: None,
         seed,
         compare_laws: true,
+        procedures: crate::Procedures::default(),
     };
     let mut outcome = identify::identify(&options, observer)?;
     outcome.result.axis.name = Some("a simulated machine axis".into());
@@ -80,6 +84,11 @@ fn csv(record: &Record) -> String {
         );
     }
     out
+}
+
+/// Names and values of the parameters of the axis that the demo simulates.
+pub(crate) fn truth_of_demo() -> Vec<(String, f64)> {
+    known::find(AXIS).map_or_else(Vec::new, |axis| truth(&axis))
 }
 
 fn truth(axis: &KnownAxis) -> Vec<(String, f64)> {

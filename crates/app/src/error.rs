@@ -56,6 +56,9 @@ impl Error {
                 Fit::TooFewSamples { .. } => "too-few-samples",
                 Fit::NoMotion { .. } => "no-motion",
                 Fit::NoForce { .. } => "no-force",
+                Fit::TooFewSpeeds { .. } => "too-few-speeds",
+                Fit::NoStep { .. } => "no-step",
+                Fit::NoBreakAway { .. } => "no-break-away",
                 Fit::Setting { .. } | Fit::Filter { .. } => "bad-setting",
                 Fit::NoMotionChannel { .. }
                 | Fit::MissingChannel { .. }

@@ -4,8 +4,11 @@ mod assemble;
 mod choice;
 mod conditioning;
 mod ladder;
+mod procedure;
 mod relay;
 mod trust;
+
+pub use procedure::{Method, Procedures};
 
 use crate::axis::Axis;
 use crate::error::{Error, Warning};
@@ -42,6 +45,8 @@ pub struct Options {
     pub seed: u64,
     /// Whether simpler laws are fitted beside it and compared on held-out samples.
     pub compare_laws: bool,
+    /// The method, and the logs and models that it takes beside the logs.
+    pub procedures: Procedures,
 }
 
 /// Fewest samples that a split may leave to validate on.
@@ -97,9 +102,16 @@ pub(crate) fn fit(
             "leave one out: auto tries every law symmetric and asymmetric",
         ));
     }
-    check_together(&sources, &held_out)?;
+    let beside = procedure::Beside::load(options, axis)?;
+    check_together(
+        &sources,
+        &[held_out.as_slice(), &beside.statics, &beside.break_away].concat(),
+    )?;
     for source in sources.iter().chain(&held_out) {
         source.check_channels(&axis.terms)?;
+    }
+    if !options.procedures.method.fits_records() {
+        return procedure::run(options, axis, sources, &beside, clock, observer);
     }
     let motion = sources[0].log.motion;
     let force_unit = sources[0].log.force_unit.clone();
@@ -170,21 +182,42 @@ pub(crate) fn fit(
         asymmetric,
         low_speed,
     };
-    let choice = match options.law {
-        Some(kind) => {
-            let law = Law {
-                kind,
-                asymmetric: options.asymmetric,
-                exponent: axis.stribeck_exponent,
-            };
-            choice::asked(law, &ladder, options.compare_laws, &settings, observer)
-        }
-        None => choice::auto(axis.stribeck_exponent, &ladder, &settings, observer),
+    let mut two_step = None;
+    let choice = if options.procedures.method == Method::StaticThenDynamic {
+        let found = procedure::two_step(
+            procedure::TwoStep {
+                options,
+                axis,
+                sources: &sources,
+                beside: &beside,
+                record: &record,
+                terms: [&terms, &other],
+                low_speed,
+                settings: &settings,
+            },
+            observer,
+        )?;
+        let estimate = found.estimate.clone();
+        two_step = Some(found);
+        Choice::alone(estimate)
+    } else {
+        let choice = match options.law {
+            Some(kind) => {
+                let law = Law {
+                    kind,
+                    asymmetric: options.asymmetric,
+                    exponent: axis.stribeck_exponent,
+                };
+                choice::asked(law, &ladder, options.compare_laws, &settings, observer)
+            }
+            None => choice::auto(axis.stribeck_exponent, &ladder, &settings, observer),
+        };
+        choice.map_err(|source| Error::Identify {
+            inputs: paths(&sources).join(", "),
+            source,
+        })?
     };
-    let choice = choice.map_err(|source| Error::Identify {
-        inputs: paths(&sources).join(", "),
-        source,
-    })?;
+    let compare_laws = options.compare_laws && two_step.is_none();
     let Choice { estimate, laws, by } = choice;
     let validation: Vec<(String, Series)> = names
         .into_iter()
@@ -197,7 +230,7 @@ pub(crate) fn fit(
                     something else that the law does not explain; it is taken as none";
         warnings.push(Warning::new("delay-out-of-range", text));
     }
-    if laws.is_empty() && options.compare_laws && estimate.status != Status::Interrupted {
+    if laws.is_empty() && compare_laws && estimate.status != Status::Interrupted {
         let text = "the comparison of laws was interrupted and is left out; the fit is complete";
         warnings.push(Warning::new("interrupted", text));
     }
@@ -216,7 +249,8 @@ pub(crate) fn fit(
             .collect(),
         terms: assemble::term_names(&estimate, motion),
     };
-    let result = assemble::result(assemble::Parts {
+    let break_away = procedure::break_away(&beside, &estimate, motion)?;
+    let mut result = assemble::result(assemble::Parts {
         options,
         sources: &sources,
         axis: resolved,
@@ -230,6 +264,10 @@ pub(crate) fn fit(
         warnings,
         wall_s: clock.elapsed().as_secs_f64(),
     });
+    result.break_away = break_away;
+    if let Some(found) = two_step {
+        found.into_result(&mut result, motion);
+    }
     Ok(Outcome {
         result,
         estimate,

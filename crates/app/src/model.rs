@@ -8,6 +8,9 @@ use std::path::Path;
 /// Name of the schema.
 pub const SCHEMA: &str = "stiction.model/1";
 
+/// Largest model file that is read, bytes.
+const MAX_BYTES: u64 = 1 << 20;
+
 /// The whole file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -122,6 +125,26 @@ impl ModelFile {
             parameter: result.parameters.iter().map(ModelParameter::from).collect(),
             covariance: result.covariance.clone(),
         }
+    }
+
+    /// Reads a model file from disk.
+    ///
+    /// # Errors
+    /// When the file cannot be read, or its text is no model of this schema.
+    pub fn read(file: &Path) -> Result<Self, Error> {
+        let refuse = |found: String| Error::Config {
+            file: file.to_path_buf(),
+            place: String::new(),
+            found,
+            allowed: "give a model.toml as written by stiction identify, at most 1 MiB".into(),
+        };
+        let meta = std::fs::metadata(file).map_err(|e| refuse(format!("cannot be read ({e})")))?;
+        if !meta.is_file() || meta.len() > MAX_BYTES {
+            return Err(refuse("not a file of that size".into()));
+        }
+        let text =
+            std::fs::read_to_string(file).map_err(|e| refuse(format!("cannot be read ({e})")))?;
+        Self::parse(&text, file)
     }
 
     /// The text of the file.

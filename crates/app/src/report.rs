@@ -4,6 +4,7 @@ mod dependences;
 mod figures;
 mod formula;
 mod ladder;
+mod procedure;
 mod tables;
 
 use crate::identify::Outcome;
@@ -49,20 +50,14 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
             });
         }
     }
-    document = document
-        .heading(2, "Friction and velocity")
-        .block(figures::velocity_map(outcome));
-    let close: Vec<Block> = [figures::low_speed(outcome), figures::presliding(outcome)]
-        .into_iter()
-        .flatten()
-        .map(Block::from)
-        .collect();
-    if !close.is_empty() {
-        document = document.block(Block::Columns(close));
+    for block in procedure::sections(outcome) {
+        document = document.block(block);
     }
-    document = document
-        .heading(2, "Force in time")
-        .block(figures::time(outcome));
+    // Points of a map and displacements are no force sample by sample.
+    let sampled = matches!(result.method.as_str(), "separable" | "static-then-dynamic");
+    if sampled {
+        document = in_motion(document, outcome);
+    }
     if !outcome.validation.is_empty() {
         document = document
             .heading(2, "Validation")
@@ -77,14 +72,13 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
             .block(tables::laws(outcome))
             .block(ladder::figure(outcome));
     }
-    document = document
-        .heading(2, "How sure")
-        .paragraph(sureness(outcome))
-        .block(Block::Columns(vec![
-            figures::autocorrelation(outcome).into(),
-            figures::convergence(outcome).into(),
-        ]))
-        .block(figures::correlation(outcome));
+    if sampled {
+        document = how_sure(document, outcome);
+    } else {
+        document = document
+            .heading(2, "How sure")
+            .block(figures::correlation(outcome));
+    }
     document = document.heading(2, "What was read, and how it was conditioned");
     for input in &result.inputs {
         document = document.block(tables::input(input));
@@ -97,6 +91,36 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
             .map(|note| Text::from(note.as_str()))
             .collect(),
     ))
+}
+
+/// Friction over velocity and force in time.
+fn in_motion(mut document: Document, outcome: &Outcome) -> Document {
+    document = document
+        .heading(2, "Friction and velocity")
+        .block(figures::velocity_map(outcome));
+    let close: Vec<Block> = [figures::low_speed(outcome), figures::presliding(outcome)]
+        .into_iter()
+        .flatten()
+        .map(Block::from)
+        .collect();
+    if !close.is_empty() {
+        document = document.block(Block::Columns(close));
+    }
+    document
+        .heading(2, "Force in time")
+        .block(figures::time(outcome))
+}
+
+/// What the residual tells, and how the parameters hang together.
+fn how_sure(document: Document, outcome: &Outcome) -> Document {
+    document
+        .heading(2, "How sure")
+        .paragraph(sureness(outcome))
+        .block(Block::Columns(vec![
+            figures::autocorrelation(outcome).into(),
+            figures::convergence(outcome).into(),
+        ]))
+        .block(figures::correlation(outcome))
 }
 
 fn verdict(outcome: &Outcome) -> Callout {

@@ -1,6 +1,12 @@
 //! `result.json`: everything an identification found. Schema `stiction.result/1`, only ever extended.
 
+mod procedure;
+
 use crate::error::Warning;
+pub use procedure::{
+    BreakAwayEntry, InversionEntry, PreslidingStepEntry, RejectedEntry, StaticMapEntry,
+    StaticPointEntry, TwoStepEntry, TwoStepParameter,
+};
 use serde::{Deserialize, Serialize};
 use stiction_identify as identify;
 
@@ -43,6 +49,18 @@ pub struct ResultFile {
     pub validation: Vec<ValidationEntry>,
     /// Laws side by side on held-out samples.
     pub laws: Vec<LawEntry>,
+    /// Forces at constant velocities, where the method uses them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub static_map: Option<StaticMapEntry>,
+    /// Static parameters first against all at once, where that is the method.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub static_then_dynamic: Option<TwoStepEntry>,
+    /// Force steps, where that is the method.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub presliding_step: Option<PreslidingStepEntry>,
+    /// Break-away runs, where given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub break_away: Vec<BreakAwayEntry>,
     /// How the search went.
     pub search: Search,
     /// What to beware of.

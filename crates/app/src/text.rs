@@ -1,8 +1,11 @@
 //! What a terminal shows: plain text tables, the same on every width.
 
+mod procedure;
+
 use crate::check::{Check, LogCheck, short};
 use crate::identify::Outcome;
 use crate::symbols;
+pub use procedure::procedure_commands;
 use std::fmt::Write;
 use stiction_identify::IDENTIFIABLE;
 
@@ -129,6 +132,7 @@ pub fn outcome(outcome: &Outcome) -> String {
         out.push_str("\nagainst the truth\n");
         out.push_str(&truth(outcome));
     }
+    out.push_str(&procedure::sections(result));
     if !result.laws.is_empty() {
         out.push_str("\nlaws on held-out samples\n");
         out.push_str(&laws(outcome));

@@ -50,6 +50,10 @@ pub struct Demo {
     /// Write into a folder that holds something else.
     #[arg(long)]
     pub force: bool,
+    /// Write logs for every procedure instead (constant speeds, force ramps, force steps), and say
+    /// how to identify them.
+    #[arg(long)]
+    pub procedures: bool,
 }
 
 #[derive(Clone, Debug, Args)]
@@ -80,9 +84,18 @@ pub struct Identify {
     /// Parameters of its own for each direction of motion.
     #[arg(long)]
     pub asymmetric: bool,
-    /// Search method.
+    /// How the parameters are found.
     #[arg(long, value_enum, default_value_t = Method::Separable)]
     pub method: Method,
+    /// Logs of constant velocities to take the steady curve from, instead of the logs themselves.
+    #[arg(long = "static", value_name = "LOG", num_args = 1..)]
+    pub statics: Vec<PathBuf>,
+    /// Model of an earlier identification, for what is not identified here.
+    #[arg(long, value_name = "MODEL.toml")]
+    pub model: Option<PathBuf>,
+    /// Logs of force ramps, one break-away each; reported with their rate, not fitted.
+    #[arg(long, value_name = "LOG", num_args = 1..)]
+    pub break_away: Vec<PathBuf>,
     /// Logs to validate on; they are not fitted.
     #[arg(long, value_name = "LOG", num_args = 1.., conflicts_with = "split")]
     pub validate: Vec<PathBuf>,
@@ -120,4 +133,10 @@ pub enum Law {
 pub enum Method {
     /// Three nonlinear unknowns searched, everything else solved exactly.
     Separable,
+    /// Steady curve from stretches of constant velocity.
+    Static,
+    /// Steady curve first, then stiffness and micro-damping with it held.
+    StaticThenDynamic,
+    /// Stiffness and micro-damping from force steps below break-away.
+    PreslidingStep,
 }

@@ -6,7 +6,9 @@ use crate::interrupt;
 use crate::output;
 use crate::progress::Bar;
 use std::path::Path;
-use stiction_app::{Error, LawKind, Options, Outcome, check_folder, write_atomic};
+use stiction_app::{
+    Error, LawKind, Method, Options, Outcome, Procedures, check_folder, write_atomic,
+};
 
 /// Runs a command; every error is printed here, once.
 pub fn run(arguments: &Arguments) -> Exit {
@@ -34,10 +36,24 @@ pub fn run(arguments: &Arguments) -> Exit {
 
 fn demo(demo: &arguments::Demo, common: &Common) -> Result<Exit, Error> {
     check_folder(&demo.out, demo.force)?;
+    if demo.procedures {
+        return procedure_logs(demo, common);
+    }
     let mut bar = Bar::new(common.json || common.quiet);
     let outcome = stiction_app::demo::demo(&demo.out, demo.seed, &mut bar);
     bar.finish();
     finish(&outcome?, &demo.out, common)
+}
+
+fn procedure_logs(demo: &arguments::Demo, common: &Common) -> Result<Exit, Error> {
+    let written = stiction_app::demo::procedures(&demo.out, demo.seed)?;
+    if common.json {
+        let paths: Vec<_> = written.iter().map(|p| p.to_string_lossy()).collect();
+        output::json(&serde_json::json!({ "written": paths }))?;
+    } else if !common.quiet {
+        output::print(&stiction_app::text::procedure_commands(&demo.out, &written))?;
+    }
+    Ok(Exit::Done)
 }
 
 fn check(check: &arguments::Check, common: &Common) -> Result<Exit, Error> {
@@ -89,7 +105,6 @@ fn init(check: &arguments::Check, file: &Path, common: &Common) -> Result<Exit, 
 
 fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Error> {
     check_folder(&identify.out, identify.force)?;
-    let arguments::Method::Separable = identify.method;
     let options = Options {
         logs: identify.logs.clone(),
         axis: identify.axis.clone(),
@@ -106,6 +121,17 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
         split: identify.split,
         seed: identify.seed,
         compare_laws: true,
+        procedures: Procedures {
+            method: match identify.method {
+                arguments::Method::Separable => Method::Separable,
+                arguments::Method::Static => Method::Static,
+                arguments::Method::StaticThenDynamic => Method::StaticThenDynamic,
+                arguments::Method::PreslidingStep => Method::PreslidingStep,
+            },
+            statics: identify.statics.clone(),
+            model: identify.model.clone(),
+            break_away: identify.break_away.clone(),
+        },
     };
     let mut bar = Bar::new(common.json || common.quiet);
     let outcome = stiction_app::identify(&options, &mut bar);

@@ -76,3 +76,33 @@ fn whole_identification(bencher: Bencher) {
         estimate(&record, law, &terms, &found, 0.0)
     });
 }
+
+/// 28 points, everything of the static map with its intervals: to stay below 10 ms.
+#[divan::bench(args = [false, true])]
+fn static_map(bencher: Bencher, asymmetric: bool) {
+    use stiction_identify::procedure::{StaticPoint, StaticSettings, static_map};
+    let mut noise = Noise::new(2);
+    let law = MACHINE.law();
+    let points: Vec<StaticPoint> = (0..14)
+        .map(|i| 5e-4 * 1000_f64.powf(f64::from(i) / 13.0))
+        .flat_map(|v| [v, -v])
+        .map(|velocity| StaticPoint {
+            log: 0,
+            time: (0.0, 1.0),
+            position: 0.0,
+            velocity,
+            force: law.curve().force(velocity) + 0.2 * noise.normal(),
+            error: 0.2,
+            samples: 1000,
+            effective: 1000.0,
+            dropped: 0.0,
+            pitches: 0,
+        })
+        .collect();
+    let settings = StaticSettings {
+        asymmetric,
+        offset: !asymmetric,
+        ..StaticSettings::default()
+    };
+    bencher.bench(|| static_map(&points, &settings).expect("a map"));
+}

@@ -219,7 +219,7 @@ fn low_pass(name: &'static str, hz: Option<f64>, rate: f64) -> Result<Option<Sos
         })
 }
 
-fn check(number: usize, log: &Samples) -> Result<(), Error> {
+pub(crate) fn check(number: usize, log: &Samples) -> Result<(), Error> {
     let n = log.time.len();
     let channels = [
         ("position", log.position.as_ref()),

@@ -81,6 +81,35 @@ pub enum Error {
         /// The constant value.
         value: f64,
     },
+    /// Fewer constant-velocity runs than the static map needs.
+    #[error(
+        "{found} constant-velocity stretches{direction}, at least {needed} are needed for this map; \
+         12 speeds each way, spaced evenly in their logarithm, are better"
+    )]
+    TooFewSpeeds {
+        /// Stretches found.
+        found: usize,
+        /// Stretches needed.
+        needed: usize,
+        /// Of which direction of motion, in words; empty for both together.
+        direction: &'static str,
+    },
+    /// The force does not step, or the axis does not answer as it does in presliding.
+    #[error("log {log}: {reason}")]
+    NoStep {
+        /// Which log, counted from 1.
+        log: usize,
+        /// What is missing.
+        reason: &'static str,
+    },
+    /// The force does not rise in a line, or the axis does not break away under it.
+    #[error("log {log}: {reason}")]
+    NoBreakAway {
+        /// Which log, counted from 1.
+        log: usize,
+        /// What is missing.
+        reason: &'static str,
+    },
     /// A setting outside its range.
     #[error("{name} = {found}: {allowed}")]
     Setting {

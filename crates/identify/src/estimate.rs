@@ -416,3 +416,48 @@ fn series(objective: &Objective, p: &[f64], coefficients: &[f64]) -> Series {
         other,
     }
 }
+
+/// What a procedure other than the joint fit has found, as an estimate.
+pub(crate) struct Assembled {
+    pub law: Law,
+    pub terms: Terms,
+    pub parameters: Vec<Parameter>,
+    pub covariance: Covariance,
+    pub series: Series,
+    pub status: Status,
+    pub counts: Counts,
+    /// Nonlinear unknowns and coefficients, in the order of the law.
+    pub unknowns: (Vec<f64>, Vec<f64>),
+}
+
+impl Assembled {
+    /// The estimate; the fit is that of the series.
+    pub fn estimate(mut self) -> Estimate {
+        self.parameters.sort_by_key(|p| physical::rank(&p.name));
+        let residual = self.series.residual();
+        let fit = Fit::new(&self.series.measured, &residual).unwrap_or(Fit {
+            rmse: f64::MAX,
+            relative_error_percent: f64::MAX,
+            r2: f64::NAN,
+            samples: residual.len(),
+            effective_samples: 1.0,
+        });
+        Estimate {
+            law: self.law,
+            terms: self.terms,
+            parameters: self.parameters,
+            covariance: self.covariance,
+            fit,
+            low_speed: None,
+            low_speed_bound: 0.0,
+            series: self.series,
+            status: self.status,
+            counts: self.counts,
+            iterations: self.counts.total(),
+            history: Vec::new(),
+            step: 0.0,
+            p: self.unknowns.0,
+            coefficients: self.unknowns.1,
+        }
+    }
+}

@@ -33,6 +33,7 @@ mod fit;
 mod identify;
 mod law;
 mod observe;
+pub mod procedure;
 mod replica;
 mod separable;
 mod tune;

@@ -6,6 +6,7 @@
 //! | [`cascade`] | the controller: P in position, PI in speed, feedforward, force limit |
 //! | [`encoder`] | the position sensor with its steps |
 //! | [`path`] | reference motions |
+//! | [`speeds`] | constant speeds one after the other |
 //! | [`noise`] | white noise from a seed |
 //! | [`closed_loop`] | all of them together at a control rate, recorded |
 //! | [`known`] | axes with published parameters |
@@ -47,3 +48,4 @@ pub mod known;
 pub mod noise;
 pub mod path;
 pub mod plant;
+pub mod speeds;

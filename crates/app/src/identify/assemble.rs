@@ -79,7 +79,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         law: estimate.law.kind.name().into(),
         asymmetric: estimate.law.asymmetric,
         law_chosen_by: parts.law_chosen_by.into(),
-        method: "separable".into(),
+        method: parts.options.procedures.method.name().into(),
         trust: parts.trust,
         parameters: estimate
             .parameters
@@ -94,6 +94,10 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         low_speed: estimate.low_speed.as_ref().map(low_entry),
         validation,
         laws: parts.laws,
+        static_map: None,
+        static_then_dynamic: None,
+        presliding_step: None,
+        break_away: Vec::new(),
         search: Search {
             status: estimate.status.name().into(),
             evaluations: estimate.counts.total(),
@@ -160,7 +164,7 @@ pub(super) fn term_names(estimate: &Estimate, motion: Motion) -> Vec<String> {
 
 /// `fit.csv`: time, measured, model, residual, and the number of the log where there are several.
 pub(super) fn fit_csv(outcome: &Outcome) -> String {
-    let unit = &outcome.force_unit;
+    let unit = &outcome.result.fit.unit;
     let series = &outcome.estimate.series;
     let several = outcome.sources.len() > 1;
     let mut out = format!("time [s],measured [{unit}],model [{unit}],residual [{unit}]");

@@ -14,6 +14,17 @@ pub(super) struct Choice {
     pub by: &'static str,
 }
 
+impl Choice {
+    /// A law that was asked for and compared with none.
+    pub fn alone(estimate: Estimate) -> Self {
+        Self {
+            estimate,
+            laws: Vec::new(),
+            by: "user",
+        }
+    }
+}
+
 /// Fits the law that was asked for and, if wanted, others beside it.
 pub(super) fn asked(
     law: Law,

@@ -80,7 +80,7 @@ pub(super) fn judge(
     }
 }
 
-fn saturation(sources: &[Source], reasons: &mut Vec<String>) {
+pub(super) fn saturation(sources: &[Source], reasons: &mut Vec<String>) {
     let total: usize = sources.iter().map(|s| s.log.time.len()).sum();
     let saturated: usize = sources
         .iter()
@@ -98,7 +98,7 @@ fn saturation(sources: &[Source], reasons: &mut Vec<String>) {
 }
 
 /// Names each parameter that the data do not determine, and the one it is confused with.
-fn unidentifiable(
+pub(super) fn unidentifiable(
     estimate: &Estimate,
     motion: Motion,
     warnings: &mut Vec<Warning>,

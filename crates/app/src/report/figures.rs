@@ -119,7 +119,7 @@ pub(super) fn velocity_map(outcome: &Outcome) -> Figure {
 }
 
 /// Points dense near zero speed, none at it.
-fn grid(top: f64) -> Vec<f64> {
+pub(super) fn grid(top: f64) -> Vec<f64> {
     let half: Vec<f64> = (0..160)
         .map(|i| top * (i as f64 / 159.0).powi(3))
         .skip(1)
@@ -141,7 +141,7 @@ fn value(outcome: &Outcome, name: &str, v: f64) -> f64 {
 }
 
 /// Steady friction at one velocity, where load, temperature and position are at their references.
-fn steady(outcome: &Outcome, v: f64) -> f64 {
+pub(super) fn steady(outcome: &Outcome, v: f64) -> f64 {
     let coulomb = value(outcome, "coulomb", v);
     let fixed = match value(outcome, "static", v) {
         0.0 => coulomb,
@@ -162,7 +162,7 @@ fn steady(outcome: &Outcome, v: f64) -> f64 {
 }
 
 /// Standard deviation of the steady curve, from the covariance of the parameters.
-fn steady_std(outcome: &Outcome, v: f64) -> f64 {
+pub(super) fn steady_std(outcome: &Outcome, v: f64) -> f64 {
     let covariance = &outcome.estimate.covariance;
     let coulomb = value(outcome, "coulomb", v);
     let fixed = value(outcome, "static", v);

@@ -32,6 +32,7 @@ fn with_law(case: &Case, data: &Path, law: &str) -> Outcome {
         split: case.split,
         seed: 0,
         compare_laws: false,
+        procedures: stiction_app::Procedures::default(),
     };
     identify(&options, &mut Silent).unwrap_or_else(|e| panic!("{}: {e}", case.name))
 }

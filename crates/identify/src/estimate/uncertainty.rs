@@ -87,7 +87,7 @@ pub(crate) fn widened(covariance: &DMatrix<f64>, least: &DMatrix<f64>) -> DMatri
 }
 
 /// `B S B` for Jacobian columns and residual; `breaks` are the indices at which a new segment starts.
-fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) -> DMatrix<f64> {
+pub(crate) fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) -> DMatrix<f64> {
     let q = jacobian.len();
     let n = residual.len();
     if q == 0 || n <= q {

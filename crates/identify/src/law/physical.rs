@@ -244,8 +244,8 @@ fn dimension(column: ColumnKind) -> Dimension {
 }
 
 /// Order of parameters in tables and files.
-fn rank(name: &str) -> usize {
-    const ORDER: [&str; 11] = [
+pub(crate) fn rank(name: &str) -> usize {
+    const ORDER: [&str; 12] = [
         "sigma0",
         "sigma1",
         "sigma2",
@@ -253,6 +253,7 @@ fn rank(name: &str) -> usize {
         "coulomb",
         "static",
         "stribeck_velocity",
+        "stribeck_exponent",
         "breakaway_ratio",
         "mass",
         "offset",

@@ -1,0 +1,190 @@
+//! Break-away: the force at which an axis starts to move under a rising force, with the rise's rate.
+//!
+//! It is no point of the static map: the faster the force rises, the lower it is (Canudas de Wit et
+//! al. 1995, doi 10.1109/9.376053, section III.C).
+//!
+//! **Criterion.** In presliding the axis moves too, and ever faster. It has broken away at the last
+//! instant at which it was slower than a threshold before it goes on for good. The threshold is the
+//! given speed (a third of vs where a model is known), but never below what the position resolves: five
+//! of its steps, or of its noise at rest, within a hundredth of the ramp. The force is that of the ramp
+//! at that instant.
+
+use super::moments::Moments;
+use super::stretch::Run;
+use crate::error::Error;
+use stiction_servo::plant::{Load, Motion, Plant};
+
+/// Fewest samples of a ramp.
+const LEAST: usize = 50;
+/// Share of the ramp over which the velocity is taken.
+const WINDOW: f64 = 0.01;
+/// Steps of the position (or deviations of its noise) within the window that stand out.
+const CLEAR: f64 = 5.0;
+/// Where no threshold is given: share of the top speed on the ramp.
+const SHARE: f64 = 1e-3;
+/// Largest deviation of the force from a line until break-away, relative to its rise.
+const STRAIGHT: f64 = 0.1;
+/// Most steps of a prediction.
+const MOST_STEPS: f64 = 2e6;
+
+/// One break-away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BreakAway {
+    /// Instant of break-away, s.
+    pub time: f64,
+    /// Force there, with its sign.
+    pub force: f64,
+    /// Standard deviation of the force about the ramp.
+    pub scatter: f64,
+    /// Rate of the force until then, per second, with its sign.
+    pub rate: f64,
+    /// Displacement from rest until then, m or rad.
+    pub displacement: f64,
+    /// Speed that counts as broken away, m/s or rad/s.
+    pub threshold: f64,
+}
+
+/// What a model predicts of a break-away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Predicted {
+    /// Force of the ramp when the axis passes the threshold: the criterion of the measurement.
+    pub force: f64,
+    /// First maximum of the friction force, which no sensor sees.
+    pub friction: f64,
+}
+
+/// Finds the break-away in a log in which the force rises steadily from rest.
+///
+/// # Errors
+/// [`Error::NoBreakAway`] where the force does not rise in a line, or the axis moves from the start or
+/// never.
+pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<BreakAway, Error> {
+    crate::conditioning::check(log + 1, run.samples)?;
+    let none = |reason: &'static str| Error::NoBreakAway {
+        log: log + 1,
+        reason,
+    };
+    let (time, force) = (&run.samples.time, &run.samples.force);
+    let position = run
+        .samples
+        .position
+        .as_ref()
+        .ok_or(none("the log has no position"))?;
+    let top = (0..force.len())
+        .max_by(|&a, &b| force[a].abs().total_cmp(&force[b].abs()))
+        .unwrap_or(0);
+    let sign = force[top].signum();
+    // The ramp begins where the force leaves the twentieth of its end for the last time.
+    let start = (0..top)
+        .rposition(|i| force[i] * sign <= 0.05 * force[top].abs())
+        .unwrap_or(0);
+    if top - start < LEAST {
+        return Err(none("the ramp has fewer than 50 samples"));
+    }
+    let window = (((top - start) as f64 * WINDOW) as usize).max(4);
+    let moved = Moments::new(time, position);
+    let width = time[(start + window).min(top)] - time[start];
+    let rest = &position[start.saturating_sub(window)..start + window];
+    let low = rest.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = rest.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    // A position that hardly moves at the start shows its noise there.
+    let noise = run.resolution.unwrap_or((high - low) / 4.0);
+    let speed = |i: usize| sign * moved.slope(i - window / 2, i - window / 2 + window);
+    let range = (start + window)..(top.saturating_sub(window));
+    if range.len() < LEAST / 2 {
+        return Err(none("the ramp is too short for the noise of its position"));
+    }
+    let fastest = range.clone().map(speed).fold(0.0, f64::max);
+    let threshold = threshold
+        .unwrap_or(SHARE * fastest)
+        .max(CLEAR * noise / width);
+    if fastest <= threshold {
+        return Err(none(
+            "the axis does not break away: it stays slower than the threshold",
+        ));
+    }
+    let slow = range
+        .clone()
+        .rposition(|i| speed(i) < threshold)
+        .ok_or(none("the axis moves from the start of the ramp"))?;
+    let i = range.start + slow;
+    if i + 1 >= range.end {
+        return Err(none(
+            "the axis does not go on moving until the end of the ramp",
+        ));
+    }
+    // Between the two samples around the threshold.
+    let (a, b) = (speed(i), speed(i + 1));
+    let share = ((threshold - a) / (b - a)).clamp(0.0, 1.0);
+    let instant = time[i] + share * (time[i + 1] - time[i]);
+    let ramp = Moments::new(time, force);
+    let rate = ramp.slope(start, i + 1);
+    let line = |t: f64| ramp.mean(start, i + 1) + rate * (t - ramp.instant(start, i + 1));
+    let off = (start..=i)
+        .map(|k| (force[k] - line(time[k])).powi(2))
+        .sum::<f64>();
+    let scatter = (off / (i + 1 - start) as f64).sqrt();
+    let at = line(instant);
+    if scatter.is_nan() || scatter > STRAIGHT * at.abs() {
+        return Err(none("the force does not rise in a line until break-away"));
+    }
+    Ok(BreakAway {
+        time: instant,
+        force: at,
+        scatter,
+        rate,
+        displacement: moved.mean(i - window / 2, i - window / 2 + window) - mean(rest),
+        threshold,
+    })
+}
+
+/// What a plant with LuGre friction does under a ramp of `rate` (> 0, force per second) from rest: the
+/// force at which it passes the speed `threshold` (m/s, rad/s), and the first maximum of friction.
+///
+/// `None` where that takes more than two million steps, or never comes.
+pub fn predict_break_away(plant: &Plant, rate: f64, threshold: f64) -> Option<Predicted> {
+    let law = plant.law();
+    let level = law.curve().static_level(1.0);
+    let natural = (plant.mass() / law.stiffness()).sqrt();
+    // To twice the static level and then some, for what inertia and viscosity add.
+    let whole = 3.0 * level / rate + 100.0 * natural;
+    let h = (0.02 * natural).max(whole / MOST_STEPS);
+    if !(rate > 0.0 && threshold > 0.0 && h.is_finite() && h < natural) {
+        return None;
+    }
+    let mut motion = Motion::default();
+    let (mut friction, mut peak) = (0.0_f64, None);
+    let mut crossed = None;
+    for k in 0..MOST_STEPS as usize {
+        let t = k as f64 * h;
+        let next = plant
+            .step(motion, h, Load::force(rate * (t + 0.5 * h)))
+            .motion;
+        if crossed.is_none() && next.velocity >= threshold {
+            let share = (threshold - motion.velocity) / (next.velocity - motion.velocity);
+            crossed = Some(rate * (t + share * h));
+        }
+        motion = next;
+        let now = law.force(motion.deflection, motion.velocity);
+        // Friction rises again when viscous friction takes over: the first maximum counts.
+        if peak.is_none() && now < friction * (1.0 - 1e-9) {
+            peak = Some(friction);
+        }
+        friction = now;
+        if let (Some(force), Some(friction)) = (crossed, peak) {
+            return Some(Predicted { force, friction });
+        }
+        if t > whole {
+            break;
+        }
+    }
+    // Overdamped, friction has no maximum: what it has at the threshold is all there is.
+    crossed.map(|force| Predicted {
+        force,
+        friction: peak.unwrap_or(friction),
+    })
+}
+
+fn mean(x: &[f64]) -> f64 {
+    x.iter().sum::<f64>() / x.len().max(1) as f64
+}

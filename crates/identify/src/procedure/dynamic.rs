@@ -1,0 +1,345 @@
+//! sigma0 and sigma1 (and mass, offset) with the steady curve known: the second half of the
+//! static-then-dynamic identification of Zhang et al. 2025, doi 10.1371/journal.pone.0322844,
+//! eqs. 35-38.
+//!
+//! The residual is that of the control force, `u - M a - F(v)`; against the friction force
+//! `u - M a` it is the same. For a given ln kappa everything that is left is linear, so the search is
+//! in one dimension: a grid over the whole range, its minima followed.
+
+use super::parameter::Found;
+use super::profile::golden;
+use super::statics::Statics;
+use crate::conditioning::record::Record;
+use crate::error::Error;
+use crate::estimate::{Estimate, estimate, uncertainty};
+use crate::law::physical::{physical, propagate};
+use crate::law::terms::Terms;
+use crate::law::{Law, LawKind};
+use crate::observe::{Control, Counts, Observer, Progress, Stage};
+use crate::separable::Optimum;
+use crate::separable::levenberg::Status;
+use crate::separable::linear::{self, Solution, dot};
+use crate::separable::objective::Objective;
+use crate::separable::search_box::SearchBox;
+use nalgebra::{DMatrix, DVector};
+
+/// Starts over ln sigma0, spread over the whole range.
+const GRID: usize = 24;
+/// Minima of the grid that are followed, and the width in ln sigma0 at which that ends.
+const FOLLOWED: usize = 3;
+const FINE: f64 = 1e-7;
+/// Step of the differences that give sensitivities, in logarithms.
+const STEP: f64 = 1e-4;
+
+/// Fits the dynamic parameters of LuGre to a record, the steady curve held.
+///
+/// The uncertainty of the curve is carried into that of sigma0 and sigma1.
+///
+/// # Errors
+/// As [`separable`](crate::separable()): no motion, too few samples.
+pub fn dynamic(
+    record: &Record,
+    statics: &Statics,
+    terms: &Terms,
+    low_speed: f64,
+    observer: &mut dyn Observer,
+) -> Result<Estimate, Error> {
+    let law = Law {
+        asymmetric: statics.asymmetric,
+        exponent: statics.exponent,
+        ..Law::new(LawKind::LuGre)
+    };
+    let bounds = SearchBox::from_record(record, &law)?;
+    let objective = Objective::new(record, law, terms);
+    let free = objective
+        .linear()
+        .iter()
+        .filter(|t| !Statics::owns(t))
+        .count();
+    let needed = 10 * (free + 1);
+    if record.kept() < needed {
+        return Err(Error::TooFewSamples {
+            found: record.kept(),
+            needed,
+            dropped: record.len() - record.kept(),
+            total: record.len(),
+        });
+    }
+    let (p, c) = statics.unknowns(&law, objective.linear());
+    let held = Held {
+        kappa: law.layout().kappa.unwrap_or(0),
+        objective,
+        statics,
+        law,
+        p,
+        c,
+    };
+    let (best, status, counts) = held.search(&bounds, observer);
+    let mut p = held.p.clone();
+    p[held.kappa] = best;
+    let solved = held.solve(best);
+    let c = held.whole(&solved);
+    // The evaluation at the joint optimum's place in memory, with the coefficients that are held.
+    let mut evaluation = held.objective.evaluate(&p, false);
+    evaluation.cost = solved.cost;
+    evaluation.solution.residual = solved.residual.clone();
+    evaluation.solution.coefficients = c.clone();
+    evaluation.solution.active = vec![true; c.len()];
+    evaluation.solution.dependent = vec![false; c.len()];
+    let optimum = Optimum {
+        p: p.clone(),
+        bounds,
+        status,
+        counts,
+        iterations: counts.total(),
+        history: Vec::new(),
+        delay: false,
+        evaluation,
+    };
+    let mut out = estimate(record, law, terms, &optimum, low_speed);
+    held.describe(&p, &c, &solved, &optimum.bounds, &mut out);
+    Ok(out)
+}
+
+struct Held<'a> {
+    objective: Objective<'a>,
+    statics: &'a Statics,
+    law: Law,
+    kappa: usize,
+    /// Unknowns with the curve filled in.
+    p: Vec<f64>,
+    c: Vec<f64>,
+}
+
+impl Held<'_> {
+    fn free(&self) -> Vec<usize> {
+        let linear = self.objective.linear().iter().enumerate();
+        linear
+            .filter(|(_, t)| !Statics::owns(t))
+            .map(|(i, _)| i)
+            .collect()
+    }
+
+    fn columns(&self, p: &[f64]) -> Vec<Vec<f64>> {
+        self.objective.parts(p, &vec![1.0; self.c.len()])
+    }
+
+    /// What is free and linear, for one ln kappa.
+    fn solve(&self, kappa: f64) -> Solution {
+        let mut p = self.p.clone();
+        p[self.kappa] = kappa;
+        let columns = self.columns(&p);
+        let free = self.free();
+        let mut target = self.objective.force().to_vec();
+        for (t, f) in target.iter_mut().zip(self.objective.inertia(&p)) {
+            *t -= f;
+        }
+        for (i, column) in columns.iter().enumerate() {
+            if !free.contains(&i) {
+                for (t, x) in target.iter_mut().zip(column) {
+                    *t -= self.c[i] * x;
+                }
+            }
+        }
+        let views: Vec<&[f64]> = free.iter().map(|&i| columns[i].as_slice()).collect();
+        let bounded: Vec<bool> = free
+            .iter()
+            .map(|&i| self.objective.linear()[i].nonnegative)
+            .collect();
+        linear::solve(&views, &bounded, &target)
+    }
+
+    /// All coefficients, held and free.
+    fn whole(&self, solved: &Solution) -> Vec<f64> {
+        let mut c = self.c.clone();
+        for (&i, x) in self.free().iter().zip(&solved.coefficients) {
+            c[i] = *x;
+        }
+        c
+    }
+
+    fn search(&self, bounds: &SearchBox, observer: &mut dyn Observer) -> (f64, Status, Counts) {
+        let (low, high) = (bounds.low(self.kappa), bounds.high(self.kappa));
+        let mut counts = Counts::default();
+        let mut grid = Vec::with_capacity(GRID);
+        let mut best = (f64::INFINITY, low);
+        for i in 0..GRID {
+            let x = low + (high - low) * i as f64 / (GRID - 1) as f64;
+            let cost = self.solve(x).cost;
+            grid.push((x, cost));
+            counts.cost += 1;
+            if cost < best.0 {
+                best = (cost, x);
+            }
+            let control = observer.progress(&Progress {
+                stage: Stage::Scan,
+                fraction: (i + 1) as f64 / GRID as f64,
+                counts,
+                best: self.objective.relative(best.0),
+            });
+            if control == Control::Stop {
+                return (best.1, Status::Interrupted, counts);
+            }
+        }
+        let mut minima: Vec<usize> = (0..GRID)
+            .filter(|&i| {
+                (i == 0 || grid[i].1 <= grid[i - 1].1)
+                    && (i + 1 == GRID || grid[i].1 <= grid[i + 1].1)
+            })
+            .collect();
+        minima.sort_by(|&a, &b| grid[a].1.total_cmp(&grid[b].1));
+        minima.truncate(FOLLOWED);
+        let trials = std::cell::Cell::new(0);
+        for i in minima {
+            let ends = (grid[i.saturating_sub(1)].0, grid[(i + 1).min(GRID - 1)].0);
+            let x = golden(ends, FINE, |x| {
+                trials.set(trials.get() + 1);
+                self.solve(x).cost
+            });
+            let cost = self.solve(x).cost;
+            if cost < best.0 {
+                best = (cost, x);
+            }
+        }
+        counts.cost += trials.get();
+        let status = if best.0.is_finite() {
+            Status::Converged
+        } else {
+            Status::Stalled
+        };
+        (best.1, status, counts)
+    }
+
+    /// Slopes of the model force with `(p, c)`.
+    fn jacobian(&self, p: &[f64], c: &[f64]) -> Vec<Vec<f64>> {
+        let mut out: Vec<Vec<f64>> = (0..p.len())
+            .map(|i| {
+                let moved = |by: f64| {
+                    let mut p = p.to_vec();
+                    p[i] += by;
+                    self.objective.model(&p, c)
+                };
+                let (up, down) = (moved(STEP), moved(-STEP));
+                up.iter()
+                    .zip(&down)
+                    .map(|(a, b)| (a - b) / (2.0 * STEP))
+                    .collect()
+            })
+            .collect();
+        out.extend(self.columns(p));
+        out
+    }
+
+    /// Puts the parameters with their uncertainty in place of those of a joint fit.
+    fn describe(
+        &self,
+        p: &[f64],
+        c: &[f64],
+        solved: &Solution,
+        bounds: &SearchBox,
+        out: &mut Estimate,
+    ) {
+        let linear = self.objective.linear();
+        let raw = physical(&self.law, linear, self.objective.record().step(), p, c);
+        let unknowns = self.covariance(p, c, solved);
+        let matrix = propagate(&raw, &unknowns);
+        let level = self.statics.sides[0].coulomb;
+        let free = self.free();
+        let position = |name: &str| {
+            let i = linear.iter().position(|t| t.name == name)?;
+            free.iter().position(|&j| j == i)
+        };
+        for (i, found) in raw.iter().enumerate() {
+            let kept =
+                self.statics.parameters.iter().find(|p| {
+                    p.name == found.name && found.name != "offset" && found.name != "mass"
+                });
+            let dynamic = found.name == "sigma0" || position(&found.name).is_some();
+            let parameter = match kept.filter(|_| !dynamic) {
+                Some(kept) => kept.clone(),
+                None => {
+                    let held =
+                        position(&found.name).map(|j| (solved.active[j], solved.dependent[j]));
+                    let reason = match (found.name.as_str(), held) {
+                        ("sigma0", _) if bounds.at_bound(p, self.kappa) => {
+                            "stands at the bound of its search range"
+                        }
+                        (_, Some((_, true))) => {
+                            "cannot be told apart from the other terms on this motion"
+                        }
+                        (_, Some((false, _))) => "held at zero: the data ask for a negative value",
+                        _ => "",
+                    };
+                    Found {
+                        name: found.name.clone(),
+                        dimension: found.dimension,
+                        value: found.value,
+                        variance: matrix[(i, i)],
+                        positive: found.positive,
+                        reason,
+                    }
+                    .parameter(level, 1.959_963_984_540_054)
+                }
+            };
+            if let Some(place) = out.parameters.iter_mut().find(|p| p.name == found.name) {
+                *place = parameter;
+            }
+        }
+        out.covariance = uncertainty::Covariance {
+            names: raw.iter().map(|r| r.name.clone()).collect(),
+            matrix: (0..raw.len())
+                .map(|i| (0..raw.len()).map(|j| matrix[(i, j)]).collect())
+                .collect(),
+        };
+    }
+
+    /// Covariance of `(p, c)`: that of the curve, that of the record, and what the first does to the
+    /// free unknowns.
+    fn covariance(&self, p: &[f64], c: &[f64], solved: &Solution) -> DMatrix<f64> {
+        let k = p.len();
+        let jacobian = self.jacobian(p, c);
+        let width = jacobian.len();
+        let mut free = vec![self.kappa];
+        let own = self.free();
+        free.extend(
+            own.iter()
+                .enumerate()
+                .filter(|(j, _)| solved.active[*j])
+                .map(|(_, &i)| k + i),
+        );
+        let columns: Vec<&[f64]> = free.iter().map(|&i| jacobian[i].as_slice()).collect();
+        let breaks = self.objective.record().breaks();
+        let small = uncertainty::sandwich(&columns, &solved.residual, &breaks);
+        let slopes = self.statics.slopes(&self.law, self.objective.linear());
+        let known = &self.statics.covariance.matrix;
+        let known = DMatrix::from_fn(known.len(), known.len(), |i, j| known[i][j]);
+        let curve = &slopes * known * slopes.transpose();
+        // How the free unknowns answer to the curve: -(Jf^T Jf)^-1 Jf^T Js.
+        let scale: Vec<f64> = columns
+            .iter()
+            .map(|c| 1.0 / dot(c, c).sqrt().max(f64::MIN_POSITIVE))
+            .collect();
+        let n = free.len();
+        let gram = DMatrix::from_fn(n, n, |i, j| {
+            dot(columns[i], columns[j]) * scale[i] * scale[j]
+        });
+        let mut answer = DMatrix::zeros(width, width);
+        if let Some(factor) = gram.cholesky() {
+            for j in (0..width).filter(|j| !free.contains(j) && curve[(*j, *j)] != 0.0) {
+                let rhs = DVector::from_fn(n, |i, _| dot(columns[i], &jacobian[j]) * scale[i]);
+                let x = factor.solve(&rhs);
+                for (i, &to) in free.iter().enumerate() {
+                    answer[(to, j)] = -x[i] * scale[i];
+                }
+            }
+        }
+        let whole = DMatrix::identity(width, width) + answer;
+        let mut out = &whole * curve * whole.transpose();
+        for (a, &i) in free.iter().enumerate() {
+            for (b, &j) in free.iter().enumerate() {
+                out[(i, j)] += small[(a, b)];
+            }
+        }
+        out
+    }
+}

@@ -1,0 +1,162 @@
+//! Break-away under force ramps: the 1995 experiment, and what is no ramp.
+
+use stiction_identify::procedure::{BreakAway, Run, break_away, predict_break_away};
+use stiction_identify::{Error, Samples};
+use stiction_servo::known;
+use stiction_servo::plant::{Load, Motion, Plant};
+
+fn block() -> Plant {
+    let axis = known::find("C95").unwrap();
+    Plant::new(axis.mass, axis.law).unwrap()
+}
+
+/// Experiment D, from an adaptive Radau integration: rate, N/s, and first maximum of friction, N.
+const D: [(f64, f64); 8] = [
+    (0.1, 1.4852),
+    (1.0, 1.4324),
+    (2.0, 1.3944),
+    (5.0, 1.3132),
+    (10.0, 1.2200),
+    (20.0, 1.0986),
+    (30.0, 1.0245),
+    (50.0, 1.007),
+];
+
+#[test]
+fn the_prediction_is_the_1995_experiment() {
+    for (rate, expected) in D {
+        let found = predict_break_away(&block(), rate, 1e-3 / 3.0).unwrap();
+        println!("{rate}: {found:?}");
+        assert!(
+            (found.friction / expected - 1.0).abs() < 5e-3,
+            "{rate}: {found:?}"
+        );
+    }
+    for (rate, threshold) in [
+        (0.0, 1.0),
+        (-1.0, 1.0),
+        (f64::NAN, 1.0),
+        (1.0, 0.0),
+        (1e300, 1e300),
+        (1e-300, 1.0),
+    ] {
+        let _ = predict_break_away(&block(), rate, threshold);
+    }
+}
+
+/// A log of a ramp after a tenth of its time at rest.
+fn ramp(rate: f64, step: f64, count: f64) -> Samples {
+    let plant = block();
+    let mut motion = Motion::default();
+    let mut out = Samples::default();
+    let mut position = Vec::new();
+    let n = (2.0 / rate / step) as usize;
+    let wait = n / 10;
+    let fine = (step / 2e-5).ceil();
+    for k in 0..n + wait {
+        let t = (k as f64 - wait as f64) * step;
+        out.time.push(k as f64 * step);
+        out.force.push(rate * t.max(0.0));
+        let x = motion.position;
+        position.push(if count > 0.0 {
+            (x / count).round() * count
+        } else {
+            x
+        });
+        for i in 0..fine as usize {
+            let at = t + (i as f64 + 0.5) * step / fine;
+            let load = Load::force(rate * at.max(0.0));
+            motion = plant.step(motion, step / fine, load).motion;
+        }
+    }
+    out.position = Some(position);
+    out
+}
+
+fn found(log: &Samples, count: f64, threshold: Option<f64>) -> Result<BreakAway, Error> {
+    let run = Run {
+        samples: log,
+        reference: None,
+        resolution: Some(count),
+    };
+    break_away(&run, threshold, 0)
+}
+
+/// From the log of a fine encoder the criterion gives what it gives on the exact motion; at the rates
+/// at which friction peaks before the axis is fast, that is the peak of friction.
+#[test]
+fn break_away_is_found_in_a_log() {
+    for (rate, peak) in D.into_iter().take(4) {
+        for count in [0.0, 1e-8] {
+            let log = ramp(rate, 1e-3_f64.min(2e-4 / rate * 4.0), count);
+            let hit = found(&log, count, Some(1e-3 / 3.0)).unwrap();
+            let exact = predict_break_away(&block(), rate, hit.threshold).unwrap();
+            println!("{rate} {count}: {hit:?}, {exact:?}, peak {peak}");
+            assert!((hit.force / exact.force - 1.0).abs() < 0.01);
+            assert!((hit.rate / rate - 1.0).abs() < 1e-3);
+            if rate <= 2.0 {
+                assert!((hit.force / peak - 1.0).abs() < 0.03);
+            }
+        }
+    }
+    // Turned round, everything has the other sign.
+    let mut log = ramp(1.0, 1e-3, 0.0);
+    let forth = found(&log, 0.0, Some(3e-4)).unwrap();
+    log.force.iter_mut().for_each(|f| *f = -*f);
+    log.position
+        .as_mut()
+        .unwrap()
+        .iter_mut()
+        .for_each(|x| *x = -*x);
+    let back = found(&log, 0.0, Some(3e-4)).unwrap();
+    assert_eq!((back.force, back.rate), (-forth.force, -forth.rate));
+}
+
+#[test]
+fn what_is_no_break_away_is_refused() {
+    let good = ramp(1.0, 1e-3, 0.0);
+    let n = good.time.len();
+    let refused = |samples: &Samples| match found(samples, 1e-9, None) {
+        Err(Error::NoBreakAway { reason, .. }) => reason,
+        other => panic!("{other:?}"),
+    };
+    let still = Samples {
+        position: Some(vec![0.0; n]),
+        ..good.clone()
+    };
+    assert!(refused(&still).contains("does not break away"));
+    let moving = Samples {
+        position: Some((0..n).map(|i| 1e-3 * i as f64).collect()),
+        ..good.clone()
+    };
+    assert!(refused(&moving).contains("from the start"));
+    let steps = Samples {
+        force: (0..n)
+            .map(|i| {
+                if i < 2 * n / 3 {
+                    0.2
+                } else {
+                    1.0 + 1e-6 * i as f64
+                }
+            })
+            .collect(),
+        ..good.clone()
+    };
+    let _ = refused(&steps);
+    let none = Samples {
+        position: None,
+        velocity: Some(vec![0.0; n]),
+        ..good.clone()
+    };
+    assert!(refused(&none).contains("no position"));
+    for size in [1e-300, 1e300] {
+        let mut log = good.clone();
+        log.force.iter_mut().for_each(|f| *f *= size);
+        log.position
+            .as_mut()
+            .unwrap()
+            .iter_mut()
+            .for_each(|x| *x *= size);
+        let _ = found(&log, 0.0, None);
+    }
+}
