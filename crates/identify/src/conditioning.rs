@@ -213,7 +213,7 @@ fn low_pass(name: &'static str, hz: Option<f64>, rate: f64) -> Result<Option<Sos
         })
 }
 
-fn check(number: usize, log: &Samples) -> Result<(), Error> {
+pub(crate) fn check(number: usize, log: &Samples) -> Result<(), Error> {
     let n = log.time.len();
     let channels = [
         ("position", log.position.as_ref()),
@@ -272,7 +272,7 @@ fn check(number: usize, log: &Samples) -> Result<(), Error> {
     Ok(())
 }
 
-fn median_step(time: &[f64]) -> f64 {
+pub(crate) fn median_step(time: &[f64]) -> f64 {
     let mut steps: Vec<f64> = time.windows(2).map(|t| t[1] - t[0]).collect();
     let middle = steps.len() / 2;
     let (_, median, _) = steps.select_nth_unstable_by(middle, f64::total_cmp);
@@ -280,7 +280,7 @@ fn median_step(time: &[f64]) -> f64 {
 }
 
 /// Index ranges between long gaps.
-fn stretches(log: &Samples, step: f64) -> Vec<std::ops::Range<usize>> {
+pub(crate) fn stretches(log: &Samples, step: f64) -> Vec<std::ops::Range<usize>> {
     let mut out = Vec::new();
     let mut start = 0;
     for i in 1..log.time.len() {

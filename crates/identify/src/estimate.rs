@@ -97,8 +97,8 @@ pub struct Estimate {
     pub iterations: usize,
     /// Evaluations and relative residual over the last descent.
     pub history: Vec<(usize, f64)>,
-    p: Vec<f64>,
-    coefficients: Vec<f64>,
+    pub(crate) p: Vec<f64>,
+    pub(crate) coefficients: Vec<f64>,
 }
 
 impl Estimate {
@@ -209,7 +209,7 @@ pub fn predict(record: &Record, fitted: &Estimate) -> Series {
     series(&objective, &fitted.p, &fitted.coefficients)
 }
 
-fn given(name: &str, value: f64) -> Parameter {
+pub(crate) fn given(name: &str, value: f64) -> Parameter {
     Parameter {
         name: name.into(),
         dimension: Dimension::One,
@@ -237,6 +237,12 @@ fn describe(p: &Physical, variance: f64, optimum: &Optimum, level: f64) -> Param
             reason = "held at zero: the data ask for a negative value".into();
         }
     }
+    judge(p, variance, reason, level)
+}
+
+/// A parameter with its deviation, interval and flag; `reason` says what already speaks against it, and
+/// `level` is the Coulomb level that what may be zero is measured by.
+pub(crate) fn judge(p: &Physical, variance: f64, mut reason: String, level: f64) -> Parameter {
     let known = reason.is_empty() && variance.is_finite() && variance >= 0.0;
     let std = known.then(|| variance.sqrt());
     if reason.is_empty() && std.is_none() {

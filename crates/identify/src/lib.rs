@@ -20,6 +20,9 @@
 //! nonlinearly, all else is found exactly for each trial of those three. The static laws and Dahl are
 //! the same form with fewer nonlinear unknowns.
 //!
+//! Where the force is the input, or made by a known controller, [`output_error`] simulates the axis
+//! instead and fits its position.
+//!
 //! Nothing here prints, sleeps or reads a clock; an [`Observer`] sees progress and may stop a run.
 
 mod conditioning;
@@ -29,6 +32,7 @@ mod estimate;
 mod fit;
 mod law;
 mod observe;
+mod output_error;
 mod separable;
 
 pub use conditioning::record::{Record, Samples, Segment};
@@ -42,6 +46,10 @@ pub use law::physical::Dimension;
 pub use law::terms::{Mass, Terms};
 pub use law::{Law, LawKind};
 pub use observe::{Control, Counts, Observer, Progress, Silent, Stage};
+pub use output_error::controller::Controller;
+pub use output_error::outcome::{Signals, SimulationFit, Unseen, simulate_unseen};
+pub use output_error::run::{Hold, Recording};
+pub use output_error::{Simulation, output_error};
 pub use separable::levenberg::Status;
 pub use separable::objective::{Evaluation, Objective};
 pub use separable::search_box::SearchBox;

@@ -163,7 +163,7 @@ pub(crate) fn physical(law: &Law, linear: &[LinearTerm], p: &[f64], c: &[f64]) -
 }
 
 /// Order of parameters in tables and files.
-fn rank(name: &str) -> usize {
+pub(crate) fn rank(name: &str) -> usize {
     const ORDER: [&str; 8] = [
         "sigma0",
         "sigma1",
