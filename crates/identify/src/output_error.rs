@@ -29,8 +29,8 @@ pub(crate) mod unknowns;
 
 use crate::error::Error;
 use crate::estimate::Estimate;
-use crate::law::Law;
 use crate::law::terms::{Mass, Terms};
+use crate::law::{Law, LawKind};
 use crate::observe::{Counts, Observer, Stage};
 use crate::output_error::controller::Controller;
 use crate::output_error::descent::{Bounds, Descent, descend};
@@ -59,7 +59,9 @@ pub struct Simulation<'a> {
 }
 
 /// Guesses that are followed by a short descent.
-const FOLLOWED: usize = 6;
+const FOLLOWED: usize = 4;
+/// Samples of the pieces of an open loop that starting points are looked for on.
+const PIECE: usize = 250;
 /// Steps of a short descent, and of the last one.
 const SHORT: usize = 15;
 const LONG: usize = 200;
@@ -68,7 +70,7 @@ const STIFFEST: f64 = 0.7;
 /// Most plant steps in one control period.
 const MOST_SUBSTEPS: usize = 16;
 /// Rounds of weighing position against force, and the change of a weight that ends them.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 10;
 const SETTLED: f64 = 0.02;
 
 /// Fits a law with its mass and terms by simulation.
@@ -141,12 +143,28 @@ pub fn output_error(
     let known = simulation
         .start
         .and_then(|found| start::from_estimate(found, &law, terms, &layout, &scale));
+    let pieces: Vec<Run> = match simulation.controller {
+        Some(_) => Vec::new(),
+        None => runs.iter().flat_map(|run| run.clone().cut(PIECE)).collect(),
+    };
+    let pieces = if pieces.len() > runs.len() {
+        pieces
+    } else {
+        Vec::new()
+    };
     let guesses = match known {
         Some(axis) => search.around(axis),
-        None => start::guesses(&law, terms, &layout, &scale),
+        None => {
+            let mut guesses = start::guesses(&law, terms, &layout, &scale);
+            if law.kind != LawKind::CoulombViscous {
+                let short = if pieces.is_empty() { &runs } else { &pieces };
+                guesses.extend(search.by_ladder(&law, terms, short, &mut watch));
+            }
+            guesses
+        }
     };
     let found = search
-        .run(guesses, &mut watch)
+        .run(guesses, &pieces, &mut watch)
         .ok_or_else(|| nothing(&runs))?;
     Ok(outcome::describe(&search, found, law, terms, watch.counts))
 }
@@ -233,11 +251,35 @@ impl Search<'_> {
         (needed.max(1.0) as usize).min(MOST_SUBSTEPS)
     }
 
-    /// `None` without a guess to start from.
-    fn run(&self, guesses: Vec<Axis>, watch: &mut Watch) -> Option<Found> {
-        // Before anything is fitted, a residual of a count and one of a hundredth of the force weigh alike.
-        let mut weights = [1.0 / self.scale.count, 100.0 / self.scale.force];
-        let starts = start::rest(self.runs, self.is_closed());
+    /// The same search on other runs or for another law.
+    fn on<'b>(&'b self, runs: &'b [Run], layout: &'b Layout) -> Search<'b> {
+        Search {
+            runs,
+            layout,
+            simulation: self.simulation,
+            scale: self.scale,
+        }
+    }
+
+    /// Guesses built on a Coulomb level, a mass and an offset that fit: those are found from almost
+    /// anywhere, a bristle is not.
+    fn by_ladder(&self, law: &Law, terms: &Terms, pieces: &[Run], watch: &mut Watch) -> Vec<Axis> {
+        let plain = Law::new(LawKind::CoulombViscous);
+        let layout = Layout::new(&plain, terms);
+        let below = self.on(pieces, &layout);
+        let guesses = start::guesses(&plain, terms, &layout, self.scale);
+        let found = below.best(guesses, 2, watch).into_iter().next();
+        found.map_or_else(Vec::new, |found| {
+            let axis = layout.write(&found.base, &found.descent.at.q);
+            start::with_bristles(&axis, law, self.scale)
+        })
+    }
+
+    /// The lowest ends of short descents from the most promising guesses, best first.
+    fn best(&self, guesses: Vec<Axis>, keep: usize, watch: &mut Watch) -> Vec<Found> {
+        let weights = self.first_weights();
+        let starts = start::rest(self.runs, self.simulation.controller.as_ref());
+        watch.stage = Stage::Scan;
         let total = guesses.len() as f64;
         let mut ranked: Vec<(f64, Axis)> = Vec::with_capacity(guesses.len());
         for (i, axis) in guesses.into_iter().enumerate() {
@@ -259,23 +301,44 @@ impl Search<'_> {
         ranked.truncate(FOLLOWED);
 
         watch.stage = Stage::Coarse;
-        let mut best: Option<Found> = None;
+        let mut out: Vec<Found> = Vec::new();
         let followed = ranked.len() as f64;
         for (i, (_, base)) in ranked.into_iter().enumerate() {
-            if watch.stopped && best.is_some() {
+            if watch.stopped && !out.is_empty() {
                 break;
             }
             watch.fraction = i as f64 / followed;
-            let found = self.descend(base, starts.clone(), weights, SHORT, watch);
-            if best
-                .as_ref()
-                .is_none_or(|b| found.descent.cost < b.descent.cost)
-            {
-                best = Some(found);
+            let n = self.substeps(&base);
+            out.push(self.descend(base, starts.clone(), n, weights, SHORT, watch));
+        }
+        out.sort_by(|a, b| a.descent.cost.total_cmp(&b.descent.cost));
+        out.truncate(keep);
+        out
+    }
+
+    /// Before anything is fitted, a count of position and a hundredth of the force weigh alike.
+    fn first_weights(&self) -> [f64; 2] {
+        [1.0 / self.scale.count, 100.0 / self.scale.force]
+    }
+
+    /// `None` without a guess to start from.
+    fn run(&self, guesses: Vec<Axis>, pieces: &[Run], watch: &mut Watch) -> Option<Found> {
+        // A long run drifts away from any guess; short pieces of it do not. Presliding of a few counts
+        // needs the long run.
+        let mut finalists = Vec::new();
+        if !pieces.is_empty() {
+            let short = self.on(pieces, self.layout);
+            for found in short.best(guesses.clone(), 2, watch) {
+                finalists.push(self.layout.write(&found.base, &found.descent.at.q));
             }
         }
-        let mut best = best?;
+        for found in self.best(guesses, 2, watch) {
+            finalists.push(self.layout.write(&found.base, &found.descent.at.q));
+        }
+        let mut best = self.best(finalists, 1, watch).into_iter().next()?;
         watch.stage = Stage::Fine;
+        let mut weights = best.weights;
+        let mut substeps = best.substeps;
         let mut iterations = best.descent.iterations;
         for round in 0..ROUNDS {
             if watch.stopped {
@@ -283,38 +346,65 @@ impl Search<'_> {
                 break;
             }
             watch.fraction = round as f64 / ROUNDS as f64;
-            let settled = if self.is_closed() {
-                let new = self.balance(&best);
-                let settled = round > 0
-                    && weights
-                        .iter()
-                        .zip(&new)
-                        .all(|(a, b)| (a / b - 1.0).abs() < SETTLED);
-                weights = new;
-                settled
+            let new = if self.is_closed() {
+                self.balance(&best)
             } else {
-                round > 0
+                weights
             };
-            if settled {
+            let balanced = weights
+                .iter()
+                .zip(&new)
+                .all(|(a, b)| (a / b - 1.0).abs() < SETTLED);
+            let fine = round > 0 && (substeps >= MOST_SUBSTEPS || self.is_fine_enough(&best));
+            if round > 0 && balanced && fine {
                 break;
             }
+            weights = new;
+            if round > 0 && !fine {
+                substeps = (2 * substeps).min(MOST_SUBSTEPS);
+            }
             let base = self.layout.write(&best.base, &best.descent.at.q);
-            best = self.descend(base, best.descent.at.starts, weights, LONG, watch);
+            best = self.descend(base, best.descent.at.starts, substeps, weights, LONG, watch);
             iterations += best.descent.iterations;
         }
         best.descent.iterations = iterations;
         Some(best)
     }
 
+    /// Whether halving the plant steps would change the position by less than a hundredth of the residual:
+    /// an error of the step is the same in every sample, and does not average out as noise does.
+    fn is_fine_enough(&self, found: &Found) -> bool {
+        let axis = self.layout.write(&found.base, &found.descent.at.q);
+        let positions = |substeps: usize| {
+            let drive = self.drive(substeps);
+            let mut out = Vec::new();
+            for (run, initial) in self.runs.iter().zip(&found.descent.at.starts) {
+                simulate(&axis, &drive, run, initial, |k, state, _| {
+                    if run.keep[k] {
+                        out.push((run.position[k], state.x));
+                    }
+                });
+            }
+            out
+        };
+        let (now, finer) = (positions(found.substeps), positions(2 * found.substeps));
+        let (mut change, mut residual) = (0.0, 0.0);
+        for ((measured, a), (_, b)) in now.iter().zip(&finer) {
+            change += (a - b) * (a - b);
+            residual += (measured - a) * (measured - a);
+        }
+        change <= 1e-4 * residual
+    }
+
     fn descend(
         &self,
         base: Axis,
         starts: Vec<simulate::Initial>,
+        substeps: usize,
         weights: [f64; 2],
         steps: usize,
         watch: &mut Watch,
     ) -> Found {
-        let substeps = self.substeps(&base);
         let bounds = start::bounds(self.layout, &base, self.scale);
         let at = Point {
             q: self.layout.read(&base),

@@ -150,6 +150,15 @@ fn off(found: &SimulationFit) -> Vec<(&'static str, f64)> {
 }
 
 fn covered(found: &SimulationFit) -> (usize, f64) {
+    println!(
+        "{:?} {:?} {:?} {:?} substeps {} counts {:?}",
+        found.estimate.status,
+        found.position,
+        found.force,
+        found.floor,
+        found.substeps,
+        found.estimate.counts
+    );
     let mut inside = 0;
     let mut worst = 0.0_f64;
     for (name, truth) in TRUTH {
@@ -244,6 +253,12 @@ fn an_unseen_run_is_predicted_to_the_noise() {
     let found = fit(&[open(4.0, 0.0, 1e-6, 0.0, 1)], &simulation);
     let unseen = simulate_unseen(&[open(3.0, 1.1, 1e-6, 0.0, 2)], &found).unwrap();
     let floor = found.floor.unwrap();
+    println!(
+        "fitted {:?} unseen {:?} off {:?}",
+        found.position,
+        unseen.position,
+        off(&found)
+    );
     assert!(
         unseen.position.rmse < 1.5 * floor,
         "{} floor {floor}",

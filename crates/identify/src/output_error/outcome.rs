@@ -138,7 +138,7 @@ pub fn simulate_unseen(recordings: &[Recording], fitted: &SimulationFit) -> Resu
     };
     let at = Point {
         q: Vec::new(),
-        starts: rest(&runs, fitted.is_closed_loop()),
+        starts: rest(&runs, fitted.controller.as_ref()),
     };
     let mut watch = Watch {
         observer: &mut Silent,

@@ -173,7 +173,7 @@ fn wanted(reference: &[f64], step: f64, periods: usize) -> Vec<Wanted> {
 
 impl Run {
     /// Pieces of `length` samples; a short rest stays with the last piece.
-    fn cut(self, length: usize) -> Vec<Run> {
+    pub fn cut(self, length: usize) -> Vec<Run> {
         let n = self.time.len();
         if n < 2 * length {
             return vec![self];

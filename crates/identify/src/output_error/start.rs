@@ -3,6 +3,7 @@
 use crate::estimate::Estimate;
 use crate::law::terms::{Mass, Terms};
 use crate::law::{Law, LawKind};
+use crate::output_error::controller::Controller;
 use crate::output_error::descent::Bounds;
 use crate::output_error::plant::{Axis, Curve, Wave};
 use crate::output_error::run::Run;
@@ -166,6 +167,41 @@ pub(crate) fn guesses(law: &Law, terms: &Terms, layout: &Layout, scale: &Scale) 
     out
 }
 
+/// An axis that slides as it should, with bristles of every length, damping and Stribeck velocity that
+/// the runs can show.
+pub(crate) fn with_bristles(axis: &Axis, law: &Law, scale: &Scale) -> Vec<Axis> {
+    let level = axis.sides[0].coulomb;
+    let mut out = Vec::new();
+    let part = libm::pow(3.0 * scale.stroke / scale.count, 1.0 / 8.0);
+    let zetas: &[f64] = if law.kind == LawKind::LuGre {
+        &[0.1, 0.7]
+    } else {
+        &[0.0]
+    };
+    let speeds: &[f64] = if law.kind.has_stribeck() {
+        &[0.01, 0.1]
+    } else {
+        &[0.1]
+    };
+    for i in 0..if law.kind.has_bristle() { 8 } else { 1 } {
+        for zeta in zetas {
+            for speed in speeds {
+                let mut new = axis.clone();
+                new.exponent = law.exponent;
+                new.stiffness = level / (scale.count * libm::pow(part, f64::from(i)));
+                new.micro_damping = 2.0 * zeta * (new.stiffness * new.mass).sqrt();
+                for side in &mut new.sides {
+                    side.velocity = speed * scale.speed;
+                    side.fixed = side.coulomb * if law.kind.has_stribeck() { 1.3 } else { 1.0 };
+                }
+                complete(&mut new, law, scale);
+                out.push(new);
+            }
+        }
+    }
+    out
+}
+
 fn waves(layout: &Layout, factor: impl Fn(&str) -> f64) -> Vec<Wave> {
     layout
         .waves
@@ -221,12 +257,14 @@ pub(crate) fn bounds(layout: &Layout, axis: &Axis, scale: &Scale) -> Bounds {
     Bounds { low, high }
 }
 
-/// Where each run starts if nothing better is known: where it was measured, the bristle undeflected.
-pub(crate) fn rest(runs: &[Run], closed: bool) -> Vec<Initial> {
+/// Where each run starts if nothing better is known: where it was measured, the bristle undeflected, an
+/// integral that makes the first force.
+pub(crate) fn rest(runs: &[Run], controller: Option<&Controller>) -> Vec<Initial> {
+    let has_integral = controller.is_some_and(Controller::has_integral);
     runs.iter()
         .map(|run| {
-            let force = if closed { run.force[0] } else { 0.0 };
-            Initial([run.position[0], run.first_velocity(), 0.0, force])
+            let integral = if has_integral { run.force[0] } else { 0.0 };
+            Initial([run.position[0], run.first_velocity(), 0.0, integral])
         })
         .collect()
 }
