@@ -2,7 +2,7 @@
 
 use crate::axis::{Axis, template};
 use crate::error::Error;
-use crate::identify::{self, Options, Outcome};
+use crate::identify::{self, Method, Options, Outcome};
 use crate::result::Input;
 use crate::source;
 use serde::Serialize;
@@ -121,6 +121,7 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
     let options = Options {
         logs: vec![path.to_path_buf()],
         axis: None,
+        method: Method::Separable,
         law: LawKind::LuGre,
         asymmetric: false,
         validate: Vec::new(),

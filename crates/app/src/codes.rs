@@ -35,6 +35,10 @@ pub const OWN: &[(&str, &str)] = &[
         "bad-setting",
         "a setting of the conditioning is out of range for this log",
     ),
+    (
+        "not-simulated",
+        "a log that cannot be simulated: position, reference or mass is missing",
+    ),
     ("bad-record", "the channels of a log do not fit together"),
     ("bad-config", "an axis or model file was refused"),
     ("usage", "the command as typed cannot be carried out"),

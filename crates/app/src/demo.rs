@@ -1,7 +1,7 @@
 //! The demo: a known axis, a realistic log of it, its identification, and the truth beside it.
 
 use crate::error::Error;
-use crate::identify::{self, Options, Outcome};
+use crate::identify::{self, Method, Options, Outcome};
 use crate::output::write_atomic;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -38,6 +38,7 @@ pub fn demo(dir: &Path, seed: u64, observer: &mut dyn Observer) -> Result<Outcom
     let options = Options {
         logs: vec![log],
         axis: None,
+        method: Method::Separable,
         law: LawKind::LuGre,
         asymmetric: false,
         validate: Vec::new(),

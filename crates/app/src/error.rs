@@ -57,6 +57,7 @@ impl Error {
                 Fit::NoMotion { .. } => "no-motion",
                 Fit::NoForce { .. } => "no-force",
                 Fit::Setting { .. } | Fit::Filter { .. } => "bad-setting",
+                Fit::NotSimulated { .. } => "not-simulated",
                 Fit::NoMotionChannel { .. }
                 | Fit::Length { .. }
                 | Fit::NotFinite { .. }

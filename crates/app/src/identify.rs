@@ -2,6 +2,7 @@
 
 mod assemble;
 mod ladder;
+mod simulate;
 mod trust;
 
 use crate::axis::Axis;
@@ -9,6 +10,7 @@ use crate::error::{Error, Warning};
 use crate::output::Bundle;
 use crate::result::{ResolvedAxis, ResultFile};
 use crate::source::{self, Source};
+pub use simulate::Simulated;
 use std::path::PathBuf;
 use std::time::Instant;
 use stiction_identify as engine;
@@ -22,6 +24,8 @@ pub struct Options {
     pub logs: Vec<PathBuf>,
     /// Axis file; `None` leaves all to detection.
     pub axis: Option<PathBuf>,
+    /// How the parameters are sought.
+    pub method: Method,
     /// Family of the law.
     pub law: LawKind,
     /// Whether each direction has parameters of its own.
@@ -36,6 +40,33 @@ pub struct Options {
     pub compare_laws: bool,
 }
 
+/// How parameters are sought.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// Motion in, force out: separable least squares on conditioned signals.
+    #[default]
+    Separable,
+    /// Force in, position out: the axis is simulated and its position fitted.
+    OutputError,
+}
+
+impl Method {
+    /// The method of this name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        [Method::Separable, Method::OutputError]
+            .into_iter()
+            .find(|method| method.name() == name)
+    }
+
+    /// Name as typed on the command line and written to files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::Separable => "separable",
+            Method::OutputError => "output-error",
+        }
+    }
+}
+
 /// Fewest samples that a split may leave to validate on.
 const LEAST_HELD_OUT: usize = 20;
 
@@ -48,6 +79,8 @@ pub struct Outcome {
     pub estimate: Estimate,
     /// Signals of each validation, with its name.
     pub validation: Vec<(String, Series)>,
+    /// The simulated axis, where the method simulates one.
+    pub simulation: Option<Simulated>,
     /// The logs.
     pub sources: Vec<Source>,
     /// Linear or rotary.
@@ -84,6 +117,9 @@ pub(crate) fn fit(
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
     check_together(&sources, &held_out)?;
+    if options.method == Method::OutputError {
+        return simulate::fit(options, axis, sources, &held_out, clock, observer);
+    }
     let motion = sources[0].log.motion;
     let force_unit = sources[0].log.force_unit.clone();
     let terms = axis.terms_for(&sources[0].log, options.asymmetric)?;
@@ -169,7 +205,14 @@ pub(crate) fn fit(
         let text = "the comparison of laws was interrupted and is left out; the fit is complete";
         warnings.push(Warning::new("interrupted", text));
     }
-    let trust = trust::judge(&estimate, &record, &sources, &laws, motion, &mut warnings);
+    let trust = trust::judge(
+        &estimate,
+        record.moves_both_ways(),
+        &sources,
+        &laws,
+        motion,
+        &mut warnings,
+    );
     let resolved = ResolvedAxis {
         name: axis.name.clone(),
         kind: motion.to_string(),
@@ -195,6 +238,7 @@ pub(crate) fn fit(
         result,
         estimate,
         validation,
+        simulation: None,
         sources,
         motion,
         force_unit,
@@ -208,7 +252,13 @@ impl Outcome {
         let mut bundle = Bundle::default();
         let model = crate::model::ModelFile::from_result(&self.result);
         bundle.add("model.toml", model.to_toml());
-        bundle.add("fit.csv", assemble::fit_csv(self));
+        bundle.add(
+            "fit.csv",
+            match &self.simulation {
+                Some(simulated) => simulate::fit_csv(self, simulated),
+                None => assemble::fit_csv(self),
+            },
+        );
         bundle.add("report.html", crate::report::identification(self).to_html());
         let mut json = serde_json::to_string_pretty(&self.result).expect("plain data");
         json.push('\n');

@@ -2,6 +2,7 @@
 
 mod figures;
 mod formula;
+mod simulation;
 mod tables;
 
 use crate::identify::Outcome;
@@ -46,28 +47,10 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
             });
         }
     }
-    document = document
-        .heading(2, "Friction and velocity")
-        .block(figures::velocity_map(outcome));
-    let close: Vec<Block> = [figures::low_speed(outcome), figures::presliding(outcome)]
-        .into_iter()
-        .flatten()
-        .map(Block::from)
-        .collect();
-    if !close.is_empty() {
-        document = document.block(Block::Columns(close));
-    }
-    document = document
-        .heading(2, "Force in time")
-        .block(figures::time(outcome));
-    if !outcome.validation.is_empty() {
-        document = document
-            .heading(2, "Validation")
-            .block(tables::validation(outcome));
-        for (path, series) in &outcome.validation {
-            document = document.block(figures::validation(outcome, path, series));
-        }
-    }
+    document = match &outcome.simulation {
+        Some(simulated) => simulation::sections(document, outcome, simulated),
+        None => measured_force(document, outcome),
+    };
     if !result.laws.is_empty() {
         document = document
             .heading(2, "Which law")
@@ -93,6 +76,33 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
             .map(|note| Text::from(note.as_str()))
             .collect(),
     ))
+}
+
+/// The figures of a fit of the force.
+fn measured_force(mut document: Document, outcome: &Outcome) -> Document {
+    document = document
+        .heading(2, "Friction and velocity")
+        .block(figures::velocity_map(outcome));
+    let close: Vec<Block> = [figures::low_speed(outcome), figures::presliding(outcome)]
+        .into_iter()
+        .flatten()
+        .map(Block::from)
+        .collect();
+    if !close.is_empty() {
+        document = document.block(Block::Columns(close));
+    }
+    document = document
+        .heading(2, "Force in time")
+        .block(figures::time(outcome));
+    if !outcome.validation.is_empty() {
+        document = document
+            .heading(2, "Validation")
+            .block(tables::validation(outcome));
+        for (path, series) in &outcome.validation {
+            document = document.block(figures::validation(outcome, path, series));
+        }
+    }
+    document
 }
 
 fn verdict(outcome: &Outcome) -> Callout {

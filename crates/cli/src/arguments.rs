@@ -114,6 +114,8 @@ pub enum Law {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Method {
-    /// Three nonlinear unknowns searched, everything else solved exactly.
+    /// Motion in, force out: three nonlinear unknowns searched, everything else solved exactly.
     Separable,
+    /// Force in, position out: the axis simulated, with its controller where the axis file has one.
+    OutputError,
 }

@@ -6,7 +6,7 @@ use crate::interrupt;
 use crate::output;
 use crate::progress::Bar;
 use std::path::Path;
-use stiction_app::{Error, LawKind, Options, Outcome, check_folder, write_atomic};
+use stiction_app::{Error, LawKind, Method, Options, Outcome, check_folder, write_atomic};
 
 /// Runs a command; every error is printed here, once.
 pub fn run(arguments: &Arguments) -> Exit {
@@ -89,10 +89,13 @@ fn init(check: &arguments::Check, file: &Path, common: &Common) -> Result<Exit, 
 
 fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Error> {
     check_folder(&identify.out, identify.force)?;
-    let arguments::Method::Separable = identify.method;
     let options = Options {
         logs: identify.logs.clone(),
         axis: identify.axis.clone(),
+        method: match identify.method {
+            arguments::Method::Separable => Method::Separable,
+            arguments::Method::OutputError => Method::OutputError,
+        },
         law: match identify.law {
             arguments::Law::CoulombViscous => LawKind::CoulombViscous,
             arguments::Law::Stribeck => LawKind::Stribeck,

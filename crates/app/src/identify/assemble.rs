@@ -77,7 +77,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         axis: parts.axis,
         law: estimate.law.kind.name().into(),
         asymmetric: estimate.law.asymmetric,
-        method: "separable".into(),
+        method: parts.options.method.name().into(),
         trust: parts.trust,
         parameters: estimate
             .parameters
@@ -91,6 +91,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         fit: fit_entry(&estimate.fit),
         low_speed: estimate.low_speed.as_ref().map(low_entry),
         validation,
+        simulation: None,
         laws: parts.laws,
         search: Search {
             status: estimate.status.name().into(),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use stiction_app::{LawKind, Options};
+use stiction_app::{LawKind, Method, Options};
 use tempfile::TempDir;
 
 /// Sample rate of every log here, Hz.
@@ -93,6 +93,7 @@ pub fn options(logs: &[&Path], law: LawKind) -> Options {
     Options {
         logs: logs.iter().map(|p| p.to_path_buf()).collect(),
         axis: None,
+        method: Method::Separable,
         law,
         asymmetric: false,
         validate: Vec::new(),
