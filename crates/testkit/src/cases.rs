@@ -176,6 +176,20 @@ pub const CASES: &[Case] = &[
         validate: &[],
         split: None,
         method: "output-error",
+        law: "coulomb-viscous",
+        asymmetric: true,
+        limits: &[
+            most(Metric::PositionPercent, 0.00120),
+            most(Metric::ForcePercent, 4.7),
+        ],
+    },
+    Case {
+        name: "EMPS, simulated in closed loop",
+        axis: "emps_closed_loop.toml",
+        logs: &["emps/DATA_EMPS.mat"],
+        validate: &[],
+        split: None,
+        method: "output-error",
         law: "lugre",
         asymmetric: true,
         limits: &[
