@@ -6,8 +6,8 @@ mod common;
 use common::Noise;
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_identify::{
-    Controller, Error, Hold, Law, LawKind, Mass, Recording, Samples, Silent, Simulation,
-    SimulationFit, Status, Terms, output_error, simulate_unseen,
+    Control, Controller, Error, Hold, Law, LawKind, Mass, Observer, Progress, Recording, Samples,
+    Silent, Simulation, SimulationFit, Status, Terms, output_error, simulate_unseen,
 };
 use stiction_servo::cascade::{Cascade, CascadeState};
 use stiction_servo::encoder::Encoder;
@@ -355,4 +355,90 @@ fn what_cannot_be_simulated_is_refused() {
         let e = try_with(short.clone(), &Terms::default(), &simulation);
         assert!(matches!(e, Error::Setting { .. }), "{name}: {e}");
     }
+}
+
+/// Numbers at the ends of their range, few samples, absurd rates: an error or a result, never a panic.
+#[test]
+fn hostile_numbers_are_survived() {
+    let law = Law::new(LawKind::LuGre).asymmetric();
+    let base = open(0.4, 0.0, 0.0, 0.0, 1);
+    let scales = [1e-300, 1e-150, 1e-9, 1.0, 1e9, 1e150, 1e300];
+    let mut refused = 0;
+    for x in scales {
+        for u in scales {
+            for t in [1e-12, 1.0, 1e12] {
+                let mut log = base.clone();
+                let scaled = |v: &mut Vec<f64>, k: f64| v.iter_mut().for_each(|v| *v *= k);
+                scaled(log.samples.position.as_mut().unwrap(), x);
+                scaled(&mut log.samples.force, u);
+                scaled(&mut log.samples.time, t);
+                log.samples.position.as_mut().unwrap().truncate(150);
+                log.samples.force.truncate(150);
+                log.samples.time.truncate(150);
+                log.reference = log.samples.position.clone();
+                let simulation = Simulation {
+                    controller: (x > u).then(|| controller(&CASCADE)),
+                    ..Simulation::default()
+                };
+                let found =
+                    output_error(&[log], law, &Terms::default(), &simulation, &mut Short(40));
+                match found {
+                    Ok(found) => assert!(!found.estimate.parameters.is_empty()),
+                    Err(_) => refused += 1,
+                }
+            }
+        }
+    }
+    println!("{refused} refused");
+    for n in 0..30 {
+        let mut log = base.clone();
+        log.samples.position.as_mut().unwrap().truncate(n);
+        log.samples.force.truncate(n);
+        log.samples.time.truncate(n);
+        let e = output_error(
+            &[log],
+            law,
+            &Terms::default(),
+            &Simulation::default(),
+            &mut Silent,
+        );
+        assert!(matches!(e, Err(Error::TooFewSamples { .. })), "{n}");
+    }
+    let none = output_error(
+        &[],
+        law,
+        &Terms::default(),
+        &Simulation::default(),
+        &mut Silent,
+    );
+    assert!(matches!(none, Err(Error::TooFewSamples { .. })));
+}
+
+/// Stops after so many looks.
+struct Short(usize);
+
+impl Observer for Short {
+    fn progress(&mut self, _: &Progress) -> Control {
+        self.0 = self.0.saturating_sub(1);
+        if self.0 == 0 {
+            Control::Stop
+        } else {
+            Control::Continue
+        }
+    }
+}
+
+#[test]
+fn a_search_that_is_stopped_keeps_what_it_has() {
+    let log = open(1.0, 0.0, 0.0, 0.0, 1);
+    let found = output_error(
+        &[log],
+        Law::new(LawKind::LuGre),
+        &Terms::default(),
+        &Simulation::default(),
+        &mut Short(1),
+    )
+    .unwrap();
+    assert_eq!(found.estimate.status, Status::Interrupted);
+    assert!(found.estimate.counts.total() < 20);
 }

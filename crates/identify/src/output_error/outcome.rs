@@ -321,9 +321,14 @@ fn covariance(problem: &Problem, at: &Point, held: &[bool]) -> (DMatrix<f64>, Ve
         .iter()
         .map(|&i| 1.0 / equations.shared[(i, i)].sqrt())
         .collect();
-    let bread = uncertainty::inverse(DMatrix::from_fn(q, q, |a, b| {
+    let scaled = DMatrix::from_fn(q, q, |a, b| {
         matrix[(free[a], free[b])] * scale[a] * scale[b]
-    }));
+    });
+    if q == 0 || scaled.iter().any(|x| !x.is_finite()) {
+        out.fill(f64::INFINITY);
+        return (out, without);
+    }
+    let bread = uncertainty::inverse(scaled);
 
     let axis = problem.layout.write(&problem.base, &at.q);
     let mut influence: Vec<Vec<f64>> = vec![Vec::new(); q];
