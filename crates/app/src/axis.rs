@@ -1,5 +1,6 @@
 //! `axis.toml`: what is known of the machine and its log. Raw as typed, then resolved to SI.
 
+mod controller;
 mod raw;
 mod resolve;
 mod syntax;
@@ -7,8 +8,9 @@ mod template;
 mod tied;
 
 use crate::error::Error;
+use controller::ControllerValues;
 use std::path::{Path, PathBuf};
-use stiction_identify::{Conditioning, Delay, Terms};
+use stiction_identify::{Conditioning, Delay, Hold, Terms};
 use stiction_log::text::TextOptions;
 use stiction_log::{Log, Mapping, Motion};
 pub use template::template;
@@ -31,6 +33,12 @@ pub struct Axis {
     pub stribeck_exponent: f64,
     /// Speed below which a sample counts as slow, m/s or rad/s; `None` follows from the log.
     pub low_speed: Option<f64>,
+    /// How the logged force stands to the instants of the samples, for a simulation.
+    pub hold: Hold,
+    /// Longest stretch that is simulated from one free start in open loop, s; `None` for whole runs.
+    pub segment: Option<f64>,
+    /// The controller as typed; its units are known with the log.
+    controller: Option<ControllerValues>,
     /// Whether to fit a constant force; `None` follows from the law.
     offset: Option<bool>,
     /// Values whose unit fits one kind of axis only, checked when the log says which it is.
@@ -51,6 +59,9 @@ impl Default for Axis {
             },
             stribeck_exponent: 2.0,
             low_speed: None,
+            hold: Hold::Held,
+            segment: None,
+            controller: None,
             offset: None,
             tied: Vec::new(),
             file: PathBuf::new(),

@@ -65,6 +65,10 @@ pub const OWN: &[(&str, &str)] = &[
         "the steady curve is not known and was simplified",
     ),
     ("no-break-away", "the force does not ramp up to break-away"),
+    (
+        "not-simulated",
+        "a log that cannot be simulated: position, reference or mass is missing",
+    ),
     ("bad-record", "the channels of a log do not fit together"),
     ("bad-config", "an axis or model file was refused"),
     ("usage", "the command as typed cannot be carried out"),

@@ -60,6 +60,7 @@ impl Error {
                 Fit::NoStep { .. } => "no-step",
                 Fit::NoBreakAway { .. } => "no-break-away",
                 Fit::Setting { .. } | Fit::Filter { .. } => "bad-setting",
+                Fit::NotSimulated { .. } => "not-simulated",
                 Fit::NoMotionChannel { .. }
                 | Fit::MissingChannel { .. }
                 | Fit::Length { .. }

@@ -6,6 +6,7 @@ mod conditioning;
 mod ladder;
 mod procedure;
 mod relay;
+mod simulate;
 mod trust;
 
 pub use procedure::{Method, Procedures};
@@ -18,6 +19,7 @@ use crate::source::{self, Source};
 use choice::Choice;
 use conditioning::condition;
 use ladder::Ladder;
+pub use simulate::Simulated;
 use std::path::PathBuf;
 use std::time::Instant;
 use stiction_identify as engine;
@@ -61,6 +63,8 @@ pub struct Outcome {
     pub estimate: Estimate,
     /// Signals of each validation, with its name.
     pub validation: Vec<(String, Series)>,
+    /// The simulated axis, where the method simulates one.
+    pub simulation: Option<Simulated>,
     /// The logs.
     pub sources: Vec<Source>,
     /// Linear or rotary.
@@ -112,6 +116,9 @@ pub(crate) fn fit(
     }
     if !options.procedures.method.fits_records() {
         return procedure::run(options, axis, sources, &beside, clock, observer);
+    }
+    if options.procedures.method == Method::OutputError {
+        return simulate::fit(options, axis, sources, &held_out, clock, observer);
     }
     let motion = sources[0].log.motion;
     let force_unit = sources[0].log.force_unit.clone();
@@ -234,7 +241,14 @@ pub(crate) fn fit(
         let text = "the comparison of laws was interrupted and is left out; the fit is complete";
         warnings.push(Warning::new("interrupted", text));
     }
-    let trust = trust::judge(&estimate, &record, &sources, &laws, motion, &mut warnings);
+    let trust = trust::judge(
+        &estimate,
+        record.moves_both_ways(),
+        &sources,
+        &laws,
+        motion,
+        &mut warnings,
+    );
     let resolved = ResolvedAxis {
         name: axis.name.clone(),
         kind: motion.to_string(),
@@ -272,6 +286,7 @@ pub(crate) fn fit(
         result,
         estimate,
         validation,
+        simulation: None,
         sources,
         motion,
         force_unit,
@@ -285,7 +300,13 @@ impl Outcome {
         let mut bundle = Bundle::default();
         let model = crate::model::ModelFile::from_result(&self.result);
         bundle.add("model.toml", model.to_toml());
-        bundle.add("fit.csv", assemble::fit_csv(self));
+        bundle.add(
+            "fit.csv",
+            match &self.simulation {
+                Some(simulated) => simulate::fit_csv(self, simulated),
+                None => assemble::fit_csv(self),
+            },
+        );
         bundle.add("report.html", crate::report::identification(self).to_html());
         let mut json = serde_json::to_string_pretty(&self.result).expect("plain data");
         json.push('\n');

@@ -19,7 +19,7 @@ pub mod text;
 
 pub use axis::Axis;
 pub use error::{Error, Warning};
-pub use identify::{Method, Options, Outcome, Procedures, identify};
+pub use identify::{Method, Options, Outcome, Procedures, Simulated, identify};
 pub use model::ModelFile;
 pub use output::{Bundle, check_folder, write_atomic};
 pub use source::{Source, load, table};

@@ -5,6 +5,7 @@ mod figures;
 mod formula;
 mod ladder;
 mod procedure;
+mod simulation;
 mod tables;
 
 use crate::identify::Outcome;
@@ -55,17 +56,11 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
     }
     // Points of a map and displacements are no force sample by sample.
     let sampled = matches!(result.method.as_str(), "separable" | "static-then-dynamic");
-    if sampled {
-        document = in_motion(document, outcome);
-    }
-    if !outcome.validation.is_empty() {
-        document = document
-            .heading(2, "Validation")
-            .block(tables::validation(outcome));
-        for (path, series) in &outcome.validation {
-            document = document.block(figures::validation(outcome, path, series));
-        }
-    }
+    document = match &outcome.simulation {
+        Some(simulated) => simulation::sections(document, outcome, simulated),
+        None if sampled => measured_force(document, outcome),
+        None => document,
+    };
     if !result.laws.is_empty() {
         document = document
             .heading(2, "Which law")
@@ -93,8 +88,8 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
     ))
 }
 
-/// Friction over velocity and force in time.
-fn in_motion(mut document: Document, outcome: &Outcome) -> Document {
+/// The figures of a fit of the force.
+fn measured_force(mut document: Document, outcome: &Outcome) -> Document {
     document = document
         .heading(2, "Friction and velocity")
         .block(figures::velocity_map(outcome));
@@ -106,9 +101,18 @@ fn in_motion(mut document: Document, outcome: &Outcome) -> Document {
     if !close.is_empty() {
         document = document.block(Block::Columns(close));
     }
-    document
+    document = document
         .heading(2, "Force in time")
-        .block(figures::time(outcome))
+        .block(figures::time(outcome));
+    if !outcome.validation.is_empty() {
+        document = document
+            .heading(2, "Validation")
+            .block(tables::validation(outcome));
+        for (path, series) in &outcome.validation {
+            document = document.block(figures::validation(outcome, path, series));
+        }
+    }
+    document
 }
 
 /// What the residual tells, and how the parameters hang together.

@@ -47,6 +47,9 @@ pub struct ResultFile {
     pub low_speed: Option<LowSpeedEntry>,
     /// Fit on logs (or parts of them) that were not fitted.
     pub validation: Vec<ValidationEntry>,
+    /// What was simulated, where the method simulates the axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub simulation: Option<SimulationEntry>,
     /// Laws side by side on held-out samples.
     pub laws: Vec<LawEntry>,
     /// Forces at constant velocities, where the method uses them.
@@ -203,6 +206,31 @@ pub struct ValidationEntry {
     pub fit: FitEntry,
     /// The same near zero speed.
     pub low_speed: Option<LowSpeedEntry>,
+}
+
+/// The simulated axis of an output-error fit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SimulationEntry {
+    /// `open`: the logged force drives the axis; `closed`: the controller of the axis file does.
+    #[serde(rename = "loop")]
+    pub kind: String,
+    /// `held` or `centred`.
+    pub force_is: String,
+    /// Stretches that were simulated, each from a start of its own.
+    pub runs: usize,
+    /// Plant steps in one control period (in open loop: in one sample).
+    pub substeps: usize,
+    /// Where the search started: `separable` or `runs`.
+    pub start: String,
+    /// Position error.
+    pub position: FitEntry,
+    /// Rms that one encoder count alone would leave, in the unit of the position; `null` where the
+    /// count is not known.
+    pub quantisation_floor: Option<f64>,
+    /// Force error in closed loop; `null` in open loop, where the force is given.
+    pub force: Option<FitEntry>,
+    /// Force errors of the validation in closed loop, in the order of `validation`.
+    pub validation_force: Vec<FitEntry>,
 }
 
 /// One law in the comparison.

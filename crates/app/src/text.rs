@@ -102,12 +102,15 @@ pub fn outcome(outcome: &Outcome) -> String {
     let fit = &result.fit;
     let _ = writeln!(
         out,
-        "\nfit         {:.3} % relative error, {} {} rms, R2 {}",
-        fit.relative_error_percent,
+        "\nfit         {} % relative error, {} {} rms, R2 {}",
+        percent(fit.relative_error_percent),
         short(fit.rmse),
         fit.unit,
         fit.r2.map_or("-".into(), |r2| format!("{r2:.5}"))
     );
+    if let Some(simulation) = &result.simulation {
+        let _ = writeln!(out, "simulation  {}", simulated(simulation));
+    }
     if let Some(low) = &result.low_speed {
         let _ = writeln!(
             out,
@@ -121,8 +124,8 @@ pub fn outcome(outcome: &Outcome) -> String {
     for v in &result.validation {
         let _ = writeln!(
             out,
-            "validation  {:.3} % relative error, {} {} rms on {}",
-            v.fit.relative_error_percent,
+            "validation  {} % relative error, {} {} rms on {}",
+            percent(v.fit.relative_error_percent),
             short(v.fit.rmse),
             v.fit.unit,
             v.path
@@ -145,6 +148,39 @@ pub fn outcome(outcome: &Outcome) -> String {
             out,
             "\nNOT TRUSTWORTHY: {}",
             result.trust.reasons.join("; ")
+        );
+    }
+    out
+}
+
+/// Percent with three decimals, and more where a position leaves so little.
+fn percent(x: f64) -> String {
+    if x < 0.1 { short(x) } else { format!("{x:.3}") }
+}
+
+/// What was simulated, and how far off its force and the encoder's steps are.
+fn simulated(entry: &crate::result::SimulationEntry) -> String {
+    let runs = match entry.runs {
+        1 => "one run".to_string(),
+        n => format!("{n} runs"),
+    };
+    let mut out = format!("{} loop, {runs}", entry.kind);
+    if let Some(force) = &entry.force {
+        let _ = write!(
+            out,
+            "; {} {:.3} % relative error, {} {} rms",
+            force.signal,
+            force.relative_error_percent,
+            short(force.rmse),
+            force.unit
+        );
+    }
+    if let Some(floor) = entry.quantisation_floor {
+        let _ = write!(
+            out,
+            "; encoder steps alone {} {} rms",
+            short(floor),
+            entry.position.unit
         );
     }
     out

@@ -6,8 +6,8 @@ use std::fmt::Write;
 use std::path::Path;
 use stiction_app::axis::template;
 use stiction_app::{Axis, Error};
-use stiction_identify::{Cutoff, Source};
-use stiction_log::{Channel, Column, Mapping, Motion, Role, Selector, Table, Unit, Value};
+use stiction_identify::{Cutoff, Hold, Source};
+use stiction_log::{Channel, Column, Log, Mapping, Motion, Role, Selector, Table, Unit, Value};
 
 /// Every key once.
 const WHOLE: &str = r#"name = "X axis"
@@ -51,6 +51,20 @@ stribeck_exponent = 1.5
 
 [report]
 low_speed = "1 rad/s"
+
+[controller]
+kind = "p-pi"
+position_gain = "40 1/s"
+speed_gain = "0.6 N m s/rad"
+integral_gain = "20 A/rad"
+velocity_feedforward = 0.5
+mass_feedforward = "2 kg cm2"
+force_limit = "8 A"
+rate = "8 kHz"
+
+[simulation]
+force = "centred"
+segment = "500 ms"
 "#;
 
 fn parse(text: &str) -> Result<Axis, Error> {
@@ -87,6 +101,71 @@ fn every_key_is_understood() {
     assert!(near(axis.terms.cogging[1], PI / 12.0));
     assert_eq!(axis.stribeck_exponent, 1.5);
     assert_eq!(axis.low_speed, Some(1.0));
+    assert_eq!(axis.hold, Hold::Centred);
+    assert_eq!(axis.segment, Some(0.5));
+}
+
+/// A log whose force is `unit`, after the scale of the axis file.
+fn log(axis: &Axis, names: [&str; 3]) -> Log {
+    let column = |name: &str, values: fn(usize) -> f64| Column {
+        name: name.into(),
+        unit: None,
+        values: (0..100).map(values).collect(),
+    };
+    let table = Table {
+        columns: vec![
+            column(names[0], |i| i as f64 * 1e-3),
+            column(names[1], |i| (i as f64 * 0.1).sin()),
+            column(names[2], |i| (i as f64 * 0.1).cos()),
+        ],
+        ..Table::default()
+    };
+    Log::from_table(&table, &axis.mapping).unwrap()
+}
+
+#[test]
+fn gains_come_in_the_unit_of_the_force_or_of_the_file() {
+    let text = |gains: &str| {
+        format!(
+            "kind = \"rotary\"\n[columns]\ntime = {{ column = \"t\", unit = \"s\" }}\n\
+             position = {{ column = \"q\", unit = \"rad\" }}\n\
+             force = {{ column = \"i\", unit = \"A\", scale = \"0.5 N m/A\" }}\n\
+             [controller]\nkind = \"p-pi\"\nposition_gain = \"40 1/s\"\n{gains}"
+        )
+    };
+    let both = [
+        "speed_gain = \"0.6 N m s/rad\"\nintegral_gain = \"10 N m/rad\"\n\
+         mass_feedforward = \"2 kg cm2\"\nforce_limit = \"4 N m\"",
+        "speed_gain = \"1.2 A s/rad\"\nintegral_gain = \"20 A/rad\"\n\
+         mass_feedforward = \"0.4 mA s2/rad\"\nforce_limit = \"8 A\"",
+    ];
+    for gains in both {
+        let axis = parse(&text(gains)).unwrap();
+        let log = log(&axis, ["t", "q", "i"]);
+        let c = axis.controller_for(&log).unwrap().unwrap();
+        let near = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-12, "{a} {b} {gains}");
+        near(c.position_gain, 40.0);
+        near(c.speed_gain, 0.6);
+        near(c.integral_gain, 10.0);
+        near(c.mass_feedforward, 2e-4);
+        near(c.force_limit, 4.0);
+        assert_eq!(c.rate, None);
+    }
+    let wrong = text("speed_gain = \"0.6 N s/m\"\nintegral_gain = \"10 N m/rad\"");
+    let axis = parse(&wrong).unwrap();
+    let e = axis
+        .controller_for(&log(&axis, ["t", "q", "i"]))
+        .unwrap_err();
+    insta::assert_snapshot!(
+        e.to_string(),
+        @r#"axis.toml: line 9, controller.speed_gain: "0.6 N s/m"; give it in N*m*s/rad, or in A/(rad/s), the unit of the log before scaling"#
+    );
+    assert!(
+        Axis::default()
+            .controller_for(&log(&axis, ["t", "q", "i"]))
+            .unwrap()
+            .is_none()
+    );
 }
 
 /// The examples of the documentation are axis files.
@@ -175,6 +254,35 @@ fn refusals() {
         ("pitch 0", "[terms]\ncogging = [\"0 mm\"]"),
         ("exponent 0", "[terms]\nstribeck_exponent = 0.0"),
         ("exponent nan", "[terms]\nstribeck_exponent = nan"),
+        (
+            "controller",
+            "[controller]\nkind = \"pid\"\nposition_gain = \"1 1/s\"\nspeed_gain = \"1 N s/m\"",
+        ),
+        (
+            "controller without its integral",
+            "[controller]\nkind = \"p-pi\"\nposition_gain = \"1 1/s\"\nspeed_gain = \"1 N s/m\"",
+        ),
+        (
+            "controller with an integral too many",
+            "[controller]\nkind = \"p-p\"\nposition_gain = \"1 1/s\"\nspeed_gain = \"1 N s/m\"\n\
+             integral_gain = \"1 N/m\"",
+        ),
+        (
+            "gain 0",
+            "[controller]\nkind = \"p-p\"\nposition_gain = \"1 1/s\"\nspeed_gain = \"0 N s/m\"",
+        ),
+        (
+            "gain of another kind",
+            "[controller]\nkind = \"p-p\"\nposition_gain = \"1 N\"\nspeed_gain = \"1 N s/m\"",
+        ),
+        ("controller without gains", "[controller]\nkind = \"p-p\""),
+        (
+            "feedforward 2",
+            "[controller]\nkind = \"p-p\"\nposition_gain = \"1 1/s\"\nspeed_gain = \"1 N s/m\"\n\
+             velocity_feedforward = 2.0",
+        ),
+        ("hold", "[simulation]\nforce = \"hold\""),
+        ("segment", "[simulation]\nsegment = \"0 s\""),
         ("low speed", "[report]\nlow_speed = \"-1 mm/s\""),
         ("the same key twice", "name = \"a\"\n\nname = \"b\""),
         (

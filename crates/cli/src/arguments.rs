@@ -131,7 +131,7 @@ pub enum Law {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Method {
-    /// Three nonlinear unknowns searched, everything else solved exactly.
+    /// Motion in, force out: three nonlinear unknowns searched, everything else solved exactly.
     Separable,
     /// Steady curve from stretches of constant velocity.
     Static,
@@ -139,4 +139,6 @@ pub enum Method {
     StaticThenDynamic,
     /// Stiffness and micro-damping from force steps below break-away.
     PreslidingStep,
+    /// Force in, position out: the axis simulated, with its controller where the axis file has one.
+    OutputError,
 }

@@ -124,6 +124,7 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
         procedures: Procedures {
             method: match identify.method {
                 arguments::Method::Separable => Method::Separable,
+                arguments::Method::OutputError => Method::OutputError,
                 arguments::Method::Static => Method::Static,
                 arguments::Method::StaticThenDynamic => Method::StaticThenDynamic,
                 arguments::Method::PreslidingStep => Method::PreslidingStep,

@@ -280,7 +280,7 @@ pub(crate) fn check(number: usize, log: &Samples) -> Result<(), Error> {
     Ok(())
 }
 
-fn median_step(time: &[f64]) -> f64 {
+pub(crate) fn median_step(time: &[f64]) -> f64 {
     let mut steps: Vec<f64> = time.windows(2).map(|t| t[1] - t[0]).collect();
     let middle = steps.len() / 2;
     let (_, median, _) = steps.select_nth_unstable_by(middle, f64::total_cmp);
@@ -288,7 +288,7 @@ fn median_step(time: &[f64]) -> f64 {
 }
 
 /// Index ranges between long gaps.
-fn stretches(log: &Samples, step: f64) -> Vec<std::ops::Range<usize>> {
+pub(crate) fn stretches(log: &Samples, step: f64) -> Vec<std::ops::Range<usize>> {
     let mut out = Vec::new();
     let mut start = 0;
     for i in 1..log.time.len() {

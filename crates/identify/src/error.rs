@@ -128,4 +128,14 @@ pub enum Error {
         /// Why.
         reason: String,
     },
+    /// A recording that cannot be simulated.
+    #[error("log {log}: {found}; simulating the axis needs {allowed}")]
+    NotSimulated {
+        /// Which log, counted from 1.
+        log: usize,
+        /// What was found.
+        found: &'static str,
+        /// What is needed.
+        allowed: &'static str,
+    },
 }

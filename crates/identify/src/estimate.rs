@@ -105,9 +105,9 @@ pub struct Estimate {
     /// Evaluations and relative residual over the last descent.
     pub history: Vec<(usize, f64)>,
     /// Sample time of the record, s.
-    step: f64,
-    p: Vec<f64>,
-    coefficients: Vec<f64>,
+    pub(crate) step: f64,
+    pub(crate) p: Vec<f64>,
+    pub(crate) coefficients: Vec<f64>,
 }
 
 impl Estimate {
@@ -298,7 +298,7 @@ pub fn predict(record: &Record, fitted: &Estimate) -> Series {
     series(&objective, &fitted.p, &fitted.coefficients)
 }
 
-fn given(name: &str, value: f64) -> Parameter {
+pub(crate) fn given(name: &str, value: f64) -> Parameter {
     Parameter {
         name: name.into(),
         dimension: Dimension::One,
@@ -327,6 +327,16 @@ fn describe(p: &Physical, variance: f64, optimum: &Optimum, level: f64, step: f6
             reason = "held at zero: the data ask for a negative value".into();
         }
     }
+    let level = match p.dimension {
+        Dimension::Time => step,
+        _ => level,
+    };
+    judge(p, variance, reason, level)
+}
+
+/// A parameter with its deviation, interval and flag; `reason` says what already speaks against it, and
+/// `level` is what a parameter that may be zero is measured by: the Coulomb level, the sample time.
+pub(crate) fn judge(p: &Physical, variance: f64, mut reason: String, level: f64) -> Parameter {
     let known = reason.is_empty() && variance.is_finite() && variance >= 0.0;
     let std = known.then(|| variance.sqrt());
     if reason.is_empty() && std.is_none() {
@@ -334,7 +344,7 @@ fn describe(p: &Physical, variance: f64, optimum: &Optimum, level: f64, step: f6
     }
     let (size, what) = match p.dimension {
         _ if p.positive => (p.value.abs(), "value"),
-        Dimension::Time => (step, "the sample time"),
+        Dimension::Time => (level, "the sample time"),
         _ => (p.value.abs().max(level), "value or of the Coulomb level"),
     };
     let relative = std.map(|s| s / size);

@@ -21,6 +21,9 @@
 //! the same form with fewer nonlinear unknowns, the elasto-plastic law with one more, the part of the
 //! steady deflection at which it breaks away.
 //!
+//! Where the force is the input, or made by a known controller, [`output_error`] simulates the axis
+//! instead and fits its position.
+//!
 //! Nothing here prints, sleeps or reads a clock; an [`Observer`] sees progress and may stop a run.
 
 mod calibrate;
@@ -33,6 +36,7 @@ mod fit;
 mod identify;
 mod law;
 mod observe;
+mod output_error;
 pub mod procedure;
 mod replica;
 mod separable;
@@ -54,6 +58,10 @@ pub use law::physical::Dimension;
 pub use law::terms::{Delay, Mass, Terms};
 pub use law::{Law, LawKind};
 pub use observe::{Control, Counts, Observer, Progress, Silent, Stage};
+pub use output_error::controller::Controller;
+pub use output_error::outcome::{Signals, SimulationFit, Unseen, simulate_unseen};
+pub use output_error::run::{Hold, Recording};
+pub use output_error::{Simulation, output_error};
 pub use separable::levenberg::Status;
 pub use separable::objective::{Evaluation, Objective};
 pub use separable::search_box::SearchBox;

@@ -48,8 +48,7 @@ fn terms() -> Terms {
     Terms {
         mass: Mass::Absent,
         offset: false,
-        gravity: false,
-        cogging: Vec::new(),
+        ..Terms::default()
     }
 }
 

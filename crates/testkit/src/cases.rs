@@ -13,6 +13,8 @@ pub struct Case {
     pub validate: &'static [&'static str],
     /// Part of the samples to fit; the rest is for validation.
     pub split: Option<f64>,
+    /// Method, as typed on the command line.
+    pub method: &'static str,
     /// Law.
     pub law: &'static str,
     /// Whether each direction has parameters of its own.
@@ -39,6 +41,12 @@ pub enum Metric {
     FitPercent,
     /// Residual on the last validation, in the unit of the force.
     HeldOutRms,
+    /// Position error of the simulation, percent.
+    PositionPercent,
+    /// Force error of the simulated controller, percent.
+    ForcePercent,
+    /// Largest position residual on the validations, m or rad rms.
+    UnseenPosition,
     /// Residual near zero speed over that of the symmetric or asymmetric static law named.
     LowSpeedOver(&'static str),
     /// The same on the held-out part.
@@ -57,6 +65,7 @@ pub const CASES: &[Case] = &[
         logs: &["emps/DATA_EMPS.mat"],
         validate: &[],
         split: None,
+        method: "separable",
         law: "coulomb-viscous",
         asymmetric: false,
         limits: &[
@@ -73,6 +82,7 @@ pub const CASES: &[Case] = &[
         logs: &["emps/DATA_EMPS.mat"],
         validate: &[],
         split: None,
+        method: "separable",
         law: "coulomb-viscous",
         asymmetric: true,
         limits: &[most(Metric::FitPercent, 3.20)],
@@ -83,6 +93,7 @@ pub const CASES: &[Case] = &[
         logs: &["emps/DATA_EMPS.mat"],
         validate: &[],
         split: None,
+        method: "separable",
         law: "lugre",
         asymmetric: true,
         limits: &[
@@ -96,6 +107,7 @@ pub const CASES: &[Case] = &[
         logs: &["tribometer/presliding.tsv"],
         validate: &[],
         split: Some(0.5),
+        method: "separable",
         law: "lugre",
         asymmetric: false,
         limits: &[most(Metric::HeldOutRms, 0.23)],
@@ -106,6 +118,7 @@ pub const CASES: &[Case] = &[
         logs: &["tribometer/presliding.tsv"],
         validate: &[],
         split: Some(0.5),
+        method: "separable",
         law: "elasto-plastic",
         asymmetric: false,
         limits: &[most(Metric::HeldOutRms, 0.12)],
@@ -123,6 +136,7 @@ pub const CASES: &[Case] = &[
         ],
         validate: &["servo/sliding_7.txt"],
         split: None,
+        method: "separable",
         law: "coulomb-viscous",
         asymmetric: false,
         limits: &[
@@ -136,6 +150,7 @@ pub const CASES: &[Case] = &[
         logs: &["ur10e/joint_1.csv"],
         validate: &[],
         split: Some(0.5),
+        method: "separable",
         law: "lugre",
         asymmetric: false,
         limits: &[most(Metric::HeldOutRms, 0.243)],
@@ -146,6 +161,7 @@ pub const CASES: &[Case] = &[
         logs: &["ur10e/joint_4.csv"],
         validate: &[],
         split: Some(0.5),
+        method: "separable",
         law: "lugre",
         asymmetric: false,
         limits: &[
@@ -159,8 +175,52 @@ pub const CASES: &[Case] = &[
         logs: &["damiao/motor_1.npz"],
         validate: &[],
         split: None,
+        method: "separable",
         law: "coulomb-viscous",
         asymmetric: false,
         limits: &[most(Metric::OffPercent("mass", 0.0194), 10.0)],
+    },
+    Case {
+        name: "EMPS, simulated in closed loop",
+        axis: "emps_closed_loop.toml",
+        logs: &["emps/DATA_EMPS.mat"],
+        validate: &[],
+        split: None,
+        method: "output-error",
+        law: "coulomb-viscous",
+        asymmetric: true,
+        limits: &[
+            most(Metric::PositionPercent, 0.00120),
+            most(Metric::ForcePercent, 4.7),
+        ],
+    },
+    Case {
+        name: "EMPS, simulated in closed loop",
+        axis: "emps_closed_loop.toml",
+        logs: &["emps/DATA_EMPS.mat"],
+        validate: &[],
+        split: None,
+        method: "output-error",
+        law: "lugre",
+        asymmetric: true,
+        limits: &[
+            most(Metric::PositionPercent, 0.00120),
+            most(Metric::ForcePercent, 4.7),
+        ],
+    },
+    Case {
+        name: "Servo, presliding",
+        axis: "servo_presliding.toml",
+        logs: &[
+            "servo/presliding_1.txt",
+            "servo/presliding_2.txt",
+            "servo/presliding_3.txt",
+        ],
+        validate: &["servo/presliding_4.txt", "servo/presliding_5.txt"],
+        split: None,
+        method: "output-error",
+        law: "lugre",
+        asymmetric: false,
+        limits: &[most(Metric::UnseenPosition, 200e-6)],
     },
 ];

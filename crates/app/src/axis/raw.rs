@@ -26,6 +26,9 @@ pub(crate) struct RawAxis {
     pub terms: RawTerms,
     #[serde(default)]
     pub report: RawReport,
+    pub controller: Option<RawController>,
+    #[serde(default)]
+    pub simulation: RawSimulation,
 }
 
 /// `[columns]`
@@ -139,6 +142,28 @@ pub(crate) struct RawTerms {
 #[serde(deny_unknown_fields)]
 pub(crate) struct RawReport {
     pub low_speed: Option<String>,
+}
+
+/// `[controller]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RawController {
+    pub kind: String,
+    pub position_gain: String,
+    pub speed_gain: String,
+    pub integral_gain: Option<String>,
+    pub velocity_feedforward: Option<f64>,
+    pub mass_feedforward: Option<String>,
+    pub force_limit: Option<String>,
+    pub rate: Option<String>,
+}
+
+/// `[simulation]`
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RawSimulation {
+    pub force: Option<String>,
+    pub segment: Option<String>,
 }
 
 /// Parses the text; the error has line and column in its message.

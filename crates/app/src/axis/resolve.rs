@@ -1,12 +1,13 @@
 //! From the axis file as typed to SI values that the libraries take.
 
 use super::Axis;
+use super::controller::{ControllerValues, Gain};
 use super::raw::{self, RawAxis, RawChannel, RawScale, RawSelector, RawTerms};
 use super::tied::Tied;
 use crate::error::Error;
 use std::cell::RefCell;
 use std::path::Path;
-use stiction_identify::{Conditioning, Cutoff, Delay, Dependence, Mass, Source};
+use stiction_identify::{Conditioning, Cutoff, Delay, Dependence, Hold, Mass, Source};
 use stiction_log::text::{Decimal, Separator, TextOptions};
 use stiction_log::{Channel, Dimension, Mapping, Motion, Role, Selector, Unit, Value, Wrap};
 
@@ -45,6 +46,7 @@ impl Resolver<'_> {
         axis.conditioning = self.conditioning(raw)?;
         axis.conditioning.resolution = axis.mapping.resolution;
         self.terms(raw, &mut axis)?;
+        self.simulation(raw, &mut axis)?;
         if let Some(text) = &raw.report.low_speed {
             axis.low_speed = Some(self.positive("report.low_speed", text, &SPEEDS)?);
         }
@@ -308,6 +310,86 @@ impl Resolver<'_> {
         raw.iter()
             .map(|pitch| self.positive(key, pitch, &lengths))
             .collect()
+    }
+
+    fn simulation(&self, raw: &RawAxis, axis: &mut Axis) -> Result<(), Error> {
+        axis.hold = match raw.simulation.force.as_deref() {
+            None | Some("held") => Hold::Held,
+            Some("centred") => Hold::Centred,
+            Some(other) => {
+                return Err(self.refuse(
+                    "simulation.force",
+                    format!("{other:?}"),
+                    "held or centred",
+                ));
+            }
+        };
+        axis.segment = match raw.simulation.segment.as_deref() {
+            None | Some("whole") => None,
+            Some(text) => Some(self.positive("simulation.segment", text, &[Dimension::TIME])?),
+        };
+        let Some(raw) = &raw.controller else {
+            return Ok(());
+        };
+        let integral = match (raw.kind.as_str(), &raw.integral_gain) {
+            ("p-p", None) => None,
+            ("p-pi", Some(text)) => Some(self.gain("controller.integral_gain", text)?),
+            ("p-p", Some(text)) => {
+                let allowed = "p-p has none; kind = \"p-pi\" has one";
+                return Err(self.refuse("controller.integral_gain", format!("{text:?}"), allowed));
+            }
+            ("p-pi", None) => {
+                let allowed = "p-pi needs integral_gain, such as \"2e5 N/m\"";
+                return Err(self.refuse("controller.kind", "\"p-pi\"".into(), allowed));
+            }
+            (other, _) => {
+                let allowed = "p-p (P position, P speed) or p-pi (P position, PI speed)";
+                return Err(self.refuse("controller.kind", format!("{other:?}"), allowed));
+            }
+        };
+        let share = raw.velocity_feedforward.unwrap_or(0.0);
+        if !(0.0..=1.0).contains(&share) {
+            let allowed = "a number from 0 (none) to 1 (the whole reference speed)";
+            return Err(self.refuse(
+                "controller.velocity_feedforward",
+                share.to_string(),
+                allowed,
+            ));
+        }
+        let optional = |key: &str, text: &Option<String>| {
+            text.as_ref().map(|text| self.gain(key, text)).transpose()
+        };
+        axis.controller = Some(ControllerValues {
+            position_gain: self.positive(
+                "controller.position_gain",
+                &raw.position_gain,
+                &[Dimension::FREQUENCY],
+            )?,
+            speed_gain: self.gain("controller.speed_gain", &raw.speed_gain)?,
+            integral_gain: integral,
+            velocity_feedforward: share,
+            mass_feedforward: optional("controller.mass_feedforward", &raw.mass_feedforward)?,
+            force_limit: optional("controller.force_limit", &raw.force_limit)?,
+            rate: match &raw.rate {
+                Some(text) => {
+                    Some(self.positive("controller.rate", text, &[Dimension::FREQUENCY])?)
+                }
+                None => None,
+            },
+        });
+        Ok(())
+    }
+
+    /// A value above 0 whose unit can be judged only with the log.
+    fn gain(&self, key: &str, text: &str) -> Result<Gain, Error> {
+        let value = Value::parse(text).map_err(|e| self.refuse(key, e.found, &e.allowed))?;
+        if value.number <= 0.0 {
+            return Err(self.refuse(key, format!("{text:?}"), "a finite value above 0"));
+        }
+        Ok(Gain {
+            place: self.place(key),
+            value,
+        })
     }
 
     fn value(&self, key: &str, text: &str, dimensions: &[Dimension]) -> Result<f64, Error> {

@@ -11,6 +11,7 @@ struct Words {
     count: &'static str,
     travel: &'static str,
     limit: &'static str,
+    speed_gain: &'static str,
 }
 
 const LINEAR: Words = Words {
@@ -20,6 +21,7 @@ const LINEAR: Words = Words {
     count: "50 nm",
     travel: "24 mm",
     limit: "100 N",
+    speed_gain: "2500 N s/m",
 };
 const ROTARY: Words = Words {
     length: "deg",
@@ -28,6 +30,7 @@ const ROTARY: Words = Words {
     count: "0.001 deg",
     travel: "360 deg",
     limit: "10 N*m",
+    speed_gain: "0.5 N m s/rad",
 };
 
 /// Text of an axis file for a table: detected columns filled in, or why they could not be; everything
@@ -118,6 +121,7 @@ pub fn template(table: &Table, detected: Result<&Mapping, &str>) -> String {
         count,
         travel,
         limit,
+        speed_gain,
         ..
     } = words;
     let _ = write!(
@@ -137,7 +141,12 @@ pub fn template(table: &Table, detected: Result<&Mapping, &str>) -> String {
          # cogging = [\"{travel}\"]    # pitch of each cogging wave\n\
          # coulomb_load = true      # friction that changes with the load column\n\n\
          [report]\n\
-         # low_speed = \"1 {length}/s\"   # what counts as near zero speed\n"
+         # low_speed = \"1 {length}/s\"   # what counts as near zero speed\n\n\
+         # For --method output-error, where the control law is known; else leave it out.\n\
+         # [controller]\n\
+         # kind = \"p-p\"            # or \"p-pi\", with integral_gain\n\
+         # position_gain = \"60 1/s\"\n\
+         # speed_gain = \"{speed_gain}\"\n"
     );
     out
 }

@@ -93,6 +93,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         fit: fit_entry(&estimate.fit),
         low_speed: estimate.low_speed.as_ref().map(low_entry),
         validation,
+        simulation: None,
         laws: parts.laws,
         static_map: None,
         static_then_dynamic: None,

@@ -24,9 +24,11 @@ use stiction_log::Motion;
 /// How the parameters are found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
-    /// All at once, by separable least squares.
+    /// All at once, motion in and force out, by separable least squares.
     #[default]
     Separable,
+    /// Force in, position out: the axis is simulated and its position fitted.
+    OutputError,
     /// The static map, from constant velocities.
     Static,
     /// The static map first, then sigma0 and sigma1 with it held.
@@ -36,10 +38,25 @@ pub enum Method {
 }
 
 impl Method {
+    /// All of them.
+    pub const ALL: [Method; 5] = [
+        Method::Separable,
+        Method::OutputError,
+        Method::Static,
+        Method::StaticThenDynamic,
+        Method::PreslidingStep,
+    ];
+
+    /// The method of this name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|method| method.name() == name)
+    }
+
     /// Name as typed and as written to files.
     pub fn name(self) -> &'static str {
         match self {
             Method::Separable => "separable",
+            Method::OutputError => "output-error",
             Method::Static => "static",
             Method::StaticThenDynamic => "static-then-dynamic",
             Method::PreslidingStep => "presliding-step",
@@ -48,7 +65,10 @@ impl Method {
 
     /// Whether a law is fitted to the whole record, sample by sample.
     pub(super) fn fits_records(self) -> bool {
-        matches!(self, Method::Separable | Method::StaticThenDynamic)
+        matches!(
+            self,
+            Method::Separable | Method::StaticThenDynamic | Method::OutputError
+        )
     }
 }
 

@@ -4,7 +4,7 @@ use crate::error::Warning;
 use crate::result::{LawEntry, Trust};
 use crate::source::Source;
 use crate::symbols;
-use stiction_identify::{Estimate, Record, Status};
+use stiction_identify::{Estimate, Status};
 use stiction_log::Motion;
 
 /// Part of the variance that a fit must explain.
@@ -28,7 +28,7 @@ const AT_REST: f64 = 0.05;
 /// Adds warnings about the fit and says whether its numbers may be used.
 pub(super) fn judge(
     estimate: &Estimate,
-    record: &Record,
+    moves_both_ways: bool,
     sources: &[Source],
     laws: &[LawEntry],
     motion: Motion,
@@ -61,7 +61,7 @@ pub(super) fn judge(
         warnings.push(Warning::new("poor-fit", text.clone()));
         reasons.push(text);
     }
-    if !record.moves_both_ways() {
+    if !moves_both_ways {
         let text = "the axis moves in one direction only: friction cannot be told from a constant \
                     force";
         if !warnings.iter().any(|w| w.code == "one-direction") {

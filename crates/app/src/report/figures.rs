@@ -19,18 +19,18 @@ fn signal_name(outcome: &Outcome) -> String {
     out
 }
 
-fn force_axis(outcome: &Outcome) -> Axis {
+pub(super) fn force_axis(outcome: &Outcome) -> Axis {
     Axis::new(signal_name(outcome), outcome.force_unit.as_str())
 }
 
-fn friction_axis(outcome: &Outcome) -> Axis {
+pub(super) fn friction_axis(outcome: &Outcome) -> Axis {
     Axis::new(
         format!("Friction {}", outcome.result.fit.signal),
         outcome.force_unit.as_str(),
     )
 }
 
-fn velocity_axis(outcome: &Outcome) -> Axis {
+pub(super) fn velocity_axis(outcome: &Outcome) -> Axis {
     Axis::new("Velocity", symbols::speed_unit(outcome.motion))
 }
 
@@ -44,7 +44,7 @@ fn friction(values: &[f64], series: &Series) -> Vec<f64> {
 }
 
 /// Where a line must not be drawn on: samples were left out before this one, or a log begins.
-fn breaks(series: &Series) -> Vec<bool> {
+pub(super) fn breaks(series: &Series) -> Vec<bool> {
     let n = series.time.len();
     let mut steps: Vec<f64> = series.time.windows(2).map(|t| t[1] - t[0]).collect();
     let usual = if steps.is_empty() {
@@ -63,7 +63,7 @@ fn breaks(series: &Series) -> Vec<bool> {
 }
 
 /// A channel with a hole before each break.
-fn broken(values: &[f64], breaks: &[bool]) -> Vec<f64> {
+pub(super) fn broken(values: &[f64], breaks: &[bool]) -> Vec<f64> {
     let mut out = Vec::with_capacity(values.len() + 16);
     for (x, &hole) in values.iter().zip(breaks) {
         if hole {
@@ -78,12 +78,7 @@ fn broken(values: &[f64], breaks: &[bool]) -> Vec<f64> {
 pub(super) fn velocity_map(outcome: &Outcome) -> Figure {
     let series = &outcome.estimate.series;
     let holes = breaks(series);
-    let top = series.velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    let v: Vec<f64> = grid(top);
-    let curve: Vec<f64> = v.iter().map(|&v| steady(outcome, v)).collect();
-    let band: Vec<f64> = v.iter().map(|&v| 1.96 * steady_std(outcome, v)).collect();
-    let low: Vec<f64> = curve.iter().zip(&band).map(|(f, b)| f - b).collect();
-    let high: Vec<f64> = curve.iter().zip(&band).map(|(f, b)| f + b).collect();
+    let [band, curve] = steady_layers(outcome, &series.velocity);
     let panel = Panel::new(velocity_axis(outcome), friction_axis(outcome))
         .layer(
             Layer::points(series.velocity.clone(), friction(&series.measured, series))
@@ -100,22 +95,32 @@ pub(super) fn velocity_map(outcome: &Outcome) -> Figure {
             .opacity(0.7)
             .label("Model along the log"),
         )
-        .layer(
-            Layer::band(v.clone(), low, high)
-                .color(Color::Vermilion)
-                .label("95 % band"),
-        )
-        .layer(
-            Layer::line(v, curve)
-                .color(Color::Vermilion)
-                .width(2.0)
-                .label("Steady curve"),
-        )
+        .layer(band)
+        .layer(curve)
         .height(320.0);
     Figure::new("Friction over velocity").panel(panel).caption(
         "The steady curve is what the law gives at constant velocity; the model along the log also \
          shows presliding and lag around reversals.",
     )
+}
+
+/// The steady curve with its band, over the speeds of a log.
+pub(super) fn steady_layers(outcome: &Outcome, velocity: &[f64]) -> [Layer; 2] {
+    let top = velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let v: Vec<f64> = grid(top);
+    let curve: Vec<f64> = v.iter().map(|&v| steady(outcome, v)).collect();
+    let band: Vec<f64> = v.iter().map(|&v| 1.96 * steady_std(outcome, v)).collect();
+    let low: Vec<f64> = curve.iter().zip(&band).map(|(f, b)| f - b).collect();
+    let high: Vec<f64> = curve.iter().zip(&band).map(|(f, b)| f + b).collect();
+    [
+        Layer::band(v.clone(), low, high)
+            .color(Color::Vermilion)
+            .label("95 % band"),
+        Layer::line(v, curve)
+            .color(Color::Vermilion)
+            .width(2.0)
+            .label("Steady curve"),
+    ]
 }
 
 /// Points dense near zero speed, none at it.
@@ -342,7 +347,7 @@ fn in_time(outcome: &Outcome, series: &Series, title: &str) -> Figure {
 }
 
 /// One time axis through all logs: each starts where the one before ended.
-fn clock(series: &Series) -> Vec<f64> {
+pub(super) fn clock(series: &Series) -> Vec<f64> {
     let mut shift = 0.0;
     let mut out: Vec<f64> = Vec::with_capacity(series.time.len());
     for i in 0..series.time.len() {

@@ -109,7 +109,13 @@ pub(super) fn truth(outcome: &Outcome) -> Table {
 
 /// Fits on data that were not fitted.
 pub(super) fn validation(outcome: &Outcome) -> Table {
-    let unit = &outcome.force_unit;
+    let unit = &outcome.result.fit.unit;
+    let caption = match &outcome.simulation {
+        None => "The identified law on data it was not fitted to; nothing is fitted again.",
+        Some(_) => {
+            "The identified law on data it was not fitted to; only where each run starts is fitted."
+        }
+    };
     let mut table = Table::new([
         ("Data".to_string(), Align::Left),
         ("Samples".into(), Align::Right),
@@ -117,7 +123,7 @@ pub(super) fn validation(outcome: &Outcome) -> Table {
         ("Relative error".into(), Align::Right),
         ("Near zero speed".into(), Align::Right),
     ])
-    .caption("The identified law on data it was not fitted to; nothing is fitted again.");
+    .caption(caption);
     for v in &outcome.result.validation {
         table = table.row([
             v.path.clone(),

@@ -1,5 +1,4 @@
 //! Logs made on the spot, each in its own folder.
-
 #![allow(dead_code)]
 
 use std::fmt::Write;

@@ -1,7 +1,7 @@
 //! Identifies a measured recording as its case says and measures what must hold.
 
 use std::path::Path;
-use stiction_app::{LawKind, Options, Outcome, Silent, identify};
+use stiction_app::{LawKind, Method, Options, Outcome, Procedures, Silent, identify};
 use stiction_testkit::{Case, Limit, Metric, workspace};
 
 /// A limit with what was measured.
@@ -32,7 +32,10 @@ fn with_law(case: &Case, data: &Path, law: &str) -> Outcome {
         split: case.split,
         seed: 0,
         compare_laws: false,
-        procedures: stiction_app::Procedures::default(),
+        procedures: Procedures {
+            method: Method::from_name(case.method).expect("a method of the cases exists"),
+            ..Procedures::default()
+        },
     };
     identify(&options, &mut Silent).unwrap_or_else(|e| panic!("{}: {e}", case.name))
 }
@@ -61,6 +64,29 @@ pub fn measure(case: &Case, limit: &Limit, outcome: &Outcome, data: &Path) -> Me
         Metric::HeldOutRms => (
             format!("residual on unseen data ({unit} rms)"),
             held_out.expect("validation").fit.rmse,
+        ),
+        Metric::PositionPercent => {
+            let simulation = result.simulation.as_ref().expect("a simulation");
+            let position = &simulation.position;
+            (
+                format!(
+                    "position error ({:.3e} {} rms), %",
+                    position.rmse, position.unit
+                ),
+                position.relative_error_percent,
+            )
+        }
+        Metric::ForcePercent => {
+            let simulation = result.simulation.as_ref().expect("a simulation");
+            let force = simulation.force.as_ref().expect("a closed loop");
+            (
+                format!("force error ({:.3} {} rms), %", force.rmse, force.unit),
+                force.relative_error_percent,
+            )
+        }
+        Metric::UnseenPosition => (
+            format!("position residual on unseen runs, the largest ({unit} rms)"),
+            result.validation.iter().fold(0.0, |m, v| v.fit.rmse.max(m)),
         ),
         Metric::LowSpeedOver(law) => {
             let other = with_law(case, data, law);

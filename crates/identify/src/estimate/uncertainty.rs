@@ -105,13 +105,31 @@ pub(crate) fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) 
     });
     let bread = inverse(gram);
     let scores = influence(jacobian, residual, &scale, &bread);
-    let long_run = long_run_covariance(&scores, breaks);
     let variance = crate::separable::linear::dot(residual, residual) / (n - q) as f64;
     let correction = n as f64 / (n - q) as f64;
+    let mut out = of_influence(&scores, breaks, correction, &(&bread * variance));
+    for i in 0..q {
+        for j in 0..q {
+            out[(i, j)] *= scale[i] * scale[j];
+        }
+    }
+    out
+}
+
+/// Long-run covariance of the influence `B J_t r_t` of each sample, one series for each unknown, times
+/// `correction`; never below `white`, what white residuals would give.
+pub(crate) fn of_influence(
+    influence: &[Vec<f64>],
+    breaks: &[usize],
+    correction: f64,
+    white: &DMatrix<f64>,
+) -> DMatrix<f64> {
+    let q = influence.len();
+    let long_run = long_run_covariance(influence, breaks);
     // Never below what white residuals would give.
     let widen: Vec<f64> = (0..q)
         .map(|i| {
-            let white = variance * bread[(i, i)];
+            let white = white[(i, i)];
             let hac = correction * long_run[(i, i)];
             if hac > 0.0 {
                 (white / hac).max(1.0).sqrt()
@@ -121,18 +139,17 @@ pub(crate) fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) 
         })
         .collect();
     DMatrix::from_fn(q, q, |i, j| {
-        let x = if widen[i] == 0.0 || widen[j] == 0.0 {
-            variance * bread[(i, j)]
+        if widen[i] == 0.0 || widen[j] == 0.0 {
+            white[(i, j)]
         } else {
             correction * long_run[(i, j)] * widen[i] * widen[j]
-        };
-        x * scale[i] * scale[j]
+        }
     })
 }
 
 /// Inverse of a scaled symmetric matrix in which directions that rounding has lost stay huge: they
 /// must come out as unknown, not as zero.
-fn inverse(matrix: DMatrix<f64>) -> DMatrix<f64> {
+pub(crate) fn inverse(matrix: DMatrix<f64>) -> DMatrix<f64> {
     let q = matrix.nrows();
     let eigen = SymmetricEigen::new(matrix);
     let most = eigen.eigenvalues.iter().fold(0.0_f64, |m, x| m.max(*x));

@@ -88,6 +88,7 @@ pub(super) fn run(
     Ok(Outcome {
         result,
         estimate,
+        simulation: None,
         validation: Vec::new(),
         sources,
         motion,

@@ -1,0 +1,104 @@
+//! The known controller of an axis: as typed, then in the units of the log.
+
+use super::Axis;
+use crate::error::Error;
+use stiction_identify::Controller;
+use stiction_log::{Dimension, Log, Unit, Value};
+
+/// A gain with the place where it stands; its unit must suit the force of the log.
+#[derive(Clone, Debug)]
+pub(super) struct Gain {
+    /// Line and key, as errors begin.
+    pub place: String,
+    /// The value as typed.
+    pub value: Value,
+}
+
+/// `[controller]`, checked as far as that goes without a log.
+#[derive(Clone, Debug)]
+pub(super) struct ControllerValues {
+    /// 1/s.
+    pub position_gain: f64,
+    pub speed_gain: Gain,
+    pub integral_gain: Option<Gain>,
+    pub velocity_feedforward: f64,
+    pub mass_feedforward: Option<Gain>,
+    pub force_limit: Option<Gain>,
+    /// Hz.
+    pub rate: Option<f64>,
+}
+
+impl Axis {
+    /// The controller in the units of a log: gains in the unit of its force after scaling.
+    ///
+    /// A gain in the unit that the force has in the file (volts, amperes) is taken through the scale of
+    /// the force column, as the force is.
+    ///
+    /// # Errors
+    /// Where a unit fits neither.
+    pub fn controller_for(&self, log: &Log) -> Result<Option<Controller>, Error> {
+        let Some(values) = &self.controller else {
+            return Ok(None);
+        };
+        let force = Unit::parse(&log.force_unit).map_or(Dimension::ONE, |u| u.dimension());
+        let convert = |gain: &Gain, below: Dimension| self.gain(gain, log, force, below);
+        let optional = |gain: &Option<Gain>, below| match gain {
+            Some(gain) => convert(gain, below),
+            None => Ok(0.0),
+        };
+        let (length, speed) = (log.motion.position(), log.motion.velocity());
+        let acceleration = speed.per(Dimension::TIME).unwrap_or(speed);
+        Ok(Some(Controller {
+            position_gain: values.position_gain,
+            speed_gain: convert(&values.speed_gain, speed)?,
+            integral_gain: optional(&values.integral_gain, length)?,
+            velocity_feedforward: values.velocity_feedforward,
+            mass_feedforward: optional(&values.mass_feedforward, acceleration)?,
+            force_limit: match &values.force_limit {
+                Some(gain) => convert(gain, Dimension::ONE)?,
+                None => f64::INFINITY,
+            },
+            rate: values.rate,
+        }))
+    }
+
+    /// A gain in units of force over `below`.
+    fn gain(
+        &self,
+        gain: &Gain,
+        log: &Log,
+        force: Dimension,
+        below: Dimension,
+    ) -> Result<f64, Error> {
+        let Some(wanted) = force.per(below) else {
+            return Ok(gain.value.si());
+        };
+        let found = gain.value.unit.dimension();
+        // kg is N s2/m, but kg m2 is not N m s2/rad: the radian counts.
+        let inertia = found == Dimension::INERTIA && wanted.times(Dimension::ANGLE) == Some(found);
+        if found == wanted || inertia {
+            return Ok(gain.value.si());
+        }
+        let channel = log.mapping.force.as_ref();
+        if let Some(scale) = channel.and_then(|c| c.scale.as_ref())
+            && scale.unit.dimension().times(found) == Some(wanted)
+        {
+            return Ok(scale.si().abs() * gain.value.si());
+        }
+        let raw = channel.and_then(|c| {
+            let scale = c.scale.as_ref()?.unit.dimension();
+            wanted.per(scale)
+        });
+        let other = raw.map_or(String::new(), |raw| {
+            format!(
+                ", or in {}, the unit of the log before scaling",
+                raw.si_text()
+            )
+        });
+        Err(self.misfit(
+            &gain.place,
+            &format!("\"{}\"", gain.value),
+            format!("give it in {}{other}", wanted.si_text()),
+        ))
+    }
+}

@@ -1,0 +1,508 @@
+//! What a fit by simulation gives: parameters with their intervals, signals, and how far off it is.
+
+use crate::error::Error;
+use crate::estimate::uncertainty::{self, Covariance};
+use crate::estimate::{Estimate, Parameter, Series, given, judge};
+use crate::fit::Fit;
+use crate::law::Law;
+use crate::law::physical::{self, Dimension, Physical};
+use crate::law::terms::{Mass, Terms};
+use crate::observe::{Counts, Silent, Stage};
+use crate::output_error::controller::Controller;
+use crate::output_error::descent::{Bounds, Descent, descend};
+use crate::output_error::plant::{Axis, Side, State};
+use crate::output_error::problem::{Point, Problem};
+use crate::output_error::run::{self, Hold, Recording};
+use crate::output_error::simulate::{Drive, simulate, simulate_with_slopes};
+use crate::output_error::start::rest;
+use crate::output_error::unknowns::{Layout, Unknown};
+use crate::output_error::{Found, Search};
+use crate::separable::levenberg::Watch;
+use nalgebra::DMatrix;
+
+/// Measured and simulated signals at the samples that count.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Signals {
+    /// Which log each sample comes from, counted from 0.
+    pub log: Vec<usize>,
+    /// Time, s.
+    pub time: Vec<f64>,
+    /// Measured position, m or rad.
+    pub position: Vec<f64>,
+    /// Simulated position, m or rad.
+    pub simulated: Vec<f64>,
+    /// Simulated velocity, m/s or rad/s.
+    pub velocity: Vec<f64>,
+    /// Simulated friction, in the unit of the force.
+    pub friction: Vec<f64>,
+    /// Logged force.
+    pub force: Vec<f64>,
+    /// Force of the simulated controller; empty in open loop.
+    pub simulated_force: Vec<f64>,
+}
+
+impl Signals {
+    /// Size of the position error; `None` for a position that is zero throughout.
+    pub fn position_fit(&self) -> Option<Fit> {
+        Fit::new(&self.position, &less(&self.position, &self.simulated))
+    }
+
+    /// Size of the force error, in closed loop.
+    pub fn force_fit(&self) -> Option<Fit> {
+        if self.simulated_force.is_empty() {
+            return None;
+        }
+        Fit::new(&self.force, &less(&self.force, &self.simulated_force))
+    }
+}
+
+fn less(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+/// A law fitted by simulation.
+#[derive(Clone, Debug)]
+pub struct SimulationFit {
+    /// Parameters, covariance and search; its signal is the position.
+    pub estimate: Estimate,
+    /// Position, velocity and force, measured and simulated.
+    pub signals: Signals,
+    /// Position error.
+    pub position: Fit,
+    /// Force error; `None` in open loop, where the force is what drives the simulation.
+    pub force: Option<Fit>,
+    /// Stretches that were simulated, each from its own start.
+    pub runs: usize,
+    /// Plant steps in one control period (in open loop: in one sample).
+    pub substeps: usize,
+    /// Rms residual that one encoder count alone would leave, m or rad, where it is known.
+    pub floor: Option<f64>,
+    axis: Axis,
+    controller: Option<Controller>,
+    hold: Hold,
+    segment: Option<f64>,
+    weights: [f64; 2],
+}
+
+impl SimulationFit {
+    /// Whether a controller was simulated too.
+    pub fn is_closed_loop(&self) -> bool {
+        self.controller.is_some()
+    }
+}
+
+/// An unseen recording under a fitted law.
+#[derive(Clone, Debug)]
+pub struct Unseen {
+    /// Position, velocity and force, measured and simulated.
+    pub signals: Signals,
+    /// Position error.
+    pub position: Fit,
+    /// Force error, in closed loop.
+    pub force: Option<Fit>,
+}
+
+/// Simulates recordings that were not fitted. Only where each run starts is fitted to them: position,
+/// velocity and bristle deflection (and a controller's integral) cannot be known beforehand.
+///
+/// # Errors
+/// As [`output_error`](crate::output_error()).
+pub fn simulate_unseen(recordings: &[Recording], fitted: &SimulationFit) -> Result<Unseen, Error> {
+    let runs = run::runs(recordings, fitted.controller.as_ref(), fitted.segment)?;
+    if runs.is_empty() {
+        let total = recordings.iter().map(|r| r.samples.time.len()).sum();
+        return Err(Error::TooFewSamples {
+            found: 0,
+            needed: 10,
+            dropped: total,
+            total,
+        });
+    }
+    let problem = Problem {
+        runs: &runs,
+        layout: Layout {
+            unknowns: Vec::new(),
+            waves: Vec::new(),
+        },
+        base: fitted.axis.clone(),
+        drive: Drive {
+            controller: fitted.controller.as_ref(),
+            hold: fitted.hold,
+            substeps: fitted.substeps,
+        },
+        weights: fitted.weights,
+    };
+    let nothing = Bounds {
+        low: Vec::new(),
+        high: Vec::new(),
+    };
+    let at = Point {
+        q: Vec::new(),
+        starts: rest(&runs, fitted.controller.as_ref()),
+    };
+    let mut watch = Watch {
+        observer: &mut Silent,
+        stage: Stage::Fine,
+        fraction: 0.0,
+        counts: Counts::default(),
+        best: f64::INFINITY,
+        stopped: false,
+    };
+    let found = descend(&problem, &nothing, at, 60, &mut watch);
+    let signals = signals(&problem, &found.at);
+    let position = signals
+        .position_fit()
+        .unwrap_or_else(|| boundless(&signals));
+    Ok(Unseen {
+        force: signals.force_fit(),
+        position,
+        signals,
+    })
+}
+
+/// The search refuses what does not move; what is left is a residual too large to square.
+fn boundless(signals: &Signals) -> Fit {
+    Fit {
+        rmse: f64::MAX,
+        relative_error_percent: f64::MAX,
+        r2: f64::NAN,
+        samples: signals.position.len(),
+        effective_samples: 1.0,
+    }
+}
+
+/// Puts together what a search found.
+pub(crate) fn describe(
+    search: &Search,
+    found: Found,
+    law: Law,
+    terms: &Terms,
+    counts: Counts,
+) -> SimulationFit {
+    let problem = search.problem(&found.base, found.substeps, found.weights);
+    let Descent {
+        at,
+        status,
+        iterations,
+        history,
+        ..
+    } = found.descent;
+    let axis = problem.layout.write(&problem.base, &at.q);
+    let signals = signals(&problem, &at);
+    let position = signals
+        .position_fit()
+        .unwrap_or_else(|| boundless(&signals));
+    let held: Vec<bool> = problem
+        .layout
+        .unknowns
+        .iter()
+        .zip(&at.q)
+        .map(|(unknown, x)| matches!(unknown, Unknown::Viscous(_)) && *x <= 0.0)
+        .collect();
+    let (unknowns, without) = covariance(&problem, &at, &held);
+    let raw = parameters(&problem.layout, &axis, &at.q);
+    let matrix = physical::propagate(&raw, &unknowns);
+    let level = axis.sides[0].coulomb.max(axis.sides[1].coulomb);
+    let mut parameters: Vec<Parameter> = raw
+        .iter()
+        .enumerate()
+        .map(|(i, p)| {
+            let place = p.nonlinear.filter(|&k| k < at.q.len());
+            let reason = match place {
+                Some(k) if held[k] => "held at zero: the data ask for a negative value".into(),
+                Some(k) if without[k] => "has no effect on this motion".into(),
+                Some(k) if found.bounds.is_at(k, at.q[k]) => {
+                    "stands at the bound of its search range".into()
+                }
+                _ => String::new(),
+            };
+            judge(p, matrix[(i, i)], reason, level)
+        })
+        .collect();
+    insert_given(&mut parameters, &law, terms);
+    let names: Vec<String> = raw.iter().map(|p| p.name.clone()).collect();
+    let covariance = Covariance {
+        matrix: (0..names.len())
+            .map(|i| (0..names.len()).map(|j| matrix[(i, j)]).collect())
+            .collect(),
+        names,
+    };
+    let top = signals.velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let estimate = Estimate {
+        law,
+        terms: terms.clone(),
+        parameters,
+        covariance,
+        fit: position,
+        low_speed: None,
+        low_speed_bound: 0.02 * top,
+        series: Series {
+            log: signals.log.clone(),
+            time: signals.time.clone(),
+            position: signals.position.clone(),
+            velocity: signals.velocity.clone(),
+            measured: signals.position.clone(),
+            model: signals.simulated.clone(),
+            other: vec![0.0; signals.time.len()],
+        },
+        status,
+        counts,
+        iterations,
+        history,
+        step: 0.0,
+        p: Vec::new(),
+        coefficients: Vec::new(),
+    };
+    SimulationFit {
+        estimate,
+        position,
+        force: signals.force_fit(),
+        signals,
+        runs: search.runs.len(),
+        substeps: found.substeps,
+        floor: search.simulation.quantum.map(|q| q / libm::sqrt(12.0)),
+        axis,
+        controller: search.simulation.controller,
+        hold: search.simulation.hold,
+        segment: search.simulation.segment,
+        weights: found.weights,
+    }
+}
+
+fn signals(problem: &Problem, at: &Point) -> Signals {
+    let axis = problem.layout.write(&problem.base, &at.q);
+    let closed = problem.drive.controller.is_some();
+    let mut out = Signals::default();
+    for (run, initial) in problem.runs.iter().zip(&at.starts) {
+        simulate(&axis, &problem.drive, run, initial, |k, state, force| {
+            if !run.keep[k] {
+                return;
+            }
+            out.log.push(run.log);
+            out.time.push(run.time[k]);
+            out.position.push(run.position[k]);
+            out.simulated.push(state.x);
+            out.velocity.push(state.v);
+            out.friction.push(friction(&axis, state));
+            out.force.push(run.force[k]);
+            if closed {
+                out.simulated_force.push(force);
+            }
+        });
+    }
+    out
+}
+
+/// Friction at an instant, without offset and position-dependent parts.
+fn friction(axis: &Axis, state: &State) -> f64 {
+    let curve = &axis.sides[usize::from(state.v < 0.0)];
+    let speed = state.v.abs();
+    let fall = libm::exp(-libm::pow(speed / curve.velocity, axis.exponent));
+    let level = curve.coulomb + (curve.fixed - curve.coulomb) * fall;
+    let rate = state.v - speed * axis.stiffness * state.z / level;
+    axis.stiffness * state.z + axis.micro_damping * rate + curve.viscous * state.v
+}
+
+/// Covariance of the shared unknowns with the starts of the runs unknown too, and which of them have no
+/// effect at all.
+///
+/// The influence of a sample on an unknown is summed over its channels, so that position and force of one
+/// instant, which err together, are not counted as two.
+fn covariance(problem: &Problem, at: &Point, held: &[bool]) -> (DMatrix<f64>, Vec<bool>) {
+    let count = problem.layout.len();
+    let equations = problem.equations(at);
+    let (matrix, _) = equations.reduced(0.0);
+    let without: Vec<bool> = (0..count)
+        .map(|i| equations.shared[(i, i)] <= 0.0)
+        .collect();
+    let free: Vec<usize> = (0..count).filter(|&i| !held[i] && !without[i]).collect();
+    let q = free.len();
+    let mut out = DMatrix::zeros(count, count);
+    let scale: Vec<f64> = free
+        .iter()
+        .map(|&i| 1.0 / equations.shared[(i, i)].sqrt())
+        .collect();
+    let scaled = DMatrix::from_fn(q, q, |a, b| {
+        matrix[(free[a], free[b])] * scale[a] * scale[b]
+    });
+    if q == 0 || scaled.iter().any(|x| !x.is_finite()) {
+        out.fill(f64::INFINITY);
+        return (out, without);
+    }
+    let bread = uncertainty::inverse(scaled);
+
+    let axis = problem.layout.write(&problem.base, &at.q);
+    let mut influence: Vec<Vec<f64>> = vec![Vec::new(); q];
+    let mut breaks = Vec::new();
+    let mut samples = 0;
+    for ((run, initial), part) in problem.runs.iter().zip(&at.starts).zip(&equations.runs) {
+        if samples > 0 {
+            breaks.push(samples);
+        }
+        // What is left of a shared unknown once the start of its run has followed it.
+        let own = &part.mixed * part.inverse(0.0);
+        simulate_with_slopes(
+            &axis,
+            &problem.layout,
+            &problem.drive,
+            run,
+            initial,
+            |k, now| {
+                if !run.keep[k] {
+                    return;
+                }
+                samples += 1;
+                let mut score = vec![0.0; q];
+                let mut add = |weight: f64, residual: f64, slopes: &[f64]| {
+                    for (s, &i) in score.iter_mut().zip(&free) {
+                        let mut slope = slopes[i];
+                        for (a, local) in slopes[count..].iter().enumerate() {
+                            slope -= own[(i, a)] * local;
+                        }
+                        *s += weight * weight * slope * residual;
+                    }
+                };
+                add(
+                    problem.weights[0],
+                    run.position[k] - now.state.x,
+                    now.position_slopes,
+                );
+                if problem.drive.controller.is_some() {
+                    add(
+                        problem.weights[1],
+                        run.force[k] - now.force,
+                        now.force_slopes,
+                    );
+                }
+                for (a, series) in influence.iter_mut().enumerate() {
+                    series.push((0..q).map(|b| bread[(a, b)] * scale[b] * score[b]).sum());
+                }
+            },
+        );
+    }
+    let channels = if problem.drive.controller.is_some() {
+        2
+    } else {
+        1
+    };
+    let spent = q + problem.runs.len() * problem.drive.locals();
+    let (n, spent) = (samples as f64, spent as f64 / f64::from(channels));
+    if n <= spent + 1.0 {
+        out.fill(f64::INFINITY);
+        return (out, without);
+    }
+    let variance = equations.cost / (f64::from(channels) * (n - spent));
+    let small =
+        uncertainty::of_influence(&influence, &breaks, n / (n - spent), &(&bread * variance));
+    for (a, &i) in free.iter().enumerate() {
+        for (b, &j) in free.iter().enumerate() {
+            out[(i, j)] = small[(a, b)] * scale[a] * scale[b];
+        }
+    }
+    (out, without)
+}
+
+/// The parameters of the law as functions of the shared unknowns.
+fn parameters(layout: &Layout, axis: &Axis, q: &[f64]) -> Vec<Physical> {
+    let mut out = Vec::new();
+    for (k, (unknown, &x)) in layout.unknowns.iter().zip(q).enumerate() {
+        let mut slope = vec![0.0; q.len()];
+        let (name, dimension, value, positive) = match *unknown {
+            Unknown::Stiffness => {
+                slope[k] = axis.stiffness;
+                ("sigma0".into(), Dimension::Stiffness, axis.stiffness, true)
+            }
+            Unknown::MicroDamping => {
+                slope[k] = axis.micro_damping;
+                (
+                    "sigma1".into(),
+                    Dimension::Damping,
+                    axis.micro_damping,
+                    true,
+                )
+            }
+            Unknown::Viscous(side) => {
+                slope[k] = 1.0;
+                (named("sigma2", side), Dimension::Damping, x, true)
+            }
+            Unknown::Coulomb(side) => {
+                let level = axis.sides[side.index()].coulomb;
+                slope[k] = level;
+                (named("coulomb", side), Dimension::Force, level, true)
+            }
+            Unknown::Excess(side) => {
+                let curve = &axis.sides[side.index()];
+                slope[k] = curve.fixed - curve.coulomb;
+                if let Some(level) = layout.place(Unknown::Coulomb(side)) {
+                    slope[level] = curve.fixed;
+                }
+                (named("static", side), Dimension::Force, curve.fixed, true)
+            }
+            Unknown::Velocity(side) => {
+                let velocity = axis.sides[side.index()].velocity;
+                slope[k] = velocity;
+                (
+                    named("stribeck_velocity", side),
+                    Dimension::Speed,
+                    velocity,
+                    true,
+                )
+            }
+            Unknown::Mass => {
+                slope[k] = axis.mass;
+                ("mass".into(), Dimension::Inertia, axis.mass, true)
+            }
+            Unknown::Offset => {
+                slope[k] = 1.0;
+                ("offset".into(), Dimension::Force, x, false)
+            }
+            Unknown::Wave(i) => {
+                slope[k] = 1.0;
+                let name = layout.waves.get(i).map_or(String::new(), |w| w.1.clone());
+                (name, Dimension::Force, x, false)
+            }
+        };
+        out.push(Physical {
+            name,
+            dimension,
+            value,
+            slope,
+            nonlinear: Some(k),
+            linear: None,
+            positive,
+            share: false,
+        });
+    }
+    out.sort_by_key(|parameter| physical::rank(&parameter.name));
+    out
+}
+
+fn named(stem: &str, side: Side) -> String {
+    match side {
+        Side::Both => stem.into(),
+        Side::Positive => format!("{stem}_pos"),
+        Side::Negative => format!("{stem}_neg"),
+    }
+}
+
+/// Puts what was given beside what was found, in the order of tables.
+fn insert_given(parameters: &mut Vec<Parameter>, law: &Law, terms: &Terms) {
+    if law.kind.has_stribeck() {
+        let at = parameters
+            .iter()
+            .rposition(|p| p.name.starts_with("stribeck_velocity"))
+            .map_or(parameters.len(), |i| i + 1);
+        parameters.insert(at, given("stribeck_exponent", law.exponent));
+    }
+    if let Mass::Given(mass) = terms.mass {
+        let at = parameters
+            .iter()
+            .position(|p| p.name == "offset")
+            .unwrap_or(parameters.len());
+        let mass = Parameter {
+            dimension: Dimension::Inertia,
+            ..given("mass", mass)
+        };
+        parameters.insert(at, mass);
+    }
+}

@@ -1,0 +1,227 @@
+//! What is simulated: stretches of the logs on an even grid.
+
+use crate::conditioning::grid::Grid;
+use crate::conditioning::record::Samples;
+use crate::conditioning::{median_step, stretches};
+use crate::error::Error;
+use crate::output_error::controller::{Controller, Wanted};
+
+/// How the logged force stands to the instants of the samples.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Hold {
+    /// The force of a sample holds from its instant to the next, as a drive logs its command.
+    #[default]
+    Held,
+    /// The force of a sample is the mean around its instant, as a sensor or a filtered current shows
+    /// it.
+    Centred,
+}
+
+/// One log to simulate: its samples, and the reference where a controller follows one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Recording {
+    /// Time, position, force and what is to be left out. The velocity is not used.
+    pub samples: Samples,
+    /// Position that was asked for, m or rad, one number a sample.
+    pub reference: Option<Vec<f64>>,
+}
+
+/// A stretch that is simulated from one free initial state.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Run {
+    /// Which log it comes from, counted from 0.
+    pub log: usize,
+    /// Sample time, s.
+    pub step: f64,
+    pub time: Vec<f64>,
+    pub position: Vec<f64>,
+    pub force: Vec<f64>,
+    /// What the controller is asked for, at every control instant; empty in open loop.
+    pub wanted: Vec<Wanted>,
+    /// Which samples count.
+    pub keep: Vec<bool>,
+}
+
+/// Most samples that are simulated: with a thousand passes that is about ten minutes.
+const MOST_SAMPLES: usize = 2_000_000;
+/// Most stretches: each has unknowns of its own.
+const MOST_RUNS: usize = 20_000;
+/// Fewest samples of a stretch.
+const LEAST: usize = 10;
+
+/// Cuts recordings into runs, of at most `segment` seconds in open loop.
+pub(crate) fn runs(
+    recordings: &[Recording],
+    controller: Option<&Controller>,
+    segment: Option<f64>,
+) -> Result<Vec<Run>, Error> {
+    let mut out = Vec::new();
+    let mut total = 0;
+    for (log, recording) in recordings.iter().enumerate() {
+        let samples = &recording.samples;
+        crate::conditioning::check(log + 1, samples)?;
+        let Some(position) = &samples.position else {
+            return Err(Error::NotSimulated {
+                log: log + 1,
+                found: "no position",
+                allowed: "a position to compare the simulated one with",
+            });
+        };
+        let reference = match (controller, &recording.reference) {
+            (None, _) => None,
+            (Some(_), Some(reference)) if reference.len() == samples.time.len() => Some(reference),
+            (Some(_), Some(reference)) => {
+                return Err(Error::Length {
+                    log: log + 1,
+                    channel: "reference",
+                    found: reference.len(),
+                    expected: samples.time.len(),
+                });
+            }
+            (Some(_), None) => {
+                return Err(Error::NotSimulated {
+                    log: log + 1,
+                    found: "a controller is given and no reference",
+                    allowed: "the reference that the controller followed",
+                });
+            }
+        };
+        if let Some(index) = reference.and_then(|r| r.iter().position(|x| !x.is_finite())) {
+            return Err(Error::NotFinite {
+                log: log + 1,
+                channel: "reference",
+                index: index + 1,
+            });
+        }
+        total += samples.time.len();
+        if total > MOST_SAMPLES {
+            return Err(Error::Setting {
+                name: "samples",
+                found: total as f64,
+                allowed: "at most 2000000 in all can be simulated; crop the log",
+            });
+        }
+        let step = median_step(&samples.time);
+        let periods = controller.map_or(Ok(1), |c| c.periods(step))?;
+        for range in stretches(samples, step) {
+            let Some(grid) = Grid::new(&samples.time[range.clone()], step) else {
+                continue;
+            };
+            let valid = match samples.valid.get(range.clone()) {
+                Some(valid) => valid,
+                None => &[],
+            };
+            let whole = Run {
+                log,
+                step,
+                time: grid.times(),
+                position: grid.resample(&position[range.clone()]),
+                force: grid.resample(&samples.force[range.clone()]),
+                wanted: reference.map_or(Vec::new(), |r| {
+                    wanted(&grid.resample(&r[range.clone()]), step, periods)
+                }),
+                keep: grid.keep(valid),
+            };
+            let length = match (controller, segment) {
+                // A controller keeps the axis where it was; its memory must not be cut.
+                (Some(_), _) | (_, None) => whole.time.len(),
+                (None, Some(s)) => (s / step).clamp(LEAST as f64, 1e9) as usize,
+            };
+            out.extend(whole.cut(length));
+            if out.len() > MOST_RUNS {
+                return Err(Error::Setting {
+                    name: "segments",
+                    found: out.len() as f64,
+                    allowed: "at most 20000; make them longer",
+                });
+            }
+        }
+    }
+    out.retain(|run| run.keep.iter().filter(|&&k| k).count() >= LEAST);
+    Ok(out)
+}
+
+/// Reference with its central differences at every control instant.
+fn wanted(reference: &[f64], step: f64, periods: usize) -> Vec<Wanted> {
+    let n = reference.len();
+    let last = n.saturating_sub(1);
+    let at = |k: usize| Wanted {
+        position: reference[k],
+        velocity: (reference[(k + 1).min(last)] - reference[k.saturating_sub(1)])
+            / (step * ((k + 1).min(last) - k.saturating_sub(1)).max(1) as f64),
+        acceleration: if k == 0 || k == last {
+            0.0
+        } else {
+            (reference[k + 1] - 2.0 * reference[k] + reference[k - 1]) / (step * step)
+        },
+    };
+    let mut out = Vec::with_capacity(n.saturating_mul(periods));
+    for k in 0..n {
+        let (a, b) = (at(k), at((k + 1).min(last)));
+        for i in 0..periods {
+            let part = i as f64 / periods as f64;
+            let mix = |a: f64, b: f64| a + part * (b - a);
+            out.push(Wanted {
+                position: mix(a.position, b.position),
+                velocity: mix(a.velocity, b.velocity),
+                acceleration: mix(a.acceleration, b.acceleration),
+            });
+        }
+    }
+    out
+}
+
+impl Run {
+    /// Pieces of `length` samples; a short rest stays with the last piece.
+    pub fn cut(self, length: usize) -> Vec<Run> {
+        let n = self.time.len();
+        if n < 2 * length {
+            return vec![self];
+        }
+        let pieces = n / length;
+        (0..pieces)
+            .map(|i| {
+                let end = if i + 1 == pieces { n } else { (i + 1) * length };
+                let range = i * length..end;
+                Run {
+                    log: self.log,
+                    step: self.step,
+                    time: self.time[range.clone()].to_vec(),
+                    position: self.position[range.clone()].to_vec(),
+                    force: self.force[range.clone()].to_vec(),
+                    wanted: Vec::new(),
+                    keep: self.keep[range].to_vec(),
+                }
+            })
+            .collect()
+    }
+
+    /// The force that drives the axis from sample `k` to the next, in open loop.
+    #[inline]
+    pub fn input(&self, k: usize, hold: Hold) -> f64 {
+        match hold {
+            Hold::Held => self.force[k],
+            Hold::Centred => {
+                let next = self.force.get(k + 1).unwrap_or(&self.force[k]);
+                0.5 * (self.force[k] + next)
+            }
+        }
+    }
+
+    /// Velocity at the start, from a line through the first samples.
+    pub fn first_velocity(&self) -> f64 {
+        let n = self.position.len().min(LEAST);
+        let mean = 0.5 * (n as f64 - 1.0);
+        let (mut above, mut below) = (0.0, 0.0);
+        for (i, x) in self.position.iter().take(n).enumerate() {
+            let t = i as f64 - mean;
+            above += t * x;
+            below += t * t;
+        }
+        if below > 0.0 {
+            above / (below * self.step)
+        } else {
+            0.0
+        }
+    }
+}

@@ -1,0 +1,270 @@
+//! Where the search starts and how far it may go, from what the runs show.
+
+use crate::estimate::Estimate;
+use crate::law::terms::{Mass, Terms};
+use crate::law::{Law, LawKind};
+use crate::output_error::controller::Controller;
+use crate::output_error::descent::Bounds;
+use crate::output_error::plant::{Axis, Curve, Wave};
+use crate::output_error::run::Run;
+use crate::output_error::simulate::Initial;
+use crate::output_error::unknowns::{Layout, Unknown};
+
+/// Sizes of what the runs show, SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Scale {
+    /// Longest way within one run.
+    pub stroke: f64,
+    /// Fastest mean speed over ten samples.
+    pub speed: f64,
+    /// Largest force either way.
+    pub force: f64,
+    /// Shortest sample time, s.
+    pub step: f64,
+    /// Longest run, s.
+    pub length: f64,
+    /// One encoder count where known, else a ten thousandth of the stroke.
+    pub count: f64,
+}
+
+impl Scale {
+    /// `None` where nothing moves, or nothing drives.
+    pub fn of(runs: &[Run], quantum: Option<f64>) -> Option<Self> {
+        let mut out = Self {
+            stroke: 0.0,
+            speed: 0.0,
+            force: 0.0,
+            step: f64::INFINITY,
+            length: 0.0,
+            count: 0.0,
+        };
+        for run in runs {
+            let (low, high) = run
+                .position
+                .iter()
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| {
+                    (l.min(x), h.max(x))
+                });
+            out.stroke = out.stroke.max(high - low);
+            out.step = out.step.min(run.step);
+            out.length = out.length.max(run.step * run.time.len() as f64);
+            for (a, b) in run.position.iter().zip(run.position.iter().skip(10)) {
+                out.speed = out.speed.max((b - a).abs() / (10.0 * run.step));
+            }
+            out.force = run.force.iter().fold(out.force, |m, f| m.max(f.abs()));
+        }
+        out.count = quantum
+            .filter(|q| *q > 0.0)
+            .unwrap_or(1e-4 * out.stroke)
+            .min(0.5 * out.stroke);
+        if out.speed == 0.0 {
+            out.speed = out.stroke / out.length;
+        }
+        let sound = |x: f64| x > 0.0 && x.is_finite();
+        (sound(out.stroke) && sound(out.speed) && sound(out.force)).then_some(out)
+    }
+}
+
+/// The axis that an earlier fit found, where it found all that this law needs.
+pub(crate) fn from_estimate(
+    found: &Estimate,
+    law: &Law,
+    terms: &Terms,
+    layout: &Layout,
+    scale: &Scale,
+) -> Option<Axis> {
+    let value = |name: &str, side: usize| {
+        let suffix = if side == 1 { "_neg" } else { "_pos" };
+        found
+            .value(name)
+            .or_else(|| found.value(&format!("{name}{suffix}")))
+            .filter(|x| x.is_finite())
+    };
+    let mut sides = [Curve {
+        coulomb: 0.0,
+        fixed: 0.0,
+        velocity: scale.speed,
+        viscous: 0.0,
+    }; 2];
+    for (i, side) in sides.iter_mut().enumerate() {
+        side.coulomb = value("coulomb", i).filter(|x| *x > 0.0)?;
+        side.fixed = side.coulomb;
+        if law.kind.has_stribeck() {
+            side.fixed = value("static", i)?.max(1.02 * side.coulomb);
+            side.velocity = value("stribeck_velocity", i).filter(|x| *x > 0.0)?;
+        }
+        side.viscous = value("sigma2", i).unwrap_or(0.0).max(0.0);
+    }
+    let mass = match terms.mass {
+        Mass::Given(mass) => mass,
+        _ => found.value("mass").filter(|m| *m > 0.0)?,
+    };
+    let mut axis = Axis {
+        stiffness: found.value("sigma0").unwrap_or(0.0),
+        micro_damping: found.value("sigma1").unwrap_or(0.0),
+        sides,
+        exponent: law.exponent,
+        mass,
+        offset: found.value("offset").unwrap_or(0.0),
+        waves: waves(layout, |name| found.value(name).unwrap_or(0.0)),
+    };
+    complete(&mut axis, law, scale);
+    Some(axis)
+}
+
+/// Axes that such runs could come from: presliding length, time constant, level and damping over the
+/// range that the runs can show.
+pub(crate) fn guesses(law: &Law, terms: &Terms, layout: &Layout, scale: &Scale) -> Vec<Axis> {
+    let mut out = Vec::new();
+    let spread = |low: f64, high: f64, n: usize| -> Vec<f64> {
+        let ratio = libm::log((high / low).max(1.0)) / (n - 1) as f64;
+        (0..n).map(|i| low * libm::exp(ratio * i as f64)).collect()
+    };
+    let lengths = if law.kind.has_bristle() {
+        spread(scale.count, 3.0 * scale.stroke, 5)
+    } else {
+        vec![scale.count]
+    };
+    let zetas: &[f64] = if law.kind == LawKind::LuGre {
+        &[0.1, 0.7]
+    } else {
+        &[0.0]
+    };
+    for level in [0.3, 0.8, 2.5].map(|x| x * scale.force) {
+        for &length in &lengths {
+            let stiffness = level / length;
+            let masses = match terms.mass {
+                Mass::Given(mass) => vec![mass],
+                _ => spread(6.0 / scale.length, 0.5 / scale.step, 4)
+                    .iter()
+                    .map(|w| stiffness / (w * w))
+                    .collect(),
+            };
+            for &mass in &masses {
+                for zeta in zetas {
+                    let excess = if law.kind.has_stribeck() { 1.3 } else { 1.0 };
+                    let side = Curve {
+                        coulomb: level,
+                        fixed: excess * level,
+                        velocity: 0.1 * scale.speed,
+                        viscous: 0.1 * scale.force / scale.speed,
+                    };
+                    let mut axis = Axis {
+                        stiffness,
+                        micro_damping: 2.0 * zeta * (stiffness * mass).sqrt(),
+                        sides: [side; 2],
+                        exponent: law.exponent,
+                        mass,
+                        offset: 0.0,
+                        waves: waves(layout, |_| 0.0),
+                    };
+                    complete(&mut axis, law, scale);
+                    out.push(axis);
+                }
+            }
+        }
+    }
+    out
+}
+
+/// An axis that slides as it should, with bristles of every length, damping and Stribeck velocity that
+/// the runs can show.
+pub(crate) fn with_bristles(axis: &Axis, law: &Law, scale: &Scale) -> Vec<Axis> {
+    let level = axis.sides[0].coulomb;
+    let mut out = Vec::new();
+    let part = libm::pow(3.0 * scale.stroke / scale.count, 1.0 / 8.0);
+    let zetas: &[f64] = if law.kind == LawKind::LuGre {
+        &[0.1, 0.7]
+    } else {
+        &[0.0]
+    };
+    let speeds: &[f64] = if law.kind.has_stribeck() {
+        &[0.01, 0.1]
+    } else {
+        &[0.1]
+    };
+    for i in 0..if law.kind.has_bristle() { 8 } else { 1 } {
+        for zeta in zetas {
+            for speed in speeds {
+                let mut new = axis.clone();
+                new.exponent = law.exponent;
+                new.stiffness = level / (scale.count * libm::pow(part, f64::from(i)));
+                new.micro_damping = 2.0 * zeta * (new.stiffness * new.mass).sqrt();
+                for side in &mut new.sides {
+                    side.velocity = speed * scale.speed;
+                    side.fixed = side.coulomb * if law.kind.has_stribeck() { 1.3 } else { 1.0 };
+                }
+                complete(&mut new, law, scale);
+                out.push(new);
+            }
+        }
+    }
+    out
+}
+
+fn waves(layout: &Layout, factor: impl Fn(&str) -> f64) -> Vec<Wave> {
+    layout
+        .waves
+        .iter()
+        .map(|(wave, name)| Wave {
+            factor: factor(name),
+            ..*wave
+        })
+        .collect()
+}
+
+/// What a law without a bristle of its own (or one that the data left at zero) is simulated with: as
+/// stiff as the step can follow or the encoder can tell, and damped.
+fn complete(axis: &mut Axis, law: &Law, scale: &Scale) {
+    let level = axis.sides[0].coulomb.min(axis.sides[1].coulomb);
+    let followed = axis.mass / (scale.step * scale.step);
+    let stiff = (level / scale.count).min(followed);
+    if !law.kind.has_bristle() || axis.stiffness <= 0.0 {
+        axis.stiffness = stiff;
+    }
+    let critical = 2.0 * (axis.stiffness * axis.mass).sqrt();
+    axis.micro_damping = match law.kind {
+        LawKind::Dahl => 0.0,
+        LawKind::LuGre => axis.micro_damping.max(1e-3 * critical),
+        _ => 0.7 * critical,
+    };
+}
+
+/// How far the search may go from where it starts.
+pub(crate) fn bounds(layout: &Layout, axis: &Axis, scale: &Scale) -> Bounds {
+    let ln = |x: f64| libm::log(x.max(f64::MIN_POSITIVE));
+    let about = layout.read(axis);
+    let critical = ln(2.0 * (axis.stiffness * axis.mass).sqrt());
+    let mut low = Vec::with_capacity(layout.len());
+    let mut high = Vec::with_capacity(layout.len());
+    for (unknown, &start) in layout.unknowns.iter().zip(&about) {
+        let (a, b) = match unknown {
+            Unknown::Stiffness => (
+                ln(0.01 * scale.force / scale.stroke),
+                ln(100.0 * scale.force / scale.count),
+            ),
+            Unknown::MicroDamping => (critical - ln(1e4), critical + ln(1e3)),
+            Unknown::Viscous(_) => (0.0, 1e3 * scale.force / scale.speed),
+            Unknown::Coulomb(_) => (ln(1e-3 * scale.force), ln(100.0 * scale.force)),
+            Unknown::Excess(_) => (ln(0.02), ln(3.0)),
+            Unknown::Velocity(_) => (ln(1e-4 * scale.speed), ln(scale.speed)),
+            Unknown::Mass => (start - ln(1e3), start + ln(1e3)),
+            Unknown::Offset | Unknown::Wave(_) => (-10.0 * scale.force, 10.0 * scale.force),
+        };
+        low.push(a.min(start));
+        high.push(b.max(start));
+    }
+    Bounds { low, high }
+}
+
+/// Where each run starts if nothing better is known: where it was measured, the bristle undeflected, an
+/// integral that makes the first force.
+pub(crate) fn rest(runs: &[Run], controller: Option<&Controller>) -> Vec<Initial> {
+    let has_integral = controller.is_some_and(Controller::has_integral);
+    runs.iter()
+        .map(|run| {
+            let integral = if has_integral { run.force[0] } else { 0.0 };
+            Initial([run.position[0], run.first_velocity(), 0.0, integral])
+        })
+        .collect()
+}

@@ -1,0 +1,149 @@
+//! What is sought: the parameters of the law and of the axis, common to all runs.
+//!
+//! What is positive by nature enters as its logarithm, so no step of the search can make it negative.
+
+use crate::law::terms::{Mass, Terms};
+use crate::law::{Law, LawKind};
+use crate::output_error::plant::{Axis, Side, Wave};
+use std::f64::consts::TAU;
+
+/// One unknown that all runs share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unknown {
+    /// `ln s0`.
+    Stiffness,
+    /// `ln s1`.
+    MicroDamping,
+    /// `s2`, not negative.
+    Viscous(Side),
+    /// `ln Fc`; Fs goes with it.
+    Coulomb(Side),
+    /// `ln (Fs/Fc - 1)`.
+    Excess(Side),
+    /// `ln vs`.
+    Velocity(Side),
+    /// `ln M`.
+    Mass,
+    /// Constant force.
+    Offset,
+    /// Factor of a sine or cosine of the position, by its place.
+    Wave(usize),
+}
+
+/// The unknowns of a law with its terms, and what is given.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Layout {
+    /// In the order of the vector of the search.
+    pub unknowns: Vec<Unknown>,
+    /// Factors of the position that the waves have, with whether it is a cosine, and their names.
+    pub waves: Vec<(Wave, String)>,
+}
+
+impl Layout {
+    pub fn new(law: &Law, terms: &Terms) -> Self {
+        let sides: &[Side] = if law.asymmetric {
+            &[Side::Positive, Side::Negative]
+        } else {
+            &[Side::Both]
+        };
+        let mut unknowns = Vec::new();
+        if law.kind.has_bristle() {
+            unknowns.push(Unknown::Stiffness);
+        }
+        if law.kind == LawKind::LuGre {
+            unknowns.push(Unknown::MicroDamping);
+        }
+        unknowns.extend(sides.iter().map(|&side| Unknown::Viscous(side)));
+        unknowns.extend(sides.iter().map(|&side| Unknown::Coulomb(side)));
+        if law.kind.has_stribeck() {
+            unknowns.extend(sides.iter().map(|&side| Unknown::Excess(side)));
+            unknowns.extend(sides.iter().map(|&side| Unknown::Velocity(side)));
+        }
+        if terms.mass == Mass::Fitted {
+            unknowns.push(Unknown::Mass);
+        }
+        if terms.offset {
+            unknowns.push(Unknown::Offset);
+        }
+        let mut waves = Vec::new();
+        if terms.gravity {
+            waves.push((Wave::sine(1.0), "gravity_sin".to_string()));
+            waves.push((Wave::cosine(1.0), "gravity_cos".to_string()));
+        }
+        for (i, pitch) in terms.cogging.iter().enumerate() {
+            let n = i + 1;
+            waves.push((Wave::sine(TAU / pitch), format!("cogging{n}_sin")));
+            waves.push((Wave::cosine(TAU / pitch), format!("cogging{n}_cos")));
+        }
+        unknowns.extend((0..waves.len()).map(Unknown::Wave));
+        Self { unknowns, waves }
+    }
+
+    pub fn len(&self) -> usize {
+        self.unknowns.len()
+    }
+
+    /// Place of an unknown in the vector.
+    pub fn place(&self, unknown: Unknown) -> Option<usize> {
+        self.unknowns.iter().position(|u| *u == unknown)
+    }
+
+    /// The values of the unknowns that an axis has.
+    pub fn read(&self, axis: &Axis) -> Vec<f64> {
+        let ln = |x: f64| libm::log(x.max(f64::MIN_POSITIVE));
+        self.unknowns
+            .iter()
+            .map(|unknown| match *unknown {
+                Unknown::Stiffness => ln(axis.stiffness),
+                Unknown::MicroDamping => ln(axis.micro_damping),
+                Unknown::Viscous(side) => axis.sides[side.index()].viscous,
+                Unknown::Coulomb(side) => ln(axis.sides[side.index()].coulomb),
+                Unknown::Excess(side) => {
+                    let s = &axis.sides[side.index()];
+                    ln(s.fixed / s.coulomb - 1.0)
+                }
+                Unknown::Velocity(side) => ln(axis.sides[side.index()].velocity),
+                Unknown::Mass => ln(axis.mass),
+                Unknown::Offset => axis.offset,
+                Unknown::Wave(i) => axis.waves.get(i).map_or(0.0, |w| w.factor),
+            })
+            .collect()
+    }
+
+    /// The axis with these values; what is not sought stays as it is in `base`.
+    pub fn write(&self, base: &Axis, q: &[f64]) -> Axis {
+        let mut axis = base.clone();
+        let each = |side: Side| match side {
+            Side::Both => 0..2,
+            Side::Positive => 0..1,
+            Side::Negative => 1..2,
+        };
+        // The Coulomb level stands before the excess in the vector, so Fs sees the new one.
+        for (unknown, &x) in self.unknowns.iter().zip(q) {
+            match *unknown {
+                Unknown::Stiffness => axis.stiffness = libm::exp(x),
+                Unknown::MicroDamping => axis.micro_damping = libm::exp(x),
+                Unknown::Viscous(side) => each(side).for_each(|s| axis.sides[s].viscous = x),
+                Unknown::Coulomb(side) => each(side).for_each(|s| {
+                    let ratio = axis.sides[s].fixed / axis.sides[s].coulomb;
+                    axis.sides[s].coulomb = libm::exp(x);
+                    axis.sides[s].fixed = ratio * libm::exp(x);
+                }),
+                Unknown::Excess(side) => each(side).for_each(|s| {
+                    axis.sides[s].fixed = axis.sides[s].coulomb * (1.0 + libm::exp(x));
+                }),
+                Unknown::Velocity(side) => {
+                    each(side).for_each(|s| axis.sides[s].velocity = libm::exp(x));
+                }
+                Unknown::Mass => axis.mass = libm::exp(x),
+                Unknown::Offset => axis.offset = x,
+                Unknown::Wave(i) => {
+                    if let Some(wave) = axis.waves.get_mut(i) {
+                        wave.factor = x;
+                    }
+                }
+            }
+        }
+        axis
+    }
+}
