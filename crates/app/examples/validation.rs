@@ -18,7 +18,8 @@ fn main() -> std::io::Result<()> {
          Relative error = 100 rms(residual) / rms(measured force). Defaults of conditioning: zero-phase \
          Butterworth of order 4 at a tenth of the sample rate on the position, central differences, the \
          same filter at a twentieth of the rate on force and every regressor, thinned to just above twice \
-         that. Where a recording is treated otherwise, its recipe says so.\n",
+         that. Where a recording is treated otherwise, its recipe says so. Fits by simulation (`--method \
+         output-error`) compare the position as measured.\n",
     );
     let mut last = "";
     for case in CASES {
@@ -29,7 +30,11 @@ fn main() -> std::io::Result<()> {
         }
         let outcome = measure::run(case, &data);
         let side = if case.asymmetric { ", asymmetric" } else { "" };
-        let _ = writeln!(out, "\n### {}{side}\n", case.law);
+        let method = match case.method {
+            "separable" => String::new(),
+            other => format!(", {other}"),
+        };
+        let _ = writeln!(out, "\n### {}{side}{method}\n", case.law);
         let _ = writeln!(out, "Fitted: {}.", case.logs.join(", "));
         if let Some(part) = case.split {
             let _ = writeln!(
@@ -51,8 +56,10 @@ fn main() -> std::io::Result<()> {
             let verdict = if found.holds() { "holds" } else { "**MISSED**" };
             let _ = writeln!(
                 out,
-                "| {} | {:.4} | {} | {verdict} |",
-                found.what, found.value, found.most
+                "| {} | {} | {} | {verdict} |",
+                found.what,
+                short(found.value),
+                found.most
             );
         }
         let _ = writeln!(
@@ -78,4 +85,13 @@ fn main() -> std::io::Result<()> {
     }
     stiction_app::write_atomic(&workspace().join("docs/validation.md"), out.as_bytes())
         .map_err(std::io::Error::other)
+}
+
+/// Four decimals, and more where they would leave no digits.
+fn short(x: f64) -> String {
+    if x.abs() < 0.01 {
+        format!("{x:.3e}")
+    } else {
+        format!("{x:.4}")
+    }
 }

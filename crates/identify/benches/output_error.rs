@@ -86,12 +86,29 @@ fn whole_fit_from_nothing(bencher: Bencher) {
         .bench(|| fit(&log));
 }
 
-/// Simulation and derivatives of the start only, until that has settled.
-#[divan::bench(sample_count = 10)]
+/// Simulation, with derivatives of the start only.
+#[divan::bench(sample_count = 5)]
 fn unseen(bencher: Bencher) {
     let log = [log()];
     let found = fit(&log);
+    let counts = simulate_unseen(&log, &found).expect("a simulation").counts;
     bencher
-        .counter(ItemsCount::new(SAMPLES * found.substeps))
+        .counter(ItemsCount::new(SAMPLES * found.substeps * counts.total()))
         .bench(|| simulate_unseen(&log, &found).expect("a simulation"));
+}
+
+/// The plant of the servo crate alone, to compare a step with.
+#[divan::bench(sample_count = 5)]
+fn servo_plant(bencher: Bencher) {
+    let axis = known::find("machine").expect("it is in the library");
+    let plant = Plant::new(axis.mass, axis.law).expect("valid");
+    bencher.counter(ItemsCount::new(SAMPLES)).bench(|| {
+        let mut motion = Motion::default();
+        for k in 0..SAMPLES {
+            let t = k as f64 * 1e-3;
+            let force = 40.0 * (4.0 * t).sin() + 10.0 * (23.0 * t).sin();
+            motion = plant.step(motion, 1e-3, Load::force(force)).motion;
+        }
+        motion
+    });
 }

@@ -59,11 +59,12 @@ pub struct Simulation<'a> {
 }
 
 /// Guesses that are followed by a short descent.
-const FOLLOWED: usize = 4;
+const FOLLOWED: usize = 6;
 /// Samples of the pieces of an open loop that starting points are looked for on.
 const PIECE: usize = 250;
-/// Steps of a short descent, and of the last one.
+/// Steps of a short descent, of one on pieces that a whole run is to start from, and of the last one.
 const SHORT: usize = 15;
+const MIDDLE: usize = 60;
 const LONG: usize = 200;
 /// Largest `h sqrt(s0/M)` that a plant step is given at the start.
 const STIFFEST: f64 = 0.7;
@@ -239,6 +240,31 @@ impl Search<'_> {
         out
     }
 
+    /// The same axis with other Stribeck curves; none for a law without one.
+    fn other_curves(&self, axis: &Axis) -> Vec<Axis> {
+        let falls = |u: &unknowns::Unknown| matches!(u, unknowns::Unknown::Velocity(_));
+        if !self.layout.unknowns.iter().any(falls) {
+            return Vec::new();
+        }
+        let mut out = Vec::new();
+        for part in [0.003, 0.01, 0.03, 0.1] {
+            for excess in [0.1, 0.5] {
+                // Where a curve fell over the whole range its Coulomb level was never reached: most of
+                // its static level stands for it.
+                for share in [0.0, 0.7] {
+                    let mut other = axis.clone();
+                    for side in &mut other.sides {
+                        side.coulomb = side.coulomb.max(share * side.fixed.min(self.scale.force));
+                        side.fixed = (1.0 + excess) * side.coulomb;
+                        side.velocity = part * self.scale.speed;
+                    }
+                    out.push(other);
+                }
+            }
+        }
+        out
+    }
+
     /// Plant steps in one control period that an axis needs.
     fn substeps(&self, axis: &Axis) -> usize {
         let periods = self
@@ -336,6 +362,27 @@ impl Search<'_> {
             finalists.push(self.layout.write(&found.base, &found.descent.at.q));
         }
         let mut best = self.best(finalists, 1, watch).into_iter().next()?;
+        // A curve that falls over the whole range of speeds looks like less viscous friction, and holds a
+        // search that began beside it.
+        let here = self.layout.write(&best.base, &best.descent.at.q);
+        let mut curves = self.other_curves(&here);
+        if !curves.is_empty() && !watch.stopped {
+            if !pieces.is_empty() {
+                let short = self.on(pieces, self.layout);
+                let found = short.best(curves, 3, watch);
+                curves = found
+                    .into_iter()
+                    .map(|f| {
+                        let base = self.layout.write(&f.base, &f.descent.at.q);
+                        let starts = f.descent.at.starts;
+                        let f = short.descend(base, starts, f.substeps, f.weights, MIDDLE, watch);
+                        self.layout.write(&f.base, &f.descent.at.q)
+                    })
+                    .collect();
+            }
+            curves.push(here);
+            best = self.best(curves, 1, watch).into_iter().next()?;
+        }
         watch.stage = Stage::Fine;
         let mut weights = best.weights;
         let mut substeps = best.substeps;

@@ -442,3 +442,20 @@ fn a_search_that_is_stopped_keeps_what_it_has() {
     assert_eq!(found.estimate.status, Status::Interrupted);
     assert!(found.estimate.counts.total() < 20);
 }
+
+/// From nothing but the logs: every search ends at the noise, and the intervals hold the truth.
+#[test]
+fn every_noisy_log_is_found_and_covered() {
+    const NOISE: f64 = 5e-6;
+    let mut inside = 0;
+    for seed in 100..108 {
+        let found = fit(&[open(2.0, 0.3, 1e-7, NOISE, seed)], &Simulation::default());
+        assert!(
+            found.position.rmse < 1.1 * NOISE,
+            "{seed}: {:?}",
+            found.position
+        );
+        inside += covered(&found).0;
+    }
+    assert!(inside >= 58, "{inside} of 64 inside");
+}

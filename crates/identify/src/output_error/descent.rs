@@ -115,6 +115,10 @@ pub(crate) fn descend(
         } else {
             lambda *= grow;
             grow *= 2.0;
+            // A step that changes nothing but the last digits: this is the bottom.
+            if (cost - now.cost).abs() <= FLAT * now.cost {
+                status = Status::Converged;
+            }
             if lambda > STUCK {
                 // At the bottom every step is too long by rounding alone.
                 let (_, descent) = now.reduced(0.0);

@@ -100,6 +100,8 @@ pub struct Unseen {
     pub position: Fit,
     /// Force error, in closed loop.
     pub force: Option<Fit>,
+    /// Evaluations that fitting the starts took.
+    pub counts: Counts,
 }
 
 /// Simulates recordings that were not fitted. Only where each run starts is fitted to them: position,
@@ -157,6 +159,7 @@ pub fn simulate_unseen(recordings: &[Recording], fitted: &SimulationFit) -> Resu
         force: signals.force_fit(),
         position,
         signals,
+        counts: watch.counts,
     })
 }
 
