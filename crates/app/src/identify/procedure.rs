@@ -106,15 +106,6 @@ pub(super) struct Beside {
 impl Beside {
     pub fn load(options: &Options, axis: &Axis) -> Result<Self, Error> {
         let procedures = &options.procedures;
-        if procedures.method == Method::Static
-            && procedures.model.is_some()
-            && procedures.break_away.is_empty()
-        {
-            return Err(Error::usage(
-                "--model beside --method static",
-                "a static map takes nothing from a model; leave it out",
-            ));
-        }
         if !procedures.statics.is_empty() && procedures.model.is_some() {
             return Err(Error::usage(
                 "--static beside --model",
@@ -125,6 +116,12 @@ impl Beside {
             procedures.method,
             Method::StaticThenDynamic | Method::PreslidingStep
         );
+        if procedures.model.is_some() && !takes_curve && procedures.break_away.is_empty() {
+            return Err(Error::usage(
+                format!("--model beside --method {}", procedures.method.name()),
+                "only static-then-dynamic, presliding-step and --break-away take anything from a model",
+            ));
+        }
         if !procedures.statics.is_empty() && !takes_curve {
             return Err(Error::usage(
                 format!("--static beside --method {}", procedures.method.name()),

@@ -69,6 +69,13 @@ impl Statics {
             })
         };
         let (pos, neg) = (side(0)?, side(1)?);
+        if !(exponent > 0.0 && exponent.is_finite()) {
+            return Err(Error::Setting {
+                name: "stribeck_exponent",
+                found: exponent,
+                allowed: "a finite number above 0",
+            });
+        }
         for side in [pos, neg] {
             let positive = [
                 ("coulomb", side.coulomb),

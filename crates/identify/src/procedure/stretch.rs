@@ -21,6 +21,8 @@ const PARTS: usize = 128;
 const CORNER: f64 = 0.03;
 /// A stretch this much shorter than one near it in time and velocity is a piece of the way to it.
 const PIECE: f64 = 0.2;
+/// Points before and after one that may be what it leads to.
+const NEIGHBOURS: usize = 32;
 /// How near in velocity, relative, and in time, in lengths of the longer one.
 const NEAR: (f64, f64) = (0.4, 0.5);
 /// A part slower than this share of the mean is a standstill.
@@ -224,9 +226,11 @@ impl<'a> Search<'a> {
             }
             length = length * 3 / 4;
         }
-        let own = out.points.split_off(first);
-        let kept = own.iter().filter(|p| !own.iter().any(|q| p.leads_to(q)));
-        out.points.extend(kept);
+        let mut own = out.points.split_off(first);
+        own.sort_by(|a, b| a.time.0.total_cmp(&b.time.0));
+        let near = |i: usize| &own[i.saturating_sub(NEIGHBOURS)..(i + NEIGHBOURS).min(own.len())];
+        let kept = (0..own.len()).filter(|&i| !near(i).iter().any(|q| own[i].leads_to(q)));
+        out.points.extend(kept.map(|i| own[i]));
         // A short piece of what lies between two speeds is not worth a word.
         let seconds = |time: (f64, f64)| time.1 - time.0;
         let shortest = out.points[first..]
@@ -240,7 +244,6 @@ impl<'a> Search<'a> {
                 index <= first_rejected || seconds(r.time) >= PIECE * shortest
             });
         }
-        out.points[first..].sort_by(|a, b| a.time.0.total_cmp(&b.time.0));
         out.rejected[first_rejected..].sort_by(|a, b| a.time.0.total_cmp(&b.time.0));
     }
 
