@@ -88,7 +88,11 @@ pub(crate) fn fit(
     let force_unit = sources[0].log.force_unit.clone();
     let terms = axis.terms_for(&sources[0].log, options.asymmetric)?;
     let other = axis.terms_for(&sources[0].log, !options.asymmetric)?;
-    let full = condition(&sources, axis)?;
+    let settle = |record: Record| match options.law {
+        LawKind::Gms => record.settled(),
+        _ => record,
+    };
+    let full = settle(condition(&sources, axis)?);
     let (record, split) = match options.split {
         None => (full.clone(), None),
         Some(part) => {
@@ -114,6 +118,7 @@ pub(crate) fn fit(
         kind: options.law,
         asymmetric: options.asymmetric,
         exponent: axis.stribeck_exponent,
+        elements: axis.gms_elements.unwrap_or(0),
     };
     let low_speed = axis
         .low_speed
@@ -136,7 +141,7 @@ pub(crate) fn fit(
         ));
     }
     for source in &held_out {
-        let record = condition(std::slice::from_ref(source), axis)?;
+        let record = settle(condition(std::slice::from_ref(source), axis)?);
         validation.push((
             source.path.display().to_string(),
             engine::predict(&record, &estimate),
@@ -147,7 +152,7 @@ pub(crate) fn fit(
     } else {
         let held_out = match (&split, held_out.is_empty()) {
             (Some(rest), _) => Some(rest.clone()),
-            (None, false) => Some(condition(&held_out, axis)?),
+            (None, false) => Some(settle(condition(&held_out, axis)?)),
             (None, true) => None,
         };
         let [symmetric, asymmetric] = if options.asymmetric {

@@ -10,6 +10,8 @@ pub fn unit(dimension: Dimension, motion: Motion, force: &str) -> String {
         Dimension::Stiffness => format!("{force}/{length}"),
         Dimension::Damping => format!("{force}*s/{length}"),
         Dimension::Force => force.to_string(),
+        Dimension::Length => length.to_string(),
+        Dimension::Rate => "1/s".into(),
         Dimension::Speed => speed_unit(motion).to_string(),
         Dimension::Inertia => match force {
             "N" => "kg".into(),
@@ -44,6 +46,12 @@ pub fn symbol(name: &str) -> String {
             .strip_suffix("_neg")
             .map_or((name, ""), |stem| (stem, "⁻")),
     };
+    for (name, letter) in [("stiffness_", "k"), ("yield_", "d")] {
+        if let Some(number) = stem.strip_prefix(name) {
+            let digits = number.chars().map(subscript).collect::<String>();
+            return format!("{letter}{digits}");
+        }
+    }
     let symbol = match stem {
         "sigma0" => "σ₀",
         "sigma1" => "σ₁",
@@ -52,11 +60,18 @@ pub fn symbol(name: &str) -> String {
         "static" => "Fs",
         "stribeck_velocity" => "vs",
         "stribeck_exponent" => "δ",
+        "attraction" => "a",
         "mass" => "M",
         "offset" => "F₀",
         other => other,
     };
     format!("{symbol}{side}")
+}
+
+/// A digit below the line.
+fn subscript(digit: char) -> char {
+    let shift = digit.to_digit(10).unwrap_or(0);
+    char::from_u32(0x2080 + shift).unwrap_or(digit)
 }
 
 /// What a parameter is, in the words of the field.
@@ -77,6 +92,7 @@ pub fn meaning(name: &str, motion: Motion) -> String {
         "static" => "static friction",
         "stribeck_velocity" => "Stribeck velocity",
         "stribeck_exponent" => "Stribeck exponent",
+        "attraction" => "attraction of slip to the Stribeck curve",
         "mass" => match motion {
             Motion::Linear => "moving mass",
             Motion::Rotary => "inertia",
@@ -85,6 +101,8 @@ pub fn meaning(name: &str, motion: Motion) -> String {
         "gravity_sin" => "gravity, sin q",
         "gravity_cos" => "gravity, cos q",
         other if other.starts_with("cogging") => "cogging",
+        other if other.starts_with("stiffness_") => "stiffness of an element",
+        other if other.starts_with("yield_") => "deflection at which the element yields",
         other => other,
     };
     format!("{text}{side}")

@@ -110,6 +110,8 @@ pub enum Law {
     Dahl,
     /// Presliding, Stribeck curve, frictional lag.
     Lugre,
+    /// Generalised Maxwell slip: presliding with memory of past reversals, Stribeck curve.
+    Gms,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

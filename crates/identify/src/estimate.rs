@@ -5,6 +5,7 @@ pub(crate) mod uncertainty;
 use crate::conditioning::record::Record;
 use crate::estimate::uncertainty::Covariance;
 use crate::fit::Fit;
+use crate::gms::choose::ElementsScore;
 use crate::law::Law;
 use crate::law::physical::{self, Dimension, Physical};
 use crate::law::terms::{ColumnKind, Mass, Terms};
@@ -97,6 +98,8 @@ pub struct Estimate {
     pub iterations: usize,
     /// Evaluations and relative residual over the last descent.
     pub history: Vec<(usize, f64)>,
+    /// The numbers of elements that were tried for a Maxwell-slip law; empty where it was given.
+    pub elements: Vec<ElementsScore>,
     p: Vec<f64>,
     coefficients: Vec<f64>,
 }
@@ -112,6 +115,11 @@ impl Estimate {
         self.parameter(name).map(|p| p.value)
     }
 
+    /// How many unknowns were fitted; some laws have parameters that follow from others.
+    pub fn fitted_unknowns(&self) -> usize {
+        self.p.len() + self.coefficients.len()
+    }
+
     pub(crate) fn unknowns(&self) -> &[f64] {
         &self.p
     }
@@ -125,6 +133,11 @@ pub fn estimate(
     optimum: &Optimum,
     low_speed_bound: f64,
 ) -> Estimate {
+    // The number of elements is a result where the data chose it.
+    let law = Law {
+        elements: optimum.law.elements,
+        ..law
+    };
     let objective = Objective::new(record, law, terms);
     let at = &optimum.evaluation;
     let c = &at.solution.coefficients;
@@ -198,6 +211,7 @@ pub fn estimate(
         counts: optimum.counts,
         iterations: optimum.iterations,
         history: optimum.history.clone(),
+        elements: optimum.elements.clone(),
         p: optimum.p.clone(),
         coefficients: c.clone(),
     }
@@ -293,7 +307,11 @@ fn series(objective: &Objective, p: &[f64], coefficients: &[f64]) -> Series {
     for (term, part) in objective.linear().iter().zip(&parts) {
         let friction = matches!(
             term.column,
-            ColumnKind::Level | ColumnKind::Sign(_) | ColumnKind::Rate | ColumnKind::Speed(_)
+            ColumnKind::Level
+                | ColumnKind::Element(_)
+                | ColumnKind::Sign(_)
+                | ColumnKind::Rate
+                | ColumnKind::Speed(_)
         );
         for (i, x) in part.iter().enumerate() {
             model[i] += x;

@@ -14,15 +14,18 @@ pub enum LawKind {
     Dahl,
     /// Canudas de Wit et al. 1995, doi 10.1109/9.376053.
     LuGre,
+    /// Generalised Maxwell slip: Al-Bender, Lampaert and Swevers 2005, doi 10.1109/TAC.2005.858676.
+    Gms,
 }
 
 impl LawKind {
     /// All families, from the simplest to the richest.
-    pub const ALL: [LawKind; 4] = [
+    pub const ALL: [LawKind; 5] = [
         LawKind::CoulombViscous,
         LawKind::Stribeck,
         LawKind::Dahl,
         LawKind::LuGre,
+        LawKind::Gms,
     ];
 
     /// Name as typed on the command line and written to files.
@@ -32,6 +35,7 @@ impl LawKind {
             LawKind::Stribeck => "stribeck",
             LawKind::Dahl => "dahl",
             LawKind::LuGre => "lugre",
+            LawKind::Gms => "gms",
         }
     }
 
@@ -42,12 +46,12 @@ impl LawKind {
 
     /// Whether the law has a bristle, and so memory and a stiffness.
     pub fn has_bristle(self) -> bool {
-        matches!(self, LawKind::Dahl | LawKind::LuGre)
+        matches!(self, LawKind::Dahl | LawKind::LuGre | LawKind::Gms)
     }
 
     /// Whether the friction level falls with speed.
     pub fn has_stribeck(self) -> bool {
-        matches!(self, LawKind::Stribeck | LawKind::LuGre)
+        matches!(self, LawKind::Stribeck | LawKind::LuGre | LawKind::Gms)
     }
 }
 
@@ -67,6 +71,9 @@ pub struct Law {
     pub asymmetric: bool,
     /// Stribeck exponent `delta`, dimensionless; 2 is the Gaussian curve.
     pub exponent: f64,
+    /// Elements of the generalised Maxwell-slip law; 0 leaves the number to the data. Other laws do
+    /// not look at it.
+    pub elements: usize,
 }
 
 impl Law {
@@ -76,6 +83,7 @@ impl Law {
             kind,
             asymmetric: false,
             exponent: 2.0,
+            elements: 0,
         }
     }
 
@@ -100,7 +108,8 @@ impl Law {
                 count - 1
             })
         };
-        let bristle = self.kind.has_bristle();
+        let gms = self.kind == LawKind::Gms;
+        let bristle = self.kind.has_bristle() && !gms;
         let curve = self.kind.has_stribeck();
         // Coulomb + viscous stays linear in both directions: one sign column each.
         let two = self.asymmetric && self.kind != LawKind::CoulombViscous;
@@ -110,11 +119,16 @@ impl Law {
         let ratio = next(two);
         let excess_neg = next(two && curve);
         let velocity_neg = next(two && curve);
+        let attraction = next(gms);
+        let yields = if gms { self.elements } else { 0 };
+        count += yields;
         Layout {
             kappa,
             excess: [excess_pos, if two { excess_neg } else { excess_pos }],
             velocity: [velocity_pos, if two { velocity_neg } else { velocity_pos }],
             ratio,
+            attraction,
+            yields,
             count,
         }
     }
@@ -129,8 +143,19 @@ pub(crate) struct Layout {
     pub excess: [Option<usize>; 2],
     /// `ln vs`, for positive and negative velocity.
     pub velocity: [Option<usize>; 2],
-    /// `ln (Fc- / Fc+)`.
+    /// `ln (Fc- / Fc+)`; for the Maxwell-slip law `ln (Fs- / Fs+)`.
     pub ratio: Option<usize>,
+    /// `ln w`, the rate in 1/s at which a slipping Maxwell-slip element follows the Stribeck curve.
+    pub attraction: Option<usize>,
+    /// How many `ln d_k` of Maxwell-slip elements stand last; d in m or rad.
+    pub yields: usize,
     /// How many there are.
     pub count: usize,
+}
+
+impl Layout {
+    /// Where `ln d_k` of the Maxwell-slip elements stand.
+    pub fn yields(&self) -> std::ops::Range<usize> {
+        self.count - self.yields..self.count
+    }
 }

@@ -2,6 +2,7 @@
 
 pub(crate) mod levenberg;
 pub(crate) mod linear;
+pub(crate) mod nonnegative;
 pub(crate) mod objective;
 pub(crate) mod recursion;
 pub(crate) mod search;
@@ -9,8 +10,9 @@ pub(crate) mod search_box;
 
 use crate::conditioning::record::Record;
 use crate::error::Error;
-use crate::law::Law;
+use crate::gms::{self, choose::ElementsScore};
 use crate::law::terms::Terms;
+use crate::law::{Law, LawKind};
 use crate::observe::{Counts, Observer, Stage};
 use crate::separable::levenberg::{Status, Watch, descend};
 use crate::separable::objective::{Evaluation, Objective};
@@ -51,6 +53,8 @@ impl Default for Settings {
 /// What a search found.
 #[derive(Clone, Debug)]
 pub struct Optimum {
+    /// The law that was fitted, with the number of its elements.
+    pub law: Law,
     /// Nonlinear unknowns (logarithms, in the order of the law).
     pub p: Vec<f64>,
     /// The box that was searched.
@@ -63,6 +67,8 @@ pub struct Optimum {
     pub iterations: usize,
     /// Evaluations and best `rms(residual)/rms(measured)` until then, over the last descent.
     pub history: Vec<(usize, f64)>,
+    /// The numbers of elements that were tried for a Maxwell-slip law; empty where it was given.
+    pub elements: Vec<ElementsScore>,
     /// The evaluation at the optimum, with sensitivities.
     pub evaluation: Evaluation,
 }
@@ -78,10 +84,51 @@ pub fn separable(
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<Optimum, Error> {
+    if law.kind == LawKind::Gms {
+        return gms::search::search(record, law, terms, settings, observer);
+    }
     let bounds = match &settings.bounds {
         Some(bounds) => bounds.clone(),
         None => SearchBox::from_record(record, &law)?,
     };
+    let full = checked(record, law, terms)?;
+    let mut watch = Watch {
+        observer,
+        stage: Stage::Scan,
+        fraction: 0.0,
+        counts: Counts::default(),
+        best: f64::INFINITY,
+        stopped: false,
+    };
+    let thinned = record.thinned(settings.thin);
+    let mut search = Search {
+        full: &full,
+        thinned: thinned.as_ref(),
+        law,
+        terms,
+        settings,
+        iterations: 0,
+    };
+    let (descent, status) = search.run(&bounds, &mut watch);
+    Ok(Optimum {
+        law,
+        p: descent.p,
+        bounds,
+        status,
+        counts: watch.counts,
+        iterations: search.iterations,
+        history: descent.history,
+        elements: Vec::new(),
+        evaluation: descent.evaluation,
+    })
+}
+
+/// The objective of a record with samples and force enough for this law.
+pub(crate) fn checked<'a>(
+    record: &'a Record,
+    law: Law,
+    terms: &Terms,
+) -> Result<Objective<'a>, Error> {
     let unknowns = law.nonlinear() + terms.columns(&law).len();
     if record.kept() < 10 * unknowns {
         return Err(Error::TooFewSamples {
@@ -102,33 +149,7 @@ pub fn separable(
     if let Some(value) = constant(full.force()) {
         return Err(Error::NoForce { value });
     }
-    let mut watch = Watch {
-        observer,
-        stage: Stage::Scan,
-        fraction: 0.0,
-        counts: Counts::default(),
-        best: f64::INFINITY,
-        stopped: false,
-    };
-    let thinned = record.thinned(settings.thin);
-    let mut search = Search {
-        full: &full,
-        thinned: thinned.as_ref(),
-        law,
-        terms,
-        settings,
-        iterations: 0,
-    };
-    let (descent, status) = search.run(&bounds, &mut watch);
-    Ok(Optimum {
-        p: descent.p,
-        bounds,
-        status,
-        counts: watch.counts,
-        iterations: search.iterations,
-        history: descent.history,
-        evaluation: descent.evaluation,
-    })
+    Ok(full)
 }
 
 /// The value of a force that never changes, rounding of the filters apart.

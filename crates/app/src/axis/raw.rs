@@ -124,6 +124,7 @@ pub(crate) struct RawTerms {
     #[serde(default)]
     pub cogging: Vec<String>,
     pub stribeck_exponent: Option<f64>,
+    pub gms_elements: Option<usize>,
 }
 
 /// `[report]`

@@ -4,8 +4,8 @@ use super::{Options, Outcome};
 use crate::error::Warning;
 use crate::result::ResolvedAxis;
 use crate::result::{
-    CovarianceEntry, FitEntry, LawEntry, LowSpeedEntry, ParameterEntry, ResultFile, SCHEMA, Search,
-    Trust, ValidationEntry,
+    CovarianceEntry, ElementsEntry, FitEntry, LawEntry, LowSpeedEntry, ParameterEntry, ResultFile,
+    SCHEMA, Search, Trust, ValidationEntry,
 };
 use crate::source::Source;
 use crate::symbols;
@@ -92,6 +92,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         low_speed: estimate.low_speed.as_ref().map(low_entry),
         validation,
         laws: parts.laws,
+        elements: elements(estimate),
         search: Search {
             status: estimate.status.name().into(),
             evaluations: estimate.counts.total(),
@@ -102,6 +103,18 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         },
         warnings: parts.warnings,
     }
+}
+
+fn elements(estimate: &Estimate) -> Vec<ElementsEntry> {
+    let tried = estimate.elements.iter();
+    tried
+        .map(|score| ElementsEntry {
+            elements: score.elements,
+            fitted_error_percent: score.fitted_error_percent,
+            held_out_error_percent: score.held_out_error_percent,
+            chosen: score.elements == estimate.law.elements,
+        })
+        .collect()
 }
 
 fn parameter(p: &Parameter, motion: Motion, force_unit: &str) -> ParameterEntry {
@@ -120,13 +133,16 @@ fn parameter(p: &Parameter, motion: Motion, force_unit: &str) -> ParameterEntry 
 
 /// Names of the linear terms that stand beside the law.
 pub(super) fn term_names(estimate: &Estimate, motion: Motion) -> Vec<String> {
-    const LAW: [&str; 6] = [
+    const LAW: [&str; 9] = [
         "sigma0",
         "sigma1",
         "sigma2",
         "coulomb",
         "static",
         "stribeck_velocity",
+        "attraction",
+        "stiffness_",
+        "yield_",
     ];
     estimate
         .parameters

@@ -80,7 +80,7 @@ impl Ladder<'_> {
         let residual = series.residual();
         LawScore {
             law: fitted.law,
-            parameters: fitted.parameters.iter().filter(|p| p.identified).count(),
+            parameters: fitted.fitted_unknowns(),
             fitted: fitted.fit,
             held_out: Fit::new(&series.measured, &residual),
             held_out_low_speed: Fit::slow(
@@ -124,6 +124,7 @@ fn beside(law: &Law) -> Vec<Law> {
                 kind,
                 asymmetric: false,
                 exponent: law.exponent,
+                elements: law.elements,
             };
             // Dahl beside LuGre stands for "no Stribeck curve"; one of its kind is enough.
             let both = kind != LawKind::Dahl || law.kind == LawKind::Dahl;
@@ -150,6 +151,7 @@ fn entries(scores: &[LawScore]) -> Vec<LawEntry> {
         .map(|(i, s)| LawEntry {
             law: s.law.kind.name().into(),
             asymmetric: s.law.asymmetric,
+            elements: (s.law.kind == LawKind::Gms).then_some(s.law.elements),
             parameters: s.parameters,
             fitted_error_percent: s.fitted.relative_error_percent,
             held_out_error_percent: error(s),

@@ -1,7 +1,8 @@
 //! From the unknowns of the search to the parameters of the law.
 
-use crate::law::Law;
+use crate::gms;
 use crate::law::terms::LinearTerm;
+use crate::law::{Law, LawKind};
 use nalgebra::DMatrix;
 
 /// What a parameter measures; with the units of force and motion this gives its unit.
@@ -13,8 +14,12 @@ pub enum Dimension {
     Damping,
     /// Force, torque, or what stands for it (current, voltage).
     Force,
+    /// Length or angle.
+    Length,
     /// Length (or angle) per time.
     Speed,
+    /// Per time.
+    Rate,
     /// Force per acceleration: mass or inertia.
     Inertia,
     /// A pure number.
@@ -47,7 +52,10 @@ pub(crate) fn physical(law: &Law, linear: &[LinearTerm], p: &[f64], c: &[f64]) -
     } else {
         &[""]
     };
-    let mut out = Vec::new();
+    let mut out = match law.kind {
+        LawKind::Gms => gms::physical::physical(law, linear, p, c),
+        _ => Vec::new(),
+    };
     let mut push = |name: String,
                     dimension,
                     value: f64,
@@ -144,6 +152,7 @@ pub(crate) fn physical(law: &Law, linear: &[LinearTerm], p: &[f64], c: &[f64]) -
     for (i, term) in linear.iter().enumerate() {
         let dimension = match term.name.as_str() {
             "coulomb" | "sigma1" => continue,
+            name if name.starts_with(gms::ELEMENT) => continue,
             "mass" => Dimension::Inertia,
             name if name.starts_with("sigma2") => Dimension::Damping,
             _ => Dimension::Force,
@@ -164,13 +173,14 @@ pub(crate) fn physical(law: &Law, linear: &[LinearTerm], p: &[f64], c: &[f64]) -
 
 /// Order of parameters in tables and files.
 fn rank(name: &str) -> usize {
-    const ORDER: [&str; 8] = [
+    const ORDER: [&str; 9] = [
         "sigma0",
         "sigma1",
         "sigma2",
         "coulomb",
         "static",
         "stribeck_velocity",
+        "attraction",
         "mass",
         "offset",
     ];

@@ -1,8 +1,9 @@
 //! Cost and sensitivities of a trial of the nonlinear unknowns, everything linear solved exactly.
 
 use crate::conditioning::record::Record;
-use crate::law::Law;
+use crate::gms;
 use crate::law::terms::{ColumnKind, LinearTerm, Mass, Terms};
+use crate::law::{Law, LawKind};
 use crate::separable::linear::{self, Solution, dot};
 use crate::separable::recursion::{Trace, trace};
 use nalgebra::{DMatrix, DVector};
@@ -192,6 +193,9 @@ impl<'a> Objective<'a> {
 
     /// The columns of the regression at the kept samples.
     fn columns(&self, traces: &[Trace]) -> Vec<Vec<f64>> {
+        if self.law.kind == LawKind::Gms {
+            return self.element_columns(traces);
+        }
         let mut own = [Vec::new(), Vec::new()];
         for (segment, t) in self.record.segments.iter().zip(traces) {
             // The rate is empty for a static law, and then no column asks for it.
@@ -212,6 +216,19 @@ impl<'a> Objective<'a> {
             .collect()
     }
 
+    /// The same for a Maxwell-slip law: one column an element, then those that do not change.
+    fn element_columns(&self, traces: &[Trace]) -> Vec<Vec<f64>> {
+        let mut out = vec![Vec::with_capacity(self.force.len()); self.law.elements];
+        for (segment, t) in self.record.segments.iter().zip(traces) {
+            let full = t.elements.iter().map(|e| e.level.clone()).collect();
+            for (out, column) in out.iter_mut().zip(self.record.filtered(segment, full)) {
+                out.extend(column);
+            }
+        }
+        out.extend(self.fixed.iter().flatten().cloned());
+        out
+    }
+
     /// `d(Phi)/dp_i c` of the first `k` unknowns, filtered and thinned like the columns.
     fn slopes(&self, traces: &[Trace], k: usize, coefficients: &[f64]) -> Vec<Vec<f64>> {
         let mut c_eta = 0.0;
@@ -227,6 +244,9 @@ impl<'a> Objective<'a> {
         for (segment, t) in self.record.segments.iter().zip(traces) {
             let full = (0..k)
                 .map(|i| {
+                    if self.law.kind == LawKind::Gms {
+                        return gms::recursion::slope(&t.elements, i, coefficients);
+                    }
                     let mut d: Vec<f64> = t.eta_slope[i].iter().map(|x| c_eta * x).collect();
                     if let Some(rate) = t.rate_slope.get(i) {
                         for (x, r) in d.iter_mut().zip(rate) {
@@ -255,7 +275,7 @@ fn fixed_column(record: &Record, column: ColumnKind) -> Option<Vec<f64>> {
         out
     };
     match column {
-        ColumnKind::Level | ColumnKind::Rate => None,
+        ColumnKind::Level | ColumnKind::Element(_) | ColumnKind::Rate => None,
         ColumnKind::Sign(side) => Some(from_velocity(&|v| {
             if side.selects(v) { v.signum() } else { 0.0 }
         })),

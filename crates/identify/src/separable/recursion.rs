@@ -4,7 +4,7 @@
 //! `eta = s0 z / Fc` and differentiated by hand with respect to every nonlinear unknown; the
 //! friction crate is the oracle it is tested against.
 
-use crate::law::{Law, Layout};
+use crate::law::{Law, LawKind, Layout};
 use libm::{exp, expm1, fabs, pow};
 
 /// The nonlinear unknowns, unpacked.
@@ -72,7 +72,7 @@ fn level<const K: usize>(curve: &Curve, layout: &Layout, v: f64, side: usize) ->
 
 /// `(1 - exp(-a)) / a` and its derivative.
 #[inline(always)]
-fn phi(a: f64, e: f64) -> (f64, f64) {
+pub(crate) fn phi(a: f64, e: f64) -> (f64, f64) {
     if a < 1e-3 {
         let value = 1.0 - a * (0.5 - a * (1.0 / 6.0 - a * (1.0 / 24.0 - a / 120.0)));
         let slope = -0.5 + a * (1.0 / 3.0 - a * (0.125 - a / 30.0));
@@ -94,10 +94,18 @@ pub(crate) struct Trace {
     pub eta_slope: Vec<Vec<f64>>,
     /// Derivatives of `rate`.
     pub rate_slope: Vec<Vec<f64>>,
+    /// The elements of a Maxwell-slip law; all above is then empty.
+    pub elements: Vec<crate::gms::recursion::Element>,
 }
 
 /// Runs the law along a velocity; `slopes` asks for the sensitivities too.
 pub(crate) fn trace(law: &Law, p: &[f64], step: f64, velocity: &[f64], slopes: bool) -> Trace {
+    if law.kind == LawKind::Gms {
+        return Trace {
+            elements: crate::gms::recursion::trace(law, p, step, velocity, slopes),
+            ..Trace::default()
+        };
+    }
     let layout = law.layout();
     let curve = Curve::new(law, &layout, p);
     macro_rules! run {
@@ -117,7 +125,7 @@ fn without_slopes(layout: &Layout) -> Layout {
         excess: [None; 2],
         velocity: [None; 2],
         ratio: None,
-        count: layout.count,
+        ..*layout
     }
 }
 
@@ -134,6 +142,7 @@ fn run<const K: usize>(
         rate: Vec::new(),
         eta_slope: vec![vec![0.0; n]; K],
         rate_slope: Vec::new(),
+        elements: Vec::new(),
     };
     if law.kind.has_bristle() {
         out.rate = vec![0.0; n];

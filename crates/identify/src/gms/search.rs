@@ -1,0 +1,353 @@
+//! From a dictionary of elements to few of them, and from many of those to fewer.
+
+use super::dictionary::{self, Atom};
+use super::{FEWEST, MOST, choose};
+use crate::conditioning::record::Record;
+use crate::error::Error;
+use crate::law::Law;
+use crate::law::terms::Terms;
+use crate::observe::{Control, Counts, Observer, Stage};
+use crate::separable::levenberg::{Descent, Status, Watch, descend};
+use crate::separable::objective::Objective;
+use crate::separable::search_box::SearchBox;
+use crate::separable::{Optimum, Settings, checked};
+
+/// Elements of the dictionary with which the curve is looked for.
+const COARSE: usize = 12;
+/// Elements of the dictionary from which the elements are taken.
+const FINE: usize = 40;
+/// Curves that are followed.
+const CURVES: usize = 3;
+/// Steps of a descent before it is compared with others.
+const SHORT: usize = 12;
+/// Elements above the wanted number from which the way down begins.
+const ABOVE: usize = 3;
+
+/// Steps of a descent on the way down.
+const RUNG: usize = 30;
+
+/// Times the dictionary is asked again.
+const REFILLS: usize = 3;
+/// Relative fall of the cost for which it is asked once more.
+const WORTH: f64 = 1e-3;
+
+/// A fit with some number of elements.
+pub(super) struct Rung {
+    pub law: Law,
+    pub bounds: SearchBox,
+    pub descent: Descent,
+}
+
+impl Rung {
+    pub fn cost(&self) -> f64 {
+        let cost = self.descent.evaluation.cost;
+        if cost.is_nan() { f64::INFINITY } else { cost }
+    }
+}
+
+/// One search for a law with any number of elements.
+pub(super) struct Search<'a> {
+    pub record: &'a Record,
+    pub law: Law,
+    pub terms: &'a Terms,
+    pub settings: &'a Settings,
+    pub iterations: usize,
+}
+
+/// Fits a Maxwell-slip law; without a number of elements, with the number that holds best on blocks
+/// left out. Elements to which the data give no stiffness are dropped.
+pub(crate) fn search(
+    record: &Record,
+    law: Law,
+    terms: &Terms,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Result<Optimum, Error> {
+    if law.elements > MOST {
+        return Err(Error::Setting {
+            name: "elements",
+            found: law.elements as f64,
+            allowed: "at most 10, or 0 to leave it to the data",
+        });
+    }
+    let (top, least) = match law.elements {
+        0 => (MOST, FEWEST),
+        given => ((given + ABOVE).min(MOST), given),
+    };
+    let wanted = law.elements;
+    let law = |elements| Law { elements, ..law };
+    checked(record, law(least), terms)?;
+    let mut watch = Watch {
+        observer,
+        stage: Stage::Scan,
+        fraction: 0.0,
+        counts: Counts::default(),
+        best: f64::INFINITY,
+        stopped: false,
+    };
+    let mut search = Search {
+        record,
+        law: law(0),
+        terms,
+        settings,
+        iterations: 0,
+    };
+    let rungs = search.ladder(top, least, &mut watch)?;
+    let scores = if wanted == 0 {
+        choose::scores(record, terms, &rungs, &mut watch)
+    } else {
+        Vec::new()
+    };
+    let at = match wanted {
+        0 => choose::best(&scores),
+        _ => rungs.len() - 1,
+    };
+    let rung = rungs.into_iter().nth(at).expect("a ladder has a rung");
+    let found = search.finish(rung, &mut watch)?;
+    Ok(Optimum {
+        elements: scores,
+        ..found
+    })
+}
+
+impl Search<'_> {
+    /// Fits with `most` elements and fewer, down to `least`; each from the one before with two
+    /// neighbours joined. Fewer than `most` where the data do not support as many.
+    pub fn ladder(
+        &mut self,
+        most: usize,
+        least: usize,
+        watch: &mut Watch,
+    ) -> Result<Vec<Rung>, Error> {
+        let starts = self.starts(most, watch)?;
+        watch.stage = Stage::Fine;
+        watch.best = f64::INFINITY;
+        let mut best: Option<Rung> = None;
+        for (curve, atoms) in &starts {
+            if watch.stopped && best.is_some() {
+                break;
+            }
+            let rung = self.fit(curve, atoms, SHORT, watch)?;
+            if best.as_ref().is_none_or(|b| rung.cost() < b.cost()) {
+                best = Some(rung);
+            }
+        }
+        let rung = best.expect("the scan has a point");
+        let mut rung = self.refill(rung, most, watch)?;
+        let mut out = Vec::new();
+        loop {
+            rung = self.settle(rung, watch)?;
+            let n = rung.law.elements;
+            if n <= least || watch.stopped {
+                out.push(rung);
+                return Ok(out);
+            }
+            let (curve, atoms) = self.split(&rung);
+            let next = self.fit(&curve, &dictionary::join(atoms, n - 1), RUNG, watch)?;
+            out.push(std::mem::replace(&mut rung, next));
+        }
+    }
+
+    /// Follows a fit to the end.
+    pub fn finish(&mut self, rung: Rung, watch: &mut Watch) -> Result<Optimum, Error> {
+        let (curve, atoms) = self.split(&rung);
+        let rung = if watch.stopped {
+            rung
+        } else {
+            let rung = self.fit(&curve, &atoms, self.settings.steps, watch)?;
+            self.settle(rung, watch)?
+        };
+        let objective = Objective::new(self.record, rung.law, self.terms);
+        watch.fraction = 1.0;
+        watch.report(objective.relative(rung.cost()));
+        let Rung {
+            law,
+            bounds,
+            descent,
+        } = rung;
+        Ok(Optimum {
+            law,
+            p: descent.p,
+            bounds,
+            status: if watch.stopped {
+                Status::Interrupted
+            } else {
+                descent.status
+            },
+            counts: watch.counts,
+            iterations: self.iterations,
+            history: descent.history,
+            elements: Vec::new(),
+            evaluation: descent.evaluation,
+        })
+    }
+
+    /// Curve and elements of a fit; those without force are left out.
+    fn split(&self, rung: &Rung) -> (Vec<f64>, Vec<Atom>) {
+        let p = &rung.descent.p;
+        let curve = p[..rung.law.layout().yields().start].to_vec();
+        (
+            curve,
+            dictionary::atoms(&rung.law, p, &rung.descent.evaluation),
+        )
+    }
+
+    /// Asks the dictionary again with the curve of a fit, which may have moved far since, and goes on
+    /// from there while that helps.
+    fn refill(&mut self, mut rung: Rung, most: usize, watch: &mut Watch) -> Result<Rung, Error> {
+        for _ in 0..REFILLS {
+            rung = self.settle(rung, watch)?;
+            let (curve, own) = self.split(&rung);
+            if own.len() >= most || watch.stopped {
+                break;
+            }
+            let atoms = self.elements_for(&curve, &own, watch)?;
+            let next = self.fit(&curve, &dictionary::join(atoms, most), RUNG, watch)?;
+            let gain = 1.0 - next.cost() / rung.cost();
+            if gain > 0.0 {
+                rung = next;
+            }
+            if gain.is_nan() || gain < WORTH {
+                break;
+            }
+        }
+        Ok(rung)
+    }
+
+    /// The elements that a dictionary has for a curve; `own` are in it besides its equal steps.
+    fn elements_for(
+        &mut self,
+        curve: &[f64],
+        own: &[Atom],
+        watch: &mut Watch,
+    ) -> Result<Vec<Atom>, Error> {
+        let law = Law {
+            elements: FINE + own.len(),
+            ..self.law
+        };
+        let bounds = SearchBox::from_record(self.record, &law)?;
+        let objective = Objective::new(self.record, law, self.terms);
+        let places = dictionary::places(&bounds, &law.layout(), FINE);
+        let places = own.iter().map(|atom| atom.place).chain(places);
+        let p = dictionary::unknowns(curve, places);
+        let at = objective.evaluate(&p, false);
+        watch.count(&objective, false);
+        watch.report(objective.relative(at.cost));
+        Ok(dictionary::atoms(&law, &p, &at))
+    }
+
+    /// Drops elements without force and puts the others in the order of their yield deflections; what
+    /// changed by that is fitted again.
+    fn settle(&mut self, mut rung: Rung, watch: &mut Watch) -> Result<Rung, Error> {
+        // Each turn loses an element or lowers the cost; the bound is for rounding.
+        for _ in 0..2 * MOST {
+            let (curve, atoms) = self.split(&rung);
+            let yields = &rung.descent.p[rung.law.layout().yields()];
+            let done = atoms.len() == rung.law.elements && yields.is_sorted();
+            if done || watch.stopped {
+                break;
+            }
+            rung = self.fit(&curve, &atoms, RUNG, watch)?;
+        }
+        Ok(rung)
+    }
+
+    /// Descends from a curve and elements.
+    fn fit(
+        &mut self,
+        curve: &[f64],
+        atoms: &[Atom],
+        steps: usize,
+        watch: &mut Watch,
+    ) -> Result<Rung, Error> {
+        let law = Law {
+            elements: atoms.len(),
+            ..self.law
+        };
+        let bounds = SearchBox::from_record(self.record, &law)?;
+        let objective = Objective::new(self.record, law, self.terms);
+        let start = dictionary::unknowns(curve, atoms.iter().map(|a| a.place));
+        let descent = descend(&objective, &bounds, &start, steps, watch);
+        self.iterations += descent.iterations;
+        Ok(Rung {
+            law,
+            bounds,
+            descent,
+        })
+    }
+
+    /// The most promising curves, each with the elements that a dictionary gives it.
+    fn starts(
+        &mut self,
+        most: usize,
+        watch: &mut Watch,
+    ) -> Result<Vec<(Vec<f64>, Vec<Atom>)>, Error> {
+        let mut out = Vec::new();
+        for curve in self.curves(watch)? {
+            let atoms = self.elements_for(&curve, &[], watch)?;
+            out.push((curve, dictionary::join(atoms, most)));
+        }
+        Ok(out)
+    }
+
+    /// Curves on which a coarse dictionary leaves least.
+    fn curves(&mut self, watch: &mut Watch) -> Result<Vec<Vec<f64>>, Error> {
+        let law = Law {
+            elements: COARSE,
+            asymmetric: false,
+            ..self.law
+        };
+        let bounds = SearchBox::from_record(self.record, &law)?;
+        let objective = Objective::new(self.record, law, self.terms);
+        let many = law.layout().yields().start;
+        let places = dictionary::places(&bounds, &law.layout(), COARSE);
+        let seed = (self.settings.seed ^ (self.settings.seed >> 32)) as u32;
+        let mut found: Vec<(f64, Vec<f64>)> = Vec::new();
+        for i in 0..self.settings.scan / 2 + 1 {
+            let curve: Vec<f64> = (0..many)
+                .map(|d| {
+                    // The first point is a curve that hardly falls.
+                    let at = if i == 0 {
+                        0.0
+                    } else {
+                        f64::from(sobol_burley::sample(i as u32, d as u32, seed))
+                    };
+                    bounds.low(d) + at * (bounds.high(d) - bounds.low(d))
+                })
+                .collect();
+            let p = dictionary::unknowns(&curve, places.iter().copied());
+            let cost = objective.evaluate(&p, false).cost;
+            watch.count(&objective, false);
+            watch.fraction = (i + 1) as f64 / (self.settings.scan / 2 + 1) as f64;
+            found.push((if cost.is_nan() { f64::INFINITY } else { cost }, curve));
+            if watch.report(objective.relative(cost)) == Control::Stop {
+                break;
+            }
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let from = law.layout();
+        let to = Law {
+            elements: 0,
+            ..self.law
+        }
+        .layout();
+        Ok(found
+            .into_iter()
+            .take(CURVES)
+            .map(|(_, p)| {
+                let mut out = vec![0.0; to.count];
+                let mut copy = |to: Option<usize>, from: Option<usize>| {
+                    if let (Some(to), Some(from)) = (to, from) {
+                        out[to] = p[from];
+                    }
+                };
+                for side in 0..2 {
+                    copy(to.excess[side], from.excess[side]);
+                    copy(to.velocity[side], from.velocity[side]);
+                }
+                copy(to.attraction, from.attraction);
+                out
+            })
+            .collect())
+    }
+}
