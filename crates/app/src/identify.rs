@@ -88,9 +88,12 @@ pub(crate) fn fit(
     let force_unit = sources[0].log.force_unit.clone();
     let terms = axis.terms_for(&sources[0].log, options.asymmetric)?;
     let other = axis.terms_for(&sources[0].log, !options.asymmetric)?;
-    let settle = |record: Record| match options.law {
-        LawKind::Gms => record.settled(),
-        _ => record,
+    let settle = |record: Record| {
+        if options.law.has_elements() {
+            record.settled()
+        } else {
+            record
+        }
     };
     let full = settle(condition(&sources, axis)?);
     let (record, split) = match options.split {

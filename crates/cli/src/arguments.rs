@@ -110,7 +110,9 @@ pub enum Law {
     Dahl,
     /// Presliding, Stribeck curve, frictional lag.
     Lugre,
-    /// Generalised Maxwell slip: presliding with memory of past reversals, Stribeck curve.
+    /// Maxwell slip: presliding with memory of past reversals.
+    MaxwellSlip,
+    /// Generalised Maxwell slip: the same with a Stribeck curve.
     Gms,
 }
 

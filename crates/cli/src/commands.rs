@@ -98,6 +98,7 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
             arguments::Law::Stribeck => LawKind::Stribeck,
             arguments::Law::Dahl => LawKind::Dahl,
             arguments::Law::Lugre => LawKind::LuGre,
+            arguments::Law::MaxwellSlip => LawKind::MaxwellSlip,
             arguments::Law::Gms => LawKind::Gms,
         },
         asymmetric: identify.asymmetric,

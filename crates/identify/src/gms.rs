@@ -15,6 +15,7 @@
 
 pub(crate) mod choose;
 mod dictionary;
+mod kink;
 mod limit;
 pub(crate) mod physical;
 pub(crate) mod recursion;

@@ -14,17 +14,20 @@ pub enum LawKind {
     Dahl,
     /// Canudas de Wit et al. 1995, doi 10.1109/9.376053.
     LuGre,
+    /// Maxwell slip: elements that stick and slip in parallel, without a Stribeck curve.
+    MaxwellSlip,
     /// Generalised Maxwell slip: Al-Bender, Lampaert and Swevers 2005, doi 10.1109/TAC.2005.858676.
     Gms,
 }
 
 impl LawKind {
     /// All families, from the simplest to the richest.
-    pub const ALL: [LawKind; 5] = [
+    pub const ALL: [LawKind; 6] = [
         LawKind::CoulombViscous,
         LawKind::Stribeck,
         LawKind::Dahl,
         LawKind::LuGre,
+        LawKind::MaxwellSlip,
         LawKind::Gms,
     ];
 
@@ -35,6 +38,7 @@ impl LawKind {
             LawKind::Stribeck => "stribeck",
             LawKind::Dahl => "dahl",
             LawKind::LuGre => "lugre",
+            LawKind::MaxwellSlip => "maxwell-slip",
             LawKind::Gms => "gms",
         }
     }
@@ -46,7 +50,12 @@ impl LawKind {
 
     /// Whether the law has a bristle, and so memory and a stiffness.
     pub fn has_bristle(self) -> bool {
-        matches!(self, LawKind::Dahl | LawKind::LuGre | LawKind::Gms)
+        matches!(self, LawKind::Dahl | LawKind::LuGre) || self.has_elements()
+    }
+
+    /// Whether the law is a number of Maxwell-slip elements in parallel.
+    pub fn has_elements(self) -> bool {
+        matches!(self, LawKind::MaxwellSlip | LawKind::Gms)
     }
 
     /// Whether the friction level falls with speed.
@@ -71,7 +80,7 @@ pub struct Law {
     pub asymmetric: bool,
     /// Stribeck exponent `delta`, dimensionless; 2 is the Gaussian curve.
     pub exponent: f64,
-    /// Elements of the generalised Maxwell-slip law; 0 leaves the number to the data. Other laws do
+    /// Elements of a Maxwell-slip law; 0 leaves the number to the data. Other laws do
     /// not look at it.
     pub elements: usize,
 }
@@ -108,8 +117,8 @@ impl Law {
                 count - 1
             })
         };
-        let gms = self.kind == LawKind::Gms;
-        let bristle = self.kind.has_bristle() && !gms;
+        let elements = self.kind.has_elements();
+        let bristle = self.kind.has_bristle() && !elements;
         let curve = self.kind.has_stribeck();
         // Coulomb + viscous stays linear in both directions: one sign column each.
         let two = self.asymmetric && self.kind != LawKind::CoulombViscous;
@@ -119,8 +128,8 @@ impl Law {
         let ratio = next(two);
         let excess_neg = next(two && curve);
         let velocity_neg = next(two && curve);
-        let attraction = next(gms);
-        let yields = if gms { self.elements } else { 0 };
+        let attraction = next(elements && curve);
+        let yields = if elements { self.elements } else { 0 };
         count += yields;
         Layout {
             kappa,

@@ -11,8 +11,8 @@ pub(crate) mod search_box;
 use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::gms::{self, choose::ElementsScore};
+use crate::law::Law;
 use crate::law::terms::Terms;
-use crate::law::{Law, LawKind};
 use crate::observe::{Counts, Observer, Stage};
 use crate::separable::levenberg::{Status, Watch, descend};
 use crate::separable::objective::{Evaluation, Objective};
@@ -84,7 +84,7 @@ pub fn separable(
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<Optimum, Error> {
-    if law.kind == LawKind::Gms {
+    if law.kind.has_elements() {
         return gms::search::search(record, law, terms, settings, observer);
     }
     let bounds = match &settings.bounds {

@@ -126,8 +126,10 @@ fn beside(law: &Law) -> Vec<Law> {
                 exponent: law.exponent,
                 elements: law.elements,
             };
-            // Dahl beside LuGre stands for "no Stribeck curve"; one of its kind is enough.
-            let both = kind != LawKind::Dahl || law.kind == LawKind::Dahl;
+            // Dahl beside LuGre stands for "no Stribeck curve", and so does Maxwell slip beside its
+            // generalised form; one of their kind is enough.
+            let plain = matches!(kind, LawKind::Dahl | LawKind::MaxwellSlip);
+            let both = !plain || kind == law.kind;
             std::iter::once(base).chain(both.then(|| base.asymmetric()))
         })
         .collect()
@@ -151,7 +153,7 @@ fn entries(scores: &[LawScore]) -> Vec<LawEntry> {
         .map(|(i, s)| LawEntry {
             law: s.law.kind.name().into(),
             asymmetric: s.law.asymmetric,
-            elements: (s.law.kind == LawKind::Gms).then_some(s.law.elements),
+            elements: s.law.kind.has_elements().then_some(s.law.elements),
             parameters: s.parameters,
             fitted_error_percent: s.fitted.relative_error_percent,
             held_out_error_percent: error(s),

@@ -126,7 +126,11 @@ pub(crate) fn physical(law: &Law, linear: &[LinearTerm], p: &[f64], c: &[f64]) -
                 None,
             ));
         }
-        let name = format!("static{suffix}");
+        // Without a Stribeck curve there is one level only.
+        let name = match layout.excess[side] {
+            Some(_) => format!("static{suffix}"),
+            None => format!("coulomb{suffix}"),
+        };
         out.push(positive(name, Dimension::Force, fixed, slope, None, None));
     }
     out

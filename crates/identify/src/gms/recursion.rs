@@ -11,7 +11,8 @@
 //!
 //! Their `C` is `a s(0)`, in force per second; with their shares of the limit equal to those of the
 //! yield forces, `a` is the same for every element. An element whose deflection points against the
-//! motion sticks, however low the limit is.
+//! motion sticks, however low the limit is. Without a Stribeck curve slip stays at the limit and `a`
+//! plays no part: the Maxwell-slip law.
 //!
 //! The velocity is linear between samples and so is the limit, as in the scheme EXPLIN of
 //! [`stiction_friction::LuGre::step_record`]: a sticking element then moves along a parabola whose
@@ -65,10 +66,13 @@ pub(crate) fn trace(
     velocity: &[f64],
     slopes: bool,
 ) -> Vec<Element> {
-    match (slopes, law.asymmetric) {
-        (false, _) => run::<0>(law, p, step, velocity),
-        (true, false) => run::<3>(law, p, step, velocity),
-        (true, true) => run::<6>(law, p, step, velocity),
+    // What all elements share stands first: nothing, the ratio of the directions, the curve of one
+    // direction, or those of both.
+    match (slopes, law.layout().yields().start) {
+        (true, 1) => run::<1>(law, p, step, velocity, slopes),
+        (true, 3) => run::<3>(law, p, step, velocity, slopes),
+        (true, 6) => run::<6>(law, p, step, velocity, slopes),
+        _ => run::<0>(law, p, step, velocity, slopes),
     }
 }
 
@@ -85,11 +89,16 @@ struct State<const K: usize> {
     inverse_yield: f64,
 }
 
-fn run<const K: usize>(law: &Law, p: &[f64], step: f64, velocity: &[f64]) -> Vec<Element> {
+fn run<const K: usize>(
+    law: &Law,
+    p: &[f64],
+    step: f64,
+    velocity: &[f64],
+    slopes: bool,
+) -> Vec<Element> {
     let layout = law.layout();
     let curve = Curve::new(law, &layout, p);
     let n = velocity.len();
-    let slopes = K > 0;
     let mut out: Vec<Element> = layout
         .yields()
         .map(|index| Element {

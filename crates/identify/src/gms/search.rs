@@ -1,7 +1,7 @@
 //! From a dictionary of elements to few of them, and from many of those to fewer.
 
 use super::dictionary::{self, Atom};
-use super::{FEWEST, MOST, choose};
+use super::{FEWEST, MOST, choose, kink};
 use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::law::Law;
@@ -17,7 +17,7 @@ const COARSE: usize = 12;
 /// Elements of the dictionary from which the elements are taken.
 const FINE: usize = 40;
 /// Curves that are followed.
-const CURVES: usize = 3;
+const CURVES: usize = 5;
 /// Steps of a descent before it is compared with others.
 const SHORT: usize = 12;
 /// Elements above the wanted number from which the way down begins.
@@ -30,6 +30,9 @@ const RUNG: usize = 30;
 const REFILLS: usize = 3;
 /// Relative fall of the cost for which it is asked once more.
 const WORTH: f64 = 1e-3;
+
+/// Times a stalled descent is started again.
+const KINKS: usize = 8;
 
 /// A fit with some number of elements.
 pub(super) struct Rung {
@@ -149,14 +152,28 @@ impl Search<'_> {
     }
 
     /// Follows a fit to the end.
-    pub fn finish(&mut self, rung: Rung, watch: &mut Watch) -> Result<Optimum, Error> {
-        let (curve, atoms) = self.split(&rung);
-        let rung = if watch.stopped {
-            rung
-        } else {
-            let rung = self.fit(&curve, &atoms, self.settings.steps, watch)?;
-            self.settle(rung, watch)?
-        };
+    pub fn finish(&mut self, mut rung: Rung, watch: &mut Watch) -> Result<Optimum, Error> {
+        watch.stage = Stage::Fine;
+        for _ in 0..KINKS {
+            if watch.stopped {
+                break;
+            }
+            let (curve, atoms) = self.split(&rung);
+            rung = self.fit(&curve, &atoms, self.settings.steps, watch)?;
+            rung = self.settle(rung, watch)?;
+            if rung.descent.status != Status::Stalled {
+                break;
+            }
+            let objective = Objective::new(self.record, rung.law, self.terms);
+            let cost = rung.cost();
+            match kink::way_out(&objective, &rung.bounds, &rung.descent.p, cost, watch) {
+                Some(p) => rung = self.follow(rung.law, &p, self.settings.steps, watch)?,
+                None => {
+                    rung.descent.status = Status::Converged;
+                    break;
+                }
+            }
+        }
         let objective = Objective::new(self.record, rung.law, self.terms);
         watch.fraction = 1.0;
         watch.report(objective.relative(rung.cost()));
@@ -264,10 +281,21 @@ impl Search<'_> {
             elements: atoms.len(),
             ..self.law
         };
+        let start = dictionary::unknowns(curve, atoms.iter().map(|a| a.place));
+        self.follow(law, &start, steps, watch)
+    }
+
+    /// Descends from a point.
+    fn follow(
+        &mut self,
+        law: Law,
+        start: &[f64],
+        steps: usize,
+        watch: &mut Watch,
+    ) -> Result<Rung, Error> {
         let bounds = SearchBox::from_record(self.record, &law)?;
         let objective = Objective::new(self.record, law, self.terms);
-        let start = dictionary::unknowns(curve, atoms.iter().map(|a| a.place));
-        let descent = descend(&objective, &bounds, &start, steps, watch);
+        let descent = descend(&objective, &bounds, start, steps, watch);
         self.iterations += descent.iterations;
         Ok(Rung {
             law,
@@ -302,13 +330,22 @@ impl Search<'_> {
         let many = law.layout().yields().start;
         let places = dictionary::places(&bounds, &law.layout(), COARSE);
         let seed = (self.settings.seed ^ (self.settings.seed >> 32)) as u32;
+        let points = if many == 0 {
+            1
+        } else {
+            self.settings.scan / 2 + 1
+        };
         let mut found: Vec<(f64, Vec<f64>)> = Vec::new();
-        for i in 0..self.settings.scan / 2 + 1 {
+        for i in 0..points {
             let curve: Vec<f64> = (0..many)
                 .map(|d| {
-                    // The first point is a curve that hardly falls.
+                    // The first point is a curve that hardly falls, from the middle of the speeds on.
                     let at = if i == 0 {
-                        0.0
+                        if law.layout().excess[0] == Some(d) {
+                            0.0
+                        } else {
+                            0.5
+                        }
                     } else {
                         f64::from(sobol_burley::sample(i as u32, d as u32, seed))
                     };
@@ -318,7 +355,7 @@ impl Search<'_> {
             let p = dictionary::unknowns(&curve, places.iter().copied());
             let cost = objective.evaluate(&p, false).cost;
             watch.count(&objective, false);
-            watch.fraction = (i + 1) as f64 / (self.settings.scan / 2 + 1) as f64;
+            watch.fraction = (i + 1) as f64 / points as f64;
             found.push((if cost.is_nan() { f64::INFINITY } else { cost }, curve));
             if watch.report(objective.relative(cost)) == Control::Stop {
                 break;

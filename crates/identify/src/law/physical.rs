@@ -1,8 +1,8 @@
 //! From the unknowns of the search to the parameters of the law.
 
 use crate::gms;
+use crate::law::Law;
 use crate::law::terms::LinearTerm;
-use crate::law::{Law, LawKind};
 use nalgebra::DMatrix;
 
 /// What a parameter measures; with the units of force and motion this gives its unit.
@@ -52,9 +52,10 @@ pub(crate) fn physical(law: &Law, linear: &[LinearTerm], p: &[f64], c: &[f64]) -
     } else {
         &[""]
     };
-    let mut out = match law.kind {
-        LawKind::Gms => gms::physical::physical(law, linear, p, c),
-        _ => Vec::new(),
+    let mut out = if law.kind.has_elements() {
+        gms::physical::physical(law, linear, p, c)
+    } else {
+        Vec::new()
     };
     let mut push = |name: String,
                     dimension,

@@ -98,7 +98,7 @@ impl Terms {
             });
         };
         let split = law.kind == LawKind::CoulombViscous && law.asymmetric;
-        if law.kind == LawKind::Gms {
+        if law.kind.has_elements() {
             for k in 0..law.elements {
                 let name = format!("{}{}", crate::gms::ELEMENT, k + 1);
                 push(&name, ColumnKind::Element(k), true);

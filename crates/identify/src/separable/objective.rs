@@ -2,8 +2,8 @@
 
 use crate::conditioning::record::Record;
 use crate::gms;
+use crate::law::Law;
 use crate::law::terms::{ColumnKind, LinearTerm, Mass, Terms};
-use crate::law::{Law, LawKind};
 use crate::separable::linear::{self, Solution, dot};
 use crate::separable::recursion::{Trace, trace};
 use nalgebra::{DMatrix, DVector};
@@ -193,7 +193,7 @@ impl<'a> Objective<'a> {
 
     /// The columns of the regression at the kept samples.
     fn columns(&self, traces: &[Trace]) -> Vec<Vec<f64>> {
-        if self.law.kind == LawKind::Gms {
+        if self.law.kind.has_elements() {
             return self.element_columns(traces);
         }
         let mut own = [Vec::new(), Vec::new()];
@@ -244,7 +244,7 @@ impl<'a> Objective<'a> {
         for (segment, t) in self.record.segments.iter().zip(traces) {
             let full = (0..k)
                 .map(|i| {
-                    if self.law.kind == LawKind::Gms {
+                    if self.law.kind.has_elements() {
                         return gms::recursion::slope(&t.elements, i, coefficients);
                     }
                     let mut d: Vec<f64> = t.eta_slope[i].iter().map(|x| c_eta * x).collect();

@@ -4,7 +4,7 @@
 //! `eta = s0 z / Fc` and differentiated by hand with respect to every nonlinear unknown; the
 //! friction crate is the oracle it is tested against.
 
-use crate::law::{Law, LawKind, Layout};
+use crate::law::{Law, Layout};
 use libm::{exp, expm1, fabs, pow};
 
 /// The nonlinear unknowns, unpacked.
@@ -100,7 +100,7 @@ pub(crate) struct Trace {
 
 /// Runs the law along a velocity; `slopes` asks for the sensitivities too.
 pub(crate) fn trace(law: &Law, p: &[f64], step: f64, velocity: &[f64], slopes: bool) -> Trace {
-    if law.kind == LawKind::Gms {
+    if law.kind.has_elements() {
         return Trace {
             elements: crate::gms::recursion::trace(law, p, step, velocity, slopes),
             ..Trace::default()
