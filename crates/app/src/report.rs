@@ -1,5 +1,6 @@
 //! `report.html`: an identification as a person reads it.
 
+mod elements;
 mod figures;
 mod formula;
 mod tables;
@@ -49,11 +50,15 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
     document = document
         .heading(2, "Friction and velocity")
         .block(figures::velocity_map(outcome));
-    let close: Vec<Block> = [figures::low_speed(outcome), figures::presliding(outcome)]
-        .into_iter()
-        .flatten()
-        .map(Block::from)
-        .collect();
+    let close: Vec<Block> = [
+        figures::low_speed(outcome),
+        figures::presliding(outcome),
+        elements::virgin(outcome),
+    ]
+    .into_iter()
+    .flatten()
+    .map(Block::from)
+    .collect();
     if !close.is_empty() {
         document = document.block(Block::Columns(close));
     }
@@ -72,6 +77,11 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
         document = document
             .heading(2, "Which law")
             .block(tables::laws(outcome));
+    }
+    if !result.elements.is_empty() {
+        document = document
+            .heading(2, "How many elements")
+            .block(elements::tried(outcome));
     }
     document = document
         .heading(2, "How sure")
@@ -211,6 +221,8 @@ pub(crate) fn law_name(law: &str, asymmetric: bool) -> String {
         "stribeck" => "Stribeck",
         "dahl" => "Dahl",
         "lugre" => "LuGre",
+        "maxwell-slip" => "Maxwell slip",
+        "gms" => "Generalised Maxwell slip",
         other => other,
     };
     if asymmetric {

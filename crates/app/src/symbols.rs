@@ -68,6 +68,11 @@ pub fn symbol(name: &str) -> String {
     format!("{symbol}{side}")
 }
 
+/// Whether a parameter is that of a single Maxwell-slip element.
+pub fn is_element(name: &str) -> bool {
+    name.starts_with("stiffness_") || name.starts_with("yield_")
+}
+
 /// A digit below the line.
 fn subscript(digit: char) -> char {
     let shift = digit.to_digit(10).unwrap_or(0);

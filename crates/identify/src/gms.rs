@@ -14,6 +14,7 @@
 //! convex problem, says where they are.
 
 pub(crate) mod choose;
+mod curves;
 mod dictionary;
 mod kink;
 mod limit;

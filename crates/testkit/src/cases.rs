@@ -101,6 +101,26 @@ pub const CASES: &[Case] = &[
         limits: &[most(Metric::HeldOutRms, 0.23)],
     },
     Case {
+        name: "Tribometer",
+        axis: "tribometer.toml",
+        logs: &["tribometer/presliding.tsv"],
+        validate: &[],
+        split: Some(0.5),
+        law: "maxwell-slip",
+        asymmetric: false,
+        limits: &[most(Metric::HeldOutRms, 0.12)],
+    },
+    Case {
+        name: "Tribometer",
+        axis: "tribometer.toml",
+        logs: &["tribometer/presliding.tsv"],
+        validate: &[],
+        split: Some(0.5),
+        law: "gms",
+        asymmetric: false,
+        limits: &[most(Metric::HeldOutRms, 0.12)],
+    },
+    Case {
         name: "Servo, sliding",
         axis: "servo.toml",
         logs: &[

@@ -10,6 +10,7 @@ pub(super) fn with_numbers(outcome: &Outcome) -> Block {
     let asymmetric = outcome.result.asymmetric;
     let mut lines = match law {
         "lugre" | "dahl" => bristle(law == "lugre"),
+        "gms" | "maxwell-slip" => elements(law == "gms"),
         _ => vec![row([
             id("F"),
             op("="),
@@ -50,6 +51,15 @@ pub(super) fn with_numbers(outcome: &Outcome) -> Block {
         "lugre" => "LuGre (Canudas de Wit, Olsson, Åström, Lischinsky 1995), g in units of force.",
         "dahl" => "Dahl: LuGre without Stribeck curve and micro-damping.",
         "stribeck" => "Static Stribeck curve.",
+        "gms" => {
+            "Generalised Maxwell slip (Al-Bender, Lampaert, Swevers 2005): an element sticks until it \
+             reaches the limit, then slips until the velocity changes its sign. The k and d of each \
+             element stand in the table."
+        }
+        "maxwell-slip" => {
+            "Maxwell slip: an element sticks until it reaches its limit, then slips until the velocity \
+             changes its sign. The k and d of each element stand in the table."
+        }
         _ => "Coulomb and viscous friction.",
     };
     Block::Formula(lines, caption.into())
@@ -84,6 +94,48 @@ fn bristle(lugre: bool) -> Vec<Math> {
             id("z"),
         ]),
     ]
+}
+
+/// Sum of the elements; how one sticks, and how it slips.
+fn elements(curve: bool) -> Vec<Math> {
+    let of = |name: &str| sub(id(name), id("i"));
+    let deflection = || sub(id("z"), id("i"));
+    let sum = row([
+        id("F"),
+        op("="),
+        op("∑"),
+        of("k"),
+        deflection(),
+        op("+"),
+        sub(id("σ"), num("2")),
+        id("v"),
+    ]);
+    let stick = row([id("stick:"), dot(deflection()), op("="), id("v")]);
+    let limit = || {
+        let mut limit = vec![of("d")];
+        if curve {
+            let over = frac(
+                row([id("g"), paren(id("v"))]),
+                row([id("g"), paren(num("0"))]),
+            );
+            limit.push(over);
+        }
+        limit
+    };
+    let mut slip = vec![id("slip:")];
+    if curve {
+        let part = frac(
+            deflection(),
+            row(limit().into_iter().chain([id("sgn"), id("v")])),
+        );
+        slip.extend([dot(deflection()), op("="), id("a"), of("d")]);
+        slip.extend([paren(row([num("1"), op("−"), part])), id("sgn"), id("v")]);
+    } else {
+        slip.extend([deflection(), op("=")]);
+        slip.extend(limit());
+        slip.extend([id("sgn"), id("v")]);
+    }
+    vec![sum, stick, row(slip)]
 }
 
 /// `g(v)` of one direction with its numbers.

@@ -21,7 +21,11 @@ pub(super) fn places(bounds: &SearchBox, layout: &Layout, many: usize) -> Vec<f6
     let Some(first) = layout.yields().next() else {
         return Vec::new();
     };
-    let (low, high) = (bounds.low(first), bounds.high(first));
+    steps(bounds.low(first), bounds.high(first), many)
+}
+
+/// Equal steps from `low` to `high`, half a step from both.
+pub(super) fn steps(low: f64, high: f64, many: usize) -> Vec<f64> {
     (0..many)
         .map(|i| low + (i as f64 + 0.5) / many as f64 * (high - low))
         .collect()

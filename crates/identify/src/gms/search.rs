@@ -1,25 +1,25 @@
 //! From a dictionary of elements to few of them, and from many of those to fewer.
 
 use super::dictionary::{self, Atom};
-use super::{FEWEST, MOST, choose, kink};
+use super::{FEWEST, MOST, choose, curves, kink};
 use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::law::Law;
 use crate::law::terms::Terms;
-use crate::observe::{Control, Counts, Observer, Stage};
+use crate::observe::{Counts, Observer, Stage};
 use crate::separable::levenberg::{Descent, Status, Watch, descend};
 use crate::separable::objective::Objective;
 use crate::separable::search_box::SearchBox;
 use crate::separable::{Optimum, Settings, checked};
 
-/// Elements of the dictionary with which the curve is looked for.
-const COARSE: usize = 12;
 /// Elements of the dictionary from which the elements are taken.
 const FINE: usize = 40;
-/// Curves that are followed.
-const CURVES: usize = 5;
 /// Steps of a descent before it is compared with others.
 const SHORT: usize = 12;
+/// Relative difference of the costs below which two descents are on the way to one minimum.
+const ALIKE: f64 = 2e-3;
+/// Of the others, how many are followed further.
+const RIVALS: usize = 3;
 /// Elements above the wanted number from which the way down begins.
 const ABOVE: usize = 3;
 
@@ -125,18 +125,27 @@ impl Search<'_> {
         let starts = self.starts(most, watch)?;
         watch.stage = Stage::Fine;
         watch.best = f64::INFINITY;
-        let mut best: Option<Rung> = None;
+        let mut rivals: Vec<Rung> = Vec::new();
         for (curve, atoms) in &starts {
+            if watch.stopped && !rivals.is_empty() {
+                break;
+            }
+            rivals.push(self.fit(curve, atoms, SHORT, watch)?);
+        }
+        rivals.sort_by(|a, b| a.cost().total_cmp(&b.cost()));
+        rivals.dedup_by(|b, a| b.cost() <= (1.0 + ALIKE) * a.cost());
+        // Minima with different curves may lie close together: the best are followed further.
+        let mut best: Option<Rung> = None;
+        for rival in rivals.into_iter().take(RIVALS) {
             if watch.stopped && best.is_some() {
                 break;
             }
-            let rung = self.fit(curve, atoms, SHORT, watch)?;
+            let rung = self.refill(rival, most, watch)?;
             if best.as_ref().is_none_or(|b| rung.cost() < b.cost()) {
                 best = Some(rung);
             }
         }
-        let rung = best.expect("the scan has a point");
-        let mut rung = self.refill(rung, most, watch)?;
+        let mut rung = best.expect("the scan has a point");
         let mut out = Vec::new();
         loop {
             rung = self.settle(rung, watch)?;
@@ -311,80 +320,10 @@ impl Search<'_> {
         watch: &mut Watch,
     ) -> Result<Vec<(Vec<f64>, Vec<Atom>)>, Error> {
         let mut out = Vec::new();
-        for curve in self.curves(watch)? {
+        for curve in curves::curves(self, watch)? {
             let atoms = self.elements_for(&curve, &[], watch)?;
             out.push((curve, dictionary::join(atoms, most)));
         }
         Ok(out)
-    }
-
-    /// Curves on which a coarse dictionary leaves least.
-    fn curves(&mut self, watch: &mut Watch) -> Result<Vec<Vec<f64>>, Error> {
-        let law = Law {
-            elements: COARSE,
-            asymmetric: false,
-            ..self.law
-        };
-        let bounds = SearchBox::from_record(self.record, &law)?;
-        let objective = Objective::new(self.record, law, self.terms);
-        let many = law.layout().yields().start;
-        let places = dictionary::places(&bounds, &law.layout(), COARSE);
-        let seed = (self.settings.seed ^ (self.settings.seed >> 32)) as u32;
-        let points = if many == 0 {
-            1
-        } else {
-            self.settings.scan / 2 + 1
-        };
-        let mut found: Vec<(f64, Vec<f64>)> = Vec::new();
-        for i in 0..points {
-            let curve: Vec<f64> = (0..many)
-                .map(|d| {
-                    // The first point is a curve that hardly falls, from the middle of the speeds on.
-                    let at = if i == 0 {
-                        if law.layout().excess[0] == Some(d) {
-                            0.0
-                        } else {
-                            0.5
-                        }
-                    } else {
-                        f64::from(sobol_burley::sample(i as u32, d as u32, seed))
-                    };
-                    bounds.low(d) + at * (bounds.high(d) - bounds.low(d))
-                })
-                .collect();
-            let p = dictionary::unknowns(&curve, places.iter().copied());
-            let cost = objective.evaluate(&p, false).cost;
-            watch.count(&objective, false);
-            watch.fraction = (i + 1) as f64 / points as f64;
-            found.push((if cost.is_nan() { f64::INFINITY } else { cost }, curve));
-            if watch.report(objective.relative(cost)) == Control::Stop {
-                break;
-            }
-        }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let from = law.layout();
-        let to = Law {
-            elements: 0,
-            ..self.law
-        }
-        .layout();
-        Ok(found
-            .into_iter()
-            .take(CURVES)
-            .map(|(_, p)| {
-                let mut out = vec![0.0; to.count];
-                let mut copy = |to: Option<usize>, from: Option<usize>| {
-                    if let (Some(to), Some(from)) = (to, from) {
-                        out[to] = p[from];
-                    }
-                };
-                for side in 0..2 {
-                    copy(to.excess[side], from.excess[side]);
-                    copy(to.velocity[side], from.velocity[side]);
-                }
-                copy(to.attraction, from.attraction);
-                out
-            })
-            .collect())
     }
 }
