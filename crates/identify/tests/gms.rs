@@ -119,6 +119,119 @@ fn gradient_matches_finite_differences() {
     }
 }
 
+/// The same for the law without a curve, whose directions may differ in level.
+#[test]
+fn gradient_without_a_curve() {
+    let (v, u) = asymmetric().along(4000, 1e-3, 20, motion);
+    let record = record(1e-3, v, u);
+    let yields = [3.1e-6_f64, 7.3e-6, 2.1e-5].map(f64::ln);
+    for (law, mut start) in [
+        (Law::new(LawKind::MaxwellSlip), vec![]),
+        (Law::new(LawKind::MaxwellSlip).asymmetric(), vec![-0.3]),
+    ] {
+        start.extend(yields);
+        let law = Law { elements: 3, ..law };
+        let objective = Objective::new(&record, law, &friction_only());
+        let slope = objective.descent(&start);
+        assert_eq!(slope.len(), start.len());
+        for i in 0..start.len() {
+            let cost = |d: f64| {
+                let mut p = start.clone();
+                p[i] += d;
+                objective.evaluate(&p, false).cost
+            };
+            let numeric = -(cost(1e-5) - cost(-1e-5)) / 4e-5;
+            assert!(
+                (slope[i] / numeric - 1.0).abs() < 1e-4,
+                "{i}: {} {numeric}",
+                slope[i]
+            );
+        }
+    }
+}
+
+/// Without a curve the force is that of elastic elements between two stops: the sum of
+/// `clamp(z + dx, -d, d)`, exact for any motion that turns around at its samples.
+#[test]
+fn without_a_curve_elements_are_stops() {
+    let elements = [(2e6, 3e-6), (4e5, 1.2e-5), (1e5, 2.4e-5)];
+    let step = 1e-3;
+    let velocity = |i: usize| 1e-3 * ((i as f64 * 0.13).sin() + 0.8 * (i as f64 * 0.031).cos());
+    let mut z = [0.0; 3];
+    let (mut v, mut u) = (Vec::new(), Vec::new());
+    for i in 0..6000 {
+        let now = velocity(i);
+        if i > 0 {
+            let before: f64 = velocity(i - 1);
+            // The stretch to the turn, if there is one, and the stretch after it.
+            let theta = if before * now < 0.0 {
+                before / (before - now)
+            } else {
+                1.0
+            };
+            let first = if theta < 1.0 {
+                0.5 * theta * before
+            } else {
+                0.5 * (before + now)
+            };
+            let second = 0.5 * (1.0 - theta) * now;
+            for (z, (_, d)) in z.iter_mut().zip(elements) {
+                *z = (*z + first * step).clamp(-d, d);
+                *z = (*z + second * step).clamp(-d, d);
+            }
+        }
+        v.push(now);
+        u.push(z.iter().zip(elements).map(|(z, (k, _))| k * z).sum::<f64>() + 30.0 * now);
+    }
+    let record = record(step, v, u);
+    let law = Law {
+        elements: 3,
+        ..Law::new(LawKind::MaxwellSlip)
+    };
+    let objective = Objective::new(&record, law, &friction_only());
+    let p: Vec<f64> = elements.iter().map(|(_, d): &(f64, f64)| d.ln()).collect();
+    let left = objective.relative(objective.evaluate(&p, false).cost);
+    assert!(left < 1e-12, "{left}");
+    let (found, estimate) = fit(&record, law, &friction_only());
+    assert_eq!(found.law.elements, 3);
+    for (i, (k, d)) in elements.into_iter().enumerate() {
+        let stiffness = estimate.value(&format!("stiffness_{}", i + 1)).unwrap();
+        let at = estimate.value(&format!("yield_{}", i + 1)).unwrap();
+        assert!(
+            (stiffness / k - 1.0).abs() < 1e-6,
+            "{stiffness} instead of {k}"
+        );
+        assert!((at / d - 1.0).abs() < 1e-6, "{at} instead of {d}");
+    }
+}
+
+/// A recording that begins in the middle of a motion: its start, whose force depends on what was
+/// before, is not fitted, and the elements come out right.
+#[test]
+fn a_start_in_the_middle_of_a_motion() {
+    let truth = four();
+    let (v, u) = truth.along(12_000, 5e-4, 50, motion);
+    let cut = record(5e-4, v[2500..].to_vec(), u[2500..].to_vec());
+    let settled = cut.settled();
+    assert!(settled.kept() < cut.kept());
+    assert!(
+        settled
+            .notes
+            .iter()
+            .any(|n| n.contains("at the start not fitted"))
+    );
+    let (_, with) = fit(&cut, gms(4), &friction_only());
+    let (_, without) = fit(&settled, gms(4), &friction_only());
+    let off = without.value("sigma0").unwrap() / truth.stiffness() - 1.0;
+    assert!(off.abs() < 0.005, "total stiffness off by {off}");
+    assert!(
+        without.fit.rmse < 0.2 * with.fit.rmse,
+        "{:?} {:?}",
+        with.fit,
+        without.fit
+    );
+}
+
 /// Four elements with noise of half a percent, mass and offset unknown: what the law predicts is
 /// right, and so is every parameter that is said to be known.
 #[test]
@@ -137,6 +250,9 @@ fn four_elements_are_found() {
     let record = record(step, v, u);
     let (found, estimate) = fit(&record, gms(0), &Terms::default());
     assert_eq!(found.law.elements, 4, "{:?}", found.elements);
+    // The work done: more of it must be a decision, not an accident.
+    let tried: Vec<usize> = found.elements.iter().map(|e| e.elements).collect();
+    println!("{:?} {tried:?}", found.counts);
     assert_eq!(found.status, Status::Converged);
     assert!(estimate.fit.rmse < 0.155, "residual {}", estimate.fit.rmse);
     // Another motion, without noise.

@@ -11,7 +11,7 @@ use crate::separable::objective::Objective;
 /// Contiguous blocks, each left out in turn.
 const BLOCKS: usize = 4;
 /// Steps with which a fit settles when a block is left out.
-const STEPS: usize = 8;
+const STEPS: usize = 3;
 /// Held-out errors within this factor of the least count as equal, and the fewest elements win.
 const EQUAL: f64 = 1.01;
 

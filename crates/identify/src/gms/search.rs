@@ -23,8 +23,12 @@ const RIVALS: usize = 3;
 /// Elements above the wanted number from which the way down begins.
 const ABOVE: usize = 3;
 
-/// Steps of a descent on the way down.
+/// Steps of a descent on the way down, at most.
 const RUNG: usize = 30;
+/// Steps after which a descent on the way is looked at.
+const STRIDE: usize = 10;
+/// Relative fall of the cost over a stride below which it ends.
+const SETTLED: f64 = 1e-5;
 
 /// Times the dictionary is asked again.
 const REFILLS: usize = 3;
@@ -122,30 +126,21 @@ impl Search<'_> {
         least: usize,
         watch: &mut Watch,
     ) -> Result<Vec<Rung>, Error> {
-        let starts = self.starts(most, watch)?;
-        watch.stage = Stage::Fine;
-        watch.best = f64::INFINITY;
-        let mut rivals: Vec<Rung> = Vec::new();
-        for (curve, atoms) in &starts {
-            if watch.stopped && !rivals.is_empty() {
-                break;
+        let mut rung = match self.record.thinned(self.settings.thin) {
+            None => self.top(most, watch)?,
+            Some(near) => {
+                let mut search = Search {
+                    record: &near,
+                    iterations: 0,
+                    ..*self
+                };
+                let rung = search.top(most, watch)?;
+                self.iterations += search.iterations;
+                watch.best = f64::INFINITY;
+                let (curve, atoms) = self.split(&rung);
+                self.fit(&curve, &atoms, RUNG, watch)?
             }
-            rivals.push(self.fit(curve, atoms, SHORT, watch)?);
-        }
-        rivals.sort_by(|a, b| a.cost().total_cmp(&b.cost()));
-        rivals.dedup_by(|b, a| b.cost() <= (1.0 + ALIKE) * a.cost());
-        // Minima with different curves may lie close together: the best are followed further.
-        let mut best: Option<Rung> = None;
-        for rival in rivals.into_iter().take(RIVALS) {
-            if watch.stopped && best.is_some() {
-                break;
-            }
-            let rung = self.refill(rival, most, watch)?;
-            if best.as_ref().is_none_or(|b| rung.cost() < b.cost()) {
-                best = Some(rung);
-            }
-        }
-        let mut rung = best.expect("the scan has a point");
+        };
         let mut out = Vec::new();
         loop {
             rung = self.settle(rung, watch)?;
@@ -158,6 +153,36 @@ impl Search<'_> {
             let next = self.fit(&curve, &dictionary::join(atoms, n - 1), RUNG, watch)?;
             out.push(std::mem::replace(&mut rung, next));
         }
+    }
+
+    /// The best fit with `most` elements or fewer, from every start.
+    fn top(&mut self, most: usize, watch: &mut Watch) -> Result<Rung, Error> {
+        let starts = self.starts(most, watch)?;
+        watch.stage = Stage::Coarse;
+        watch.best = f64::INFINITY;
+        let mut rivals: Vec<Rung> = Vec::new();
+        for (i, (curve, atoms)) in starts.iter().enumerate() {
+            if watch.stopped && !rivals.is_empty() {
+                break;
+            }
+            watch.fraction = i as f64 / starts.len() as f64;
+            rivals.push(self.fit(curve, atoms, SHORT, watch)?);
+        }
+        rivals.sort_by(|a, b| a.cost().total_cmp(&b.cost()));
+        rivals.dedup_by(|b, a| b.cost() <= (1.0 + ALIKE) * a.cost());
+        // Minima with different curves may lie close together: the best are followed further.
+        watch.stage = Stage::Fine;
+        let mut best: Option<Rung> = None;
+        for rival in rivals.into_iter().take(RIVALS) {
+            if watch.stopped && best.is_some() {
+                break;
+            }
+            let rung = self.refill(rival, most, watch)?;
+            if best.as_ref().is_none_or(|b| rung.cost() < b.cost()) {
+                best = Some(rung);
+            }
+        }
+        Ok(best.expect("the scan has a point"))
     }
 
     /// Follows a fit to the end.
@@ -304,8 +329,23 @@ impl Search<'_> {
     ) -> Result<Rung, Error> {
         let bounds = SearchBox::from_record(self.record, &law)?;
         let objective = Objective::new(self.record, law, self.terms);
-        let descent = descend(&objective, &bounds, start, steps, watch);
+        let mut descent = descend(&objective, &bounds, start, steps.min(STRIDE), watch);
         self.iterations += descent.iterations;
+        let mut left = steps.saturating_sub(STRIDE);
+        let rough = steps < self.settings.steps;
+        while left > 0 && descent.status == Status::Budget && !watch.stopped {
+            let stride = if rough { left.min(STRIDE) } else { left };
+            let mut next = descend(&objective, &bounds, &descent.p, stride, watch);
+            self.iterations += next.iterations;
+            left -= stride;
+            let gain = 1.0 - next.evaluation.cost / descent.evaluation.cost;
+            descent.history.append(&mut next.history);
+            next.history = descent.history;
+            descent = next;
+            if rough && (gain.is_nan() || gain < SETTLED) {
+                break;
+            }
+        }
         Ok(Rung {
             law,
             bounds,

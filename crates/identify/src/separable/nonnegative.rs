@@ -95,3 +95,67 @@ fn step(x: &mut [f64], to: &[f64], held: &[bool], nonnegative: &[bool]) -> Optio
     }
     Some(blocked)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::linear::{dot, solve};
+
+    /// Columns that resemble each other, as those of neighbouring elements do.
+    fn columns(many: usize, n: usize) -> Vec<Vec<f64>> {
+        (0..many)
+            .map(|k| {
+                (0..n)
+                    .map(|i| (3.0 * (i as f64 * 0.011 * (1.0 + 0.1 * k as f64)).sin()).tanh())
+                    .collect()
+            })
+            .collect()
+    }
+
+    #[test]
+    fn the_optimality_conditions_hold() {
+        let columns = columns(24, 2000);
+        let views: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        for seed in 0..8 {
+            let force: Vec<f64> = (0..2000)
+                .map(|i| {
+                    let t = i as f64;
+                    columns[3][i] + 0.4 * columns[11 + seed][i] - 0.3 * columns[7][i]
+                        + 0.2 * (t * (0.7 + 0.01 * seed as f64)).sin()
+                })
+                .collect();
+            let mut bounded = vec![true; 24];
+            bounded[23] = false;
+            let found = solve(&views, &bounded, &force);
+            let size = dot(&force, &force);
+            for (j, column) in columns.iter().enumerate() {
+                let slope = dot(column, &found.residual) / (size * dot(column, column)).sqrt();
+                if found.active[j] {
+                    assert!(found.coefficients[j] >= 0.0 || !bounded[j], "column {j}");
+                    assert!(
+                        slope.abs() < 1e-9,
+                        "column {j} is not orthogonal: {slope:e}"
+                    );
+                } else if !found.dependent[j] {
+                    assert!(slope < 1e-8, "column {j} would help: {slope:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn exact_forces_are_found_among_many_columns() {
+        let columns = columns(24, 2000);
+        let views: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        let force: Vec<f64> = (0..2000)
+            .map(|i| 2.0 * columns[5][i] + columns[17][i])
+            .collect();
+        let found = solve(&views, &[true; 24], &force);
+        assert!(found.cost < 1e-16 * dot(&force, &force), "{:e}", found.cost);
+        assert!(
+            (found.coefficients[5] - 2.0).abs() < 1e-4,
+            "{:?}",
+            found.coefficients
+        );
+        assert!((found.coefficients[17] - 1.0).abs() < 1e-4);
+    }
+}
