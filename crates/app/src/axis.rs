@@ -31,6 +31,8 @@ pub struct Axis {
     pub terms: Terms,
     /// Stribeck exponent, dimensionless.
     pub stribeck_exponent: f64,
+    /// Elements of the Maxwell-slip law; `None` leaves the number to the data.
+    pub gms_elements: Option<usize>,
     /// Speed below which a sample counts as slow, m/s or rad/s; `None` follows from the log.
     pub low_speed: Option<f64>,
     /// How the logged force stands to the instants of the samples, for a simulation.
@@ -58,6 +60,7 @@ impl Default for Axis {
                 ..Terms::default()
             },
             stribeck_exponent: 2.0,
+            gms_elements: None,
             low_speed: None,
             hold: Hold::Held,
             segment: None,

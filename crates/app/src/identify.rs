@@ -137,7 +137,12 @@ pub(crate) fn fit(
         &settings,
         observer,
     )?;
-    let full = condition(&sources, &chosen)?;
+    // A Maxwell-slip law remembers its past: it is fitted from where the motion has wiped that out.
+    let settle = |record: Record| match options.law {
+        Some(law) if law.has_elements() => record.settled(),
+        _ => record,
+    };
+    let full = settle(condition(&sources, &chosen)?);
     let (record, split) = match options.split {
         None => (full.clone(), None),
         Some(part) => {
@@ -173,7 +178,7 @@ pub(crate) fn fit(
         names = paths(&held_out);
         unseen = held_out
             .iter()
-            .map(|source| condition(std::slice::from_ref(source), &chosen))
+            .map(|source| condition(std::slice::from_ref(source), &chosen).map(settle))
             .collect::<Result<_, _>>()?;
     }
     let [symmetric, asymmetric] = if options.asymmetric {
@@ -214,10 +219,11 @@ pub(crate) fn fit(
                     kind,
                     asymmetric: options.asymmetric,
                     exponent: axis.stribeck_exponent,
+                    elements: axis.gms_elements.unwrap_or(0),
                 };
                 choice::asked(law, &ladder, options.compare_laws, &settings, observer)
             }
-            None => choice::auto(axis.stribeck_exponent, &ladder, &settings, observer),
+            None => choice::auto(axis, &ladder, &settings, observer),
         };
         choice.map_err(|source| Error::Identify {
             inputs: paths(&sources).join(", "),

@@ -1,6 +1,7 @@
 //! `report.html`: an identification as a person reads it.
 
 mod dependences;
+mod elements;
 mod figures;
 mod formula;
 mod ladder;
@@ -67,6 +68,11 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
             .block(tables::laws(outcome))
             .block(ladder::figure(outcome));
     }
+    if !result.elements.is_empty() {
+        document = document
+            .heading(2, "How many elements")
+            .block(elements::tried(outcome));
+    }
     if sampled {
         document = how_sure(document, outcome);
     } else {
@@ -93,11 +99,15 @@ fn measured_force(mut document: Document, outcome: &Outcome) -> Document {
     document = document
         .heading(2, "Friction and velocity")
         .block(figures::velocity_map(outcome));
-    let close: Vec<Block> = [figures::low_speed(outcome), figures::presliding(outcome)]
-        .into_iter()
-        .flatten()
-        .map(Block::from)
-        .collect();
+    let close: Vec<Block> = [
+        figures::low_speed(outcome),
+        figures::presliding(outcome),
+        elements::virgin(outcome),
+    ]
+    .into_iter()
+    .flatten()
+    .map(Block::from)
+    .collect();
     if !close.is_empty() {
         document = document.block(Block::Columns(close));
     }
@@ -244,6 +254,8 @@ pub(crate) fn law_name(law: &str, asymmetric: bool) -> String {
         "dahl" => "Dahl",
         "lugre" => "LuGre",
         "elasto-plastic" => "Elasto-plastic",
+        "maxwell-slip" => "Maxwell slip",
+        "gms" => "Generalised Maxwell slip",
         other => other,
     };
     if asymmetric {

@@ -64,6 +64,9 @@ pub struct ResultFile {
     /// Break-away runs, where given.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub break_away: Vec<BreakAwayEntry>,
+    /// Numbers of elements that were tried for a Maxwell-slip law; absent where there was no choice.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub elements: Vec<ElementsEntry>,
     /// How the search went.
     pub search: Search,
     /// What to beware of.
@@ -240,6 +243,9 @@ pub struct LawEntry {
     pub law: String,
     /// Whether each direction has parameters of its own.
     pub asymmetric: bool,
+    /// Elements of a Maxwell-slip law; absent for other laws.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elements: Option<usize>,
     /// Fitted parameters.
     pub parameters: usize,
     /// Relative error on the samples it was fitted to, percent.
@@ -263,6 +269,19 @@ pub struct LawEntry {
     /// Whether this is the simplest law whose held-out error is within its noise, or 1 %, of the
     /// least.
     pub best: bool,
+}
+
+/// One number of elements of a Maxwell-slip law.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ElementsEntry {
+    /// How many elements.
+    pub elements: usize,
+    /// Relative error where it was fitted, percent.
+    pub fitted_error_percent: f64,
+    /// Relative error over blocks left out in turn, percent; `null` where it could not be had.
+    pub held_out_error_percent: Option<f64>,
+    /// Whether it was chosen.
+    pub chosen: bool,
 }
 
 /// How the search went.

@@ -10,6 +10,8 @@ pub fn unit(dimension: Dimension, motion: Motion, force: &str, load: &str) -> St
         Dimension::Stiffness => format!("{force}/{length}"),
         Dimension::Damping => format!("{force}*s/{length}"),
         Dimension::Force => force.to_string(),
+        Dimension::Length => length.to_string(),
+        Dimension::Rate => "1/s".into(),
         Dimension::Speed => speed_unit(motion).to_string(),
         Dimension::Inertia => match force {
             "N" => "kg".into(),
@@ -29,7 +31,6 @@ pub fn unit(dimension: Dimension, motion: Motion, force: &str, load: &str) -> St
         Dimension::Load if load.is_empty() => "1".into(),
         Dimension::Load => load.to_string(),
         Dimension::Temperature => "K".into(),
-        Dimension::Length => length.into(),
         Dimension::One => "1".into(),
     }
 }
@@ -58,6 +59,12 @@ pub fn symbol(name: &str) -> String {
             .strip_suffix("_neg")
             .map_or((name, ""), |stem| (stem, "⁻")),
     };
+    for (name, letter) in [("stiffness_", "k"), ("yield_", "d")] {
+        if let Some(number) = stem.strip_prefix(name) {
+            let digits = number.chars().map(subscript).collect::<String>();
+            return format!("{letter}{digits}");
+        }
+    }
     let symbol = match stem {
         "sigma0" => "σ₀",
         "sigma1" => "σ₁",
@@ -67,6 +74,7 @@ pub fn symbol(name: &str) -> String {
         "stribeck_velocity" => "vs",
         "stribeck_exponent" => "δ",
         "breakaway_ratio" => "zba/zss",
+        "attraction" => "a",
         "mass" => "M",
         "offset" => "F₀",
         "delay" => "τ",
@@ -81,6 +89,17 @@ pub fn symbol(name: &str) -> String {
         other => other,
     };
     format!("{symbol}{side}")
+}
+
+/// Whether a parameter is that of a single Maxwell-slip element.
+pub fn is_element(name: &str) -> bool {
+    name.starts_with("stiffness_") || name.starts_with("yield_")
+}
+
+/// A digit below the line.
+fn subscript(digit: char) -> char {
+    let shift = digit.to_digit(10).unwrap_or(0);
+    char::from_u32(0x2080 + shift).unwrap_or(digit)
 }
 
 /// What a parameter is, in the words of the field.
@@ -102,6 +121,7 @@ pub fn meaning(name: &str, motion: Motion) -> String {
         "stribeck_velocity" => "Stribeck velocity",
         "stribeck_exponent" => "Stribeck exponent",
         "breakaway_ratio" => "break-away part of the steady deflection",
+        "attraction" => "attraction of slip to the Stribeck curve",
         "mass" => match motion {
             Motion::Linear => "moving mass",
             Motion::Rotary => "inertia",
@@ -120,6 +140,8 @@ pub fn meaning(name: &str, motion: Motion) -> String {
         "position_reference" => "middle of the stroke",
         other if other.starts_with("cogging") => "cogging",
         other if other.starts_with("coulomb_pitch") => "Coulomb friction, wave along the stroke",
+        other if other.starts_with("stiffness_") => "stiffness of an element",
+        other if other.starts_with("yield_") => "deflection at which the element yields",
         other => other,
     };
     format!("{text}{side}")

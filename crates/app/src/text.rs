@@ -140,6 +140,10 @@ pub fn outcome(outcome: &Outcome) -> String {
         out.push_str("\nlaws on held-out samples\n");
         out.push_str(&laws(outcome));
     }
+    if !result.elements.is_empty() {
+        out.push_str("\nelements on blocks left out\n");
+        out.push_str(&elements(outcome));
+    }
     for warning in &result.warnings {
         let _ = writeln!(out, "\nwarning [{}] {}", warning.code, warning.message);
     }
@@ -248,6 +252,24 @@ fn laws(outcome: &Outcome) -> String {
         ]);
     }
     table(&rows, &[false, true, true, true, true, true, true, false])
+}
+
+fn elements(outcome: &Outcome) -> String {
+    let mut rows = vec![
+        ["elements", "fitted", "held out", ""]
+            .map(String::from)
+            .to_vec(),
+    ];
+    let percent = |x: f64| format!("{x:.2} %");
+    for score in &outcome.result.elements {
+        rows.push(vec![
+            score.elements.to_string(),
+            percent(score.fitted_error_percent),
+            score.held_out_error_percent.map_or("-".into(), percent),
+            if score.chosen { "chosen" } else { "" }.to_string(),
+        ]);
+    }
+    table(&rows, &[true, true, true, false])
 }
 
 /// The outcome of a check.

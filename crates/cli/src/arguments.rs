@@ -127,6 +127,10 @@ pub enum Law {
     Lugre,
     /// LuGre that does not creep below break-away.
     ElastoPlastic,
+    /// Maxwell slip: presliding with memory of past reversals.
+    MaxwellSlip,
+    /// Generalised Maxwell slip: the same with a Stribeck curve.
+    Gms,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -115,6 +115,8 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
             arguments::Law::Dahl => Some(LawKind::Dahl),
             arguments::Law::Lugre => Some(LawKind::LuGre),
             arguments::Law::ElastoPlastic => Some(LawKind::ElastoPlastic),
+            arguments::Law::MaxwellSlip => Some(LawKind::MaxwellSlip),
+            arguments::Law::Gms => Some(LawKind::Gms),
         },
         asymmetric: identify.asymmetric,
         validate: identify.validate.clone(),

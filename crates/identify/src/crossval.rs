@@ -77,7 +77,7 @@ pub fn cross_validate(
     let mut complete = blocks >= 2;
     let order = kept_order(record);
     let total = record.kept();
-    let unknowns = fitted.parameters.iter().filter(|p| p.identified).count();
+    let unknowns = fitted.fitted_unknowns();
     // What is left of the record must still be enough for a fit.
     if total - total / blocks.max(1) < 10 * unknowns {
         complete = false;
@@ -112,7 +112,7 @@ pub fn cross_validate(
 }
 
 /// For each sample of the regression its place among the kept ones.
-fn kept_order(record: &Record) -> Vec<Option<usize>> {
+pub(crate) fn kept_order(record: &Record) -> Vec<Option<usize>> {
     let mut next = 0;
     record
         .segments

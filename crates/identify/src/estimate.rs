@@ -5,6 +5,7 @@ pub(crate) mod uncertainty;
 use crate::conditioning::record::Record;
 use crate::estimate::uncertainty::Covariance;
 use crate::fit::Fit;
+use crate::gms::choose::ElementsScore;
 use crate::law::Law;
 use crate::law::dependence::Dependence;
 use crate::law::physical::{self, Dimension, Physical};
@@ -104,6 +105,8 @@ pub struct Estimate {
     pub iterations: usize,
     /// Evaluations and relative residual over the last descent.
     pub history: Vec<(usize, f64)>,
+    /// The numbers of elements that were tried for a Maxwell-slip law; empty where it was given.
+    pub elements: Vec<ElementsScore>,
     /// Sample time of the record, s.
     pub(crate) step: f64,
     pub(crate) p: Vec<f64>,
@@ -119,6 +122,11 @@ impl Estimate {
     /// The value of this name.
     pub fn value(&self, name: &str) -> Option<f64> {
         self.parameter(name).map(|p| p.value)
+    }
+
+    /// How many unknowns were fitted; some laws have parameters that follow from others.
+    pub fn fitted_unknowns(&self) -> usize {
+        self.p.len() + self.coefficients.len()
     }
 
     pub(crate) fn unknowns(&self) -> &[f64] {
@@ -184,6 +192,11 @@ pub(crate) fn assemble(
     low_speed_bound: f64,
     found: &Found,
 ) -> Estimate {
+    // The number of elements is a result where the data chose it.
+    let law = Law {
+        elements: optimum.law.elements,
+        ..law
+    };
     let objective = Objective::new(record, law, terms);
     let at = &optimum.evaluation;
     let c = &found.c;
@@ -288,6 +301,7 @@ pub(crate) fn assemble(
         history: optimum.history.clone(),
         step,
         p: found.p.clone(),
+        elements: optimum.elements.clone(),
         coefficients: c.clone(),
     }
 }
@@ -398,6 +412,7 @@ fn series(objective: &Objective, p: &[f64], coefficients: &[f64]) -> Series {
         let friction = matches!(
             term.column,
             ColumnKind::Level
+                | ColumnKind::Element(_)
                 | ColumnKind::Sign(_)
                 | ColumnKind::Rate
                 | ColumnKind::Speed(_)
@@ -465,6 +480,7 @@ impl Assembled {
             counts: self.counts,
             iterations: self.counts.total(),
             history: Vec::new(),
+            elements: Vec::new(),
             step: 0.0,
             p: self.unknowns.0,
             coefficients: self.unknowns.1,

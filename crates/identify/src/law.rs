@@ -17,16 +17,22 @@ pub enum LawKind {
     LuGre,
     /// LuGre that does not creep below break-away: Dupont et al. 2002, doi 10.1109/TAC.2002.1000274.
     ElastoPlastic,
+    /// Maxwell slip: elements that stick and slip in parallel, without a Stribeck curve.
+    MaxwellSlip,
+    /// Generalised Maxwell slip: Al-Bender, Lampaert and Swevers 2005, doi 10.1109/TAC.2005.858676.
+    Gms,
 }
 
 impl LawKind {
     /// All families, from the simplest to the richest.
-    pub const ALL: [LawKind; 5] = [
+    pub const ALL: [LawKind; 7] = [
         LawKind::CoulombViscous,
         LawKind::Stribeck,
         LawKind::Dahl,
         LawKind::LuGre,
         LawKind::ElastoPlastic,
+        LawKind::MaxwellSlip,
+        LawKind::Gms,
     ];
 
     /// Name as typed on the command line and written to files.
@@ -37,6 +43,8 @@ impl LawKind {
             LawKind::Dahl => "dahl",
             LawKind::LuGre => "lugre",
             LawKind::ElastoPlastic => "elasto-plastic",
+            LawKind::MaxwellSlip => "maxwell-slip",
+            LawKind::Gms => "gms",
         }
     }
 
@@ -47,17 +55,23 @@ impl LawKind {
 
     /// Whether the law has a bristle, and so memory and a stiffness.
     pub fn has_bristle(self) -> bool {
-        matches!(
+        let one = matches!(
             self,
             LawKind::Dahl | LawKind::LuGre | LawKind::ElastoPlastic
-        )
+        );
+        one || self.has_elements()
+    }
+
+    /// Whether the law is a number of Maxwell-slip elements in parallel.
+    pub fn has_elements(self) -> bool {
+        matches!(self, LawKind::MaxwellSlip | LawKind::Gms)
     }
 
     /// Whether the friction level falls with speed.
     pub fn has_stribeck(self) -> bool {
         matches!(
             self,
-            LawKind::Stribeck | LawKind::LuGre | LawKind::ElastoPlastic
+            LawKind::Stribeck | LawKind::LuGre | LawKind::ElastoPlastic | LawKind::Gms
         )
     }
 
@@ -83,6 +97,9 @@ pub struct Law {
     pub asymmetric: bool,
     /// Stribeck exponent `delta`, dimensionless; 2 is the Gaussian curve.
     pub exponent: f64,
+    /// Elements of a Maxwell-slip law; 0 leaves the number to the data. Other laws do
+    /// not look at it.
+    pub elements: usize,
 }
 
 impl Law {
@@ -92,6 +109,7 @@ impl Law {
             kind,
             asymmetric: false,
             exponent: 2.0,
+            elements: 0,
         }
     }
 
@@ -116,7 +134,8 @@ impl Law {
                 count - 1
             })
         };
-        let bristle = self.kind.has_bristle();
+        let elements = self.kind.has_elements();
+        let bristle = self.kind.has_bristle() && !elements;
         let curve = self.kind.has_stribeck();
         // Coulomb + viscous stays linear in both directions: one sign column each.
         let two = self.asymmetric && self.kind != LawKind::CoulombViscous;
@@ -127,12 +146,17 @@ impl Law {
         let excess_neg = next(two && curve);
         let velocity_neg = next(two && curve);
         let breakaway = next(self.kind == LawKind::ElastoPlastic);
+        let attraction = next(elements && curve);
+        let yields = if elements { self.elements } else { 0 };
+        count += yields;
         Layout {
             kappa,
             excess: [excess_pos, if two { excess_neg } else { excess_pos }],
             velocity: [velocity_pos, if two { velocity_neg } else { velocity_pos }],
             ratio,
             breakaway,
+            attraction,
+            yields,
             count,
         }
     }
@@ -147,10 +171,14 @@ pub(crate) struct Layout {
     pub excess: [Option<usize>; 2],
     /// `ln vs`, for positive and negative velocity.
     pub velocity: [Option<usize>; 2],
-    /// `ln (Fc- / Fc+)`.
+    /// `ln (Fc- / Fc+)`; for the Maxwell-slip law `ln (Fs- / Fs+)`.
     pub ratio: Option<usize>,
     /// `ln (b/(1 - b))`, b = z_ba/z_ss, of an elasto-plastic bristle.
     pub breakaway: Option<usize>,
+    /// `ln w`, the rate in 1/s at which a slipping Maxwell-slip element follows the Stribeck curve.
+    pub attraction: Option<usize>,
+    /// How many `ln d_k` of Maxwell-slip elements stand last; d in m or rad.
+    pub yields: usize,
     /// How many there are.
     pub count: usize,
 }
@@ -160,4 +188,11 @@ pub(crate) fn share_of_odds(odds: f64) -> (f64, f64) {
     let share = 1.0 / (1.0 + libm::exp(-odds));
     let rest = 1.0 / (1.0 + libm::exp(odds));
     (share, share * rest)
+}
+
+impl Layout {
+    /// Where `ln d_k` of the Maxwell-slip elements stand.
+    pub fn yields(&self) -> std::ops::Range<usize> {
+        self.count - self.yields..self.count
+    }
 }

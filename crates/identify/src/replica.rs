@@ -104,7 +104,8 @@ impl Axis<'_> {
                         *y += c * libm::cos(k * x);
                     }
                 }
-                ColumnKind::Sign(_)
+                ColumnKind::Element(_)
+                | ColumnKind::Sign(_)
                 | ColumnKind::Square(_)
                 | ColumnKind::LevelTimes(..)
                 | ColumnKind::SpeedTimes(..) => return None,
@@ -178,6 +179,7 @@ fn plant(fitted: &Estimate) -> Option<Plant> {
         kind,
         asymmetric,
         exponent,
+        ..
     } = fitted.law;
     if !matches!(kind, LawKind::Dahl | LawKind::LuGre) {
         return None;

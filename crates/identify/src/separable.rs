@@ -4,6 +4,7 @@ pub(crate) mod dual;
 pub(crate) mod elasto_plastic;
 pub(crate) mod levenberg;
 pub(crate) mod linear;
+pub(crate) mod nonnegative;
 pub(crate) mod objective;
 pub(crate) mod recursion;
 pub(crate) mod search;
@@ -11,6 +12,7 @@ pub(crate) mod search_box;
 
 use crate::conditioning::record::Record;
 use crate::error::Error;
+use crate::gms::{self, choose::ElementsScore};
 use crate::law::Law;
 use crate::law::terms::{Delay, Terms};
 use crate::observe::{Counts, Observer, Stage};
@@ -53,6 +55,8 @@ impl Default for Settings {
 /// What a search found.
 #[derive(Clone, Debug)]
 pub struct Optimum {
+    /// The law that was fitted, with the number of its elements.
+    pub law: Law,
     /// Nonlinear unknowns (logarithms, in the order of the law).
     pub p: Vec<f64>,
     /// The box that was searched.
@@ -67,6 +71,8 @@ pub struct Optimum {
     pub history: Vec<(usize, f64)>,
     /// Whether the last nonlinear unknown is the delay.
     pub(crate) delay: bool,
+    /// The numbers of elements that were tried for a Maxwell-slip law; empty where it was given.
+    pub elements: Vec<ElementsScore>,
     /// The evaluation at the optimum, with sensitivities.
     pub evaluation: Evaluation,
 }
@@ -90,40 +96,21 @@ pub fn separable(
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<Optimum, Error> {
+    if law.kind.has_elements() {
+        return gms::search::search(record, law, terms, settings, observer);
+    }
     let mut bounds = match &settings.bounds {
         Some(bounds) => bounds.clone(),
         None => SearchBox::from_record(record, &law)?,
     };
-    terms.check(record)?;
     let fitted = terms.delay == Delay::Fitted;
-    if fitted {
-        bounds = bounds.with_delay();
-    }
-    let unknowns = bounds.len() + terms.columns(&law).len();
-    if record.kept() < 10 * unknowns {
-        return Err(Error::TooFewSamples {
-            found: record.kept(),
-            needed: 10 * unknowns,
-            dropped: record.len() - record.kept(),
-            total: record.len(),
-        });
-    }
     let mut still = terms.clone();
     if fitted {
+        bounds = bounds.with_delay();
         still.delay = Delay::NONE;
     }
-    let full = Objective::new(record, law, &still);
+    let full = checked(record, law, &still)?;
     let delayed = fitted.then(|| Objective::new(record, law, terms));
-    if !full.energy().is_finite() {
-        return Err(Error::Setting {
-            name: "force",
-            found: full.energy(),
-            allowed: "numbers whose squares add up to a finite number",
-        });
-    }
-    if let Some(value) = constant(full.force()) {
-        return Err(Error::NoForce { value });
-    }
     let mut watch = Watch {
         observer,
         stage: Stage::Scan,
@@ -144,6 +131,7 @@ pub fn separable(
     };
     let (descent, status) = search.run(&bounds, &mut watch);
     Ok(Optimum {
+        law,
         p: descent.p,
         bounds,
         status,
@@ -151,8 +139,39 @@ pub fn separable(
         iterations: search.iterations,
         history: descent.history,
         delay: fitted,
+        elements: Vec::new(),
         evaluation: descent.evaluation,
     })
+}
+
+/// The objective of a record with samples and force enough for this law.
+pub(crate) fn checked<'a>(
+    record: &'a Record,
+    law: Law,
+    terms: &Terms,
+) -> Result<Objective<'a>, Error> {
+    terms.check(record)?;
+    let unknowns = law.nonlinear() + terms.columns(&law).len();
+    if record.kept() < 10 * unknowns {
+        return Err(Error::TooFewSamples {
+            found: record.kept(),
+            needed: 10 * unknowns,
+            dropped: record.len() - record.kept(),
+            total: record.len(),
+        });
+    }
+    let full = Objective::new(record, law, terms);
+    if !full.energy().is_finite() {
+        return Err(Error::Setting {
+            name: "force",
+            found: full.energy(),
+            allowed: "numbers whose squares add up to a finite number",
+        });
+    }
+    if let Some(value) = constant(full.force()) {
+        return Err(Error::NoForce { value });
+    }
+    Ok(full)
 }
 
 /// The value of a force that never changes, rounding of the filters apart.

@@ -259,10 +259,15 @@ fn conditioning() -> impl Strategy<Value = Conditioning> {
 
 fn law() -> impl Strategy<Value = Law> {
     let exponent = prop_oneof![3 => Just(2.0), 1 => Just(1.0), 1 => Just(0.1), 1 => Just(10.0)];
-    (0..LawKind::ALL.len(), any::<bool>(), exponent).prop_map(|(kind, asymmetric, exponent)| Law {
-        asymmetric,
-        exponent,
-        ..Law::new(LawKind::ALL[kind])
+    let elements = prop_oneof![Just(0), 1usize..11];
+    let kind = 0..LawKind::ALL.len();
+    (kind, any::<bool>(), exponent, elements).prop_map(|(kind, asymmetric, exponent, elements)| {
+        Law {
+            asymmetric,
+            exponent,
+            elements,
+            ..Law::new(LawKind::ALL[kind])
+        }
     })
 }
 

@@ -135,6 +135,7 @@ pub(crate) struct RawTerms {
     pub sigma2_temperature: Option<bool>,
     pub stribeck_exponent: Option<f64>,
     pub delay: Option<String>,
+    pub gms_elements: Option<usize>,
 }
 
 /// `[report]`

@@ -7,7 +7,9 @@ use super::tied::Tied;
 use crate::error::Error;
 use std::cell::RefCell;
 use std::path::Path;
-use stiction_identify::{Conditioning, Cutoff, Delay, Dependence, Hold, Mass, Source};
+use stiction_identify::{
+    Conditioning, Cutoff, Delay, Dependence, GMS_FEWEST, GMS_MOST, Hold, Mass, Source,
+};
 use stiction_log::text::{Decimal, Separator, TextOptions};
 use stiction_log::{Channel, Dimension, Mapping, Motion, Role, Selector, Unit, Value, Wrap};
 
@@ -271,6 +273,16 @@ impl Resolver<'_> {
                 ));
             }
             axis.stribeck_exponent = delta;
+        }
+        if let Some(n) = raw.terms.gms_elements {
+            if !(GMS_FEWEST..=GMS_MOST).contains(&n) {
+                return Err(self.refuse(
+                    "terms.gms_elements",
+                    n.to_string(),
+                    "a whole number from 3 to 10",
+                ));
+            }
+            axis.gms_elements = Some(n);
         }
         Ok(())
     }

@@ -4,8 +4,8 @@ use super::{Options, Outcome};
 use crate::error::Warning;
 use crate::result::ResolvedAxis;
 use crate::result::{
-    CovarianceEntry, FitEntry, LawEntry, LowSpeedEntry, ParameterEntry, ResultFile, SCHEMA, Search,
-    Trust, ValidationEntry,
+    CovarianceEntry, ElementsEntry, FitEntry, LawEntry, LowSpeedEntry, ParameterEntry, ResultFile,
+    SCHEMA, Search, Trust, ValidationEntry,
 };
 use crate::source::Source;
 use crate::symbols;
@@ -99,6 +99,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         static_then_dynamic: None,
         presliding_step: None,
         break_away: Vec::new(),
+        elements: elements(estimate),
         search: Search {
             status: estimate.status.name().into(),
             evaluations: estimate.counts.total(),
@@ -109,6 +110,18 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         },
         warnings: parts.warnings,
     }
+}
+
+fn elements(estimate: &Estimate) -> Vec<ElementsEntry> {
+    let tried = estimate.elements.iter();
+    tried
+        .map(|score| ElementsEntry {
+            elements: score.elements,
+            fitted_error_percent: score.fitted_error_percent,
+            held_out_error_percent: score.held_out_error_percent,
+            chosen: score.elements == estimate.law.elements,
+        })
+        .collect()
 }
 
 fn parameter(p: &Parameter, motion: Motion, force_unit: &str, load_unit: &str) -> ParameterEntry {
@@ -145,7 +158,7 @@ pub(super) fn correction_note(estimate: &Estimate) -> Option<String> {
 
 /// Names of the linear terms that stand beside the law.
 pub(super) fn term_names(estimate: &Estimate, motion: Motion) -> Vec<String> {
-    const LAW: [&str; 7] = [
+    const LAW: [&str; 10] = [
         "sigma0",
         "sigma1",
         "sigma2",
@@ -153,6 +166,9 @@ pub(super) fn term_names(estimate: &Estimate, motion: Motion) -> Vec<String> {
         "static",
         "stribeck_velocity",
         "breakaway_ratio",
+        "attraction",
+        "stiffness_",
+        "yield_",
     ];
     estimate
         .parameters

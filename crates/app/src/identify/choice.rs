@@ -1,6 +1,7 @@
 //! The law that was asked for, or the one that the data choose.
 
 use super::ladder::{self, Climb, Ladder, Rung};
+use crate::axis::Axis;
 use crate::result::LawEntry;
 use stiction_identify as engine;
 use stiction_identify::{Estimate, Law, LawKind, Observer, Optimum, Settings, Status};
@@ -55,12 +56,17 @@ pub(super) fn asked(
 
 /// Fits every law and takes the one that the data support.
 pub(super) fn auto(
-    exponent: f64,
+    axis: &Axis,
     ladder: &Ladder,
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<Choice, engine::Error> {
-    let climb = ladder.climb(&ladder::every(exponent), None, settings, observer);
+    let climb = ladder.climb(
+        &ladder::every(axis.stribeck_exponent, axis.gms_elements.unwrap_or(0)),
+        None,
+        settings,
+        observer,
+    );
     let (laws, best) = climb.entries();
     let Climb { mut rungs, stopped } = climb;
     let at = best.unwrap_or(0);

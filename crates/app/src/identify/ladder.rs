@@ -124,6 +124,7 @@ impl Climb {
         let entry = |(s, standing): (&LawScore, engine::Standing)| LawEntry {
             law: s.law.kind.name().into(),
             asymmetric: s.law.asymmetric,
+            elements: s.law.kind.has_elements().then_some(s.law.elements),
             parameters: s.parameters,
             fitted_error_percent: s.fitted.relative_error_percent,
             held_out_error_percent: s.held_out.map(|f| f.relative_error_percent),
@@ -143,12 +144,13 @@ impl Climb {
 }
 
 /// Every law, symmetric and asymmetric, from the simplest to the richest.
-pub(super) fn every(exponent: f64) -> Vec<Law> {
+pub(super) fn every(exponent: f64, elements: usize) -> Vec<Law> {
     LawKind::ALL
         .into_iter()
         .flat_map(|kind| {
             let base = Law {
                 exponent,
+                elements,
                 ..Law::new(kind)
             };
             [base, base.asymmetric()]
@@ -159,7 +161,7 @@ pub(super) fn every(exponent: f64) -> Vec<Law> {
 /// The laws to compare a law with: every family up to its own, each symmetric and asymmetric.
 pub(super) fn beside(law: &Law) -> Vec<Law> {
     let top = law.kind.max(LawKind::Stribeck);
-    every(law.exponent)
+    every(law.exponent, law.elements)
         .into_iter()
         .filter(|other| other.kind <= top)
         // Dahl beside LuGre stands for "no Stribeck curve"; one of its kind is enough.

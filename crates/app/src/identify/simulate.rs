@@ -69,6 +69,7 @@ pub(super) fn fit(
         kind,
         asymmetric: options.asymmetric,
         exponent: axis.stribeck_exponent,
+        elements: 0,
     };
     let mut recordings = recordings(&sources)?;
     let mut unseen_logs: Vec<(String, Recording)> = Vec::new();

@@ -105,7 +105,12 @@ pub(super) fn unidentifiable(
     reasons: &mut Vec<String>,
 ) {
     let correlation = estimate.covariance.correlation();
-    for parameter in estimate.parameters.iter().filter(|p| !p.identifiable) {
+    let unknown = || estimate.parameters.iter().filter(|p| !p.identifiable);
+    let elements: Vec<&str> = unknown()
+        .map(|p| p.name.as_str())
+        .filter(|name| symbols::is_element(name))
+        .collect();
+    for parameter in unknown().filter(|p| !symbols::is_element(&p.name)) {
         let meaning = symbols::meaning(&parameter.name, motion);
         let mut text = format!("{} ({meaning}): {}", parameter.name, parameter.reason);
         let row = estimate
@@ -139,6 +144,16 @@ pub(super) fn unidentifiable(
             ));
         }
     }
+    if !elements.is_empty() {
+        warnings.push(Warning::new(
+            "not-identifiable",
+            format!(
+                "{}: the data determine what the elements do together, not each of them. Record slow \
+                 reversals of several depths, or ask for fewer elements ([terms] gms_elements)",
+                elements.join(", ")
+            ),
+        ));
+    }
 }
 
 /// What motion would determine a parameter.
@@ -163,6 +178,7 @@ fn cure(name: &str) -> &'static str {
         "coulomb_temperature" | "sigma2_temperature" => {
             "Record the axis cold and warm, at the same speeds"
         }
+        "attraction" => "Record changes of speed while the axis slides slowly",
         "coulomb" => "Record motion in both directions well above the Stribeck velocity",
         _ => "Record motion over more of the stroke in both directions",
     }

@@ -15,6 +15,11 @@ pub(super) fn with_numbers(outcome: &Outcome) -> Block {
     }
     let mut lines = Vec::new();
     match law {
+        "gms" | "maxwell-slip" => {
+            let (sum, motion) = elements(law == "gms");
+            force.extend(sum);
+            lines.extend(motion);
+        }
         "lugre" | "dahl" | "elasto-plastic" => {
             force.extend([sub(id("σ"), num("0")), id("z")]);
             if law != "dahl" {
@@ -66,6 +71,15 @@ pub(super) fn with_numbers(outcome: &Outcome) -> Block {
         }
         "dahl" => "Dahl: LuGre without Stribeck curve and micro-damping.",
         "stribeck" => "Static Stribeck curve.",
+        "gms" => {
+            "Generalised Maxwell slip (Al-Bender, Lampaert, Swevers 2005): an element sticks until it \
+             reaches the limit, then slips until the velocity changes its sign. The k and d of each \
+             element stand in the table."
+        }
+        "maxwell-slip" => {
+            "Maxwell slip: an element sticks until it reaches its limit, then slips until the velocity \
+             changes its sign. The k and d of each element stand in the table."
+        }
         _ => "Coulomb and viscous friction.",
     };
     Block::Formula(lines, caption.into())
@@ -105,6 +119,39 @@ fn breakaway(outcome: &Outcome) -> Math {
         num(number::sig(share, 3)),
         frac(row([id("g"), paren(id("v"))]), sub(id("σ"), num("0"))),
     ])
+}
+
+/// Sum of the elements; how one sticks, and how it slips.
+fn elements(curve: bool) -> (Vec<Math>, [Math; 2]) {
+    let of = |name: &str| sub(id(name), id("i"));
+    let deflection = || sub(id("z"), id("i"));
+    let sum = vec![op("∑"), of("k"), deflection()];
+    let stick = row([id("stick:"), dot(deflection()), op("="), id("v")]);
+    let limit = || {
+        let mut limit = vec![of("d")];
+        if curve {
+            let over = frac(
+                row([id("g"), paren(id("v"))]),
+                row([id("g"), paren(num("0"))]),
+            );
+            limit.push(over);
+        }
+        limit
+    };
+    let mut slip = vec![id("slip:")];
+    if curve {
+        let part = frac(
+            deflection(),
+            row(limit().into_iter().chain([id("sgn"), id("v")])),
+        );
+        slip.extend([dot(deflection()), op("="), id("a"), of("d")]);
+        slip.extend([paren(row([num("1"), op("−"), part])), id("sgn"), id("v")]);
+    } else {
+        slip.extend([deflection(), op("=")]);
+        slip.extend(limit());
+        slip.extend([id("sgn"), id("v")]);
+    }
+    (sum, [stick, row(slip)])
 }
 
 /// `g(v)` of one direction with its numbers.

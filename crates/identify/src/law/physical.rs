@@ -1,5 +1,6 @@
 //! From the unknowns of the search to the parameters of the law.
 
+use crate::gms;
 use crate::law::dependence::Factor;
 use crate::law::terms::{ColumnKind, LinearTerm, Side};
 use crate::law::{Law, share_of_odds};
@@ -14,8 +15,12 @@ pub enum Dimension {
     Damping,
     /// Force, torque, or what stands for it (current, voltage).
     Force,
+    /// Length or angle.
+    Length,
     /// Length (or angle) per time.
     Speed,
+    /// Per time.
+    Rate,
     /// Force per acceleration: mass or inertia.
     Inertia,
     /// Time, s.
@@ -32,8 +37,6 @@ pub enum Dimension {
     Load,
     /// Temperature, K.
     Temperature,
-    /// Length, or angle.
-    Length,
     /// A pure number.
     One,
 }
@@ -72,7 +75,11 @@ pub(crate) fn physical(
     } else {
         &[""]
     };
-    let mut out = Vec::new();
+    let mut out = if law.kind.has_elements() {
+        gms::physical::physical(law, linear, p, c)
+    } else {
+        Vec::new()
+    };
     let mut push = |name: String,
                     dimension,
                     value: f64,
@@ -168,7 +175,8 @@ pub(crate) fn physical(
         }
     }
     for (i, term) in linear.iter().enumerate() {
-        if matches!(term.name.as_str(), "coulomb" | "sigma1") {
+        let own = matches!(term.name.as_str(), "coulomb" | "sigma1");
+        if own || term.name.starts_with(gms::ELEMENT) {
             continue;
         }
         // The level of the negative direction is a multiple of that of the positive one, and so is
@@ -236,6 +244,7 @@ fn dimension(column: ColumnKind) -> Dimension {
         // Only a temperature changes the viscous term.
         ColumnKind::SpeedTimes(..) => Dimension::DampingPerTemperature,
         ColumnKind::Level
+        | ColumnKind::Element(_)
         | ColumnKind::Sign(_)
         | ColumnKind::One
         | ColumnKind::Sine(_)
@@ -245,7 +254,7 @@ fn dimension(column: ColumnKind) -> Dimension {
 
 /// Order of parameters in tables and files.
 pub(crate) fn rank(name: &str) -> usize {
-    const ORDER: [&str; 12] = [
+    const ORDER: [&str; 13] = [
         "sigma0",
         "sigma1",
         "sigma2",
@@ -255,6 +264,7 @@ pub(crate) fn rank(name: &str) -> usize {
         "stribeck_velocity",
         "stribeck_exponent",
         "breakaway_ratio",
+        "attraction",
         "mass",
         "offset",
         "delay",

@@ -82,6 +82,8 @@ pub(crate) struct LinearTerm {
 pub(crate) enum ColumnKind {
     /// `eta` (or its steady state for a static law).
     Level,
+    /// Deflection of one Maxwell-slip element, counted from 0, over its yield deflection.
+    Element(usize),
     /// `sgn v` for one direction only (Coulomb + viscous, asymmetric).
     Sign(Side),
     /// `v - |v| eta / gh`.
@@ -164,7 +166,12 @@ impl Terms {
             });
         };
         let split = law.kind == LawKind::CoulombViscous && law.asymmetric;
-        if split {
+        if law.kind.has_elements() {
+            for k in 0..law.elements {
+                let name = format!("{}{}", crate::gms::ELEMENT, k + 1);
+                push(&name, ColumnKind::Element(k), true);
+            }
+        } else if split {
             push("coulomb_pos", ColumnKind::Sign(Side::Positive), true);
             push("coulomb_neg", ColumnKind::Sign(Side::Negative), true);
         } else {

@@ -252,6 +252,7 @@ pub(crate) fn describe(
         counts,
         iterations,
         history,
+        elements: Vec::new(),
         step: 0.0,
         p: Vec::new(),
         coefficients: Vec::new(),

@@ -51,6 +51,7 @@ impl StaticMap {
             },
             asymmetric: self.settings.asymmetric,
             exponent: self.exponent(),
+            elements: 0,
         };
         let terms = Terms {
             mass: Mass::Absent,

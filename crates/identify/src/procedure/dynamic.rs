@@ -87,6 +87,8 @@ pub fn dynamic(
     evaluation.solution.active = vec![true; c.len()];
     evaluation.solution.dependent = vec![false; c.len()];
     let optimum = Optimum {
+        law,
+        elements: Vec::new(),
         p: p.clone(),
         bounds,
         status,

@@ -126,6 +126,7 @@ pub(super) fn run<const K: usize>(
         rate: vec![0.0; n],
         eta_slope: vec![vec![0.0; n]; K],
         rate_slope: vec![vec![0.0; n]; K],
+        ..Trace::default()
     };
     let plasticity = Plasticity::<K>::new(layout, odds);
     let kappa = Dual::new(curve.kappa, layout.kappa, curve.kappa);

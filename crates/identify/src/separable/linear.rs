@@ -1,10 +1,13 @@
 //! The inner problem: linear least squares with a few coefficients that must not be negative.
 
+use super::nonnegative;
 use nalgebra::{DMatrix, DVector};
 
 /// Columns whose part outside the span of those before is below this (relative, squared) cannot be
 /// told apart from them and are left out.
 const DEPENDENT: f64 = 1e-13;
+/// Bounded columns of which every subset is tried.
+const MOST_TRIED: usize = 6;
 
 /// Sum of products in a fixed order: four partial sums for speed, the same bits everywhere.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -38,7 +41,7 @@ pub(crate) struct Solution {
 }
 
 #[derive(Clone, Debug)]
-struct Factor {
+pub(super) struct Factor {
     /// Indices of the active columns.
     columns: Vec<usize>,
     scale: Vec<f64>,
@@ -47,7 +50,7 @@ struct Factor {
 
 impl Factor {
     /// Cholesky of the scaled Gram matrix of `wanted`, leaving out dependent columns.
-    fn new(gram: &DMatrix<f64>, wanted: &[usize]) -> (Self, Vec<usize>) {
+    pub fn new(gram: &DMatrix<f64>, wanted: &[usize]) -> (Self, Vec<usize>) {
         let mut columns = Vec::new();
         let mut dropped = Vec::new();
         let m = wanted.len();
@@ -93,8 +96,13 @@ impl Factor {
         )
     }
 
+    /// Indices of the active columns.
+    pub fn columns(&self) -> &[usize] {
+        &self.columns
+    }
+
     /// Solves the normal equations for a right-hand side given for the active columns.
-    fn solve(&self, rhs: &[f64]) -> Vec<f64> {
+    pub fn solve(&self, rhs: &[f64]) -> Vec<f64> {
         let mut b =
             DVector::from_iterator(rhs.len(), rhs.iter().zip(&self.scale).map(|(x, s)| x * s));
         self.lower.solve_lower_triangular_mut(&mut b);
@@ -131,13 +139,13 @@ fn residual(columns: &[&[f64]], factor: &Factor, c: &[f64], u: &[f64], out: &mut
     }
 }
 
-/// Least squares of `u` on `columns`, with `nonnegative` coefficients at or above zero.
+/// Least squares of `u` on `columns`, with the `bounded` coefficients at or above zero.
 ///
 /// The normal equations are solved on scaled columns and refined once with the true residual, which
-/// brings the accuracy of an orthogonal factorisation. Every subset of bounded columns that a bound
-/// could hold at zero is tried in turn, the one leaving the least residual and breaking no bound
-/// wins; there are at most a handful.
-pub(crate) fn solve(columns: &[&[f64]], nonnegative: &[bool], u: &[f64]) -> Solution {
+/// brings the accuracy of an orthogonal factorisation. Of a handful of bounded columns every subset
+/// that a bound could hold at zero is tried in turn, the one leaving the least residual and breaking
+/// no bound wins; with more, [`nonnegative`](super::nonnegative) finds it.
+pub(crate) fn solve(columns: &[&[f64]], bounded: &[bool], u: &[f64]) -> Solution {
     let m = columns.len();
     let mut gram = DMatrix::zeros(m, m);
     let mut rhs = vec![0.0; m];
@@ -149,7 +157,11 @@ pub(crate) fn solve(columns: &[&[f64]], nonnegative: &[bool], u: &[f64]) -> Solu
         }
         rhs[i] = dot(columns[i], u);
     }
-    let held = feasible_set(&gram, &rhs, nonnegative);
+    let held = if bounded.iter().filter(|&&b| b).count() > MOST_TRIED {
+        nonnegative::held(&gram, &rhs, bounded, dot(u, u))
+    } else {
+        feasible_set(&gram, &rhs, bounded)
+    };
     let wanted: Vec<usize> = (0..m).filter(|j| !held[*j]).collect();
     let (factor, dropped) = Factor::new(&gram, &wanted);
     let pick: Vec<f64> = factor.columns.iter().map(|&j| rhs[j]).collect();
@@ -192,7 +204,7 @@ fn feasible_set(gram: &DMatrix<f64>, rhs: &[f64], nonnegative: &[bool]) -> Vec<b
     let m = rhs.len();
     let bounded: Vec<usize> = (0..m).filter(|&j| nonnegative[j]).collect();
     let mut best: Option<(f64, Vec<bool>)> = None;
-    for set in 0_u32..(1 << bounded.len().min(8)) {
+    for set in 0_u32..(1 << bounded.len()) {
         let mut held = vec![false; m];
         for (bit, &j) in bounded.iter().enumerate() {
             held[j] = set >> bit & 1 == 1;

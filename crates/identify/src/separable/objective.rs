@@ -2,6 +2,7 @@
 
 use crate::conditioning::record::{Record, Segment};
 use crate::conditioning::shift::Shift;
+use crate::gms;
 use crate::law::Law;
 use crate::law::dependence::product;
 use crate::law::terms::{ColumnKind, Delay, LinearTerm, Mass, Side, Terms};
@@ -75,7 +76,11 @@ impl<'a> Objective<'a> {
     /// The objective of this law with these terms on this record.
     pub fn new(record: &'a Record, law: Law, terms: &Terms) -> Self {
         let linear = terms.columns(&law);
-        let delay = terms.delay;
+        // Elements stick and slip at instants that a shift would move between samples.
+        let delay = match terms.delay {
+            Delay::Fitted if law.kind.has_elements() => Delay::NONE,
+            delay => delay,
+        };
         let moves = delay != Delay::NONE;
         let fixed = linear
             .iter()
@@ -274,6 +279,7 @@ impl<'a> Objective<'a> {
                 let trace = trace(&self.law, p, s.step, &s.velocity, slopes);
                 // The rate is empty for a static law, and then no column asks for it.
                 let mut columns = vec![trace.eta.clone(), trace.rate.clone()];
+                columns.extend(trace.elements.iter().map(|e| e.level.clone()));
                 for varying in &self.varying {
                     columns.push(product(&trace.eta, &varying.factors[i], varying.side));
                 }
@@ -293,14 +299,15 @@ impl<'a> Objective<'a> {
             }
             out
         };
-        // They were made in the order of the linear unknowns.
-        let mut next = 2..;
+        // They were made in the order of the linear unknowns, after the elements.
+        let mut next = 2 + runs.first().map_or(0, |run| run.trace.elements.len())..;
         self.linear
             .iter()
             .zip(&self.fixed)
             .map(|(term, fixed)| match (fixed, term.column) {
                 (Some(column), _) => self.at(column, shift),
                 (None, ColumnKind::Rate) => own(1),
+                (None, ColumnKind::Element(k)) => own(2 + k),
                 (None, ColumnKind::LevelTimes(..)) => next.next().map(&own).unwrap_or_default(),
                 (None, _) => own(0),
             })
@@ -327,6 +334,9 @@ impl<'a> Objective<'a> {
             let level = self.level(s, &t.eta, c_eta, coefficients);
             let mut full: Vec<Vec<f64>> = (0..k)
                 .map(|i| {
+                    if self.law.kind.has_elements() {
+                        return gms::recursion::slope(&t.elements, i, coefficients);
+                    }
                     let slope = t.eta_slope[i].iter();
                     let mut d: Vec<f64> = match &level {
                         None => slope.map(|x| c_eta * x).collect(),
@@ -405,8 +415,8 @@ impl<'a> Objective<'a> {
 /// The law along one segment.
 struct Run {
     trace: Trace,
-    /// The columns that the law makes, filtered, at the full rate: `eta`, its rate, and the levels
-    /// that change with another channel.
+    /// The columns that the law makes, filtered, at the full rate: `eta`, its rate, the elements, and
+    /// the levels that change with another channel.
     columns: Vec<Vec<f64>>,
 }
 
@@ -421,7 +431,10 @@ fn fixed_column(record: &Record, column: ColumnKind, moves: bool) -> Option<Fixe
         _ => v,
     };
     let mut full = match column {
-        ColumnKind::Level | ColumnKind::Rate | ColumnKind::LevelTimes(..) => return None,
+        ColumnKind::Level
+        | ColumnKind::Element(_)
+        | ColumnKind::Rate
+        | ColumnKind::LevelTimes(..) => return None,
         ColumnKind::Sign(side) => each(&|s| {
             of(&s.velocity, &|v| {
                 if side.selects(v) { v.signum() } else { 0.0 }

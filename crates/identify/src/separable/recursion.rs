@@ -78,7 +78,7 @@ pub(super) fn level<const K: usize>(
 
 /// `(1 - exp(-a)) / a` and its derivative.
 #[inline(always)]
-fn phi(a: f64, e: f64) -> (f64, f64) {
+pub(crate) fn phi(a: f64, e: f64) -> (f64, f64) {
     if a < 1e-3 {
         let value = 1.0 - a * (0.5 - a * (1.0 / 6.0 - a * (1.0 / 24.0 - a / 120.0)));
         let slope = -0.5 + a * (1.0 / 3.0 - a * (0.125 - a / 30.0));
@@ -100,10 +100,18 @@ pub(crate) struct Trace {
     pub eta_slope: Vec<Vec<f64>>,
     /// Derivatives of `rate`.
     pub rate_slope: Vec<Vec<f64>>,
+    /// The elements of a Maxwell-slip law; all above is then empty.
+    pub elements: Vec<crate::gms::recursion::Element>,
 }
 
 /// Runs the law along a velocity; `slopes` asks for the sensitivities too.
 pub(crate) fn trace(law: &Law, p: &[f64], step: f64, velocity: &[f64], slopes: bool) -> Trace {
+    if law.kind.has_elements() {
+        return Trace {
+            elements: crate::gms::recursion::trace(law, p, step, velocity, slopes),
+            ..Trace::default()
+        };
+    }
     let layout = law.layout();
     let curve = Curve::new(law, &layout, p);
     if let (LawKind::ElastoPlastic, Some(i)) = (law.kind, layout.breakaway) {
@@ -132,7 +140,7 @@ fn without_slopes(layout: &Layout) -> Layout {
         velocity: [None; 2],
         ratio: None,
         breakaway: None,
-        count: layout.count,
+        ..*layout
     }
 }
 
@@ -149,6 +157,7 @@ fn run<const K: usize>(
         rate: Vec::new(),
         eta_slope: vec![vec![0.0; n]; K],
         rate_slope: Vec::new(),
+        elements: Vec::new(),
     };
     if law.kind.has_bristle() {
         out.rate = vec![0.0; n];

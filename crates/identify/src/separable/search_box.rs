@@ -23,10 +23,12 @@ struct Ranges {
     excess: (f64, f64),
     /// Stribeck velocity, m/s or rad/s.
     velocity: (f64, f64),
-    /// Fc- / Fc+.
+    /// Fc- / Fc+, or Fs- / Fs+.
     ratio: (f64, f64),
     /// Break-away part of the steady deflection, as the odds b/(1 - b).
     breakaway: (f64, f64),
+    /// Rate at which a slipping Maxwell-slip element follows the Stribeck curve, 1/s.
+    attraction: (f64, f64),
 }
 
 impl SearchBox {
@@ -42,7 +44,8 @@ impl SearchBox {
     /// The box that the record itself allows: the presliding length between one count of the encoder
     /// (or a thousandth of the longest step) and the stroke, the Stribeck velocity between
     /// 1e-4 of the top speed and the top speed, `Fs/Fc - 1` from .02 to 3, the break-away part of an
-    /// elasto-plastic law from .02 to .98.
+    /// elasto-plastic law from .02 to .98. The yield deflections of a Maxwell-slip law lie where the
+    /// presliding length does, up to half the stroke.
     pub fn from_record(record: &Record, law: &Law) -> Result<Self, Error> {
         let top = record.top_speed();
         let stroke = record.stroke();
@@ -53,20 +56,20 @@ impl SearchBox {
             });
         }
         let longest = stroke;
-        let finest = record.resolution.unwrap_or_else(|| {
-            let step = record
-                .segments
-                .iter()
-                .map(|s| s.step)
-                .fold(f64::INFINITY, f64::min);
-            1e-3 * top * step
-        });
+        let step = record
+            .segments
+            .iter()
+            .map(|s| s.step)
+            .fold(f64::INFINITY, f64::min);
+        let finest = record.resolution.unwrap_or(1e-3 * top * step);
         let ranges = Ranges {
             length: (finest.clamp(1e-6 * longest, 0.1 * longest), longest),
             excess: (0.02, 3.0),
             velocity: (1e-4 * top, top),
             ratio: (0.1, 10.0),
             breakaway: (0.02 / 0.98, 0.98 / 0.02),
+            // From a sample to the time of a stroke.
+            attraction: (1.0 / (stroke / top).max(100.0 * step), 1.0 / step),
         };
         let layout = law.layout();
         let mut low = vec![0.0; layout.count];
@@ -84,6 +87,11 @@ impl SearchBox {
         }
         set(layout.ratio, ranges.ratio);
         set(layout.breakaway, ranges.breakaway);
+        set(layout.attraction, ranges.attraction);
+        for i in layout.yields() {
+            // What yields later than half-way is never sure to slip.
+            set(Some(i), (ranges.length.0, 0.5 * ranges.length.1));
+        }
         Ok(Self { low, high })
     }
 

@@ -1,0 +1,31 @@
+//! Identification of the generalised Maxwell-slip law (Al-Bender, Lampaert and Swevers 2005, doi
+//! 10.1109/TAC.2005.858676): a handful of elastic elements in parallel, each of which sticks until it
+//! reaches its share of the Stribeck curve and then slips.
+//!
+//! ```text
+//! u = sum_k W_k w_k(d_k, r, vs, a) sgn(v) + s2 v + M a + F0 + ...
+//! ```
+//!
+//! With the elements counted in units of their yield force `W_k`, only the yield deflections `d_k`,
+//! the Stribeck curve (`r = Fs/Fc`, `vs`) and the rate `a` at which slip follows it are nonlinear; the
+//! yield forces are linear and not negative. Every column depends on its own `d_k` and on what all
+//! share, so a trial costs one exponential a sample whatever the number of elements. And for a given
+//! curve the elements need no starting values: a dictionary of yield deflections, solved as one
+//! convex problem, says where they are.
+
+pub(crate) mod choose;
+mod curves;
+mod dictionary;
+mod kink;
+mod limit;
+pub(crate) mod physical;
+pub(crate) mod recursion;
+pub(crate) mod search;
+mod settled;
+
+/// Fewest elements that are tried where the data choose.
+pub const FEWEST: usize = 3;
+/// Most elements.
+pub const MOST: usize = 10;
+/// Name of the linear unknown of an element, before its number.
+pub(crate) const ELEMENT: &str = "element_";

@@ -1,0 +1,100 @@
+//! How many elements hold on samples that they were not fitted to.
+
+use super::search::Rung;
+use crate::conditioning::record::Record;
+use crate::crossval::kept_order;
+use crate::law::terms::Terms;
+use crate::observe::Stage;
+use crate::separable::levenberg::{Watch, descend};
+use crate::separable::objective::Objective;
+
+/// Contiguous blocks, each left out in turn.
+const BLOCKS: usize = 4;
+/// Steps with which a fit settles when a block is left out.
+const STEPS: usize = 3;
+/// Held-out errors within this factor of the least count as equal, and the fewest elements win.
+const EQUAL: f64 = 1.01;
+
+/// One number of elements that was tried.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElementsScore {
+    /// How many elements.
+    pub elements: usize,
+    /// `100 rms(residual) / rms(measured)` where it was fitted.
+    pub fitted_error_percent: f64,
+    /// The same over blocks of the record, each left out of the fit in turn; `None` where there are
+    /// too few samples or the search was stopped.
+    pub held_out_error_percent: Option<f64>,
+}
+
+/// Scores every rung, in the order given.
+pub(super) fn scores(
+    record: &Record,
+    terms: &Terms,
+    rungs: &[Rung],
+    watch: &mut Watch,
+) -> Vec<ElementsScore> {
+    let order = kept_order(record);
+    watch.stage = Stage::CrossValidation;
+    let mut out = Vec::with_capacity(rungs.len());
+    for (i, rung) in rungs.iter().enumerate() {
+        watch.fraction = i as f64 / rungs.len() as f64;
+        let full = Objective::new(record, rung.law, terms);
+        let held_out = held_out(&full, &order, rung, terms, watch);
+        out.push(ElementsScore {
+            elements: rung.law.elements,
+            fitted_error_percent: 100.0 * full.relative(rung.cost()),
+            held_out_error_percent: held_out.map(|cost| 100.0 * full.relative(cost)),
+        });
+    }
+    out
+}
+
+/// The rung with the fewest elements of those that hold alike; the one with the fewest where nothing
+/// could be held out.
+pub(super) fn best(scores: &[ElementsScore]) -> usize {
+    let error = |s: &ElementsScore| s.held_out_error_percent;
+    let least = scores
+        .iter()
+        .filter_map(error)
+        .fold(f64::INFINITY, f64::min);
+    let alike = |s: &ElementsScore| error(s).is_some_and(|e| e <= EQUAL * least);
+    let any = scores.iter().any(alike);
+    (0..scores.len())
+        .filter(|&i| !any || alike(&scores[i]))
+        .min_by_key(|&i| scores[i].elements)
+        .unwrap_or(0)
+}
+
+/// Sum of squares of the residuals of all blocks, each under the fit to the others.
+fn held_out(
+    full: &Objective,
+    order: &[Option<usize>],
+    rung: &Rung,
+    terms: &Terms,
+    watch: &mut Watch,
+) -> Option<f64> {
+    let record = full.record();
+    let total = record.kept();
+    let unknowns = rung.law.nonlinear() + full.linear().len();
+    if total < BLOCKS * 10 * unknowns {
+        return None;
+    }
+    let mut cost = 0.0;
+    for block in 0..BLOCKS {
+        if watch.stopped {
+            return None;
+        }
+        let inside = |k: usize| k * BLOCKS / total == block;
+        let train = record.masked(|i| !order[i].is_some_and(inside));
+        let objective = Objective::new(&train, rung.law, terms);
+        let found = descend(&objective, &rung.bounds, &rung.descent.p, STEPS, watch);
+        let model = full.model(&found.p, &found.evaluation.solution.coefficients);
+        for (k, (u, y)) in full.force().iter().zip(&model).enumerate() {
+            if inside(k) {
+                cost += (u - y) * (u - y);
+            }
+        }
+    }
+    cost.is_finite().then_some(cost)
+}

@@ -1,0 +1,46 @@
+//! What to do where a descent stalls.
+//!
+//! The force is continuous in every unknown, its slope is not: an element that just begins to slip
+//! before a reversal has one slope, one that just does not has another. At such a kink a step by the
+//! slopes of one side may lower nothing although the point is no minimum, or it is one although the
+//! slope is not small.
+
+use crate::separable::levenberg::Watch;
+use crate::separable::objective::Objective;
+use crate::separable::search_box::SearchBox;
+
+/// Steps in the logarithms.
+const STEPS: [f64; 3] = [1e-4, 1e-3, 1e-2];
+/// Relative fall of the cost below which a step counts as none.
+const FLAT: f64 = 1e-7;
+
+/// The best point that lowers the cost by moving one unknown alone, either way; `None` if there is
+/// none and the point is a minimum as far as such steps can tell.
+pub(super) fn way_out(
+    objective: &Objective,
+    bounds: &SearchBox,
+    p: &[f64],
+    cost: f64,
+    watch: &mut Watch,
+) -> Option<Vec<f64>> {
+    let mut least = (1.0 - FLAT) * cost;
+    let mut best = None;
+    for i in 0..p.len() {
+        for step in STEPS.into_iter().flat_map(|s| [s, -s]) {
+            let mut trial = p.to_vec();
+            trial[i] += step;
+            let trial = bounds.clamp(&trial);
+            let found = objective.evaluate(&trial, false).cost;
+            watch.count(objective, false);
+            if found < least {
+                least = found;
+                best = Some(trial);
+            }
+        }
+        watch.report(objective.relative(least));
+        if watch.stopped {
+            break;
+        }
+    }
+    best
+}

@@ -1,0 +1,370 @@
+//! From a dictionary of elements to few of them, and from many of those to fewer.
+
+use super::dictionary::{self, Atom};
+use super::{FEWEST, MOST, choose, curves, kink};
+use crate::conditioning::record::Record;
+use crate::error::Error;
+use crate::law::Law;
+use crate::law::terms::Terms;
+use crate::observe::{Counts, Observer, Stage};
+use crate::separable::levenberg::{Descent, Status, Watch, descend};
+use crate::separable::objective::Objective;
+use crate::separable::search_box::SearchBox;
+use crate::separable::{Optimum, Settings, checked};
+
+/// Elements of the dictionary from which the elements are taken.
+const FINE: usize = 40;
+/// Steps of a descent before it is compared with others.
+const SHORT: usize = 12;
+/// Relative difference of the costs below which two descents are on the way to one minimum.
+const ALIKE: f64 = 2e-3;
+/// Of the others, how many are followed further.
+const RIVALS: usize = 3;
+/// Elements above the wanted number from which the way down begins.
+const ABOVE: usize = 3;
+
+/// Steps of a descent on the way down, at most.
+const RUNG: usize = 30;
+/// Steps after which a descent on the way is looked at.
+const STRIDE: usize = 10;
+/// Relative fall of the cost over a stride below which it ends.
+const SETTLED: f64 = 1e-5;
+
+/// Times the dictionary is asked again.
+const REFILLS: usize = 3;
+/// Relative fall of the cost for which it is asked once more.
+const WORTH: f64 = 1e-3;
+
+/// Times a stalled descent is started again.
+const KINKS: usize = 8;
+
+/// A fit with some number of elements.
+pub(super) struct Rung {
+    pub law: Law,
+    pub bounds: SearchBox,
+    pub descent: Descent,
+}
+
+impl Rung {
+    pub fn cost(&self) -> f64 {
+        let cost = self.descent.evaluation.cost;
+        if cost.is_nan() { f64::INFINITY } else { cost }
+    }
+}
+
+/// One search for a law with any number of elements.
+pub(super) struct Search<'a> {
+    pub record: &'a Record,
+    pub law: Law,
+    pub terms: &'a Terms,
+    pub settings: &'a Settings,
+    pub iterations: usize,
+}
+
+/// Fits a Maxwell-slip law; without a number of elements, with the number that holds best on blocks
+/// left out. Elements to which the data give no stiffness are dropped.
+pub(crate) fn search(
+    record: &Record,
+    law: Law,
+    terms: &Terms,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Result<Optimum, Error> {
+    if law.elements > MOST {
+        return Err(Error::Setting {
+            name: "elements",
+            found: law.elements as f64,
+            allowed: "at most 10, or 0 to leave it to the data",
+        });
+    }
+    let (top, least) = match law.elements {
+        0 => (MOST, FEWEST),
+        given => ((given + ABOVE).min(MOST), given),
+    };
+    let wanted = law.elements;
+    let law = |elements| Law { elements, ..law };
+    checked(record, law(least), terms)?;
+    let mut watch = Watch {
+        observer,
+        stage: Stage::Scan,
+        fraction: 0.0,
+        counts: Counts::default(),
+        best: f64::INFINITY,
+        stopped: false,
+    };
+    let mut search = Search {
+        record,
+        law: law(0),
+        terms,
+        settings,
+        iterations: 0,
+    };
+    let rungs = search.ladder(top, least, &mut watch)?;
+    let scores = if wanted == 0 {
+        choose::scores(record, terms, &rungs, &mut watch)
+    } else {
+        Vec::new()
+    };
+    let at = match wanted {
+        0 => choose::best(&scores),
+        _ => rungs.len() - 1,
+    };
+    let rung = rungs.into_iter().nth(at).expect("a ladder has a rung");
+    let found = search.finish(rung, &mut watch)?;
+    Ok(Optimum {
+        elements: scores,
+        ..found
+    })
+}
+
+impl Search<'_> {
+    /// Fits with `most` elements and fewer, down to `least`; each from the one before with two
+    /// neighbours joined. Fewer than `most` where the data do not support as many.
+    pub fn ladder(
+        &mut self,
+        most: usize,
+        least: usize,
+        watch: &mut Watch,
+    ) -> Result<Vec<Rung>, Error> {
+        let mut rung = match self.record.thinned(self.settings.thin) {
+            None => self.top(most, watch)?,
+            Some(near) => {
+                let mut search = Search {
+                    record: &near,
+                    iterations: 0,
+                    ..*self
+                };
+                let rung = search.top(most, watch)?;
+                self.iterations += search.iterations;
+                watch.best = f64::INFINITY;
+                let (curve, atoms) = self.split(&rung);
+                self.fit(&curve, &atoms, RUNG, watch)?
+            }
+        };
+        let mut out = Vec::new();
+        loop {
+            rung = self.settle(rung, watch)?;
+            let n = rung.law.elements;
+            if n <= least || watch.stopped {
+                out.push(rung);
+                return Ok(out);
+            }
+            let (curve, atoms) = self.split(&rung);
+            let next = self.fit(&curve, &dictionary::join(atoms, n - 1), RUNG, watch)?;
+            out.push(std::mem::replace(&mut rung, next));
+        }
+    }
+
+    /// The best fit with `most` elements or fewer, from every start.
+    fn top(&mut self, most: usize, watch: &mut Watch) -> Result<Rung, Error> {
+        let starts = self.starts(most, watch)?;
+        watch.stage = Stage::Coarse;
+        watch.best = f64::INFINITY;
+        let mut rivals: Vec<Rung> = Vec::new();
+        for (i, (curve, atoms)) in starts.iter().enumerate() {
+            if watch.stopped && !rivals.is_empty() {
+                break;
+            }
+            watch.fraction = i as f64 / starts.len() as f64;
+            rivals.push(self.fit(curve, atoms, SHORT, watch)?);
+        }
+        rivals.sort_by(|a, b| a.cost().total_cmp(&b.cost()));
+        rivals.dedup_by(|b, a| b.cost() <= (1.0 + ALIKE) * a.cost());
+        // Minima with different curves may lie close together: the best are followed further.
+        watch.stage = Stage::Fine;
+        let mut best: Option<Rung> = None;
+        for rival in rivals.into_iter().take(RIVALS) {
+            if watch.stopped && best.is_some() {
+                break;
+            }
+            let rung = self.refill(rival, most, watch)?;
+            if best.as_ref().is_none_or(|b| rung.cost() < b.cost()) {
+                best = Some(rung);
+            }
+        }
+        Ok(best.expect("the scan has a point"))
+    }
+
+    /// Follows a fit to the end.
+    pub fn finish(&mut self, mut rung: Rung, watch: &mut Watch) -> Result<Optimum, Error> {
+        watch.stage = Stage::Fine;
+        for _ in 0..KINKS {
+            if watch.stopped {
+                break;
+            }
+            let (curve, atoms) = self.split(&rung);
+            rung = self.fit(&curve, &atoms, self.settings.steps, watch)?;
+            rung = self.settle(rung, watch)?;
+            if rung.descent.status != Status::Stalled {
+                break;
+            }
+            let objective = Objective::new(self.record, rung.law, self.terms);
+            let cost = rung.cost();
+            match kink::way_out(&objective, &rung.bounds, &rung.descent.p, cost, watch) {
+                Some(p) => rung = self.follow(rung.law, &p, self.settings.steps, watch)?,
+                None => {
+                    rung.descent.status = Status::Converged;
+                    break;
+                }
+            }
+        }
+        let objective = Objective::new(self.record, rung.law, self.terms);
+        watch.fraction = 1.0;
+        watch.report(objective.relative(rung.cost()));
+        let Rung {
+            law,
+            bounds,
+            descent,
+        } = rung;
+        Ok(Optimum {
+            law,
+            p: descent.p,
+            bounds,
+            status: if watch.stopped {
+                Status::Interrupted
+            } else {
+                descent.status
+            },
+            counts: watch.counts,
+            iterations: self.iterations,
+            history: descent.history,
+            elements: Vec::new(),
+            delay: false,
+            evaluation: descent.evaluation,
+        })
+    }
+
+    /// Curve and elements of a fit; those without force are left out.
+    fn split(&self, rung: &Rung) -> (Vec<f64>, Vec<Atom>) {
+        let p = &rung.descent.p;
+        let curve = p[..rung.law.layout().yields().start].to_vec();
+        (
+            curve,
+            dictionary::atoms(&rung.law, p, &rung.descent.evaluation),
+        )
+    }
+
+    /// Asks the dictionary again with the curve of a fit, which may have moved far since, and goes on
+    /// from there while that helps.
+    fn refill(&mut self, mut rung: Rung, most: usize, watch: &mut Watch) -> Result<Rung, Error> {
+        for _ in 0..REFILLS {
+            rung = self.settle(rung, watch)?;
+            let (curve, own) = self.split(&rung);
+            if own.len() >= most || watch.stopped {
+                break;
+            }
+            let atoms = self.elements_for(&curve, &own, watch)?;
+            let next = self.fit(&curve, &dictionary::join(atoms, most), RUNG, watch)?;
+            let gain = 1.0 - next.cost() / rung.cost();
+            if gain > 0.0 {
+                rung = next;
+            }
+            if gain.is_nan() || gain < WORTH {
+                break;
+            }
+        }
+        Ok(rung)
+    }
+
+    /// The elements that a dictionary has for a curve; `own` are in it besides its equal steps.
+    fn elements_for(
+        &mut self,
+        curve: &[f64],
+        own: &[Atom],
+        watch: &mut Watch,
+    ) -> Result<Vec<Atom>, Error> {
+        let law = Law {
+            elements: FINE + own.len(),
+            ..self.law
+        };
+        let bounds = SearchBox::from_record(self.record, &law)?;
+        let objective = Objective::new(self.record, law, self.terms);
+        let places = dictionary::places(&bounds, &law.layout(), FINE);
+        let places = own.iter().map(|atom| atom.place).chain(places);
+        let p = dictionary::unknowns(curve, places);
+        let at = objective.evaluate(&p, false);
+        watch.count(&objective, false);
+        watch.report(objective.relative(at.cost));
+        Ok(dictionary::atoms(&law, &p, &at))
+    }
+
+    /// Drops elements without force and puts the others in the order of their yield deflections; what
+    /// changed by that is fitted again.
+    fn settle(&mut self, mut rung: Rung, watch: &mut Watch) -> Result<Rung, Error> {
+        // Each turn loses an element or lowers the cost; the bound is for rounding.
+        for _ in 0..2 * MOST {
+            let (curve, atoms) = self.split(&rung);
+            let yields = &rung.descent.p[rung.law.layout().yields()];
+            let done = atoms.len() == rung.law.elements && yields.is_sorted();
+            if done || watch.stopped {
+                break;
+            }
+            rung = self.fit(&curve, &atoms, RUNG, watch)?;
+        }
+        Ok(rung)
+    }
+
+    /// Descends from a curve and elements.
+    fn fit(
+        &mut self,
+        curve: &[f64],
+        atoms: &[Atom],
+        steps: usize,
+        watch: &mut Watch,
+    ) -> Result<Rung, Error> {
+        let law = Law {
+            elements: atoms.len(),
+            ..self.law
+        };
+        let start = dictionary::unknowns(curve, atoms.iter().map(|a| a.place));
+        self.follow(law, &start, steps, watch)
+    }
+
+    /// Descends from a point.
+    fn follow(
+        &mut self,
+        law: Law,
+        start: &[f64],
+        steps: usize,
+        watch: &mut Watch,
+    ) -> Result<Rung, Error> {
+        let bounds = SearchBox::from_record(self.record, &law)?;
+        let objective = Objective::new(self.record, law, self.terms);
+        let mut descent = descend(&objective, &bounds, start, steps.min(STRIDE), watch);
+        self.iterations += descent.iterations;
+        let mut left = steps.saturating_sub(STRIDE);
+        let rough = steps < self.settings.steps;
+        while left > 0 && descent.status == Status::Budget && !watch.stopped {
+            let stride = if rough { left.min(STRIDE) } else { left };
+            let mut next = descend(&objective, &bounds, &descent.p, stride, watch);
+            self.iterations += next.iterations;
+            left -= stride;
+            let gain = 1.0 - next.evaluation.cost / descent.evaluation.cost;
+            descent.history.append(&mut next.history);
+            next.history = descent.history;
+            descent = next;
+            if rough && (gain.is_nan() || gain < SETTLED) {
+                break;
+            }
+        }
+        Ok(Rung {
+            law,
+            bounds,
+            descent,
+        })
+    }
+
+    /// The most promising curves, each with the elements that a dictionary gives it.
+    fn starts(
+        &mut self,
+        most: usize,
+        watch: &mut Watch,
+    ) -> Result<Vec<(Vec<f64>, Vec<Atom>)>, Error> {
+        let mut out = Vec::new();
+        for curve in curves::curves(self, watch)? {
+            let atoms = self.elements_for(&curve, &[], watch)?;
+            out.push((curve, dictionary::join(atoms, most)));
+        }
+        Ok(out)
+    }
+}

@@ -1,0 +1,59 @@
+//! Samples whose force depends on what was before the recording.
+
+use crate::conditioning::record::{Record, Segment};
+
+/// Part of the range of a stretch that must have been run through.
+const RUN_THROUGH: f64 = 0.95;
+/// Part of a stretch that may be lost to it.
+const MOST_LOST: f64 = 0.5;
+
+impl Record {
+    /// The same record without the start of each stretch, until the position has once run through its
+    /// range (at most half of the stretch).
+    ///
+    /// What a Maxwell-slip element holds at the start of a recording is not known. It is wiped out by
+    /// a motion over twice its yield deflection (Al-Bender, Lampaert and Swevers 2005, section II), so
+    /// after that run elements up to half the range do not depend on it.
+    #[must_use]
+    pub fn settled(&self) -> Self {
+        let mut out = self.clone();
+        let mut lost = 0;
+        for segment in &mut out.segments {
+            let end = start(segment).div_ceil(self.decimate.max(1));
+            for keep in segment.keep.iter_mut().take(end) {
+                lost += usize::from(*keep);
+                *keep = false;
+            }
+        }
+        if lost > 0 {
+            out.notes.push(format!(
+                "{lost} samples at the start not fitted (until the position has run through its range, \
+                 the force depends on what was before the recording)"
+            ));
+        }
+        out
+    }
+}
+
+/// The first sample at the full rate at which the position has run through its range.
+fn start(segment: &Segment) -> usize {
+    let mut at = 0.0_f64;
+    let (mut low, mut high) = (0.0_f64, 0.0_f64);
+    let ranges: Vec<f64> = segment
+        .velocity
+        .windows(2)
+        .map(|v| {
+            at += 0.5 * (v[0] + v[1]) * segment.step;
+            low = low.min(at);
+            high = high.max(at);
+            high - low
+        })
+        .collect();
+    let whole = RUN_THROUGH * (high - low);
+    let most = (MOST_LOST * segment.velocity.len() as f64) as usize;
+    ranges
+        .iter()
+        .position(|&range| range >= whole)
+        .map_or(0, |i| i + 1)
+        .min(most)
+}
