@@ -29,6 +29,8 @@ pub struct Axis {
     pub terms: Terms,
     /// Stribeck exponent, dimensionless.
     pub stribeck_exponent: f64,
+    /// Whether the Stribeck exponent is fitted instead.
+    pub exponent_fitted: bool,
     /// Speed below which a sample counts as slow, m/s or rad/s; `None` follows from the log.
     pub low_speed: Option<f64>,
     /// Whether to fit a constant force; `None` follows from the law.
@@ -47,6 +49,7 @@ impl Default for Axis {
             conditioning: Conditioning::default(),
             terms: Terms::default(),
             stribeck_exponent: 2.0,
+            exponent_fitted: false,
             low_speed: None,
             offset: None,
             tied: Vec::new(),

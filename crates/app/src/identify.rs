@@ -114,6 +114,7 @@ pub(crate) fn fit(
         kind: options.law,
         asymmetric: options.asymmetric,
         exponent: axis.stribeck_exponent,
+        exponent_fitted: axis.exponent_fitted,
     };
     let low_speed = axis
         .low_speed

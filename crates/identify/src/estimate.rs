@@ -141,7 +141,7 @@ pub fn estimate(
         .enumerate()
         .map(|(i, p)| describe(p, matrix[(i, i)], optimum, level))
         .collect();
-    if law.kind.has_stribeck() {
+    if law.kind.has_stribeck() && !law.exponent_fitted {
         let at = parameters
             .iter()
             .rposition(|p| p.name.starts_with("stribeck_velocity"))

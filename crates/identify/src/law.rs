@@ -67,6 +67,9 @@ pub struct Law {
     pub asymmetric: bool,
     /// Stribeck exponent `delta`, dimensionless; 2 is the Gaussian curve.
     pub exponent: f64,
+    /// Whether the exponent is one more unknown, common to both directions; `exponent` is not used
+    /// then.
+    pub exponent_fitted: bool,
 }
 
 impl Law {
@@ -76,6 +79,7 @@ impl Law {
             kind,
             asymmetric: false,
             exponent: 2.0,
+            exponent_fitted: false,
         }
     }
 
@@ -83,6 +87,13 @@ impl Law {
     #[must_use]
     pub fn asymmetric(mut self) -> Self {
         self.asymmetric = true;
+        self
+    }
+
+    /// The same law with its Stribeck exponent as one more unknown.
+    #[must_use]
+    pub fn with_fitted_exponent(mut self) -> Self {
+        self.exponent_fitted = true;
         self
     }
 
@@ -110,11 +121,13 @@ impl Law {
         let ratio = next(two);
         let excess_neg = next(two && curve);
         let velocity_neg = next(two && curve);
+        let exponent = next(curve && self.exponent_fitted);
         Layout {
             kappa,
             excess: [excess_pos, if two { excess_neg } else { excess_pos }],
             velocity: [velocity_pos, if two { velocity_neg } else { velocity_pos }],
             ratio,
+            exponent,
             count,
         }
     }
@@ -131,6 +144,8 @@ pub(crate) struct Layout {
     pub velocity: [Option<usize>; 2],
     /// `ln (Fc- / Fc+)`.
     pub ratio: Option<usize>,
+    /// `ln delta`, the Stribeck exponent of both directions.
+    pub exponent: Option<usize>,
     /// How many there are.
     pub count: usize,
 }

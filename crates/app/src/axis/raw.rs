@@ -123,7 +123,15 @@ pub(crate) struct RawTerms {
     pub gravity: Option<bool>,
     #[serde(default)]
     pub cogging: Vec<String>,
-    pub stribeck_exponent: Option<f64>,
+    pub stribeck_exponent: Option<RawExponent>,
+}
+
+/// A number, or the word that makes it an unknown.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged, expecting = "give a number from 0.1 to 10, or \"fit\"")]
+pub(crate) enum RawExponent {
+    Number(f64),
+    Word(String),
 }
 
 /// `[report]`

@@ -1,7 +1,7 @@
 //! From the axis file as typed to SI values that the libraries take.
 
 use super::Axis;
-use super::raw::{self, RawAxis, RawChannel, RawScale, RawSelector};
+use super::raw::{self, RawAxis, RawChannel, RawExponent, RawScale, RawSelector};
 use super::tied::Tied;
 use crate::error::Error;
 use std::cell::RefCell;
@@ -265,15 +265,23 @@ impl Resolver<'_> {
                 "at most 4",
             ));
         }
-        if let Some(delta) = raw.terms.stribeck_exponent {
-            if !(0.1..=10.0).contains(&delta) {
+        match &raw.terms.stribeck_exponent {
+            None => {}
+            Some(RawExponent::Number(delta)) if (0.1..=10.0).contains(delta) => {
+                axis.stribeck_exponent = *delta;
+            }
+            Some(RawExponent::Word(word)) if word == "fit" => axis.exponent_fitted = true,
+            Some(other) => {
+                let found = match other {
+                    RawExponent::Number(delta) => delta.to_string(),
+                    RawExponent::Word(word) => format!("{word:?}"),
+                };
                 return Err(self.refuse(
                     "terms.stribeck_exponent",
-                    delta.to_string(),
-                    "a number from 0.1 to 10",
+                    found,
+                    "a number from 0.1 to 10, or \"fit\"",
                 ));
             }
-            axis.stribeck_exponent = delta;
         }
         Ok(())
     }

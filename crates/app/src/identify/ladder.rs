@@ -123,7 +123,7 @@ fn beside(law: &Law) -> Vec<Law> {
             let base = Law {
                 kind,
                 asymmetric: false,
-                exponent: law.exponent,
+                ..*law
             };
             // Dahl beside LuGre stands for "no Stribeck curve"; one of its kind is enough.
             let both = kind != LawKind::Dahl || law.kind == LawKind::Dahl;

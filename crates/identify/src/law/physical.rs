@@ -141,6 +141,18 @@ pub(crate) fn physical(law: &Law, linear: &[LinearTerm], p: &[f64], c: &[f64]) -
             }
         }
     }
+    if let Some(i) = layout.exponent {
+        let exponent = libm::exp(p[i]);
+        push(
+            "stribeck_exponent".into(),
+            Dimension::One,
+            exponent,
+            unit(i, exponent),
+            Some(i),
+            None,
+            true,
+        );
+    }
     for (i, term) in linear.iter().enumerate() {
         let dimension = match term.name.as_str() {
             "coulomb" | "sigma1" => continue,
@@ -164,13 +176,14 @@ pub(crate) fn physical(law: &Law, linear: &[LinearTerm], p: &[f64], c: &[f64]) -
 
 /// Order of parameters in tables and files.
 fn rank(name: &str) -> usize {
-    const ORDER: [&str; 8] = [
+    const ORDER: [&str; 9] = [
         "sigma0",
         "sigma1",
         "sigma2",
         "coulomb",
         "static",
         "stribeck_velocity",
+        "stribeck_exponent",
         "mass",
         "offset",
     ];

@@ -47,6 +47,18 @@ impl Evaluation {
     pub fn residual(&self) -> &[f64] {
         &self.solution.residual
     }
+
+    /// Columns of the Jacobian of the model at the kept samples: one for each nonlinear unknown, then
+    /// one for each linear one that is not held at zero. Without the nonlinear ones where the
+    /// evaluation was made without sensitivities.
+    pub fn jacobian(&self) -> Vec<&[f64]> {
+        let active = self.columns.iter().zip(&self.solution.active);
+        self.slopes
+            .iter()
+            .chain(active.filter_map(|(column, active)| active.then_some(column)))
+            .map(Vec::as_slice)
+            .collect()
+    }
 }
 
 impl<'a> Objective<'a> {

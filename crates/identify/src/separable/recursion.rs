@@ -5,7 +5,7 @@
 //! friction crate is the oracle it is tested against.
 
 use crate::law::{Law, Layout};
-use libm::{exp, expm1, fabs, pow};
+use libm::{exp, expm1, fabs, log, pow};
 
 /// The nonlinear unknowns, unpacked.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +28,7 @@ impl Curve {
             scale: [1.0, read(layout.ratio).unwrap_or(1.0)],
             excess,
             inverse_velocity: layout.velocity.map(|i| read(i).map_or(0.0, |v| 1.0 / v)),
-            exponent: law.exponent,
+            exponent: read(layout.exponent).unwrap_or(law.exponent),
         }
     }
 }
@@ -60,6 +60,14 @@ fn level<const K: usize>(curve: &Curve, layout: &Layout, v: f64, side: usize) ->
             0.0
         } else {
             fall * curve.exponent * power
+        };
+    }
+    if let Some(i) = layout.exponent {
+        // At rest and far above vs the level no longer depends on the exponent.
+        slope[i] = if fall == 0.0 || power == 0.0 {
+            0.0
+        } else {
+            -fall * curve.exponent * power * log(x)
         };
     }
     if side == 1
@@ -108,7 +116,7 @@ pub(crate) fn trace(law: &Law, p: &[f64], step: f64, velocity: &[f64], slopes: b
             }
         };
     }
-    run!(1, 2, 3, 5, 6)
+    run!(1, 2, 3, 4, 5, 6, 7)
 }
 
 fn without_slopes(layout: &Layout) -> Layout {
@@ -117,6 +125,7 @@ fn without_slopes(layout: &Layout) -> Layout {
         excess: [None; 2],
         velocity: [None; 2],
         ratio: None,
+        exponent: None,
         count: layout.count,
     }
 }

@@ -22,6 +22,8 @@ struct Ranges {
     velocity: (f64, f64),
     /// Fc- / Fc+.
     ratio: (f64, f64),
+    /// Stribeck exponent.
+    exponent: (f64, f64),
 }
 
 impl SearchBox {
@@ -36,7 +38,8 @@ impl SearchBox {
 
     /// The box that the record itself allows: the presliding length between one count of the encoder
     /// (or a thousandth of the longest step) and the stroke, the Stribeck velocity between
-    /// 1e-4 of the top speed and the top speed, `Fs/Fc - 1` from .02 to 3.
+    /// 1e-4 of the top speed and the top speed, `Fs/Fc - 1` from .02 to 3, a Stribeck exponent that is
+    /// fitted from .3 to 4.
     pub fn from_record(record: &Record, law: &Law) -> Result<Self, Error> {
         let top = record.top_speed();
         let stroke = record.stroke();
@@ -60,6 +63,7 @@ impl SearchBox {
             excess: (0.02, 3.0),
             velocity: (1e-4 * top, top),
             ratio: (0.1, 10.0),
+            exponent: (0.3, 4.0),
         };
         let layout = law.layout();
         let mut low = vec![0.0; layout.count];
@@ -76,6 +80,7 @@ impl SearchBox {
             set(layout.velocity[side], ranges.velocity);
         }
         set(layout.ratio, ranges.ratio);
+        set(layout.exponent, ranges.exponent);
         Ok(Self { low, high })
     }
 
@@ -101,7 +106,12 @@ impl SearchBox {
 
     /// The box of the symmetric law inside that of an asymmetric one: its positive direction.
     pub(crate) fn symmetric(&self, layout: &Layout) -> Self {
-        let own = [layout.kappa, layout.excess[0], layout.velocity[0]];
+        let own = [
+            layout.kappa,
+            layout.excess[0],
+            layout.velocity[0],
+            layout.exponent,
+        ];
         let pick = |x: &[f64]| own.iter().flatten().map(|&i| x[i]).collect();
         Self {
             low: pick(&self.low),

@@ -1,0 +1,67 @@
+//! How often the 95 % intervals hold the truth, parameter by parameter, for three kinds of noise.
+//!
+//! `cargo run --release -p stiction-identify --example coverage -- [runs] [noise]`, with noise one of
+//! `white`, `ar`, `50nm`, `100nm`, `1um`; all of them if none is named. A binomial count of 200 runs
+//! at 95 % has a deviation of 1.5 %.
+
+#[path = "../../tests/common/mod.rs"]
+mod common;
+#[path = "../../tests/common/trials.rs"]
+mod trials;
+
+use stiction_identify::{Conditioning, Cutoff};
+use trials::{Tally, Trial, autoregressive, coverage, quantised};
+
+fn main() {
+    let mut runs = 200;
+    let mut wanted: Vec<String> = Vec::new();
+    for argument in std::env::args().skip(1) {
+        match argument.parse() {
+            Ok(n) => runs = n,
+            Err(_) => wanted.push(argument),
+        }
+    }
+    // Stated here, so that the figures do not move with the defaults of the conditioning.
+    let filters = Conditioning {
+        source_cutoff: Cutoff::Hz(400.0),
+        common_cutoff: Cutoff::Hz(200.0),
+        ..Conditioning::default()
+    };
+    let log = |count: f64| move |run| quantised(count, &filters, run);
+    let kinds: [(&str, Box<dyn Fn(u64) -> Trial>); 5] = [
+        ("white", Box::new(|run| autoregressive(0.0, run))),
+        ("ar", Box::new(|run| autoregressive(0.9, run))),
+        ("50nm", Box::new(log(50e-9))),
+        ("100nm", Box::new(log(100e-9))),
+        ("1um", Box::new(log(1e-6))),
+    ];
+    for (name, trial) in kinds {
+        if wanted.is_empty() || wanted.iter().any(|w| w == name) {
+            println!("{name}, {runs} runs");
+            table(&coverage(runs, trial));
+        }
+    }
+}
+
+fn table(tallies: &[Tally]) {
+    println!(
+        "  {:18} {:>9} {:>9} {:>9} {:>9} {:>9}",
+        "", "intervals", "hold", "bias %", "spread %", "stated %"
+    );
+    for t in tallies {
+        let size = if t.truth == 0.0 { 1.0 } else { t.truth };
+        let n = t.values.len() as f64;
+        let mean = t.values.iter().sum::<f64>() / n;
+        let spread = (t.values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / n).sqrt();
+        let stated = t.deviations.iter().sum::<f64>() / t.deviations.len() as f64;
+        println!(
+            "  {:18} {:9} {:7.1} % {:9.3} {:9.3} {:9.3}",
+            t.name,
+            t.counted,
+            100.0 * t.coverage(),
+            100.0 * (mean - t.truth) / size,
+            100.0 * spread / size,
+            100.0 * stated / size
+        );
+    }
+}
