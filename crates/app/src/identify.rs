@@ -128,7 +128,10 @@ pub(crate) fn fit(
         source,
     };
     let optimum = engine::separable(&record, law, &terms, &settings, observer).map_err(fail)?;
-    let estimate = engine::estimate(&record, law, &terms, &optimum, low_speed);
+    let mut estimate = engine::estimate(&record, law, &terms, &optimum, low_speed);
+    if optimum.status != Status::Interrupted {
+        engine::intervals(&record, &optimum, &mut estimate);
+    }
     let mut validation = Vec::new();
     if let Some(rest) = &split {
         validation.push((

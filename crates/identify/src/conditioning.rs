@@ -7,6 +7,7 @@
 
 pub(crate) mod grid;
 pub(crate) mod record;
+mod rehearsal;
 
 use crate::conditioning::grid::Grid;
 use crate::conditioning::record::{Record, Samples, Segment};
@@ -194,12 +195,23 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
             "{short} stretches between gaps were too short to filter and left out"
         ));
     }
+    // With the cut-offs that were chosen, so that the same filters are found again.
+    let fixed = |hz: Option<f64>| hz.map_or(Cutoff::Off, Cutoff::Hz);
+    let again = Conditioning {
+        source: Some(source),
+        source_cutoff: fixed(source_hz),
+        common_cutoff: fixed(common_hz),
+        decimate: Some(decimate),
+        resolution: conditioning.resolution,
+        min_speed: 0.0,
+    };
     Ok(Record {
         segments,
         common: filters.common,
         decimate,
         notes,
         resolution: conditioning.resolution,
+        conditioning: from_position.then_some(again),
         is_thinned: false,
     })
 }

@@ -1,9 +1,16 @@
 //! The result of a fit: parameters with their uncertainty, residuals, and what to beware of.
 
+mod advice;
+mod autoregression;
+mod conditioned;
+pub(crate) mod intervals;
+pub(crate) mod parameter;
+mod profile;
 pub(crate) mod uncertainty;
 
 use crate::conditioning::record::Record;
-use crate::estimate::uncertainty::Covariance;
+use crate::estimate::parameter::Parameter;
+use crate::estimate::uncertainty::{Covariance, Unknowns};
 use crate::fit::Fit;
 use crate::law::Law;
 use crate::law::physical::{self, Dimension, Physical};
@@ -12,33 +19,6 @@ use crate::observe::Counts;
 use crate::separable::Optimum;
 use crate::separable::levenberg::Status;
 use crate::separable::objective::Objective;
-
-/// Relative standard deviation above which a parameter counts as not determined by the data.
-pub const IDENTIFIABLE: f64 = 0.10;
-/// Two-sided 95 % quantile of the normal distribution.
-const Q95: f64 = 1.959_963_984_540_054;
-
-/// One parameter of the law.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Parameter {
-    /// Name in files, such as `sigma0` or `coulomb_pos`.
-    pub name: String,
-    /// What it measures.
-    pub dimension: Dimension,
-    /// Best value, SI.
-    pub value: f64,
-    /// Standard deviation with correlated residuals counted; `None` where the data say nothing.
-    pub std: Option<f64>,
-    /// 95 % interval (log-normal for parameters that are positive by nature); `None` where the data
-    /// bound it on no side.
-    pub ci95: Option<(f64, f64)>,
-    /// Whether the data determine it: standard deviation at most 10 % and not at a bound.
-    pub identifiable: bool,
-    /// Whether it was fitted; a given parameter has no deviation.
-    pub identified: bool,
-    /// Why it is not identifiable; empty if it is.
-    pub reason: String,
-}
 
 /// Signals at the samples of the fit.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -99,6 +79,7 @@ pub struct Estimate {
     pub history: Vec<(usize, f64)>,
     p: Vec<f64>,
     coefficients: Vec<f64>,
+    unknowns: Unknowns,
 }
 
 impl Estimate {
@@ -117,7 +98,7 @@ impl Estimate {
     }
 }
 
-/// Parameters, uncertainty and residuals at an optimum.
+/// Parameters, linear uncertainty and residuals at an optimum.
 pub fn estimate(
     record: &Record,
     law: Law,
@@ -130,36 +111,27 @@ pub fn estimate(
     let c = &at.solution.coefficients;
     let raw = physical::physical(&law, objective.linear(), &optimum.p, c);
     let unknowns = uncertainty::unknowns(&objective, at);
-    let matrix = physical::propagate(&raw, &unknowns);
-    let level = raw
-        .iter()
-        .filter(|p| p.name.starts_with("coulomb"))
-        .map(|p| p.value.abs())
-        .fold(0.0, f64::max);
+    let matrix = physical::propagate(&raw, &unknowns.covariance);
+    let level = level(&raw);
     let mut parameters: Vec<Parameter> = raw
         .iter()
         .enumerate()
-        .map(|(i, p)| describe(p, matrix[(i, i)], optimum, level))
+        .map(|(i, p)| Parameter::fitted(p, matrix[(i, i)], None, optimum, level))
         .collect();
     if law.kind.has_stribeck() && !law.exponent_fitted {
         let at = parameters
             .iter()
             .rposition(|p| p.name.starts_with("stribeck_velocity"))
             .map_or(parameters.len(), |i| i + 1);
-        parameters.insert(at, given("stribeck_exponent", law.exponent));
+        let given = Parameter::given("stribeck_exponent", Dimension::One, law.exponent);
+        parameters.insert(at, given);
     }
     if let Mass::Given(mass) = terms.mass {
         let at = parameters
             .iter()
             .position(|p| p.name == "offset")
             .unwrap_or(parameters.len());
-        parameters.insert(
-            at,
-            Parameter {
-                dimension: Dimension::Inertia,
-                ..given("mass", mass)
-            },
-        );
+        parameters.insert(at, Parameter::given("mass", Dimension::Inertia, mass));
     }
     let names: Vec<String> = raw.iter().map(|p| p.name.clone()).collect();
     let n = names.len();
@@ -169,6 +141,7 @@ pub fn estimate(
             .map(|i| (0..n).map(|j| matrix[(i, j)]).collect())
             .collect(),
     };
+    advice::explain(&mut parameters, &covariance);
     let series = series(&objective, &optimum.p, c);
     let residual = at.residual();
     // The search refuses a force without energy; what is left is a residual too large to square.
@@ -200,6 +173,7 @@ pub fn estimate(
         history: optimum.history.clone(),
         p: optimum.p.clone(),
         coefficients: c.clone(),
+        unknowns,
     }
 }
 
@@ -209,78 +183,12 @@ pub fn predict(record: &Record, fitted: &Estimate) -> Series {
     series(&objective, &fitted.p, &fitted.coefficients)
 }
 
-fn given(name: &str, value: f64) -> Parameter {
-    Parameter {
-        name: name.into(),
-        dimension: Dimension::One,
-        value,
-        std: None,
-        ci95: None,
-        identifiable: true,
-        identified: false,
-        reason: String::new(),
-    }
-}
-
-fn describe(p: &Physical, variance: f64, optimum: &Optimum, level: f64) -> Parameter {
-    let solution = &optimum.evaluation.solution;
-    let mut reason = String::new();
-    if let Some(i) = p.nonlinear
-        && optimum.bounds.at_bound(&optimum.p, i)
-    {
-        reason = "stands at the bound of its search range".into();
-    }
-    if let Some(j) = p.linear {
-        if solution.dependent[j] {
-            reason = "cannot be told apart from the other terms on this motion".into();
-        } else if !solution.active[j] {
-            reason = "held at zero: the data ask for a negative value".into();
-        }
-    }
-    let known = reason.is_empty() && variance.is_finite() && variance >= 0.0;
-    let std = known.then(|| variance.sqrt());
-    if reason.is_empty() && std.is_none() {
-        reason = "its deviation is beyond the range of numbers".into();
-    }
-    let size = if p.positive {
-        p.value.abs()
-    } else {
-        p.value.abs().max(level)
-    };
-    let relative = std.map(|s| s / size);
-    if let Some(r) = relative
-        && (r > IDENTIFIABLE || r.is_nan())
-    {
-        reason = format!(
-            "standard deviation {:.0} % of its {}",
-            100.0 * r,
-            if p.positive {
-                "value"
-            } else {
-                "value or of the Coulomb level"
-            }
-        );
-    }
-    let ci95 = std.and_then(|s| {
-        if p.positive {
-            let r = s / p.value;
-            // Wider than a factor of e^4 to each side, the data bound it on no side.
-            (r.is_finite() && r * Q95 <= 4.0)
-                .then(|| (p.value * libm::exp(-Q95 * r), p.value * libm::exp(Q95 * r)))
-        } else {
-            Some((p.value - Q95 * s, p.value + Q95 * s))
-        }
-    });
-    Parameter {
-        name: p.name.clone(),
-        dimension: p.dimension,
-        value: p.value,
-        std,
-        ci95,
-        identifiable: reason.is_empty(),
-        identified: true,
-        reason,
-    }
+/// The largest Coulomb level, which measures parameters that may be zero.
+fn level(raw: &[Physical]) -> f64 {
+    raw.iter()
+        .filter(|p| p.name.starts_with("coulomb"))
+        .map(|p| p.value.abs())
+        .fold(0.0, f64::max)
 }
 
 fn series(objective: &Objective, p: &[f64], coefficients: &[f64]) -> Series {

@@ -4,7 +4,8 @@
 use proptest::prelude::*;
 use stiction_identify::{
     Conditioning, Control, Cutoff, Law, LawKind, Mass, Observer, Progress, Samples, Settings,
-    Source, Terms, condition, cross_validate, estimate, low_speed_bound, predict, separable,
+    Source, Terms, condition, cross_validate, estimate, intervals, low_speed_bound, predict,
+    separable,
 };
 
 #[derive(Clone, Copy, Debug)]
@@ -259,6 +260,7 @@ fn law() -> impl Strategy<Value = Law> {
     (0usize..4, any::<bool>(), exponent).prop_map(|(kind, asymmetric, exponent)| Law {
         asymmetric,
         exponent,
+        exponent_fitted: exponent == 1.0,
         ..Law::new(LawKind::ALL[kind])
     })
 }
@@ -309,7 +311,8 @@ fn run(
         return Ok(());
     };
     let bound = low_speed_bound(&record);
-    let e = estimate(&record, law, terms, &found, bound);
+    let mut e = estimate(&record, law, terms, &found, bound);
+    intervals(&record, &found, &mut e);
     for p in &e.parameters {
         if !p.identifiable {
             prop_assert!(!p.reason.is_empty(), "{} without a reason", p.name);

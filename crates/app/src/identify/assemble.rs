@@ -4,8 +4,8 @@ use super::{Options, Outcome};
 use crate::error::Warning;
 use crate::result::ResolvedAxis;
 use crate::result::{
-    CovarianceEntry, FitEntry, LawEntry, LowSpeedEntry, ParameterEntry, ResultFile, SCHEMA, Search,
-    Trust, ValidationEntry,
+    CovarianceEntry, FitEntry, LawEntry, LowSpeedEntry, ParameterEntry, PartnerEntry, ResultFile,
+    SCHEMA, Search, Trust, ValidationEntry,
 };
 use crate::source::Source;
 use crate::symbols;
@@ -111,10 +111,23 @@ fn parameter(p: &Parameter, motion: Motion, force_unit: &str) -> ParameterEntry 
         value: p.value,
         unit: symbols::unit(p.dimension, motion, force_unit),
         std: p.std,
-        ci95: p.ci95.map(|(low, high)| [low, high]),
+        bias: p.bias,
+        ci95: p
+            .ci95
+            .map(|(low, high)| [low, high].map(|x| Some(x).filter(|x| x.is_finite()))),
+        interval: p.ci95.map(|_| p.interval.name().into()),
         identifiable: p.identifiable,
         origin: if p.identified { "identified" } else { "given" }.into(),
         reason: p.reason.clone(),
+        moves_with: p
+            .moves_with
+            .iter()
+            .map(|(name, correlation)| PartnerEntry {
+                name: name.clone(),
+                correlation: *correlation,
+            })
+            .collect(),
+        advice: p.advice.clone(),
     }
 }
 

@@ -1,5 +1,6 @@
 //! What goes into an identification, before and after conditioning.
 
+use crate::conditioning::Conditioning;
 use stiction_signal::Sos;
 
 /// One log in SI units on its own time axis: m or rad, m/s or rad/s, N or N·m (or A, V).
@@ -60,6 +61,8 @@ pub struct Record {
     pub notes: Vec<String>,
     /// Smallest displacement that the log resolves (one encoder count), m or rad, where known.
     pub resolution: Option<f64>,
+    /// How to condition a position as this record was; `None` where the motion is a logged velocity.
+    pub(crate) conditioning: Option<Conditioning>,
     /// Whether this is a thinned stand-in.
     pub(crate) is_thinned: bool,
 }
@@ -135,6 +138,23 @@ impl Record {
             );
         }
         out
+    }
+
+    /// Puts another force in the place of the measured one, at the kept samples.
+    pub(crate) fn set_force(&mut self, force: &[f64]) {
+        let mut next = force.iter();
+        for segment in &mut self.segments {
+            for (u, _) in segment
+                .force
+                .iter_mut()
+                .zip(&segment.keep)
+                .filter(|(_, k)| **k)
+            {
+                if let Some(x) = next.next() {
+                    *u = *x;
+                }
+            }
+        }
     }
 
     /// Passes full-rate channels of a segment through the common filter and takes their kept samples.
@@ -220,6 +240,7 @@ impl Record {
             decimate: 1,
             notes: Vec::new(),
             resolution: self.resolution,
+            conditioning: None,
             is_thinned: true,
         })
     }

@@ -36,6 +36,24 @@ pub(crate) struct Physical {
     pub positive: bool,
 }
 
+impl Physical {
+    /// Variance for a covariance of the unknowns.
+    pub fn variance(&self, unknowns: &DMatrix<f64>) -> f64 {
+        (0..self.slope.len())
+            .map(|i| self.slope[i] * self.with(unknowns, i))
+            .sum()
+    }
+
+    /// Covariance with one of the unknowns.
+    pub fn with(&self, unknowns: &DMatrix<f64>, unknown: usize) -> f64 {
+        self.slope
+            .iter()
+            .enumerate()
+            .map(|(j, slope)| slope * unknowns[(unknown, j)])
+            .sum()
+    }
+}
+
 /// All identified parameters of a law at the unknowns `p`, `c`.
 pub(crate) fn physical(law: &Law, linear: &[LinearTerm], p: &[f64], c: &[f64]) -> Vec<Physical> {
     let layout = law.layout();

@@ -6,6 +6,7 @@ use crate::law::terms::{ColumnKind, LinearTerm, Mass, Terms};
 use crate::separable::linear::{self, Solution, dot};
 use crate::separable::recursion::{Trace, trace};
 use nalgebra::{DMatrix, DVector};
+use std::borrow::Cow;
 
 /// A record, a law and the linear terms beside it.
 #[derive(Clone, Debug)]
@@ -24,6 +25,8 @@ pub struct Objective<'a> {
     target: Vec<f64>,
     /// Sum of squares of the measured force at the kept samples.
     energy: f64,
+    /// A coefficient that is not fitted but held at a value.
+    held: Option<(usize, f64)>,
 }
 
 /// One trial.
@@ -95,7 +98,15 @@ impl<'a> Objective<'a> {
             inertia,
             target,
             energy,
+            held: None,
         }
+    }
+
+    /// The same objective with one coefficient held at a value.
+    pub(crate) fn holding(&self, coefficient: usize, value: f64) -> Self {
+        let mut out = self.clone();
+        out.held = Some((coefficient, value));
+        out
     }
 
     /// The record.
@@ -134,9 +145,13 @@ impl<'a> Objective<'a> {
     /// Solves the linear part for the nonlinear unknowns `p` (logarithms, in the order of the law).
     pub fn evaluate(&self, p: &[f64], slopes: bool) -> Evaluation {
         let traces = self.traces(p, slopes);
-        let columns = self.columns(&traces);
+        let mut columns = self.columns(&traces);
+        let target = self.without_held(&mut columns);
         let views: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-        let solution = linear::solve(&views, &self.nonnegative, &self.target);
+        let mut solution = linear::solve(&views, &self.nonnegative, &target);
+        if let Some((j, value)) = self.held {
+            solution.coefficients[j] = value;
+        }
         let k = if slopes { self.law.nonlinear() } else { 0 };
         let mut hessian = DMatrix::zeros(k, k);
         let mut descent = DVector::zeros(k);
@@ -162,6 +177,18 @@ impl<'a> Objective<'a> {
             hessian,
             descent,
         }
+    }
+
+    /// The target without the part of a held coefficient, whose column is emptied so that the linear
+    /// problem leaves it out.
+    fn without_held(&self, columns: &mut [Vec<f64>]) -> Cow<'_, [f64]> {
+        let Some((j, value)) = self.held else {
+            return Cow::Borrowed(&self.target);
+        };
+        let left = self.target.iter().zip(&columns[j]);
+        let left = left.map(|(u, x)| u - value * x).collect();
+        columns[j].fill(0.0);
+        Cow::Owned(left)
     }
 
     /// `-1/2` times the gradient of the cost with respect to the nonlinear unknowns.

@@ -127,6 +127,14 @@ impl SearchBox {
         out
     }
 
+    /// The same box with one unknown held at a value.
+    pub(crate) fn holding(&self, i: usize, value: f64) -> Self {
+        let mut out = self.clone();
+        out.low[i] = value;
+        out.high[i] = value;
+        out
+    }
+
     /// The nearest point inside.
     pub fn clamp(&self, p: &[f64]) -> Vec<f64> {
         p.iter()

@@ -6,8 +6,8 @@ use crate::common::{MACHINE, Noise, Set, record};
 use std::f64::consts::TAU;
 use stiction_friction::LuGre;
 use stiction_identify::{
-    Conditioning, Estimate, Law, LawKind, Mass, Optimum, Record, Samples, SearchBox, Settings,
-    Silent, Terms, condition, estimate, separable,
+    Conditioning, Estimate, IntervalKind, Law, LawKind, Mass, Optimum, Record, Samples, SearchBox,
+    Settings, Silent, Terms, condition, estimate, intervals, separable,
 };
 use stiction_servo::cascade::Cascade;
 use stiction_servo::closed_loop::{ClosedLoop, ForceLog};
@@ -79,10 +79,10 @@ pub fn autoregressive(rho: f64, run: u64) -> Trial {
     }
 }
 
-/// The log of a drive whose encoder has steps of `count` m and whose force is all but free of noise:
-/// what is uncertain comes from the position. Speeds and frequencies of the three segments differ a
+/// The log of a drive whose encoder has steps of `count` m, with white noise of `force` N on the force.
+/// Speeds and frequencies of the three segments differ a
 /// little from run to run, so that no step falls on the same place twice.
-pub fn quantised(count: f64, conditioning: &Conditioning, run: u64) -> Trial {
+pub fn quantised(count: f64, force: f64, conditioning: &Conditioning, run: u64) -> Trial {
     let mut noise = Noise::new(7000 + run);
     let mut near = |x: f64| x * (0.95 + 0.1 * noise.uniform());
     let path = Path::new(vec![
@@ -97,7 +97,7 @@ pub fn quantised(count: f64, conditioning: &Conditioning, run: u64) -> Trial {
         encoder: Encoder::new(count).unwrap(),
         rate: 4000.0,
         substeps: 5,
-        force_noise: 0.05,
+        force_noise: force,
         force_log: ForceLog::Centred,
         seed: run,
     }
@@ -147,9 +147,11 @@ pub struct Tally {
     pub name: &'static str,
     pub truth: f64,
     /// Runs in which the parameter was called identifiable.
-    pub counted: usize,
-    /// Of those, runs whose interval held the truth.
+    pub identifiable: usize,
+    /// Runs whose interval held the truth.
     pub inside: usize,
+    /// Runs whose interval came from a profile.
+    pub profiled: usize,
     /// Estimates of all runs.
     pub values: Vec<f64>,
     /// Deviations of all runs, where there was one.
@@ -161,26 +163,31 @@ impl Tally {
         Self {
             name,
             truth,
-            counted: 0,
+            identifiable: 0,
             inside: 0,
+            profiled: 0,
             values: Vec::new(),
             deviations: Vec::new(),
         }
     }
 
-    /// Part of the intervals that held the truth.
+    /// Part of the intervals that held the truth: of all runs, since the runs in which a parameter
+    /// at the edge happens to look identifiable are not a fair sample.
     pub fn coverage(&self) -> f64 {
-        self.inside as f64 / self.counted as f64
+        self.inside as f64 / self.values.len() as f64
+    }
+
+    /// Whether nine runs of ten call it identifiable.
+    pub fn counts(&self) -> bool {
+        10 * self.identifiable >= 9 * self.values.len()
     }
 
     pub fn add(&mut self, fitted: &Estimate) {
         let p = fitted.parameter(self.name).unwrap();
         self.values.push(p.value);
         self.deviations.extend(p.std);
-        if !p.identifiable {
-            return;
-        }
-        self.counted += 1;
+        self.identifiable += usize::from(p.identifiable);
+        self.profiled += usize::from(p.interval == IntervalKind::Profile);
         if let Some((low, high)) = p.ci95 {
             self.inside += usize::from(low <= self.truth && self.truth <= high);
         }
@@ -193,7 +200,8 @@ pub fn coverage(runs: u64, trial: impl Fn(u64) -> Trial) -> Vec<Tally> {
     for run in 0..runs {
         let trial = trial(run);
         let (law, found) = local(&trial, &MACHINE);
-        let fitted = estimate(&trial.record, law, &trial.terms, &found, 1e-3);
+        let mut fitted = estimate(&trial.record, law, &trial.terms, &found, 1e-3);
+        intervals(&trial.record, &found, &mut fitted);
         if tallies.is_empty() {
             tallies.extend(trial.truth.iter().map(|&(name, x)| Tally::new(name, x)));
         }
