@@ -3,6 +3,7 @@
 mod advice;
 mod autoregression;
 mod conditioned;
+mod curve;
 pub(crate) mod intervals;
 pub(crate) mod parameter;
 mod profile;
@@ -141,6 +142,7 @@ pub fn estimate(
             .map(|i| (0..n).map(|j| matrix[(i, j)]).collect())
             .collect(),
     };
+    curve::stays_within(&law, optimum, &mut parameters);
     advice::explain(&mut parameters, &covariance);
     let series = series(&objective, &optimum.p, c);
     let residual = at.residual();

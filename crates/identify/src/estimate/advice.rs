@@ -18,13 +18,16 @@ pub(super) fn explain(parameters: &mut [Parameter], covariance: &Covariance) {
             parameter.advice.clear();
             continue;
         }
-        let row = covariance.names.iter().position(|n| *n == parameter.name);
-        let mut partners: Vec<(String, f64)> = row.map_or_else(Vec::new, |i| {
-            (0..correlation.len())
-                .filter(|&j| j != i && correlation[i][j].abs() >= STRONG)
-                .map(|j| (covariance.names[j].clone(), correlation[i][j]))
-                .collect()
-        });
+        let mut partners: Vec<(String, f64)> = covariance
+            .names
+            .iter()
+            .position(|n| *n == parameter.name)
+            .map_or_else(Vec::new, |i| {
+                (0..correlation.len())
+                    .filter(|&j| j != i && correlation[i][j].abs() >= STRONG)
+                    .map(|j| (covariance.names[j].clone(), correlation[i][j]))
+                    .collect()
+            });
         partners.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
         partners.truncate(MOST);
         parameter.moves_with = partners;

@@ -3,6 +3,7 @@
 
 use crate::conditioning::record::Record;
 use crate::estimate::conditioned::shift;
+use crate::estimate::curve::{missing, stays_within};
 use crate::estimate::parameter::{IntervalKind, Parameter, quantile};
 use crate::estimate::profile::{End, Held, Profile};
 use crate::estimate::{Estimate, advice, level};
@@ -27,10 +28,16 @@ pub fn intervals(record: &Record, optimum: &Optimum, estimate: &mut Estimate) {
     let raw = physical(&estimate.law, objective.linear(), &optimum.p, c);
     conditioned(record, optimum, &raw, estimate);
     let mut counts = Counts::default();
+    let missing = missing(&objective, optimum, &estimate.unknowns, &mut counts);
     for p in &raw {
-        profiled(&objective, optimum, p, estimate, &mut counts);
+        if curve_of(&p.name).is_some_and(|side| missing[side]) {
+            without_curve(estimate, &p.name);
+        } else {
+            profiled(&objective, optimum, p, estimate, &mut counts);
+        }
     }
     estimate.counts.add(&counts);
+    stays_within(&estimate.law, optimum, &mut estimate.parameters);
     advice::explain(&mut estimate.parameters, &estimate.covariance);
 }
 
@@ -67,6 +74,27 @@ fn conditioned(record: &Record, optimum: &Optimum, raw: &[Physical], estimate: &
         let variance = estimate.covariance.matrix[i][i];
         if let Some(own) = find(estimate, &p.name) {
             *own = Parameter::fitted(p, variance, Some(shift.bias[i]), optimum, level);
+        }
+    }
+}
+
+/// The direction of a parameter of the Stribeck curve (the positive one for what is common to both);
+/// `None` for other parameters.
+fn curve_of(name: &str) -> Option<usize> {
+    let curve = ["static", "stribeck_velocity", "stribeck_exponent"];
+    curve
+        .iter()
+        .any(|stem| name.starts_with(stem))
+        .then(|| usize::from(name.ends_with("_neg")))
+}
+
+/// Says of a parameter that nothing is known of it, because a fit without the curve is as good.
+fn without_curve(estimate: &mut Estimate, name: &str) {
+    if let Some(own) = find(estimate, name) {
+        own.ci95 = None;
+        if own.identifiable {
+            own.identifiable = false;
+            own.reason = "the fit is hardly better than without a Stribeck curve".into();
         }
     }
 }

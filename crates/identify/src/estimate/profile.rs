@@ -95,7 +95,15 @@ impl Profile<'_> {
         let (mut inner, mut outer) = ((0.0, 0.0), None::<(f64, f64)>);
         let mut distance = (self.quantile * self.std).min(reach);
         for _ in 0..TRIALS {
-            let found = self.fit(at + side * distance, &start, counts);
+            let value = at + side * distance;
+            let found = fit_with(
+                self.objective,
+                self.optimum,
+                self.held,
+                value,
+                &start,
+                counts,
+            );
             let risen = found.evaluation.cost - self.optimum.evaluation.cost;
             if !risen.is_finite() {
                 return None;
@@ -127,29 +135,36 @@ impl Profile<'_> {
         }
         None
     }
+}
 
-    /// All others fitted with this one held.
-    fn fit(&self, value: f64, start: &[f64], counts: &mut Counts) -> Descent {
-        let mut watch = Watch {
-            observer: &mut Silent,
-            stage: Stage::Fine,
-            fraction: 1.0,
-            counts: *counts,
-            best: f64::INFINITY,
-            stopped: false,
-        };
-        let bounds = &self.optimum.bounds;
-        let found = match self.held {
-            Held::Nonlinear(i) => {
-                let bounds = bounds.holding(i, value);
-                descend(self.objective, &bounds, start, STEPS, &mut watch)
-            }
-            Held::Linear(j) => {
-                let objective = self.objective.holding(j, value);
-                descend(&objective, bounds, start, STEPS, &mut watch)
-            }
-        };
-        *counts = watch.counts;
-        found
-    }
+/// All others fitted with one held at a value.
+pub(super) fn fit_with(
+    objective: &Objective,
+    optimum: &Optimum,
+    held: Held,
+    value: f64,
+    start: &[f64],
+    counts: &mut Counts,
+) -> Descent {
+    let mut watch = Watch {
+        observer: &mut Silent,
+        stage: Stage::Fine,
+        fraction: 1.0,
+        counts: *counts,
+        best: f64::INFINITY,
+        stopped: false,
+    };
+    let bounds = &optimum.bounds;
+    let found = match held {
+        Held::Nonlinear(i) => {
+            let bounds = bounds.holding(i, value);
+            descend(objective, &bounds, start, STEPS, &mut watch)
+        }
+        Held::Linear(j) => {
+            let objective = objective.holding(j, value);
+            descend(&objective, bounds, start, STEPS, &mut watch)
+        }
+    };
+    *counts = watch.counts;
+    found
 }

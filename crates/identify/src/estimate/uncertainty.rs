@@ -102,7 +102,7 @@ fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) -> Unknowns
     let gram = DMatrix::from_fn(q, q, |i, j| {
         dot(jacobian[i], jacobian[j]) * scale[i] * scale[j]
     });
-    let bread = inverse(gram);
+    let (bread, lost) = inverse(gram);
     let weights = weights(jacobian, &scale, &bread);
     let stationary = stationary_covariance(&weights, residual, breaks);
     let scores: Vec<Vec<f64>> = weights
@@ -120,9 +120,12 @@ fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) -> Unknowns
             }
         })
         .collect();
+    let white = dot(residual, residual) / (n - q) as f64;
     Unknowns {
         covariance: DMatrix::from_fn(q, q, |i, j| {
-            correction * stationary[(i, j)] * widen[i] * widen[j] * scale[i] * scale[j]
+            let known = correction * stationary[(i, j)] * widen[i] * widen[j];
+            // No residual reaches a lost direction, so the scores say nothing of it.
+            (known + white * lost[(i, j)]) * scale[i] * scale[j]
         }),
         bread: (0..q)
             .map(|i| bread[(i, i)] * scale[i] * scale[i])
@@ -131,21 +134,24 @@ fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) -> Unknowns
 }
 
 /// Inverse of a scaled symmetric matrix in which directions that rounding has lost stay huge: they
-/// must come out as unknown, not as zero.
-fn inverse(matrix: DMatrix<f64>) -> DMatrix<f64> {
+/// must come out as unknown, not as zero. Also the part of the inverse that belongs to them.
+fn inverse(matrix: DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
     let q = matrix.nrows();
     let eigen = SymmetricEigen::new(matrix);
     let most = eigen.eigenvalues.iter().fold(0.0_f64, |m, x| m.max(*x));
-    let inverse: Vec<f64> = eigen
-        .eigenvalues
-        .iter()
-        .map(|x| 1.0 / x.max(ROUNDING * most))
-        .collect();
-    DMatrix::from_fn(q, q, |i, j| {
-        (0..q)
-            .map(|l| eigen.eigenvectors[(i, l)] * inverse[l] * eigen.eigenvectors[(j, l)])
-            .sum()
-    })
+    let floor = ROUNDING * most;
+    let sum = |wanted: &dyn Fn(f64) -> bool| {
+        DMatrix::from_fn(q, q, |i, j| {
+            (0..q)
+                .filter(|&l| wanted(eigen.eigenvalues[l]))
+                .map(|l| {
+                    let inverse = 1.0 / eigen.eigenvalues[l].max(floor);
+                    eigen.eigenvectors[(i, l)] * inverse * eigen.eigenvectors[(j, l)]
+                })
+                .sum()
+        })
+    };
+    (sum(&|_| true), sum(&|x| x <= floor))
 }
 
 /// `B J_t`, one column of length n per unknown: what a residual does to the unknown.
