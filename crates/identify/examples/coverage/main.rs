@@ -8,6 +8,7 @@
 
 #[path = "../../tests/common/mod.rs"]
 mod common;
+mod rivals;
 #[path = "../../tests/common/trials.rs"]
 mod trials;
 
@@ -40,7 +41,8 @@ fn main() {
     for (name, trial) in kinds {
         if wanted.is_empty() || wanted.iter().any(|w| w == name) {
             println!("{name}, {runs} runs");
-            table(&coverage(runs, trial));
+            table(&coverage(runs, &trial));
+            rivals::table(runs, &trial);
         }
     }
 }
