@@ -1,4 +1,5 @@
 //! Logs made on the spot, each in its own folder.
+#![allow(dead_code)]
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

@@ -15,6 +15,9 @@ mod trials;
 use stiction_identify::{Conditioning, Cutoff};
 use trials::{Tally, Trial, autoregressive, coverage, quantised};
 
+/// Makes the record of one run.
+type Make = Box<dyn Fn(u64) -> Trial>;
+
 fn main() {
     let mut runs = 200;
     let mut wanted: Vec<String> = Vec::new();
@@ -31,7 +34,7 @@ fn main() {
         ..Conditioning::default()
     };
     let log = |count: f64, force: f64| move |run| quantised(count, force, &filters, run);
-    let kinds: [(&str, Box<dyn Fn(u64) -> Trial>); 5] = [
+    let kinds: [(&str, Make); 5] = [
         ("white", Box::new(|run| autoregressive(0.0, run))),
         ("ar", Box::new(|run| autoregressive(0.9, run))),
         ("quantised", Box::new(log(1e-6, 0.05))),
