@@ -33,6 +33,8 @@ pub struct Axis {
     pub stribeck_exponent: f64,
     /// Elements of the Maxwell-slip law; `None` leaves the number to the data.
     pub gms_elements: Option<usize>,
+    /// Whether the Stribeck exponent is fitted instead.
+    pub exponent_fitted: bool,
     /// Speed below which a sample counts as slow, m/s or rad/s; `None` follows from the log.
     pub low_speed: Option<f64>,
     /// How the logged force stands to the instants of the samples, for a simulation.
@@ -61,6 +63,7 @@ impl Default for Axis {
             },
             stribeck_exponent: 2.0,
             gms_elements: None,
+            exponent_fitted: false,
             low_speed: None,
             hold: Hold::Held,
             segment: None,

@@ -189,7 +189,6 @@ pub(crate) fn fit(
     let ladder = Ladder {
         record: &record,
         held_out: &unseen,
-        conditioning: &chosen,
         symmetric,
         asymmetric,
         low_speed,
@@ -213,17 +212,16 @@ pub(crate) fn fit(
         two_step = Some(found);
         Choice::alone(estimate)
     } else {
+        let law = Law {
+            kind: options.law.unwrap_or(LawKind::LuGre),
+            asymmetric: options.asymmetric,
+            exponent: axis.stribeck_exponent,
+            exponent_fitted: axis.exponent_fitted,
+            elements: axis.gms_elements.unwrap_or(0),
+        };
         let choice = match options.law {
-            Some(kind) => {
-                let law = Law {
-                    kind,
-                    asymmetric: options.asymmetric,
-                    exponent: axis.stribeck_exponent,
-                    elements: axis.gms_elements.unwrap_or(0),
-                };
-                choice::asked(law, &ladder, options.compare_laws, &settings, observer)
-            }
-            None => choice::auto(axis, &ladder, &settings, observer),
+            Some(_) => choice::asked(law, &ladder, options.compare_laws, &settings, observer),
+            None => choice::auto(law, &ladder, &settings, observer),
         };
         choice.map_err(|source| Error::Identify {
             inputs: paths(&sources).join(", "),

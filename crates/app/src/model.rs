@@ -75,8 +75,11 @@ pub struct ModelParameter {
     pub unit: String,
     /// Standard deviation; absent where the data say nothing.
     pub std: Option<f64>,
-    /// 95 % interval; absent where the data bound it on no side.
+    /// 95 % interval; absent where the data bound it on no side, an infinite end where on one side
+    /// only.
     pub ci95: Option<[f64; 2]>,
+    /// `linear` or `profile`; absent without an interval.
+    pub interval: Option<String>,
     /// Whether the data determine it.
     pub identifiable: bool,
     /// `identified` or `given`.
@@ -91,7 +94,8 @@ impl From<&ParameterEntry> for ModelParameter {
             value: p.value,
             unit: p.unit.clone(),
             std: p.std,
-            ci95: p.ci95,
+            ci95: p.range().map(|(low, high)| [low, high]),
+            interval: p.interval.clone(),
             identifiable: p.identifiable,
             origin: p.origin.clone(),
         }

@@ -132,17 +132,47 @@ pub struct ParameterEntry {
     pub unit: String,
     /// Standard deviation; `null` where the data say nothing.
     pub std: Option<f64>,
-    /// 95 % interval; `null` where the data bound it on no side.
-    pub ci95: Option<[f64; 2]>,
-    /// What was added to the least-squares value to undo the bias of filters, encoder and noise.
+    /// What encoder steps and filters are estimated to have added; `null` where not estimated.
     #[serde(default)]
-    pub correction: f64,
+    pub bias: Option<f64>,
+    /// 95 % interval; `null` where the data bound it on no side, a `null` end where on one side only.
+    pub ci95: Option<[Option<f64>; 2]>,
+    /// `linear` or `profile`; `null` without an interval.
+    #[serde(default)]
+    pub interval: Option<String>,
     /// Whether the data determine it.
     pub identifiable: bool,
     /// `identified` or `given`.
     pub origin: String,
     /// Why it is not identifiable; empty if it is.
     pub reason: String,
+    /// What a parameter that is not identifiable moves together with.
+    #[serde(default)]
+    pub moves_with: Vec<PartnerEntry>,
+    /// What motion would determine it; empty if it is identifiable.
+    #[serde(default)]
+    pub advice: String,
+}
+
+impl ParameterEntry {
+    /// The 95 % interval, infinite where it is open; `None` where it is open to both sides.
+    pub fn range(&self) -> Option<(f64, f64)> {
+        self.ci95.map(|[low, high]| {
+            (
+                low.unwrap_or(f64::NEG_INFINITY),
+                high.unwrap_or(f64::INFINITY),
+            )
+        })
+    }
+}
+
+/// A parameter that another one moves together with.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PartnerEntry {
+    /// Name.
+    pub name: String,
+    /// Correlation of the two estimates, -1 to 1.
+    pub correlation: f64,
 }
 
 /// Covariance matrix with its names.

@@ -76,8 +76,10 @@ pub fn outcome(outcome: &Outcome) -> String {
             Some(std) if p.value != 0.0 => format!("{:.2} %", 100.0 * std / p.value.abs()),
             _ => "-".into(),
         };
-        let interval = match p.ci95 {
-            Some([low, high]) => format!("{} .. {}", short(low), short(high)),
+        let interval = match p.range() {
+            Some((f64::NEG_INFINITY, high)) => format!("at most {}", short(high)),
+            Some((low, f64::INFINITY)) => format!("at least {}", short(low)),
+            Some((low, high)) => format!("{} .. {}", short(low), short(high)),
             None if p.origin == "given" => String::new(),
             None => "not bounded".into(),
         };
@@ -201,8 +203,8 @@ fn truth(outcome: &Outcome) -> String {
             continue;
         };
         let inside = p
-            .ci95
-            .is_some_and(|[low, high]| low <= *truth && *truth <= high);
+            .range()
+            .is_some_and(|(low, high)| low <= *truth && *truth <= high);
         rows.push(vec![
             name.clone(),
             short(*truth),

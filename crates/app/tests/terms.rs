@@ -62,7 +62,7 @@ fn load_and_temperature_reach_every_file() {
         let p = result.parameters.iter().find(|p| p.name == name).unwrap();
         assert!((p.value / truth - 1.0).abs() < 0.03, "{name} = {}", p.value);
         // The central differences shift the mass by (w h)^2/3, which its interval does not know of.
-        let [low, high] = p.ci95.unwrap();
+        let [low, high] = p.ci95.unwrap().map(|x| x.expect("a closed interval"));
         let inside = low <= truth && truth <= high;
         assert!(inside || name == "mass", "{name}: {low} .. {high}");
         assert_eq!(p.unit, unit);
@@ -90,7 +90,7 @@ fn load_and_temperature_reach_every_file() {
         .iter()
         .find(|p| p.name == "coulomb")
         .unwrap();
-    let [low, high] = found.ci95.unwrap();
+    let [low, high] = found.ci95.unwrap().map(|x| x.expect("a closed interval"));
     assert!(
         low <= coulomb && coulomb <= high,
         "{coulomb}: {low} .. {high}"

@@ -7,7 +7,7 @@ use common::{MACHINE, Noise, record, sine_record};
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use stiction_identify::{
-    Law, LawKind, Mass, Objective, Record, Settings, Silent, Terms, estimate, separable,
+    Law, LawKind, Mass, Objective, Record, Settings, Silent, Terms, estimate, intervals, separable,
 };
 
 fn main() {
@@ -73,7 +73,22 @@ fn whole_identification(bencher: Bencher) {
     bencher.bench(|| {
         let found =
             separable(&record, law, &terms, &Settings::default(), &mut Silent).expect("a fit");
-        estimate(&record, law, &terms, &found, 0.0)
+        let mut estimate = estimate(&record, law, &terms, &found, 0.0);
+        intervals(&record, &found, &mut estimate, &mut Silent);
+        estimate
+    });
+}
+
+/// The intervals alone: covariance, and profiles where they are wanted.
+#[divan::bench]
+fn intervals_alone(bencher: Bencher) {
+    let record = noisy();
+    let (law, terms) = (Law::new(LawKind::LuGre), terms());
+    let found = separable(&record, law, &terms, &Settings::default(), &mut Silent).expect("a fit");
+    bencher.bench(|| {
+        let mut estimate = estimate(&record, law, &terms, &found, 0.0);
+        intervals(&record, &found, &mut estimate, &mut Silent);
+        estimate
     });
 }
 

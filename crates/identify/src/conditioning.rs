@@ -198,6 +198,16 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
             "{short} stretches between gaps were too short to filter and left out"
         ));
     }
+    // With the cut-offs that were chosen, so that the same filters are found again.
+    let fixed = |hz: Option<f64>| hz.map_or(Cutoff::Off, Cutoff::Hz);
+    let again = Conditioning {
+        source: Some(source),
+        source_cutoff: fixed(source_hz),
+        common_cutoff: fixed(common_hz),
+        decimate: Some(decimate),
+        resolution: conditioning.resolution,
+        min_speed: 0.0,
+    };
     Ok(Record {
         segments,
         common: filters.common,
@@ -206,6 +216,7 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
         common_hz,
         notes,
         resolution: conditioning.resolution,
+        conditioning: from_position.then_some(again),
         is_thinned: false,
     })
 }

@@ -1,9 +1,17 @@
 //! The result of a fit: parameters with their uncertainty, residuals, and what to beware of.
 
+mod advice;
+mod autoregression;
+mod conditioned;
+mod curve;
+pub(crate) mod intervals;
+pub(crate) mod parameter;
+mod profile;
 pub(crate) mod uncertainty;
 
 use crate::conditioning::record::Record;
-use crate::estimate::uncertainty::Covariance;
+use crate::estimate::parameter::Parameter;
+use crate::estimate::uncertainty::{Covariance, Unknowns};
 use crate::fit::Fit;
 use crate::gms::choose::ElementsScore;
 use crate::law::Law;
@@ -14,39 +22,6 @@ use crate::observe::Counts;
 use crate::separable::Optimum;
 use crate::separable::levenberg::Status;
 use crate::separable::objective::Objective;
-use nalgebra::DMatrix;
-
-/// Relative standard deviation above which a parameter counts as not determined by the data.
-pub const IDENTIFIABLE: f64 = 0.10;
-/// Two-sided 95 % quantile of the normal distribution.
-const Q95: f64 = 1.959_963_984_540_054;
-
-/// One parameter of the law.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Parameter {
-    /// Name in files, such as `sigma0` or `coulomb_pos`.
-    pub name: String,
-    /// What it measures.
-    pub dimension: Dimension,
-    /// Best value, SI.
-    pub value: f64,
-    /// Standard deviation with correlated residuals counted; `None` where the data say nothing.
-    pub std: Option<f64>,
-    /// 95 % interval (log-normal for parameters that are positive by nature, normal in the
-    /// logarithm of the odds for shares); `None` where the data
-    /// bound it on no side.
-    pub ci95: Option<(f64, f64)>,
-    /// What was added to the least-squares value to undo the bias of conditioning and noise; 0 if
-    /// nothing.
-    pub correction: f64,
-    /// Whether the data determine it: standard deviation at most 10 % of the value (of a signed
-    /// parameter also of the value that would be worth the Coulomb level in use), not at a bound.
-    pub identifiable: bool,
-    /// Whether it was fitted; a given parameter has no deviation.
-    pub identified: bool,
-    /// Why it is not identifiable; empty if it is.
-    pub reason: String,
-}
 
 /// Signals at the samples of the fit.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -111,6 +86,7 @@ pub struct Estimate {
     pub(crate) step: f64,
     pub(crate) p: Vec<f64>,
     pub(crate) coefficients: Vec<f64>,
+    pub(crate) unknowns: Unknowns,
 }
 
 impl Estimate {
@@ -147,50 +123,13 @@ impl Estimate {
     }
 }
 
-/// Parameters, uncertainty and residuals at an optimum.
+/// Parameters, linear uncertainty and residuals at an optimum.
 pub fn estimate(
     record: &Record,
     law: Law,
     terms: &Terms,
     optimum: &Optimum,
     low_speed_bound: f64,
-) -> Estimate {
-    let found = Found::optimum(optimum);
-    assemble(record, law, terms, optimum, low_speed_bound, &found)
-}
-
-/// The numbers that an estimate states, and what is known of their error beside the residual.
-pub(crate) struct Found {
-    /// Nonlinear unknowns.
-    pub p: Vec<f64>,
-    /// Linear ones.
-    pub c: Vec<f64>,
-    /// Covariance of both over replicas: the stated variances are no smaller.
-    pub scatter: Option<DMatrix<f64>>,
-    /// Covariance of the error of the numbers themselves, to be added.
-    pub doubt: Option<DMatrix<f64>>,
-}
-
-impl Found {
-    /// What the search found, as it stands.
-    pub fn optimum(optimum: &Optimum) -> Self {
-        Self {
-            p: optimum.p.clone(),
-            c: optimum.evaluation.solution.coefficients.clone(),
-            scatter: None,
-            doubt: None,
-        }
-    }
-}
-
-/// An estimate that states other numbers than the optimum, near it.
-pub(crate) fn assemble(
-    record: &Record,
-    law: Law,
-    terms: &Terms,
-    optimum: &Optimum,
-    low_speed_bound: f64,
-    found: &Found,
 ) -> Estimate {
     // The number of elements is a result where the data chose it.
     let law = Law {
@@ -199,55 +138,30 @@ pub(crate) fn assemble(
     };
     let objective = Objective::new(record, law, terms);
     let at = &optimum.evaluation;
-    let c = &found.c;
-    let step = record.step();
-    let raw = physical::physical(&law, objective.linear(), step, &found.p, c);
-    let mut unknowns = uncertainty::unknowns(&objective, at);
-    if let Some(scatter) = &found.scatter {
-        unknowns = uncertainty::widened(&unknowns, scatter);
-    }
-    if let Some(doubt) = &found.doubt {
-        unknowns += doubt;
-    }
-    let matrix = physical::propagate(&raw, &unknowns);
-    let plain = Found::optimum(optimum);
-    let before = physical::physical(&law, objective.linear(), step, &plain.p, &plain.c);
-    let level = raw
-        .iter()
-        .filter(|p| matches!(p.name.as_str(), "coulomb" | "coulomb_pos" | "coulomb_neg"))
-        .map(|p| p.value.abs())
-        .fold(0.0, f64::max);
-    let spans = objective.spans();
+    let c = &at.solution.coefficients;
+    let raw = physical::physical(&law, objective.linear(), record.step(), &optimum.p, c);
+    let unknowns = uncertainty::unknowns(&objective, at);
+    let matrix = physical::propagate(&raw, &unknowns.covariance);
+    let levels = levels(&objective, &raw);
     let mut parameters: Vec<Parameter> = raw
         .iter()
         .enumerate()
-        .map(|(i, p)| {
-            let span = p.linear.map_or(1.0, |j| spans[j]);
-            Parameter {
-                correction: p.value - before[i].value,
-                ..describe(p, matrix[(i, i)], optimum, level / span, step)
-            }
-        })
+        .map(|(i, p)| Parameter::fitted(p, matrix[(i, i)], None, optimum, levels[i]))
         .collect();
-    if law.kind.has_stribeck() {
+    if law.kind.has_stribeck() && !law.exponent_fitted {
         let at = parameters
             .iter()
             .rposition(|p| p.name.starts_with("stribeck_velocity"))
             .map_or(parameters.len(), |i| i + 1);
-        parameters.insert(at, given("stribeck_exponent", law.exponent));
+        let given = Parameter::given("stribeck_exponent", Dimension::One, law.exponent);
+        parameters.insert(at, given);
     }
     if let Mass::Given(mass) = terms.mass {
         let at = parameters
             .iter()
             .position(|p| p.name == "offset")
             .unwrap_or(parameters.len());
-        parameters.insert(
-            at,
-            Parameter {
-                dimension: Dimension::Inertia,
-                ..given("mass", mass)
-            },
-        );
+        parameters.insert(at, Parameter::given("mass", Dimension::Inertia, mass));
     }
     for (name, value) in terms.dependences.iter().filter_map(Dependence::reference) {
         if parameters.iter().all(|p| p.name != name) {
@@ -256,10 +170,7 @@ pub(crate) fn assemble(
                 "temperature_reference" => Dimension::Temperature,
                 _ => Dimension::Length,
             };
-            parameters.push(Parameter {
-                dimension,
-                ..given(name, value)
-            });
+            parameters.push(Parameter::given(name, dimension, value));
         }
     }
     let names: Vec<String> = raw.iter().map(|p| p.name.clone()).collect();
@@ -270,8 +181,10 @@ pub(crate) fn assemble(
             .map(|i| (0..n).map(|j| matrix[(i, j)]).collect())
             .collect(),
     };
-    let series = series(&objective, &found.p, c);
-    let residual = &series.residual();
+    curve::stays_within(&law, optimum, &mut parameters);
+    advice::explain(&mut parameters, &covariance);
+    let series = series(&objective, &optimum.p, c);
+    let residual = at.residual();
     // The search refuses a force without energy; what is left is a residual too large to square.
     let fit = Fit::new(&series.measured, residual).unwrap_or(Fit {
         rmse: f64::MAX,
@@ -299,10 +212,11 @@ pub(crate) fn assemble(
         counts: optimum.counts,
         iterations: optimum.iterations,
         history: optimum.history.clone(),
-        step,
-        p: found.p.clone(),
         elements: optimum.elements.clone(),
+        step: record.step(),
+        p: optimum.p.clone(),
         coefficients: c.clone(),
+        unknowns,
     }
 }
 
@@ -312,93 +226,22 @@ pub fn predict(record: &Record, fitted: &Estimate) -> Series {
     series(&objective, &fitted.p, &fitted.coefficients)
 }
 
-pub(crate) fn given(name: &str, value: f64) -> Parameter {
-    Parameter {
-        name: name.into(),
-        dimension: Dimension::One,
-        value,
-        std: None,
-        ci95: None,
-        correction: 0.0,
-        identifiable: true,
-        identified: false,
-        reason: String::new(),
-    }
-}
-
-fn describe(p: &Physical, variance: f64, optimum: &Optimum, level: f64, step: f64) -> Parameter {
-    let solution = &optimum.evaluation.solution;
-    let mut reason = String::new();
-    if let Some(i) = p.nonlinear
-        && optimum.bounds.at_bound(&optimum.p, i)
-    {
-        reason = "stands at the bound of its search range".into();
-    }
-    if let Some(j) = p.linear {
-        if solution.dependent[j] {
-            reason = "cannot be told apart from the other terms on this motion".into();
-        } else if !solution.active[j] {
-            reason = "held at zero: the data ask for a negative value".into();
-        }
-    }
-    let level = match p.dimension {
-        Dimension::Time => step,
-        _ => level,
-    };
-    judge(p, variance, reason, level)
-}
-
-/// A parameter with its deviation, interval and flag; `reason` says what already speaks against it, and
-/// `level` is what a parameter that may be zero is measured by: the Coulomb level, the sample time.
-pub(crate) fn judge(p: &Physical, variance: f64, mut reason: String, level: f64) -> Parameter {
-    let known = reason.is_empty() && variance.is_finite() && variance >= 0.0;
-    let std = known.then(|| variance.sqrt());
-    if reason.is_empty() && std.is_none() {
-        reason = "its deviation is beyond the range of numbers".into();
-    }
-    let (size, what) = match p.dimension {
-        _ if p.positive => (p.value.abs(), "value"),
-        Dimension::Time => (level, "the sample time"),
-        _ => (p.value.abs().max(level), "value or of the Coulomb level"),
-    };
-    let relative = std.map(|s| s / size);
-    if let Some(r) = relative
-        && (r > IDENTIFIABLE || r.is_nan())
-    {
-        let of = if p.dimension == Dimension::Time {
-            ""
-        } else {
-            "its "
-        };
-        reason = format!("standard deviation {:.0} % of {of}{what}", 100.0 * r);
-    }
-    let ci95 = std.and_then(|s| {
-        if p.share {
-            // Normal in the logarithm of the odds, so that it stays between 0 and 1.
-            let odds = p.value / (1.0 - p.value);
-            let r = s / (p.value * (1.0 - p.value));
-            let at = |x: f64| 1.0 / (1.0 + libm::exp(-x) / odds);
-            (r.is_finite() && r * Q95 <= 4.0).then(|| (at(-Q95 * r), at(Q95 * r)))
-        } else if p.positive {
-            let r = s / p.value;
-            // Wider than a factor of e^4 to each side, the data bound it on no side.
-            (r.is_finite() && r * Q95 <= 4.0)
-                .then(|| (p.value * libm::exp(-Q95 * r), p.value * libm::exp(Q95 * r)))
-        } else {
-            Some((p.value - Q95 * s, p.value + Q95 * s))
-        }
-    });
-    Parameter {
-        name: p.name.clone(),
-        dimension: p.dimension,
-        value: p.value,
-        std,
-        ci95,
-        correction: 0.0,
-        identifiable: reason.is_empty(),
-        identified: true,
-        reason,
-    }
+/// What each parameter that may be zero is measured by: the largest Coulomb level, for a coefficient
+/// over the span of its column in use; the sample time for a delay.
+fn levels(objective: &Objective, raw: &[Physical]) -> Vec<f64> {
+    let coulomb = raw
+        .iter()
+        .filter(|p| matches!(p.name.as_str(), "coulomb" | "coulomb_pos" | "coulomb_neg"))
+        .map(|p| p.value.abs())
+        .fold(0.0, f64::max);
+    let spans = objective.spans();
+    raw.iter()
+        .map(|p| match (p.dimension, p.linear) {
+            (Dimension::Time, _) => objective.record().step(),
+            (_, Some(j)) => coulomb / spans[j],
+            (_, None) => coulomb,
+        })
+        .collect()
 }
 
 fn series(objective: &Objective, p: &[f64], coefficients: &[f64]) -> Series {
@@ -482,6 +325,7 @@ impl Assembled {
             history: Vec::new(),
             elements: Vec::new(),
             step: 0.0,
+            unknowns: Unknowns::none(),
             p: self.unknowns.0,
             coefficients: self.unknowns.1,
         }

@@ -100,6 +100,9 @@ pub struct Law {
     /// Elements of a Maxwell-slip law; 0 leaves the number to the data. Other laws do
     /// not look at it.
     pub elements: usize,
+    /// Whether the exponent is one more unknown, common to both directions; `exponent` is not used
+    /// then.
+    pub exponent_fitted: bool,
 }
 
 impl Law {
@@ -110,6 +113,7 @@ impl Law {
             asymmetric: false,
             exponent: 2.0,
             elements: 0,
+            exponent_fitted: false,
         }
     }
 
@@ -117,6 +121,13 @@ impl Law {
     #[must_use]
     pub fn asymmetric(mut self) -> Self {
         self.asymmetric = true;
+        self
+    }
+
+    /// The same law with its Stribeck exponent as one more unknown.
+    #[must_use]
+    pub fn with_fitted_exponent(mut self) -> Self {
+        self.exponent_fitted = true;
         self
     }
 
@@ -147,6 +158,7 @@ impl Law {
         let velocity_neg = next(two && curve);
         let breakaway = next(self.kind == LawKind::ElastoPlastic);
         let attraction = next(elements && curve);
+        let exponent = next(curve && self.exponent_fitted);
         let yields = if elements { self.elements } else { 0 };
         count += yields;
         Layout {
@@ -157,6 +169,7 @@ impl Law {
             breakaway,
             attraction,
             yields,
+            exponent,
             count,
         }
     }
@@ -179,6 +192,8 @@ pub(crate) struct Layout {
     pub attraction: Option<usize>,
     /// How many `ln d_k` of Maxwell-slip elements stand last; d in m or rad.
     pub yields: usize,
+    /// `ln delta`, the Stribeck exponent of both directions.
+    pub exponent: Option<usize>,
     /// How many there are.
     pub count: usize,
 }

@@ -26,7 +26,6 @@
 //!
 //! Nothing here prints, sleeps or reads a clock; an [`Observer`] sees progress and may stop a run.
 
-mod calibrate;
 mod choice;
 mod conditioning;
 mod crossval;
@@ -43,15 +42,16 @@ mod replica;
 mod separable;
 mod tune;
 
-pub use calibrate::calibrate;
 pub use choice::{Standing, choose};
 pub use conditioning::channels::Channels;
 pub use conditioning::record::{Record, Samples, Segment};
 pub use conditioning::{Conditioning, Cutoff, Source, condition};
 pub use crossval::{LawScore, cross_validate};
 pub use error::Error;
+pub use estimate::intervals::intervals;
+pub use estimate::parameter::{IDENTIFIABLE, IntervalKind, Parameter};
 pub use estimate::uncertainty::Covariance;
-pub use estimate::{Estimate, IDENTIFIABLE, Parameter, Series, estimate, predict};
+pub use estimate::{Estimate, Series, estimate, predict};
 pub use fit::{Fit, low_speed_bound};
 pub use gms::choose::ElementsScore;
 pub use gms::{FEWEST as GMS_FEWEST, MOST as GMS_MOST};

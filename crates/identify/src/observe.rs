@@ -33,6 +33,12 @@ impl Counts {
     pub fn total(&self) -> usize {
         self.cost + self.sensitivities
     }
+
+    pub(crate) fn add(&mut self, more: &Counts) {
+        self.cost += more.cost;
+        self.sensitivities += more.sensitivities;
+        self.thinned += more.thinned;
+    }
 }
 
 /// A look at a running search.

@@ -97,6 +97,13 @@ pub fn separable(
     observer: &mut dyn Observer,
 ) -> Result<Optimum, Error> {
     if law.kind.has_elements() {
+        if !terms.dependences.is_empty() {
+            return Err(Error::Setting {
+                name: "dependences",
+                found: terms.dependences.len() as f64,
+                allowed: "none beside a Maxwell-slip law, whose elements have levels of their own",
+            });
+        }
         return gms::search::search(record, law, terms, settings, observer);
     }
     let mut bounds = match &settings.bounds {

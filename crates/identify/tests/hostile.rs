@@ -4,8 +4,8 @@
 use proptest::prelude::*;
 use stiction_identify::{
     Conditioning, Control, Cutoff, Delay, Dependence, Law, LawKind, Mass, Observer, Progress,
-    Samples, Settings, Source, Terms, condition, cross_validate, estimate, low_speed_bound,
-    predict, separable,
+    Samples, Settings, Source, Terms, condition, cross_validate, estimate, intervals,
+    low_speed_bound, predict, separable,
 };
 
 #[derive(Clone, Copy, Debug)]
@@ -266,6 +266,7 @@ fn law() -> impl Strategy<Value = Law> {
             asymmetric,
             exponent,
             elements,
+            exponent_fitted: exponent == 1.0,
             ..Law::new(LawKind::ALL[kind])
         }
     })
@@ -336,7 +337,8 @@ fn run(
         return Ok(());
     };
     let bound = low_speed_bound(&record);
-    let e = estimate(&record, law, terms, &found, bound);
+    let mut e = estimate(&record, law, terms, &found, bound);
+    intervals(&record, &found, &mut e, &mut stiction_identify::Silent);
     for p in &e.parameters {
         if !p.identifiable {
             prop_assert!(!p.reason.is_empty(), "{} without a reason", p.name);

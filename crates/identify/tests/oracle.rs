@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use stiction_friction::{CoulombViscous, Dahl, Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_identify::{
     Control, Estimate, Law, LawKind, Mass, Objective, Observer, Optimum, Progress, Record,
-    SearchBox, Settings, Silent, Status, Terms, cross_validate, estimate, predict, separable,
+    Settings, Silent, Status, Terms, cross_validate, estimate, predict, separable,
 };
 
 const STEP: f64 = 5e-4;
@@ -459,79 +459,5 @@ fn held_out_error_names_the_law() {
     for kind in [LawKind::CoulombViscous, LawKind::Stribeck, LawKind::Dahl] {
         let other = held_out(&bristle, kind);
         assert!(other > 2.0 * lugre, "{kind}: {other} against {lugre}");
-    }
-}
-
-const RUNS: u64 = 200;
-
-/// Part of the 95 % intervals of identifiable parameters that hold the truth, for noise that is a
-/// first-order autoregression with coefficient `rho`; each parameter and all together.
-fn coverage(rho: f64) -> (Vec<(&'static str, f64)>, f64) {
-    let v = motion(4000);
-    let clean = stepped(&MACHINE.law(), &v);
-    let law = Law::new(LawKind::LuGre);
-    let local = [
-        (MACHINE.sigma0 / MACHINE.coulomb).ln(),
-        (MACHINE.fixed / MACHINE.coulomb - 1.0).ln(),
-        MACHINE.velocity.ln(),
-    ];
-    // That the search is global is tested elsewhere; here it only has to be quick.
-    let settings = Settings {
-        bounds: Some(SearchBox::around(&local, 0.5)),
-        scan: 4,
-        starts: 1,
-        ..Settings::default()
-    };
-    let mut hits = MACHINE.truth().map(|(name, _)| (name, 0.0, 0.0));
-    for run in 0..RUNS {
-        let mut noise = Noise::new(1000 + run);
-        let innovation = 0.5 * (1.0 - rho * rho).sqrt();
-        let mut e = 0.5 * noise.normal();
-        let u = clean
-            .iter()
-            .map(|u| {
-                let now = u + e;
-                e = rho * e + innovation * noise.normal();
-                now
-            })
-            .collect();
-        let record = record(STEP, v.clone(), u);
-        let found = separable(&record, law, &terms(true), &settings, &mut Silent).unwrap();
-        let fitted = estimate(&record, law, &terms(true), &found, 1e-3);
-        for ((name, truth), hit) in MACHINE.truth().into_iter().zip(&mut hits) {
-            let p = fitted.parameter(name).unwrap();
-            if let (true, Some((low, high))) = (p.identifiable, p.ci95) {
-                hit.1 += 1.0;
-                hit.2 += f64::from(u8::from(low <= truth && truth <= high));
-            }
-        }
-    }
-    let (total, inside) = hits.iter().fold((0.0, 0.0), |(n, k), h| (n + h.1, k + h.2));
-    assert!(total > 0.8 * (6 * RUNS) as f64, "only {total} intervals");
-    let each = hits.iter().map(|h| (h.0, h.2 / h.1)).collect();
-    (each, inside / total)
-}
-
-#[test]
-fn intervals_cover_the_truth_in_white_noise() {
-    let (each, all) = coverage(0.0);
-    println!(
-        "white noise: {:.1} % of the intervals hold the truth; {each:?}",
-        100.0 * all
-    );
-    for (name, part) in each {
-        assert!((0.85..=1.0).contains(&part), "{name}: {part}");
-    }
-}
-
-#[test]
-fn intervals_cover_the_truth_in_coloured_noise() {
-    let (each, all) = coverage(0.9);
-    println!(
-        "AR(1) .9: {:.1} % of the intervals hold the truth; {each:?}",
-        100.0 * all
-    );
-    for (name, part) in each {
-        assert!(part >= 0.70, "{name}: {part}");
     }
 }

@@ -133,9 +133,17 @@ pub(crate) struct RawTerms {
     #[serde(default)]
     pub coulomb_pitch: Vec<String>,
     pub sigma2_temperature: Option<bool>,
-    pub stribeck_exponent: Option<f64>,
+    pub stribeck_exponent: Option<RawExponent>,
     pub delay: Option<String>,
     pub gms_elements: Option<usize>,
+}
+
+/// A number, or the word that makes it an unknown.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged, expecting = "give a number from 0.1 to 10, or \"fit\"")]
+pub(crate) enum RawExponent {
+    Number(f64),
+    Word(String),
 }
 
 /// `[report]`

@@ -2,7 +2,7 @@
 
 use super::Axis;
 use super::controller::{ControllerValues, Gain};
-use super::raw::{self, RawAxis, RawChannel, RawScale, RawSelector, RawTerms};
+use super::raw::{self, RawAxis, RawChannel, RawExponent, RawScale, RawSelector, RawTerms};
 use super::tied::Tied;
 use crate::error::Error;
 use std::cell::RefCell;
@@ -264,15 +264,23 @@ impl Resolver<'_> {
             Some("none") => Delay::NONE,
             Some(text) => Delay::Given(self.delay("terms.delay", text)?),
         };
-        if let Some(delta) = raw.terms.stribeck_exponent {
-            if !(0.1..=10.0).contains(&delta) {
+        match &raw.terms.stribeck_exponent {
+            None => {}
+            Some(RawExponent::Number(delta)) if (0.1..=10.0).contains(delta) => {
+                axis.stribeck_exponent = *delta;
+            }
+            Some(RawExponent::Word(word)) if word == "fit" => axis.exponent_fitted = true,
+            Some(other) => {
+                let found = match other {
+                    RawExponent::Number(delta) => delta.to_string(),
+                    RawExponent::Word(word) => format!("{word:?}"),
+                };
                 return Err(self.refuse(
                     "terms.stribeck_exponent",
-                    delta.to_string(),
-                    "a number from 0.1 to 10",
+                    found,
+                    "a number from 0.1 to 10, or \"fit\"",
                 ));
             }
-            axis.stribeck_exponent = delta;
         }
         if let Some(n) = raw.terms.gms_elements {
             if !(GMS_FEWEST..=GMS_MOST).contains(&n) {

@@ -4,8 +4,8 @@ use super::{Options, Outcome};
 use crate::error::Warning;
 use crate::result::ResolvedAxis;
 use crate::result::{
-    CovarianceEntry, ElementsEntry, FitEntry, LawEntry, LowSpeedEntry, ParameterEntry, ResultFile,
-    SCHEMA, Search, Trust, ValidationEntry,
+    CovarianceEntry, ElementsEntry, FitEntry, LawEntry, LowSpeedEntry, ParameterEntry,
+    PartnerEntry, ResultFile, SCHEMA, Search, Trust, ValidationEntry,
 };
 use crate::source::Source;
 use crate::symbols;
@@ -131,28 +131,41 @@ fn parameter(p: &Parameter, motion: Motion, force_unit: &str, load_unit: &str) -
         value: p.value,
         unit: symbols::unit(p.dimension, motion, force_unit, load_unit),
         std: p.std,
-        ci95: p.ci95.map(|(low, high)| [low, high]),
-        correction: p.correction,
+        bias: p.bias,
+        ci95: p
+            .ci95
+            .map(|(low, high)| [low, high].map(|x| Some(x).filter(|x| x.is_finite()))),
+        interval: p.ci95.map(|_| p.interval.name().into()),
         identifiable: p.identifiable,
         origin: if p.identified { "identified" } else { "given" }.into(),
         reason: p.reason.clone(),
+        moves_with: p
+            .moves_with
+            .iter()
+            .map(|(name, correlation)| PartnerEntry {
+                name: name.clone(),
+                correlation: *correlation,
+            })
+            .collect(),
+        advice: p.advice.clone(),
     }
 }
 
 /// What the correction of the bias did to the parameters; nothing where there was none.
 pub(super) fn correction_note(estimate: &Estimate) -> Option<String> {
-    let relative = |p: &&Parameter| (p.correction / p.value).abs();
+    let correction = |p: &Parameter| -p.bias.unwrap_or(0.0);
+    let relative = |p: &&Parameter| (correction(p) / p.value).abs();
     let most = estimate
         .parameters
         .iter()
-        .filter(|p| p.identifiable && p.correction != 0.0 && p.value != 0.0)
+        .filter(|p| p.identifiable && correction(p) != 0.0 && p.value != 0.0)
         .filter(|p| !["offset", "delay"].contains(&p.name.as_str()))
         .max_by(|a, b| relative(a).total_cmp(&relative(b)))?;
     Some(format!(
         "bias of filters, encoder steps and noise measured on simulated logs of the fitted axis and \
          taken out: {} changed most, by {:+.2} %",
         most.name,
-        100.0 * most.correction / most.value
+        100.0 * correction(most) / most.value
     ))
 }
 

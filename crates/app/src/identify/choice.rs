@@ -1,7 +1,6 @@
 //! The law that was asked for, or the one that the data choose.
 
 use super::ladder::{self, Climb, Ladder, Rung};
-use crate::axis::Axis;
 use crate::result::LawEntry;
 use stiction_identify as engine;
 use stiction_identify::{Estimate, Law, LawKind, Observer, Optimum, Settings, Status};
@@ -48,7 +47,7 @@ pub(super) fn asked(
         Vec::new()
     };
     Ok(Choice {
-        estimate: calibrated(ladder, &optimum, estimate, observer),
+        estimate: stated(ladder, &optimum, estimate, observer),
         laws,
         by: "user",
     })
@@ -56,17 +55,12 @@ pub(super) fn asked(
 
 /// Fits every law and takes the one that the data support.
 pub(super) fn auto(
-    axis: &Axis,
+    base: Law,
     ladder: &Ladder,
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<Choice, engine::Error> {
-    let climb = ladder.climb(
-        &ladder::every(axis.stribeck_exponent, axis.gms_elements.unwrap_or(0)),
-        None,
-        settings,
-        observer,
-    );
+    let climb = ladder.climb(&ladder::every(base), None, settings, observer);
     let (laws, best) = climb.entries();
     let Climb { mut rungs, stopped } = climb;
     let at = best.unwrap_or(0);
@@ -79,13 +73,17 @@ pub(super) fn auto(
     };
     if at >= rungs.len() {
         // Not one could be fitted: the simplest says why.
-        let simplest = Law::new(LawKind::CoulombViscous);
+        let simplest = Law {
+            kind: LawKind::CoulombViscous,
+            asymmetric: false,
+            ..base
+        };
         return asked(simplest, ladder, false, settings, observer);
     }
     let Rung {
         estimate, optimum, ..
     } = rungs.swap_remove(at);
-    let mut estimate = calibrated(ladder, &optimum, estimate, observer);
+    let mut estimate = stated(ladder, &optimum, estimate, observer);
     if stopped {
         // Not all laws were tried, so even a converged one is only the best so far.
         estimate.status = Status::Interrupted;
@@ -97,21 +95,15 @@ pub(super) fn auto(
     })
 }
 
-/// The estimate with the bias of its conditioning taken out, unless the search was interrupted.
-fn calibrated(
+/// The estimate with its intervals in full, unless the search was interrupted.
+fn stated(
     ladder: &Ladder,
     optimum: &Optimum,
-    estimate: Estimate,
+    mut estimate: Estimate,
     observer: &mut dyn Observer,
 ) -> Estimate {
-    if estimate.status == Status::Interrupted {
-        return estimate;
+    if estimate.status != Status::Interrupted {
+        engine::intervals(ladder.record, optimum, &mut estimate, observer);
     }
-    engine::calibrate(
-        ladder.record,
-        ladder.conditioning,
-        optimum,
-        estimate,
-        observer,
-    )
+    estimate
 }

@@ -5,7 +5,7 @@ use crate::result::LawEntry;
 use rayon::prelude::*;
 use stiction_identify as engine;
 use stiction_identify::{
-    Conditioning, Estimate, Law, LawKind, LawScore, Observer, Optimum, Record, Settings, Terms,
+    Estimate, Law, LawKind, LawScore, Observer, Optimum, Record, Settings, Terms,
 };
 
 /// Blocks of the cross-validation where no validation data are given.
@@ -21,8 +21,6 @@ pub(super) struct Ladder<'a> {
     /// Linear terms beside an asymmetric law.
     pub asymmetric: &'a Terms,
     pub low_speed: f64,
-    /// How the record was conditioned.
-    pub conditioning: &'a Conditioning,
 }
 
 /// A law, fitted and scored.
@@ -144,14 +142,14 @@ impl Climb {
 }
 
 /// Every law, symmetric and asymmetric, from the simplest to the richest.
-pub(super) fn every(exponent: f64, elements: usize) -> Vec<Law> {
+pub(super) fn every(base: Law) -> Vec<Law> {
     LawKind::ALL
         .into_iter()
         .flat_map(|kind| {
             let base = Law {
-                exponent,
-                elements,
-                ..Law::new(kind)
+                kind,
+                asymmetric: false,
+                ..base
             };
             [base, base.asymmetric()]
         })
@@ -161,7 +159,7 @@ pub(super) fn every(exponent: f64, elements: usize) -> Vec<Law> {
 /// The laws to compare a law with: every family up to its own, each symmetric and asymmetric.
 pub(super) fn beside(law: &Law) -> Vec<Law> {
     let top = law.kind.max(LawKind::Stribeck);
-    every(law.exponent, law.elements)
+    every(*law)
         .into_iter()
         .filter(|other| other.kind <= top)
         // Dahl beside LuGre stands for "no Stribeck curve"; one of its kind is enough.

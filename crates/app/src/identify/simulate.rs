@@ -70,6 +70,7 @@ pub(super) fn fit(
         asymmetric: options.asymmetric,
         exponent: axis.stribeck_exponent,
         elements: 0,
+        exponent_fitted: false,
     };
     let mut recordings = recordings(&sources)?;
     let mut unseen_logs: Vec<(String, Recording)> = Vec::new();

@@ -11,8 +11,6 @@ use stiction_log::Motion;
 const LEAST_R2: f64 = 0.5;
 /// Part of the samples that may be saturated.
 const MOST_SATURATED: f64 = 0.2;
-/// Correlation above which a pair of parameters is named.
-const STRONG: f64 = 0.9;
 /// How much worse than a simpler law the chosen one may do before it is said, relative.
 const WORSE: f64 = 1.02;
 
@@ -97,14 +95,13 @@ pub(super) fn saturation(sources: &[Source], reasons: &mut Vec<String>) {
     }
 }
 
-/// Names each parameter that the data do not determine, and the one it is confused with.
+/// Names each parameter that the data do not determine, what it is confused with, and the cure.
 pub(super) fn unidentifiable(
     estimate: &Estimate,
     motion: Motion,
     warnings: &mut Vec<Warning>,
     reasons: &mut Vec<String>,
 ) {
-    let correlation = estimate.covariance.correlation();
     let unknown = || estimate.parameters.iter().filter(|p| !p.identifiable);
     let elements: Vec<&str> = unknown()
         .map(|p| p.name.as_str())
@@ -113,25 +110,15 @@ pub(super) fn unidentifiable(
     for parameter in unknown().filter(|p| !symbols::is_element(&p.name)) {
         let meaning = symbols::meaning(&parameter.name, motion);
         let mut text = format!("{} ({meaning}): {}", parameter.name, parameter.reason);
-        let row = estimate
-            .covariance
-            .names
+        let partners: Vec<String> = parameter
+            .moves_with
             .iter()
-            .position(|n| *n == parameter.name);
-        if let Some(i) = row {
-            let partner = (0..correlation.len())
-                .filter(|&j| j != i)
-                .max_by(|&a, &b| correlation[i][a].abs().total_cmp(&correlation[i][b].abs()));
-            if let Some(j) = partner
-                && correlation[i][j].abs() >= STRONG
-            {
-                text.push_str(&format!(
-                    "; moves together with {} (correlation {:+.2})",
-                    estimate.covariance.names[j], correlation[i][j]
-                ));
-            }
+            .map(|(name, correlation)| format!("{name} (correlation {correlation:+.2})"))
+            .collect();
+        if !partners.is_empty() {
+            text.push_str(&format!("; moves together with {}", partners.join(" and ")));
         }
-        text.push_str(&format!(". {}", cure(&parameter.name)));
+        text.push_str(&format!(". {}", parameter.advice));
         warnings.push(Warning::new("not-identifiable", text));
         if matches!(
             parameter.name.as_str(),
@@ -153,34 +140,6 @@ pub(super) fn unidentifiable(
                 elements.join(", ")
             ),
         ));
-    }
-}
-
-/// What motion would determine a parameter.
-fn cure(name: &str) -> &'static str {
-    let stem = name.trim_end_matches("_pos").trim_end_matches("_neg");
-    match stem {
-        "sigma0" | "sigma1" => {
-            "Record slow reversals within the presliding range, with a finer encoder or a higher \
-             rate"
-        }
-        "breakaway_ratio" => {
-            "Record slow reversals that just break away, with a finer encoder or a higher rate"
-        }
-        "sigma2" => "Record constant speeds up to the top speed of the axis",
-        "static" | "stribeck_velocity" => {
-            "Record slow motion through the Stribeck range: speeds well below and above the \
-             Stribeck velocity"
-        }
-        "mass" => "Record faster accelerations",
-        "quadratic_viscous" => "Record speeds from slow to the top speed of the axis",
-        "coulomb_load" => "Record several loads, each in both directions",
-        "coulomb_temperature" | "sigma2_temperature" => {
-            "Record the axis cold and warm, at the same speeds"
-        }
-        "attraction" => "Record changes of speed while the axis slides slowly",
-        "coulomb" => "Record motion in both directions well above the Stribeck velocity",
-        _ => "Record motion over more of the stroke in both directions",
     }
 }
 

@@ -145,6 +145,14 @@ fn value(outcome: &Outcome, name: &str, v: f64) -> f64 {
         .unwrap_or(0.0)
 }
 
+/// Stribeck exponent, given or fitted.
+fn exponent(outcome: &Outcome) -> f64 {
+    let estimate = &outcome.estimate;
+    estimate
+        .value("stribeck_exponent")
+        .unwrap_or(estimate.law.exponent)
+}
+
 /// Steady friction at one velocity, where load, temperature and position are at their references.
 pub(super) fn steady(outcome: &Outcome, v: f64) -> f64 {
     let coulomb = value(outcome, "coulomb", v);
@@ -154,10 +162,7 @@ pub(super) fn steady(outcome: &Outcome, v: f64) -> f64 {
     };
     let velocity = value(outcome, "stribeck_velocity", v);
     let fall = if velocity > 0.0 {
-        libm::exp(-libm::pow(
-            v.abs() / velocity,
-            outcome.estimate.law.exponent,
-        ))
+        libm::exp(-libm::pow(v.abs() / velocity, exponent(outcome)))
     } else {
         0.0
     };
@@ -172,7 +177,7 @@ pub(super) fn steady_std(outcome: &Outcome, v: f64) -> f64 {
     let coulomb = value(outcome, "coulomb", v);
     let fixed = value(outcome, "static", v);
     let velocity = value(outcome, "stribeck_velocity", v);
-    let exponent = outcome.estimate.law.exponent;
+    let exponent = exponent(outcome);
     let x = if velocity > 0.0 {
         v.abs() / velocity
     } else {
@@ -198,6 +203,9 @@ pub(super) fn steady_std(outcome: &Outcome, v: f64) -> f64 {
                 "static" => v.signum() * fall,
                 "stribeck_velocity" if velocity > 0.0 && fall > 0.0 => {
                     v.signum() * (fixed - coulomb) * fall * exponent * power / velocity
+                }
+                "stribeck_exponent" if power > 0.0 && fall > 0.0 => {
+                    -v.signum() * (fixed - coulomb) * fall * power * libm::log(x)
                 }
                 "sigma2" => v,
                 "quadratic_viscous" => v * v.abs(),

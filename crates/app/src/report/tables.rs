@@ -34,8 +34,10 @@ pub(super) fn parameters(outcome: &Outcome) -> Table {
             }
             _ => "–".into(),
         };
-        let interval = match (p.ci95, p.origin.as_str()) {
-            (Some([low, high]), _) => number::interval(low, high),
+        let interval = match (p.range(), p.origin.as_str()) {
+            (Some((f64::NEG_INFINITY, high)), _) => format!("at most {}", number::sig(high, 3)),
+            (Some((low, f64::INFINITY)), _) => format!("at least {}", number::sig(low, 3)),
+            (Some((low, high)), _) => number::interval(low, high),
             (None, "given") => String::new(),
             _ => "not bounded by the data".into(),
         };
@@ -84,8 +86,8 @@ pub(super) fn truth(outcome: &Outcome) -> Table {
             continue;
         };
         let inside = p
-            .ci95
-            .is_some_and(|[low, high]| low <= *truth && *truth <= high);
+            .range()
+            .is_some_and(|(low, high)| low <= *truth && *truth <= high);
         let error = if *truth == 0.0 {
             number::sig(p.value, 2)
         } else {

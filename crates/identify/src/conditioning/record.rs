@@ -1,5 +1,6 @@
 //! What goes into an identification, before and after conditioning.
 
+use crate::conditioning::Conditioning;
 use crate::conditioning::channels::Channels;
 use crate::conditioning::shift::Shift;
 use stiction_signal::Sos;
@@ -74,6 +75,8 @@ pub struct Record {
     pub notes: Vec<String>,
     /// Smallest displacement that the log resolves (one encoder count), m or rad, where known.
     pub resolution: Option<f64>,
+    /// How to condition a position as this record was; `None` where the motion is a logged velocity.
+    pub(crate) conditioning: Option<Conditioning>,
     /// Whether this is a thinned stand-in.
     pub(crate) is_thinned: bool,
 }
@@ -260,6 +263,7 @@ impl Record {
             common_hz: None,
             notes: Vec::new(),
             resolution: self.resolution,
+            conditioning: None,
             is_thinned: true,
         })
     }

@@ -1,12 +1,19 @@
 //! How sure the unknowns are, with the correlation of the residuals counted.
 //!
-//! The covariance is the sandwich `B S B`: `B` inverts `J^T J`, `S` is the long-run covariance of the
-//! scores `J_t r_t`. The scores are whitened by a first-order autoregression each (Andrews and
-//! Monahan 1992, doi 10.2307/2951574), the remainder is summed with Bartlett weights over a lag
-//! chosen from the data (Andrews 1991, doi 10.2307/2938229) in the form of overlapping batch sums,
-//! which costs one pass whatever the lag, and the whitening is undone. The result is never below the
-//! covariance for white residuals.
+//! The covariance is the sandwich `B S B`: `B` inverts `J^T J`, `S` is the covariance of the sum of
+//! the scores `J_t r_t`. Two estimates of `S` are made, and each unknown gets the larger variance:
+//!
+//! - `J^T G J`, with `G` the covariance of the residual as an autoregression ([`Autoregression`]):
+//!   sharp where the noise does not depend on the motion.
+//! - the long-run covariance of the scores, right also where it does: whitened by a first-order
+//!   autoregression each (Andrews and Monahan 1992, doi 10.2307/2951574), summed with Bartlett weights
+//!   over a lag chosen from the data (Andrews 1991, doi 10.2307/2938229) in the form of overlapping
+//!   batch sums, which costs one pass whatever the lag, and the whitening undone.
+//!
+//! Why these two: decision 0014.
 
+use crate::estimate::autoregression::Autoregression;
+use crate::separable::linear::dot;
 use crate::separable::objective::{Evaluation, Objective};
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -44,76 +51,159 @@ impl Covariance {
 /// Relative size of an eigenvalue of the scaled `J^T J` that is rounding only.
 const ROUNDING: f64 = 1e-15;
 
-/// Covariance of `(p, c)`; coefficients held at zero or left out have zero rows.
-///
-/// A nonlinear unknown at the bound of its search range counts as free here: the bound is ours, not
-/// nature's, and holding it would make the others look surer than the data allow.
-pub(crate) fn unknowns(objective: &Objective, at: &Evaluation) -> DMatrix<f64> {
-    let k = at.slopes.len();
-    let width = k + at.columns.len();
-    let mut index: Vec<usize> = (0..k).collect();
-    let mut jacobian: Vec<&[f64]> = at.slopes.iter().map(Vec::as_slice).collect();
-    for (j, column) in at.columns.iter().enumerate() {
-        if at.solution.active[j] {
-            index.push(k + j);
-            jacobian.push(column);
+/// How sure the unknowns `(p, c)` are.
+#[derive(Clone, Debug)]
+pub(crate) struct Unknowns {
+    /// Covariance; coefficients held at zero or left out have zero rows.
+    pub covariance: DMatrix<f64>,
+    /// Diagonal of the inverse of `J^T J`: the variances over that of white residuals; zero where the
+    /// covariance has a zero row.
+    pub bread: Vec<f64>,
+}
+
+impl Unknowns {
+    /// No unknowns, for an estimate whose parameters were found otherwise.
+    pub fn none() -> Self {
+        Self {
+            covariance: DMatrix::zeros(0, 0),
+            bread: Vec::new(),
         }
     }
-    let small = sandwich(&jacobian, at.residual(), &objective.record().breaks());
-    let mut out = DMatrix::zeros(width, width);
+}
+
+/// A nonlinear unknown at the bound of its search range counts as free here: the bound is ours, not
+/// nature's, and holding it would make the others look surer than the data allow.
+pub(crate) fn unknowns(objective: &Objective, at: &Evaluation) -> Unknowns {
+    let k = at.slopes.len();
+    let width = k + at.columns.len();
+    let active = (0..at.columns.len()).filter(|&j| at.solution.active[j]);
+    let index: Vec<usize> = (0..k).chain(active.map(|j| k + j)).collect();
+    let small = sandwich(&at.jacobian(), at.residual(), &objective.record().breaks());
+    let mut out = Unknowns {
+        covariance: DMatrix::zeros(width, width),
+        bread: vec![0.0; width],
+    };
     for (a, &i) in index.iter().enumerate() {
+        out.bread[i] = small.bread[a];
         for (b, &j) in index.iter().enumerate() {
-            out[(i, j)] = small[(a, b)];
+            out.covariance[(i, j)] = small.covariance[(a, b)];
         }
     }
     out
 }
 
-/// A covariance scaled up, row by row, to variances of at least those of another.
-pub(crate) fn widened(covariance: &DMatrix<f64>, least: &DMatrix<f64>) -> DMatrix<f64> {
-    let n = covariance.nrows();
-    let factor: Vec<f64> = (0..n)
+/// `B S B` for Jacobian columns and residual; `breaks` are the indices at which a new segment starts.
+pub(crate) fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) -> Unknowns {
+    let q = jacobian.len();
+    let n = residual.len();
+    if q == 0 || n <= q {
+        return Unknowns {
+            covariance: DMatrix::from_element(q, q, f64::INFINITY),
+            bread: vec![f64::INFINITY; q],
+        };
+    }
+    let scale: Vec<f64> = jacobian
+        .iter()
+        .map(|c| {
+            let norm = dot(c, c).sqrt();
+            if norm > 0.0 { 1.0 / norm } else { 1.0 }
+        })
+        .collect();
+    let gram = DMatrix::from_fn(q, q, |i, j| {
+        dot(jacobian[i], jacobian[j]) * scale[i] * scale[j]
+    });
+    let (bread, lost) = inverse(gram);
+    let weights = weights(jacobian, &scale, &bread);
+    let stationary = stationary_covariance(&weights, residual, breaks);
+    let scores: Vec<Vec<f64>> = weights
+        .into_iter()
+        .map(|w| w.iter().zip(residual).map(|(w, r)| w * r).collect())
+        .collect();
+    let long_run = long_run_variances(&scores, breaks);
+    let correction = n as f64 / (n - q) as f64;
+    let widen: Vec<f64> = (0..q)
         .map(|i| {
-            let ratio = least[(i, i)] / covariance[(i, i)];
-            // No variance at all is a coefficient that is held.
-            if ratio > 1.0 && ratio.is_finite() {
-                ratio.sqrt()
+            if stationary[(i, i)] > 0.0 {
+                (long_run[i] / stationary[(i, i)]).max(1.0).sqrt()
             } else {
                 1.0
             }
         })
         .collect();
-    DMatrix::from_fn(n, n, |i, j| covariance[(i, j)] * factor[i] * factor[j])
+    let white = dot(residual, residual) / (n - q) as f64;
+    Unknowns {
+        covariance: DMatrix::from_fn(q, q, |i, j| {
+            let known = correction * stationary[(i, j)] * widen[i] * widen[j];
+            // No residual reaches a lost direction, so the scores say nothing of it.
+            (known + white * lost[(i, j)]) * scale[i] * scale[j]
+        }),
+        bread: (0..q)
+            .map(|i| bread[(i, i)] * scale[i] * scale[i])
+            .collect(),
+    }
 }
 
-/// `B S B` for Jacobian columns and residual; `breaks` are the indices at which a new segment starts.
-pub(crate) fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) -> DMatrix<f64> {
-    let q = jacobian.len();
-    let n = residual.len();
-    if q == 0 || n <= q {
-        return DMatrix::from_element(q, q, f64::INFINITY);
-    }
-    let scale: Vec<f64> = jacobian
-        .iter()
-        .map(|c| {
-            let norm = crate::separable::linear::dot(c, c).sqrt();
-            if norm > 0.0 { 1.0 / norm } else { 1.0 }
+/// Inverse of a scaled symmetric matrix in which directions that rounding has lost stay huge: they
+/// must come out as unknown, not as zero. Also the part of the inverse that belongs to them.
+pub(crate) fn inverse(matrix: DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
+    let q = matrix.nrows();
+    let eigen = SymmetricEigen::new(matrix);
+    let most = eigen.eigenvalues.iter().fold(0.0_f64, |m, x| m.max(*x));
+    let floor = ROUNDING * most;
+    let sum = |wanted: &dyn Fn(f64) -> bool| {
+        DMatrix::from_fn(q, q, |i, j| {
+            (0..q)
+                .filter(|&l| wanted(eigen.eigenvalues[l]))
+                .map(|l| {
+                    let inverse = 1.0 / eigen.eigenvalues[l].max(floor);
+                    eigen.eigenvectors[(i, l)] * inverse * eigen.eigenvectors[(j, l)]
+                })
+                .sum()
         })
+    };
+    (sum(&|_| true), sum(&|x| x <= floor))
+}
+
+/// `B J_t`, one column of length n per unknown: what a residual does to the unknown.
+fn weights(jacobian: &[&[f64]], scale: &[f64], bread: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    let q = jacobian.len();
+    (0..q)
+        .map(|i| {
+            let mut out = vec![0.0; jacobian[i].len()];
+            for j in 0..q {
+                let weight = bread[(i, j)] * scale[j];
+                for (x, d) in out.iter_mut().zip(jacobian[j]) {
+                    *x += weight * d;
+                }
+            }
+            out
+        })
+        .collect()
+}
+
+/// Covariance of the sums `sum_t w_t r_t` where the residual is an autoregression.
+fn stationary_covariance(weights: &[Vec<f64>], residual: &[f64], breaks: &[usize]) -> DMatrix<f64> {
+    let model = Autoregression::fit(residual, breaks);
+    let spread: Vec<Vec<f64>> = weights
+        .iter()
+        .map(|w| model.transposed(w, breaks))
         .collect();
-    let gram = DMatrix::from_fn(q, q, |i, j| {
-        crate::separable::linear::dot(jacobian[i], jacobian[j]) * scale[i] * scale[j]
-    });
-    let bread = inverse(gram);
-    let scores = influence(jacobian, residual, &scale, &bread);
-    let variance = crate::separable::linear::dot(residual, residual) / (n - q) as f64;
-    let correction = n as f64 / (n - q) as f64;
-    let mut out = of_influence(&scores, breaks, correction, &(&bread * variance));
-    for i in 0..q {
-        for j in 0..q {
-            out[(i, j)] *= scale[i] * scale[j];
-        }
-    }
-    out
+    let q = weights.len();
+    DMatrix::from_fn(q, q, |i, j| dot(&spread[i], &spread[j]))
+}
+
+/// Sum over all pairs of samples of the covariance of each score.
+fn long_run_variances(scores: &[Vec<f64>], breaks: &[usize]) -> Vec<f64> {
+    let n = scores.first().map_or(0, Vec::len);
+    let whitened: Vec<(f64, Vec<f64>)> = scores.iter().map(|w| whiten(w, breaks)).collect();
+    let lag = bandwidth(&whitened, breaks).min(n / 4).max(1);
+    whitened
+        .iter()
+        .map(|(a, e)| {
+            let sums = batch_sums(e, lag);
+            dot(&sums, &sums) / lag as f64 / ((1.0 - a) * (1.0 - a))
+        })
+        .collect()
 }
 
 /// Long-run covariance of the influence `B J_t r_t` of each sample, one series for each unknown, times
@@ -125,14 +215,18 @@ pub(crate) fn of_influence(
     white: &DMatrix<f64>,
 ) -> DMatrix<f64> {
     let q = influence.len();
-    let long_run = long_run_covariance(influence, breaks);
-    // Never below what white residuals would give.
+    let n = influence.first().map_or(0, Vec::len);
+    let whitened: Vec<(f64, Vec<f64>)> = influence.iter().map(|w| whiten(w, breaks)).collect();
+    let lag = bandwidth(&whitened, breaks).min(n / 4).max(1);
+    let sums: Vec<Vec<f64>> = whitened.iter().map(|(_, e)| batch_sums(e, lag)).collect();
+    let long_run = DMatrix::from_fn(q, q, |i, j| {
+        let sum = dot(&sums[i], &sums[j]) / lag as f64;
+        correction * sum / ((1.0 - whitened[i].0) * (1.0 - whitened[j].0))
+    });
     let widen: Vec<f64> = (0..q)
         .map(|i| {
-            let white = white[(i, i)];
-            let hac = correction * long_run[(i, i)];
-            if hac > 0.0 {
-                (white / hac).max(1.0).sqrt()
+            if long_run[(i, i)] > 0.0 {
+                (white[(i, i)] / long_run[(i, i)]).max(1.0).sqrt()
             } else {
                 0.0
             }
@@ -142,60 +236,8 @@ pub(crate) fn of_influence(
         if widen[i] == 0.0 || widen[j] == 0.0 {
             white[(i, j)]
         } else {
-            correction * long_run[(i, j)] * widen[i] * widen[j]
+            long_run[(i, j)] * widen[i] * widen[j]
         }
-    })
-}
-
-/// Inverse of a scaled symmetric matrix in which directions that rounding has lost stay huge: they
-/// must come out as unknown, not as zero.
-pub(crate) fn inverse(matrix: DMatrix<f64>) -> DMatrix<f64> {
-    let q = matrix.nrows();
-    let eigen = SymmetricEigen::new(matrix);
-    let most = eigen.eigenvalues.iter().fold(0.0_f64, |m, x| m.max(*x));
-    let inverse: Vec<f64> = eigen
-        .eigenvalues
-        .iter()
-        .map(|x| 1.0 / x.max(ROUNDING * most))
-        .collect();
-    DMatrix::from_fn(q, q, |i, j| {
-        (0..q)
-            .map(|l| eigen.eigenvectors[(i, l)] * inverse[l] * eigen.eigenvectors[(j, l)])
-            .sum()
-    })
-}
-
-/// `B J_t r_t`, one column of length n per unknown.
-fn influence(
-    jacobian: &[&[f64]],
-    residual: &[f64],
-    scale: &[f64],
-    bread: &DMatrix<f64>,
-) -> Vec<Vec<f64>> {
-    let q = jacobian.len();
-    (0..q)
-        .map(|i| {
-            let weights: Vec<f64> = (0..q).map(|j| bread[(i, j)] * scale[j]).collect();
-            (0..residual.len())
-                .map(|t| {
-                    let x: f64 = (0..q).map(|j| weights[j] * jacobian[j][t]).sum();
-                    x * residual[t]
-                })
-                .collect()
-        })
-        .collect()
-}
-
-/// Sum over all pairs of samples of the covariance of the scores.
-fn long_run_covariance(scores: &[Vec<f64>], breaks: &[usize]) -> DMatrix<f64> {
-    let q = scores.len();
-    let n = scores.first().map_or(0, Vec::len);
-    let whitened: Vec<(f64, Vec<f64>)> = scores.iter().map(|w| whiten(w, breaks)).collect();
-    let lag = bandwidth(&whitened, breaks).min(n / 4).max(1);
-    let sums: Vec<Vec<f64>> = whitened.iter().map(|(_, e)| batch_sums(e, lag)).collect();
-    DMatrix::from_fn(q, q, |i, j| {
-        let sum = crate::separable::linear::dot(&sums[i], &sums[j]) / lag as f64;
-        sum / ((1.0 - whitened[i].0) * (1.0 - whitened[j].0))
     })
 }
 
@@ -213,7 +255,7 @@ fn whiten(w: &[f64], breaks: &[usize]) -> (f64, Vec<f64>) {
 }
 
 fn lag_one(w: &[f64], breaks: &[usize]) -> f64 {
-    let energy = crate::separable::linear::dot(w, w);
+    let energy = dot(w, w);
     if energy <= 0.0 {
         return 0.0;
     }
@@ -229,7 +271,7 @@ fn bandwidth(whitened: &[(f64, Vec<f64>)], breaks: &[usize]) -> usize {
     let n = whitened.first().map_or(0, |(_, e)| e.len()) as f64;
     let (mut above, mut below) = (0.0, 0.0);
     for (_, e) in whitened {
-        let energy = crate::separable::linear::dot(e, e);
+        let energy = dot(e, e);
         if energy <= 0.0 {
             continue;
         }

@@ -58,6 +58,24 @@ pub(crate) struct Physical {
     pub share: bool,
 }
 
+impl Physical {
+    /// Variance for a covariance of the unknowns.
+    pub fn variance(&self, unknowns: &DMatrix<f64>) -> f64 {
+        (0..self.slope.len())
+            .map(|i| self.slope[i] * self.with(unknowns, i))
+            .sum()
+    }
+
+    /// Covariance with one of the unknowns.
+    pub fn with(&self, unknowns: &DMatrix<f64>, unknown: usize) -> f64 {
+        self.slope
+            .iter()
+            .enumerate()
+            .map(|(j, slope)| slope * unknowns[(unknown, j)])
+            .sum()
+    }
+}
+
 /// All identified parameters of a law at the unknowns `p`, `c`; `step` is the sample time, s.
 pub(crate) fn physical(
     law: &Law,
@@ -173,6 +191,18 @@ pub(crate) fn physical(
                 );
             }
         }
+    }
+    if let Some(i) = layout.exponent {
+        let exponent = libm::exp(p[i]);
+        push(
+            "stribeck_exponent".into(),
+            Dimension::One,
+            exponent,
+            unit(i, exponent),
+            Some(i),
+            None,
+            true,
+        );
     }
     for (i, term) in linear.iter().enumerate() {
         let own = matches!(term.name.as_str(), "coulomb" | "sigma1");

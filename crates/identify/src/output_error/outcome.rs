@@ -1,8 +1,9 @@
 //! What a fit by simulation gives: parameters with their intervals, signals, and how far off it is.
 
 use crate::error::Error;
-use crate::estimate::uncertainty::{self, Covariance};
-use crate::estimate::{Estimate, Parameter, Series, given, judge};
+use crate::estimate::parameter::Parameter;
+use crate::estimate::uncertainty::{self, Covariance, Unknowns};
+use crate::estimate::{Estimate, Series};
 use crate::fit::Fit;
 use crate::law::Law;
 use crate::law::physical::{self, Dimension, Physical};
@@ -219,7 +220,7 @@ pub(crate) fn describe(
                 }
                 _ => String::new(),
             };
-            judge(p, matrix[(i, i)], reason, level)
+            Parameter::judged(p, matrix[(i, i)], None, reason, level)
         })
         .collect();
     insert_given(&mut parameters, &law, terms);
@@ -254,6 +255,7 @@ pub(crate) fn describe(
         history,
         elements: Vec::new(),
         step: 0.0,
+        unknowns: Unknowns::none(),
         p: Vec::new(),
         coefficients: Vec::new(),
     };
@@ -333,7 +335,7 @@ fn covariance(problem: &Problem, at: &Point, held: &[bool]) -> (DMatrix<f64>, Ve
         out.fill(f64::INFINITY);
         return (out, without);
     }
-    let bread = uncertainty::inverse(scaled);
+    let bread = uncertainty::inverse(scaled).0;
 
     let axis = problem.layout.write(&problem.base, &at.q);
     let mut influence: Vec<Vec<f64>> = vec![Vec::new(); q];
@@ -496,17 +498,17 @@ fn insert_given(parameters: &mut Vec<Parameter>, law: &Law, terms: &Terms) {
             .iter()
             .rposition(|p| p.name.starts_with("stribeck_velocity"))
             .map_or(parameters.len(), |i| i + 1);
-        parameters.insert(at, given("stribeck_exponent", law.exponent));
+        parameters.insert(
+            at,
+            Parameter::given("stribeck_exponent", Dimension::One, law.exponent),
+        );
     }
     if let Mass::Given(mass) = terms.mass {
         let at = parameters
             .iter()
             .position(|p| p.name == "offset")
             .unwrap_or(parameters.len());
-        let mass = Parameter {
-            dimension: Dimension::Inertia,
-            ..given("mass", mass)
-        };
+        let mass = Parameter::given("mass", Dimension::Inertia, mass);
         parameters.insert(at, mass);
     }
 }

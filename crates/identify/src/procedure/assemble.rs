@@ -3,27 +3,14 @@
 use super::static_map::StaticMap;
 use super::statics::Statics;
 use super::step_fit::{StepFit, StepSettings};
-use crate::estimate::{Assembled, Estimate, Parameter, Series};
+use crate::estimate::parameter::Parameter;
+use crate::estimate::{Assembled, Estimate, Series};
 use crate::law::physical::Dimension;
 use crate::law::terms::{Mass, Terms};
 use crate::law::{Law, LawKind};
 use crate::observe::Counts;
 use crate::separable::levenberg::Status;
 use stiction_friction::Direction;
-
-fn given(name: &str, dimension: Dimension, value: f64) -> Parameter {
-    Parameter {
-        name: name.into(),
-        dimension,
-        value,
-        std: None,
-        ci95: None,
-        correction: 0.0,
-        identifiable: true,
-        identified: false,
-        reason: String::new(),
-    }
-}
 
 /// Coefficients of a law by their names; what is not found is zero.
 fn coefficients(law: &Law, terms: &Terms, parameters: &[Parameter]) -> Vec<f64> {
@@ -52,6 +39,7 @@ impl StaticMap {
             asymmetric: self.settings.asymmetric,
             exponent: self.exponent(),
             elements: 0,
+            exponent_fitted: false,
         };
         let terms = Terms {
             mass: Mass::Absent,
@@ -108,23 +96,31 @@ impl StepFit {
             stribeck_velocity: 1.0,
             viscous: 0.0,
         });
-        parameters.push(given("sigma2", Dimension::Damping, curve.viscous));
-        parameters.push(given("coulomb", Dimension::Force, curve.coulomb));
+        parameters.push(Parameter::given(
+            "sigma2",
+            Dimension::Damping,
+            curve.viscous,
+        ));
+        parameters.push(Parameter::given("coulomb", Dimension::Force, curve.coulomb));
         if settings.curve.is_some() {
-            parameters.push(given("static", Dimension::Force, curve.static_friction));
-            parameters.push(given(
+            parameters.push(Parameter::given(
+                "static",
+                Dimension::Force,
+                curve.static_friction,
+            ));
+            parameters.push(Parameter::given(
                 "stribeck_velocity",
                 Dimension::Speed,
                 curve.stribeck_velocity,
             ));
-            parameters.push(given(
+            parameters.push(Parameter::given(
                 "stribeck_exponent",
                 Dimension::One,
                 settings.exponent,
             ));
         }
         if let Some(mass) = settings.mass {
-            parameters.push(given("mass", Dimension::Inertia, mass));
+            parameters.push(Parameter::given("mass", Dimension::Inertia, mass));
         }
         let kappa = self.value("sigma0").unwrap_or(1.0) / curve.coulomb;
         let rise = (curve.static_friction / curve.coulomb - 1.0).max(1e-9);

@@ -311,7 +311,7 @@ impl Held<'_> {
         );
         let columns: Vec<&[f64]> = free.iter().map(|&i| jacobian[i].as_slice()).collect();
         let breaks = self.objective.record().breaks();
-        let small = uncertainty::sandwich(&columns, &solved.residual, &breaks);
+        let small = uncertainty::sandwich(&columns, &solved.residual, &breaks).covariance;
         let slopes = self.statics.slopes(&self.law, self.objective.linear());
         let known = &self.statics.covariance.matrix;
         let known = DMatrix::from_fn(known.len(), known.len(), |i, j| known[i][j]);

@@ -1,6 +1,6 @@
 //! A value and its variance as a parameter with interval and flag.
 
-use crate::estimate::{IDENTIFIABLE, Parameter};
+use crate::estimate::parameter::{IDENTIFIABLE, Parameter};
 use crate::law::physical::Dimension;
 
 /// Two-sided 95 % quantile of Student's t for `free` degrees of freedom, by the expansion of
@@ -60,15 +60,12 @@ impl Found {
                 .then(|| (self.value * libm::exp(-r), self.value * libm::exp(r)))
         });
         Parameter {
-            name: self.name,
-            dimension: self.dimension,
-            value: self.value,
             std: std.filter(|s| s.is_finite()),
             ci95,
-            correction: 0.0,
             identifiable: reason.is_empty(),
             identified: true,
             reason,
+            ..Parameter::given(&self.name, self.dimension, self.value)
         }
     }
 }

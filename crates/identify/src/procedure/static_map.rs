@@ -12,7 +12,7 @@ use super::profile::{Best, Block, EXPONENT_RANGE, best_exponent, fall};
 use super::robust;
 use super::stretch::StaticPoint;
 use crate::error::Error;
-use crate::estimate::Parameter;
+use crate::estimate::parameter::Parameter;
 use crate::estimate::uncertainty::Covariance;
 use crate::law::physical::Dimension;
 use nalgebra::{DMatrix, SymmetricEigen};
@@ -306,17 +306,8 @@ impl Fitted<'_> {
             })
             .collect();
         if self.settings.stribeck && self.settings.exponent != Exponent::Fitted {
-            parameters.push(Parameter {
-                name: "stribeck_exponent".into(),
-                dimension: Dimension::One,
-                value: self.exponent,
-                std: None,
-                ci95: None,
-                correction: 0.0,
-                identifiable: true,
-                identified: false,
-                reason: String::new(),
-            });
+            let name = "stribeck_exponent";
+            parameters.push(Parameter::given(name, Dimension::One, self.exponent));
         }
         parameters.sort_by_key(|p| crate::law::physical::rank(&p.name));
         let n = names.len();

@@ -2,7 +2,7 @@
 
 use super::static_map::StaticMap;
 use crate::error::Error;
-use crate::estimate::Parameter;
+use crate::estimate::parameter::Parameter;
 use crate::estimate::uncertainty::Covariance;
 use crate::law::Law;
 use crate::law::terms::LinearTerm;

@@ -10,7 +10,7 @@ use super::step::StepResponse;
 use super::step_model::{Response, Trial};
 use super::stretch::Run;
 use crate::error::Error;
-use crate::estimate::Parameter;
+use crate::estimate::parameter::Parameter;
 use crate::estimate::uncertainty::{self, Covariance};
 use crate::law::physical::Dimension;
 use crate::observe::{Control, Counts, Observer, Progress, Stage};
@@ -415,7 +415,7 @@ impl Problem {
             at += response.position.len();
             breaks.push(at);
         }
-        let mut covariance = uncertainty::sandwich(&columns, &residual, &breaks);
+        let mut covariance = uncertainty::sandwich(&columns, &residual, &breaks).covariance;
         covariance += self.carried(p, &slopes);
         let trial = self.trial(p);
         let n = residual.len() as f64;

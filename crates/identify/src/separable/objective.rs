@@ -9,6 +9,7 @@ use crate::law::terms::{ColumnKind, Delay, LinearTerm, Mass, Side, Terms};
 use crate::separable::linear::{self, Solution, dot};
 use crate::separable::recursion::{Trace, trace};
 use nalgebra::{DMatrix, DVector};
+use std::borrow::Cow;
 
 /// A record, a law and the linear terms beside it.
 #[derive(Clone, Debug)]
@@ -30,6 +31,8 @@ pub struct Objective<'a> {
     inertia: Option<(f64, Fixed)>,
     /// Sum of squares of the measured force at the kept samples.
     energy: f64,
+    /// A coefficient that is not fitted but held at a value.
+    held: Option<(usize, f64)>,
 }
 
 /// A known column of the regression.
@@ -69,6 +72,18 @@ impl Evaluation {
     /// Measured minus modelled force at the kept samples.
     pub fn residual(&self) -> &[f64] {
         &self.solution.residual
+    }
+
+    /// Columns of the Jacobian of the model at the kept samples: one for each nonlinear unknown, then
+    /// one for each linear one that is not held at zero. Without the nonlinear ones where the
+    /// evaluation was made without sensitivities.
+    pub fn jacobian(&self) -> Vec<&[f64]> {
+        let active = self.columns.iter().zip(&self.solution.active);
+        self.slopes
+            .iter()
+            .chain(active.filter_map(|(column, active)| active.then_some(column)))
+            .map(Vec::as_slice)
+            .collect()
     }
 }
 
@@ -118,12 +133,20 @@ impl<'a> Objective<'a> {
             force,
             inertia,
             energy,
+            held: None,
         }
     }
 
     /// Number of nonlinear unknowns: those of the law, and the delay where it is one.
     pub fn nonlinear(&self) -> usize {
         self.law.nonlinear() + usize::from(self.delay == Delay::Fitted)
+    }
+
+    /// The same objective with one coefficient held at a value.
+    pub(crate) fn holding(&self, coefficient: usize, value: f64) -> Self {
+        let mut out = self.clone();
+        out.held = Some((coefficient, value));
+        out
     }
 
     /// The record.
@@ -164,20 +187,13 @@ impl<'a> Objective<'a> {
     pub fn evaluate(&self, p: &[f64], slopes: bool) -> Evaluation {
         let traces = self.traces(p, slopes);
         let shift = self.shift(p);
-        let columns = self.columns(&traces, shift);
+        let mut columns = self.columns(&traces, shift);
+        let target = self.without_held(&mut columns, shift);
         let views: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-        let solution = match self.inertia_force(shift) {
-            Some(inertia) => {
-                let target: Vec<f64> = self
-                    .force
-                    .iter()
-                    .zip(&inertia)
-                    .map(|(u, f)| u - f)
-                    .collect();
-                linear::solve(&views, &self.nonnegative, &target)
-            }
-            None => linear::solve(&views, &self.nonnegative, &self.force),
-        };
+        let mut solution = linear::solve(&views, &self.nonnegative, &target);
+        if let Some((j, value)) = self.held {
+            solution.coefficients[j] = value;
+        }
         let slope_columns = if slopes {
             self.slopes(&traces, p, &solution.coefficients)
         } else {
@@ -207,6 +223,24 @@ impl<'a> Objective<'a> {
             hessian,
             descent,
         }
+    }
+
+    /// The target without the part of a held coefficient, whose column is emptied so that the linear
+    /// problem leaves it out.
+    fn without_held(&self, columns: &mut [Vec<f64>], shift: Shift) -> Cow<'_, [f64]> {
+        let minus = |from: &[f64], part: &[f64]| -> Vec<f64> {
+            from.iter().zip(part).map(|(u, x)| u - x).collect()
+        };
+        let mut target = match self.inertia_force(shift) {
+            Some(inertia) => Cow::Owned(minus(&self.force, &inertia)),
+            None => Cow::Borrowed(&self.force[..]),
+        };
+        if let Some((j, value)) = self.held {
+            columns[j].iter_mut().for_each(|x| *x *= value);
+            target = Cow::Owned(minus(&target, &columns[j]));
+            columns[j].fill(0.0);
+        }
+        target
     }
 
     /// `-1/2` times the gradient of the cost with respect to the nonlinear unknowns.

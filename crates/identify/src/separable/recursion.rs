@@ -6,7 +6,7 @@
 
 use crate::law::{Law, LawKind, Layout};
 use crate::separable::elasto_plastic;
-use libm::{exp, expm1, fabs, pow};
+use libm::{exp, expm1, fabs, log, pow};
 
 /// The nonlinear unknowns, unpacked.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +29,7 @@ impl Curve {
             scale: [1.0, read(layout.ratio).unwrap_or(1.0)],
             excess,
             inverse_velocity: layout.velocity.map(|i| read(i).map_or(0.0, |v| 1.0 / v)),
-            exponent: law.exponent,
+            exponent: read(layout.exponent).unwrap_or(law.exponent),
         }
     }
 }
@@ -66,6 +66,14 @@ pub(super) fn level<const K: usize>(
             0.0
         } else {
             fall * curve.exponent * power
+        };
+    }
+    if let Some(i) = layout.exponent {
+        // At rest and far above vs the level no longer depends on the exponent.
+        slope[i] = if fall == 0.0 || power == 0.0 {
+            0.0
+        } else {
+            -fall * curve.exponent * power * log(x)
         };
     }
     if side == 1
@@ -130,7 +138,7 @@ pub(crate) fn trace(law: &Law, p: &[f64], step: f64, velocity: &[f64], slopes: b
             }
         };
     }
-    run!(1, 2, 3, 5, 6)
+    run!(1, 2, 3, 4, 5, 6, 7)
 }
 
 fn without_slopes(layout: &Layout) -> Layout {
@@ -140,6 +148,7 @@ fn without_slopes(layout: &Layout) -> Layout {
         velocity: [None; 2],
         ratio: None,
         breakaway: None,
+        exponent: None,
         ..*layout
     }
 }

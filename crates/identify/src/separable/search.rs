@@ -125,6 +125,7 @@ impl<'a> Search<'a> {
                 };
                 copy(layout.kappa, from.kappa, plus);
                 copy(layout.breakaway, from.breakaway, plus);
+                copy(layout.exponent, from.exponent, plus);
                 for (side, source) in [(0, plus), (1, minus)] {
                     copy(layout.excess[side], from.excess[0], source);
                     copy(layout.velocity[side], from.velocity[0], source);

@@ -29,6 +29,8 @@ struct Ranges {
     breakaway: (f64, f64),
     /// Rate at which a slipping Maxwell-slip element follows the Stribeck curve, 1/s.
     attraction: (f64, f64),
+    /// Stribeck exponent.
+    exponent: (f64, f64),
 }
 
 impl SearchBox {
@@ -43,9 +45,9 @@ impl SearchBox {
 
     /// The box that the record itself allows: the presliding length between one count of the encoder
     /// (or a thousandth of the longest step) and the stroke, the Stribeck velocity between
-    /// 1e-4 of the top speed and the top speed, `Fs/Fc - 1` from .02 to 3, the break-away part of an
-    /// elasto-plastic law from .02 to .98. The yield deflections of a Maxwell-slip law lie where the
-    /// presliding length does, up to half the stroke.
+    /// 1e-4 of the top speed and the top speed, `Fs/Fc - 1` from .02 to 3, a Stribeck exponent that is
+    /// fitted from .3 to 4, the break-away part of an elasto-plastic law from .02 to .98. The yield
+    /// deflections of a Maxwell-slip law lie where the presliding length does, up to half the stroke.
     pub fn from_record(record: &Record, law: &Law) -> Result<Self, Error> {
         let top = record.top_speed();
         let stroke = record.stroke();
@@ -70,6 +72,7 @@ impl SearchBox {
             breakaway: (0.02 / 0.98, 0.98 / 0.02),
             // From a sample to the time of a stroke.
             attraction: (1.0 / (stroke / top).max(100.0 * step), 1.0 / step),
+            exponent: (0.3, 4.0),
         };
         let layout = law.layout();
         let mut low = vec![0.0; layout.count];
@@ -92,6 +95,7 @@ impl SearchBox {
             // What yields later than half-way is never sure to slip.
             set(Some(i), (ranges.length.0, 0.5 * ranges.length.1));
         }
+        set(layout.exponent, ranges.exponent);
         Ok(Self { low, high })
     }
 
@@ -122,6 +126,7 @@ impl SearchBox {
             layout.excess[0],
             layout.velocity[0],
             layout.breakaway,
+            layout.exponent,
         ];
         let pick = |x: &[f64]| own.iter().flatten().map(|&i| x[i]).collect();
         Self {
@@ -143,6 +148,14 @@ impl SearchBox {
         let mut out = self.clone();
         out.low.remove(i);
         out.high.remove(i);
+        out
+    }
+
+    /// The same box with one unknown held at a value.
+    pub(crate) fn holding(&self, i: usize, value: f64) -> Self {
+        let mut out = self.clone();
+        out.low[i] = value;
+        out.high[i] = value;
         out
     }
 

@@ -56,15 +56,11 @@ fn from_model(model: &ModelFile, options: &Options) -> Result<Known, Error> {
         .parameter
         .iter()
         .map(|p| Parameter {
-            name: p.name.clone(),
-            dimension: dimension(&p.name),
-            value: p.value,
             std: p.std,
             ci95: p.ci95.map(|[low, high]| (low, high)),
-            correction: 0.0,
             identifiable: p.identifiable,
             identified: p.origin == "identified",
-            reason: String::new(),
+            ..Parameter::given(&p.name, dimension(&p.name), p.value)
         })
         .collect();
     let covariance = Covariance {

@@ -1,0 +1,88 @@
+//! Whether the data show a Stribeck curve at all.
+//!
+//! Where no speed lies in the Stribeck range, a search still finds some curve that fits the noise a
+//! little better than none, and the linear deviation there says how well *that* curve is known. The
+//! question is whether the cost is really higher without it.
+
+use crate::estimate::parameter::Parameter;
+use crate::estimate::profile::{Held, fit_with};
+use crate::estimate::uncertainty::Unknowns;
+use crate::law::Law;
+use crate::observe::Counts;
+use crate::separable::Optimum;
+use crate::separable::objective::Objective;
+
+/// Deviation of ln(Fs/Fc - 1) below which the curve is there without asking: ten deviations from none.
+const PLAIN: f64 = 0.1;
+/// Rise of the cost without the curve below which it may be noise, in squared deviations. The two
+/// unknowns of a curve were searched for over decades, so chance makes more of them than of one unknown
+/// at a known place: 12 comes about less than once in a hundred times.
+const CHANCE: f64 = 12.0;
+
+/// For each direction (the same twice for a symmetric law) whether the cost is hardly higher with the
+/// Stribeck velocity, or the excess of the static friction, at the lower end of its range.
+pub(super) fn missing(
+    objective: &Objective,
+    optimum: &Optimum,
+    unknowns: &Unknowns,
+    counts: &mut Counts,
+) -> [bool; 2] {
+    let layout = objective.law().layout();
+    let mut of_side = |side: usize| {
+        let (Some(e), Some(v)) = (layout.excess[side], layout.velocity[side]) else {
+            return false;
+        };
+        let variance = unknowns.covariance[(e, e)];
+        let rise = variance / unknowns.bread[e];
+        // A rise that is no number belongs to an unknown that is flagged already.
+        if variance.sqrt() < PLAIN || !rise.is_finite() {
+            return false;
+        }
+        [v, e].into_iter().any(|i| {
+            let low = optimum.bounds.low(i);
+            let found = fit_with(
+                objective,
+                optimum,
+                Held::Nonlinear(i),
+                low,
+                &optimum.p,
+                counts,
+            );
+            found.evaluation.cost - optimum.evaluation.cost < CHANCE * rise
+        })
+    };
+    let first = of_side(0);
+    let second = if layout.excess[0] == layout.excess[1] {
+        first
+    } else {
+        of_side(1)
+    };
+    [first, second]
+}
+
+/// Flags the Coulomb level and the viscous friction of a direction whose Stribeck velocity stands at the
+/// top speed: the motion does not leave the Stribeck range, so it never shows them alone.
+pub(super) fn stays_within(law: &Law, optimum: &Optimum, parameters: &mut [Parameter]) {
+    let layout = law.layout();
+    for side in 0..2 {
+        let Some(i) = layout.velocity[side] else {
+            continue;
+        };
+        let (low, high) = (optimum.bounds.low(i), optimum.bounds.high(i));
+        if !(optimum.bounds.at_bound(&optimum.p, i) && optimum.p[i] > 0.5 * (low + high)) {
+            continue;
+        }
+        let suffix = match (law.asymmetric, side) {
+            (false, _) => "",
+            (true, 0) => "_pos",
+            (true, _) => "_neg",
+        };
+        let names = ["coulomb", "sigma2"].map(|stem| format!("{stem}{suffix}"));
+        for p in parameters.iter_mut().filter(|p| names.contains(&p.name)) {
+            if p.identifiable {
+                p.identifiable = false;
+                p.reason = "the motion is not faster than the Stribeck velocity".into();
+            }
+        }
+    }
+}

@@ -1,0 +1,214 @@
+//! From linear intervals to those that a result states: with what the conditioning shifts, and with
+//! the profile where a parabola is not good enough.
+
+use crate::conditioning::record::Record;
+use crate::estimate::conditioned::shift;
+use crate::estimate::curve::{missing, stays_within};
+use crate::estimate::parameter::{IntervalKind, Parameter, quantile};
+use crate::estimate::profile::{End, Held, Profile};
+use crate::estimate::{Estimate, advice, levels};
+use crate::law::physical::{Physical, physical};
+use crate::observe::{Counts, Observer};
+use crate::separable::Optimum;
+use crate::separable::objective::Objective;
+
+/// Relative standard deviation from which the profile is followed; below it the linear interval is
+/// right to a part of its width of the same size.
+const CURVED: f64 = 0.03;
+
+/// States the intervals of an estimate in full: counts what encoder steps, filters and derivatives
+/// shift, and replaces linear intervals of the Stribeck velocity and exponent, static friction and
+/// micro-damping by those of the profile where they are poorly known.
+///
+/// Costs up to 12 evaluations where the motion comes from a position, and some tens for each profile;
+/// they are added to the counts of the estimate.
+pub fn intervals(
+    record: &Record,
+    optimum: &Optimum,
+    estimate: &mut Estimate,
+    observer: &mut dyn Observer,
+) {
+    let objective = Objective::new(record, estimate.law, &estimate.terms);
+    let c = &optimum.evaluation.solution.coefficients;
+    let raw = physical(
+        &estimate.law,
+        objective.linear(),
+        record.step(),
+        &optimum.p,
+        c,
+    );
+    conditioned(&objective, optimum, &raw, estimate, observer);
+    let mut counts = Counts::default();
+    let missing = missing(&objective, optimum, &estimate.unknowns, &mut counts);
+    for p in &raw {
+        if curve_of(&p.name).is_some_and(|side| missing[side]) {
+            without_curve(estimate, &p.name);
+        } else {
+            profiled(&objective, optimum, p, estimate, &mut counts);
+        }
+    }
+    estimate.counts.add(&counts);
+    stays_within(&estimate.law, optimum, &mut estimate.parameters);
+    advice::explain(&mut estimate.parameters, &estimate.covariance);
+}
+
+/// Counts what the conditioning shifts.
+fn conditioned(
+    objective: &Objective,
+    optimum: &Optimum,
+    raw: &[Physical],
+    estimate: &mut Estimate,
+    observer: &mut dyn Observer,
+) {
+    let mut counts = Counts::default();
+    let found = shift(objective.record(), estimate, raw, &mut counts, observer);
+    estimate.counts.add(&counts);
+    let Some(shift) = found else { return };
+    let levels = levels(objective, raw);
+    let matrix = &mut estimate.covariance.matrix;
+    let n = raw.len();
+    let widen: Vec<f64> = (0..n)
+        .map(|i| {
+            let ratio = shift.total(i, matrix[i][i]) / matrix[i][i];
+            if ratio.is_finite() { ratio.sqrt() } else { 1.0 }
+        })
+        .collect();
+    for i in 0..n {
+        for j in 0..n {
+            matrix[i][j] *= widen[i] * widen[j];
+        }
+    }
+    for (i, p) in raw.iter().enumerate() {
+        let variance = estimate.covariance.matrix[i][i];
+        if let Some(own) = find(estimate, &p.name) {
+            *own = Parameter::fitted(p, variance, Some(shift.bias[i]), optimum, levels[i]);
+        }
+    }
+}
+
+/// The direction of a parameter of the Stribeck curve (the positive one for what is common to both);
+/// `None` for other parameters.
+fn curve_of(name: &str) -> Option<usize> {
+    let curve = ["static", "stribeck_velocity", "stribeck_exponent"];
+    curve
+        .iter()
+        .any(|stem| name.starts_with(stem))
+        .then(|| usize::from(name.ends_with("_neg")))
+}
+
+/// Says of a parameter that nothing is known of it, because a fit without the curve is as good.
+fn without_curve(estimate: &mut Estimate, name: &str) {
+    if let Some(own) = find(estimate, name) {
+        own.ci95 = None;
+        if own.identifiable {
+            own.identifiable = false;
+            own.reason = "the fit is hardly better than without a Stribeck curve".into();
+        }
+    }
+}
+
+fn find<'a>(estimate: &'a mut Estimate, name: &str) -> Option<&'a mut Parameter> {
+    estimate.parameters.iter_mut().find(|p| p.name == name)
+}
+
+/// Replaces the interval of a parameter by that of its profile, where that can matter.
+fn profiled(
+    objective: &Objective,
+    optimum: &Optimum,
+    p: &Physical,
+    estimate: &mut Estimate,
+    counts: &mut Counts,
+) {
+    let k = optimum.p.len();
+    let curved = ["sigma1", "static", "stribeck_velocity", "stribeck_exponent"];
+    if !curved.iter().any(|name| p.name.starts_with(name)) {
+        return;
+    }
+    let (held, index) = match (p.nonlinear, p.linear) {
+        (Some(i), _) => (Held::Nonlinear(i), i),
+        (None, Some(j)) => (Held::Linear(j), k + j),
+        (None, None) => return,
+    };
+    let names = &estimate.covariance.names;
+    let Some(own) = names.iter().position(|n| *n == p.name) else {
+        return;
+    };
+    let variance = estimate.covariance.matrix[own][own];
+    let bread = estimate.unknowns.bread[index];
+    let std = estimate.unknowns.covariance[(index, index)].sqrt();
+    let relative = variance.sqrt() / p.value;
+    if !(relative > CURVED && relative.is_finite() && std.is_finite() && bread > 0.0) {
+        return;
+    }
+    let Some(now) = estimate.parameter(&p.name) else {
+        return;
+    };
+    // Of the parameter, what does not come from the unknown that is held: it is added in quadrature.
+    let with = p.with(&estimate.unknowns.covariance, index) / p.value;
+    let spread = p.variance(&estimate.unknowns.covariance) / (p.value * p.value);
+    let path = if std > 0.0 { with / std } else { 0.0 };
+    let apart =
+        (variance / (p.value * p.value) - spread).max(0.0) + (spread - path * path).max(0.0);
+    let quantile = now
+        .bias
+        .map_or(quantile(0.0, 1.0), |b| quantile(b, variance.sqrt()));
+    let profile = Profile {
+        objective,
+        optimum,
+        held,
+        std,
+        rise: std * std / bread,
+        quantile,
+    };
+    let Some(ends) = profile.ends(counts) else {
+        return;
+    };
+    let reach = ends.map(|end| match end {
+        End::Open => None,
+        End::At(p_there, c_there) => {
+            let there = physical(
+                objective.law(),
+                objective.linear(),
+                objective.record().step(),
+                &p_there,
+                &c_there,
+            );
+            there
+                .iter()
+                .find(|q| q.name == p.name)
+                .filter(|q| q.value > 0.0)
+                .map(|q| {
+                    let along = libm::log(q.value / p.value);
+                    (along * along + quantile * quantile * apart).sqrt()
+                })
+        }
+    });
+    let free = p
+        .nonlinear
+        .is_none_or(|i| !optimum.bounds.at_bound(&optimum.p, i));
+    if let Some(own) = find(estimate, &p.name) {
+        state(own, reach, free);
+    }
+}
+
+/// Puts the reach to both sides, in the logarithm, into a parameter; `None` is an open side.
+fn state(parameter: &mut Parameter, [down, up]: [Option<f64>; 2], free: bool) {
+    parameter.interval = IntervalKind::Profile;
+    parameter.ci95 = match (down, up) {
+        (None, None) => None,
+        _ => Some((
+            down.map_or(f64::NEG_INFINITY, |d| parameter.value * libm::exp(-d)),
+            up.map_or(f64::INFINITY, |d| parameter.value * libm::exp(d)),
+        )),
+    };
+    if down.is_some() && up.is_some() || !parameter.identifiable || !free {
+        return;
+    }
+    parameter.identifiable = false;
+    parameter.reason = match (down, up) {
+        (None, None) => "the data bound it on no side",
+        (None, _) => "the data bound it from above only",
+        _ => "the data bound it from below only",
+    }
+    .into();
+}

@@ -1,0 +1,170 @@
+//! Intervals from the cost along one parameter, all others fitted again at each of its values.
+//!
+//! A linear interval takes the valley of the cost for a parabola. Where a parameter is poorly known
+//! the valley is steep to one side and flat to the other, or open: the profile follows it (Venzon and
+//! Moolgavkar 1988, doi 10.2307/2347496; Raue et al. 2009, doi 10.1093/bioinformatics/btp358). The end of the
+//! interval is where the cost has risen by what the long-run noise makes of one standard deviation,
+//! squared times the quantile.
+
+use crate::estimate::parameter::WIDEST;
+use crate::observe::{Counts, Silent, Stage};
+use crate::separable::Optimum;
+use crate::separable::levenberg::{Descent, Watch, descend};
+use crate::separable::objective::Objective;
+
+/// Trial values to each side, at most.
+const TRIALS: usize = 6;
+/// Steps of each descent; it starts where the last one ended.
+const STEPS: usize = 6;
+/// How near the wanted rise is near enough, relative in the root of the rise.
+const NEAR: f64 = 0.02;
+
+/// What is held at a value while all else is fitted.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Held {
+    /// A nonlinear unknown, by its place.
+    Nonlinear(usize),
+    /// A coefficient that is not negative, by its place.
+    Linear(usize),
+}
+
+/// One end of an interval.
+#[derive(Clone, Debug)]
+pub(super) enum End {
+    /// Unknowns and coefficients there.
+    At(Vec<f64>, Vec<f64>),
+    /// The cost does not rise that far inside the search range.
+    Open,
+}
+
+/// The profile of one unknown.
+pub(super) struct Profile<'a> {
+    pub objective: &'a Objective<'a>,
+    pub optimum: &'a Optimum,
+    pub held: Held,
+    /// Standard deviation of the unknown (of the logarithm of a nonlinear one).
+    pub std: f64,
+    /// Rise of the cost at one standard deviation where the cost is a parabola.
+    pub rise: f64,
+    /// Wanted end, standard deviations.
+    pub quantile: f64,
+}
+
+impl Profile<'_> {
+    /// The lower and the upper end; `None` where the descents do not get there.
+    pub fn ends(&self, counts: &mut Counts) -> Option<[End; 2]> {
+        if !(self.std > 0.0 && self.rise > 0.0 && self.rise.is_finite()) {
+            return None;
+        }
+        Some([self.end(-1.0, counts)?, self.end(1.0, counts)?])
+    }
+
+    /// Where the unknown stands at the optimum, and the furthest it may go to one side.
+    fn range(&self, side: f64) -> (f64, f64) {
+        match self.held {
+            Held::Nonlinear(i) => {
+                let bounds = &self.optimum.bounds;
+                let at = self.optimum.p[i];
+                let far = if side < 0.0 {
+                    bounds.low(i).max(at - WIDEST)
+                } else {
+                    bounds.high(i).min(at + WIDEST)
+                };
+                (at, far)
+            }
+            Held::Linear(j) => {
+                let at = self.optimum.evaluation.solution.coefficients[j];
+                let far = if side < 0.0 {
+                    0.0
+                } else {
+                    at * libm::exp(WIDEST)
+                };
+                (at, far)
+            }
+        }
+    }
+
+    fn end(&self, side: f64, counts: &mut Counts) -> Option<End> {
+        let (at, far) = self.range(side);
+        let reach = (far - at).abs();
+        let tolerance = 1e-9 * self.std;
+        if reach <= tolerance {
+            return Some(End::Open);
+        }
+        let mut start = self.optimum.p.clone();
+        let (mut inner, mut outer) = ((0.0, 0.0), None::<(f64, f64)>);
+        let mut distance = (self.quantile * self.std).min(reach);
+        for _ in 0..TRIALS {
+            let value = at + side * distance;
+            let found = fit_with(
+                self.objective,
+                self.optimum,
+                self.held,
+                value,
+                &start,
+                counts,
+            );
+            let risen = found.evaluation.cost - self.optimum.evaluation.cost;
+            if !risen.is_finite() {
+                return None;
+            }
+            let deviations = (risen.max(0.0) / self.rise).sqrt();
+            start.clone_from(&found.p);
+            if (deviations / self.quantile - 1.0).abs() <= NEAR {
+                return Some(End::At(found.p, found.evaluation.solution.coefficients));
+            }
+            if deviations < self.quantile {
+                if distance >= reach - tolerance {
+                    return Some(End::Open);
+                }
+                inner = (distance, deviations);
+            } else {
+                outer = Some((distance, deviations));
+            }
+            distance = match outer {
+                // The root of the rise is nearly straight.
+                Some(outer) => {
+                    let part = (self.quantile - inner.1) / (outer.1 - inner.1);
+                    inner.0 + part * (outer.0 - inner.0)
+                }
+                None => {
+                    let stretch = (self.quantile / deviations.max(1e-3)).clamp(1.1, 3.0);
+                    (stretch * distance).min(reach)
+                }
+            };
+        }
+        None
+    }
+}
+
+/// All others fitted with one held at a value.
+pub(super) fn fit_with(
+    objective: &Objective,
+    optimum: &Optimum,
+    held: Held,
+    value: f64,
+    start: &[f64],
+    counts: &mut Counts,
+) -> Descent {
+    let mut watch = Watch {
+        observer: &mut Silent,
+        stage: Stage::Fine,
+        fraction: 1.0,
+        counts: *counts,
+        best: f64::INFINITY,
+        stopped: false,
+    };
+    let bounds = &optimum.bounds;
+    let found = match held {
+        Held::Nonlinear(i) => {
+            let bounds = bounds.holding(i, value);
+            descend(objective, &bounds, start, STEPS, &mut watch)
+        }
+        Held::Linear(j) => {
+            let objective = objective.holding(j, value);
+            descend(&objective, bounds, start, STEPS, &mut watch)
+        }
+    };
+    *counts = watch.counts;
+    found
+}
