@@ -186,8 +186,8 @@ fn laws(outcome: &Outcome) -> String {
             "fitted",
             "held out",
             "near zero speed",
-            "AIC",
-            "BIC",
+            "ΔAIC",
+            "ΔBIC",
             "",
         ]
         .map(String::from)
