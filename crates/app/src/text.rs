@@ -2,6 +2,7 @@
 
 use crate::check::{Check, LogCheck, short};
 use crate::identify::Outcome;
+use crate::result::LawEntry;
 use crate::symbols;
 use std::fmt::Write;
 use stiction_identify::IDENTIFIABLE;
@@ -204,10 +205,23 @@ fn laws(outcome: &Outcome) -> String {
             percent(l.held_out_low_speed_error_percent),
             above(l.aic_difference),
             above(l.bic_difference),
-            if l.best { "best".into() } else { String::new() },
+            remark(
+                l,
+                l.law == outcome.result.law && l.asymmetric == outcome.result.asymmetric,
+            ),
         ]);
     }
     table(&rows, &[false, true, true, true, true, true, true, false])
+}
+
+fn remark(law: &LawEntry, reported: bool) -> String {
+    let best = match (law.best, law.determined) {
+        (true, true) => "best",
+        (true, false) => "best, but not determined by this log",
+        (false, _) if reported => "reported",
+        (false, _) => "",
+    };
+    best.into()
 }
 
 /// The outcome of a check.
