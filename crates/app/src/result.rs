@@ -296,6 +296,9 @@ pub struct LawEntry {
     /// Bayesian criterion (Schwarz) above the least of all laws.
     #[serde(default)]
     pub bic_difference: Option<f64>,
+    /// Whether the log determines its Coulomb level; without that no law is trusted.
+    #[serde(default)]
+    pub determined: bool,
     /// Whether this is the simplest law whose held-out error is within its noise, or 1 %, of the
     /// least.
     pub best: bool,

@@ -4,6 +4,7 @@ mod procedure;
 
 use crate::check::{Check, LogCheck, short};
 use crate::identify::Outcome;
+use crate::result::LawEntry;
 use crate::symbols;
 pub use procedure::procedure_commands;
 use std::fmt::Write;
@@ -232,8 +233,8 @@ fn laws(outcome: &Outcome) -> String {
             "fitted",
             "held out",
             "near zero speed",
-            "AIC",
-            "BIC",
+            "ΔAIC",
+            "ΔBIC",
             "",
         ]
         .map(String::from)
@@ -250,7 +251,10 @@ fn laws(outcome: &Outcome) -> String {
             percent(l.held_out_low_speed_error_percent),
             above(l.aic_difference),
             above(l.bic_difference),
-            if l.best { "best".into() } else { String::new() },
+            remark(
+                l,
+                l.law == outcome.result.law && l.asymmetric == outcome.result.asymmetric,
+            ),
         ]);
     }
     table(&rows, &[false, true, true, true, true, true, true, false])
@@ -272,6 +276,16 @@ fn elements(outcome: &Outcome) -> String {
         ]);
     }
     table(&rows, &[true, true, true, false])
+}
+
+fn remark(law: &LawEntry, reported: bool) -> String {
+    let best = match (law.best, law.determined) {
+        (true, true) => "best",
+        (true, false) => "best, but not determined by this log",
+        (false, _) if reported => "reported",
+        (false, _) => "",
+    };
+    best.into()
 }
 
 /// The outcome of a check.

@@ -6,6 +6,7 @@ use common::{Bench, noise, options};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::PathBuf;
+use stiction_app::result::LawEntry;
 use stiction_app::{Control, LawKind, Observer, Outcome, Progress, Silent};
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 
@@ -224,4 +225,37 @@ fn validation_data_choose() {
     options.asymmetric = true;
     let refused = stiction_app::identify(&options, &mut Silent).unwrap_err();
     assert_eq!(refused.code(), "usage");
+}
+
+/// Viscous friction that bends over is fitted best by a Stribeck curve as wide as the whole range of
+/// speeds, whose Coulomb level nobody can tell: a law that the log determines is reported.
+#[test]
+fn a_law_that_the_log_does_not_determine_is_not_reported() {
+    let bench = Bench::new();
+    let file = bench.log(
+        "bent.csv",
+        8000,
+        |t| common::both_ways(t)[0],
+        |i, t| {
+            let [x, v, a] = common::both_ways(t);
+            common::friction([x, v, a]) - 50.0 * v * v.abs() + 5.0 * noise(12, i)
+        },
+    );
+    let result = auto(file).result;
+    let best = result.laws.iter().find(|l| l.best).unwrap();
+    assert!(!best.determined, "{best:?}");
+    let reported = |l: &&LawEntry| l.law == result.law && l.asymmetric == result.asymmetric;
+    let reported = result.laws.iter().find(reported).unwrap();
+    assert!(reported.determined && !reported.best, "{reported:?}");
+    assert!(result.trust.trustworthy, "{:?}", result.trust);
+    let coulomb = result
+        .parameters
+        .iter()
+        .find(|p| p.name == "coulomb")
+        .unwrap();
+    assert!(
+        (coulomb.value / 20.0 - 1.0).abs() < 0.1,
+        "{}",
+        coulomb.value
+    );
 }

@@ -64,7 +64,7 @@ pub fn choose(scores: &[LawScore]) -> Vec<Standing> {
     };
     (0..scores.len())
         .map(|i| Standing {
-            excess: excess[i].map(|(ratio, _)| ratio),
+            excess: excess[i].map(|(ratio, _)| ratio).filter(|x| x.is_finite()),
             excess_std: excess[i].map(|(_, std)| std),
             aic: aic[i],
             bic: bic[i],
@@ -96,6 +96,10 @@ fn excess(a: &[f64], b: &[f64]) -> Option<(f64, f64)> {
     if n < 2 || size_a == size_b {
         return (n >= 2).then_some((0.0, 0.0));
     }
+    if size_b == 0.0 {
+        // Nothing that leaves something matches a law that leaves nothing.
+        return Some((f64::INFINITY, 0.0));
+    }
     let influence: Vec<f64> = a
         .iter()
         .zip(b)
@@ -105,7 +109,6 @@ fn excess(a: &[f64], b: &[f64]) -> Option<(f64, f64)> {
     let size = effective_sample_size(&influence, MOST_LAGS).map_or(n as f64, |e| e.size);
     let ratio = 0.5 * libm::log(size_a / size_b);
     let std = 0.5 * (spread / (n - 1) as f64 / size.max(1.0)).sqrt();
-    // A law that leaves nothing at all is matched by none that leaves something.
     (ratio.is_finite() && std.is_finite()).then_some((ratio, std))
 }
 
@@ -127,4 +130,111 @@ fn information(scores: &[LawScore]) -> [Vec<Option<f64>>; 2] {
             .collect()
     };
     [above(2.0), above(libm::log(size))]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::Fit;
+    use crate::law::{Law, LawKind};
+
+    /// Standard normal by the sum of twelve uniform numbers.
+    fn normal(seed: u64, i: usize) -> f64 {
+        let mut x = (seed << 32 ^ i as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
+        (0..12)
+            .map(|_| {
+                x ^= x << 13;
+                x ^= x >> 7;
+                x ^= x << 17;
+                (x >> 11) as f64 / (1u64 << 53) as f64
+            })
+            .sum::<f64>()
+            - 6.0
+    }
+
+    fn score(parameters: usize, residual: Vec<f64>) -> LawScore {
+        let measured = vec![10.0; residual.len()];
+        let fit = Fit::new(&measured, &residual).unwrap();
+        LawScore {
+            law: Law::new(LawKind::Dahl),
+            parameters,
+            fitted: fit,
+            held_out: Some(fit),
+            held_out_low_speed: None,
+            residual,
+        }
+    }
+
+    /// The standard error is that of the difference: its square is the variance over many draws.
+    #[test]
+    fn the_standard_error_is_that_of_repeated_draws() {
+        let n = 400;
+        let draws: Vec<(f64, f64)> = (0..400)
+            .map(|seed| {
+                let common: Vec<f64> = (0..n).map(|i| normal(2 * seed, i)).collect();
+                let other = (0..n)
+                    .map(|i| common[i] + 0.3 * normal(2 * seed + 1, i))
+                    .collect();
+                let standings = choose(&[score(5, other), score(4, common)]);
+                // The other is 4.4 % worse by construction, and never by so little that it is least.
+                (
+                    standings[0].excess.unwrap(),
+                    standings[0].excess_std.unwrap(),
+                )
+            })
+            .collect();
+        let mean = draws.iter().map(|d| d.0).sum::<f64>() / 400.0;
+        let spread = draws.iter().map(|d| (d.0 - mean).powi(2)).sum::<f64>() / 399.0;
+        let told = draws.iter().map(|d| d.1 * d.1).sum::<f64>() / 400.0;
+        assert!((mean - 0.5 * 1.09_f64.ln()).abs() < 2e-3, "{mean}");
+        assert!(
+            (told / spread).sqrt() > 0.85 && (told / spread).sqrt() < 1.15,
+            "{told} {spread}"
+        );
+    }
+
+    #[test]
+    fn the_simplest_within_the_noise_is_best() {
+        let noise: Vec<f64> = (0..1000).map(|i| normal(1, i)).collect();
+        let scaled = |factor: f64| noise.iter().map(|x| factor * x).collect::<Vec<f64>>();
+        // Exactly proportional residuals have a difference without noise: only 1 % is left.
+        let laws = [
+            score(4, scaled(1.5)),
+            score(6, scaled(1.009)),
+            score(8, scaled(1.0)),
+        ];
+        let best = choose(&laws).iter().position(|s| s.best);
+        assert_eq!(best, Some(1));
+        assert_eq!(choose(&laws)[2].excess, Some(0.0));
+    }
+
+    #[test]
+    fn without_held_out_errors_the_bayesian_criterion_decides() {
+        let noise: Vec<f64> = (0..1000).map(|i| normal(1, i)).collect();
+        let mut laws = [
+            score(4, noise.iter().map(|x| 1.5 * x).collect()),
+            score(6, noise.iter().map(|x| 1.001 * x).collect()),
+            score(20, noise.clone()),
+        ];
+        laws[2].held_out = None;
+        let standings = choose(&laws);
+        assert!(standings[1].best && standings[1].bic == Some(0.0));
+        assert_eq!(standings[2].excess, None);
+        // 14 more parameters for a thousandth of the error.
+        let bic = standings[2].bic.unwrap();
+        let n = laws[2].fitted.effective_samples;
+        assert!(
+            (bic - (14.0 * n.ln() - 2.0 * n * 1.001_f64.ln())).abs() < 1e-6,
+            "{bic}"
+        );
+    }
+
+    #[test]
+    fn a_law_that_leaves_nothing_and_no_laws_at_all() {
+        let laws = [score(4, vec![1.0; 100]), score(6, vec![0.0; 100])];
+        let standings = choose(&laws);
+        assert!(standings[1].best && !standings[0].best);
+        assert!(choose(&[]).is_empty());
+        assert!(choose(&laws[1..])[0].best);
+    }
 }

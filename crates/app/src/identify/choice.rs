@@ -1,6 +1,7 @@
 //! The law that was asked for, or the one that the data choose.
 
 use super::ladder::{self, Climb, Ladder, Rung};
+use super::trust::BETTER;
 use crate::result::LawEntry;
 use stiction_identify as engine;
 use stiction_identify::{Estimate, Law, LawKind, Observer, Optimum, Settings, Status};
@@ -62,8 +63,8 @@ pub(super) fn auto(
 ) -> Result<Choice, engine::Error> {
     let climb = ladder.climb(&ladder::every(base), None, settings, observer);
     let (laws, best) = climb.entries();
+    let at = best.map_or(0, |best| determined(&climb, &laws, best));
     let Climb { mut rungs, stopped } = climb;
-    let at = best.unwrap_or(0);
     let held_out = laws.iter().all(|law| law.held_out_error_percent.is_some());
     let by = match (held_out, ladder.held_out.is_empty()) {
         (true, true) => "cross-validation",
@@ -106,4 +107,17 @@ fn stated(
         engine::intervals(ladder.record, optimum, &mut estimate, observer);
     }
     estimate
+}
+
+/// The best law, or if the log does not determine it, the best of those that it determines and that
+/// leave not much more: numbers that nobody may use are of no use for a little less error.
+fn determined(climb: &Climb, laws: &[LawEntry], best: usize) -> usize {
+    if laws[best].determined {
+        return best;
+    }
+    let error = |law: &LawEntry| law.held_out_error_percent.unwrap_or(f64::INFINITY);
+    let able: Vec<usize> = (0..laws.len())
+        .filter(|&i| laws[i].determined && BETTER * error(&laws[i]) <= error(&laws[best]))
+        .collect();
+    climb.best_of(&able).unwrap_or(best)
 }

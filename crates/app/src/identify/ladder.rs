@@ -112,6 +112,16 @@ impl Ladder<'_> {
     }
 }
 
+impl Rung {
+    /// Whether the data determine its Coulomb level, without which no law is trusted.
+    fn determined(&self) -> bool {
+        let levels = ["coulomb", "coulomb_pos", "coulomb_neg"];
+        let parameters = self.estimate.parameters.iter();
+        let mut levels = parameters.filter(|p| levels.contains(&p.name.as_str()));
+        levels.all(|p| p.identifiable)
+    }
+}
+
 impl Climb {
     /// The table of the laws, and which of them is best.
     pub fn entries(&self) -> (Vec<LawEntry>, Option<usize>) {
@@ -135,9 +145,21 @@ impl Climb {
                 .map(|(x, std)| 100.0 * std * libm::exp(x)),
             aic_difference: standing.aic,
             bic_difference: standing.bic,
+            determined: false,
             best: standing.best,
         };
-        (entries.map(entry).collect(), best)
+        let mut entries: Vec<LawEntry> = entries.map(entry).collect();
+        for (entry, rung) in entries.iter_mut().zip(&self.rungs) {
+            entry.determined = rung.determined();
+        }
+        (entries, best)
+    }
+
+    /// The best of some of the rungs.
+    pub fn best_of(&self, rungs: &[usize]) -> Option<usize> {
+        let scores: Vec<LawScore> = rungs.iter().map(|&i| self.rungs[i].score.clone()).collect();
+        let best = engine::choose(&scores).iter().position(|s| s.best)?;
+        Some(rungs[best])
     }
 }
 

@@ -15,7 +15,7 @@ const MOST_SATURATED: f64 = 0.2;
 const WORSE: f64 = 1.02;
 
 /// How much better a richer law must do before it is said, relative.
-const BETTER: f64 = 0.8;
+pub(super) const BETTER: f64 = 0.8;
 /// How much better it must do for the chosen law not to be trusted, relative.
 const MUCH_BETTER: f64 = 0.5;
 /// Independent samples of the residual, as a part of all, below which something systematic is left.
