@@ -165,7 +165,7 @@ fn what_cannot_be_is_refused() {
         assert_eq!(error.code(), code, "{error}");
         let page = stiction_testkit::workspace().join(format!("docs/codes/{code}.md"));
         assert!(page.is_file(), "{code}");
-        error.to_string()
+        bench.plain(&error.to_string())
     };
     let of = |m| with(&[&log], method(m));
     assert!(refused(&of(Method::Static), "too-few-speeds").contains("log.csv"));

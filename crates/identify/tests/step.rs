@@ -235,6 +235,49 @@ fn a_delay_is_found() {
     assert!(off(&fit, "sigma1", axis.plant.law().damping().at_rest()).abs() < 1.0);
 }
 
+/// A given Fs that is one of its deviations off moves sigma0 by one of its own: the uncertainty of what
+/// is given is in the intervals, and to first order in nothing else.
+#[test]
+fn the_uncertainty_of_what_is_given_is_carried_on() {
+    let axis = axis("machine", 0.3);
+    let log = log(&axis, 0.4, 0.0, 1);
+    let runs = [(run(&log), StepResponse::read(&run(&log), 0).unwrap())];
+    for (which, share) in [(1, 0.01), (4, 0.01)] {
+        let mut curve = axis.curve;
+        let mut mass = axis.plant.mass();
+        let mut given = [[0.0; 5]; 5];
+        let std = if which == 1 {
+            share * curve.static_friction
+        } else {
+            share * mass
+        };
+        given[which][which] = std * std;
+        match which {
+            1 => curve.static_friction += std,
+            _ => mass += std,
+        }
+        let settings = StepSettings {
+            mass: Some(mass),
+            curve: Some(curve),
+            exponent: 2.0,
+            given,
+        };
+        let fit = fit_steps(&runs, &settings, &mut Silent).unwrap();
+        for (name, truth) in [
+            ("sigma0", axis.plant.law().stiffness()),
+            ("sigma1", axis.plant.law().damping().at_rest()),
+        ] {
+            let p = fit.parameters.iter().find(|p| p.name == name).unwrap();
+            let deviations = (p.value - truth).abs() / p.std.unwrap();
+            println!("{which} {name}: {deviations:.3} deviations, {:?}", p.std);
+            assert!(deviations < 1.2, "{name}: {deviations}");
+            if name == "sigma0" {
+                assert!(deviations > 0.5, "{name}: {deviations}");
+            }
+        }
+    }
+}
+
 #[test]
 fn what_is_no_step_is_refused() {
     let axis = level_axis(0.3);

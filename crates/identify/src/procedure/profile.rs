@@ -1,15 +1,15 @@
 //! The curve through the points: vs (and delta) on a grid, everything else exact, then refined.
 
-use super::robust::{Rows, Solved};
+use super::robust::{ROUNDS, Rows, Solved};
 
 /// Points of the grid of vs.
 const GRID: usize = 64;
 /// Rounds of reweighting on the grid.
-const ROUGH: usize = 8;
+const ROUGH: usize = 12;
 /// Minima of the grid that are followed.
 const FOLLOWED: usize = 3;
 /// Width in ln vs at which the refinement ends.
-const FINE: f64 = 1e-9;
+const FINE: f64 = 1e-7;
 /// Exponents that are tried where the exponent is an unknown, and the width at which it ends.
 const EXPONENTS: [f64; 6] = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0];
 pub(super) const EXPONENT_RANGE: (f64, f64) = (0.4, 4.0);
@@ -115,7 +115,7 @@ impl Block {
         let grid = self.grid(exponent);
         let Some((low, high)) = self.range else {
             let start = &grid[0].1.weights;
-            let solved = self.solve(1.0, exponent, |rows| rows.tukey(scale, start));
+            let solved = self.solve(1.0, exponent, |rows| rows.tukey(scale, start, ROUNDS));
             return Best {
                 velocity: 0.0,
                 solved,
@@ -134,7 +134,11 @@ impl Block {
         let mut best: Option<(f64, Solved)> = None;
         for i in minima {
             let start = &grid[i].1.weights;
-            let at = |p: f64| self.solve(libm::exp(p), exponent, |rows| rows.tukey(scale, start));
+            let at = |p: f64| {
+                self.solve(libm::exp(p), exponent, |rows| {
+                    rows.tukey(scale, start, ROUNDS)
+                })
+            };
             let ends = (grid[i.saturating_sub(1)].0, grid[(i + 1).min(GRID - 1)].0);
             let p = golden(ends, FINE, |p| at(p).cost);
             let found = at(p);
@@ -148,7 +152,7 @@ impl Block {
             .iter()
             .map(|(p, start)| {
                 let here = self.solve(libm::exp(*p), exponent, |rows| {
-                    rows.tukey(scale, &start.weights)
+                    rows.tukey(scale, &start.weights, ROUGH)
                 });
                 (libm::exp(*p), here.cost)
             })

@@ -7,7 +7,7 @@ const TUKEY: f64 = 4.685;
 /// Factor from the median absolute residual to the standard deviation of normal residuals.
 const MAD: f64 = 1.482_602_218_505_602;
 /// Most rounds of reweighting, and the relative change of the cost that ends them.
-const ROUNDS: usize = 50;
+pub(super) const ROUNDS: usize = 50;
 const SETTLED: f64 = 1e-12;
 
 /// A linear problem: columns, which coefficients must not be negative, what is to be explained, and
@@ -40,12 +40,12 @@ impl Rows<'_> {
     }
 
     /// Least Tukey loss for residuals of `scale` deviations, from given weights.
-    pub fn tukey(&self, scale: f64, start: &[f64]) -> Solved {
+    pub fn tukey(&self, scale: f64, start: &[f64], rounds: usize) -> Solved {
         let limit = TUKEY * scale;
         let inside = |u: f64| (1.0 - (u / limit) * (u / limit)).max(0.0);
         let weight = |u: f64| inside(u) * inside(u);
         let cost = |u: f64| limit * limit / 6.0 * (1.0 - inside(u) * inside(u) * inside(u));
-        self.reweighted(start.to_vec(), ROUNDS, weight, cost)
+        self.reweighted(start.to_vec(), rounds, weight, cost)
     }
 
     fn reweighted(

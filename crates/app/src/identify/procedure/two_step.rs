@@ -198,13 +198,11 @@ impl TwoSteps {
                 .iter()
                 .any(|stem| name.starts_with(stem))
         };
-        let n = covariance.names.len();
         let mut out = Vec::new();
-        for i in 0..n {
-            for j in i + 1..n {
-                let (a, b) = (&covariance.names[i], &covariance.names[j]);
-                if steady(a) && steady(b) && correlation[i][j].abs() >= STRONG {
-                    out.push(((a.clone(), b.clone()), correlation[i][j]));
+        for (i, (a, row)) in covariance.names.iter().zip(&correlation).enumerate() {
+            for (b, x) in covariance.names.iter().zip(row).skip(i + 1) {
+                if steady(a) && steady(b) && x.abs() >= STRONG {
+                    out.push(((a.clone(), b.clone()), *x));
                 }
             }
         }
