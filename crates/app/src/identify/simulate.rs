@@ -312,8 +312,11 @@ fn notes(found: &SimulationFit, axis: &Axis, started: &str) -> Vec<String> {
     };
     out.push(format!("{runs} ({starts}) are fitted too"));
     out.push(format!(
-        "nothing filtered or differentiated; {} plant steps in a control period",
-        found.substeps
+        "nothing filtered or differentiated; {} in a control period",
+        match found.substeps {
+            1 => "one plant step".to_string(),
+            n => format!("{n} plant steps"),
+        }
     ));
     out.push(match started {
         "separable" => "searched from the separable fit of the same logs".into(),
