@@ -48,6 +48,7 @@ offset = true
 gravity = true
 cogging = ["90 deg", "15 deg"]
 stribeck_exponent = 1.5
+gms_elements = 4
 
 [report]
 low_speed = "1 rad/s"
@@ -86,6 +87,7 @@ fn every_key_is_understood() {
     assert!(axis.terms.gravity);
     assert!(near(axis.terms.cogging[1], PI / 12.0));
     assert_eq!(axis.stribeck_exponent, 1.5);
+    assert_eq!(axis.gms_elements, Some(4));
     assert_eq!(axis.low_speed, Some(1.0));
 }
 
@@ -175,6 +177,10 @@ fn refusals() {
         ("pitch 0", "[terms]\ncogging = [\"0 mm\"]"),
         ("exponent 0", "[terms]\nstribeck_exponent = 0.0"),
         ("exponent nan", "[terms]\nstribeck_exponent = nan"),
+        ("two elements", "[terms]\ngms_elements = 2"),
+        ("eleven elements", "[terms]\ngms_elements = 11"),
+        ("less than no elements", "[terms]\ngms_elements = -1"),
+        ("elements in words", "[terms]\ngms_elements = \"auto\""),
         ("low speed", "[report]\nlow_speed = \"-1 mm/s\""),
         ("the same key twice", "name = \"a\"\n\nname = \"b\""),
         (

@@ -254,7 +254,10 @@ fn four_elements_are_found() {
     let tried: Vec<usize> = found.elements.iter().map(|e| e.elements).collect();
     assert_eq!(tried, [8, 7, 6, 5, 4, 3]);
     let counts = found.counts;
-    assert_eq!((counts.cost, counts.sensitivities, counts.thinned), (45, 524, 354));
+    assert_eq!(
+        (counts.cost, counts.sensitivities, counts.thinned),
+        (45, 524, 354)
+    );
     assert_eq!(found.status, Status::Converged);
     assert!(estimate.fit.rmse < 0.155, "residual {}", estimate.fit.rmse);
     // Another motion, without noise.
