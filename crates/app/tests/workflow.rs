@@ -479,8 +479,8 @@ fn codes_and_pages_agree() {
     }
 }
 
-/// A log of elastic elements between stops, through all files: what they do together is found, their number
-/// chosen from those that were tried, and the start of the log left out.
+/// A log of elastic elements between stops, through all files: what they do together is found, their
+/// number chosen from those that were tried, and the start of the log left out.
 #[test]
 fn maxwell_slip_from_log_to_files() {
     let bench = Bench::new();
