@@ -48,6 +48,7 @@ offset = true
 gravity = true
 cogging = ["90 deg", "15 deg"]
 stribeck_exponent = 1.5
+gms_elements = 4
 
 [report]
 low_speed = "1 rad/s"
@@ -100,6 +101,7 @@ fn every_key_is_understood() {
     assert!(axis.terms.gravity);
     assert!(near(axis.terms.cogging[1], PI / 12.0));
     assert_eq!(axis.stribeck_exponent, 1.5);
+    assert_eq!(axis.gms_elements, Some(4));
     assert_eq!(axis.low_speed, Some(1.0));
     assert_eq!(axis.hold, Hold::Centred);
     assert_eq!(axis.segment, Some(0.5));
@@ -254,6 +256,7 @@ fn refusals() {
         ("pitch 0", "[terms]\ncogging = [\"0 mm\"]"),
         ("exponent 0", "[terms]\nstribeck_exponent = 0.0"),
         ("exponent nan", "[terms]\nstribeck_exponent = nan"),
+<<<<<<< HEAD
         (
             "controller",
             "[controller]\nkind = \"pid\"\nposition_gain = \"1 1/s\"\nspeed_gain = \"1 N s/m\"",
@@ -283,6 +286,12 @@ fn refusals() {
         ),
         ("hold", "[simulation]\nforce = \"hold\""),
         ("segment", "[simulation]\nsegment = \"0 s\""),
+=======
+        ("two elements", "[terms]\ngms_elements = 2"),
+        ("eleven elements", "[terms]\ngms_elements = 11"),
+        ("less than no elements", "[terms]\ngms_elements = -1"),
+        ("elements in words", "[terms]\ngms_elements = \"auto\""),
+>>>>>>> db8af6d7410dfa61fc0befe4a39d67be6c22565a
         ("low speed", "[report]\nlow_speed = \"-1 mm/s\""),
         ("the same key twice", "name = \"a\"\n\nname = \"b\""),
         (

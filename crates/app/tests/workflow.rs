@@ -96,7 +96,7 @@ fn poor_logs_are_refused_or_flagged() {
     ];
     let mut out = String::new();
     for (what, log) in &logs {
-        for law in [LawKind::CoulombViscous, LawKind::LuGre] {
+        for law in [LawKind::CoulombViscous, LawKind::LuGre, LawKind::Gms] {
             let _ = writeln!(out, "{what}, {}", law.name());
             match run(&options(&[log], law)) {
                 Err(e) => {
@@ -477,4 +477,56 @@ fn codes_and_pages_agree() {
             "{code}.md"
         );
     }
+}
+
+/// A log of elastic elements between stops, through all files: what they do together is found, their
+/// number chosen from those that were tried, and the start of the log left out.
+#[test]
+fn maxwell_slip_from_log_to_files() {
+    let bench = Bench::new();
+    let motion = |t: f64| 40e-6 * (6.3 * t).sin() + 8e-6 * (22.0 * t).sin();
+    let elements = [(2e6, 3e-6), (4e5, 15e-6)];
+    let mut z = [0.0_f64; 2];
+    let mut force = Vec::new();
+    for i in 0..8000 {
+        let way = motion(i as f64 / common::RATE) - motion((i.max(1) - 1) as f64 / common::RATE);
+        for (z, (_, d)) in z.iter_mut().zip(elements) {
+            *z = (*z + way).clamp(-d, d);
+        }
+        force.push(z.iter().zip(elements).map(|(z, (k, _))| k * z).sum::<f64>());
+    }
+    let log = bench.log("elements.csv", 8000, motion, |i, _| {
+        force[i] + 0.05 * noise(3, i)
+    });
+    let axis = bench.write("axis.toml", "mass = \"none\"\n");
+    let mut options = options(&[&log], LawKind::MaxwellSlip);
+    options.axis = Some(axis);
+    options.compare_laws = true;
+    let outcome = run(&options).unwrap();
+    whole(&outcome);
+    let result = &outcome.result;
+    assert_eq!(result.law, "maxwell-slip");
+    assert!(result.trust.trustworthy, "{:?}", result.trust);
+    for (name, truth) in [("sigma0", 2.4e6), ("coulomb", 12.0)] {
+        let off = value(&outcome, name) / truth - 1.0;
+        assert!(off.abs() < 0.02, "{name} off by {off}");
+    }
+    assert_eq!(result.elements.iter().filter(|e| e.chosen).count(), 1);
+    assert!(
+        result
+            .elements
+            .iter()
+            .all(|e| e.held_out_error_percent.is_some())
+    );
+    assert!(
+        result
+            .laws
+            .iter()
+            .any(|l| l.law == "maxwell-slip" && l.best)
+    );
+    let notes = &result.axis.conditioning;
+    assert!(
+        notes.iter().any(|n| n.contains("at the start not fitted")),
+        "{notes:?}"
+    );
 }

@@ -38,6 +38,9 @@ const WORTH: f64 = 1e-3;
 /// Times a stalled descent is started again.
 const KINKS: usize = 8;
 
+/// A curve, and elements that suit it.
+type Start = (Vec<f64>, Vec<Atom>);
+
 /// A fit with some number of elements.
 pub(super) struct Rung {
     pub law: Law,
@@ -355,11 +358,7 @@ impl Search<'_> {
     }
 
     /// The most promising curves, each with the elements that a dictionary gives it.
-    fn starts(
-        &mut self,
-        most: usize,
-        watch: &mut Watch,
-    ) -> Result<Vec<(Vec<f64>, Vec<Atom>)>, Error> {
+    fn starts(&mut self, most: usize, watch: &mut Watch) -> Result<Vec<Start>, Error> {
         let mut out = Vec::new();
         for curve in curves::curves(self, watch)? {
             let atoms = self.elements_for(&curve, &[], watch)?;
