@@ -129,14 +129,8 @@ pub(crate) fn fit(
         ..Settings::default()
     };
     let wanted = conditioning::wanted(&sources, axis);
-    let (chosen, note) = conditioning::choose(
-        &sources,
-        &wanted,
-        &terms,
-        options.asymmetric,
-        &settings,
-        observer,
-    )?;
+    let plain = if options.asymmetric { &other } else { &terms };
+    let (chosen, note) = conditioning::choose(&sources, &wanted, plain, &settings, observer)?;
     // A Maxwell-slip law remembers its past: it is fitted from where the motion has wiped that out.
     let settle = |record: Record| match options.law {
         Some(law) if law.has_elements() => record.settled(),

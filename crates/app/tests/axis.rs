@@ -256,7 +256,6 @@ fn refusals() {
         ("pitch 0", "[terms]\ncogging = [\"0 mm\"]"),
         ("exponent 0", "[terms]\nstribeck_exponent = 0.0"),
         ("exponent nan", "[terms]\nstribeck_exponent = nan"),
-<<<<<<< HEAD
         (
             "controller",
             "[controller]\nkind = \"pid\"\nposition_gain = \"1 1/s\"\nspeed_gain = \"1 N s/m\"",
@@ -286,12 +285,10 @@ fn refusals() {
         ),
         ("hold", "[simulation]\nforce = \"hold\""),
         ("segment", "[simulation]\nsegment = \"0 s\""),
-=======
         ("two elements", "[terms]\ngms_elements = 2"),
         ("eleven elements", "[terms]\ngms_elements = 11"),
         ("less than no elements", "[terms]\ngms_elements = -1"),
         ("elements in words", "[terms]\ngms_elements = \"auto\""),
->>>>>>> db8af6d7410dfa61fc0befe4a39d67be6c22565a
         ("low speed", "[report]\nlow_speed = \"-1 mm/s\""),
         ("the same key twice", "name = \"a\"\n\nname = \"b\""),
         (

@@ -30,13 +30,12 @@ pub(crate) fn wanted(sources: &[Source], axis: &Axis) -> Conditioning {
 
 /// Chooses the cut-offs that the axis file leaves open, and says how.
 ///
-/// LuGre stands for the axis whatever law is asked: it is the law that a filter can spoil, and all laws
-/// that are compared must see the same record.
+/// LuGre, the same in both directions and with `terms` beside it, stands for the axis whatever law is
+/// asked: it is the law that a filter can spoil, and all laws that are compared must see one record.
 pub(super) fn choose(
     sources: &[Source],
     wanted: &Conditioning,
     terms: &Terms,
-    asymmetric: bool,
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<(Conditioning, Option<String>), Error> {
@@ -47,10 +46,7 @@ pub(super) fn choose(
         .iter()
         .map(Source::samples)
         .collect::<Result<Vec<_>, _>>()?;
-    let law = Law {
-        asymmetric,
-        ..Law::new(LawKind::LuGre)
-    };
+    let law = Law::new(LawKind::LuGre);
     let plain = Terms {
         quadratic_viscous: false,
         dependences: Vec::new(),

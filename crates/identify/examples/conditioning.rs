@@ -1,0 +1,140 @@
+//! Prints the tables of `docs/conditioning.md`: how well the automatic conditioning does on simulated
+//! logs whose truth is known.
+
+#[path = "../tests/common/closed_loop.rs"]
+mod closed_loop;
+
+use closed_loop::{axis, encoder, error, identified, three_segments, truth};
+use stiction_identify::{
+    Conditioning, Cutoff, Law, LawKind, Samples, Settings, Silent, Source, Terms, condition,
+    identify,
+};
+use stiction_servo::cascade::Cascade;
+use stiction_servo::closed_loop::{ClosedLoop, ForceLog, Record};
+use stiction_servo::path::Path;
+use stiction_servo::plant::Plant;
+use stiction_signal::SavitzkyGolay;
+
+fn main() {
+    encoders();
+    windows();
+}
+
+/// Every parameter of closed-loop logs, three encoders and two axes.
+fn encoders() {
+    println!("| axis | encoder | seed | cut-offs (Hz) | largest error | outside its interval |");
+    println!("|---|---|---|---|---|---|");
+    for name in ["machine", "motor"] {
+        for count in [50e-9, 100e-9, 1e-6] {
+            for seed in 0..4 {
+                let log = three_segments(name, count, 0.5, seed);
+                let (tuned, found) = identified(&log, count);
+                let mut worst = ("", 0.0_f64);
+                let mut outside = Vec::new();
+                for (parameter, truth) in truth(name) {
+                    let (off, covered) = error(found.parameter(parameter).unwrap(), truth);
+                    if off.abs() > worst.1.abs() {
+                        worst = (parameter, off);
+                    }
+                    if !covered {
+                        outside.push(format!("{parameter} {off:+.2} %"));
+                    }
+                }
+                for (parameter, truth) in [("offset", 0.0), ("delay", -1.25e-4)] {
+                    let p = found.parameter(parameter).unwrap();
+                    if p.ci95.is_none_or(|(a, b)| truth < a || truth > b) {
+                        outside.push(parameter.to_string());
+                    }
+                }
+                let hertz = |cutoff| match cutoff {
+                    Cutoff::Hz(f) => f,
+                    Cutoff::Auto | Cutoff::Off => f64::NAN,
+                };
+                println!(
+                    "| {name} | {:.0} nm | {seed} | {:.0}, {:.0} | {} {:+.2} % | {} |",
+                    1e9 * count,
+                    hertz(tuned.conditioning.source_cutoff),
+                    hertz(tuned.conditioning.common_cutoff),
+                    worst.0,
+                    worst.1,
+                    outside.join(", ")
+                );
+            }
+        }
+    }
+}
+
+/// Savitzky-Golay windows as scripts use them, against the automatic choice, on one log each.
+fn windows() {
+    println!("\n| encoder | 11 | 31 | 101 | 301 | automatic | over the best |");
+    println!("|---|---|---|---|---|---|---|");
+    for count in [10e-9, 100e-9, 1e-6] {
+        let log = sine(count);
+        let largest = |value: &dyn Fn(&str) -> f64| {
+            let errors = truth("machine").map(|(name, truth)| (value(name) / truth - 1.0).abs());
+            100.0 * errors.into_iter().fold(0.0, f64::max)
+        };
+        let by_window = [11, 31, 101, 301].map(|window| {
+            let found = smoothed(&log, window);
+            largest(&|name| found.value(name).unwrap_or(f64::INFINITY))
+        });
+        let (_, found) = identified(&log, count);
+        let own = largest(&|name| found.value(name).unwrap());
+        let best = by_window.into_iter().fold(f64::INFINITY, f64::min);
+        let cells: Vec<String> = by_window.iter().map(|e| format!("{e:.2} %")).collect();
+        println!(
+            "| {:.0} nm | {} | {own:.2} % | {:.2} |",
+            1e9 * count,
+            cells.join(" | "),
+            own / best
+        );
+    }
+}
+
+/// One slow sine at 10 kHz without feedforward, 1 % noise on the force.
+fn sine(count: f64) -> Record {
+    let axis = axis("machine");
+    ClosedLoop {
+        plant: Plant::new(axis.mass, axis.law).unwrap(),
+        controller: Cascade {
+            position_gain: 80.0,
+            speed_gain: 2000.0,
+            integral_gain: 1e5,
+            mass_feedforward: 0.0,
+            force_limit: 1e3,
+        },
+        path: Path::sine(0.0503, 1.0, 3.0).unwrap(),
+        encoder: encoder(count, 1),
+        rate: 1e4,
+        substeps: 10,
+        force_noise: 0.3,
+        force_log: ForceLog::Held,
+        seed: 1,
+    }
+    .run()
+    .unwrap()
+}
+
+/// The usual script: velocity from a smoothing polynomial, then least squares.
+fn smoothed(log: &Record, window: usize) -> stiction_identify::Estimate {
+    let step = log.time[1] - log.time[0];
+    let slope = SavitzkyGolay::new(window, 3, 1).unwrap();
+    let samples = Samples {
+        time: log.time.clone(),
+        velocity: Some(slope.apply(&log.position, step).unwrap()),
+        force: log.force.clone(),
+        ..Samples::default()
+    };
+    let raw = Conditioning {
+        source: Some(Source::Velocity),
+        source_cutoff: Cutoff::Off,
+        common_cutoff: Cutoff::Off,
+        ..Conditioning::default()
+    };
+    let record = condition(&[samples], &raw).unwrap();
+    let law = Law::new(LawKind::LuGre);
+    let settings = Settings::default();
+    identify(&record, law, &Terms::default(), 0.0, &settings, &mut Silent)
+        .unwrap()
+        .0
+}
