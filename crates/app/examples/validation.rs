@@ -15,10 +15,9 @@ fn main() -> std::io::Result<()> {
         "# Validation on measured recordings\n\n\
          Written by `cargo xtask validation`; do not edit. The recordings are not part of the project \
          (see [decisions](decisions/)); the axis files that map them are in `validation/`.\n\n\
-         Relative error = 100 rms(residual) / rms(measured force). Defaults of conditioning: zero-phase \
-         Butterworth of order 4 at a tenth of the sample rate on the position, central differences, the \
-         same filter at a twentieth of the rate on force and every regressor, thinned to just above twice \
-         that. Where a recording is treated otherwise, its recipe says so. Fits by simulation (`--method \
+         Relative error = 100 rms(residual) / rms(measured force). Conditioning as \
+         in [identification](identification.md#conditioning): cut-offs chosen by the data, delay \
+         fitted. Where a recording is treated otherwise, its recipe says so. Fits by simulation (`--method \
          output-error`) compare the position as measured.\n",
     );
     let mut last = "";

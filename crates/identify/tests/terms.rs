@@ -248,7 +248,7 @@ fn fit(record: &Record, law: Law, terms: &Terms) -> Estimate {
 fn every_law() -> impl Iterator<Item = Law> {
     LawKind::ALL
         .into_iter()
-        .filter(|kind| *kind != LawKind::ElastoPlastic)
+        .filter(|kind| *kind != LawKind::ElastoPlastic && !kind.has_elements())
         .flat_map(|kind| [Law::new(kind), Law::new(kind).asymmetric()])
 }
 

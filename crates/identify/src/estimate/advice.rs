@@ -53,6 +53,16 @@ fn cure(name: &str) -> &'static str {
              Stribeck velocity"
         }
         "mass" => "Record faster accelerations",
+        "breakaway_ratio" => {
+            "Record slow reversals that just break away, with a finer encoder or a higher rate"
+        }
+        "attraction" => "Record changes of speed while the axis slides slowly",
+        "quadratic_viscous" => "Record speeds from slow to the top speed of the axis",
+        "coulomb_load" => "Record several loads, each in both directions",
+        "coulomb_temperature" | "sigma2_temperature" => {
+            "Record the axis cold and warm, at the same speeds"
+        }
+        "delay" => "Record fast changes of speed",
         "coulomb" => "Record motion in both directions well above the Stribeck velocity",
         _ => "Record motion over more of the stroke in both directions",
     }

@@ -124,10 +124,13 @@ pub(crate) fn trace(law: &Law, p: &[f64], step: f64, velocity: &[f64], slopes: b
     let curve = Curve::new(law, &layout, p);
     if let (LawKind::ElastoPlastic, Some(i)) = (law.kind, layout.breakaway) {
         let bare = without_slopes(&layout);
-        return match (slopes, law.asymmetric) {
-            (true, false) => elasto_plastic::run::<4>(&layout, &curve, p[i], step, velocity),
-            (true, true) => elasto_plastic::run::<7>(&layout, &curve, p[i], step, velocity),
-            (false, _) => elasto_plastic::run::<0>(&bare, &curve, p[i], step, velocity),
+        return match (slopes, layout.count) {
+            (true, 4) => elasto_plastic::run::<4>(&layout, &curve, p[i], step, velocity),
+            // With the Stribeck exponent.
+            (true, 5) => elasto_plastic::run::<5>(&layout, &curve, p[i], step, velocity),
+            (true, 7) => elasto_plastic::run::<7>(&layout, &curve, p[i], step, velocity),
+            (true, 8) => elasto_plastic::run::<8>(&layout, &curve, p[i], step, velocity),
+            _ => elasto_plastic::run::<0>(&bare, &curve, p[i], step, velocity),
         };
     }
     macro_rules! run {
