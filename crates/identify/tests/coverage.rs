@@ -63,8 +63,8 @@ fn coloured_noise() {
 }
 
 /// Velocity and acceleration from a coarse encoder: what the steps and the filters shift must be
-/// counted too. The intervals are wide on purpose, because as much may be left as was found, but not by
-/// any factor.
+/// counted too. The intervals are wide on purpose, because part of the shift may be left, but not by any
+/// factor.
 #[test]
 fn encoder_steps() {
     let filters = Conditioning {

@@ -18,8 +18,8 @@ const REPLICAS: u64 = 10;
 const SEED: u64 = 1000;
 /// Part of the shift that counts as one standard deviation of its own error. A replica knows the
 /// encoder and the motion, not how the controller answered each step of the encoder; on simulated
-/// closed loops it shows between half of the shift and all of it, and as much may be left.
-const DOUBT: f64 = 1.0;
+/// closed loops it mostly shows between half of the shift and all of it.
+const DOUBT: f64 = 0.5;
 
 /// Shift of each parameter, SI, and its variance from one replica to the next.
 #[derive(Clone, Debug)]
