@@ -230,7 +230,7 @@ pub(crate) fn fit(
         .map(|(name, record)| (name, engine::predict(record, &estimate)))
         .collect();
     let mut warnings = log_warnings(&sources);
-    if axis.terms.delay == Delay::Fitted && estimate.terms.delay != Delay::Fitted {
+    if axis.terms.delay == Delay::Fitted && estimate.terms.delay == Delay::NONE {
         let text = "the delay between force and motion would be more than four samples, which is \
                     something else that the law does not explain; it is taken as none";
         warnings.push(Warning::new("delay-out-of-range", text));
@@ -258,6 +258,7 @@ pub(crate) fn fit(
             .cloned()
             .chain(note)
             .chain(assemble::correction_note(&estimate))
+            .chain(assemble::delay_note(&estimate))
             .collect(),
         terms: assemble::term_names(&estimate, motion),
     };

@@ -239,9 +239,7 @@ fn sureness(outcome: &Outcome) -> String {
         "The residual is worth about {} independent samples of {}: neighbouring residuals resemble \
          each other, and the intervals count that. What is left outside the band in the \
          autocorrelation is friction, cogging or dynamics that the law does not describe. The \
-         intervals do not cover the bias of a wrong law, nor of force and position that were logged \
-         at different instants: half a sample between them can move the micro-damping by many of \
-         its intervals.",
+         intervals do not cover the bias of a wrong law.",
         number::count(fit.effective_samples.max(0.0) as u64),
         number::count(fit.samples as u64)
     )

@@ -104,6 +104,19 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
         None if logs.iter().all(|log| log.position.is_some()) => Source::Position,
         None => Source::Velocity,
     };
+    for (i, log) in logs.iter().enumerate() {
+        let (channel, missing) = match source {
+            Source::Position => ("position", log.position.is_none()),
+            Source::Velocity => ("velocity", log.velocity.is_none()),
+        };
+        if missing {
+            return Err(Error::MissingChannel {
+                log: i + 1,
+                channel,
+                term: "the source of the conditioning",
+            });
+        }
+    }
     let from_position = source == Source::Position;
     let mut notes = vec![match source {
         Source::Position => "velocity and acceleration: central differences of the position".into(),

@@ -1,6 +1,6 @@
 //! The result of a fit: parameters with their uncertainty, residuals, and what to beware of.
 
-mod advice;
+pub(crate) mod advice;
 mod autoregression;
 mod conditioned;
 mod curve;

@@ -132,9 +132,13 @@ fn add(to: &mut Counts, more: &Counts) {
     to.thinned += more.thinned;
 }
 
+/// Part of the variance that a fit must explain to stand in for the axis. What it leaves is taken for
+/// noise of the force, and a law that misses the axis would ask for far too low a cut-off.
+const LEAST_R2: f64 = 0.99;
+
 /// Whether a fit is near enough to the axis to stand in for it.
 fn worth(fitted: &Estimate) -> bool {
-    fitted.fit.r2 > 0.5
+    fitted.fit.r2 > LEAST_R2
 }
 
 /// The conditioning at a place on the scale: the cut-off of the position, and how far below it the

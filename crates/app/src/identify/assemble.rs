@@ -10,7 +10,7 @@ use crate::result::{
 use crate::source::Source;
 use crate::symbols;
 use std::fmt::Write;
-use stiction_identify::{Estimate, Fit, Parameter, Series};
+use stiction_identify::{Delay, Estimate, Fit, Parameter, Series};
 use stiction_log::Motion;
 
 pub(super) struct Parts<'a> {
@@ -167,6 +167,16 @@ pub(super) fn correction_note(estimate: &Estimate) -> Option<String> {
         most.name,
         100.0 * correction(most) / most.value
     ))
+}
+
+/// Says of a law that is fitted without a delay that it is.
+pub(super) fn delay_note(estimate: &Estimate) -> Option<String> {
+    let without = estimate.law.kind.has_elements() && estimate.terms.delay == Delay::Fitted;
+    without.then(|| {
+        "delay between force and motion: not fitted beside a Maxwell-slip law; state it, such as the \
+         one that lugre finds"
+            .into()
+    })
 }
 
 /// Names of the linear terms that stand beside the law.

@@ -73,7 +73,7 @@ fn note(tuned: &Tuned) -> Option<String> {
     let lowest = tuned.trials.iter().map(|t| t.source_hz);
     let lowest = lowest.fold(f64::INFINITY, f64::min);
     Some(format!(
-        "cut-offs chosen among {} pairs from {lowest:.3} to {highest:.3} Hz, on simulated logs of the \
+        "cut-offs chosen among {} pairs, {lowest:.0} to {highest:.0} Hz on the position, on simulated logs of the \
          fitted axis with this encoder and noise: parameters off by {:.2} % (rms) there",
         tuned.trials.len(),
         100.0 * used.error

@@ -175,9 +175,9 @@ fn another_wins(
             "richer-law-holds-better",
             format!("{errors}: this law is too simple for the axis, its parameters are biased"),
         ));
-        if least < MUCH_BETTER * mine {
-            reasons.push(errors);
-        }
+    }
+    if least < MUCH_BETTER * mine {
+        reasons.push(errors);
     }
 }
 

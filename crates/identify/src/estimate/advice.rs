@@ -10,7 +10,7 @@ const STRONG: f64 = 0.9;
 const MOST: usize = 2;
 
 /// Adds partners and advice to every parameter that is not identifiable.
-pub(super) fn explain(parameters: &mut [Parameter], covariance: &Covariance) {
+pub(crate) fn explain(parameters: &mut [Parameter], covariance: &Covariance) {
     let correlation = covariance.correlation();
     for parameter in parameters.iter_mut().filter(|p| p.identified) {
         if parameter.identifiable {

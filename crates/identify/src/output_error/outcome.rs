@@ -1,6 +1,7 @@
 //! What a fit by simulation gives: parameters with their intervals, signals, and how far off it is.
 
 use crate::error::Error;
+use crate::estimate::advice;
 use crate::estimate::parameter::Parameter;
 use crate::estimate::uncertainty::{self, Covariance, Unknowns};
 use crate::estimate::{Estimate, Series};
@@ -231,6 +232,7 @@ pub(crate) fn describe(
             .collect(),
         names,
     };
+    advice::explain(&mut parameters, &covariance);
     let top = signals.velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let estimate = Estimate {
         law,
