@@ -111,8 +111,16 @@ pub(crate) fn fit(
         &sources,
         &[held_out.as_slice(), &beside.statics, &beside.break_away].concat(),
     )?;
+    beside.check_model(options, &sources[0])?;
     for source in sources.iter().chain(&held_out) {
         source.check_channels(&axis.terms)?;
+    }
+    let elements = options.law.is_some_and(LawKind::has_elements);
+    if axis.exponent_fitted && (elements || options.procedures.method != Method::Separable) {
+        return Err(Error::usage(
+            "stribeck_exponent = \"fit\" with another method than separable, or a Maxwell-slip law",
+            "a number; only the separable method fits it, beside laws with one curve",
+        ));
     }
     if !options.procedures.method.fits_records() {
         return procedure::run(options, axis, sources, &beside, clock, observer);

@@ -21,7 +21,7 @@ pub use axis::Axis;
 pub use error::{Error, Warning};
 pub use identify::{Method, Options, Outcome, Procedures, Simulated, identify};
 pub use model::ModelFile;
-pub use output::{Bundle, check_folder, write_atomic};
+pub use output::{Bundle, check_folder, check_inputs, write_atomic};
 pub use source::{Source, load, table};
 pub use stiction_identify::{Control, LawKind, Observer, Progress, Silent, Stage};
 

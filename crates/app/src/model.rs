@@ -11,6 +11,18 @@ pub const SCHEMA: &str = "stiction.model/1";
 /// Largest model file that is read, bytes.
 const MAX_BYTES: u64 = 1 << 20;
 
+/// Parameters that no friction has below zero, without the suffix of their direction.
+const POSITIVE: [&str; 8] = [
+    "sigma0",
+    "sigma1",
+    "sigma2",
+    "coulomb",
+    "static",
+    "stribeck_velocity",
+    "stribeck_exponent",
+    "mass",
+];
+
 /// The whole file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -195,6 +207,47 @@ impl ModelFile {
             let found = format!("{} is {}", p.name, p.value);
             return Err(refuse("parameter: ".into(), found, "finite numbers".into()));
         }
-        Ok(model)
+        match model.fault() {
+            Some((place, found, allowed)) => Err(refuse(place.into(), found, allowed.into())),
+            None => Ok(model),
+        }
+    }
+
+    /// What cannot be of a model that parsed: place, what was found, what is allowed.
+    fn fault(&self) -> Option<(&'static str, String, &'static str)> {
+        if stiction_identify::LawKind::from_name(&self.law).is_none() {
+            return Some((
+                "law: ",
+                format!("{:?}", self.law),
+                "a law that stiction knows",
+            ));
+        }
+        if !["linear", "rotary"].contains(&self.kind.as_str()) {
+            return Some(("kind: ", format!("{:?}", self.kind), "linear or rotary"));
+        }
+        for (i, p) in self.parameter.iter().enumerate() {
+            if self.parameter[..i].iter().any(|other| other.name == p.name) {
+                return Some(("parameter: ", format!("{} twice", p.name), "each once"));
+            }
+            let stem = p.name.trim_end_matches("_pos").trim_end_matches("_neg");
+            if POSITIVE.contains(&stem) && p.value < 0.0 {
+                let found = format!("{} = {}", p.name, p.value);
+                return Some(("parameter: ", found, "not negative"));
+            }
+        }
+        let CovarianceEntry { names, matrix } = &self.covariance;
+        let square = matrix.len() == names.len() && matrix.iter().all(|r| r.len() == names.len());
+        if !square {
+            let found = "a matrix that is not square".into();
+            return Some(("covariance: ", found, "one row and column for each name"));
+        }
+        for (i, name) in names.iter().enumerate() {
+            let variance = matrix[i][i];
+            if variance < 0.0 || variance.is_nan() {
+                let found = format!("a variance of {variance} for {name}");
+                return Some(("covariance: ", found, "variances that are not negative"));
+            }
+        }
+        None
     }
 }

@@ -96,6 +96,33 @@ fn temporary_beside(path: &Path) -> std::io::Result<NamedTempFile> {
         .tempfile_in(dir)
 }
 
+/// Names of the files that an identification writes.
+const WRITTEN: [&str; 4] = ["result.json", "model.toml", "report.html", "fit.csv"];
+
+/// Refuses an output folder whose files would take the place of an input.
+///
+/// # Errors
+/// With the input that would be lost.
+pub fn check_inputs<'p>(
+    dir: &Path,
+    inputs: impl IntoIterator<Item = &'p PathBuf>,
+) -> Result<(), Error> {
+    let Ok(out) = dir.canonicalize() else {
+        return Ok(());
+    };
+    for input in inputs {
+        let Ok(real) = input.canonicalize() else {
+            continue;
+        };
+        let name = real.file_name().and_then(|name| name.to_str());
+        if real.parent() == Some(out.as_path()) && name.is_some_and(|n| WRITTEN.contains(&n)) {
+            let what = "is an input and would be overwritten; choose another --out";
+            return Err(Error::output(input, what));
+        }
+    }
+    Ok(())
+}
+
 /// Refuses a folder that holds something that stiction did not write, unless `force`.
 ///
 /// A folder that is empty, absent, or holds an earlier `result.json` of ours is fine, if it can be

@@ -7,7 +7,7 @@ use crate::output;
 use crate::progress::Bar;
 use std::path::Path;
 use stiction_app::{
-    Error, LawKind, Method, Options, Outcome, Procedures, check_folder, write_atomic,
+    Error, LawKind, Method, Options, Outcome, Procedures, check_folder, check_inputs, write_atomic,
 };
 
 /// Runs a command; every error is printed here, once.
@@ -105,6 +105,17 @@ fn init(check: &arguments::Check, file: &Path, common: &Common) -> Result<Exit, 
 
 fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Error> {
     check_folder(&identify.out, identify.force)?;
+    let inputs = [
+        &identify.logs,
+        &identify.validate,
+        &identify.statics,
+        &identify.break_away,
+    ];
+    let files = inputs.into_iter().flatten();
+    check_inputs(
+        &identify.out,
+        files.chain(&identify.model).chain(&identify.axis),
+    )?;
     let options = Options {
         logs: identify.logs.clone(),
         axis: identify.axis.clone(),

@@ -158,7 +158,7 @@ impl Law {
         let velocity_neg = next(two && curve);
         let breakaway = next(self.kind == LawKind::ElastoPlastic);
         let attraction = next(elements && curve);
-        let exponent = next(curve && self.exponent_fitted);
+        let exponent = next(curve && self.exponent_fitted && !elements);
         let yields = if elements { self.elements } else { 0 };
         count += yields;
         Layout {

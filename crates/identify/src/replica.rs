@@ -141,17 +141,16 @@ impl Axis<'_> {
             deflection: 0.0,
         };
         let (mut position, mut force) = (Vec::with_capacity(n), Vec::with_capacity(n));
-        for k in 0..n {
+        for (k, other) in other.iter().enumerate() {
             let error = segment.position[k] - motion.position;
             let slip = segment.velocity[k] - motion.velocity;
-            // NaN fails this too.
-            if !(error.abs() <= self.stroke) {
+            if error.is_nan() || error.abs() > self.stroke {
                 return None;
             }
             let applied = drive.at(&segment.drive, k) + spring * error + damper * slip;
             position.push(encoder.read(motion.position + rest * noise.normal()));
             force.push(applied + self.force_noise * noise.normal());
-            let load = Load::force(applied - other[k]);
+            let load = Load::force(applied - other);
             for _ in 0..self.substeps {
                 motion = self.plant.step(motion, fine, load).motion;
             }

@@ -108,8 +108,8 @@ fn the_gradient_over_seven_samples_is_of_sixth_order() {
     let omega = std::f64::consts::TAU * 0.1;
     let sine: Vec<f64> = (0..200).map(|i| (omega * f64::from(i)).sin()).collect();
     let found = gradient_sixth_order(&sine, 1.0).unwrap();
-    for i in 3..197 {
+    for (i, slope) in found.iter().enumerate().take(197).skip(3) {
         let want = omega * (omega * i as f64).cos();
-        assert!((found[i] - want).abs() < 5e-4 * omega);
+        assert!((slope - want).abs() < 5e-4 * omega);
     }
 }

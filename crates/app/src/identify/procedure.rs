@@ -104,6 +104,27 @@ pub(super) struct Beside {
 }
 
 impl Beside {
+    /// Refuses a model of another kind of axis than the logs.
+    pub fn check_model(&self, options: &Options, first: &Source) -> Result<(), Error> {
+        let Some(model) = &self.model else {
+            return Ok(());
+        };
+        let (kind, unit) = (first.log.motion.to_string(), &first.log.force_unit);
+        if model.kind == kind && model.force_unit == *unit {
+            return Ok(());
+        }
+        let file = options.procedures.model.clone().unwrap_or_default();
+        Err(Error::usage(
+            format!(
+                "{} is of a {} axis with force in {}",
+                file.display(),
+                model.kind,
+                model.force_unit
+            ),
+            format!("a model like the logs: {kind}, force in {unit}"),
+        ))
+    }
+
     pub fn load(options: &Options, axis: &Axis) -> Result<Self, Error> {
         let procedures = &options.procedures;
         if !procedures.statics.is_empty() && procedures.model.is_some() {

@@ -279,7 +279,7 @@ impl<'a> Objective<'a> {
         match (self.delay, p.last()) {
             (Delay::Fitted, Some(&samples)) => Shift::earlier(samples),
             (Delay::Fitted, None) => Shift::NONE,
-            (Delay::Given(time), _) if time == 0.0 => Shift::NONE,
+            (Delay::Given(0.0), _) => Shift::NONE,
             (Delay::Given(time), _) => Shift::earlier(time / self.record.step()),
         }
     }

@@ -67,20 +67,7 @@ fn from_model(model: &ModelFile, options: &Options) -> Result<Known, Error> {
         names: model.covariance.names.clone(),
         matrix: model.covariance.matrix.clone(),
     };
-    let square = covariance.matrix.len() == covariance.names.len()
-        && covariance
-            .matrix
-            .iter()
-            .all(|row| row.len() == covariance.names.len());
     let file = options.procedures.model.clone().unwrap_or_default();
-    if !square {
-        return Err(Error::Config {
-            file,
-            place: "covariance: ".into(),
-            found: "a matrix that is not square".into(),
-            allowed: "one row and column for each name".into(),
-        });
-    }
     let statics = Statics::new(parameters, covariance, exponent).map_err(|e| Error::Config {
         file,
         place: "parameter: ".into(),
