@@ -247,7 +247,7 @@ pub(crate) fn fit(
         let text = "the comparison of laws was interrupted and is left out; the fit is complete";
         warnings.push(Warning::new("interrupted", text));
     }
-    let trust = trust::judge(
+    let mut trust = trust::judge(
         &estimate,
         record.moves_both_ways(),
         &sources,
@@ -255,6 +255,12 @@ pub(crate) fn fit(
         motion,
         &mut warnings,
     );
+    let lost = |p: &stiction_identify::Parameter| !p.identifiable;
+    if two_step.is_some() && estimate.parameter("sigma0").is_some_and(lost) {
+        trust.trustworthy = false;
+        let text = "sigma0 is not determined, and it is what the second step is for";
+        trust.reasons.push(text.into());
+    }
     let resolved = ResolvedAxis {
         name: axis.name.clone(),
         kind: motion.to_string(),
