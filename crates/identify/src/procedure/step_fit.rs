@@ -19,6 +19,8 @@ use crate::separable::linear::dot;
 use nalgebra::{DMatrix, DVector};
 use stiction_friction::Direction;
 
+/// Phase of the mass on its bristles in one sample, rad, beyond which the log cannot show its swing.
+const FASTEST: f64 = std::f64::consts::PI;
 /// Starts: shares of the inversion's sigma0, and damping ratios.
 const STIFFER: [f64; 4] = [1.0, 1.3, 2.0, 4.0];
 const RATIOS: [f64; 4] = [0.03, 0.1, 0.3, 0.9];
@@ -154,6 +156,13 @@ pub fn fit_steps(
         inverted.sigma0 * rise * rise
     });
     let steepest = 2.0 * (inverted.sigma0 / mass).sqrt();
+    if let Some(found) = settings.mass.filter(|_| 0.5 * steepest * step > FASTEST) {
+        return Err(Error::Setting {
+            name: "mass",
+            found,
+            allowed: "heavier: this mass would swing on the bristles faster than the log samples",
+        });
+    }
     let mut problem = Problem {
         steps: responses.iter().map(|r| r.steps(steepest)).collect(),
         responses,
