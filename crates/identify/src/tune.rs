@@ -80,18 +80,13 @@ pub fn tune(
     }
     let rate = 1.0 / condition(logs, wanted)?.step();
     let mut at = START;
-    let mut bounds = None;
     for round in 0..ROUNDS {
         let trial = cutoffs(wanted, rate, at);
         let Ok(record) = condition(logs, &trial) else {
             break;
         };
-        let settings = Settings {
-            bounds: bounds.clone(),
-            ..settings.clone()
-        };
-        let found = separable(&record, law, terms, &settings, observer)?;
-        add(&mut tuned.counts, &found.counts);
+        let found = separable(&record, law, terms, settings, observer)?;
+        tuned.counts.add(&found.counts);
         let fitted = estimate(&record, law, terms, &found, 0.0);
         if found.status == Status::Interrupted || !worth(&fitted) {
             break;
@@ -114,22 +109,15 @@ pub fn tune(
         let Some(best) = search.walk(at, round, observer) else {
             break;
         };
-        add(&mut tuned.counts, &search.counts);
+        tuned.counts.add(&search.counts);
         tuned.trials = search.trials();
         tuned.conditioning = cutoffs(wanted, rate, best);
         if best == at {
             break;
         }
         at = best;
-        bounds = None;
     }
     Ok(tuned)
-}
-
-fn add(to: &mut Counts, more: &Counts) {
-    to.cost += more.cost;
-    to.sensitivities += more.sensitivities;
-    to.thinned += more.thinned;
 }
 
 /// Part of the variance that a fit must explain to stand in for the axis. What it leaves is taken for
