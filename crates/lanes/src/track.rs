@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 mod build;
 
 /// Nodes that a trajectory alone takes at a time; a track is padded to a multiple.
-pub(crate) const BLOCK: usize = 64;
+pub(crate) const BLOCK: usize = 128;
 /// Nodes that a batch takes at a time.
 pub(crate) const TILE: usize = 32;
 /// Node `t` of a tile shares its division with node `t + HALF`. That it is these two is part of the

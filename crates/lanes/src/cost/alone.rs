@@ -42,25 +42,24 @@ impl<const POWER: bool> Kernel for Alone<'_, POWER> {
         let blocks = blocks.zip(track.marks.as_chunks::<BLOCK>().0);
         for ((((speed, ln), half), force), marks) in blocks {
             block.fill::<POWER>(&terms.curve, speed, ln, half);
-            let mut y = [0.0; BLOCK];
             for t in 0..BLOCK {
-                let g = block.g.0[t + 1];
+                let (g, q) = (block.g.0[t + 1], block.q.0[t + 1]);
                 w = fma(block.keep.0[t], w, block.add.0[t]);
-                if marks[t] & RESTART != 0 {
+                let mark = marks[t];
+                if mark & (RESTART | REVERSE | KEPT) == KEPT {
+                    let e = residual(&terms, w + g, q, speed[t], force[t]);
+                    cost = fma(e, e, cost);
+                    continue;
+                }
+                if mark & RESTART != 0 {
                     w = -g;
                 }
-                y[t] = w + g;
-                if marks[t] & REVERSE != 0 {
-                    w = reversed(w, g);
+                if mark & KEPT != 0 {
+                    let e = residual(&terms, w + g, q, speed[t], force[t]);
+                    cost = fma(e, e, cost);
                 }
-            }
-            let mut e = [0.0; BLOCK];
-            for t in 0..BLOCK {
-                e[t] = residual(&terms, y[t], block.q.0[t + 1], speed[t], force[t]);
-            }
-            for t in 0..BLOCK {
-                if marks[t] & KEPT != 0 {
-                    cost = fma(e[t], e[t], cost);
+                if mark & REVERSE != 0 {
+                    w = reversed(w, g);
                 }
             }
         }
