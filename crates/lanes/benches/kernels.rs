@@ -2,7 +2,9 @@
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use stiction_lanes::{Candidate, InstructionSet, Scheme, Segment, Time, Track, costs};
+use stiction_lanes::{
+    Candidate, InstructionSet, Scheme, Segment, Time, Track, Trial, costs, sums, sums_alone,
+};
 
 fn main() {
     // One thread, so that the figure is that of a core.
@@ -69,4 +71,33 @@ fn cost_by_instruction_set(bencher: Bencher, name: &str) {
     bencher
         .counter(ItemsCount::new(16 * SAMPLES))
         .bench_local(|| costs(&track, &candidates, Scheme::Explin, set));
+}
+
+fn trials(count: usize) -> Vec<Trial> {
+    (0..count)
+        .map(|i| Trial {
+            ln_kappa: libm::log(6e3) + 0.01 * i as f64,
+            ln_excess: libm::log(0.5),
+            ln_velocity: libm::log(5e-3),
+            exponent: 2.0,
+        })
+        .collect()
+}
+
+/// What a Gauss-Newton step of eight trials needs.
+#[divan::bench(args = [8, 64], sample_count = 20)]
+fn normal(bencher: Bencher, count: usize) {
+    let (track, trials) = (track(), trials(count));
+    bencher
+        .counter(ItemsCount::new(count * SAMPLES))
+        .bench_local(|| sums(&track, &trials, InstructionSet::best()));
+}
+
+/// What a Gauss-Newton step of one trial needs.
+#[divan::bench(sample_count = 20)]
+fn normal_alone(bencher: Bencher) {
+    let (track, trial) = (track(), trials(1)[0]);
+    bencher
+        .counter(ItemsCount::new(SAMPLES))
+        .bench_local(|| sums_alone(&track, &trial, InstructionSet::best()));
 }

@@ -110,12 +110,9 @@ impl Curve {
 pub(crate) fn intervals(half: [f64; 2], ends: [[Node; 2]; 2]) -> [Interval; 2] {
     let x = |i: usize| at_least(half[i] * (ends[i][0].q + ends[i][1].q), LONGEST);
     let decays = decays([x(0), x(1)]);
-    let interval = |i: usize| {
-        let (keep, mean) = decays[i];
-        Interval {
-            keep,
-            add: (ends[i][0].g - ends[i][1].g) * mean,
-        }
+    let interval = |i: usize| Interval {
+        keep: decays[i].keep,
+        add: (ends[i][0].g - ends[i][1].g) * decays[i].mean,
     };
     [interval(0), interval(1)]
 }

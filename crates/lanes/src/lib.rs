@@ -8,6 +8,9 @@
 //! |---|---|
 //! | a recorded motion, made ready once | [`Track::new`] |
 //! | costs of candidates with all parameters given | [`costs`] |
+//! | what a step of the separable search needs, for many trials | [`sums`], [`shared_sums`] |
+//! | the same for one trial | [`sums_alone`] |
+//! | the columns of one trial, written out | [`trace`] |
 //!
 //! Loops over `[f64; N]` are compiled for several instruction sets, of which [`InstructionSet::best`] is
 //! taken at run time. A result has the same bits with any of them, with any number of threads, and in any
@@ -20,11 +23,17 @@ mod dispatch;
 mod error;
 mod exp;
 mod lane_array;
+mod normal;
+mod sensitive;
 mod time_lanes;
+mod trace;
 mod track;
 
 pub use candidate::Candidate;
 pub use cost::{Scheme, costs};
 pub use dispatch::InstructionSet;
 pub use error::Error;
+pub use normal::{Sums, Trial, shared_sums, sums, sums_alone};
+pub use sensitive::OWN;
+pub use trace::{Columns, trace};
 pub use track::{Segment, Time, Track};

@@ -1,7 +1,7 @@
 //! One candidate: what its nodes and intervals contribute, with the nodes in lanes.
 
 use crate::curve::{Curve, Node, START, Speed, intervals};
-use crate::lane_array::Aligned;
+use crate::lane_array::{Aligned, chunk};
 use crate::track::{BLOCK, HALF, TILE};
 
 /// Levels and weights along a block of nodes; `g[0]` and `q[0]` belong to the node before it.
@@ -35,29 +35,21 @@ impl Block {
         self.g.0[0] = self.g.0[BLOCK];
         self.q.0[0] = self.q.0[BLOCK];
         for at in (0..BLOCK).step_by(TILE) {
-            let (g, q) = levels::<POWER>(curve, tile(speed, at), tile(ln, at));
+            let (g, q) = levels::<POWER>(curve, chunk(speed, at), chunk(ln, at));
             self.g.0[at + 1..at + 1 + TILE].copy_from_slice(&g);
             self.q.0[at + 1..at + 1 + TILE].copy_from_slice(&q);
         }
         for at in (0..BLOCK).step_by(TILE) {
             let (g, q) = (&self.g.0, &self.q.0);
             let (keep, add) = weights(
-                tile(half_step, at),
-                [tile(g, at), tile(g, at + 1)],
-                [tile(q, at), tile(q, at + 1)],
+                chunk(half_step, at),
+                [chunk(g, at), chunk(g, at + 1)],
+                [chunk(q, at), chunk(q, at + 1)],
             );
             self.keep.0[at..at + TILE].copy_from_slice(&keep);
             self.add.0[at..at + TILE].copy_from_slice(&add);
         }
     }
-}
-
-/// The tile that starts at a node.
-#[inline(always)]
-pub(crate) fn tile(values: &[f64], at: usize) -> &[f64; TILE] {
-    values[at..]
-        .first_chunk()
-        .expect("blocks are whole tiles and one node before them")
 }
 
 #[inline(always)]

@@ -205,7 +205,7 @@ mod tests {
         assert_eq!(track.half_step[..4], [0.0, 0.25, 0.75, 1.0]);
         assert_eq!(track.marks[1], REVERSE);
         assert_eq!(track.force[..4], [1.0, 0.0, -2.0, -3.0]);
-        assert_eq!((track.nodes(), track.samples()), (64, 3));
+        assert_eq!((track.nodes(), track.samples()), (BLOCK, 3));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 #![allow(dead_code)]
 
 use proptest::prelude::*;
-use stiction_lanes::{Candidate, Segment, Time, Track};
+use stiction_lanes::{Candidate, Segment, Time, Track, Trial};
 
 /// A sine that starts at rest and passes through zero between samples.
 pub fn sine(samples: usize, step: f64, amplitude: f64, hertz: f64) -> Vec<f64> {
@@ -87,4 +87,14 @@ pub fn candidate() -> impl Strategy<Value = Candidate> {
 pub fn motion() -> impl Strategy<Value = Vec<f64>> {
     let v = prop_oneof![3 => -0.3..0.3_f64, 2 => -1e-3..1e-3_f64, 1 => Just(0.0)];
     prop::collection::vec(v, 2..200)
+}
+
+/// The nonlinear part of a candidate.
+pub fn trial(c: &Candidate) -> Trial {
+    Trial {
+        ln_kappa: libm::log(c.stiffness / c.coulomb),
+        ln_excess: libm::log(c.static_friction / c.coulomb - 1.0),
+        ln_velocity: libm::log(c.stribeck_velocity),
+        exponent: c.exponent,
+    }
 }

@@ -1,0 +1,165 @@
+//! Sums from which variable projection takes its next step.
+
+use crate::curve::Curve;
+use crate::dispatch::InstructionSet;
+use crate::exp::fma;
+use crate::sensitive::OWN;
+use crate::track::KEPT;
+use crate::{Error, Track};
+use rayon::prelude::*;
+use stiction_friction::ParamError;
+
+pub(crate) mod alone;
+mod batch;
+mod gram;
+
+/// The nonlinear unknowns of the separable form of the LuGre law, as logarithms.
+///
+/// ```text
+/// eta' = kappa (v - |v| eta/gh(v)),     gh(v) = 1 + (r - 1) exp(-|v/vs|^delta)
+/// u    = Fc eta + sigma1 (v - |v| eta/gh) + sigma2 v + ...
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trial {
+    /// `ln kappa` with `kappa = sigma0/Fc` in 1/m (1/rad).
+    pub ln_kappa: f64,
+    /// `ln(r - 1)` with `r = Fs/Fc`.
+    pub ln_excess: f64,
+    /// `ln vs`, vs in m/s (rad/s).
+    pub ln_velocity: f64,
+    /// delta > 0, not an unknown.
+    pub exponent: f64,
+}
+
+impl Trial {
+    /// Every logarithm below 230 in magnitude: numbers from 1e-100 to 1e100.
+    pub(crate) fn curve(&self) -> Result<Curve, ParamError> {
+        let read = |name, ln: f64| {
+            if ln.abs() <= 230.0 {
+                return Ok(libm::exp(ln));
+            }
+            Err(ParamError::new(name, ln, "a magnitude of at most 230"))
+        };
+        ParamError::positive("exponent", self.exponent)?;
+        Ok(Curve::new(
+            read("ln_kappa", self.ln_kappa)?,
+            read("ln_excess", self.ln_excess)?,
+            read("ln_velocity", self.ln_velocity)?,
+            self.exponent,
+        ))
+    }
+}
+
+/// Sums of products over the samples that count, of the columns that a trial makes with each other and with
+/// those that all trials share.
+///
+/// A trial's own columns are, in this order, `eta`; `rate`, that is `v - |v| eta/gh`; the derivatives of eta
+/// with respect to `ln kappa`, `ln(r - 1)`, `ln vs`; and those of rate. Shared are the measured force, the
+/// velocity, and the further columns of the track.
+///
+/// With the linear coefficients c of eta and rate, column k of the Jacobian is
+/// `c[0] own[2 + k] + c[1] own[5 + k]`: its products with anything are sums of rows of these arrays, and so
+/// are the normal equations of the linear problem and the Jacobian of Kaufman 1975 (doi 10.1007/BF01932995).
+///
+/// A residual that is taken from sums of squares has lost what is small beside the measured force: its sum
+/// of squares is good to about 1e-15 of that of the force.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sums {
+    /// `own[i][j]`: own column i times own column j; symmetric.
+    pub own: [[f64; OWN]; OWN],
+    /// `shared[s][i]`: shared column s times own column i.
+    pub shared: Vec<[f64; OWN]>,
+}
+
+/// Sums for each of many trials, which advance together in lanes.
+///
+/// Spread over the current rayon pool. The bits of a trial's sums depend on track and trial only. An
+/// overflow gives sums that are not finite.
+///
+/// ```
+/// # use stiction_lanes::{InstructionSet, Segment, Time, Track, Trial, sums};
+/// # let velocity: Vec<f64> = (0..500).map(|k| 0.02 * (k as f64 * 0.05).sin()).collect();
+/// # let force: Vec<f64> = velocity.iter().map(|v| 20.0 * v.signum() + 60.0 * v).collect();
+/// # let segment = Segment { time: Time::Step(1e-2), velocity: &velocity, force: &force, keep: &[], columns: &[] };
+/// # let track = Track::new(&[segment])?;
+/// let trial = |kappa: f64| Trial {
+///     ln_kappa: kappa.ln(),
+///     ln_excess: 0.5_f64.ln(),
+///     ln_velocity: 5e-3_f64.ln(),
+///     exponent: 2.0,
+/// };
+/// let found = sums(&track, &[trial(5e3), trial(6e3)], InstructionSet::best())?;
+/// // Fc alone against the measured force:
+/// let coulomb = found[0].shared[0][0] / found[0].own[0][0]; // N
+/// assert!((15.0..25.0).contains(&coulomb));
+/// # Ok::<(), stiction_lanes::Error>(())
+/// ```
+pub fn sums(
+    track: &Track,
+    trials: &[Trial],
+    instructions: InstructionSet,
+) -> Result<Vec<Sums>, Error> {
+    let curves = trials
+        .iter()
+        .enumerate()
+        .map(|(index, trial)| {
+            trial
+                .curve()
+                .map_err(|source| Error::Candidate { index, source })
+        })
+        .collect::<Result<Vec<Curve>, Error>>()?;
+    let groups: Vec<Vec<Sums>> = curves
+        .par_chunks(gram::LANES)
+        .map(|group| {
+            if group.iter().any(|c| c.exponent != 2.0) {
+                instructions.run(batch::Batch::<true>::new(track, group))
+            } else {
+                instructions.run(batch::Batch::<false>::new(track, group))
+            }
+        })
+        .collect();
+    Ok(groups.into_iter().flatten().collect())
+}
+
+/// Sums for one trial, with the samples in lanes: for a descent, which has one trial at a time.
+///
+/// The same as those of [`sums`] to rounding, not to the bit: they add up in another order.
+pub fn sums_alone(
+    track: &Track,
+    trial: &Trial,
+    instructions: InstructionSet,
+) -> Result<Sums, Error> {
+    let curve = trial
+        .curve()
+        .map_err(|source| Error::Candidate { index: 0, source })?;
+    Ok(if curve.exponent == 2.0 {
+        instructions.run(alone::Alone::<false>::new(track, curve))
+    } else {
+        instructions.run(alone::Alone::<true>::new(track, curve))
+    })
+}
+
+/// Sums of products of the columns that all trials share, over the samples that count:
+/// `[force, velocity, columns..]` with each other.
+pub fn shared_sums(track: &Track) -> Vec<Vec<f64>> {
+    let columns = shared(track);
+    let product = |a: &[f64], b: &[f64]| {
+        let counts = track.marks.iter().map(|marks| marks & KEPT != 0);
+        let pairs = a.iter().zip(b).zip(counts);
+        pairs.fold(
+            0.0,
+            |sum, ((a, b), counts)| {
+                if counts { fma(*a, *b, sum) } else { sum }
+            },
+        )
+    };
+    let row = |a: &&[f64]| columns.iter().map(|b| product(a, b)).collect();
+    columns.iter().map(row).collect()
+}
+
+/// The shared columns in the direction of motion.
+fn shared(track: &Track) -> Vec<&[f64]> {
+    let known: [&[f64]; 2] = [&track.force, &track.speed];
+    let further = track.columns.iter().map(Vec::as_slice);
+    known.into_iter().chain(further).collect()
+}
