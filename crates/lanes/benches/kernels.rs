@@ -3,7 +3,8 @@
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use stiction_lanes::{
-    Candidate, InstructionSet, Scheme, Segment, Time, Track, Trial, costs, sums, sums_alone,
+    Axis, Candidate, Drive, InstructionSet, Measured, Motion, Scheme, Segment, Time, Track, Trial,
+    costs, plants, sums, sums_alone,
 };
 
 fn main() {
@@ -100,4 +101,29 @@ fn normal_alone(bencher: Bencher) {
     bencher
         .counter(ItemsCount::new(SAMPLES))
         .bench_local(|| sums_alone(&track, &trial, InstructionSet::best()));
+}
+
+/// A mass of 4 kg under a sine of 60 N.
+#[divan::bench(args = [16, 64], sample_count = 10)]
+fn midpoint(bencher: Bencher, count: usize) {
+    let w = 2.0 * std::f64::consts::PI * 1e-4;
+    let force: Vec<f64> = (0..SAMPLES)
+        .map(|k| 60.0 * libm::sin(w * k as f64))
+        .collect();
+    let axes: Vec<Axis> = candidates(count)
+        .into_iter()
+        .map(|friction| Axis {
+            mass: 4.0,
+            friction,
+        })
+        .collect();
+    let drive = Drive {
+        step: 1e-4,
+        force: &force,
+        start: Motion::default(),
+        measured: Measured::Position(&force),
+    };
+    bencher
+        .counter(ItemsCount::new(count * SAMPLES))
+        .bench_local(|| plants(&drive, &axes, InstructionSet::best()));
 }

@@ -108,6 +108,14 @@ pub(crate) fn exp(x: f64) -> f64 {
     Parts::of(at_least(x, LOWEST)).exp()
 }
 
+/// `expm1(x)` for `x` in -700..=0; relative error below 1e-15.
+#[inline(always)]
+pub(crate) fn expm1(x: f64) -> f64 {
+    let parts = Parts::of(x);
+    let grown = fma(parts.square, parts.q, parts.r);
+    fma(parts.scale, grown, parts.scale - 1.0)
+}
+
 /// What an interval of length `a` does to a deviation.
 #[derive(Clone, Copy)]
 pub(crate) struct Decay {
@@ -179,6 +187,14 @@ mod tests {
         assert!(absolute <= 1.2e-16, "{absolute:e}");
         assert_eq!((exp(0.0), exp(-0.0)), (1.0, 1.0));
         assert_eq!(exp(f64::NEG_INFINITY), exp(-700.0));
+    }
+
+    #[test]
+    fn expm1_is_libms() {
+        let error = |x: f64| (expm1(x) / libm::expm1(x) - 1.0).abs();
+        let worst = arguments().map(error).fold(0.0, f64::max);
+        assert!(worst < 1e-15, "{worst:e}");
+        assert_eq!(expm1(0.0), 0.0);
     }
 
     /// The mean against libm's expm1.

@@ -10,6 +10,7 @@
 //! | costs of candidates with all parameters given | [`costs`] |
 //! | what a step of the separable search needs, for many trials | [`sums`], [`shared_sums`] |
 //! | the same for one trial | [`sums_alone`] |
+//! | the motion of a mass under a given force, and its cost | [`plants`] |
 //! | the columns of one trial, written out | [`trace`] |
 //!
 //! Loops over `[f64; N]` are compiled for several instruction sets, of which [`InstructionSet::best`] is
@@ -24,6 +25,7 @@ mod error;
 mod exp;
 mod lane_array;
 mod normal;
+mod plant;
 mod sensitive;
 mod time_lanes;
 mod trace;
@@ -34,6 +36,7 @@ pub use cost::{Scheme, costs};
 pub use dispatch::InstructionSet;
 pub use error::Error;
 pub use normal::{Sums, Trial, shared_sums, sums, sums_alone};
+pub use plant::{Axis, Drive, Measured, Motion, Outcome, plants};
 pub use sensitive::OWN;
 pub use trace::{Columns, trace};
 pub use track::{Segment, Time, Track};

@@ -1,0 +1,159 @@
+//! A mass with friction under a given force: many candidates at a time.
+
+use crate::dispatch::InstructionSet;
+use crate::{Candidate, Error};
+use rayon::prelude::*;
+use stiction_friction::ParamError;
+
+mod midpoint;
+
+/// An axis that a search tries.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axis {
+    /// Mass, finite and > 0, kg (kg m^2).
+    pub mass: f64,
+    /// Its friction.
+    pub friction: Candidate,
+}
+
+/// Where an axis is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// Position, m (rad).
+    pub position: f64,
+    /// Velocity, m/s (rad/s).
+    pub velocity: f64,
+    /// Bristle deflection, m (rad).
+    pub deflection: f64,
+}
+
+/// What a simulated motion is compared with, at the end of each step.
+#[derive(Clone, Copy, Debug)]
+pub enum Measured<'a> {
+    /// Position, m (rad).
+    Position(&'a [f64]),
+    /// Velocity, m/s (rad/s).
+    Velocity(&'a [f64]),
+}
+
+/// A force that drives an axis from a known start, and the motion that was measured.
+#[derive(Clone, Copy, Debug)]
+pub struct Drive<'a> {
+    /// Time step, finite and > 0, s.
+    pub step: f64,
+    /// Force in the middle of each step, finite, N (N m).
+    pub force: &'a [f64],
+    /// Where all axes start; finite.
+    pub start: Motion,
+    /// What was measured, finite, one value a step.
+    pub measured: Measured<'a>,
+}
+
+/// What became of an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// Sum of squares of measured minus simulated motion over all steps, m^2 or m^2/s^2 (rad^2, rad^2/s^2);
+    /// infinite where it overflows, never NaN.
+    pub cost: f64,
+    /// Where the axis is after the last step.
+    pub end: Motion,
+}
+
+/// Axes that share the lanes.
+const LANES: usize = 16;
+
+/// Simulates every axis under the drive with the implicit-midpoint step MID:
+///
+/// ```text
+/// 2 M (w - v)/h = u - [sigma0 (z + z+(w))/2 + sigma1 (z+(w) - z)/h + sigma2 w]
+/// z+(w) = z + (z - sgn(w) g(w)/sigma0) expm1(-h sigma0 |w|/g(w)),   x+ = x + h w,  v+ = 2 w - v
+/// ```
+/// Second order and A-stable; keep `h sqrt(sigma0/M)` below about 2. The equation is solved by Newton's method
+/// inside a bracket; an axis that is solved waits for the others in its lanes.
+///
+/// Spread over the current rayon pool. The bits of an outcome depend on drive and axis only.
+///
+/// ```
+/// use stiction_lanes::{Axis, Candidate, Drive, InstructionSet, Measured, Motion, plants};
+///
+/// let friction = Candidate::gaussian([1.2e5, 600.0, 60.0, 20.0, 30.0, 5e-3]);
+/// let axes = [4.0, 5.0].map(|mass| Axis { mass, friction }); // kg
+/// let drive = Drive {
+///     step: 1e-3,              // s
+///     force: &[50.0; 2000],    // N
+///     start: Motion::default(),
+///     measured: Measured::Velocity(&[0.5; 2000]),
+/// };
+/// let found = plants(&drive, &axes, InstructionSet::best())?;
+/// assert!((found[0].end.velocity - 0.5).abs() < 1e-6); // (50 N - Fc)/sigma2
+/// assert!(found[0].cost < found[1].cost);
+/// # Ok::<(), stiction_lanes::Error>(())
+/// ```
+pub fn plants(
+    drive: &Drive,
+    axes: &[Axis],
+    instructions: InstructionSet,
+) -> Result<Vec<Outcome>, Error> {
+    check_drive(drive)?;
+    for (index, axis) in axes.iter().enumerate() {
+        check_axis(axis).map_err(|source| Error::Candidate { index, source })?;
+    }
+    let groups: Vec<Vec<Outcome>> = axes
+        .par_chunks(LANES)
+        .map(|group| {
+            if group.iter().any(|a| a.friction.exponent != 2.0) {
+                instructions.run(midpoint::Midpoint::<LANES, true>::new(drive, group))
+            } else {
+                instructions.run(midpoint::Midpoint::<LANES, false>::new(drive, group))
+            }
+        })
+        .collect();
+    Ok(groups.into_iter().flatten().collect())
+}
+
+fn check_axis(axis: &Axis) -> Result<(), ParamError> {
+    ParamError::positive("mass", axis.mass)?;
+    axis.friction.law().map(|_| ())
+}
+
+fn check_drive(drive: &Drive) -> Result<(), Error> {
+    if !(drive.step > 0.0 && drive.step.is_finite()) {
+        return Err(Error::Step {
+            segment: 0,
+            found: drive.step,
+        });
+    }
+    let (channel, measured) = match drive.measured {
+        Measured::Position(x) => ("position", x),
+        Measured::Velocity(v) => ("velocity", v),
+    };
+    if measured.len() != drive.force.len() {
+        return Err(Error::Length {
+            segment: 0,
+            channel: "measured",
+            found: measured.len(),
+            expected: drive.force.len(),
+        });
+    }
+    let Motion {
+        position,
+        velocity,
+        deflection,
+    } = drive.start;
+    for (channel, values) in [
+        ("force", drive.force),
+        (channel, measured),
+        ("start", &[position, velocity, deflection]),
+    ] {
+        if let Some(sample) = values.iter().position(|x| !x.is_finite()) {
+            return Err(Error::Sample {
+                segment: 0,
+                channel,
+                sample,
+                found: values[sample],
+                allowed: "finite",
+            });
+        }
+    }
+    Ok(())
+}
