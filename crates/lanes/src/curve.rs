@@ -58,6 +58,9 @@ pub(crate) struct Node {
 /// Before the first node: unloaded.
 pub(crate) const START: Node = Node { g: 1.0, q: 0.0 };
 
+/// Added wherever a deviation could die away into the numbers below the normal range, which are slow.
+pub(crate) const FLOOR: f64 = 1e-140;
+
 /// The weights of an interval: `w+ = keep w + add`.
 #[derive(Clone, Copy)]
 pub(crate) struct Interval {

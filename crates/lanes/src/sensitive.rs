@@ -7,11 +7,15 @@
 //! W+ = exp(-A) W - (dgb/dp - dga/dp) mean - M dA/dp
 //! ```
 
-use crate::curve::{Curve, Speed};
-use crate::exp::{LONGEST, LOWEST, at_least, decays, exp, fma};
+use crate::curve::{Curve, FLOOR, Speed};
+use crate::exp::{LONGEST, at_least, decays, exp, fma};
 
 /// Unknowns of the trial.
 pub(crate) const UNKNOWNS: usize = 3;
+
+/// Exponents of the Stribeck curve are held above this: what is left of the excess is no part of the level,
+/// and its square is still a normal number.
+const LEAST: f64 = -80.0;
 
 /// A node: its level, speed over level, and the derivatives of the level; `kappa` has none.
 #[derive(Clone, Copy)]
@@ -80,7 +84,7 @@ impl Interval {
 /// Two nodes with one division.
 #[inline(always)]
 pub(crate) fn nodes<const POWER: bool>(curve: &Curve, v: [Speed; 2]) -> [Node; 2] {
-    let exponent = |v: Speed| at_least(curve.exponent::<POWER>(v), LOWEST);
+    let exponent = |v: Speed| at_least(curve.exponent::<POWER>(v), LEAST);
     let exponents = [exponent(v[0]), exponent(v[1])];
     let falls = [
         curve.excess * exp(exponents[0]),
@@ -115,12 +119,12 @@ pub(crate) fn intervals(curve: &Curve, half: [f64; 2], ends: [[Node; 2]; 2]) -> 
         let length = |k: usize| scale[i] * fma(a.q, a.relative[k], b.q * b.relative[k]);
         Interval {
             keep: decay.keep,
-            add: fall * decay.mean,
+            add: fma(fall, decay.mean, FLOOR),
             bend: -(fall * decay.slope),
             length_slope: [-x[i], length(0), length(1)],
             add_slope: [
-                (a.slope[0] - b.slope[0]) * decay.mean,
-                (a.slope[1] - b.slope[1]) * decay.mean,
+                fma(a.slope[0] - b.slope[0], decay.mean, FLOOR),
+                fma(a.slope[1] - b.slope[1], decay.mean, FLOOR),
             ],
         }
     };
@@ -132,7 +136,7 @@ pub(crate) fn intervals(curve: &Curve, half: [f64; 2], ends: [[Node; 2]; 2]) -> 
 pub(crate) fn slope_adds(w: f64, step: &Interval) -> [f64; UNKNOWNS] {
     let moved = fma(step.keep, w, step.bend);
     [
-        -(moved * step.length_slope[0]),
+        fma(-moved, step.length_slope[0], FLOOR),
         fma(-moved, step.length_slope[1], step.add_slope[0]),
         fma(-moved, step.length_slope[2], step.add_slope[1]),
     ]

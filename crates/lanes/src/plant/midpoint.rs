@@ -201,7 +201,7 @@ impl<const N: usize, const POWER: bool> Kernel for Midpoint<'_, N, POWER> {
         let mut cost = Aligned([0.0; N]);
         let zero = Aligned([0.0; N]);
         let mut search = Search {
-            w: zero,
+            w: v,
             low: zero,
             high: zero,
             last_move: zero,
@@ -211,11 +211,11 @@ impl<const N: usize, const POWER: bool> Kernel for Midpoint<'_, N, POWER> {
             search.bracket(all, &v.0, force);
             for _ in 0..MOST_EVALUATIONS {
                 search.improve::<POWER>(all, &v.0, &eta.0, force);
-                let mut open = 0.0;
+                let mut open = 0;
                 for j in 0..N {
-                    open += search.open.0[j];
+                    open |= search.open.0[j].to_bits();
                 }
-                if open == 0.0 {
+                if open == 0 {
                     break;
                 }
             }
@@ -258,7 +258,9 @@ impl<const N: usize> Search<N> {
             let high = at_least(free, 0.0) + reach;
             self.low.0[j] = low;
             self.high.0[j] = high;
-            self.w.0[j] = at_most(at_least(v[j], low), high);
+            // As the velocity went on until now.
+            let guess = fma(2.0, v[j], -self.w.0[j]);
+            self.w.0[j] = at_most(at_least(guess, low), high);
             self.last_move.0[j] = high - low;
             self.open.0[j] = 1.0;
         }

@@ -1,0 +1,205 @@
+#!/usr/bin/env python3
+"""The batch kernels beside what a Python user would write: numba, the population in SIMD lanes.
+
+    python3 bench/lanes/compare.py [ROUNDS]
+
+Makes its own virtual environment in target/bench-lanes, builds the Rust example, and runs both in turn on one
+record (3 s at 10 kHz, the velocity a sine, 1 % noise on the force) with the same random candidates. Prints the
+least time of each in ns per candidate and sample, on one core.
+"""
+
+import datetime
+import os
+import platform
+import subprocess
+import sys
+import venv
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+WORK = ROOT / "target" / "bench-lanes"
+PYTHON = WORK / "venv" / "bin" / "python"
+WANTED = ["numpy", "numba"]
+LANES = 32
+STEP = 1e-4
+# sigma0, sigma1, sigma2, Fc, Fs, vs
+TRUTH = (1.2e5, 600.0, 60.0, 20.0, 30.0, 5e-3)
+CANDIDATES = 256
+
+
+def in_environment():
+    """Starts again inside the environment, made if it is not there."""
+    if Path(sys.prefix) == WORK / "venv":
+        return
+    if not PYTHON.exists():
+        venv.create(WORK / "venv", with_pip=True)
+        subprocess.check_call([PYTHON, "-m", "pip", "install", "--quiet", *WANTED])
+    os.execv(PYTHON, [str(PYTHON), __file__, *sys.argv[1:]])
+
+
+def kernels():
+    """numba's kernel: cost of a population, each interval's velocity held at its mean."""
+    import numba
+    import numpy as np
+    from llvmlite import ir
+    from numba.core import types
+    from numba.extending import intrinsic
+
+    @intrinsic
+    def as_float(context, bits):
+        def generate(ctx, builder, signature, arguments):
+            return builder.bitcast(arguments[0], ir.DoubleType())
+
+        return types.float64(types.int64), generate
+
+    # numba from PyPI has no vector exp, so it gets one: Taylor of degree 12 after taking powers of two out.
+    @numba.njit(inline="always")
+    def fast_exp(x):
+        x = max(x, -700.0)
+        n = np.floor(x * 1.4426950408889634 + 0.5)
+        r = (x - n * 0.6931471803691238) - n * 1.9082149292705877e-10
+        p = 1.0 / 479001600.0
+        p = p * r + 1.0 / 39916800.0
+        p = p * r + 1.0 / 3628800.0
+        p = p * r + 1.0 / 362880.0
+        p = p * r + 1.0 / 40320.0
+        p = p * r + 1.0 / 5040.0
+        p = p * r + 1.0 / 720.0
+        p = p * r + 1.0 / 120.0
+        p = p * r + 1.0 / 24.0
+        p = p * r + 1.0 / 6.0
+        p = p * r + 0.5
+        p = p * r + 1.0
+        p = p * r + 1.0
+        return p * as_float((np.int64(n) + 1023) << 52)
+
+    @numba.njit(fastmath=True, error_model="numpy")
+    def group(candidates, velocity, force, step, first, out):
+        stiff = np.empty(LANES)
+        damping = np.empty(LANES)
+        viscous = np.empty(LANES)
+        level = np.empty(LANES)
+        drop = np.empty(LANES)
+        inverse = np.empty(LANES)
+        z = np.zeros(LANES)
+        cost = np.zeros(LANES)
+        for j in range(LANES):
+            c = candidates[first + j]
+            stiff[j] = c[0]
+            damping[j] = c[1]
+            viscous[j] = c[2]
+            level[j] = c[3]
+            drop[j] = c[4] - c[3]
+            inverse[j] = 1.0 / c[5]
+        for k in range(velocity.shape[0] - 1):
+            v = velocity[k]
+            speed = abs(v)
+            u = force[k]
+            mean = 0.5 * (v + velocity[k + 1])
+            mean_speed = abs(mean)
+            sign = np.copysign(1.0, mean)
+            for j in range(LANES):
+                x = v * inverse[j]
+                g = level[j] + drop[j] * fast_exp(-x * x)
+                rate = v - stiff[j] * speed * z[j] / g
+                e = u - (stiff[j] * z[j] + damping[j] * rate + viscous[j] * v)
+                cost[j] += e * e
+                x = mean * inverse[j]
+                g = level[j] + drop[j] * fast_exp(-x * x)
+                keep = fast_exp(-step * stiff[j] * mean_speed / g)
+                steady = sign * g / stiff[j]
+                z[j] = steady + (z[j] - steady) * keep
+        for j in range(LANES):
+            out[first + j] = cost[j]
+
+    @numba.njit
+    def population(candidates, velocity, force, step, out):
+        for first in range(0, candidates.shape[0], LANES):
+            group(candidates, velocity, force, step, first, out)
+
+    return population
+
+
+def record():
+    """Velocity and noisy force: the law stepped 50 times a sample, the velocity exact."""
+    import numba
+    import numpy as np
+
+    s0, s1, s2, fc, fs, vs = TRUTH
+    samples, fine = 30001, 50
+    t = np.arange((samples - 1) * fine + 1) * (STEP / fine)
+    v = 0.05 * np.sin(2 * np.pi * t)
+
+    @numba.njit
+    def run(v, h):
+        z = np.zeros(v.shape[0])
+        for k in range(v.shape[0] - 1):
+            m = 0.5 * (v[k] + v[k + 1])
+            g = fc + (fs - fc) * np.exp(-((m / vs) ** 2))
+            steady = np.copysign(g / s0, m)
+            z[k + 1] = steady + (z[k] - steady) * np.exp(-h * s0 * abs(m) / g)
+        return z
+
+    z = run(v, STEP / fine)
+    g = fc + (fs - fc) * np.exp(-((v / vs) ** 2))
+    force = (s0 * z + s1 * (v - s0 * np.abs(v) * z / g) + s2 * v)[::fine]
+    noise = np.random.default_rng(1).normal(0.0, 0.01 * np.abs(force).max(), samples)
+    return v[::fine].copy(), force + noise
+
+
+def main():
+    import time
+
+    import llvmlite
+    import numba
+    import numpy as np
+
+    rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 5
+    subprocess.check_call(
+        ["cargo", "build", "--quiet", "--release", "-p", "stiction-lanes", "--example", "throughput"],
+        cwd=ROOT,
+    )
+    velocity, force = record()
+    spread = 10 ** np.random.default_rng(0).uniform(-1.0, 1.0, (CANDIDATES, 6))
+    candidates = np.array(TRUTH) * spread
+    candidates[:, 4] = candidates[:, 3] * (1.0 + 0.5 * spread[:, 4])
+    np.column_stack([velocity, force]).astype("<f8").tofile(WORK / "record.bin")
+    candidates.astype("<f8").tofile(WORK / "candidates.bin")
+
+    population = kernels()
+    out = np.empty(CANDIDATES)
+    population(candidates, velocity, force, STEP, out)
+    least = {"numba": float("inf")}
+    for _ in range(rounds):
+        for _ in range(3):
+            start = time.perf_counter()
+            population(candidates, velocity, force, STEP, out)
+            spent = time.perf_counter() - start
+            least["numba"] = min(least["numba"], spent * 1e9 / (CANDIDATES * len(velocity)))
+        lines = subprocess.check_output(
+            [
+                ROOT / "target/release/examples/throughput",
+                WORK / "record.bin",
+                WORK / "candidates.bin",
+                "3",
+            ],
+            text=True,
+        ).splitlines()
+        for line in lines:
+            if line.startswith("#"):
+                head = line
+                continue
+            name, ns = line.split()
+            least[name] = min(least.get(name, float("inf")), float(ns))
+    cpu = next((l.split(":")[1].strip() for l in open("/proc/cpuinfo") if "model name" in l), "?")
+    print(f"{datetime.date.today()}, {cpu}, {os.cpu_count()} cores, {platform.system()}")
+    print(f"numba {numba.__version__}, llvmlite {llvmlite.__version__}, numpy {np.__version__},", end=" ")
+    print(subprocess.check_output(["rustc", "--version"], text=True).strip())
+    print(head[2:])
+    for name, ns in least.items():
+        print(f"{name:18} {ns:8.2f} ns   numba takes {least['numba'] / ns:5.2f} times as long")
+
+
+if __name__ == "__main__":
+    in_environment()
+    main()
