@@ -115,7 +115,7 @@ pub(crate) fn intervals(half: [f64; 2], ends: [[Node; 2]; 2]) -> [Interval; 2] {
     let decays = decays([x(0), x(1)]);
     let interval = |i: usize| Interval {
         keep: decays[i].keep,
-        add: (ends[i][0].g - ends[i][1].g) * decays[i].mean,
+        add: fma(ends[i][0].g - ends[i][1].g, decays[i].mean, FLOOR),
     };
     [interval(0), interval(1)]
 }
