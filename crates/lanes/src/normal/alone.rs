@@ -59,12 +59,15 @@ impl Sink for Adding<'_> {
     #[inline(always)]
     fn block(&mut self, at: usize, own: &[[f64; BLOCK]; OWN]) {
         let marks: &[u8; BLOCK] = chunk(&self.track.marks, at);
+        let mut counts = [0.0; BLOCK];
+        for t in 0..BLOCK {
+            counts[t] = f64::from(marks[t] & KEPT) / f64::from(KEPT);
+        }
         for r in 0..BLOCK / LANES {
             for c in 0..OWN {
                 for l in 0..LANES {
                     let t = LANES * r + l;
-                    let counts = marks[t] & KEPT != 0;
-                    self.rows[r].0[c][l] = if counts { own[c][t] } else { 0.0 };
+                    self.rows[r].0[c][l] = counts[t] * own[c][t];
                 }
             }
         }
@@ -141,6 +144,10 @@ pub(crate) fn along<const POWER: bool>(track: &Track, curve: &Curve, sink: &mut 
         for t in 0..BLOCK {
             for k in 0..UNKNOWNS {
                 w_slope[k] = fma(keep[t], w_slope[k], slopes.0[k][t]);
+            }
+            if marks[t] & (RESTART | REVERSE) == 0 {
+                write(&mut slopes.0, t, w_slope);
+                continue;
             }
             let level = [0.0, excess_slope[t + 1], velocity_slope[t + 1]];
             if marks[t] & RESTART != 0 {
