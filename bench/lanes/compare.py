@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The batch kernels beside what a Python user would write: numba, the population in SIMD lanes.
+"""The batch kernels beside the scalar law and beside what a Python user would write: numba, the population in SIMD lanes.
 
     python3 bench/lanes/compare.py [ROUNDS]
 

@@ -10,6 +10,7 @@ use stiction_lanes::{
     Axis, Candidate, Drive, InstructionSet, Measured, Motion, Scheme, Segment, Time, Track, Trial,
     costs, plants, sums, sums_alone,
 };
+use stiction_servo::plant;
 
 const STEP: f64 = 1e-4;
 
@@ -86,12 +87,34 @@ fn main() {
         let steps = (count * velocity.len()) as f64;
         println!("{name} {:.4}", least * 1e9 / steps);
     };
+    // The scalar law and plant, one candidate.
+    let scalar_cost = || {
+        let law = candidates[0].law().expect("a law");
+        let (mut z, mut cost) = (0.0, 0.0);
+        for (v, u) in velocity.windows(2).zip(&force[1..]) {
+            z = law.step_record(z, STEP, v[0], v[1]);
+            let e = u - law.force(z, v[1]);
+            cost += e * e;
+        }
+        black_box(cost);
+    };
+    let scalar_plant = || {
+        let law = axes[0].friction.law().expect("a law");
+        let plant = plant::Plant::new(axes[0].mass, law).expect("a plant");
+        let mut motion = plant::Motion::default();
+        for &u in &force {
+            motion = plant.step(motion, STEP, plant::Load::force(u)).motion;
+        }
+        black_box(motion);
+    };
     let all = candidates.len();
     println!(
         "# {set}, {} nodes for {} samples",
         track.nodes(),
         track.samples()
     );
+    time("scalar-cost", 1, &one, &scalar_cost);
+    time("scalar-plant", 1, &one, &scalar_plant);
     time("cost", all, &one, &|| drop(black_box(cost(all, set))));
     time("cost-pair", all, &two, &|| drop(black_box(cost(all, set))));
     time("cost-8", 8, &one, &|| drop(black_box(cost(8, set))));
