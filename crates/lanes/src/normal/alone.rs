@@ -63,12 +63,13 @@ impl Sink for Adding<'_> {
         for t in 0..BLOCK {
             counts[t] = f64::from(marks[t] & KEPT) / f64::from(KEPT);
         }
-        for r in 0..BLOCK / LANES {
-            for c in 0..OWN {
-                for l in 0..LANES {
-                    let t = LANES * r + l;
-                    self.rows[r].0[c][l] = counts[t] * own[c][t];
-                }
+        for c in 0..OWN {
+            let mut column = [0.0; BLOCK];
+            for t in 0..BLOCK {
+                column[t] = counts[t] * own[c][t];
+            }
+            for r in 0..BLOCK / LANES {
+                self.rows[r].0[c] = *chunk(&column, LANES * r);
             }
         }
         self.gram.add_own(&self.rows);
