@@ -13,12 +13,14 @@ mod rates;
 mod selection;
 mod settings;
 mod state;
+mod survival;
 
 pub use crossover::{Crossover, Ratio};
 pub use rates::Rates;
 pub use selection::Selection;
-pub use settings::{Annealing, Settings};
+pub use settings::Settings;
 pub use state::Genetic;
+pub use survival::Annealing;
 
 pub(crate) use crossover::cross;
 pub(crate) use population::{Individual, costs_of, fitness, least};

@@ -10,6 +10,7 @@
 //! | method | what | source |
 //! |---|---|---|
 //! | `ga`, `adaptive-ga`, `annealing-ga` | [`genetic`] algorithms | Zhang et al. 2025 |
+//! | `niched-ga` | [`niched`] annealing GA, then descents | decision 0019 |
 //! | `de` | [`differential_evolution`], best/1/bin | Storn and Price 1997 |
 //! | `cma-es` | [`cma_es`], restarted | Hansen 2016; Auger and Hansen 2005 |
 //! | `pso` | [`particle_swarm`], constriction on a ring | Clerc and Kennedy 2002 |
@@ -37,6 +38,7 @@ pub mod levenberg;
 mod linear;
 mod method;
 pub mod nelder_mead;
+pub mod niched;
 mod niches;
 mod observe;
 pub mod particle_swarm;

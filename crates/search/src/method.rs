@@ -9,6 +9,7 @@ use crate::finish::{Finish, Finished};
 use crate::genetic::{self, Genetic};
 use crate::levenberg::{self, Levenberg};
 use crate::nelder_mead::{self, NelderMead};
+use crate::niched::{self, NichedGa};
 use crate::particle_swarm::{self, ParticleSwarm};
 use crate::search::{Answers, Phase, Request, Search, Status};
 use serde::{Deserialize, Serialize};
@@ -23,6 +24,8 @@ pub enum Method {
     AdaptiveGa(genetic::Settings),
     /// Annealing genetic algorithm of Zhang et al. 2025.
     AnnealingGa(genetic::Settings),
+    /// Niched annealing genetic algorithm with descents.
+    NichedGa(niched::Settings),
     /// Differential evolution.
     De(differential_evolution::Settings),
     /// Covariance matrix adaptation.
@@ -39,10 +42,11 @@ pub enum Method {
 
 impl Method {
     /// The names that [`Method::named`] knows.
-    pub const NAMES: [&str; 9] = [
+    pub const NAMES: [&str; 10] = [
         "ga",
         "adaptive-ga",
         "annealing-ga",
+        "niched-ga",
         "de",
         "cma-es",
         "pso",
@@ -57,6 +61,7 @@ impl Method {
             "ga" => Method::Ga(genetic::Settings::plain()),
             "adaptive-ga" => Method::AdaptiveGa(genetic::Settings::adaptive()),
             "annealing-ga" => Method::AnnealingGa(genetic::Settings::default()),
+            "niched-ga" => Method::NichedGa(niched::Settings::default()),
             "de" => Method::De(differential_evolution::Settings::default()),
             "cma-es" => Method::CmaEs(cma_es::Settings::default()),
             "pso" => Method::Pso(particle_swarm::Settings::default()),
@@ -73,6 +78,7 @@ impl Method {
             Method::Ga(_) => "ga",
             Method::AdaptiveGa(_) => "adaptive-ga",
             Method::AnnealingGa(_) => "annealing-ga",
+            Method::NichedGa(_) => "niched-ga",
             Method::De(_) => "de",
             Method::CmaEs(_) => "cma-es",
             Method::Pso(_) => "pso",
@@ -96,6 +102,7 @@ impl Method {
             Method::Ga(s) | Method::AdaptiveGa(s) | Method::AnnealingGa(s) => {
                 Searcher::Genetic(Genetic::new(s, name, n, seed)?)
             }
+            Method::NichedGa(s) => Searcher::Niched(NichedGa::new(s, n, seed)?),
             Method::De(s) => Searcher::De(DifferentialEvolution::new(s, n, seed)?),
             Method::CmaEs(s) => Searcher::CmaEs(CmaEs::new(s, n, seed)?),
             Method::Pso(s) => Searcher::Pso(ParticleSwarm::new(s, n, seed)?),
@@ -144,6 +151,7 @@ impl Plan {
 #[allow(missing_docs)]
 pub enum Searcher {
     Genetic(Genetic),
+    Niched(NichedGa),
     De(DifferentialEvolution),
     CmaEs(CmaEs),
     Pso(ParticleSwarm),
@@ -156,6 +164,7 @@ macro_rules! each {
     ($self:ident, $search:ident => $call:expr) => {
         match $self {
             Searcher::Genetic($search) => $call,
+            Searcher::Niched($search) => $call,
             Searcher::De($search) => $call,
             Searcher::CmaEs($search) => $call,
             Searcher::Pso($search) => $call,

@@ -82,7 +82,7 @@ struct Pending {
     answers: Answers,
 }
 
-/// How far the method itself came, when the least squares after it began.
+/// How far the method itself came, when the least squares after it first began.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Own {
     best: Option<Best>,
@@ -188,6 +188,7 @@ impl<S: Search> Run<S> {
         mut answers: Answers,
         many: usize,
     ) -> Result<(), Error> {
+        let share = problem.coarse_share();
         let from = answers.len();
         let mut points = Points::new(self.bounds.dimensions());
         for row in request.points.rows().skip(from).take(many) {
@@ -207,10 +208,15 @@ impl<S: Search> Run<S> {
                 all.extend(found.into_iter().map(|d| self.in_the_cube(d)));
             }
         }
+        // Without a coarse record there is only the full one.
+        let fidelity = match request.fidelity {
+            Fidelity::Coarse if share < 1.0 => Fidelity::Coarse,
+            _ => Fidelity::Full,
+        };
         for (i, point) in points.rows().enumerate() {
-            self.counts.add(request.kind, request.fidelity, 1);
-            if request.fidelity == Fidelity::Full {
-                self.note(point, answers.cost(from + i), problem.coarse_share());
+            self.counts.add(request.kind, fidelity, 1);
+            if fidelity == Fidelity::Full {
+                self.note(point, answers.cost(from + i), share);
             }
         }
         if answers.len() < request.points.len() {
@@ -219,7 +225,7 @@ impl<S: Search> Run<S> {
         }
         self.search.tell(&answers);
         if let Some((generation, costs)) = self.search.population() {
-            let so_far = self.counts.full_records(problem.coarse_share());
+            let so_far = self.counts.full_records(share);
             self.history.generation(generation, so_far, costs);
         }
         Ok(())

@@ -2,7 +2,7 @@
 
 use stiction_search::genetic::{Annealing, Rates, Ratio, Selection};
 use stiction_search::{Bounds, Error, Finish, Method, Plan, annealing, genetic, levenberg};
-use stiction_search::{cma_es, differential_evolution, nelder_mead, particle_swarm};
+use stiction_search::{cma_es, differential_evolution, nelder_mead, niched, particle_swarm};
 
 fn refusal(method: Method) -> String {
     let error = method.start(3, 0).expect_err("a wrong setting");
@@ -55,6 +55,9 @@ fn refusals() {
         }),
         ga(|s| s.precision = Some(0.0)),
         ga(|s| s.adaptive_evolution = Some(2.0)),
+        with!(NichedGa, niched, draw = 10),
+        with!(NichedGa, niched, niches = 0),
+        with!(NichedGa, niched, apart = f64::NAN),
         with!(De, differential_evolution, scale = [0.9, 0.5]),
         with!(De, differential_evolution, crossover = 1.5),
         with!(CmaEs, cma_es, population = Some(2)),

@@ -1,18 +1,8 @@
 //! Settings of the genetic algorithms.
 
-use super::{Crossover, Rates, Ratio, Selection};
+use super::{Annealing, Crossover, Rates, Ratio, Selection};
 use crate::error::{Error, require};
 use serde::{Deserialize, Serialize};
-
-/// Annealed survival of children: `P = exp(-(J - Jm)/(Jm T))`, with `Jm` the cost of the last of the
-/// elite and the temperature `T = start factor^generation`; Z25 eq. (21) on the relative cost.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Annealing {
-    /// Temperature of the first generation of a round, > 0. Default 7.
-    pub start: f64,
-    /// Its factor per generation, above 0 to 1. Default 0.96.
-    pub factor: f64,
-}
 
 /// Settings of the genetic algorithms. [`Settings::default`] is the annealing GA.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,7 +25,7 @@ pub struct Settings {
     pub crossover_rate: Rates,
     /// Probability that one gene of an individual is drawn anew. Default .01 to .10.
     pub mutation_rate: Rates,
-    /// Annealed survival; `None` lets every child live.
+    /// Annealed survival; `None` lets every child live. Default start 7, factor .96.
     pub annealing: Option<Annealing>,
     /// Precision module: factor, above 0 to 1, of the box around the best from round to round;
     /// `None` draws every round in the whole box. Default .5.
@@ -136,14 +126,12 @@ impl Settings {
         if let Ratio::Constant(ratio) = self.ratio {
             unit("ratio", ratio)?;
         }
-        let part = |name, v: f64| require(v > 0.0 && v <= 1.0, method, name, v, "above 0 to 1");
-        if let Some(Annealing { start, factor }) = self.annealing {
-            let within = start > 0.0 && start.is_finite();
-            require(within, method, "start", start, "above 0, finite")?;
-            part("factor", factor)?;
+        if let Some(annealing) = self.annealing {
+            annealing.check(method)?;
         }
         if let Some(factor) = self.precision {
-            part("precision", factor)?;
+            let within = factor > 0.0 && factor <= 1.0;
+            require(within, method, "precision", factor, "above 0 to 1")?;
         }
         match self.adaptive_evolution {
             Some(threshold) => unit("adaptive_evolution", threshold),

@@ -174,14 +174,11 @@ impl Genetic {
         let mut next: Vec<Individual> = elite.into_iter().map(|i| all[i].clone()).collect();
         for (slot, child) in self.population.iter_mut().zip(children) {
             let lives = !child.changed
-                || match self.settings.annealing {
-                    None => true,
-                    Some(a) => {
-                        let power = libm::pow(a.factor, self.generation as f64);
-                        self.dice
-                            .chance(survival(child.individual.cost, last, a.start * power))
-                    }
-                };
+                || self.settings.annealing.is_none_or(|annealing| {
+                    let cost = child.individual.cost;
+                    let chance = annealing.survival(cost, last, self.generation);
+                    self.dice.chance(chance)
+                });
             if lives {
                 *slot = child.individual;
             }
@@ -227,16 +224,6 @@ impl Genetic {
             (self.low[j], self.high[j]) = (low, (low + width).min(self.high[j]));
         }
     }
-}
-
-/// Probability that a child survives, Z25 eq. (21) on the relative cost.
-fn survival(cost: f64, last: f64, temperature: f64) -> f64 {
-    if cost <= last {
-        return 1.0;
-    }
-    let rise = (cost - last) / (last * temperature);
-    // An elite without any error lets nobody pass, nor does a cost without end.
-    if rise.is_nan() { 0.0 } else { libm::exp(-rise) }
 }
 
 impl Search for Genetic {
@@ -289,16 +276,6 @@ impl Search for Genetic {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn survival_at_its_corners() {
-        assert_eq!(survival(1.0, 1.0, 5.0), 1.0);
-        assert_eq!(survival(0.5, 1.0, 5.0), 1.0);
-        assert_eq!(survival(6.0, 1.0, 5.0), libm::exp(-1.0));
-        assert_eq!(survival(f64::INFINITY, 1.0, 5.0), 0.0);
-        assert_eq!(survival(1.0, 0.0, 5.0), 0.0);
-        assert_eq!(survival(f64::INFINITY, f64::INFINITY, 5.0), 1.0);
-    }
 
     #[test]
     fn rounds_shrink_around_the_best_and_stay_inside() {
