@@ -274,38 +274,4 @@ impl Search for Genetic {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rounds_shrink_around_the_best_and_stay_inside() {
-        let mut ga = Genetic::new(Settings::default(), "annealing-ga", 2, 1).expect("defaults");
-        ga.best = Some(Individual {
-            point: vec![0.1, 0.6],
-            cost: 1.0,
-        });
-        ga.next_round();
-        assert_eq!((ga.low[0], ga.high[0]), (0.0, 0.5));
-        assert!((ga.low[1] - 0.35).abs() < 1e-15 && (ga.high[1] - 0.85).abs() < 1e-15);
-        ga.next_round();
-        assert!((ga.high[0] - ga.low[0] - 0.25).abs() < 1e-15 && ga.low[0] >= 0.0);
-    }
-
-    #[test]
-    fn the_elite_is_never_lost() {
-        let mut ga = Genetic::new(Settings::default(), "annealing-ga", 3, 7).expect("defaults");
-        let mut dice = Dice::new(1);
-        let mut before: Vec<f64> = Vec::new();
-        for _ in 0..100 {
-            let request = ga.ask().expect("one round is longer");
-            // Costs that have nothing to do with the points: children are no better than chance.
-            let costs = request.points.rows().map(|_| dice.unit()).collect();
-            ga.tell(&Answers::Costs(costs));
-            let mut now = costs_of(&ga.population);
-            now.sort_by(f64::total_cmp);
-            now.truncate(ga.settings.elite);
-            assert!(before.iter().zip(&now).all(|(a, b)| b <= a));
-            before = now;
-        }
-    }
-}
+mod tests;
