@@ -371,15 +371,16 @@ impl Filters {
         };
         let raw_position = samples.position.as_ref().map(on_grid);
         let has_position = raw_position.is_some();
-        let (velocity, position) = match self.source_kind {
+        let (velocity, position, reading) = match self.source_kind {
             Source::Position => {
-                let x = smooth(raw_position?, &self.source)?;
-                (derivative(&x)?, x)
+                let reading = raw_position?;
+                let x = smooth(reading.clone(), &self.source)?;
+                (derivative(&x)?, x, reading)
             }
             Source::Velocity => {
                 let v = smooth(on_grid(samples.velocity.as_ref()?), &self.source)?;
                 let x = raw_position.unwrap_or_else(|| integrate(&v, step));
-                (v, x)
+                (v, x, Vec::new())
             }
         };
         let acceleration = derivative(&velocity)?;
@@ -405,6 +406,7 @@ impl Filters {
             log,
             step,
             velocity,
+            reading,
             acceleration,
             drive,
             valid,

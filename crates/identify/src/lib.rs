@@ -38,6 +38,7 @@ mod law;
 mod observe;
 mod output_error;
 pub mod procedure;
+mod reaction;
 mod replica;
 mod separable;
 mod tune;

@@ -10,21 +10,26 @@ use crate::conditioning::record::{Record, Samples, Segment};
 use crate::conditioning::shift::Shift;
 use crate::conditioning::{Conditioning, condition};
 use crate::estimate::Estimate;
+use crate::estimate::uncertainty::{Unknowns, unknowns};
 use crate::law::terms::{ColumnKind, Delay, Terms};
 use crate::law::{Law, LawKind};
 use crate::observe::Counts;
+use crate::reaction::{Logging, Reaction};
 use crate::separable::objective::Objective;
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_servo::encoder::Encoder;
 use stiction_servo::noise::Noise;
 use stiction_servo::plant::{Load, Motion, Plant};
 
-/// Delay of the force in a replica, samples: it is held from its sample to the next.
-const DELAY: f64 = -0.5;
+/// Delay of a force that is logged where it is held, from its sample to the next, samples.
+const HELD: f64 = -0.5;
 /// Seed of the replica without noise of the force.
 const SILENT: u64 = 999;
 /// The spring that keeps the simulated axis on the recorded motion: its frequency over the sample rate.
 const TRACKING: f64 = 0.01;
+/// The same where the controller's own answer keeps it there: a stiff spring with its damper would calm
+/// what an encoder step stirs up.
+const DRIFT: f64 = 0.0005;
 
 /// Logs of a known axis.
 pub(crate) struct Replica {
@@ -47,27 +52,28 @@ pub(crate) fn replica(
     seed: u64,
 ) -> Option<Replica> {
     let plant = plant(fitted)?;
+    let logging = Logging::new(fitted.delay_samples() - HELD);
     let axis = Axis {
         record,
         substeps: substeps(&plant, record.step()),
         plant,
         fitted,
         force_noise,
-        lead: 0.5 + fitted.delay_samples(),
+        logging,
         stroke: record.stroke(),
     };
-    let objective = Objective::new(record, fitted.law, &fitted.terms);
-    let mut noise = Noise::new(seed);
-    let mut logs = Vec::with_capacity(record.segments.len());
-    for segment in &record.segments {
-        let other = axis.other(&objective, segment)?;
-        logs.push(axis.run(segment, &other, &mut noise)?);
-    }
+    let reaction = Reaction::of(record, logging);
+    // A reaction that was read wrongly, the fit still being far off, may make the axis swing.
+    let logs = axis.logs(reaction.as_ref(), seed).or_else(|| {
+        reaction?;
+        axis.logs(None, seed)
+    })?;
+    let delay = HELD + logging.part;
     let mut p = fitted.unknowns().to_vec();
     let mut terms = fitted.terms.clone();
     match (terms.delay, p.last_mut()) {
-        (Delay::Fitted, Some(delay)) => *delay = DELAY,
-        _ => terms.delay = Delay::Given(DELAY * record.step()),
+        (Delay::Fitted, Some(own)) => *own = delay,
+        _ => terms.delay = Delay::Given(delay * record.step()),
     }
     Some(Replica { logs, p, terms })
 }
@@ -76,14 +82,26 @@ struct Axis<'a> {
     record: &'a Record,
     plant: Plant,
     fitted: &'a Estimate,
-    /// How much later than the start of a step its force was logged, samples.
-    lead: f64,
+    logging: Logging,
     stroke: f64,
     force_noise: f64,
     substeps: u32,
 }
 
 impl Axis<'_> {
+    /// One log for each segment; `None` if the axis does not follow one.
+    fn logs(&self, reaction: Option<&Reaction>, seed: u64) -> Option<Vec<Samples>> {
+        let objective = Objective::new(self.record, self.fitted.law, &self.fitted.terms);
+        let mut noise = Noise::new(seed);
+        let segments = self.record.segments.iter();
+        segments
+            .map(|segment| {
+                let other = self.other(&objective, segment)?;
+                self.run(segment, &other, reaction, &mut noise)
+            })
+            .collect()
+    }
+
     /// The force beside friction and inertia along a segment.
     fn other(&self, objective: &Objective, segment: &Segment) -> Option<Vec<f64>> {
         let mut out = vec![0.0; segment.position.len()];
@@ -114,12 +132,19 @@ impl Axis<'_> {
         Some(out)
     }
 
-    fn run(&self, segment: &Segment, other: &[f64], noise: &mut Noise) -> Option<Samples> {
+    fn run(
+        &self,
+        segment: &Segment,
+        other: &[f64],
+        reaction: Option<&Reaction>,
+        noise: &mut Noise,
+    ) -> Option<Samples> {
         let record = self.record;
         let h = segment.step;
         let fine = h / f64::from(self.substeps);
         let n = segment.position.len();
-        let omega = std::f64::consts::TAU * TRACKING / h;
+        let tracking = if reaction.is_some() { DRIFT } else { TRACKING };
+        let omega = std::f64::consts::TAU * tracking / h;
         let spring = self.plant.mass() * omega * omega;
         let damper = 1.4 * self.plant.mass() * omega;
         // Motion that repeats meets the encoder steps at the same places again and again: where they
@@ -134,22 +159,40 @@ impl Axis<'_> {
         } else {
             0.0
         };
-        let drive = Shift::earlier(-self.lead);
+        let drive: Vec<f64> = match reaction {
+            Some(reaction) => reaction.felt(segment, self.logging)?,
+            None => {
+                let earlier = Shift::earlier(-self.logging.late());
+                (0..n).map(|k| earlier.at(&segment.drive, k)).collect()
+            }
+        };
+        let part = self.logging.part;
+        let mut before = drive.first().copied().unwrap_or(0.0);
         let mut motion = Motion {
             position: segment.position[0],
             velocity: segment.velocity[0],
             deflection: 0.0,
         };
-        let (mut position, mut force) = (Vec::with_capacity(n), Vec::with_capacity(n));
+        let (mut position, mut force) = (Vec::<f64>::with_capacity(n), Vec::with_capacity(n));
         for (k, other) in other.iter().enumerate() {
             let error = segment.position[k] - motion.position;
             let slip = segment.velocity[k] - motion.velocity;
             if error.is_nan() || error.abs() > self.stroke {
                 return None;
             }
-            let applied = drive.at(&segment.drive, k) + spring * error + damper * slip;
-            position.push(encoder.read(motion.position + rest * noise.normal()));
-            force.push(applied + self.force_noise * noise.normal());
+            let reading = encoder.read(motion.position + rest * noise.normal());
+            position.push(reading);
+            let mut applied = drive[k] + spring * error + damper * slip;
+            if let Some(reaction) = reaction {
+                // The answer to what the log read gives way to that to what the replica reads.
+                applied += reaction.force(|lag| {
+                    let at = k.saturating_sub(lag);
+                    position[at] - segment.reading[at]
+                });
+            }
+            let logged = (1.0 - part) * applied + part * before;
+            before = applied;
+            force.push(logged + self.force_noise * noise.normal());
             let load = Load::force(applied - other);
             for _ in 0..self.substeps {
                 motion = self.plant.step(motion, fine, load).motion;
@@ -207,12 +250,14 @@ fn plant(fitted: &Estimate) -> Option<Plant> {
 }
 
 /// Unknowns and coefficients that a fit of a replica finds, from its truth in `steps` Gauss-Newton
-/// steps: the errors are small, so one shows them to first order, two all but exactly.
+/// steps: the errors are small, so one shows them to first order, two all but exactly. With `surety` also
+/// how sure that fit would be.
 pub(crate) fn refitted(
     replica: &Replica,
     conditioning: &Conditioning,
     fitted: &Estimate,
     steps: usize,
+    surety: bool,
     counts: &mut Counts,
 ) -> Option<Refit> {
     let record = condition(&replica.logs, conditioning).ok()?;
@@ -226,12 +271,18 @@ pub(crate) fn refitted(
             *x += d.clamp(-1.0, 1.0);
         }
     }
-    let at = objective.evaluate(&p, false);
-    counts.cost += 1;
+    let at = objective.evaluate(&p, surety);
+    if surety {
+        counts.sensitivities += 1;
+    } else {
+        counts.cost += 1;
+    }
+    let unknowns = surety.then(|| unknowns(&objective, &at));
     let refit = Refit {
         p,
         square: at.cost / at.residual().len().max(1) as f64,
         c: at.solution.coefficients,
+        unknowns,
     };
     let finite = |x: &[f64]| x.iter().all(|x| x.is_finite());
     (finite(&refit.p) && finite(&refit.c) && refit.square.is_finite()).then_some(refit)
@@ -243,6 +294,8 @@ pub(crate) struct Refit {
     pub p: Vec<f64>,
     /// Linear ones.
     pub c: Vec<f64>,
+    /// How sure its residual makes it of them, if asked for.
+    pub unknowns: Option<Unknowns>,
     /// Mean square of the residual.
     square: f64,
 }
@@ -257,7 +310,7 @@ pub(crate) fn force_noise(
     counts: &mut Counts,
 ) -> Option<f64> {
     let quiet = replica(record, fitted, 0.0, SILENT)?;
-    let refit = refitted(&quiet, conditioning, fitted, 1, counts)?;
+    let refit = refitted(&quiet, conditioning, fitted, 1, false, counts)?;
     let left = (fitted.fit.rmse * fitted.fit.rmse - refit.square).max(0.0);
     Some((left / record.noise_gain()).sqrt())
 }

@@ -204,7 +204,14 @@ impl Walk<'_> {
         let conditioning = cutoffs(self.wanted, self.rate, at);
         let mut sum = 0.0;
         for replica in self.replicas {
-            sum += match refitted(replica, &conditioning, self.fitted, 1, &mut self.counts) {
+            sum += match refitted(
+                replica,
+                &conditioning,
+                self.fitted,
+                1,
+                false,
+                &mut self.counts,
+            ) {
                 Some(refit) => self.distance(replica, &refit.p, &refit.c),
                 None => f64::INFINITY,
             };

@@ -42,6 +42,8 @@ pub struct Segment {
     pub velocity: Vec<f64>,
     /// Position at the full rate, from zero where none was logged, m or rad.
     pub position: Vec<f64>,
+    /// Position as logged, at the full rate, no filter; empty where the motion is a logged velocity.
+    pub reading: Vec<f64>,
     /// Acceleration at the full rate, not yet passed through the common filter, m/s^2 or rad/s^2.
     pub acceleration: Vec<f64>,
     /// Force as logged, at the full rate, no filter.
@@ -241,6 +243,7 @@ impl Record {
                 step: s.step * (self.decimate * every) as f64,
                 velocity: coarse(&s.velocity),
                 position: coarse(&s.position),
+                reading: coarse(&s.reading),
                 acceleration: coarse(&s.acceleration),
                 drive: coarse(&s.drive),
                 valid: s

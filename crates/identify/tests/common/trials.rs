@@ -80,8 +80,8 @@ pub fn autoregressive(rho: f64, run: u64) -> Trial {
 }
 
 /// The log of a drive whose encoder has steps of `count` m, with white noise of `force` N on the force.
-/// Speeds and frequencies of the three segments differ a
-/// little from run to run, so that no step falls on the same place twice.
+/// Speeds and frequencies of the three segments differ a little from run to run, and so does the place
+/// of the encoder's steps.
 pub fn quantised(count: f64, force: f64, conditioning: &Conditioning, run: u64) -> Trial {
     let mut noise = Noise::new(7000 + run);
     let mut near = |x: f64| x * (0.95 + 0.1 * noise.uniform());
@@ -90,11 +90,15 @@ pub fn quantised(count: f64, force: f64, conditioning: &Conditioning, run: u64) 
         Sine::new(near(3.7e-3), near(1.2), 2.0),
         Sine::new(near(25e-3), near(28.0), 2.0),
     ]);
+    // Where the counts stand is as good as random on any axis.
     let log = ClosedLoop {
         plant: Plant::new(MASS, MACHINE.law()).unwrap(),
         controller: Cascade::tuned(MASS, 60.0, 500.0).unwrap(),
         path: path.unwrap(),
-        encoder: Encoder::new(count).unwrap(),
+        encoder: Encoder::new(count)
+            .unwrap()
+            .with_phase(noise.uniform())
+            .unwrap(),
         rate: 4000.0,
         substeps: 5,
         force_noise: force,

@@ -1,0 +1,158 @@
+//! How the controller answers what its encoder reads.
+//!
+//! A controller takes every step of its encoder for motion and answers with a force that the axis does
+//! get. So the force of the log goes with the errors of its position, which noise drawn anew does not
+//! show. The answer is read off what both channels have above the band that the axis can follow.
+
+use crate::conditioning::record::{Record, Segment};
+use crate::conditioning::shift::Shift;
+use nalgebra::{SMatrix, SVector};
+use stiction_signal::Sos;
+
+/// Samples that an answer may last: the difference of positions over a sample is over after two, one
+/// that the drive filters or computes late after a few more.
+const LAGS: usize = 6;
+/// Cut-off between what the axis can follow and encoder steps, parts of the sample rate.
+const SLOW: f64 = 0.05;
+/// Highest cut-off that noise is taken off with, parts of the sample rate.
+const HIGHEST: f64 = 0.2;
+/// Octaves below it.
+const OCTAVES: u32 = 5;
+/// Standard deviations of the noise in an octave that a sample of it must exceed.
+const OUTSTANDING: f64 = 4.0;
+/// How much smaller than its variance without an answer the fast part of the force must be for an
+/// answer to be there, in units of what chance explains.
+const CERTAIN: f64 = 4.0;
+
+/// How a force that is held from sample to sample was logged: as the mean of two neighbours where it
+/// stands late by a part of a sample (half for a force centred about its instant).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Logging {
+    /// Whole samples by which it stands late.
+    whole: isize,
+    /// The part of a sample beyond them, below 1.
+    pub part: f64,
+}
+
+impl Logging {
+    /// That of a force that stands `late` samples later in the log than it was held.
+    pub fn new(late: f64) -> Self {
+        let whole = libm::floor(late);
+        Self {
+            whole: whole as isize,
+            part: late - whole,
+        }
+    }
+
+    /// Samples by which the log stands late.
+    pub fn late(&self) -> f64 {
+        self.whole as f64 + self.part
+    }
+
+    /// What a log says of a held force at a sample.
+    fn at(&self, held: &[f64], sample: usize) -> f64 {
+        let last = held.len() as isize - 1;
+        let read = |i: isize| held[i.clamp(0, last) as usize];
+        let now = sample as isize - self.whole;
+        (1.0 - self.part) * read(now) + self.part * read(now - 1)
+    }
+}
+
+/// The force that a reading calls for, N/m (N m/rad) by lag.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Reaction {
+    by_lag: [f64; LAGS],
+}
+
+impl Reaction {
+    /// The answer that a record shows; `None` where there is none to be seen.
+    pub fn of(record: &Record, logging: Logging) -> Option<Self> {
+        let slow = Sos::butterworth_low_pass(4, SLOW, 1.0).ok()?;
+        let mut square = SMatrix::<f64, LAGS, LAGS>::zeros();
+        let mut product = SVector::<f64, LAGS>::zeros();
+        let (mut power, mut samples) = (0.0, 0_usize);
+        for segment in &record.segments {
+            if segment.reading.is_empty() {
+                return None;
+            }
+            let force = fast(&segment.drive, &slow)?;
+            let reading = fast(&segment.reading, &slow)?;
+            // The answer is logged like the force, and the readings go through the log in its stead.
+            let reading: Vec<f64> = (0..reading.len())
+                .map(|k| logging.at(&reading, k))
+                .collect();
+            for k in LAGS - 1..force.len() {
+                let x = SVector::<f64, LAGS>::from_fn(|lag, _| reading[k - lag]);
+                square += x * x.transpose();
+                product += x * force[k];
+                power += force[k] * force[k];
+                samples += 1;
+            }
+        }
+        let by_lag = square.cholesky()?.solve(&product);
+        let explained = by_lag.dot(&product);
+        let chance = LAGS as f64 * (power - explained) / (samples.saturating_sub(LAGS)) as f64;
+        (explained > CERTAIN * chance).then(|| Self {
+            by_lag: by_lag.into(),
+        })
+    }
+
+    /// The force that the axis got on a segment: its answer to the readings, and what else the log
+    /// shows (reference, integrator) without the noise of the sensor, which no axis feels.
+    pub fn felt(&self, segment: &Segment, logging: Logging) -> Option<Vec<f64>> {
+        let samples = 0..segment.drive.len();
+        let answer: Vec<f64> = samples
+            .clone()
+            .map(|k| self.force(|lag| segment.reading[k.saturating_sub(lag)]))
+            .collect();
+        let rest: Vec<f64> = samples
+            .clone()
+            .map(|k| segment.drive[k] - logging.at(&answer, k))
+            .collect();
+        let smooth = without_noise(&rest)?;
+        let earlier = Shift::earlier(-logging.late());
+        Some(
+            samples
+                .map(|k| earlier.at(&smooth, k) + answer[k])
+                .collect(),
+        )
+    }
+
+    /// The force that answers the last readings, `reading(lag)` being that of `lag` samples ago.
+    pub fn force(&self, reading: impl Fn(usize) -> f64) -> f64 {
+        (0..LAGS).map(|lag| self.by_lag[lag] * reading(lag)).sum()
+    }
+}
+
+/// What a channel has above the band that the axis can follow.
+fn fast(x: &[f64], slow: &Sos) -> Option<Vec<f64>> {
+    let smooth = slow.zero_phase(x).ok()?;
+    Some(x.iter().zip(&smooth).map(|(x, s)| x - s).collect())
+}
+
+/// A channel without its white noise: split into octaves, of which only what stands out of the noise is
+/// kept (thresholds of Donoho and Johnstone 1994, doi 10.1093/biomet/81.3.425, in bands of zero-phase
+/// filters). What stands above the highest octave is taken for the noise.
+fn without_noise(x: &[f64]) -> Option<Vec<f64>> {
+    let below = |cutoff: f64| {
+        let low_pass = Sos::butterworth_low_pass(4, cutoff, 1.0).ok()?;
+        low_pass.zero_phase(x).ok()
+    };
+    let mut fine = below(HIGHEST)?;
+    let lost: f64 = x.iter().zip(&fine).map(|(x, s)| (x - s) * (x - s)).sum();
+    let density = lost / (x.len() as f64 * (0.5 - HIGHEST));
+    let mut kept = vec![0.0; x.len()];
+    for octave in 1..=OCTAVES {
+        let width = HIGHEST / f64::from(1 << octave);
+        let coarse = below(width)?;
+        let least = OUTSTANDING * (density * width).sqrt();
+        for (kept, (fine, coarse)) in kept.iter_mut().zip(fine.iter().zip(&coarse)) {
+            let band = fine - coarse;
+            if band.abs() > least {
+                *kept += band;
+            }
+        }
+        fine = coarse;
+    }
+    Some(kept.iter().zip(&fine).map(|(a, b)| a + b).collect())
+}
