@@ -3,7 +3,10 @@
 //! | module | what |
 //! |---|---|
 //! | [`plant`] | a mass with friction, of any law, under a force or a spring |
-//! | [`cascade`] | the controller: P in position, PI in speed, feedforward, force limit |
+//! | [`integrator`] | how it is advanced in time |
+//! | [`cascade`], [`pid`], [`fuzzy`] | controllers: P in position and PI in speed, PID, fuzzy PID; [`controller`]: any of them |
+//! | [`drive`] | amplifier, current loop, delay, limits |
+//! | [`disturbance`] | cogging and other forces |
 //! | [`encoder`] | the position sensor with its steps |
 //! | [`path`] | reference motions |
 //! | [`speeds`] | constant speeds one after the other |
@@ -43,9 +46,15 @@
 
 pub mod cascade;
 pub mod closed_loop;
+pub mod controller;
+pub mod disturbance;
+pub mod drive;
 pub mod encoder;
+pub mod fuzzy;
+pub mod integrator;
 pub mod known;
 pub mod noise;
 pub mod path;
+pub mod pid;
 pub mod plant;
 pub mod speeds;
