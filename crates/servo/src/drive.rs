@@ -63,10 +63,11 @@ impl Drive {
         self.force_constant * self.peak_current
     }
 
-    /// Time by which the force comes late on average, as a held sample is seen, s: delay, half a control period and the
-    /// current loop's lag. What a feedforward has to look ahead.
-    pub fn lateness(&self, period: f64) -> f64 {
-        self.delay + 0.5 * period + self.current_lag
+    /// How far a compensation on the reference velocity has to look ahead at a control period of `period` seconds, in
+    /// samples: delay and current loop. The half sample by which a held force comes late on average is not among it: a law
+    /// that is stepped with the velocity at the end of a sample is half a sample early by itself.
+    pub fn preview(&self, period: f64) -> f64 {
+        (self.delay + self.current_lag) / period
     }
 
     /// Refuses settings out of range for a control period of `period` seconds.

@@ -8,9 +8,12 @@
 //! | [`drive`] | amplifier, current loop, delay, limits |
 //! | [`disturbance`] | cogging and other forces |
 //! | [`encoder`] | the position sensor with its steps |
-//! | [`path`] | reference motions |
+//! | [`path`], [`motion`] | reference motions |
 //! | [`speeds`] | constant speeds one after the other |
 //! | [`noise`] | white noise from a seed |
+//! | [`feedforward`], [`learning`] | compensation of friction |
+//! | [`axis`], [`run`] | one axis with all of it, along a [`trajectory`] |
+//! | [`metrics`] | how well it followed |
 //! | [`closed_loop`] | all of them together at a control rate, recorded |
 //! | [`known`] | axes with published parameters |
 //!
@@ -44,17 +47,24 @@
 //! ```
 #![forbid(unsafe_code)]
 
+pub mod axis;
 pub mod cascade;
 pub mod closed_loop;
 pub mod controller;
 pub mod disturbance;
 pub mod drive;
 pub mod encoder;
+pub mod feedforward;
 pub mod fuzzy;
 pub mod integrator;
 pub mod known;
+pub mod learning;
+pub mod metrics;
+pub mod motion;
 pub mod noise;
 pub mod path;
 pub mod pid;
 pub mod plant;
+pub mod run;
 pub mod speeds;
+pub mod trajectory;
