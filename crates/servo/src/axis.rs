@@ -85,6 +85,9 @@ pub struct Axis<L: Held<f64> = LuGre<f64>, I = Mid> {
     feedforward: RunningFeedforward,
     noise: Noise,
     motion: Motion<L::State>,
+    /// Measured position of this sample, and whether it has been taken already; that of the sample before.
+    measured: f64,
+    fresh: bool,
     last: Option<f64>,
     count: u64,
 }
@@ -114,6 +117,8 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
             feedforward,
             noise: Noise::new(settings.seed),
             motion: Motion::default(),
+            measured: 0.0,
+            fresh: false,
             last: None,
             count: 0,
             settings,
@@ -144,23 +149,27 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
         Ok(())
     }
 
-    /// The position that the sensor shows now, and its rate over the last period: m, m/s (rad, rad/s).
-    fn measure(&mut self) -> (f64, f64) {
-        let mut position = self.motion.position;
-        if self.settings.position_noise > 0.0 {
-            position += self.settings.position_noise * self.noise.normal();
+    /// The position that the sensor shows at this sample, m (rad).
+    pub fn measure(&mut self) -> f64 {
+        if !self.fresh {
+            let mut position = self.motion.position;
+            if self.settings.position_noise > 0.0 {
+                position += self.settings.position_noise * self.noise.normal();
+            }
+            self.measured = self.settings.encoder.read(position);
+            self.fresh = true;
         }
-        let measured = self.settings.encoder.read(position);
-        let rate = (measured - self.last.unwrap_or(measured)) * self.settings.rate;
-        self.last = Some(measured);
-        (measured, rate)
+        self.measured
     }
 
     /// Measures, controls, and moves the axis by one control period. `ahead` is the reference velocity, m/s (rad/s), at the
     /// instant for which friction is to be compensated.
     pub fn step(&mut self, reference: Reference, ahead: f64, correction: Correction) -> Sample {
         let period = 1.0 / self.settings.rate;
-        let (measured, rate) = self.measure();
+        let measured = self.measure();
+        self.fresh = false;
+        let rate = (measured - self.last.unwrap_or(measured)) * self.settings.rate;
+        self.last = Some(measured);
         let compensation = self.feedforward.force(Moment {
             index: self.count as usize,
             ahead,

@@ -13,6 +13,7 @@
 //! | [`noise`] | white noise from a seed |
 //! | [`feedforward`], [`learning`] | compensation of friction |
 //! | [`axis`], [`run`] | one axis with all of it, along a [`trajectory`] |
+//! | [`two_axes`], [`cross_coupling`] | two axes along a contour in the [`plane`] |
 //! | [`metrics`] | how well it followed |
 //! | [`closed_loop`] | all of them together at a control rate, recorded |
 //! | [`known`] | axes with published parameters |
@@ -51,6 +52,7 @@ pub mod axis;
 pub mod cascade;
 pub mod closed_loop;
 pub mod controller;
+pub mod cross_coupling;
 pub mod disturbance;
 pub mod drive;
 pub mod encoder;
@@ -64,7 +66,9 @@ pub mod motion;
 pub mod noise;
 pub mod path;
 pub mod pid;
+pub mod plane;
 pub mod plant;
 pub mod run;
 pub mod speeds;
 pub mod trajectory;
+pub mod two_axes;
