@@ -60,7 +60,7 @@ pub struct State<T> {
     pub law: crate::State<T>,
     /// Share of the force that is let through, 0 off to 1 on.
     pub share: T,
-    /// Factor on the force that the adaptation has found; 1 without adaptation.
+    /// Factor on the law's force, 1 unless adapted or set.
     pub level: T,
     /// The watchdog.
     pub watch: Watch<T>,
@@ -117,6 +117,14 @@ impl<T: Real> Compensator<T> {
     /// Off, at rest, with nothing learnt; a tripped watchdog is armed again.
     pub fn reset(&mut self) {
         self.state = State::rest(&self.friction);
+    }
+
+    /// Sets the factor on the law's force from outside, as an estimate of the load has it; 0 to 2. One that is not a number
+    /// changes nothing.
+    pub fn set_level(&mut self, level: T) {
+        if level.is_finite() {
+            self.state.level = level.max(T::ZERO).min(T::from_f64(2.0));
+        }
     }
 
     /// The compensating force, N (N m), to be added to the controller's from now on for one cycle time.

@@ -141,6 +141,16 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
         Ok(())
     }
 
+    /// Changes the plant's law from now on; what it remembers stays.
+    pub fn set_law(&mut self, law: L) {
+        self.settings.plant = self.settings.plant.with_law(law);
+    }
+
+    /// Gives the compensator the level of friction to count on, a factor on its law, from now on.
+    pub fn set_friction_level(&mut self, level: f64) {
+        self.feedforward.set_level(level);
+    }
+
     /// Changes the acceleration feedforward, kg (kg m^2), from now on.
     pub fn set_mass_feedforward(&mut self, mass: f64) -> Result<(), ParamError> {
         let controller = self.settings.controller.with_mass_feedforward(mass);

@@ -97,6 +97,12 @@ impl RunningFeedforward {
         self.parts.compensator.as_ref()
     }
 
+    pub(crate) fn set_level(&mut self, level: f64) {
+        if let Some(compensator) = &mut self.parts.compensator {
+            compensator.set_level(level);
+        }
+    }
+
     #[inline]
     pub(crate) fn force(&mut self, moment: Moment) -> f64 {
         let mut force = 0.0;

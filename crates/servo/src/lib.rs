@@ -14,6 +14,7 @@
 //! | [`feedforward`], [`learning`] | compensation of friction |
 //! | [`axis`], [`run`] | one axis with all of it, along a [`trajectory`] |
 //! | [`two_axes`], [`cross_coupling`] | two axes along a contour in the [`plane`] |
+//! | [`load`] | mass and level of friction found while running |
 //! | [`metrics`] | how well it followed |
 //! | [`closed_loop`] | all of them together at a control rate, recorded |
 //! | [`known`] | axes with published parameters |
@@ -61,6 +62,7 @@ pub mod fuzzy;
 pub mod integrator;
 pub mod known;
 pub mod learning;
+pub mod load;
 pub mod metrics;
 pub mod motion;
 pub mod noise;

@@ -86,6 +86,11 @@ impl<L: Held<f64>> Plant<L> {
         Ok(Plant { mass, ..self })
     }
 
+    /// The same plant with another law.
+    pub fn with_law(self, law: L) -> Self {
+        Plant { law, ..self }
+    }
+
     /// Mass, kg (kg m^2).
     pub fn mass(&self) -> f64 {
         self.mass
