@@ -58,6 +58,10 @@ pub struct Input<T> {
 pub struct State<T> {
     /// The law's state; only `force` is used by laws without memory.
     pub law: crate::State<T>,
+    /// Correction of the bristles by an observer, m (rad), beside the law's own deflection.
+    pub correction: T,
+    /// The force of that correction, N (N m).
+    pub corrected: T,
     /// Share of the force that is let through, 0 off to 1 on.
     pub share: T,
     /// Factor on the law's force, 1 unless adapted or set.
@@ -146,13 +150,14 @@ impl<T: Real> Compensator<T> {
             let at = self
                 .settings
                 .outside_dead_zone(self.source.velocity(&input));
-            self.friction.step(
-                &mut self.state.law,
-                h,
-                at,
-                self.source,
-                input.tracking_error,
-            );
+            self.friction.step(&mut self.state.law, h, at);
+            if let Source::Observer(gain) = self.source {
+                let pull = gain * input.tracking_error;
+                let correction = &mut self.state.correction;
+                self.state.corrected =
+                    self.friction
+                        .correct(correction, h, at, pull, self.settings.limit);
+            }
             if let Some(adaptation) = &self.settings.adaptation {
                 let error = input.tracking_error;
                 self.state.level =
@@ -164,7 +169,7 @@ impl<T: Real> Compensator<T> {
         }
         let allowed = self.settings.watchdog.is_none() || self.state.watch.allows();
         let on = good && input.enable && allowed;
-        let wanted = self.state.level * self.state.law.force;
+        let wanted = self.state.level * self.state.law.force + self.state.corrected;
         self.settings.limit(&mut self.state, h, on, wanted)
     }
 }
@@ -173,6 +178,8 @@ impl<T: Real> State<T> {
     fn rest(friction: &Friction<T>) -> Self {
         State {
             law: friction.rest(),
+            correction: T::ZERO,
+            corrected: T::ZERO,
             share: T::ZERO,
             level: T::ONE,
             watch: Watch::default(),

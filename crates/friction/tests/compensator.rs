@@ -224,27 +224,50 @@ fn the_dead_zone_stills_chatter() {
     assert!(compensator.step(moving(3e-4)) > 0.0);
 }
 
-/// Held still at a constant error the observer fills its bristles at the rate k e, up to their bound.
+/// The observer's correction `c' = k e - sigma0 |v| c/g` at constant error in closed form, at a standstill and sliding:
+/// with the law it is a solution of the observer's equation. At its limit it stands.
 #[test]
-fn the_observer_loads_at_its_gain() {
+fn the_observer_corrects_by_its_gain() {
     let law = c95(Damping::Constant);
-    let mut compensator = bare(law, Source::Observer(10.0));
-    for k in 1..=100_000 {
-        let force = compensator.step(Input {
-            tracking_error: 1e-6,
-            measured_velocity: 0.0,
+    let (gain, error) = (10.0, 1e-6);
+    for v in [0.0, 2e-4, 0.01] {
+        let mut compensator = bare(law, Source::Observer(gain));
+        let mut alone = law.rest();
+        let input = Input {
+            tracking_error: error,
+            ..moving(v)
+        };
+        let decay = law.stiffness() * v / law.curve().level(v);
+        for k in 1..=4000 {
+            let t = f64::from(k) * H;
+            let force = compensator.step(input);
+            let law_force = law.step(&mut alone, H, v);
+            let grown = |t: f64| {
+                if v == 0.0 {
+                    t
+                } else {
+                    -(-decay * t).exp_m1() / decay
+                }
+            };
+            let c = gain * error * grown(t);
+            let rate = gain * error * (grown(t) - grown(t - H)) / H;
+            let expected = law_force + law.stiffness() * c + law.micro_damping(v) * rate;
+            assert!(
+                (force - expected).abs() < 1e-8,
+                "{v} {k}: {force} {expected}"
+            );
+        }
+    }
+    let settings = Settings::bare(H, 0.3);
+    let mut limited =
+        Compensator::new(Friction::LuGre(law), Source::Observer(gain), settings).unwrap();
+    for _ in 0..100_000 {
+        limited.step(Input {
+            tracking_error: 1e-3,
             ..moving(0.0)
         });
-        let z = (10.0 * 1e-6 * f64::from(k) * H).min(law.bound());
-        assert!((compensator.state().law.z - z).abs() < 1e-15);
-        let spring_and_damper = 1e5 * z + 1e5_f64.sqrt() * if z < law.bound() { 1e-5 } else { 0.0 };
-        // The sample in which the bound is reached moves by a part only.
-        let partial = (z - law.bound()).abs() < 1e-5 * H;
-        assert!(
-            partial || (force - spring_and_damper).abs() < 1e-8,
-            "{k}: {force}"
-        );
     }
+    assert_eq!(limited.state().correction, 0.3 / law.stiffness());
 }
 
 /// The level follows the sign of error times force, and stays within its range.

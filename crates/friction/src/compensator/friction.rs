@@ -2,6 +2,7 @@
 
 use super::Input;
 use crate::error::require;
+use crate::record::one_plus_ratio;
 use crate::{CoulombViscous, LuGre, ParamError, Real, State, Stribeck};
 
 /// The law whose force is fed forward.
@@ -75,32 +76,39 @@ impl<T: Real> Friction<T> {
         }
     }
 
-    /// Advances the law by `h` seconds at the velocity `v`; `error` is the reference less the measured position.
+    /// Advances the law by `h` seconds at the velocity `v`.
     #[inline]
-    pub(super) fn step(&self, state: &mut State<T>, h: T, v: T, source: Source<T>, error: T) {
+    pub(super) fn step(&self, state: &mut State<T>, h: T, v: T) {
         match self {
             Friction::Coulomb(law) => state.force = finite_or(law.force(v), state.force),
             Friction::Stribeck(curve) => state.force = finite_or(curve.force(v), state.force),
             Friction::LuGre(law) => {
                 law.step(state, h, v);
-                if let Source::Observer(gain) = source {
-                    correct(law, state, h, v, gain * error);
-                }
             }
         }
     }
-}
 
-/// Moves the bristles by `rate` (m/s, rad/s) for `h` seconds, within their bound, and the force with them.
-fn correct<T: Real>(law: &LuGre<T>, state: &mut State<T>, h: T, v: T, rate: T) {
-    if h <= T::ZERO {
-        return;
-    }
-    let z = law.clamp(state.z + rate * h);
-    let moved = z - state.z;
-    let force = state.force + law.stiffness() * moved + law.micro_damping(v) * (moved / h);
-    if z.is_finite() && force.is_finite() {
-        *state = State { z, force };
+    /// Advances the observer's correction c (m, rad) by `h` seconds at the velocity `v`, with `c' = pull - sigma0 |v| c/g`,
+    /// and returns the force that it adds; sigma0 c stays within `limit`. The law is linear in z: law and correction
+    /// together are the observer, and the law's own deflection keeps its bound.
+    pub(super) fn correct(&self, c: &mut T, h: T, v: T, pull: T, limit: T) -> T {
+        let Friction::LuGre(law) = self else {
+            return T::ZERO;
+        };
+        if h <= T::ZERO {
+            return law.stiffness() * *c;
+        }
+        let a = h * (law.stiffness() * (v.abs() / law.curve().level(v)));
+        let e = (-a).expm1();
+        let held = T::ONE - one_plus_ratio(a, e);
+        let most = limit / law.stiffness();
+        let next = (*c + *c * e + pull * h * held).max(-most).min(most);
+        let force = law.stiffness() * next + law.micro_damping(v) * ((next - *c) / h);
+        if !(next.is_finite() && force.is_finite()) {
+            return law.stiffness() * *c;
+        }
+        *c = next;
+        force
     }
 }
 
