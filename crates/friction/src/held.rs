@@ -30,6 +30,16 @@ pub trait Held<T: Real>: Copy {
     fn reach(&self, h: T) -> T;
 }
 
+impl<T: Real> LuGre<T> {
+    /// The mean force over `h > 0` seconds at the velocity `v` from the deflection `from` to `end`, as
+    /// [`step_held_slope`](Self::step_held_slope) has it with its derivative; and the derivative of that force with respect
+    /// to `v`. N, N s/m (N m, N m s/rad).
+    #[inline]
+    pub fn mean_force_from_end(&self, from: T, end: (T, T), h: T, v: T) -> (T, T) {
+        bristle_slope(self, from, end, h, v)
+    }
+}
+
 impl<T: Real> Held<T> for LuGre<T> {
     type State = T;
 

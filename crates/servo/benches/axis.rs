@@ -11,7 +11,7 @@ use stiction_servo::drive::Drive;
 use stiction_servo::encoder::Encoder;
 use stiction_servo::feedforward::Feedforward;
 use stiction_servo::fuzzy::FuzzyPid;
-use stiction_servo::integrator::Mid;
+use stiction_servo::integrator::Quick;
 use stiction_servo::known;
 use stiction_servo::motion::Sine;
 use stiction_servo::path::Reference;
@@ -46,8 +46,8 @@ fn plain(compensated: bool, controller: Option<Controller>) -> AxisSettings {
 
 fn squared_error(settings: &AxisSettings) -> f64 {
     let sine = Sine::new(0.02, 1.0, 3.0).expect("a sine");
-    let mid = Mid::new(1).expect("one step");
-    let mut axis = Axis::new(settings.clone(), mid).expect("settings of the bench");
+    let quick = Quick::new(1).expect("one step");
+    let mut axis = Axis::new(settings.clone(), quick).expect("settings of the bench");
     let mut reference = Lookahead::new(&sine, RATE, 0.0);
     (0..STEPS).fold(0.0, |sum, _| {
         let (now, ahead) = reference.sample();

@@ -55,8 +55,6 @@ pub struct Sample {
     pub position: f64,
     /// True velocity, m/s (rad/s).
     pub velocity: f64,
-    /// True friction force, N (N m).
-    pub friction: f64,
 }
 
 impl Sample {
@@ -135,6 +133,12 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
         &self.feedforward
     }
 
+    /// The true friction force now, N (N m).
+    pub fn friction(&self) -> f64 {
+        let law = self.settings.plant.law();
+        law.force_now(self.motion.deflection, self.motion.velocity)
+    }
+
     /// Changes the mass of the plant, kg (kg m^2), from now on: a load taken up or put down.
     pub fn set_mass(&mut self, mass: f64) -> Result<(), ParamError> {
         self.settings.plant = self.settings.plant.with_mass(mass)?;
@@ -207,11 +211,6 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
             compensation,
             position: self.motion.position,
             velocity: self.motion.velocity,
-            friction: self
-                .settings
-                .plant
-                .law()
-                .force_now(self.motion.deflection, self.motion.velocity),
         };
         self.drive.command(command);
         self.advance(time, period);

@@ -3,14 +3,17 @@
 //! | | order | step | stiff bristles | laws |
 //! |---|---|---|---|---|
 //! | [`Mid`] | 2 | fixed | A-stable | any |
+//! | [`Quick`] | 2, the same motion | fixed | A-stable | LuGre |
 //! | [`Rodas3`] | 3 | adaptive | L-stable | LuGre |
 //! | [`Ode4`] | 4 | fixed | unstable above a step that [`Ode4::check`] gives | LuGre |
 
 mod flow;
 mod ode4;
+mod quick;
 mod rodas3;
 
 pub use ode4::{Ode4, Unstable};
+pub use quick::Quick;
 pub use rodas3::{Rodas3, Work};
 
 use crate::plant::{Load, Motion, Plant};

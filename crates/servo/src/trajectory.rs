@@ -76,6 +76,10 @@ impl<'a, T: Trajectory + ?Sized> Lookahead<'a, T> {
     /// The reference of this sample and the velocity `preview` samples later, m/s (rad/s); the next call is the next sample.
     pub fn sample(&mut self) -> (Reference, f64) {
         let now = self.known[0];
+        if self.count == 1 {
+            self.read();
+            return (now, now.velocity);
+        }
         let velocities = self.known.map(|r| r.velocity);
         let later = ahead(&velocities[..self.count], self.preview);
         self.read();

@@ -1,7 +1,7 @@
 //! The integrators against a Radau reference, their orders, and the warning of the explicit one.
 
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
-use stiction_servo::integrator::{Integrator, Mid, Ode4, Rodas3};
+use stiction_servo::integrator::{Integrator, Mid, Ode4, Quick, Rodas3};
 use stiction_servo::known;
 use stiction_servo::plant::{Load, Motion, Plant};
 
@@ -47,6 +47,31 @@ fn mid_against_radau_on_the_stick_slip() {
     assert!(coarse < 1.65e-3, "{coarse} %");
     let order = (coarse / fine).log10();
     assert!((order - 2.0).abs() < 0.1, "order {order}");
+}
+
+/// The quick solution is MID's: on the stick-slip, and through reversals of a stiff axis with capped sigma1.
+#[test]
+fn quick_is_mid() {
+    let quick = stick_slip_error(Quick::new(100).unwrap(), 1);
+    let mid = stick_slip_error(Mid::new(100).unwrap(), 1);
+    assert!((quick / mid - 1.0).abs() < 1e-6, "{quick} {mid}");
+
+    let axis = known::find("motor").unwrap();
+    let plant = Plant::new(axis.mass, axis.capped_law()).unwrap();
+    let (mut a, mut b) = (Motion::default(), Motion::default());
+    let (mut mid, mut quick) = (Mid::new(1).unwrap(), Quick::new(1).unwrap());
+    let mut farthest = 0.0_f64;
+    for k in 0..40_000 {
+        let force = 40.0 * libm::sin(2.0 * std::f64::consts::PI * 3.0 * f64::from(k) * 5e-5);
+        a = mid.advance(&plant, a, 5e-5, Load::force(force), 0.0);
+        b = quick.advance(&plant, b, 5e-5, Load::force(force), 0.0);
+        farthest = farthest.max(a.position.abs());
+        assert!(
+            (a.position - b.position).abs() < 1e-9 * farthest.max(1e-6),
+            "{k}: {a:?} {b:?}"
+        );
+        assert!(b.deflection.abs() <= plant.law().bound());
+    }
 }
 
 #[test]
