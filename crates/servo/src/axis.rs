@@ -78,6 +78,9 @@ pub struct Correction {
 pub struct Axis<L: Held<f64> = LuGre<f64>, I = Mid> {
     settings: AxisSettings<L>,
     integrator: I,
+    /// Control period, s, and the part of it that is a stretch.
+    period: f64,
+    stretch: f64,
     drive: RunningDrive,
     controller: ControllerState,
     feedforward: RunningFeedforward,
@@ -110,6 +113,8 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
         let feedforward = settings.feedforward.start(&settings.drive, period)?;
         Ok(Axis {
             integrator,
+            period,
+            stretch: 1.0 / f64::from(settings.substeps),
             drive,
             controller: ControllerState::default(),
             feedforward,
@@ -179,7 +184,7 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
     /// Measures, controls, and moves the axis by one control period. `ahead` is the reference velocity, m/s (rad/s), at the
     /// instant for which friction is to be compensated.
     pub fn step(&mut self, reference: Reference, ahead: f64, correction: Correction) -> Sample {
-        let period = 1.0 / self.settings.rate;
+        let period = self.period;
         let measured = self.measure();
         self.fresh = false;
         let rate = (measured - self.last.unwrap_or(measured)) * self.settings.rate;
@@ -213,13 +218,13 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
             velocity: self.motion.velocity,
         };
         self.drive.command(command);
-        self.advance(time, period);
+        self.advance(time);
         self.count += 1;
         sample
     }
 
-    fn advance(&mut self, time: f64, period: f64) {
-        let part = 1.0 / f64::from(self.settings.substeps);
+    fn advance(&mut self, time: f64) {
+        let (period, part) = (self.period, self.stretch);
         let span = period * part;
         for i in 0..self.settings.substeps {
             let begin = f64::from(i) * part;

@@ -97,15 +97,19 @@ impl Drive {
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunningDrive {
     drive: Drive,
+    /// Volts of command for a force, V/N.
+    per_force: f64,
     /// Whole periods of delay and the part of one that is left.
     whole: usize,
     part: f64,
     /// The last commands, A, the newest at `newest`.
     commands: [f64; LONGEST + 2],
     newest: usize,
+    /// A
     current: f64,
-    /// What is left of the difference to the current asked for after a part of a period, per part.
+    /// Mean square of the current over the thermal time, A^2, and how much of it a period replaces.
     heat: f64,
+    warming: f64,
     period: f64,
 }
 
@@ -119,12 +123,14 @@ impl RunningDrive {
         let whole = libm::floor(periods + 1e-9);
         Ok(RunningDrive {
             drive,
+            per_force: 1.0 / drive.gain(),
             whole: whole as usize,
             part: (periods - whole).max(0.0),
             commands: [0.0; LONGEST + 2],
             newest: 0,
             current: 0.0,
             heat: 0.0,
+            warming: -libm::expm1(-period / drive.thermal_time),
             period,
         })
     }
@@ -136,7 +142,7 @@ impl RunningDrive {
 
     /// Takes the force that the controller asks for, N (N m), at the beginning of a period; limited to the peak.
     pub fn command(&mut self, force: f64) {
-        let volts = force / self.drive.gain();
+        let volts = force * self.per_force;
         let current = self.drive.amplifier_gain * volts;
         self.newest = (self.newest + 1) % self.commands.len();
         self.commands[self.newest] =
@@ -146,10 +152,7 @@ impl RunningDrive {
             let rated = self.drive.rated_current;
             self.commands[self.newest] = self.commands[self.newest].clamp(-rated, rated);
         }
-        if self.drive.rated_current.is_finite() {
-            let weight = -libm::expm1(-self.period / self.drive.thermal_time);
-            self.heat += weight * (self.current * self.current - self.heat);
-        }
+        self.heat += self.warming * (self.current * self.current - self.heat);
     }
 
     /// Mean force, N (N m), over the stretch of the present period from `begin` to `end`, as parts of it, 0 to 1. The

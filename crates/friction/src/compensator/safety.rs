@@ -24,6 +24,10 @@ impl<T: Real> Settings<T> {
     }
 
     fn ramped(&self, share: T, h: T, on: bool) -> T {
+        let end = if on { T::ONE } else { T::ZERO };
+        if share == end {
+            return end;
+        }
         let change = if h < self.ramp { h / self.ramp } else { T::ONE };
         if on {
             (share + change).min(T::ONE)

@@ -10,8 +10,8 @@ const TURN: f64 = 2.0 * std::f64::consts::PI;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sine {
     amplitude: f64,
-    frequency: f64,
-    cycles: f64,
+    omega: f64,
+    duration: f64,
 }
 
 impl Sine {
@@ -22,21 +22,21 @@ impl Sine {
         ParamError::positive("cycles", cycles)?;
         Ok(Sine {
             amplitude,
-            frequency,
-            cycles,
+            omega: TURN * frequency,
+            duration: cycles / frequency,
         })
     }
 }
 
 impl Trajectory for Sine {
     fn duration(&self) -> f64 {
-        self.cycles / self.frequency
+        self.duration
     }
 
     fn at(&self, t: f64) -> Reference {
-        let omega = TURN * self.frequency;
-        let inside = t.clamp(0.0, self.duration());
-        let (s, c) = (libm::sin(omega * inside), libm::cos(omega * inside));
+        let omega = self.omega;
+        let inside = t.clamp(0.0, self.duration);
+        let (s, c) = libm::sincos(omega * inside);
         let moves = if inside == t { 1.0 } else { 0.0 };
         Reference {
             position: self.amplitude * (1.0 - c),
@@ -81,7 +81,7 @@ impl Trajectory for Chirp {
         let rise = (self.to - self.from) / self.duration;
         let phase = TURN * (self.from + 0.5 * rise * inside) * inside;
         let omega = TURN * (self.from + rise * inside);
-        let (s, c) = (libm::sin(phase), libm::cos(phase));
+        let (s, c) = libm::sincos(phase);
         let moves = if inside == t { self.amplitude } else { 0.0 };
         Reference {
             position: self.amplitude * (1.0 - c),

@@ -135,7 +135,8 @@ impl Curve for Circle {
     }
 
     fn place(&self, p: f64) -> Place {
-        let (x, y) = (self.radius * libm::cos(p), self.radius * libm::sin(p));
+        let (sine, cosine) = libm::sincos(p);
+        let (x, y) = (self.radius * cosine, self.radius * sine);
         Place {
             point: [x - self.radius, y],
             first: [-y, x],
@@ -145,7 +146,8 @@ impl Curve for Circle {
 
     /// `ex cos a + ey sin a - (ex^2 + ey^2)/(2R)` at the angle a (Koren, Lo 1991, there with the other sign).
     fn deviation(&self, p: f64, error: [f64; 2]) -> Deviation {
-        let inward = [-libm::cos(p), -libm::sin(p)];
+        let (sine, cosine) = libm::sincos(p);
+        let inward = [-cosine, -sine];
         Deviation {
             distance: dot(error, inward) + dot(error, error) / (2.0 * self.radius),
             left: inward,
@@ -191,8 +193,8 @@ impl Curve for FigureEight {
 
     fn place(&self, p: f64) -> Place {
         let (a, b) = (self.half_width, self.half_height);
-        let (s, c) = (libm::sin(p), libm::cos(p));
-        let (s2, c2) = (libm::sin(2.0 * p), libm::cos(2.0 * p));
+        let (s, c) = libm::sincos(p);
+        let (s2, c2) = libm::sincos(2.0 * p);
         Place {
             point: [a * s, b * s2],
             first: [a * c, 2.0 * b * c2],
