@@ -48,7 +48,7 @@ fn squared_error(settings: &AxisSettings) -> f64 {
     let sine = Sine::new(0.02, 1.0, 3.0).expect("a sine");
     let quick = Quick::new(1).expect("one step");
     let mut axis = Axis::new(settings.clone(), quick).expect("settings of the bench");
-    let mut reference = Lookahead::new(&sine, RATE, 0.0);
+    let mut reference = Lookahead::new(&sine, settings.rate, settings.feedforward.preview);
     (0..STEPS).fold(0.0, |sum, _| {
         let (now, ahead) = reference.sample();
         let error = axis.step(now, ahead, Correction::default()).error();

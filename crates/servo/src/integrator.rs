@@ -69,6 +69,8 @@ impl<L: Held<f64>> Integrator<L> for Mid {
 pub enum Choice {
     /// See [`Mid`].
     Mid(Mid),
+    /// See [`Quick`].
+    Quick(Quick),
     /// See [`Rodas3`].
     Rodas3(Rodas3),
     /// See [`Ode4`].
@@ -79,6 +81,7 @@ impl Integrator<LuGre<f64>> for Choice {
     fn advance(&mut self, plant: &Plant, from: Motion, span: f64, load: Load, rate: f64) -> Motion {
         match self {
             Choice::Mid(mid) => mid.advance(plant, from, span, load, rate),
+            Choice::Quick(quick) => quick.advance(plant, from, span, load, rate),
             Choice::Rodas3(rodas3) => rodas3.advance(plant, from, span, load, rate),
             Choice::Ode4(ode4) => ode4.advance(plant, from, span, load, rate),
         }

@@ -1,7 +1,7 @@
 //! The integrators against a Radau reference, their orders, and the warning of the explicit one.
 
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
-use stiction_servo::integrator::{Integrator, Mid, Ode4, Quick, Rodas3};
+use stiction_servo::integrator::{Choice, Integrator, Mid, Ode4, Quick, Rodas3};
 use stiction_servo::known;
 use stiction_servo::plant::{Load, Motion, Plant};
 
@@ -171,8 +171,14 @@ fn spring_and_damper_of_the_plant() {
     };
     let mid = run(Box::new(Mid::new(130_000).unwrap()));
     let rodas3 = run(Box::new(Rodas3::new(1e-10).unwrap()));
-    let ode4 = run(Box::new(Ode4::new(1300).unwrap()));
-    for (name, got) in [("MID", mid), ("RODAS3", rodas3), ("ode4", ode4)] {
+    let ode4 = run(Box::new(Choice::Ode4(Ode4::new(1300).unwrap())));
+    let quick = run(Box::new(Choice::Quick(Quick::new(130_000).unwrap())));
+    for (name, got) in [
+        ("MID", mid),
+        ("quick", quick),
+        ("RODAS3", rodas3),
+        ("ode4", ode4),
+    ] {
         assert!((got - expected).abs() < 1e-9, "{name}: {got} {expected}");
     }
 }
