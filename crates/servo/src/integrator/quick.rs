@@ -4,7 +4,8 @@ use super::{Integrator, at_least_one};
 use crate::plant::{Load, Motion, Plant};
 use stiction_friction::{LuGre, ParamError};
 
-/// The step of [`Plant::step`], solved from a guess: the velocity goes on with the acceleration of the step before.
+/// The step of [`Plant::step`], solved from a guess: the velocity goes on with the acceleration of the step before, and
+/// answers to the change of the force as it did there.
 ///
 /// Where one step of Newton's method from there is so small that what it leaves is rounding, velocity and deflection take
 /// that step by their derivatives, and no further evaluation is needed. Where it is not after four, as in a reversal, the
@@ -12,8 +13,10 @@ use stiction_friction::{LuGre, ParamError};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quick {
     steps: u32,
-    /// Of the step before, m/s^2 (rad/s^2).
+    /// Of the step before: acceleration, m/s^2 (rad/s^2), force, N (N m), and force by mean velocity, N s/m (N m s/rad).
     acceleration: f64,
+    force: f64,
+    slope: f64,
 }
 
 /// A Newton step of this part of the velocity, or of the Stribeck velocity, leaves its square.
@@ -27,6 +30,8 @@ impl Quick {
         Ok(Quick {
             steps,
             acceleration: 0.0,
+            force: 0.0,
+            slope: f64::INFINITY,
         })
     }
 
@@ -36,7 +41,9 @@ impl Quick {
         let stiffness = load.stiffness + plant.stiffness();
         let inertia = 2.0 * plant.mass() / h;
         let slow = law.curve().direction(from.velocity).stribeck_velocity;
-        let mut w = from.velocity + 0.5 * h * self.acceleration;
+        let answer = (load.force - self.force) / self.slope;
+        let mut w = from.velocity + 0.5 * h * self.acceleration + answer;
+        self.force = load.force;
         for _ in 0..MOST_EVALUATIONS {
             let end = law.step_held_slope(from.deflection, h, w);
             let (friction, friction_slope) = law.mean_force_from_end(from.deflection, end, h, w);
@@ -44,6 +51,7 @@ impl Quick {
             let excess = inertia * (w - from.velocity) + friction + plant.viscous() * w - drive;
             let slope = inertia + plant.viscous() + 0.5 * h * stiffness + friction_slope;
             let moves = -excess / slope;
+            self.slope = slope;
             if moves.abs() <= SMALL * slow.max(w.abs()) {
                 let w = w + moves;
                 let bound = law.bound();
