@@ -4,8 +4,8 @@ use crate::plane::Deviation;
 use stiction_friction::ParamError;
 
 /// A PID on the deviation from the contour, whose output is shared between the axes by the direction cosines with which
-/// the deviation was found (Koren 1980, doi 10.1115/1.3149612; Koren, Lo 1991, doi 10.1016/S0007-8506(07)62022-5). It is
-/// added to the velocities that the position loops ask for.
+/// the deviation was found, and added to the velocities that the position loops ask for (Koren 1980, Cross-coupled biaxial
+/// computer control for manufacturing systems; Koren, Lo 1991, Variable-gain cross-coupling controller for contouring).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrossCoupling {
     /// >= 0, 1/s.

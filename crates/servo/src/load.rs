@@ -35,7 +35,7 @@ pub struct Load {
     pub level: f64,
 }
 
-/// Recursive least squares with exponential forgetting (Astrom, Wittenmark 1995, Adaptive Control, eq. 2.20) on
+/// Recursive least squares with exponential forgetting (Astrom, Wittenmark 1995, Adaptive Control, chapter 2) on
 /// `u = M a + level F`, with u the force that the drive model makes of the commands, a the second difference of the
 /// measured position, and F the law stepped along that position.
 ///

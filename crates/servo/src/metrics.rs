@@ -1,5 +1,9 @@
 //! How well an axis followed.
 
+mod contour;
+
+pub use contour::{Contour, circular_deviation};
+
 use crate::axis::Sample;
 
 /// Tracking of one axis. Errors are reference less true position, m (rad).

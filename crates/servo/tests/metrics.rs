@@ -1,8 +1,9 @@
 //! Metrics of motions whose errors are known in closed form.
 
 use stiction_servo::axis::Sample;
-use stiction_servo::metrics::{Tracking, reversals, velocity_ripple};
+use stiction_servo::metrics::{Contour, Tracking, circular_deviation, reversals, velocity_ripple};
 use stiction_servo::path::Reference;
+use stiction_servo::two_axes::PlaneSample;
 
 /// A reference sin(2 pi t), sampled at 1 kHz for 2 s, followed with an error `off(t)` and a velocity `v(t)`.
 fn samples(off: impl Fn(f64) -> f64, v: impl Fn(f64) -> f64) -> Vec<Sample> {
@@ -79,4 +80,41 @@ fn ripple_of_a_modulated_speed() {
     let omega = 20.0 * std::f64::consts::PI;
     let all = samples(|_| 0.0, |t| 0.1 * (1.0 + 0.02 * libm::sin(omega * t)));
     assert!((velocity_ripple(&all) - 0.02 / 2f64.sqrt()).abs() < 1e-9);
+}
+
+#[test]
+fn contour_rms_and_peak() {
+    let with = |deviation| PlaneSample {
+        deviation,
+        ..PlaneSample::default()
+    };
+    let contour = Contour::of(&[with(3e-6), with(-4e-6)]);
+    assert!((contour.rms - 12.5e-12_f64.sqrt()).abs() < 1e-18 && contour.peak == 4e-6);
+    assert_eq!(Contour::of(&[]), Contour::default());
+}
+
+/// Minimum zone of shapes whose zone is known: an ellipse's is the difference of its half axes, wherever it stands; a
+/// circle pulled out at one place has a narrower zone than the bump about another centre, but never less than half of it.
+#[test]
+fn circular_deviation_is_the_minimum_zone() {
+    let turn = |r: &dyn Fn(f64) -> [f64; 2]| -> Vec<[f64; 2]> {
+        (0..3600)
+            .map(|k| r(f64::from(k) * std::f64::consts::PI / 1800.0))
+            .collect()
+    };
+    let ellipse = turn(&|a| [0.3 + 10.01e-3 * libm::cos(a), -0.2 + 10e-3 * libm::sin(a)]);
+    let width = circular_deviation(&ellipse);
+    assert!((width / 10e-6 - 1.0).abs() < 1e-6, "{width}");
+    // Half of the turn only: the mean of the points is far from the centre.
+    let half = circular_deviation(&ellipse[..1801]);
+    assert!(half <= width * (1.0 + 1e-6), "{half}");
+    let circle = turn(&|a| [5e-3 * libm::cos(a), 1.0 + 5e-3 * libm::sin(a)]);
+    assert!(circular_deviation(&circle) < 1e-12);
+    let bump = turn(&|a| {
+        let r = if a < 0.1 { 5.002e-3 } else { 5e-3 };
+        [r * libm::cos(a), r * libm::sin(a)]
+    });
+    let width = circular_deviation(&bump);
+    assert!((1e-6..=2e-6).contains(&width), "{width}");
+    assert_eq!(circular_deviation(&[[0.0, 1.0]; 2]), 0.0);
 }

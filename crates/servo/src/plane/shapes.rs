@@ -72,7 +72,7 @@ impl Curve for Polygon {
         self.lengths[1..self.lengths.len() - 1].to_vec()
     }
 
-    /// `-ex sin a + ey cos a` on an edge at the angle a (Koren, Lo 1991, doi 10.1016/S0007-8506(07)62022-5).
+    /// `-ex sin a + ey cos a` on an edge at the angle a (Koren, Lo 1991, Variable-gain cross-coupling controller for contouring).
     fn deviation(&self, p: f64, error: [f64; 2]) -> Deviation {
         from_left(error, self.edge(p).1)
     }
@@ -144,7 +144,7 @@ impl Curve for Circle {
         }
     }
 
-    /// `ex cos a + ey sin a - (ex^2 + ey^2)/(2R)` at the angle a (Koren, Lo 1991, there with the other sign).
+    /// `-(ex cos a + ey sin a) + (ex^2 + ey^2)/(2R)` at the angle a (Koren, Lo 1991).
     fn deviation(&self, p: f64, error: [f64; 2]) -> Deviation {
         let (sine, cosine) = libm::sincos(p);
         let inward = [-cosine, -sine];
