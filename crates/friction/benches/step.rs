@@ -3,6 +3,7 @@
 //! Each sample runs 1000 steps along a sine through its reversals; the item rate that divan prints is steps per second.
 
 use divan::{Bencher, black_box, counter::ItemsCount};
+use stiction_friction::compensator::{Compensator, Friction, Input, Settings, Source};
 use stiction_friction::{
     Damping, Direction, ElastoPlastic, Element, Elements, Gms, LuGre, Real, Shape, Stribeck,
 };
@@ -88,6 +89,25 @@ fn step(bencher: Bencher, shape: &str) {
     bencher
         .counter(ItemsCount::new(STEPS))
         .bench(|| real_time(&law, H, black_box(&v)));
+}
+
+/// The whole compensator on the reference velocity, default safety and watchdog on.
+#[divan::bench]
+fn compensator(bencher: Bencher) {
+    let law = Friction::LuGre(law("gaussian", Damping::Capped(600.0)));
+    let ready = Compensator::new(law, Source::Reference, Settings::new(H, 100.0))
+        .expect("parameters of the bench");
+    let v = velocity();
+    bencher.counter(ItemsCount::new(STEPS)).bench(|| {
+        let mut compensator = ready;
+        black_box(&v)[1..].iter().fold(0.0, |_, &v| {
+            compensator.step(Input {
+                reference_velocity: v,
+                enable: true,
+                ..Input::default()
+            })
+        })
+    });
 }
 
 /// The real-time step with constant sigma1.

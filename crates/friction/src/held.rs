@@ -30,6 +30,29 @@ pub trait Held<T: Real>: Copy {
     fn reach(&self, h: T) -> T;
 }
 
+impl<T: Real> LuGre<T> {
+    /// The mean force over `h > 0` seconds at the velocity `v` from the deflection `from` to `end`, as
+    /// [`step_held_slope`](Self::step_held_slope) has it with its derivative; and the derivative of that force with respect
+    /// to `v`. N, N s/m (N m, N m s/rad).
+    #[inline]
+    pub fn mean_force_from_end(&self, from: T, end: (T, T), h: T, v: T) -> (T, T) {
+        let (end, end_slope) = end;
+        let s1 = self.micro_damping(v);
+        // Where sigma1 is what it is at rest its cap does not bite, and there is nothing to differentiate.
+        let s1_slope = if s1 == self.damping().at_rest() {
+            T::ZERO
+        } else {
+            damping_slope(self, v)
+        };
+        let half = T::from_f64(0.5);
+        let rate = (end - from) / h;
+        let slope = end_slope * (half * self.stiffness() + s1 / h)
+            + rate * s1_slope
+            + self.curve().direction(v).viscous;
+        (self.force_of(half * (from + end), rate, v, s1), slope)
+    }
+}
+
 impl<T: Real> Held<T> for LuGre<T> {
     type State = T;
 

@@ -84,6 +84,8 @@
 //! # Ok::<(), stiction_friction::ParamError>(())
 //! ```
 //!
+//! The law as a feedforward force with limits and a watchdog: [`compensator`].
+//!
 //! Laws without memory:
 //!
 //! ```
@@ -105,6 +107,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+pub mod compensator;
 mod dahl;
 mod damping;
 mod elasto_plastic;

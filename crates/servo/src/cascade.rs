@@ -65,13 +65,28 @@ impl Cascade {
         reference: Reference,
         position: f64,
     ) -> f64 {
+        self.force_with(state, h, reference, position, 0.0)
+    }
+
+    /// [`force`](Self::force) with a further force, N (N m), that is fed forward: it counts for the limit and for the
+    /// integral's anti-windup.
+    pub fn force_with(
+        &self,
+        state: &mut CascadeState,
+        h: f64,
+        reference: Reference,
+        position: f64,
+        feedforward: f64,
+    ) -> f64 {
         let speed = (position - state.last_position.unwrap_or(position)) / h;
         state.last_position = Some(position);
         let wanted = reference.velocity + self.position_gain * (reference.position - position);
         let error = wanted - speed;
         let integral = state.integral + self.integral_gain * h * error;
-        let force =
-            self.mass_feedforward * reference.acceleration + self.speed_gain * error + integral;
+        let force = self.mass_feedforward * reference.acceleration
+            + self.speed_gain * error
+            + integral
+            + feedforward;
         let limited = force.clamp(-self.force_limit, self.force_limit);
         let winds_up = (force - limited) * error > 0.0;
         if !winds_up {

@@ -1,5 +1,9 @@
 //! Axes whose parameters are known: the one library of them for tests, benches, demo and docs.
 
+mod simulated;
+
+pub use simulated::corners;
+
 use stiction_friction::{Damping, Direction, LuGre, ParamError, Shape, Stribeck};
 
 /// Whether positions are metres or radians.

@@ -3,11 +3,19 @@
 //! | module | what |
 //! |---|---|
 //! | [`plant`] | a mass with friction, of any law, under a force or a spring |
-//! | [`cascade`] | the controller: P in position, PI in speed, feedforward, force limit |
+//! | [`integrator`] | how it is advanced in time |
+//! | [`cascade`], [`pid`], [`fuzzy`] | controllers: P in position and PI in speed, PID, fuzzy PID; [`controller`]: any of them |
+//! | [`drive`] | amplifier, current loop, delay, limits |
+//! | [`disturbance`] | cogging and other forces |
 //! | [`encoder`] | the position sensor with its steps |
-//! | [`path`] | reference motions |
+//! | [`path`], [`motion`] | reference motions |
 //! | [`speeds`] | constant speeds one after the other |
 //! | [`noise`] | white noise from a seed |
+//! | [`feedforward`], [`learning`] | compensation of friction |
+//! | [`axis`], [`run`] | one axis with all of it, along a [`trajectory`] |
+//! | [`two_axes`], [`cross_coupling`] | two axes along a contour in the [`plane`] |
+//! | [`load`] | mass and level of friction found while running |
+//! | [`metrics`] | how well it followed |
 //! | [`closed_loop`] | all of them together at a control rate, recorded |
 //! | [`known`] | axes with published parameters |
 //!
@@ -41,11 +49,28 @@
 //! ```
 #![forbid(unsafe_code)]
 
+pub mod axis;
 pub mod cascade;
 pub mod closed_loop;
+pub mod controller;
+pub mod cross_coupling;
+pub mod disturbance;
+pub mod drive;
 pub mod encoder;
+pub mod feedforward;
+pub mod fuzzy;
+pub mod integrator;
 pub mod known;
+pub mod learning;
+pub mod load;
+pub mod metrics;
+pub mod motion;
 pub mod noise;
 pub mod path;
+pub mod pid;
+pub mod plane;
 pub mod plant;
+pub mod run;
 pub mod speeds;
+pub mod trajectory;
+pub mod two_axes;

@@ -7,6 +7,8 @@ use stiction_friction::{Held, LuGre, ParamError};
 pub struct Plant<L = LuGre<f64>> {
     mass: f64,
     law: L,
+    viscous: f64,
+    stiffness: f64,
 }
 
 /// Where the axis is.
@@ -58,12 +60,50 @@ impl<L: Held<f64>> Plant<L> {
     /// `mass` in kg (kg m^2), finite and > 0.
     pub fn new(mass: f64, law: L) -> Result<Self, ParamError> {
         ParamError::positive("mass", mass)?;
-        Ok(Plant { mass, law })
+        Ok(Plant {
+            mass,
+            law,
+            viscous: 0.0,
+            stiffness: 0.0,
+        })
+    }
+
+    /// The same plant with a damper, `viscous` >= 0 in N s/m (N m s/rad), beside the law's own viscous part.
+    pub fn with_viscous(self, viscous: f64) -> Result<Self, ParamError> {
+        ParamError::not_negative("viscous", viscous)?;
+        Ok(Plant { viscous, ..self })
+    }
+
+    /// The same plant on a spring to the origin, `stiffness` >= 0 in N/m (N m/rad).
+    pub fn with_stiffness(self, stiffness: f64) -> Result<Self, ParamError> {
+        ParamError::not_negative("stiffness", stiffness)?;
+        Ok(Plant { stiffness, ..self })
+    }
+
+    /// The same plant with another mass, kg (kg m^2): a load taken up or put down.
+    pub fn with_mass(self, mass: f64) -> Result<Self, ParamError> {
+        ParamError::positive("mass", mass)?;
+        Ok(Plant { mass, ..self })
+    }
+
+    /// The same plant with another law.
+    pub fn with_law(self, law: L) -> Self {
+        Plant { law, ..self }
     }
 
     /// Mass, kg (kg m^2).
     pub fn mass(&self) -> f64 {
         self.mass
+    }
+
+    /// Damper beside the law, N s/m (N m s/rad).
+    pub fn viscous(&self) -> f64 {
+        self.viscous
+    }
+
+    /// Spring to the origin, N/m (N m/rad).
+    pub fn stiffness(&self) -> f64 {
+        self.stiffness
     }
 
     /// The friction law.
@@ -83,6 +123,10 @@ impl<L: Held<f64>> Plant<L> {
     ///
     /// A load that is not finite gives a motion that is not.
     pub fn step(&self, from: Motion<L::State>, h: f64, load: Load) -> Step<L::State> {
+        let load = Load {
+            stiffness: load.stiffness + self.stiffness,
+            ..load
+        };
         let balance = Balance {
             plant: self,
             from,
@@ -128,8 +172,8 @@ impl<L: Held<f64>> Balance<'_, L> {
         let (friction, friction_slope) = plant.law.mean_force_slope(from.deflection, h, w);
         let inertia = 2.0 * plant.mass / h;
         let drive = load.force - load.stiffness * (from.position + 0.5 * h * w);
-        let excess = inertia * (w - from.velocity) + friction - drive;
-        let slope = inertia + 0.5 * h * load.stiffness + friction_slope;
+        let excess = inertia * (w - from.velocity) + friction + plant.viscous * w - drive;
+        let slope = inertia + plant.viscous + 0.5 * h * load.stiffness + friction_slope;
         (excess, slope)
     }
 
@@ -141,8 +185,8 @@ impl<L: Held<f64>> Balance<'_, L> {
         let bristle = law.reach(self.h);
         let drive =
             self.load.force - self.load.stiffness * self.from.position - law.curve().offset();
-        let free =
-            (inertia * self.from.velocity + drive) / (inertia + 0.5 * self.h * self.load.stiffness);
+        let passive = inertia + self.plant.viscous + 0.5 * self.h * self.load.stiffness;
+        let free = (inertia * self.from.velocity + drive) / passive;
         // The small share keeps rounding from shutting the solution out.
         let reach = 1.01 * bristle / inertia + 1e-6 * (free.abs() + self.from.velocity.abs());
         let (mut low, mut high) = (free.min(0.0) - reach, free.max(0.0) + reach);

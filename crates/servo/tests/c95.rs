@@ -1,9 +1,18 @@
 //! The 1995 experiments that need a mass (doi 10.1109/9.376053). The expected values come from an adaptive Radau integration
 //! at a relative tolerance of 1e-9 to 1e-10, not from this crate.
 
+use stiction_friction::compensator::{Compensator, Friction, Settings, Source};
 use stiction_friction::{Damping, ElastoPlastic, Element, Gms, Held};
+use stiction_servo::axis::AxisSettings;
+use stiction_servo::controller::Controller;
+use stiction_servo::drive::Drive;
+use stiction_servo::encoder::Encoder;
+use stiction_servo::feedforward::Feedforward;
 use stiction_servo::known;
+use stiction_servo::motion::Step;
+use stiction_servo::pid::Pid;
 use stiction_servo::plant::{Load, Motion, Plant};
+use stiction_servo::run::run;
 
 fn block() -> Plant {
     let axis = known::find("C95").unwrap();
@@ -204,4 +213,69 @@ fn a_maxwell_slip_block_does_not_drift() {
     let law = Gms::new(elements, f64::INFINITY, sigma1, *axis.law.curve()).unwrap();
     let at = under_oscillating_force(&Plant::new(axis.mass, law).unwrap());
     assert!((at[20] - at[10]).abs() < 1e-12, "{:?}", at);
+}
+
+/// F: a PID hunts with friction. Kv 6, Kp 3, Ki 4, target 1 m; continuous in the experiment, 10 kHz here.
+fn positioning(observer: Option<f64>, seconds: u32) -> Vec<f64> {
+    let h = 1e-4;
+    let axis = known::find("C95").unwrap();
+    let pid = Pid {
+        proportional: 3.0,
+        integral: 4.0,
+        derivative: 6.0,
+        filter: 0.0,
+        mass_feedforward: 0.0,
+        force_limit: 1e4,
+    };
+    let compensator = observer.map(|gain| {
+        let settings = Settings::bare(h, 1e4);
+        let law = Friction::LuGre(axis.law);
+        Compensator::new(law, Source::Observer(gain), settings).unwrap()
+    });
+    let settings = AxisSettings {
+        plant: Plant::new(axis.mass, axis.law).unwrap(),
+        drive: Drive::ideal(),
+        encoder: Encoder::new(0.0).unwrap(),
+        controller: Controller::Pid(pid),
+        feedforward: Feedforward {
+            compensator,
+            ..Feedforward::default()
+        },
+        ..axis.simulated(1.0 / h, 1.0).unwrap()
+    };
+    let target = Step::new(1.0, 0.0, f64::from(seconds)).unwrap();
+    let all = run(&settings, &target).unwrap();
+    all.iter().map(|s| s.position).collect()
+}
+
+#[test]
+fn a_pid_hunts() {
+    let x = positioning(None, 200);
+    let first = x[..100_000].iter().fold(0.0_f64, |m, x| m.max(*x));
+    close("first overshoot", first, 1.5005, 1e-3);
+    // The limit cycle: amplitude over the last hundred seconds, period between rising crossings of the target.
+    let tail = &x[1_000_000..];
+    let amplitude = tail.iter().fold(0.0_f64, |m, x| m.max((x - 1.0).abs()));
+    close("amplitude", amplitude, 0.0639, 1e-3);
+    let rising: Vec<usize> = (1..tail.len())
+        .filter(|k| tail[k - 1] < 1.0 && tail[*k] >= 1.0)
+        .collect();
+    let cycles = (rising.len() - 1) as f64;
+    let period = (rising[rising.len() - 1] - rising[0]) as f64 * 1e-4 / cycles;
+    close("period", period, 24.44, 1e-3);
+}
+
+/// F with the friction observer of the paper: no hunting; without its correction the error creeps away.
+#[test]
+fn the_observer_ends_the_hunting() {
+    let x = positioning(Some(10.0), 31);
+    let first = x.iter().fold(0.0_f64, |m, x| m.max(*x));
+    close("overshoot", first, 1.0725, 1e-3);
+    println!("error at 10 s: {:e}", x[100_000] - 1.0);
+    assert!((x[100_000] - 1.0).abs() < 1e-12);
+    let x = positioning(Some(0.0), 31);
+    // Output of radau/hunting.py; published as .080, .011 and .0023.
+    for (second, expected) in [(10, 0.0794917), (20, 0.0109630), (30, 0.00232038)] {
+        close("error", (x[second * 10_000] - 1.0).abs(), expected, 5e-3);
+    }
 }

@@ -1,0 +1,117 @@
+//! Which law, and which velocity drives it.
+
+use super::Input;
+use crate::error::require;
+use crate::record::one_plus_ratio;
+use crate::{CoulombViscous, LuGre, ParamError, Real, State, Stribeck};
+
+/// The law whose force is fed forward.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Friction<T> {
+    /// The sign of the velocity times a level, and a viscous part.
+    Coulomb(CoulombViscous<T>),
+    /// The steady curve.
+    Stribeck(Stribeck<T>),
+    /// Bristles: the force also while the axis turns round.
+    LuGre(LuGre<T>),
+}
+
+/// The velocity that drives the law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Source<T> {
+    /// The reference velocity: a true feedforward, which no parameter can make unstable.
+    Reference,
+    /// The measured velocity: a positive feedback of friction, which needs a gain below 1.
+    Measured,
+    /// A share of the measured velocity, 0 to 1, and the rest of the reference velocity.
+    Blend(T),
+    /// The measured velocity with the bristles corrected by the tracking error:
+    /// `z' = v - sigma0 |v| z/g + k (x_ref - x)`, k >= 0 in 1/s (Canudas de Wit et al. 1995, doi 10.1109/9.376053,
+    /// section on the friction observer). LuGre only.
+    Observer(T),
+}
+
+impl<T: Real> Source<T> {
+    pub(super) fn validate(&self, friction: &Friction<T>) -> Result<(), ParamError> {
+        match *self {
+            Source::Blend(share) => require(
+                share >= T::ZERO && share <= T::ONE,
+                "blend",
+                share,
+                "0 to 1",
+            ),
+            Source::Observer(gain) => {
+                ParamError::not_negative("observer_gain", gain)?;
+                let bristles = matches!(friction, Friction::LuGre(_));
+                require(bristles, "observer_gain", gain, "with a LuGre law only")
+            }
+            Source::Reference | Source::Measured => Ok(()),
+        }
+    }
+
+    #[inline]
+    pub(super) fn velocity(&self, input: &Input<T>) -> T {
+        match *self {
+            Source::Reference => input.reference_velocity,
+            Source::Measured | Source::Observer(_) => input.measured_velocity,
+            Source::Blend(share) => {
+                share * input.measured_velocity + (T::ONE - share) * input.reference_velocity
+            }
+        }
+    }
+}
+
+impl<T: Real> Friction<T> {
+    pub(super) fn rest(&self) -> State<T> {
+        match self {
+            Friction::Coulomb(law) => State {
+                z: T::ZERO,
+                force: law.offset(),
+            },
+            Friction::Stribeck(curve) => State {
+                z: T::ZERO,
+                force: curve.offset(),
+            },
+            Friction::LuGre(law) => law.rest(),
+        }
+    }
+
+    /// Advances the law by `h` seconds at the velocity `v`.
+    #[inline]
+    pub(super) fn step(&self, state: &mut State<T>, h: T, v: T) {
+        match self {
+            Friction::Coulomb(law) => state.force = finite_or(law.force(v), state.force),
+            Friction::Stribeck(curve) => state.force = finite_or(curve.force(v), state.force),
+            Friction::LuGre(law) => {
+                law.step(state, h, v);
+            }
+        }
+    }
+
+    /// Advances the observer's correction c (m, rad) by `h` seconds at the velocity `v`, with `c' = pull - sigma0 |v| c/g`,
+    /// and returns the force that it adds; sigma0 c stays within `limit`. The law is linear in z: law and correction
+    /// together are the observer, and the law's own deflection keeps its bound.
+    pub(super) fn correct(&self, c: &mut T, h: T, v: T, pull: T, limit: T) -> T {
+        let Friction::LuGre(law) = self else {
+            return T::ZERO;
+        };
+        if h <= T::ZERO {
+            return law.stiffness() * *c;
+        }
+        let a = h * (law.stiffness() * (v.abs() / law.curve().level(v)));
+        let e = (-a).expm1();
+        let held = T::ONE - one_plus_ratio(a, e);
+        let most = limit / law.stiffness();
+        let next = (*c + *c * e + pull * h * held).max(-most).min(most);
+        let force = law.stiffness() * next + law.micro_damping(v) * ((next - *c) / h);
+        if !(next.is_finite() && force.is_finite()) {
+            return law.stiffness() * *c;
+        }
+        *c = next;
+        force
+    }
+}
+
+fn finite_or<T: Real>(value: T, other: T) -> T {
+    if value.is_finite() { value } else { other }
+}

@@ -1,0 +1,85 @@
+//! What a compensator is allowed to do.
+
+use super::{Adaptation, Watchdog};
+use crate::error::require;
+use crate::{ParamError, Real};
+
+/// Settings of a compensator, immutable while it runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings<T> {
+    /// Time between two calls, > 0, s.
+    pub cycle_time: T,
+    /// Share of the friction that is compensated, 0 to 1.
+    pub gain: T,
+    /// Speeds up to this count as standstill, >= 0, m/s (rad/s): bristles keep their deflection. For a measured velocity
+    /// that is never quite 0; half an encoder step a cycle does.
+    pub dead_zone: T,
+    /// Largest force either way, > 0, N (N m).
+    pub limit: T,
+    /// Fastest change of the force, > 0, N/s (N m/s); the largest number is no limit.
+    pub slew: T,
+    /// Time in which the force comes in when enabled and goes when not, >= 0, s.
+    pub ramp: T,
+    /// Correction of the friction level while running.
+    pub adaptation: Option<Adaptation<T>>,
+    /// Switches off what makes tracking worse.
+    pub watchdog: Option<Watchdog<T>>,
+}
+
+impl<T: Real> Settings<T> {
+    /// Settings to start with, for a cycle time (s) and a largest force (N, N m): gain .75, no dead zone, no slew limit, a
+    /// ramp of 50 ms, the watchdog on.
+    ///
+    /// With a gain of .75 parameters that are 30 % too large still compensate too little. That is the side to be on: a
+    /// force beyond the friction there is breaks an axis away that would stand, and where the loop is slow against the
+    /// motion it is then worse off than without. With parameters known to some percent, take 1.
+    pub fn new(cycle_time: T, limit: T) -> Self {
+        Settings {
+            cycle_time,
+            gain: T::from_f64(0.75),
+            dead_zone: T::ZERO,
+            limit,
+            slew: T::MAX,
+            ramp: T::from_f64(0.05),
+            adaptation: None,
+            watchdog: Some(Watchdog::default()),
+        }
+    }
+
+    /// The whole force at once and nothing that could hold it back but the limit: for studies with exact parameters.
+    pub fn bare(cycle_time: T, limit: T) -> Self {
+        Settings {
+            gain: T::ONE,
+            ramp: T::ZERO,
+            watchdog: None,
+            ..Self::new(cycle_time, limit)
+        }
+    }
+
+    /// Refuses settings out of range.
+    pub fn validate(&self) -> Result<(), ParamError> {
+        ParamError::positive("cycle_time", self.cycle_time)?;
+        require(
+            self.gain >= T::ZERO && self.gain <= T::ONE,
+            "gain",
+            self.gain,
+            "0 to 1",
+        )?;
+        ParamError::not_negative("dead_zone", self.dead_zone)?;
+        ParamError::positive("limit", self.limit)?;
+        ParamError::positive("slew", self.slew)?;
+        ParamError::not_negative("ramp", self.ramp)?;
+        if let Some(adaptation) = &self.adaptation {
+            adaptation.validate()?;
+        }
+        match &self.watchdog {
+            Some(watchdog) => watchdog.validate(),
+            None => Ok(()),
+        }
+    }
+
+    #[inline]
+    pub(super) fn outside_dead_zone(&self, v: T) -> T {
+        if v.abs() > self.dead_zone { v } else { T::ZERO }
+    }
+}

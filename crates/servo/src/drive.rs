@@ -1,0 +1,186 @@
+//! Between the controller's command and the force on the axis: amplifier, current loop, motor.
+
+use stiction_friction::ParamError;
+
+/// Delays longer than this many control periods are refused.
+const LONGEST: usize = 32;
+
+/// Settings of a drive, immutable while it runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drive {
+    /// Kf, > 0, N/A (N m/A).
+    pub force_constant: f64,
+    /// Ka, amperes per volt of command, > 0, A/V.
+    pub amplifier_gain: f64,
+    /// Largest current either way, > 0, A; infinite: none.
+    pub peak_current: f64,
+    /// Rms current that may last, > 0, A; infinite: none. Above it, on average over the thermal time, the current is held
+    /// down to it.
+    pub rated_current: f64,
+    /// Time constant of that average, > 0, s.
+    pub thermal_time: f64,
+    /// Time constant of the current loop, >= 0, s: 159e-6 for 1 kHz.
+    pub current_lag: f64,
+    /// Transport delay from the controller to the amplifier, 0 to 32 control periods, any part of one, s.
+    pub delay: f64,
+}
+
+impl Drive {
+    /// A drive that gives the force asked for, at once and without limit.
+    pub fn ideal() -> Self {
+        Drive {
+            force_constant: 1.0,
+            amplifier_gain: 1.0,
+            peak_current: f64::INFINITY,
+            rated_current: f64::INFINITY,
+            thermal_time: 1.0,
+            current_lag: 0.0,
+            delay: 0.0,
+        }
+    }
+
+    /// The linear motor of Zhang et al. 2025 (doi 10.1371/journal.pone.0322844): 96 N/A, 13 A peak (1248 N), 2.3 A rated
+    /// (221 N), 1.8 A/V if 10 V is 18 A; with a current loop of 1 kHz. The thermal time is an assumption.
+    pub fn linear_motor(delay: f64) -> Self {
+        Drive {
+            force_constant: 96.0,
+            amplifier_gain: 1.8,
+            peak_current: 13.0,
+            rated_current: 221.0 / 96.0,
+            thermal_time: 10.0,
+            current_lag: 1.0 / (2.0 * std::f64::consts::PI * 1000.0),
+            delay,
+        }
+    }
+
+    /// Force per volt of command, Kf Ka, N/V (N m/V).
+    pub fn gain(&self) -> f64 {
+        self.force_constant * self.amplifier_gain
+    }
+
+    /// The largest force that may be asked for, N (N m).
+    pub fn peak_force(&self) -> f64 {
+        self.force_constant * self.peak_current
+    }
+
+    /// How far a compensation on the reference velocity has to look ahead at a control period of `period` seconds, in
+    /// samples: delay and current loop. The half sample by which a held force comes late on average is not among it: a law
+    /// that is stepped with the velocity at the end of a sample is half a sample early by itself.
+    pub fn preview(&self, period: f64) -> f64 {
+        (self.delay + self.current_lag) / period
+    }
+
+    /// Refuses settings out of range for a control period of `period` seconds.
+    pub fn validate(&self, period: f64) -> Result<(), ParamError> {
+        ParamError::positive("force_constant", self.force_constant)?;
+        ParamError::positive("amplifier_gain", self.amplifier_gain)?;
+        for (name, current) in [
+            ("peak_current", self.peak_current),
+            ("rated_current", self.rated_current),
+        ] {
+            if current.is_nan() || current <= 0.0 {
+                return Err(ParamError::new(name, current, "> 0, or infinite"));
+            }
+        }
+        ParamError::positive("thermal_time", self.thermal_time)?;
+        ParamError::not_negative("current_lag", self.current_lag)?;
+        ParamError::not_negative("delay", self.delay)?;
+        if self.delay > LONGEST as f64 * period {
+            let allowed = "at most 32 control periods";
+            return Err(ParamError::new("delay", self.delay, allowed));
+        }
+        Ok(())
+    }
+}
+
+/// A drive at work at a fixed control period.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunningDrive {
+    drive: Drive,
+    /// Volts of command for a force, V/N.
+    per_force: f64,
+    /// Whole periods of delay and the part of one that is left.
+    whole: usize,
+    part: f64,
+    /// The last commands, A, the newest at `newest`.
+    commands: [f64; LONGEST + 2],
+    newest: usize,
+    /// A
+    current: f64,
+    /// Mean square of the current over the thermal time, A^2, and how much of it a period replaces.
+    heat: f64,
+    warming: f64,
+    period: f64,
+}
+
+impl RunningDrive {
+    /// At rest, for a control period in s.
+    pub fn new(drive: Drive, period: f64) -> Result<Self, ParamError> {
+        ParamError::positive("period", period)?;
+        drive.validate(period)?;
+        let periods = drive.delay / period;
+        // A delay that is whole but for rounding is whole.
+        let whole = libm::floor(periods + 1e-9);
+        Ok(RunningDrive {
+            drive,
+            per_force: 1.0 / drive.gain(),
+            whole: whole as usize,
+            part: (periods - whole).max(0.0),
+            commands: [0.0; LONGEST + 2],
+            newest: 0,
+            current: 0.0,
+            heat: 0.0,
+            warming: -libm::expm1(-period / drive.thermal_time),
+            period,
+        })
+    }
+
+    /// The settings.
+    pub fn drive(&self) -> &Drive {
+        &self.drive
+    }
+
+    /// Takes the force that the controller asks for, N (N m), at the beginning of a period; limited to the peak.
+    pub fn command(&mut self, force: f64) {
+        let volts = force * self.per_force;
+        let current = self.drive.amplifier_gain * volts;
+        self.newest = (self.newest + 1) % self.commands.len();
+        self.commands[self.newest] =
+            current.clamp(-self.drive.peak_current, self.drive.peak_current);
+        let hot = self.heat > self.drive.rated_current * self.drive.rated_current;
+        if hot {
+            let rated = self.drive.rated_current;
+            self.commands[self.newest] = self.commands[self.newest].clamp(-rated, rated);
+        }
+        self.heat += self.warming * (self.current * self.current - self.heat);
+    }
+
+    /// Mean force, N (N m), over the stretch of the present period from `begin` to `end`, as parts of it, 0 to 1. The
+    /// stretches of a period are to be asked for in their order.
+    pub fn force(&mut self, begin: f64, end: f64) -> f64 {
+        if self.part <= begin || self.part >= end {
+            let late = usize::from(self.part >= end);
+            return self.drive.force_constant * self.follow(self.whole + late, end - begin);
+        }
+        let first = self.follow(self.whole + 1, self.part - begin);
+        let second = self.follow(self.whole, end - self.part);
+        let mean = (first * (self.part - begin) + second * (end - self.part)) / (end - begin);
+        self.drive.force_constant * mean
+    }
+
+    /// Mean current, A, while the loop follows the command of `late` periods ago for `part` of a period.
+    fn follow(&mut self, late: usize, part: f64) -> f64 {
+        let size = self.commands.len();
+        let wanted = self.commands[(self.newest + size - late) % size];
+        let lag = self.drive.current_lag;
+        if lag == 0.0 {
+            self.current = wanted;
+            return wanted;
+        }
+        let x = part * self.period / lag;
+        let gone = -libm::expm1(-x);
+        let off = self.current - wanted;
+        self.current = wanted + off * (1.0 - gone);
+        wanted + off * (gone / x)
+    }
+}

@@ -1,0 +1,136 @@
+//! What is added to the controller's force against friction.
+
+use crate::drive::Drive;
+use stiction_friction::ParamError;
+use stiction_friction::compensator::{Compensator, DisturbanceObserver, DisturbanceState, Input};
+
+/// Compensation of an axis: any of its parts, or none.
+///
+/// | method | parts |
+/// |---|---|
+/// | none | none |
+/// | Coulomb, Stribeck, LuGre on reference or measured velocity, blend, observer, adaptive | `compensator` |
+/// | disturbance observer | `observer` |
+/// | iterative learning | `learned`, from pass to pass by [`Learning`](crate::learning::Learning) |
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Feedforward {
+    /// The model-based compensator, the code that runs on the drive.
+    pub compensator: Option<Compensator<f64>>,
+    /// How far it looks ahead on the reference, 0 to 7 samples: [`Drive::preview`].
+    pub preview: f64,
+    /// The disturbance observer.
+    pub observer: Option<DisturbanceObserver<f64>>,
+    /// A force for each sample of the pass, N (N m).
+    pub learned: Vec<f64>,
+}
+
+/// A moment of the run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Moment {
+    pub index: usize,
+    /// Reference velocity ahead, m/s (rad/s).
+    pub ahead: f64,
+    /// Measured velocity, m/s (rad/s).
+    pub rate: f64,
+    /// Reference less measured position, m (rad).
+    pub error: f64,
+}
+
+/// The longest delay of a drive in periods, and the period that a measured velocity spans.
+const REMEMBERED: usize = 34;
+
+/// A compensation at work.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunningFeedforward {
+    parts: Feedforward,
+    observed: DisturbanceState<f64>,
+    /// The last commands less what the compensator and the passes gave, N (N m), the newest at `newest`: the observer
+    /// is to find what they leave.
+    commands: [f64; REMEMBERED],
+    newest: usize,
+    modelled: f64,
+    /// Which of them acted over the period that a sample looks back on.
+    late: usize,
+}
+
+impl Feedforward {
+    /// The compensator alone, with a preview in samples.
+    pub fn compensator(compensator: Compensator<f64>, preview: f64) -> Self {
+        Feedforward {
+            compensator: Some(compensator),
+            preview,
+            ..Feedforward::default()
+        }
+    }
+
+    /// The disturbance observer alone.
+    pub fn observer(observer: DisturbanceObserver<f64>) -> Self {
+        Feedforward {
+            observer: Some(observer),
+            ..Feedforward::default()
+        }
+    }
+
+    pub(crate) fn start(
+        &self,
+        drive: &Drive,
+        period: f64,
+    ) -> Result<RunningFeedforward, ParamError> {
+        if !(0.0..=crate::trajectory::FARTHEST).contains(&self.preview) {
+            return Err(ParamError::new("preview", self.preview, "0 to 7 samples"));
+        }
+        Ok(RunningFeedforward {
+            parts: self.clone(),
+            observed: DisturbanceState::default(),
+            commands: [0.0; REMEMBERED],
+            newest: 0,
+            modelled: 0.0,
+            // The drive was checked: its delay is at most 32 periods.
+            late: libm::round(drive.delay / period) as usize,
+        })
+    }
+}
+
+impl RunningFeedforward {
+    /// The compensator with its state, if there is one.
+    pub fn compensator(&self) -> Option<&Compensator<f64>> {
+        self.parts.compensator.as_ref()
+    }
+
+    pub(crate) fn set_level(&mut self, level: f64) {
+        if let Some(compensator) = &mut self.parts.compensator {
+            compensator.set_level(level);
+        }
+    }
+
+    #[inline]
+    pub(crate) fn force(&mut self, moment: Moment) -> f64 {
+        let mut force = 0.0;
+        if let Some(compensator) = &mut self.parts.compensator {
+            force += compensator.step(Input {
+                reference_velocity: moment.ahead,
+                measured_velocity: moment.rate,
+                tracking_error: moment.error,
+                enable: true,
+            });
+        }
+        if let Some(learned) = self.parts.learned.get(moment.index) {
+            force += learned;
+        }
+        self.modelled = force;
+        if let Some(observer) = &self.parts.observer {
+            let acted = self.commands[(self.newest + REMEMBERED - self.late) % REMEMBERED];
+            force += observer.step(&mut self.observed, acted, moment.rate);
+        }
+        force
+    }
+
+    /// Takes note of the force that was commanded.
+    #[inline]
+    pub(crate) fn applied(&mut self, command: f64) {
+        if self.parts.observer.is_some() {
+            self.newest = (self.newest + 1) % REMEMBERED;
+            self.commands[self.newest] = command - self.modelled;
+        }
+    }
+}

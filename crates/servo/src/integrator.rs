@@ -1,0 +1,96 @@
+//! How a plant is advanced in time: MID (the default), RODAS3 (the reference), ode4 (what the literature used).
+//!
+//! | | order | step | stiff bristles | laws |
+//! |---|---|---|---|---|
+//! | [`Mid`] | 2 | fixed | A-stable | any |
+//! | [`Quick`] | 2, the same motion | fixed | A-stable | LuGre |
+//! | [`Rodas3`] | 3 | adaptive | L-stable | LuGre |
+//! | [`Ode4`] | 4 | fixed | unstable above a step that [`Ode4::check`] gives | LuGre |
+
+mod flow;
+mod ode4;
+mod quick;
+mod rodas3;
+
+pub use ode4::{Ode4, Unstable};
+pub use quick::Quick;
+pub use rodas3::{Rodas3, Work};
+
+use crate::plant::{Load, Motion, Plant};
+use stiction_friction::{Held, LuGre, ParamError};
+
+/// Advances a plant whose law is `L`.
+pub trait Integrator<L: Held<f64>> {
+    /// The motion after `span` > 0 seconds under `load`, whose force rises by `rate` N/s (N m/s).
+    fn advance(
+        &mut self,
+        plant: &Plant<L>,
+        from: Motion<L::State>,
+        span: f64,
+        load: Load,
+        rate: f64,
+    ) -> Motion<L::State>;
+}
+
+/// The implicit midpoint of [`Plant::step`] in equal steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mid {
+    steps: u32,
+}
+
+impl Mid {
+    /// `steps` >= 1 in each call.
+    pub fn new(steps: u32) -> Result<Self, ParamError> {
+        at_least_one(steps)?;
+        Ok(Mid { steps })
+    }
+}
+
+impl<L: Held<f64>> Integrator<L> for Mid {
+    #[inline]
+    fn advance(
+        &mut self,
+        plant: &Plant<L>,
+        from: Motion<L::State>,
+        span: f64,
+        load: Load,
+        rate: f64,
+    ) -> Motion<L::State> {
+        let h = span / f64::from(self.steps);
+        (0..self.steps).fold(from, |motion, i| {
+            let force = load.force + rate * (h * (f64::from(i) + 0.5));
+            plant.step(motion, h, Load { force, ..load }).motion
+        })
+    }
+}
+
+/// A choice made at run time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Choice {
+    /// See [`Mid`].
+    Mid(Mid),
+    /// See [`Quick`].
+    Quick(Quick),
+    /// See [`Rodas3`].
+    Rodas3(Rodas3),
+    /// See [`Ode4`].
+    Ode4(Ode4),
+}
+
+impl Integrator<LuGre<f64>> for Choice {
+    fn advance(&mut self, plant: &Plant, from: Motion, span: f64, load: Load, rate: f64) -> Motion {
+        match self {
+            Choice::Mid(mid) => mid.advance(plant, from, span, load, rate),
+            Choice::Quick(quick) => quick.advance(plant, from, span, load, rate),
+            Choice::Rodas3(rodas3) => rodas3.advance(plant, from, span, load, rate),
+            Choice::Ode4(ode4) => ode4.advance(plant, from, span, load, rate),
+        }
+    }
+}
+
+fn at_least_one(steps: u32) -> Result<(), ParamError> {
+    if steps == 0 {
+        return Err(ParamError::new("steps", 0.0, ">= 1"));
+    }
+    Ok(())
+}

@@ -1,0 +1,63 @@
+//! A known axis as a whole: drive, encoder and controller of a common servo around its plant.
+
+use super::KnownAxis;
+use crate::axis::AxisSettings;
+use crate::cascade::Cascade;
+use crate::controller::Controller;
+use crate::drive::Drive;
+use crate::encoder::Encoder;
+use crate::feedforward::Feedforward;
+use crate::plant::Plant;
+use stiction_friction::{Damping, Direction, LuGre, ParamError, Stribeck};
+
+impl KnownAxis {
+    /// The axis under a cascade at `rate` (Hz) with a speed loop of `bandwidth` (Hz): one sample of delay, a current loop
+    /// of 1 kHz, 50 nm (nrad) an encoder step, mass and velocity fed forward, sigma1 capped, no compensation. The plant is
+    /// stepped at 10 kHz or faster.
+    pub fn simulated(&self, rate: f64, bandwidth: f64) -> Result<AxisSettings, ParamError> {
+        ParamError::positive("rate", rate)?;
+        let limit = 1000.0;
+        Ok(AxisSettings {
+            plant: Plant::new(self.mass, self.capped_law())?,
+            drive: Drive::linear_motor(1.0 / rate),
+            encoder: Encoder::new(50e-9)?,
+            position_noise: 0.0,
+            cogging: None,
+            disturbance: None,
+            controller: Controller::Cascade(Cascade::tuned(self.mass, bandwidth, limit)?),
+            feedforward: Feedforward::default(),
+            rate,
+            substeps: libm::ceil(1e4 / rate) as u32,
+            seed: 1,
+        })
+    }
+}
+
+/// The 64 laws whose six parameters are each too small or too large by the part `by`, 0 to below 1, with sigma1 capped:
+/// what a compensator may be given instead of `law`. Fs is kept at Fc or above.
+pub fn corners(law: &LuGre<f64>, by: f64) -> impl Iterator<Item = LuGre<f64>> {
+    let true_side = *law.curve().positive();
+    let (stiffness, damping, shape) = (
+        law.stiffness(),
+        law.damping().at_rest(),
+        law.curve().shape(),
+    );
+    (0..64).filter_map(move |corner| {
+        let off = |i: u32| {
+            if corner >> i & 1 == 1 {
+                1.0 + by
+            } else {
+                1.0 - by
+            }
+        };
+        let coulomb = off(3) * true_side.coulomb;
+        let side = Direction {
+            coulomb,
+            static_friction: coulomb.max(off(4) * true_side.static_friction),
+            stribeck_velocity: off(5) * true_side.stribeck_velocity,
+            viscous: off(2) * true_side.viscous,
+        };
+        let curve = Stribeck::symmetric(shape, side, 0.0).ok()?;
+        LuGre::new(off(0) * stiffness, Damping::Capped(off(1) * damping), curve).ok()
+    })
+}

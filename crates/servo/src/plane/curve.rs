@@ -1,0 +1,108 @@
+//! Curves in the plane and the nearest point on them.
+
+/// A point of a curve with the derivatives by the curve's parameter.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Place {
+    /// m (rad)
+    pub point: [f64; 2],
+    /// First derivative.
+    pub first: [f64; 2],
+    /// Second derivative.
+    pub second: [f64; 2],
+}
+
+/// How far a point is from a curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Deviation {
+    /// Distance to the curve, m; positive if the curve lies to the left of the point, seen along the motion.
+    pub distance: f64,
+    /// Unit vector to the left of the motion: `distance` times this leads to the curve.
+    pub left: [f64; 2],
+}
+
+/// A curve `c(p)`.
+pub trait Curve {
+    /// Where the parameter ends; it begins at 0.
+    fn end(&self) -> f64;
+
+    /// The place at the parameter `p`, 0 to [`end`](Self::end).
+    fn place(&self, p: f64) -> Place;
+
+    /// Parameters at which the motion stops because the direction jumps, ascending, without 0 and the end.
+    fn corners(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Estimate of the deviation in real time, at the reference parameter `p` with the tracking error `error` (reference
+    /// less actual, m). By default that of the foot point.
+    fn deviation(&self, p: f64, error: [f64; 2]) -> Deviation {
+        let at = self.place(p).point;
+        let position = [at[0] - error[0], at[1] - error[1]];
+        foot(self, position, p).deviation
+    }
+
+    /// The deviation of a position, m, from the whole curve near the parameter `p`: what a metric takes.
+    fn true_deviation(&self, position: [f64; 2], p: f64) -> Deviation {
+        foot(self, position, p).deviation
+    }
+}
+
+/// The nearest point of a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foot {
+    /// Its parameter.
+    pub parameter: f64,
+    /// How far it is.
+    pub deviation: Deviation,
+}
+
+/// Newton steps are quadratic near the curve; a handful is enough from a reference close by.
+const MOST_STEPS: usize = 8;
+
+/// The foot point of `position` on a curve, by Newton's method on `(P - c(p)) c'(p) = 0` from the parameter `start`. Where
+/// the curvature would lead it away from a minimum the step is that of the tangent.
+pub fn foot<C: Curve + ?Sized>(curve: &C, position: [f64; 2], start: f64) -> Foot {
+    let mut p = start.clamp(0.0, curve.end());
+    for _ in 0..MOST_STEPS {
+        let at = curve.place(p);
+        let away = minus(position, at.point);
+        let speed = dot(at.first, at.first);
+        if speed == 0.0 {
+            break;
+        }
+        let slope = speed - dot(away, at.second);
+        let slope = if slope > 0.1 * speed { slope } else { speed };
+        let next = (p + dot(away, at.first) / slope).clamp(0.0, curve.end());
+        let moved = (next - p).abs();
+        p = next;
+        if moved <= 1e-14 * (1.0 + curve.end()) {
+            break;
+        }
+    }
+    let at = curve.place(p);
+    Foot {
+        parameter: p,
+        deviation: from_left(minus(at.point, position), at.first),
+    }
+}
+
+/// The part of `to_curve` across the direction of motion.
+pub(super) fn from_left(to_curve: [f64; 2], direction: [f64; 2]) -> Deviation {
+    let length = libm::sqrt(dot(direction, direction));
+    if length == 0.0 {
+        return Deviation::default();
+    }
+    let left = [-direction[1] / length, direction[0] / length];
+    Deviation {
+        distance: dot(to_curve, left),
+        left,
+    }
+}
+
+pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+pub(super) fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0] - b[0], a[1] - b[1]]
+}

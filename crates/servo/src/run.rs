@@ -1,0 +1,44 @@
+//! An axis along a trajectory, recorded.
+
+use crate::axis::{Axis, AxisSettings, Correction, Sample};
+use crate::integrator::{Integrator, Mid};
+use crate::trajectory::{Lookahead, Trajectory};
+use stiction_friction::{Held, ParamError};
+
+/// The most samples one run may have: below a gigabyte.
+const MOST_SAMPLES: f64 = 1e7;
+
+/// Samples of a trajectory at a rate (Hz), if they are not too many.
+pub fn sample_count(duration: f64, rate: f64) -> Result<usize, ParamError> {
+    let samples = libm::floor(duration * rate + 1e-6) + 1.0;
+    if samples.is_nan() || samples > MOST_SAMPLES {
+        let allowed = "at most 1e7 (duration times rate)";
+        return Err(ParamError::new("samples", samples, allowed));
+    }
+    Ok(samples as usize)
+}
+
+/// Runs an axis from rest over the whole trajectory, with MID in one step a stretch.
+pub fn run<L: Held<f64>>(
+    settings: &AxisSettings<L>,
+    trajectory: &impl Trajectory,
+) -> Result<Vec<Sample>, ParamError> {
+    run_with(settings, trajectory, Mid::new(1)?)
+}
+
+/// [`run`] with another integrator.
+pub fn run_with<L: Held<f64>, I: Integrator<L>>(
+    settings: &AxisSettings<L>,
+    trajectory: &impl Trajectory,
+    integrator: I,
+) -> Result<Vec<Sample>, ParamError> {
+    let mut axis = Axis::new(settings.clone(), integrator)?;
+    let n = sample_count(trajectory.duration(), settings.rate)?;
+    let mut reference = Lookahead::new(trajectory, settings.rate, settings.feedforward.preview);
+    let mut samples = Vec::with_capacity(n);
+    for _ in 0..n {
+        let (now, ahead) = reference.sample();
+        samples.push(axis.step(now, ahead, Correction::default()));
+    }
+    Ok(samples)
+}

@@ -1,0 +1,120 @@
+//! Metrics of motions whose errors are known in closed form.
+
+use stiction_servo::axis::Sample;
+use stiction_servo::metrics::{Contour, Tracking, circular_deviation, reversals, velocity_ripple};
+use stiction_servo::path::Reference;
+use stiction_servo::two_axes::PlaneSample;
+
+/// A reference sin(2 pi t), sampled at 1 kHz for 2 s, followed with an error `off(t)` and a velocity `v(t)`.
+fn samples(off: impl Fn(f64) -> f64, v: impl Fn(f64) -> f64) -> Vec<Sample> {
+    let omega = 2.0 * std::f64::consts::PI;
+    (0..2000)
+        .map(|k| {
+            let t = f64::from(k) * 1e-3;
+            let reference = Reference {
+                position: libm::sin(omega * t),
+                velocity: omega * libm::cos(omega * t),
+                acceleration: 0.0,
+            };
+            Sample {
+                time: t,
+                reference,
+                position: reference.position - off(t),
+                velocity: v(t),
+                command: if k % 2 == 0 { 3.0 } else { 5.0 },
+                ..Sample::default()
+            }
+        })
+        .collect()
+}
+
+#[test]
+fn rms_peak_and_command_change() {
+    let all = samples(
+        |t| 2e-6 * libm::sin(20.0 * std::f64::consts::PI * t),
+        |_| 1.0,
+    );
+    let t = Tracking::of(&all);
+    assert!((t.rms - 2e-6 / 2f64.sqrt()).abs() < 1e-12);
+    assert!((t.peak - 2e-6).abs() < 1e-12);
+    assert!((t.command_change - 2.0).abs() < 1e-12);
+    assert_eq!(Tracking::of(&[]), Tracking::default());
+}
+
+#[test]
+fn reversals_and_what_stands_about_them() {
+    // Reversals at .25, .75, 1.25 and 1.75 s: .125 s to either side count.
+    let all = samples(
+        |t| {
+            if (0.45..0.55).contains(&t) {
+                9e-6
+            } else {
+                1e-6
+            }
+        },
+        |_| 1.0,
+    );
+    let at = reversals(&all);
+    assert_eq!(at.len(), 4);
+    for (got, expected) in at.iter().zip([0.25, 0.75, 1.25, 1.75]) {
+        assert!((got - expected).abs() < 1.1e-3);
+    }
+    assert!((Tracking::of(&all).reversal_peak - 1e-6).abs() < 1e-12);
+    let late = samples(|t| if t > 1.3 && t < 1.32 { 5e-6 } else { 0.0 }, |_| 1.0);
+    assert!((Tracking::of(&late).reversal_peak - 5e-6).abs() < 1e-12);
+    // A single reversal: 20 ms.
+    let single = &late[1000..1500];
+    assert_eq!(Tracking::of(single).reversal_peak, 0.0);
+}
+
+#[test]
+fn stick_time_is_the_standstill_about_a_reversal() {
+    let stands = |t: f64| (0.24..0.29).contains(&t) || (0.5..0.7).contains(&t);
+    let all = samples(|_| 0.0, |t| if stands(t) { 0.0 } else { 1.0 });
+    let stick = Tracking::of(&all).stick_time;
+    assert!((stick - 0.049).abs() < 1.5e-3, "{stick}");
+}
+
+#[test]
+fn ripple_of_a_modulated_speed() {
+    let omega = 20.0 * std::f64::consts::PI;
+    let all = samples(|_| 0.0, |t| 0.1 * (1.0 + 0.02 * libm::sin(omega * t)));
+    assert!((velocity_ripple(&all) - 0.02 / 2f64.sqrt()).abs() < 1e-9);
+}
+
+#[test]
+fn contour_rms_and_peak() {
+    let with = |deviation| PlaneSample {
+        deviation,
+        ..PlaneSample::default()
+    };
+    let contour = Contour::of(&[with(3e-6), with(-4e-6)]);
+    assert!((contour.rms - 12.5e-12_f64.sqrt()).abs() < 1e-18 && contour.peak == 4e-6);
+    assert_eq!(Contour::of(&[]), Contour::default());
+}
+
+/// Minimum zone of shapes whose zone is known: an ellipse's is the difference of its half axes, wherever it stands; a
+/// circle pulled out at one place has a narrower zone than the bump about another centre, but never less than half of it.
+#[test]
+fn circular_deviation_is_the_minimum_zone() {
+    let turn = |r: &dyn Fn(f64) -> [f64; 2]| -> Vec<[f64; 2]> {
+        (0..3600)
+            .map(|k| r(f64::from(k) * std::f64::consts::PI / 1800.0))
+            .collect()
+    };
+    let ellipse = turn(&|a| [0.3 + 10.01e-3 * libm::cos(a), -0.2 + 10e-3 * libm::sin(a)]);
+    let width = circular_deviation(&ellipse);
+    assert!((width / 10e-6 - 1.0).abs() < 1e-6, "{width}");
+    // Half of the turn only: the mean of the points is far from the centre.
+    let half = circular_deviation(&ellipse[..1801]);
+    assert!(half <= width * (1.0 + 1e-6), "{half}");
+    let circle = turn(&|a| [5e-3 * libm::cos(a), 1.0 + 5e-3 * libm::sin(a)]);
+    assert!(circular_deviation(&circle) < 1e-12);
+    let bump = turn(&|a| {
+        let r = if a < 0.1 { 5.002e-3 } else { 5e-3 };
+        [r * libm::cos(a), r * libm::sin(a)]
+    });
+    let width = circular_deviation(&bump);
+    assert!((1e-6..=2e-6).contains(&width), "{width}");
+    assert_eq!(circular_deviation(&[[0.0, 1.0]; 2]), 0.0);
+}
