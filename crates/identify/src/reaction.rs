@@ -81,7 +81,9 @@ impl Reaction {
             let reading: Vec<f64> = (0..reading.len())
                 .map(|k| logging.at(&reading, k))
                 .collect();
-            for k in LAGS - 1..force.len() {
+            // The filter has to settle at both ends.
+            let trim = slow.settling_samples();
+            for k in trim + LAGS - 1..force.len().saturating_sub(trim) {
                 let x = SVector::<f64, LAGS>::from_fn(|lag, _| reading[k - lag]);
                 square += x * x.transpose();
                 product += x * force[k];
@@ -155,4 +157,74 @@ fn without_noise(x: &[f64]) -> Option<Vec<f64>> {
         fine = coarse;
     }
     Some(kept.iter().zip(&fine).map(|(a, b)| a + b).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::conditioning::record::Samples;
+    use crate::conditioning::{Conditioning, condition};
+    use stiction_servo::encoder::Encoder;
+    use stiction_servo::noise::Noise;
+
+    const STEP: f64 = 2.5e-4;
+    /// A difference of positions times 3 kN s/m, and 100 kN/m.
+    const ANSWER: [f64; 2] = [-1.21e7, 1.2e7];
+    const NOISE: f64 = 0.5;
+
+    /// A record of a controller that answers its readings, and the force that the axis got.
+    fn record(answers: bool, late: f64) -> (Record, Vec<f64>) {
+        let mut noise = Noise::new(5);
+        let encoder = Encoder::new(100e-9).unwrap();
+        let t = |k: usize| k as f64 * STEP;
+        let x: Vec<f64> = (0..16_000)
+            .map(|k| encoder.read(2e-3 * libm::sin(9.0 * t(k)) + 1e-4 * libm::sin(31.0 * t(k))))
+            .collect();
+        let held: Vec<f64> = (0..x.len())
+            .map(|k| {
+                let reference = 40.0 * libm::sin(9.0 * t(k) + 0.3);
+                let answer = ANSWER[0] * x[k] + ANSWER[1] * x[k.saturating_sub(1)];
+                reference + if answers { answer } else { 0.0 }
+            })
+            .collect();
+        let logging = Logging::new(late);
+        let force = (0..x.len())
+            .map(|k| logging.at(&held, k) + NOISE * noise.normal())
+            .collect();
+        let samples = Samples {
+            time: (0..x.len()).map(t).collect(),
+            position: Some(x),
+            force,
+            ..Samples::default()
+        };
+        let record = condition(&[samples], &Conditioning::default()).unwrap();
+        (record, held)
+    }
+
+    #[test]
+    fn the_answer_is_found_however_the_force_was_logged() {
+        for late in [0.0, 0.5, 1.0, -0.8] {
+            let (record, held) = record(true, late);
+            let logging = Logging::new(late);
+            let reaction = Reaction::of(&record, logging).unwrap();
+            for (lag, found) in reaction.by_lag.iter().enumerate() {
+                let truth = ANSWER.get(lag).copied().unwrap_or(0.0);
+                assert!(
+                    (found - truth).abs() < 0.05 * ANSWER[1],
+                    "late by {late}: lag {lag}: {found:e}"
+                );
+            }
+            let felt = reaction.felt(&record.segments[0], logging).unwrap();
+            let middle = 200..felt.len() - 200;
+            let square: f64 = middle.clone().map(|k| (felt[k] - held[k]).powi(2)).sum();
+            let off = (square / middle.len() as f64).sqrt();
+            assert!(off < 0.3 * NOISE, "late by {late}: off by {off} N");
+        }
+    }
+
+    #[test]
+    fn no_answer_is_found_where_there_is_none() {
+        let (record, _) = record(false, 0.0);
+        assert_eq!(Reaction::of(&record, Logging::new(0.0)), None);
+    }
 }
