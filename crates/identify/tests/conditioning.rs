@@ -6,7 +6,7 @@ mod closed_loop;
 use closed_loop::{error, identified, three_segments, truth};
 
 /// Every parameter of each log within `most` percent of the truth, and the intervals hold it as often as
-/// chance lets them: nine of ten at least.
+/// chance lets them: 17 of 20 at least.
 fn holds(logs: &[(&str, f64, f64)]) {
     let (mut inside, mut all) = (0, 0);
     for &(name, count, most) in logs {
@@ -34,7 +34,7 @@ fn holds(logs: &[(&str, f64, f64)]) {
         let delay = found.value("delay").unwrap();
         assert!((delay + 1.25e-4).abs() < 5e-5, "{name}: delay {delay}");
     }
-    assert!(10 * inside >= 9 * all, "{inside} of {all} intervals hold");
+    assert!(20 * inside >= 17 * all, "{inside} of {all} intervals hold");
 }
 
 #[test]
