@@ -14,12 +14,15 @@ mod output;
 mod report;
 pub mod result;
 mod source;
+mod spread;
 mod symbols;
 pub mod text;
 
 pub use axis::Axis;
 pub use error::{Error, Warning};
-pub use identify::{Method, Options, Outcome, Procedures, Simulated, identify};
+pub use identify::{
+    CostKind, Method, Options, Outcome, Procedures, Searching, Simulated, identify,
+};
 pub use model::ModelFile;
 pub use output::{Bundle, check_folder, check_inputs, write_atomic};
 pub use source::{Source, load, table};

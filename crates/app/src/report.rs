@@ -6,6 +6,7 @@ mod figures;
 mod formula;
 mod ladder;
 mod procedure;
+mod searched;
 mod simulation;
 mod tables;
 
@@ -55,8 +56,12 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
     for block in procedure::sections(outcome) {
         document = document.block(block);
     }
+    for block in searched::sections(outcome) {
+        document = document.block(block);
+    }
     // Points of a map and displacements are no force sample by sample.
-    let sampled = matches!(result.method.as_str(), "separable" | "static-then-dynamic");
+    let sampled = matches!(result.method.as_str(), "separable" | "static-then-dynamic")
+        || result.searched.is_some();
     document = match &outcome.simulation {
         Some(simulated) => simulation::sections(document, outcome, simulated),
         None if sampled => measured_force(document, outcome),

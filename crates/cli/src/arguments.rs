@@ -87,6 +87,8 @@ pub struct Identify {
     /// How the parameters are found.
     #[arg(long, value_enum, default_value_t = Method::Separable)]
     pub method: Method,
+    #[command(flatten)]
+    pub searching: Searching,
     /// Logs of constant velocities to take the steady curve from, instead of the logs themselves.
     #[arg(long = "static", value_name = "LOG", num_args = 1..)]
     pub statics: Vec<PathBuf>,
@@ -145,4 +147,56 @@ pub enum Method {
     PreslidingStep,
     /// Force in, position out: the axis simulated, with its controller where the axis file has one.
     OutputError,
+    /// Plain genetic algorithm.
+    Ga,
+    /// Genetic algorithm with adaptive rates.
+    AdaptiveGa,
+    /// Annealing genetic algorithm of Zhang et al. 2025.
+    AnnealingGa,
+    /// Annealing genetic algorithm in niches, with descents that must agree.
+    NichedGa,
+    /// Differential evolution.
+    De,
+    /// Covariance matrix adaptation.
+    CmaEs,
+    /// Particle swarm.
+    Pso,
+    /// Simulated annealing.
+    Annealing,
+    /// Simplex method, restarted.
+    NelderMead,
+    /// Least squares from many starts.
+    Lm,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Cost {
+    /// Six parameters of the symmetric LuGre law at once, mass and offset solved.
+    Six,
+    /// The nonlinear unknowns of the law only, everything linear solved.
+    Separable,
+}
+
+/// For the searches (ga to lm).
+#[derive(Clone, Debug, Args)]
+pub struct Searching {
+    /// What a search evaluates [default: six for ga, adaptive-ga and annealing-ga on the symmetric
+    /// LuGre law, else separable].
+    #[arg(long, value_enum, value_name = "COST")]
+    pub cost: Option<Cost>,
+    /// Most evaluations of a search [default: 20000].
+    #[arg(long, value_name = "N")]
+    pub evaluations: Option<u64>,
+    /// Stop a search at this cost: the square of the relative error.
+    #[arg(long, value_name = "J")]
+    pub target: Option<f64>,
+    /// Stop a search this long after the start, in s.
+    #[arg(long, value_name = "S")]
+    pub time: Option<f64>,
+    /// Keep the state of a search here, every few seconds and at the end.
+    #[arg(long, value_name = "FILE")]
+    pub checkpoint: Option<PathBuf>,
+    /// Go on from a state that --checkpoint kept.
+    #[arg(long, value_name = "FILE")]
+    pub resume: Option<PathBuf>,
 }

@@ -5,9 +5,11 @@ use crate::arguments::{self, Arguments, Command, Common};
 use crate::interrupt;
 use crate::output;
 use crate::progress::Bar;
+use clap::ValueEnum;
 use std::path::Path;
 use stiction_app::{
-    Error, LawKind, Method, Options, Outcome, Procedures, check_folder, check_inputs, write_atomic,
+    CostKind, Error, LawKind, Method, Options, Outcome, Procedures, Searching, check_folder,
+    check_inputs, write_atomic,
 };
 
 /// Runs a command; every error is printed here, once.
@@ -114,7 +116,11 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
     let files = inputs.into_iter().flatten();
     check_inputs(
         &identify.out,
-        files.chain(&identify.model).chain(&identify.axis),
+        files
+            .chain(&identify.model)
+            .chain(&identify.axis)
+            .chain(&identify.searching.resume)
+            .chain(&identify.searching.checkpoint),
     )?;
     let options = Options {
         logs: identify.logs.clone(),
@@ -135,22 +141,37 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
         seed: identify.seed,
         compare_laws: true,
         procedures: Procedures {
-            method: match identify.method {
-                arguments::Method::Separable => Method::Separable,
-                arguments::Method::OutputError => Method::OutputError,
-                arguments::Method::Static => Method::Static,
-                arguments::Method::StaticThenDynamic => Method::StaticThenDynamic,
-                arguments::Method::PreslidingStep => Method::PreslidingStep,
-            },
+            method: method(identify.method),
             statics: identify.statics.clone(),
             model: identify.model.clone(),
             break_away: identify.break_away.clone(),
         },
+        searching: searching(&identify.searching),
     };
     let mut bar = Bar::new(common.json || common.quiet);
     let outcome = stiction_app::identify(&options, &mut bar);
     bar.finish();
     finish(&outcome?, &identify.out, common)
+}
+
+/// The method under the name that it has on the command line.
+fn method(typed: arguments::Method) -> Method {
+    let name = typed.to_possible_value().expect("no method is hidden");
+    Method::from_name(name.get_name()).expect("the engine knows every method of the command line")
+}
+
+fn searching(typed: &arguments::Searching) -> Searching {
+    Searching {
+        cost: typed.cost.map(|cost| match cost {
+            arguments::Cost::Six => CostKind::Six,
+            arguments::Cost::Separable => CostKind::Separable,
+        }),
+        evaluations: typed.evaluations,
+        target: typed.target,
+        time: typed.time,
+        checkpoint: typed.checkpoint.clone(),
+        resume: typed.resume.clone(),
+    }
 }
 
 /// Writes the files, says what was found, and what it is worth.

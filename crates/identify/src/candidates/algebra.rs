@@ -28,12 +28,7 @@ pub(super) struct Products {
 
 impl Products {
     /// Of a candidate `[sigma0, sigma1, sigma2, Fc, ..]`; the further columns are solved for.
-    pub fn new(
-        sums: &Sums,
-        shared: &[Vec<f64>],
-        six: &[f64; 6],
-        nonnegative: &[bool],
-    ) -> Self {
+    pub fn new(sums: &Sums, shared: &[Vec<f64>], six: &[f64; 6], nonnegative: &[bool]) -> Self {
         let n = OWN + shared.len();
         let gram = DMatrix::from_fn(n, n, |i, j| match (i < OWN, j < OWN) {
             (true, true) => sums.own[i][j],
@@ -117,15 +112,8 @@ impl Products {
         };
         let (kappa, excess, velocity) = (slope(0), slope(1), slope(2));
         let level = unit(0, fc) - &kappa - &excess;
-        let columns = [
-            kappa,
-            unit(1, s1),
-            unit(SPEED, s2),
-            level,
-            excess,
-            velocity,
-        ]
-        .map(|x| self.outside(&x));
+        let columns = [kappa, unit(1, s1), unit(SPEED, s2), level, excess, velocity]
+            .map(|x| self.outside(&x));
         let products = columns.clone().map(|x| &self.gram * x);
         out.cost = self.cost() / energy;
         for i in 0..6 {

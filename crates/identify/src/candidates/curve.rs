@@ -87,11 +87,12 @@ fn residual(p: &[f64], v: f64, force: f64) -> (f64, [f64; GENES]) {
     let fall = excess * libm::exp(-square) * v.signum();
     let level = fc * v.signum();
     // Far above vs there is nothing left, and nothing that depends on it.
-    let slope = if fall == 0.0 { 0.0 } else { 2.0 * fall * square };
-    (
-        level + fall + s2 * v - force,
-        [s2 * v, level, fall, slope],
-    )
+    let slope = if fall == 0.0 {
+        0.0
+    } else {
+        2.0 * fall * square
+    };
+    (level + fall + s2 * v - force, [s2 * v, level, fall, slope])
 }
 
 impl Problem for Curve {

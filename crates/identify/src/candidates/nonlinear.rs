@@ -46,9 +46,8 @@ impl<'a> Nonlinear<'a> {
             Delay::Given(_) => terms,
         };
         let full = crate::separable::checked(record, law, terms)?;
-        let ends = |end: fn(&SearchBox, usize) -> f64| {
-            (0..bounds.len()).map(|i| end(bounds, i)).collect()
-        };
+        let ends =
+            |end: fn(&SearchBox, usize) -> f64| (0..bounds.len()).map(|i| end(bounds, i)).collect();
         let bounds = Bounds::new(ends(SearchBox::low), ends(SearchBox::high));
         let bounds = bounds.map_err(|_| Error::Setting {
             name: "box",
