@@ -26,7 +26,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 use stiction_identify as engine;
 use stiction_identify::{
-    Delay, Estimate, Law, LawKind, Observer, Record, Series, Settings, Status,
+    Delay, Estimate, Law, LawKind, Observer, Record, Series, Settings, Status, Terms,
 };
 use stiction_log::{Motion, Severity};
 
@@ -354,6 +354,27 @@ impl Outcome {
         bundle.add("result.json", json);
         bundle
     }
+}
+
+/// Logs of one axis as the fit of the symmetric LuGre law sees them, and what stands beside it.
+pub(crate) fn record_of(
+    logs: &[PathBuf],
+    axis: &Axis,
+    observer: &mut dyn Observer,
+) -> Result<(Vec<Source>, Record, Terms), Error> {
+    let sources = load_all(logs, axis)?;
+    check_together(&sources, &[])?;
+    for source in &sources {
+        source.check_channels(&axis.terms)?;
+    }
+    let terms = axis.terms_for(&sources[0].log, false)?;
+    let wanted = conditioning::wanted(&sources, axis);
+    let settings = Settings::default();
+    let (chosen, _) = conditioning::choose(&sources, &wanted, &terms, &settings, observer)?;
+    let record = condition(&sources, &chosen)?;
+    refuse_rest(&record, &sources, sources[0].log.motion)?;
+    let terms = terms.about(&record);
+    Ok((sources, record, terms))
 }
 
 fn load_all(paths: &[PathBuf], axis: &Axis) -> Result<Vec<Source>, Error> {

@@ -1,5 +1,6 @@
 //! `report.html`: an identification as a person reads it.
 
+mod comparison;
 mod dependences;
 mod elements;
 mod figures;
@@ -9,6 +10,8 @@ mod procedure;
 mod searched;
 mod simulation;
 mod tables;
+
+pub(crate) use comparison::comparison;
 
 use crate::identify::Outcome;
 use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};

@@ -5,7 +5,7 @@ use stiction_search::{Bounds, CostsOnly, Derivatives, Fidelity, Points, Problem}
 
 /// Spreads each batch of points over the threads. An answer does not depend on the points it is asked
 /// with, so the result does not depend on how many threads there are.
-pub(crate) struct Spread<'a, P>(pub &'a P);
+pub(crate) struct Spread<'a, P: ?Sized>(pub &'a P);
 
 /// Points that a thread takes at a time: what fills the lanes.
 const SHARE: usize = 16;
@@ -18,7 +18,7 @@ fn part(points: &Points, from: usize) -> Points {
     out
 }
 
-impl<P: Problem + Sync> Problem for Spread<'_, P> {
+impl<P: Problem + Sync + ?Sized> Problem for Spread<'_, P> {
     fn bounds(&self) -> &Bounds {
         self.0.bounds()
     }

@@ -101,6 +101,7 @@ fn check_gradient(problem: &impl Problem, x: &[f64], tolerance: f64) {
         "{} {here}",
         at.cost
     );
+    let steepest = at.gradient.iter().fold(here, |m, g| m.max(2.0 * g.abs()));
     for i in 0..x.len() {
         let moved = |d: f64| {
             let mut y = x.to_vec();
@@ -110,7 +111,7 @@ fn check_gradient(problem: &impl Problem, x: &[f64], tolerance: f64) {
         let slope = (moved(1e-4) - moved(-1e-4)) / 2e-4;
         let error = (2.0 * at.gradient[i] - slope).abs();
         assert!(
-            error < tolerance * here,
+            error < tolerance * steepest,
             "gene {i}: {} {slope}",
             2.0 * at.gradient[i]
         );
