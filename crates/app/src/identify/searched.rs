@@ -162,6 +162,10 @@ pub(super) fn search(task: Task, observer: &mut dyn Observer) -> Result<Found, E
         observer,
     )
     .map_err(refused)?;
+    let spent = &entry.evaluations;
+    estimate.counts.cost += (spent.costs + spent.coarse_costs) as usize;
+    estimate.counts.sensitivities += (spent.derivatives + spent.coarse_derivatives) as usize;
+    estimate.counts.thinned += (spent.coarse_costs + spent.coarse_derivatives) as usize;
     if status == Ended::Interrupted {
         estimate.status = Status::Interrupted;
         optimum.status = Status::Interrupted;

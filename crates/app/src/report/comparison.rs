@@ -36,8 +36,8 @@ pub(crate) fn comparison(file: &CompareFile) -> Document {
         .heading(2, "Success")
         .paragraph(
             "Alone is the search by itself within its evaluations. Then least squares follow from its best \
-             points, where the cost has derivatives; lm and niched-ga end in descents of their own, and alone \
-             is what they have before those.",
+             points, where the cost has derivatives. lm is least squares from the first; niched-ga ends in \
+             descents of its own, and alone is what it has before those.",
         )
         .block(success(file))
         .block(rates(file))
