@@ -128,6 +128,7 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
         seed: 0,
         compare_laws: false,
         procedures: crate::Procedures::default(),
+        searching: crate::Searching::default(),
     };
     match identify::fit(&options, axis, vec![source], Vec::new(), clock, observer) {
         Ok(outcome) => {

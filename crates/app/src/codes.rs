@@ -71,6 +71,10 @@ pub const OWN: &[(&str, &str)] = &[
     ),
     ("bad-record", "the channels of a log do not fit together"),
     ("bad-config", "an axis or model file was refused"),
+    (
+        "bad-checkpoint",
+        "a checkpoint is damaged or belongs to another search",
+    ),
     ("usage", "the command as typed cannot be carried out"),
     ("output", "the output folder or file cannot be used"),
 ];

@@ -48,6 +48,7 @@ pub fn demo(dir: &Path, seed: u64, observer: &mut dyn Observer) -> Result<Outcom
         seed,
         compare_laws: true,
         procedures: crate::Procedures::default(),
+        searching: crate::Searching::default(),
     };
     let mut outcome = identify::identify(&options, observer)?;
     outcome.result.axis.name = Some("a simulated machine axis".into());

@@ -28,6 +28,16 @@ pub enum Error {
         /// What is allowed.
         allowed: String,
     },
+    /// A checkpoint that cannot be taken up.
+    #[error("{}: {found}; {allowed}", .file.display())]
+    Checkpoint {
+        /// The file.
+        file: PathBuf,
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+    },
     /// The command as typed cannot be carried out.
     #[error("{found}; {allowed}")]
     Usage {
@@ -68,6 +78,7 @@ impl Error {
                 | Fit::Time { .. } => "bad-record",
             },
             Error::Config { .. } => "bad-config",
+            Error::Checkpoint { .. } => "bad-checkpoint",
             Error::Usage { .. } => "usage",
             Error::Output { .. } => "output",
         }

@@ -6,10 +6,12 @@ mod conditioning;
 mod ladder;
 mod procedure;
 mod relay;
+mod searched;
 mod simulate;
 mod trust;
 
 pub use procedure::{Method, Procedures};
+pub use searched::{CostKind, Searching};
 
 use crate::axis::Axis;
 use crate::error::{Error, Warning};
@@ -24,7 +26,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 use stiction_identify as engine;
 use stiction_identify::{
-    Delay, Estimate, Law, LawKind, Observer, Record, Series, Settings, Status,
+    Delay, Estimate, Law, LawKind, Observer, Record, Series, Settings, Status, Terms,
 };
 use stiction_log::{Motion, Severity};
 
@@ -49,6 +51,8 @@ pub struct Options {
     pub compare_laws: bool,
     /// The method, and the logs and models that it takes beside the logs.
     pub procedures: Procedures,
+    /// How far a search goes, and where it keeps its state.
+    pub searching: Searching,
 }
 
 /// Fewest samples that a split may leave to validate on.
@@ -122,6 +126,7 @@ pub(crate) fn fit(
             "a number; only the separable method fits it, beside laws with one curve",
         ));
     }
+    searched::check(options)?;
     if !options.procedures.method.fits_records() {
         return procedure::run(options, axis, sources, &beside, clock, observer);
     }
@@ -196,6 +201,7 @@ pub(crate) fn fit(
         low_speed,
     };
     let mut two_step = None;
+    let mut searched = None;
     let choice = if options.procedures.method == Method::StaticThenDynamic {
         let found = procedure::two_step(
             procedure::TwoStep {
@@ -222,6 +228,27 @@ pub(crate) fn fit(
             elements: axis.gms_elements.unwrap_or(0),
         };
         let choice = match options.law {
+            Some(_) if matches!(options.procedures.method, Method::Searched(_)) => {
+                let found = searched::search(
+                    searched::Task {
+                        options,
+                        inputs: &sources,
+                        record: &record,
+                        law,
+                        terms: &terms,
+                        low_speed,
+                        settings: &settings,
+                        clock,
+                    },
+                    observer,
+                )?;
+                searched = Some(found.entry);
+                let compare = options.compare_laws;
+                let fitted = (found.estimate, found.optimum);
+                Ok(choice::fitted_already(
+                    fitted, &ladder, compare, &settings, observer,
+                ))
+            }
             Some(_) => choice::asked(law, &ladder, options.compare_laws, &settings, observer),
             None => choice::auto(law, &ladder, &settings, observer),
         };
@@ -292,6 +319,7 @@ pub(crate) fn fit(
         wall_s: clock.elapsed().as_secs_f64(),
     });
     result.break_away = break_away;
+    result.searched = searched;
     if let Some(found) = two_step {
         found.into_result(&mut result, motion);
     }
@@ -326,6 +354,27 @@ impl Outcome {
         bundle.add("result.json", json);
         bundle
     }
+}
+
+/// Logs of one axis as the fit of the symmetric LuGre law sees them, and what stands beside it.
+pub(crate) fn record_of(
+    logs: &[PathBuf],
+    axis: &Axis,
+    observer: &mut dyn Observer,
+) -> Result<(Vec<Source>, Record, Terms), Error> {
+    let sources = load_all(logs, axis)?;
+    check_together(&sources, &[])?;
+    for source in &sources {
+        source.check_channels(&axis.terms)?;
+    }
+    let terms = axis.terms_for(&sources[0].log, false)?;
+    let wanted = conditioning::wanted(&sources, axis);
+    let settings = Settings::default();
+    let (chosen, _) = conditioning::choose(&sources, &wanted, &terms, &settings, observer)?;
+    let record = condition(&sources, &chosen)?;
+    refuse_rest(&record, &sources, sources[0].log.motion)?;
+    let terms = terms.about(&record);
+    Ok((sources, record, terms))
 }
 
 fn load_all(paths: &[PathBuf], axis: &Axis) -> Result<Vec<Source>, Error> {

@@ -6,6 +6,8 @@
 pub mod axis;
 pub mod check;
 pub mod codes;
+mod compare;
+pub mod compare_file;
 pub mod demo;
 mod error;
 mod identify;
@@ -14,15 +16,22 @@ mod output;
 mod report;
 pub mod result;
 mod source;
+mod spread;
 mod symbols;
 pub mod text;
 
 pub use axis::Axis;
+pub use compare::{
+    CompareOptions, Cost, Excitation, Input, ONE_START, bundle as compare_bundle, compare,
+};
 pub use error::{Error, Warning};
-pub use identify::{Method, Options, Outcome, Procedures, Simulated, identify};
+pub use identify::{
+    CostKind, Method, Options, Outcome, Procedures, Searching, Simulated, identify,
+};
 pub use model::ModelFile;
 pub use output::{Bundle, check_folder, check_inputs, write_atomic};
 pub use source::{Source, load, table};
+pub use stiction_identify::candidates::Scheme;
 pub use stiction_identify::{Control, LawKind, Observer, Progress, Silent, Stage};
 
 /// Limits the threads of the whole process; the first call counts. Results do not depend on it.

@@ -6,8 +6,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
-/// File that marks a folder as one that stiction wrote and may replace.
-const MARK: &str = "result.json";
+/// Files that mark a folder as one that stiction wrote and may replace.
+const MARKS: [&str; 2] = ["result.json", "compare.json"];
 
 /// Files to be written together.
 #[derive(Clone, Debug, Default)]
@@ -27,14 +27,14 @@ impl Bundle {
     }
 
     /// Writes every file into `dir`: all under temporary names first, renamed once the last one is
-    /// complete, `result.json` at the very end. A full disk or an interrupt leaves what was there.
+    /// complete, `result.json` or `compare.json` at the very end. A full disk or an interrupt leaves what was there.
     ///
     /// # Errors
     /// When the folder cannot be made or a file cannot be written.
     pub fn write(&self, dir: &Path) -> Result<Vec<PathBuf>, Error> {
         fs::create_dir_all(dir).map_err(|e| Error::output(dir, describe(&e)))?;
         let mut order: Vec<_> = self.files.iter().collect();
-        order.sort_by_key(|(name, _)| *name == MARK);
+        order.sort_by_key(|(name, _)| MARKS.contains(name));
         let mut staged = Vec::new();
         for (name, content) in order {
             let path = dir.join(name);
@@ -96,8 +96,14 @@ fn temporary_beside(path: &Path) -> std::io::Result<NamedTempFile> {
         .tempfile_in(dir)
 }
 
-/// Names of the files that an identification writes.
-const WRITTEN: [&str; 4] = ["result.json", "model.toml", "report.html", "fit.csv"];
+/// Names of the files that an identification or a comparison writes.
+const WRITTEN: [&str; 5] = [
+    "result.json",
+    "compare.json",
+    "model.toml",
+    "report.html",
+    "fit.csv",
+];
 
 /// Refuses an output folder whose files would take the place of an input.
 ///
@@ -155,7 +161,8 @@ pub fn check_folder(dir: &Path, force: bool) -> Result<(), Error> {
     }
     let mut entries = fs::read_dir(dir).map_err(|e| Error::output(dir, describe(&e)))?;
     let empty = entries.next().is_none();
-    if empty || force || is_ours(&dir.join(MARK)) {
+    let ours = || MARKS.iter().any(|mark| is_ours(&dir.join(mark)));
+    if empty || force || ours() {
         return Ok(());
     }
     Err(Error::output(
@@ -175,8 +182,10 @@ fn is_ours(mark: &Path) -> bool {
     };
     let mut head = Vec::new();
     use std::io::Read;
-    file.take(4096).read_to_end(&mut head).is_ok()
-        && String::from_utf8_lossy(&head).contains("\"stiction.result/")
+    let schemas = ["\"stiction.result/", "\"stiction.compare/"];
+    let read = file.take(4096).read_to_end(&mut head).is_ok();
+    let head = String::from_utf8_lossy(&head);
+    read && schemas.iter().any(|schema| head.contains(schema))
 }
 
 fn describe(e: &std::io::Error) -> String {

@@ -1,13 +1,17 @@
 //! `report.html`: an identification as a person reads it.
 
+mod comparison;
 mod dependences;
 mod elements;
 mod figures;
 mod formula;
 mod ladder;
 mod procedure;
+mod searched;
 mod simulation;
 mod tables;
+
+pub(crate) use comparison::comparison;
 
 use crate::identify::Outcome;
 use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
@@ -55,8 +59,12 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
     for block in procedure::sections(outcome) {
         document = document.block(block);
     }
+    for block in searched::sections(outcome) {
+        document = document.block(block);
+    }
     // Points of a map and displacements are no force sample by sample.
-    let sampled = matches!(result.method.as_str(), "separable" | "static-then-dynamic");
+    let sampled = matches!(result.method.as_str(), "separable" | "static-then-dynamic")
+        || result.searched.is_some();
     document = match &outcome.simulation {
         Some(simulated) => simulation::sections(document, outcome, simulated),
         None if sampled => measured_force(document, outcome),

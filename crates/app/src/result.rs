@@ -1,12 +1,14 @@
 //! `result.json`: everything an identification found. Schema `stiction.result/1`, only ever extended.
 
 mod procedure;
+mod searched;
 
 use crate::error::Warning;
 pub use procedure::{
     BreakAwayEntry, InversionEntry, PreslidingStepEntry, RejectedEntry, StaticMapEntry,
     StaticPointEntry, TwoStepEntry, TwoStepParameter,
 };
+pub use searched::{Evaluations, SearchedEntry, SearchedParameter, SearchedPoint};
 use serde::{Deserialize, Serialize};
 use stiction_identify as identify;
 
@@ -69,6 +71,9 @@ pub struct ResultFile {
     pub elements: Vec<ElementsEntry>,
     /// How the search went.
     pub search: Search,
+    /// What a search found before the least squares that end it; absent for other methods.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub searched: Option<SearchedEntry>,
     /// What to beware of.
     pub warnings: Vec<Warning>,
 }

@@ -1,11 +1,13 @@
 //! What a terminal shows: plain text tables, the same on every width.
 
+mod comparison;
 mod procedure;
 
 use crate::check::{Check, LogCheck, short};
 use crate::identify::Outcome;
-use crate::result::LawEntry;
+use crate::result::{LawEntry, SearchedEntry, SearchedPoint};
 use crate::symbols;
+pub use comparison::comparison;
 pub use procedure::procedure_commands;
 use std::fmt::Write;
 use stiction_identify::IDENTIFIABLE;
@@ -41,6 +43,23 @@ fn table(rows: &[Vec<String>], right: &[bool]) -> String {
         out.push('\n');
     }
     out
+}
+
+/// A search, and how far it came before the last least squares.
+fn searched(method: &str, entry: &SearchedEntry) -> String {
+    let error = |point: &Option<SearchedPoint>| match point {
+        Some(point) => format!("{} %", percent(100.0 * point.cost.sqrt())),
+        None => "nothing".into(),
+    };
+    format!(
+        "{method} ({} cost) {}: {} by itself, {} after its descents; {:.0} evaluations of the full \
+         record",
+        entry.cost,
+        entry.status,
+        error(&entry.own),
+        error(&entry.after_least_squares),
+        entry.evaluations.full_records
+    )
 }
 
 /// The outcome of an identification.
@@ -113,6 +132,9 @@ pub fn outcome(outcome: &Outcome) -> String {
     );
     if let Some(simulation) = &result.simulation {
         let _ = writeln!(out, "simulation  {}", simulated(simulation));
+    }
+    if let Some(entry) = &result.searched {
+        let _ = writeln!(out, "search      {}", searched(&result.method, entry));
     }
     if let Some(low) = &result.low_speed {
         let _ = writeln!(

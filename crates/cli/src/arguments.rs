@@ -37,6 +37,8 @@ pub enum Command {
     Check(Check),
     /// Identify a friction law from logs of one axis.
     Identify(Identify),
+    /// Searches beside each other, many seeds of each, on a log or a problem with a known answer.
+    Compare(Compare),
 }
 
 #[derive(Clone, Debug, Args)]
@@ -87,6 +89,8 @@ pub struct Identify {
     /// How the parameters are found.
     #[arg(long, value_enum, default_value_t = Method::Separable)]
     pub method: Method,
+    #[command(flatten)]
+    pub searching: Searching,
     /// Logs of constant velocities to take the steady curve from, instead of the logs themselves.
     #[arg(long = "static", value_name = "LOG", num_args = 1..)]
     pub statics: Vec<PathBuf>,
@@ -145,4 +149,144 @@ pub enum Method {
     PreslidingStep,
     /// Force in, position out: the axis simulated, with its controller where the axis file has one.
     OutputError,
+    /// Plain genetic algorithm.
+    Ga,
+    /// Genetic algorithm with adaptive rates.
+    AdaptiveGa,
+    /// Annealing genetic algorithm of Zhang et al. 2025.
+    AnnealingGa,
+    /// Annealing genetic algorithm in niches, with descents that must agree.
+    NichedGa,
+    /// Differential evolution.
+    De,
+    /// Covariance matrix adaptation.
+    CmaEs,
+    /// Particle swarm.
+    Pso,
+    /// Simulated annealing.
+    Annealing,
+    /// Simplex method, restarted.
+    NelderMead,
+    /// Least squares from many starts.
+    Lm,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Cost {
+    /// Six parameters of the symmetric LuGre law at once, mass and offset solved.
+    Six,
+    /// The nonlinear unknowns of the law only, everything linear solved.
+    Separable,
+}
+
+/// For the searches (ga to lm).
+#[derive(Clone, Debug, Args)]
+pub struct Searching {
+    /// What a search evaluates [default: six for ga, adaptive-ga and annealing-ga on the symmetric
+    /// LuGre law, else separable].
+    #[arg(long, value_enum, value_name = "COST")]
+    pub cost: Option<Cost>,
+    /// Most evaluations of a search [default: 20000].
+    #[arg(long, value_name = "N")]
+    pub evaluations: Option<u64>,
+    /// Stop a search at this cost: the square of the relative error.
+    #[arg(long, value_name = "J")]
+    pub target: Option<f64>,
+    /// Stop a search this long after the start, in s.
+    #[arg(long, value_name = "S")]
+    pub time: Option<f64>,
+    /// Keep the state of a search here, every few seconds and at the end.
+    #[arg(long, value_name = "FILE")]
+    pub checkpoint: Option<PathBuf>,
+    /// Go on from a state that --checkpoint kept.
+    #[arg(long, value_name = "FILE")]
+    pub resume: Option<PathBuf>,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct Compare {
+    /// Logs of one axis, fitted together.
+    #[arg(
+        value_name = "LOG",
+        required_unless_present = "problem",
+        conflicts_with = "problem"
+    )]
+    pub logs: Vec<PathBuf>,
+    /// A problem whose answer is known: C95, machine, motor, V5, V6, V10, V16 (LuGre axes), V2, V3, V7
+    /// (steady curves).
+    #[arg(long, value_name = "NAME")]
+    pub problem: Option<String>,
+    /// What is known of the axis and the columns of a log.
+    #[arg(long, value_name = "AXIS.toml", conflicts_with = "problem")]
+    pub axis: Option<PathBuf>,
+    /// Methods, separated by commas [default: all that the cost allows]; lm-one is least squares from
+    /// one start drawn at random.
+    #[arg(long, value_name = "A,B,..", value_delimiter = ',')]
+    pub methods: Vec<String>,
+    /// Seeds of each method.
+    #[arg(long, value_name = "N", default_value_t = 30)]
+    pub seeds: u64,
+    /// Most evaluations of a run.
+    #[arg(long, value_name = "N", default_value_t = 20_000)]
+    pub evaluations: u64,
+    /// Noise of a problem: deviation over the largest force [default: 0.01].
+    #[arg(long, value_name = "PART")]
+    pub noise: Option<f64>,
+    /// Motion of a problem [default: sine].
+    #[arg(long, value_enum)]
+    pub excitation: Option<Excitation>,
+    /// Sample rate of a problem, for 3 s of motion [default: 1000].
+    #[arg(long, value_name = "HZ")]
+    pub rate: Option<f64>,
+    /// Make the data of a problem by another law than the one that is fitted.
+    #[arg(long)]
+    pub other_law: bool,
+    /// Decades of the box to each side of a point off the answer [default: 1 for a problem, the box of
+    /// identify for a log].
+    #[arg(long = "box", value_name = "DECADES")]
+    pub decades: Option<f64>,
+    /// What integrates the candidates.
+    #[arg(long, value_enum, default_value_t = Integrator::Explin)]
+    pub integrator: Integrator,
+    /// What is minimised [default: six].
+    #[arg(long, value_enum)]
+    pub cost: Option<CompareCost>,
+    /// Folder for compare.json and report.html.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Write into a folder that holds something else.
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Excitation {
+    /// Velocity sine of ten times the Stribeck velocity, 1 Hz.
+    Sine,
+    /// Three sines together.
+    MultiSine,
+    /// Fast, slow, and fast with a small stroke, one after the other.
+    ThreeSegments,
+    /// Force ramps until the axis breaks away.
+    BreakAway,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Integrator {
+    /// Exact for a constant ratio of speed to level; stable for every candidate.
+    Explin,
+    /// Forward Euler, as the publication writes it; explodes for stiff candidates.
+    Euler,
+    /// Runge-Kutta of order 4; explodes for stiff candidates.
+    Rk4,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum CompareCost {
+    /// Six parameters of LuGre at once, force out.
+    Six,
+    /// Its three nonlinear unknowns, everything linear solved.
+    Separable,
+    /// Six parameters, force in and position out.
+    Position,
 }

@@ -5,9 +5,11 @@ use crate::arguments::{self, Arguments, Command, Common};
 use crate::interrupt;
 use crate::output;
 use crate::progress::Bar;
+use clap::ValueEnum;
 use std::path::Path;
 use stiction_app::{
-    Error, LawKind, Method, Options, Outcome, Procedures, check_folder, check_inputs, write_atomic,
+    CompareOptions, Cost, CostKind, Error, Excitation, Input, LawKind, Method, Options, Outcome,
+    Procedures, Scheme, Searching, check_folder, check_inputs, compare_bundle, write_atomic,
 };
 
 /// Runs a command; every error is printed here, once.
@@ -21,6 +23,7 @@ pub fn run(arguments: &Arguments) -> Exit {
         Command::Demo(demo) => self::demo(demo, common),
         Command::Check(check) => self::check(check, common),
         Command::Identify(identify) => self::identify(identify, common),
+        Command::Compare(compare) => self::compare(compare, common),
     };
     result.unwrap_or_else(|e| {
         eprintln!("stiction: [{}] {e}", e.code());
@@ -114,7 +117,11 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
     let files = inputs.into_iter().flatten();
     check_inputs(
         &identify.out,
-        files.chain(&identify.model).chain(&identify.axis),
+        files
+            .chain(&identify.model)
+            .chain(&identify.axis)
+            .chain(&identify.searching.resume)
+            .chain(&identify.searching.checkpoint),
     )?;
     let options = Options {
         logs: identify.logs.clone(),
@@ -135,22 +142,92 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
         seed: identify.seed,
         compare_laws: true,
         procedures: Procedures {
-            method: match identify.method {
-                arguments::Method::Separable => Method::Separable,
-                arguments::Method::OutputError => Method::OutputError,
-                arguments::Method::Static => Method::Static,
-                arguments::Method::StaticThenDynamic => Method::StaticThenDynamic,
-                arguments::Method::PreslidingStep => Method::PreslidingStep,
-            },
+            method: method(identify.method),
             statics: identify.statics.clone(),
             model: identify.model.clone(),
             break_away: identify.break_away.clone(),
         },
+        searching: searching(&identify.searching),
     };
     let mut bar = Bar::new(common.json || common.quiet);
     let outcome = stiction_app::identify(&options, &mut bar);
     bar.finish();
     finish(&outcome?, &identify.out, common)
+}
+
+fn compare(compare: &arguments::Compare, common: &Common) -> Result<Exit, Error> {
+    check_folder(&compare.out, compare.force)?;
+    check_inputs(&compare.out, compare.logs.iter().chain(&compare.axis))?;
+    let options = CompareOptions {
+        input: match &compare.problem {
+            Some(name) => Input::Named(name.clone()),
+            None => Input::Log {
+                logs: compare.logs.clone(),
+                axis: compare.axis.clone(),
+            },
+        },
+        methods: compare.methods.clone(),
+        seeds: compare.seeds,
+        evaluations: compare.evaluations,
+        noise: compare.noise,
+        excitation: compare.excitation.map(|motion| match motion {
+            arguments::Excitation::Sine => Excitation::Sine,
+            arguments::Excitation::MultiSine => Excitation::MultiSine,
+            arguments::Excitation::ThreeSegments => Excitation::ThreeSegments,
+            arguments::Excitation::BreakAway => Excitation::BreakAway,
+        }),
+        rate: compare.rate,
+        other_law: compare.other_law,
+        decades: compare.decades,
+        integrator: match compare.integrator {
+            arguments::Integrator::Explin => Scheme::Explin,
+            arguments::Integrator::Euler => Scheme::Euler,
+            arguments::Integrator::Rk4 => Scheme::RungeKutta,
+        },
+        cost: compare.cost.map(|cost| match cost {
+            arguments::CompareCost::Six => Cost::Six,
+            arguments::CompareCost::Separable => Cost::Separable,
+            arguments::CompareCost::Position => Cost::Position,
+        }),
+    };
+    let mut bar = Bar::new(common.json || common.quiet);
+    let found = stiction_app::compare(&options, &mut bar);
+    bar.finish();
+    let found = found?;
+    compare_bundle(&found).write(&compare.out)?;
+    if common.json {
+        output::json(&found)?;
+    } else if !common.quiet {
+        output::print(&format!(
+            "{}\nwritten to {}: report.html, compare.json\n",
+            stiction_app::text::comparison(&found),
+            compare.out.display()
+        ))?;
+    }
+    Ok(match found.status.as_str() {
+        "interrupted" => Exit::Interrupted,
+        _ => Exit::Done,
+    })
+}
+
+/// The method under the name that it has on the command line.
+fn method(typed: arguments::Method) -> Method {
+    let name = typed.to_possible_value().expect("no method is hidden");
+    Method::from_name(name.get_name()).expect("the engine knows every method of the command line")
+}
+
+fn searching(typed: &arguments::Searching) -> Searching {
+    Searching {
+        cost: typed.cost.map(|cost| match cost {
+            arguments::Cost::Six => CostKind::Six,
+            arguments::Cost::Separable => CostKind::Separable,
+        }),
+        evaluations: typed.evaluations,
+        target: typed.target,
+        time: typed.time,
+        checkpoint: typed.checkpoint.clone(),
+        resume: typed.resume.clone(),
+    }
 }
 
 /// Writes the files, says what was found, and what it is worth.

@@ -40,6 +40,7 @@ impl Observer for Bar {
             self.bar.set_prefix(match progress.stage {
                 Stage::Tuning => "choosing cut-offs",
                 Stage::Calibration => "measuring the bias",
+                Stage::Search => "searching",
                 Stage::Scan => "scanning the box",
                 Stage::Coarse => "first descents",
                 Stage::Fine => "least squares",

@@ -7,7 +7,7 @@ use crate::law::Law;
 use crate::law::terms::{Delay, Terms};
 use crate::observe::Observer;
 use crate::separable::levenberg::Status;
-use crate::separable::{Optimum, Settings, separable};
+use crate::separable::{Optimum, Settings, follow, separable};
 
 /// Fits a law by the separable method and states its parameters.
 ///
@@ -24,19 +24,52 @@ pub fn identify(
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<(Estimate, Optimum), Error> {
-    let optimum = separable(record, law, terms, settings, observer)?;
+    stated(record, law, terms, low_speed_bound, |terms| {
+        separable(record, law, terms, settings, observer)
+    })
+}
+
+/// Fits a law by least squares from where another search has led, and states its parameters, as
+/// [`identify`] does.
+///
+/// `start` holds the nonlinear unknowns in the order of the law, without the delay.
+///
+/// # Errors
+/// Those of [`separable`], and for another number of unknowns.
+pub fn identify_from(
+    start: &[f64],
+    record: &Record,
+    law: Law,
+    terms: &Terms,
+    low_speed_bound: f64,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Result<(Estimate, Optimum), Error> {
+    stated(record, law, terms, low_speed_bound, |terms| {
+        follow(start, record, law, terms, settings, observer)
+    })
+}
+
+fn stated(
+    record: &Record,
+    law: Law,
+    terms: &Terms,
+    low_speed_bound: f64,
+    mut fit: impl FnMut(&Terms) -> Result<Optimum, Error>,
+) -> Result<(Estimate, Optimum), Error> {
+    let mut optimum = fit(terms)?;
+    let still = Terms {
+        delay: Delay::NONE,
+        ..terms.clone()
+    };
+    let mut used = terms;
     if terms.delay == Delay::Fitted
         && optimum.delay_at_bound()
         && optimum.status != Status::Interrupted
     {
-        let still = Terms {
-            delay: Delay::NONE,
-            ..terms.clone()
-        };
-        let optimum = separable(record, law, &still, settings, observer)?;
-        let estimate = estimate(record, law, &still, &optimum, low_speed_bound);
-        return Ok((estimate, optimum));
+        optimum = fit(&still)?;
+        used = &still;
     }
-    let estimate = estimate(record, law, terms, &optimum, low_speed_bound);
+    let estimate = estimate(record, law, used, &optimum, low_speed_bound);
     Ok((estimate, optimum))
 }

@@ -137,6 +137,38 @@ impl Law {
         layout.count
     }
 
+    /// Names of the nonlinear unknowns of a law that is not of Maxwell slip, in their order; each is
+    /// searched by its logarithm. `kappa` is sigma0/Fc in 1/m (1/rad), `excess` is Fs/Fc - 1, `ratio`
+    /// is Fc of the negative direction over that of the positive one, `breakaway_odds` b/(1 - b).
+    pub fn unknowns(&self) -> Vec<String> {
+        let layout = self.layout();
+        let both = [
+            ("kappa", layout.kappa),
+            ("ratio", layout.ratio),
+            ("breakaway_odds", layout.breakaway),
+            ("stribeck_exponent", layout.exponent),
+        ];
+        let two = layout.excess[0] != layout.excess[1];
+        let suffixes = if two { ["_pos", "_neg"] } else { [""; 2] };
+        let mut names = vec![String::new(); layout.count];
+        for (name, index) in both {
+            if let Some(i) = index {
+                names[i] = name.into();
+            }
+        }
+        for (name, sides) in [
+            ("excess", layout.excess),
+            ("stribeck_velocity", layout.velocity),
+        ] {
+            for (suffix, index) in suffixes.iter().zip(sides) {
+                if let Some(i) = index {
+                    names[i] = format!("{name}{suffix}");
+                }
+            }
+        }
+        names
+    }
+
     pub(crate) fn layout(&self) -> Layout {
         let mut count = 0;
         let mut next = |wanted: bool| {

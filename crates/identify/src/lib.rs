@@ -21,11 +21,14 @@
 //! the same form with fewer nonlinear unknowns, the elasto-plastic law with one more, the part of the
 //! steady deflection at which it breaks away.
 //!
+//! Other searches see the same costs through [`candidates`], and end in [`identify_from`].
+//!
 //! Where the force is the input, or made by a known controller, [`output_error`] simulates the axis
 //! instead and fits its position.
 //!
 //! Nothing here prints, sleeps or reads a clock; an [`Observer`] sees progress and may stop a run.
 
+pub mod candidates;
 mod choice;
 mod conditioning;
 mod crossval;
@@ -56,7 +59,7 @@ pub use estimate::{Estimate, Series, estimate, predict};
 pub use fit::{Fit, low_speed_bound};
 pub use gms::choose::ElementsScore;
 pub use gms::{FEWEST as GMS_FEWEST, MOST as GMS_MOST};
-pub use identify::identify;
+pub use identify::{identify, identify_from};
 pub use law::dependence::Dependence;
 pub use law::physical::Dimension;
 pub use law::terms::{Delay, Mass, Terms};

@@ -5,6 +5,8 @@
 pub enum Stage {
     /// Cut-offs tried on replicas.
     Tuning,
+    /// Another search than the separable method.
+    Search,
     /// Low-discrepancy scan of the box.
     Scan,
     /// Least squares on a thinned record, from the best points of the scan.

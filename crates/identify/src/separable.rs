@@ -151,6 +151,56 @@ pub fn separable(
     })
 }
 
+/// Least squares on the full record from one point: the optimum of its valley.
+pub(crate) fn follow(
+    start: &[f64],
+    record: &Record,
+    law: Law,
+    terms: &Terms,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Result<Optimum, Error> {
+    if start.len() != law.nonlinear() {
+        return Err(Error::Setting {
+            name: "nonlinear unknowns of the start",
+            found: start.len() as f64,
+            allowed: "as many as the law has",
+        });
+    }
+    let mut bounds = match &settings.bounds {
+        Some(bounds) => bounds.clone(),
+        None => SearchBox::from_record(record, &law)?,
+    };
+    let delay = terms.delay == Delay::Fitted;
+    let mut start = start.to_vec();
+    if delay {
+        bounds = bounds.with_delay();
+        start.push(0.0);
+    }
+    let objective = checked(record, law, terms)?;
+    let mut watch = Watch {
+        observer,
+        stage: Stage::Fine,
+        fraction: 0.0,
+        counts: Counts::default(),
+        best: f64::INFINITY,
+        stopped: false,
+    };
+    let found = descend(&objective, &bounds, &start, settings.steps, &mut watch);
+    Ok(Optimum {
+        law,
+        p: found.p,
+        bounds,
+        status: found.status,
+        counts: watch.counts,
+        iterations: found.iterations,
+        history: found.history,
+        delay,
+        elements: Vec::new(),
+        evaluation: found.evaluation,
+    })
+}
+
 /// The objective of a record with samples and force enough for this law.
 pub(crate) fn checked<'a>(
     record: &'a Record,

@@ -45,8 +45,8 @@ impl Points {
         self.values.chunks_exact(self.dimensions.max(1))
     }
 
-    /// Adds a point.
-    pub(crate) fn push(&mut self, point: &[f64]) {
+    /// Adds a point, which must have as many numbers as there are dimensions.
+    pub fn push(&mut self, point: &[f64]) {
         debug_assert_eq!(point.len(), self.dimensions);
         self.values.extend_from_slice(point);
     }

@@ -108,6 +108,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
             iterations: estimate.iterations,
             wall_s: parts.wall_s,
         },
+        searched: None,
         warnings: parts.warnings,
     }
 }

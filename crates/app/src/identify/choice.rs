@@ -34,7 +34,19 @@ pub(super) fn asked(
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<Choice, engine::Error> {
-    let (estimate, optimum) = ladder.fit(law, settings, observer)?;
+    let fitted = ladder.fit(law, settings, observer)?;
+    Ok(fitted_already(fitted, ladder, compare, settings, observer))
+}
+
+/// States a law that was asked for and fitted and, if wanted, fits others beside it.
+pub(super) fn fitted_already(
+    (estimate, optimum): (Estimate, Optimum),
+    ladder: &Ladder,
+    compare: bool,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Choice {
+    let law = estimate.law;
     let laws = if compare && optimum.status != Status::Interrupted {
         let known = Some((&estimate, &optimum));
         let climb = ladder.climb(&ladder::beside(&law), known, settings, observer);
@@ -47,11 +59,11 @@ pub(super) fn asked(
     } else {
         Vec::new()
     };
-    Ok(Choice {
+    Choice {
         estimate: stated(ladder, &optimum, estimate, observer),
         laws,
         by: "user",
-    })
+    }
 }
 
 /// Fits every law and takes the one that the data support.

@@ -35,10 +35,12 @@ pub enum Method {
     StaticThenDynamic,
     /// sigma0 and sigma1 from force steps below break-away.
     PreslidingStep,
+    /// All at once, by one of the searches of `stiction_search`, then least squares.
+    Searched(&'static str),
 }
 
 impl Method {
-    /// All of them.
+    /// All but the searches.
     pub const ALL: [Method; 5] = [
         Method::Separable,
         Method::OutputError,
@@ -49,7 +51,9 @@ impl Method {
 
     /// The method of this name.
     pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|method| method.name() == name)
+        let own = Self::ALL.into_iter();
+        let searches = stiction_search::Method::NAMES.map(Method::Searched);
+        own.chain(searches).find(|method| method.name() == name)
     }
 
     /// Name as typed and as written to files.
@@ -60,6 +64,7 @@ impl Method {
             Method::Static => "static",
             Method::StaticThenDynamic => "static-then-dynamic",
             Method::PreslidingStep => "presliding-step",
+            Method::Searched(name) => name,
         }
     }
 
@@ -67,7 +72,10 @@ impl Method {
     pub(super) fn fits_records(self) -> bool {
         matches!(
             self,
-            Method::Separable | Method::StaticThenDynamic | Method::OutputError
+            Method::Separable
+                | Method::StaticThenDynamic
+                | Method::OutputError
+                | Method::Searched(_)
         )
     }
 }

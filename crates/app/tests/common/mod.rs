@@ -101,5 +101,6 @@ pub fn options(logs: &[&Path], law: LawKind) -> Options {
         seed: 0,
         compare_laws: false,
         procedures: stiction_app::Procedures::default(),
+        searching: stiction_app::Searching::default(),
     }
 }

@@ -36,6 +36,7 @@ fn with_law(case: &Case, data: &Path, law: &str) -> Outcome {
             method: Method::from_name(case.method).expect("a method of the cases exists"),
             ..Procedures::default()
         },
+        searching: stiction_app::Searching::default(),
     };
     identify(&options, &mut Silent).unwrap_or_else(|e| panic!("{}: {e}", case.name))
 }

@@ -43,6 +43,12 @@ impl SearchBox {
         }
     }
 
+    /// A box between bounds in the order of the law, each lower one first.
+    pub fn between(low: Vec<f64>, high: Vec<f64>) -> Self {
+        debug_assert!(low.len() == high.len() && low.iter().zip(&high).all(|(a, b)| a <= b));
+        Self { low, high }
+    }
+
     /// The box that the record itself allows: the presliding length between one count of the encoder
     /// (or a thousandth of the longest step) and the stroke, the Stribeck velocity between
     /// 1e-4 of the top speed and the top speed, `Fs/Fc - 1` from .02 to 3, a Stribeck exponent that is

@@ -1,0 +1,314 @@
+//! Searches and their comparison from the command line: checkpoints, threads, interrupts, refusals.
+
+use serde_json::Value;
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+use tempfile::TempDir;
+
+/// A folder to run in, with a log.
+struct Bench(TempDir);
+
+impl Bench {
+    fn new() -> Self {
+        Self::with(2000)
+    }
+
+    fn with(samples: u32) -> Self {
+        let bench = Self(tempfile::tempdir().unwrap());
+        let mut text = String::from("Time [s],Velocity [m/s],Force [N]\n");
+        for i in 0..samples {
+            let t = f64::from(i) * 1e-3;
+            let v = 0.05 * (6.3 * t).sin() + 0.01 * (23.0 * t).sin();
+            let noise = 0.2 * ((1e4 * t).sin() + (2.3e4 * t).sin() + (3.1e4 * t * t).sin());
+            let level = 20.0 + 10.0 * (-(v / 5e-3) * (v / 5e-3)).exp();
+            let force = level * (v / 4e-4).tanh() + 60.0 * v + noise;
+            let _ = writeln!(text, "{t:.4},{v:.9},{force:.4}");
+        }
+        std::fs::write(bench.path("log.csv"), text).unwrap();
+        bench
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn command(&self, arguments: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_stiction"));
+        command
+            .args(arguments.split_whitespace())
+            .current_dir(self.0.path())
+            .stdin(Stdio::null());
+        command
+    }
+
+    /// Exit code, standard output, standard error.
+    fn run(&self, arguments: &str) -> (i32, String, String) {
+        split(self.command(arguments).output().unwrap())
+    }
+
+    fn json(&self, name: &str) -> Value {
+        serde_json::from_slice(&std::fs::read(self.path(name)).unwrap()).unwrap()
+    }
+}
+
+fn split(output: Output) -> (i32, String, String) {
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    let (out, err) = (text(output.stdout), text(output.stderr));
+    assert!(!err.contains("panicked"), "{err}");
+    (output.status.code().unwrap_or(-1), out, err)
+}
+
+const SEARCH: &str = "identify log.csv --method annealing-ga --evaluations 3000 --seed 4 --quiet";
+
+#[test]
+fn every_method_finds_a_law_and_says_what_it_had_before_the_least_squares() {
+    let bench = Bench::new();
+    for method in [
+        "ga",
+        "adaptive-ga",
+        "annealing-ga",
+        "niched-ga",
+        "de",
+        "cma-es",
+        "pso",
+        "annealing",
+        "nelder-mead",
+        "lm",
+    ] {
+        let (code, out, err) = bench.run(&format!(
+            "identify log.csv --method {method} --evaluations 600 --out {method}"
+        ));
+        assert!(code <= 1 && err.is_empty(), "{method}: {out}{err}");
+        assert!(out.contains(&format!("search      {method} (")), "{out}");
+        let result = bench.json(&format!("{method}/result.json"));
+        assert_eq!(result["method"], method);
+        let searched = &result["searched"];
+        let paper = ["ga", "adaptive-ga", "annealing-ga"].contains(&method);
+        assert_eq!(searched["cost"], if paper { "six" } else { "separable" });
+        let cost = |stage: &str| searched[stage]["cost"].as_f64().unwrap();
+        assert!(cost("after_least_squares") <= cost("own"), "{method}");
+        let last = result["fit"]["relative_error_percent"].as_f64().unwrap();
+        assert!(
+            last <= 100.0 * cost("after_least_squares").sqrt() * (1.0 + 1e-9),
+            "{method}"
+        );
+        // All of them lead to the same law.
+        let parameters = result["parameters"].as_array().unwrap();
+        let coulomb = parameters.iter().find(|p| p["name"] == "coulomb").unwrap();
+        let off = coulomb["value"].as_f64().unwrap() / 20.0 - 1.0;
+        assert!(off.abs() < 0.03, "{method}: {off}");
+    }
+}
+
+#[test]
+fn a_resumed_search_ends_with_the_bits_of_one_that_never_stopped() {
+    let bench = Bench::new();
+    assert!(bench.run(&format!("{SEARCH} --out whole")).0 <= 1);
+    // The time is over after the first batch.
+    assert!(
+        bench
+            .run(&format!(
+                "{SEARCH} --time 1e-6 --checkpoint c.json --out part"
+            ))
+            .0
+            <= 1
+    );
+    let part = bench.json("part/result.json");
+    assert_eq!(part["searched"]["status"], "time");
+    let few = part["searched"]["evaluations"]["costs"].as_u64().unwrap();
+    assert!((1..2000).contains(&few), "{few}");
+    // Twice more, on other numbers of threads.
+    let again = "--time 1e-6 --threads 1 --resume c.json --checkpoint c.json --out part";
+    assert!(bench.run(&format!("{SEARCH} {again}")).0 <= 1);
+    assert!(
+        bench
+            .run(&format!("{SEARCH} --threads 3 --resume c.json --out rest"))
+            .0
+            <= 1
+    );
+    let read = |name: &str| std::fs::read(bench.path(name)).unwrap();
+    for file in ["model.toml", "fit.csv", "report.html"] {
+        assert!(
+            read(&format!("whole/{file}")) == read(&format!("rest/{file}")),
+            "{file}"
+        );
+    }
+    let searched = |name: &str| bench.json(&format!("{name}/result.json"))["searched"].clone();
+    assert_eq!(searched("whole"), searched("rest"));
+}
+
+#[test]
+fn a_damaged_or_foreign_checkpoint_is_refused() {
+    let bench = Bench::new();
+    bench.run(&format!("{SEARCH} --time 1e-6 --checkpoint c.json --out a"));
+    let whole = std::fs::read_to_string(bench.path("c.json")).unwrap();
+    let refused = |options: &str, words: &str| {
+        let (code, out, err) = bench.run(&format!("{SEARCH} --out b {options}"));
+        assert_eq!((code, out.as_str()), (2, ""), "{options}: {err}");
+        let start = "stiction: [bad-checkpoint] c.json: ";
+        assert!(
+            err.starts_with(start) && err.contains(words),
+            "{options}: {err}"
+        );
+    };
+    refused(
+        "--resume c.json --cost separable",
+        "belongs to a search with cost six, this one has separable",
+    );
+    let text = std::fs::read_to_string(bench.path("log.csv")).unwrap();
+    std::fs::write(
+        bench.path("log.csv"),
+        text.replacen("0.0010,", "0.0011,", 1),
+    )
+    .unwrap();
+    refused(
+        "--resume c.json",
+        "belongs to a search with logs of SHA-256 ",
+    );
+    std::fs::write(bench.path("log.csv"), text).unwrap();
+    let at = whole.len() - 200;
+    let digit = whole[at..].find(|c: char| c.is_ascii_digit()).unwrap() + at;
+    let mut damaged = whole.clone();
+    let other = if &whole[digit..=digit] == "7" {
+        "8"
+    } else {
+        "7"
+    };
+    damaged.replace_range(digit..=digit, other);
+    for (text, words) in [
+        (
+            damaged.as_str(),
+            "the state is damaged; a file that --checkpoint wrote",
+        ),
+        (&whole[..whole.len() / 2], "the state is damaged"),
+        ("", "no checkpoint"),
+        ("{\"schema\":\"x\"}", "no checkpoint"),
+        (
+            &whole.replace("checkpoint/1", "checkpoint/9"),
+            "schema stiction.checkpoint/9",
+        ),
+    ] {
+        std::fs::write(bench.path("c.json"), text).unwrap();
+        refused("--resume c.json", words);
+    }
+    std::fs::remove_file(bench.path("c.json")).unwrap();
+    refused("--resume c.json", "cannot be read (");
+    std::fs::create_dir(bench.path("c.json")).unwrap();
+    refused("--resume c.json", "not a file");
+}
+
+#[test]
+fn limits_of_a_search_belong_to_a_search() {
+    let bench = Bench::new();
+    for (options, words) in [
+        (
+            "--evaluations 10",
+            "beside --method separable; one of the searches: ga, ",
+        ),
+        ("--method de --evaluations 0", "--evaluations 0; at least 1"),
+        (
+            "--method de --target -1e0",
+            "--target -1; a finite number above 0",
+        ),
+        (
+            "--method de --time NaN",
+            "--time NaN; a finite number above 0",
+        ),
+        (
+            "--method de --law auto",
+            "--law auto beside --method de; one law",
+        ),
+    ] {
+        let options = options.replace("--target -", "--target=-");
+        let (code, _, err) = bench.run(&format!("identify log.csv --out x {options}"));
+        assert_eq!(code, 2, "{err}");
+        assert!(
+            err.starts_with("stiction: [usage] ") && err.contains(words),
+            "{err}"
+        );
+    }
+    let six = "identify log.csv --out x --method de --cost six --asymmetric";
+    let (code, _, err) = bench.run(six);
+    assert_eq!(code, 2);
+    assert!(
+        err.contains("[bad-setting] log.csv: nonlinear unknowns = 6: the symmetric"),
+        "{err}"
+    );
+    assert!(!bench.path("x").exists());
+}
+
+/// Without what a clock says.
+fn timeless(mut file: Value) -> Value {
+    file["wall_s"].take();
+    for method in file["methods"].as_array_mut().unwrap() {
+        for key in ["seconds", "seconds_to_success", "by_time"] {
+            method[key].take();
+        }
+        for run in method["runs"].as_array_mut().unwrap() {
+            run["seconds"].take();
+            run["seconds_to_success"].take();
+        }
+    }
+    file
+}
+
+#[test]
+fn a_comparison_does_not_depend_on_the_threads() {
+    let bench = Bench::new();
+    let compare = "compare --problem machine --methods annealing-ga,de,niched-ga --seeds 3 \
+                   --evaluations 1500 --rate 300";
+    for threads in ["1", "3"] {
+        let (code, out, err) = bench.run(&format!("{compare} --threads {threads} --out {threads}"));
+        assert_eq!((code, err.as_str()), (0, ""), "{out}");
+        assert!(out.contains("written to"), "{out}");
+    }
+    let one = bench.json("1/compare.json");
+    assert_eq!(
+        timeless(one.clone()),
+        timeless(bench.json("3/compare.json"))
+    );
+    assert_eq!(one["schema"], "stiction.compare/1");
+    // A second one takes the place of the first, and `--json` prints what is written.
+    let (code, out, _) = bench.run("compare log.csv --methods lm --seeds 1 --json --out 1");
+    assert_eq!(code, 0, "{out}");
+    assert_eq!(
+        serde_json::from_str::<Value>(&out).unwrap(),
+        bench.json("1/compare.json")
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_keeps_what_is_done() {
+    let bench = Bench::with(100_000);
+    for (arguments, file) in [
+        ("identify log.csv --method ga --out a", "a/result.json"),
+        (
+            "compare --problem machine --methods lm,ga --seeds 9 --rate 9000 --out b",
+            "b/compare.json",
+        ),
+    ] {
+        let mut child = bench
+            .command(arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(700));
+        let still = child.try_wait().unwrap().is_none();
+        let _ = Command::new("kill")
+            .args(["-INT", &child.id().to_string()])
+            .status();
+        let (code, out, err) = split(child.wait_with_output().unwrap());
+        assert!(still, "{arguments} ended too soon: {out}");
+        assert_eq!(code, 130, "{arguments}: {out}{err}");
+        let result = bench.json(file);
+        let status = if file.starts_with('a') {
+            &result["search"]["status"]
+        } else {
+            &result["status"]
+        };
+        assert_eq!(status, "interrupted");
+    }
+}

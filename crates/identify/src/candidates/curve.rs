@@ -1,0 +1,160 @@
+//! A steady curve from points of speed and force: no memory, no record.
+
+use super::{Candidates, Named, checked};
+use crate::error::Error;
+use stiction_search::{Bounds, CostsOnly, Derivatives, Fidelity, Points, Problem};
+
+/// Genes of one direction.
+const GENES: usize = 4;
+
+/// Mean square of measured force minus `(Fc + (Fs - Fc) exp(-(v/vs)^2)) sgn v + sigma2 v`, over that of
+/// the force. The genome is the natural logarithms of `[sigma2, Fc, Fs - Fc, vs]`, SI, once for both
+/// directions or once for each, the positive one first.
+///
+/// ```
+/// use stiction_identify::candidates::Curve;
+/// use stiction_search::{Bounds, Fidelity, Points, Problem};
+///
+/// let truth = [0.02, 0.28, 0.06, 0.2].map(f64::ln); // N m s/rad, N m, N m, rad/s
+/// let speeds: Vec<f64> = (-20..=20).map(|i| 0.05 * f64::from(i)).collect(); // rad/s
+/// let force: Vec<f64> = speeds
+///     .iter()
+///     .map(|v: &f64| (0.28 + 0.06 * (-(v / 0.2).powi(2)).exp()) * v.signum() + 0.02 * v)
+///     .collect(); // N m
+/// let bounds = Bounds::new(truth.map(|x| x - 1.0).into(), truth.map(|x| x + 1.0).into())?;
+/// let curve = Curve::new(speeds, force, bounds)?;
+/// let mut points = Points::new(4);
+/// points.push(&truth);
+/// let mut cost = [1.0];
+/// curve.costs(&points, Fidelity::Full, &mut cost);
+/// assert!(cost[0] < 1e-28);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Curve {
+    bounds: Bounds,
+    speed: Vec<f64>,
+    force: Vec<f64>,
+    energy: f64,
+}
+
+impl Curve {
+    /// Points of a map, a box of 4 or 8 dimensions. At standstill a curve says nothing: such points
+    /// are left out.
+    ///
+    /// # Errors
+    /// For lengths that differ, fewer points than unknowns, numbers that are not finite, or another
+    /// number of dimensions.
+    pub fn new(speed: Vec<f64>, force: Vec<f64>, bounds: Bounds) -> Result<Self, Error> {
+        let genes = if bounds.dimensions() == GENES { 4 } else { 8 };
+        let bounds = checked(bounds, genes)?;
+        let usable = |(v, f): &(f64, f64)| *v != 0.0 && v.is_finite() && f.is_finite();
+        let whole = speed.len() == force.len();
+        let pairs = speed.into_iter().zip(force).filter(usable);
+        let (speed, force): (Vec<f64>, Vec<f64>) = pairs.unzip();
+        if !whole || speed.len() < genes {
+            return Err(Error::Setting {
+                name: "points of the curve",
+                found: speed.len() as f64,
+                allowed: "as many speeds as forces, finite, at least one for each unknown",
+            });
+        }
+        let energy: f64 = force.iter().map(|f| f * f).sum();
+        if !(energy > 0.0 && energy.is_finite()) {
+            return Err(Error::NoForce { value: energy });
+        }
+        Ok(Self {
+            bounds,
+            speed,
+            force,
+            energy,
+        })
+    }
+
+    /// Where the genes of the direction of a speed begin.
+    fn side(&self, speed: f64) -> usize {
+        if speed < 0.0 && self.bounds.dimensions() > GENES {
+            GENES
+        } else {
+            0
+        }
+    }
+}
+
+/// Residual (model minus measured) and its derivatives with respect to the four genes.
+fn residual(p: &[f64], v: f64, force: f64) -> (f64, [f64; GENES]) {
+    let [s2, fc, excess, vs] = [p[0], p[1], p[2], p[3]];
+    let square = (v / vs) * (v / vs);
+    let fall = excess * libm::exp(-square) * v.signum();
+    let level = fc * v.signum();
+    // Far above vs there is nothing left, and nothing that depends on it.
+    let slope = if fall == 0.0 {
+        0.0
+    } else {
+        2.0 * fall * square
+    };
+    (level + fall + s2 * v - force, [s2 * v, level, fall, slope])
+}
+
+impl Problem for Curve {
+    fn bounds(&self) -> &Bounds {
+        &self.bounds
+    }
+
+    fn costs(&self, points: &Points, _: Fidelity, out: &mut [f64]) {
+        for (x, out) in points.rows().zip(out) {
+            let p: Vec<f64> = x.iter().map(|&x| libm::exp(x)).collect();
+            let each = self.speed.iter().zip(&self.force);
+            let sum: f64 = each
+                .map(|(&v, &f)| residual(&p[self.side(v)..], v, f).0)
+                .map(|r| r * r)
+                .sum();
+            *out = sum / self.energy;
+        }
+    }
+
+    fn derivatives(
+        &self,
+        points: &Points,
+        _: Fidelity,
+        out: &mut [Derivatives],
+    ) -> Result<(), CostsOnly> {
+        let n = self.bounds.dimensions();
+        for (x, out) in points.rows().zip(out) {
+            let p: Vec<f64> = x.iter().map(|&x| libm::exp(x)).collect();
+            for (&v, &f) in self.speed.iter().zip(&self.force) {
+                let side = self.side(v);
+                let (r, slopes) = residual(&p[side..], v, f);
+                out.cost += r * r / self.energy;
+                for (i, a) in slopes.iter().enumerate() {
+                    out.gradient[side + i] += a * r / self.energy;
+                    for (j, b) in slopes.iter().enumerate() {
+                        out.normal[n * (side + i) + side + j] += a * b / self.energy;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Candidates for Curve {
+    fn parameters(&self, point: &[f64]) -> Named {
+        let suffixes = match point.len() {
+            GENES => &[""][..],
+            _ => &["_pos", "_neg"],
+        };
+        let sides = suffixes.iter().zip(point.chunks(GENES));
+        sides
+            .flat_map(|(suffix, x)| {
+                let [s2, fc, excess, vs] = std::array::from_fn(|i| libm::exp(x[i]));
+                [
+                    ("sigma2", s2),
+                    ("coulomb", fc),
+                    ("static", fc + excess),
+                    ("stribeck_velocity", vs),
+                ]
+                .map(|(name, value)| (format!("{name}{suffix}"), value))
+            })
+            .collect()
+    }
+}
