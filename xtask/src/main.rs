@@ -34,6 +34,11 @@ const TASKS: &[Task] = &[
         run: validation,
     },
     Task {
+        name: "searches",
+        help: "compare the searches and rewrite the tables of docs/searches.md",
+        run: searches,
+    },
+    Task {
         name: "licences",
         help: "refuse a dependency whose licence is not permissive",
         run: licences::run,
@@ -48,6 +53,12 @@ fn setup() -> shell::Outcome {
 fn validation() -> shell::Outcome {
     shell::run(shell::cargo(
         "run --release --quiet --package stiction-app --example validation",
+    ))
+}
+
+fn searches() -> shell::Outcome {
+    shell::run(shell::cargo(
+        "run --release --quiet --package stiction-app --example searches",
     ))
 }
 

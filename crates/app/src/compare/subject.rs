@@ -1,31 +1,26 @@
 //! What is compared on: a record, a curve or a drive, with its box, and where its optimum is.
 
-use super::excitation::{DURATION, Excitation};
-use super::known::{self, Known, KnownCurve};
-use super::{CompareOptions, Cost, Input};
+mod genome;
+mod made;
+
+use super::known::{self, Known};
+use super::{CompareOptions, Cost, Input, Shared};
 use crate::axis::Axis;
 use crate::error::Error;
 use crate::identify::record_of;
+use crate::spread::Spread;
+use genome::{about, genome};
 use std::f64::consts::LN_10;
-use stiction_friction::{LuGre, ParamError};
 use stiction_identify as engine;
 use stiction_identify::candidates::{
-    Candidates, Curve, Nonlinear, Scheme, Simulated, SixParameters, box_of_six, thinned,
+    Curve, Nonlinear, Scheme, Simulated, SixParameters, box_of_six, thinned,
 };
-use stiction_identify::{
-    Conditioning, Cutoff, Law, LawKind, Mass, Observer, Record, Samples, SearchBox, Settings, Terms,
-};
-use stiction_search::{Bounds, Limits, Method, Plan, Run};
-use stiction_servo::known::KnownAxis;
-use stiction_servo::noise::Noise;
-use stiction_servo::plant::{Load, Motion, Plant};
+use stiction_identify::{Law, LawKind, Observer, Record, SearchBox, Settings, Terms};
+use stiction_search::{Bounds, Fidelity, Limits, Method, Plan, Points, Problem, Run, levenberg};
 
-/// Decades by which the middle of a box is off the truth, in turn; less in boxes of less than a decade.
-const OFF: [f64; 6] = [0.31, -0.27, 0.23, -0.35, 0.29, -0.33];
-/// Steps of the true law in one sample.
-const FINE: usize = 20;
-/// Seed of the noise of a made record: the searches have seeds of their own.
-const NOISE_SEED: u64 = 1;
+/// Evaluations of the reference of a steady curve, and of a simulation.
+const CURVE: u64 = 20_000;
+const SIMULATIONS: u64 = 10_000;
 
 /// A subject of a comparison.
 pub(super) struct Subject {
@@ -60,16 +55,14 @@ enum Data {
     },
 }
 
-type Shared<'a> = Box<dyn Candidates + Sync + 'a>;
-
 impl Subject {
     /// Reads or makes what is compared on.
     pub fn new(options: &CompareOptions, observer: &mut dyn Observer) -> Result<Self, Error> {
         match &options.input {
             Input::Log { logs, axis } => from_log(options, logs, axis.as_deref(), observer),
             Input::Named(name) => match known::find(name) {
-                Some(Known::Axis(axis)) => from_axis(options, &axis),
-                Some(Known::Curve(curve)) => from_curve(options, curve),
+                Some(Known::Axis(axis)) => made::from_axis(options, &axis),
+                Some(Known::Curve(curve)) => made::from_curve(options, curve),
                 None => Err(Error::usage(
                     format!("--problem {name}"),
                     format!("one of {}", known::names().join(", ")),
@@ -79,11 +72,11 @@ impl Subject {
     }
 
     /// The problem that the searches see.
-    pub fn problem(&self) -> Result<Shared<'_>, Error> {
+    pub fn problem(&self) -> Result<Box<Shared<'_>>, Error> {
         self.within(self.bounds.clone())
     }
 
-    fn within(&self, bounds: Bounds) -> Result<Shared<'_>, Error> {
+    fn within(&self, bounds: Bounds) -> Result<Box<Shared<'_>>, Error> {
         let refused = |e| self.refused(e);
         Ok(match &self.data {
             Data::Record {
@@ -154,46 +147,32 @@ impl Subject {
                 value("static") - fc,
                 value("stribeck_velocity"),
             ];
-            let mut points = stiction_search::Points::new(6);
+            let mut points = Points::new(6);
             points.push(&six.map(libm::log));
             let mut cost = [f64::INFINITY];
-            let full = stiction_search::Fidelity::Full;
-            self.problem()?.costs(&points, full, &mut cost);
+            self.problem()?.costs(&points, Fidelity::Full, &mut cost);
             return Ok((cost[0], "separable (EXPLIN), seen by this integrator"));
         }
+        if let Data::Curve { .. } = &self.data {
+            let many = levenberg::Settings {
+                scan: 1024,
+                starts: 64,
+                ..levenberg::Settings::default()
+            };
+            let least = least(&*self.problem()?, Method::Lm(many), CURVE)?;
+            return Ok((least, "least squares from 64 starts"));
+        }
         // A small box about the truth holds the optimum and nothing else.
-        let (method, evaluations, by) = match &self.data {
-            Data::Curve { .. } => ("lm", 2_000, "least squares near the truth"),
-            _ => ("cma-es", 5_000, "cma-es near the truth"),
-        };
-        let middle = self.centre();
+        let middle = genome(&self.truth, self.cost, 0.0);
         let reach = 0.1 * LN_10;
         let bounds = Bounds::new(
             middle.iter().map(|x| x - reach).collect(),
             middle.iter().map(|x| x + reach).collect(),
         );
         let bounds = bounds.map_err(|e| Error::usage(e.to_string(), "a finite box"))?;
-        let problem = self.within(bounds)?;
-        let plan = Plan {
-            method: Method::named(method).expect("a method"),
-            finish: None,
-        };
-        let search = plan.start(middle.len(), 0).expect("default settings");
-        let spread = crate::spread::Spread(&*problem);
-        let mut run = Run::new(search, &spread);
-        let limits = Limits {
-            costs: evaluations,
-            derivatives: evaluations,
-            ..Limits::default()
-        };
-        run.advance(&spread, &limits, &mut stiction_search::Silent)
-            .map_err(|e| Error::usage(e.to_string(), "a method for this cost"))?;
-        Ok((run.best().map_or(f64::INFINITY, |b| b.cost), by))
-    }
-
-    /// The genome of the truth.
-    fn centre(&self) -> Vec<f64> {
-        genome(&self.truth, self.cost, 0.0)
+        let method = Method::named("cma-es").expect("a method");
+        let least = least(&*self.within(bounds)?, method, SIMULATIONS)?;
+        Ok((least, "cma-es near the truth"))
     }
 
     fn refused(&self, source: engine::Error) -> Error {
@@ -204,60 +183,31 @@ impl Subject {
     }
 }
 
+/// The least cost that a method finds.
+fn least(problem: &Shared, method: Method, evaluations: u64) -> Result<f64, Error> {
+    let problem = Spread(problem);
+    let plan = Plan {
+        method,
+        finish: None,
+    };
+    let dimensions = problem.bounds().dimensions();
+    let mut run = Run::new(plan.start(dimensions, 0).expect("valid settings"), &problem);
+    let limits = Limits {
+        costs: evaluations,
+        derivatives: evaluations,
+        ..Limits::default()
+    };
+    run.advance(&problem, &limits, &mut stiction_search::Silent)
+        .map_err(|e| Error::usage(e.to_string(), "a method for this cost"))?;
+    Ok(run.best().map_or(f64::INFINITY, |best| best.cost))
+}
+
 fn lugre() -> Law {
     Law::new(LawKind::LuGre)
 }
 
 fn search_box(bounds: &Bounds) -> SearchBox {
     SearchBox::between(bounds.low().to_vec(), bounds.high().to_vec())
-}
-
-/// Logarithms of the genes of known parameters; what is zero counts as `least`.
-fn genome(truth: &[(String, f64)], cost: Cost, least: f64) -> Vec<f64> {
-    let value = |name: &str| {
-        truth
-            .iter()
-            .find(|(n, _)| n == name)
-            .map_or(f64::NAN, |x| x.1)
-    };
-    match cost {
-        Cost::Curve => truth
-            .chunks(4)
-            .flat_map(|side| [side[0].1, side[1].1, side[2].1 - side[1].1, side[3].1])
-            .map(libm::log)
-            .collect(),
-        _ => {
-            let (fc, fs, vs) = (
-                value("coulomb"),
-                value("static"),
-                value("stribeck_velocity"),
-            );
-            let s2 = value("sigma2").max(least);
-            let six = [value("sigma0"), value("sigma1"), s2, fc, fs - fc, vs];
-            match cost {
-                Cost::Separable => [six[0] / fc, six[4] / fc, vs].map(libm::log).into(),
-                _ => six.map(libm::log).into(),
-            }
-        }
-    }
-}
-
-/// A box of decades to each side of a point that is off the given one.
-fn about(middle: &[f64], decades: f64) -> Result<Bounds, Error> {
-    if !(decades > 0.0 && decades <= 6.0) {
-        return Err(Error::usage(
-            format!("--box {decades}"),
-            "decades to each side, above 0 and up to 6",
-        ));
-    }
-    let off = OFF.map(|x| x * decades.min(1.0));
-    let ends = |side: f64| -> Vec<f64> {
-        let each = middle.iter().zip(off.iter().cycle());
-        each.map(|(x, off)| x + (off + side * decades) * LN_10)
-            .collect()
-    };
-    Bounds::new(ends(-1.0), ends(1.0))
-        .map_err(|e| Error::usage(e.to_string(), "parameters above zero"))
 }
 
 fn from_log(
@@ -329,228 +279,4 @@ fn from_log(
             terms,
         },
     })
-}
-
-fn from_curve(options: &CompareOptions, curve: &KnownCurve) -> Result<Subject, Error> {
-    let other = [
-        ("--cost", options.cost.is_some()),
-        ("--excitation", options.excitation.is_some()),
-        ("--integrator", options.integrator != Scheme::Explin),
-        ("--rate", options.rate.is_some()),
-        ("--other-law", options.other_law),
-    ];
-    if let Some((name, _)) = other.iter().find(|(_, given)| *given) {
-        return Err(Error::usage(
-            format!("{name} beside --problem {}", curve.name),
-            "a steady curve has no motion, no memory and one cost",
-        ));
-    }
-    let truth = curve.truth();
-    let mut force = curve
-        .forces()
-        .map_err(|e| Error::usage(e.to_string(), "a law"))?;
-    add_noise(&mut force, noise_of(options)?);
-    Ok(Subject {
-        name: curve.name.into(),
-        source: curve.source.into(),
-        motion: "forces at the speeds -1 to 1 rad/s in steps of 0.05 (not at 0)".into(),
-        samples: force.len() - 1,
-        rate_hz: 0.0,
-        bounds: about(
-            &genome(&truth, Cost::Curve, 0.0),
-            options.decades.unwrap_or(1.0),
-        )?,
-        truth,
-        cost: Cost::Curve,
-        scheme: Scheme::Explin,
-        data: Data::Curve { force },
-    })
-}
-
-fn noise_of(options: &CompareOptions) -> Result<f64, Error> {
-    let noise = options.noise.unwrap_or(super::NOISE);
-    if (0.0..=1.0).contains(&noise) {
-        return Ok(noise);
-    }
-    Err(Error::usage(
-        format!("--noise {noise}"),
-        "deviation over the largest force, 0 to 1",
-    ))
-}
-
-/// White noise of a share of the largest value.
-fn add_noise(values: &mut [f64], share: f64) {
-    let largest = values.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    let mut noise = Noise::new(NOISE_SEED);
-    for x in values {
-        *x += share * largest * noise.normal();
-    }
-}
-
-fn from_axis(options: &CompareOptions, axis: &KnownAxis) -> Result<Subject, Error> {
-    let rate = options.rate.unwrap_or(super::RATE);
-    if !(100.0..=100_000.0).contains(&rate) {
-        return Err(Error::usage(format!("--rate {rate}"), "100 to 100000 Hz"));
-    }
-    let noise = noise_of(options)?;
-    let cost = options.cost.unwrap_or(Cost::Six);
-    let excitation = options.excitation.unwrap_or_default();
-    let step = 1.0 / rate;
-    let samples = (DURATION * rate).round() as usize + 1;
-    let law = match options.other_law {
-        true => known::mismatched(&axis.law),
-        false => Ok(axis.law),
-    };
-    let law = law.map_err(|e| Error::usage(e.to_string(), "a law"))?;
-    let side = axis.law.curve().positive();
-    let truth = [
-        ("sigma0", axis.law.stiffness()),
-        ("sigma1", axis.law.damping().at_rest()),
-        ("sigma2", side.viscous),
-        ("coulomb", side.coulomb),
-        ("static", side.static_friction),
-        ("stribeck_velocity", side.stribeck_velocity),
-    ];
-    let truth: Vec<(String, f64)> = truth.map(|(n, v)| (n.to_string(), v)).into();
-    let least = 1e-3 * side.coulomb / (10.0 * side.stribeck_velocity);
-    let bounds = about(&genome(&truth, cost, least), options.decades.unwrap_or(1.0))?;
-    let made = |e: ParamError| Error::usage(e.to_string(), "a law");
-    let (data, motion) = if cost == Cost::Position {
-        if options.excitation.is_some() || options.integrator != Scheme::Explin {
-            return Err(Error::usage(
-                "--excitation or --integrator beside --cost position",
-                "the motion is what the force makes of it",
-            ));
-        }
-        let size = 1.5 * side.static_friction;
-        let force: Vec<f64> = (0..samples)
-            .map(|i| size * libm::sin(std::f64::consts::TAU * (i as f64 + 0.5) * step))
-            .collect();
-        let mut position = moved(axis.mass, law, step, &force).map_err(made)?;
-        add_noise(&mut position, noise);
-        let data = Data::Drive {
-            mass: axis.mass,
-            step,
-            force,
-            position,
-        };
-        (
-            data,
-            "force sine of 1.5 Fs and 1 Hz from rest, position out".into(),
-        )
-    } else {
-        let (velocity, mut force) = match excitation {
-            Excitation::BreakAway => broken_away(axis, law, step, samples).map_err(made)?,
-            _ => along(&law, step, samples, |t| {
-                side.stribeck_velocity * excitation.velocity(t).unwrap_or(0.0)
-            }),
-        };
-        add_noise(&mut force, noise);
-        let record = record(step, velocity, force).map_err(|source| Error::Identify {
-            inputs: axis.name.into(),
-            source,
-        })?;
-        let data = Data::Record {
-            thinned: thinned(&record).map(Box::new),
-            record: Box::new(record),
-            terms: Terms {
-                mass: Mass::Absent,
-                offset: false,
-                ..Terms::default()
-            },
-        };
-        (data, excitation.description().to_string())
-    };
-    let other = if options.other_law {
-        "; the data follow another law: Stribeck exponent 1, in the negative direction Fc and sigma2 of 80 %, Fs of 90 %"
-    } else {
-        ""
-    };
-    Ok(Subject {
-        name: axis.name.into(),
-        source: axis.source.into(),
-        motion: format!("{motion}{other}"),
-        samples,
-        rate_hz: rate,
-        truth,
-        cost,
-        scheme: options.integrator,
-        bounds,
-        data,
-    })
-}
-
-/// Velocity and friction force at each sample, the law on a finer grid.
-fn along(
-    law: &LuGre<f64>,
-    step: f64,
-    samples: usize,
-    velocity: impl Fn(f64) -> f64,
-) -> (Vec<f64>, Vec<f64>) {
-    let h = step / FINE as f64;
-    let mut z = 0.0;
-    (0..samples)
-        .map(|i| {
-            for k in 0..if i > 0 { FINE } else { 0 } {
-                let t = (i - 1) as f64 * step + k as f64 * h;
-                z = law.step_record(z, h, velocity(t), velocity(t + h));
-            }
-            let v = velocity(i as f64 * step);
-            (v, law.force(z, v))
-        })
-        .unzip()
-}
-
-/// The same where force ramps move the mass.
-fn broken_away(
-    axis: &KnownAxis,
-    law: LuGre<f64>,
-    step: f64,
-    samples: usize,
-) -> Result<(Vec<f64>, Vec<f64>), ParamError> {
-    let plant = Plant::new(axis.mass, law)?;
-    let largest = axis.law.curve().positive().static_friction;
-    let h = step / FINE as f64;
-    let mut at = Motion::default();
-    let mut out = (Vec::with_capacity(samples), Vec::with_capacity(samples));
-    for i in 0..samples {
-        for k in 0..if i > 0 { FINE } else { 0 } {
-            let t = (i - 1) as f64 * step + (k as f64 + 0.5) * h;
-            let load = Load::force(largest * Excitation::force(t));
-            at = plant.step(at, h, load).motion;
-        }
-        out.0.push(at.velocity);
-        out.1.push(law.force(at.deflection, at.velocity));
-    }
-    Ok(out)
-}
-
-/// Position at the end of each step under a force held in it.
-fn moved(mass: f64, law: LuGre<f64>, step: f64, force: &[f64]) -> Result<Vec<f64>, ParamError> {
-    let plant = Plant::new(mass, law)?;
-    let h = step / FINE as f64;
-    let mut at = Motion::default();
-    let mut out = Vec::with_capacity(force.len());
-    for &u in force {
-        for _ in 0..FINE {
-            at = plant.step(at, h, Load::force(u)).motion;
-        }
-        out.push(at.position);
-    }
-    Ok(out)
-}
-
-fn record(step: f64, velocity: Vec<f64>, force: Vec<f64>) -> Result<Record, engine::Error> {
-    let samples = Samples {
-        time: (0..velocity.len()).map(|i| i as f64 * step).collect(),
-        velocity: Some(velocity),
-        force,
-        ..Samples::default()
-    };
-    let raw = Conditioning {
-        source_cutoff: Cutoff::Off,
-        common_cutoff: Cutoff::Off,
-        ..Conditioning::default()
-    };
-    engine::condition(&[samples], &raw)
 }

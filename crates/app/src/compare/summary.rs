@@ -9,6 +9,8 @@ const HIT: f64 = 1e-4;
 const OFF: f64 = 0.01;
 /// Cost above the optimum below which a noise-free run has come: a relative error of 1e-4.
 const EXACT: f64 = 1e-8;
+/// Cost below which there is nothing but rounding.
+const ROUNDING: f64 = 1e-14;
 /// Points of a curve.
 const GRID: usize = 60;
 
@@ -46,6 +48,14 @@ impl Judge<'_> {
         }
     }
 
+    /// Cost over the optimum, less 1; no number where the optimum is nothing but rounding.
+    fn excess(&self, cost: f64) -> f64 {
+        if self.least < ROUNDING {
+            return f64::NAN;
+        }
+        cost / self.least - 1.0
+    }
+
     /// Whether every parameter whose true value is not zero is near it.
     fn within(&self, point: &Point) -> bool {
         let known = self.truth.iter().filter(|(_, value)| *value != 0.0);
@@ -68,7 +78,7 @@ impl Judge<'_> {
         let stage = |points: &dyn Fn(&Trial) -> &Option<Point>,
                      success: &dyn Fn(&RunEntry) -> bool| {
             let found = || own.iter().filter_map(|t| points(t).as_ref());
-            let excess = found().map(|p| p.cost / self.least - 1.0).collect();
+            let excess = found().map(|p| self.excess(p.cost)).collect();
             Stage {
                 successes: runs.iter().filter(|r| success(r)).count(),
                 cost: quartiles(found().map(|p| p.cost).collect()),

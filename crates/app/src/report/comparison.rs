@@ -1,15 +1,15 @@
 //! The report of a comparison of methods.
 
-use crate::compare_file::{CompareFile, Course, MethodEntry, Quartiles, Stage};
+mod figures;
+
+use crate::compare_file::{CompareFile, MethodEntry, Quartiles, Stage};
+use figures::{beside, overlay, population, rates, single};
 use stiction_report::{
-    Align, Axis, Block, Callout, Color, Dash, Document, Figure, KeyFigure, Layer, Panel, Severity,
-    Table, Text, number,
+    Align, Axis, Block, Callout, Document, KeyFigure, Severity, Table, Text, number,
 };
 
 /// The genetic algorithms of Zhang et al. 2025, in the order of its figures.
 const PAPER: [&str; 3] = ["ga", "adaptive-ga", "annealing-ga"];
-/// Least excess over the optimum that a logarithmic axis shows.
-const LEAST: f64 = 1e-12;
 
 /// The report.
 pub(crate) fn comparison(file: &CompareFile) -> Document {
@@ -208,184 +208,36 @@ fn success(file: &CompareFile) -> Table {
     let mut table = Table::new([
         ("Method", Align::Left),
         ("Alone", Align::Right),
-        ("With least squares", Align::Right),
-        ("Excess alone", Align::Right),
-        ("Evaluations to success", Align::Right),
-        ("Time to success", Align::Right),
-        ("Time of a run", Align::Right),
+        ("Then", Align::Right),
+        ("J alone", Align::Right),
+        ("Excess", Align::Right),
+        ("Evaluations", Align::Right),
+        ("Time", Align::Right),
+        ("A run", Align::Right),
     ])
     .caption(
-        "Runs that succeed, and medians over the seeds. Excess: cost over that of the optimum, less 1. \
-         A derivative evaluation counts as one, a coarse one as its share.",
+        "Runs that succeed alone and then, with least squares; medians over the seeds. Excess: J alone over \
+         the optimum, less 1. Evaluations and time until a run that succeeds is near the optimum; time of a \
+         whole run. A derivative evaluation counts as one, a coarse one as its share.",
     );
     let seconds = |q: &Quartiles| q.map_or("–".into(), |v| number::si(v[1], "s", 3));
     for m in &file.methods {
         let runs = m.runs.len();
         let cells = [
-            m.name.clone(),
+            // A name is not broken at its hyphen.
+            m.name.replace('-', "\u{2011}"),
             format!("{} of {runs}", m.own.successes),
             format!("{} of {runs}", m.after_least_squares.successes),
+            shown(&m.own.cost, 4),
             shown(&m.own.excess, 2),
-            shown(&m.evaluations_to_success, 3),
+            m.evaluations_to_success
+                .map_or("–".into(), |v| number::count(v[1].round() as u64)),
             seconds(&m.seconds_to_success),
             seconds(&m.seconds),
         ];
         table = table.row(cells);
     }
     table
-}
-
-/// Success rates as a picture.
-fn rates(file: &CompareFile) -> Figure {
-    let place: Vec<f64> = (0..file.methods.len()).map(|i| i as f64).collect();
-    let rate = |stage: fn(&MethodEntry) -> &Stage| -> Vec<f64> {
-        let each = file.methods.iter();
-        each.map(|m| 100.0 * stage(m).successes as f64 / m.runs.len().max(1) as f64)
-            .collect()
-    };
-    let names = file.methods.iter().map(|m| m.name.as_str());
-    let panel = Panel::new(
-        Axis::new("Runs that succeed", "%").range(-2.0, 102.0),
-        Axis::names(names),
-    )
-    .layer(
-        Layer::points(rate(|m| &m.after_least_squares), place.clone())
-            .color(Color::Green)
-            .width(14.0)
-            .opacity(0.4)
-            .label("With least squares"),
-    )
-    .layer(
-        Layer::points(rate(|m| &m.own), place)
-            .color(Color::Blue)
-            .width(7.0)
-            .opacity(1.0)
-            .label("Alone"),
-    )
-    .height(28.0 * file.methods.len() as f64 + 20.0);
-    Figure::new("Success").panel(panel)
-}
-
-/// A colour and a dash of its own for each method, the same in all figures.
-fn style(file: &CompareFile, name: &str) -> (Color, Dash) {
-    let at = file
-        .methods
-        .iter()
-        .position(|m| m.name == name)
-        .unwrap_or(0);
-    let n = Color::CYCLE.len();
-    let dash = [Dash::Solid, Dash::Dashed, Dash::Dotted][(at / n) % 3];
-    (Color::CYCLE[at % n], dash)
-}
-
-fn cost_axis() -> Axis {
-    Axis::new("Best cost J", "").log()
-}
-
-fn overlay(
-    file: &CompareFile,
-    title: &str,
-    x: Axis,
-    course: &dyn Fn(&MethodEntry) -> &Course,
-) -> Figure {
-    let mut panel = Panel::new(x, cost_axis()).height(340.0);
-    if file.reference.cost > 0.0 && file.reference.cost.is_finite() {
-        panel = panel.layer(
-            Layer::hline(file.reference.cost)
-                .color(Color::Grey)
-                .label("Optimum"),
-        );
-    }
-    for m in &file.methods {
-        let (color, dash) = style(file, &m.name);
-        let c = course(m);
-        panel = panel.layer(
-            Layer::steps(c.at.clone(), c.median.clone())
-                .color(color)
-                .dash(dash)
-                .label(m.name.as_str()),
-        );
-    }
-    Figure::new(title)
-        .panel(panel)
-        .caption("Medians over the seeds.")
-}
-
-/// One method with its quartiles.
-fn single(file: &CompareFile, m: &MethodEntry) -> Figure {
-    let c = &m.by_evaluations;
-    let (color, _) = style(file, &m.name);
-    let mut panel = Panel::new(Axis::new("Evaluations", "").log(), cost_axis()).height(160.0);
-    if file.reference.cost > 0.0 && file.reference.cost.is_finite() {
-        panel = panel.layer(Layer::hline(file.reference.cost).color(Color::Grey));
-    }
-    let panel = panel
-        .layer(
-            Layer::band(c.at.clone(), c.low.clone(), c.high.clone())
-                .color(color)
-                .label("Quartiles"),
-        )
-        .layer(
-            Layer::steps(c.at.clone(), c.median.clone())
-                .color(color)
-                .label("Median"),
-        );
-    Figure::new(m.name.as_str()).panel(panel).half()
-}
-
-/// The population of one run, generation by generation.
-fn population(m: &MethodEntry) -> Figure {
-    let x: Vec<f64> = (0..m.generations.len()).map(|i| i as f64).collect();
-    let at = |q: usize| -> Vec<f64> {
-        let each = m.generations.iter();
-        each.map(|(_, costs)| costs.get(q).copied().flatten().unwrap_or(f64::NAN))
-            .collect()
-    };
-    let panel = Panel::new(
-        Axis::new("Generations over all rounds", ""),
-        Axis::new("Cost J", "").log(),
-    )
-    .layer(
-        Layer::band(x.clone(), at(1), at(3))
-            .color(Color::Grey)
-            .label("Quartiles"),
-    )
-    .layer(
-        Layer::line(x.clone(), at(2))
-            .color(Color::Grey)
-            .label("Median"),
-    )
-    .layer(Layer::line(x, at(0)).color(Color::Blue).label("Best"))
-    .height(170.0);
-    Figure::new(format!("{}, the population of one run", m.name))
-        .panel(panel)
-        .half()
-}
-
-/// The three beside each other, as the excess over the optimum.
-fn beside(file: &CompareFile, paper: &[&MethodEntry]) -> Figure {
-    let least = file.reference.cost;
-    let excess = |costs: &[f64]| -> Vec<f64> {
-        costs.iter().map(|c| (c / least - 1.0).max(LEAST)).collect()
-    };
-    let mut panel = Panel::new(
-        Axis::new("Evaluations of the full record", "").log(),
-        Axis::new("Cost over the optimum, less 1", "").log(),
-    );
-    for m in paper {
-        let (color, _) = style(file, &m.name);
-        let c = &m.by_evaluations;
-        panel = panel
-            .layer(Layer::band(c.at.clone(), excess(&c.low), excess(&c.high)).color(color))
-            .layer(
-                Layer::steps(c.at.clone(), excess(&c.median))
-                    .color(color)
-                    .label(m.name.as_str()),
-            );
-    }
-    Figure::new("Plain, adaptive and annealing genetic algorithm")
-        .panel(panel)
-        .caption("Medians and quartiles; the fall at the end is the least squares.")
 }
 
 fn errors(file: &CompareFile, title: &str, stage: &dyn Fn(&MethodEntry) -> &Stage) -> Table {
@@ -400,7 +252,8 @@ fn errors(file: &CompareFile, title: &str, stage: &dyn Fn(&MethodEntry) -> &Stag
             let percent = e.relative.map(|v| 100.0 * v[1]);
             percent.map_or("–".into(), |x| format!("{} %", number::sig(x, 2)))
         });
-        table = table.row(std::iter::once(m.name.clone()).chain(cells));
+        let name = m.name.replace('-', "\u{2011}");
+        table = table.row(std::iter::once(name).chain(cells));
     }
     table
 }

@@ -42,7 +42,8 @@ pub fn comparison(file: &CompareFile) -> String {
         "runs",
         "success alone",
         "with least squares",
-        "median excess alone",
+        "median J alone",
+        "over the optimum",
         "evaluations to success",
         "s to success",
         "s a run",
@@ -51,7 +52,7 @@ pub fn comparison(file: &CompareFile) -> String {
     rows.extend(file.methods.iter().map(row));
     out.push_str(&table(
         &rows,
-        &[false, true, true, true, true, true, true, true],
+        &[false, true, true, true, true, true, true, true, true],
     ));
     if file.status == "interrupted" {
         out.push_str("\ninterrupted: runs that were not complete are left out\n");
@@ -65,6 +66,7 @@ fn row(method: &MethodEntry) -> Vec<String> {
         method.runs.len().to_string(),
         method.own.successes.to_string(),
         method.after_least_squares.successes.to_string(),
+        median(&method.own.cost),
         median(&method.own.excess),
         median(&method.evaluations_to_success),
         median(&method.seconds_to_success),

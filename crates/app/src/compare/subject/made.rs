@@ -1,0 +1,244 @@
+//! Subjects that are made: axes and curves whose parameters are known.
+
+use super::super::excitation::{DURATION, Excitation};
+use super::super::known::{self, KnownCurve};
+use super::super::{CompareOptions, Cost, NOISE, RATE};
+use super::genome::{about, genome};
+use super::{Data, Subject};
+use crate::error::Error;
+use stiction_friction::{LuGre, ParamError};
+use stiction_identify as engine;
+use stiction_identify::candidates::{Scheme, thinned};
+use stiction_identify::{Conditioning, Cutoff, Mass, Record, Samples, Terms};
+use stiction_servo::known::KnownAxis;
+use stiction_servo::noise::Noise;
+use stiction_servo::plant::{Load, Motion, Plant};
+
+/// Steps of the true law in one sample.
+const FINE: usize = 20;
+/// Seed of the noise of a made record: the searches have seeds of their own.
+const NOISE_SEED: u64 = 1;
+
+pub(super) fn from_curve(options: &CompareOptions, curve: &KnownCurve) -> Result<Subject, Error> {
+    let other = [
+        ("--cost", options.cost.is_some()),
+        ("--excitation", options.excitation.is_some()),
+        ("--integrator", options.integrator != Scheme::Explin),
+        ("--rate", options.rate.is_some()),
+        ("--other-law", options.other_law),
+    ];
+    if let Some((name, _)) = other.iter().find(|(_, given)| *given) {
+        return Err(Error::usage(
+            format!("{name} beside --problem {}", curve.name),
+            "a steady curve has no motion, no memory and one cost",
+        ));
+    }
+    let truth = curve.truth();
+    let mut force = curve
+        .forces()
+        .map_err(|e| Error::usage(e.to_string(), "a law"))?;
+    add_noise(&mut force, noise_of(options)?);
+    Ok(Subject {
+        name: curve.name.into(),
+        source: curve.source.into(),
+        motion: "forces at the speeds -1 to 1 rad/s in steps of 0.05 (not at 0)".into(),
+        samples: force.len() - 1,
+        rate_hz: 0.0,
+        bounds: about(
+            &genome(&truth, Cost::Curve, 0.0),
+            options.decades.unwrap_or(1.0),
+        )?,
+        truth,
+        cost: Cost::Curve,
+        scheme: Scheme::Explin,
+        data: Data::Curve { force },
+    })
+}
+
+fn noise_of(options: &CompareOptions) -> Result<f64, Error> {
+    let noise = options.noise.unwrap_or(NOISE);
+    if (0.0..=1.0).contains(&noise) {
+        return Ok(noise);
+    }
+    Err(Error::usage(
+        format!("--noise {noise}"),
+        "deviation over the largest force, 0 to 1",
+    ))
+}
+
+/// White noise of a share of the largest value.
+fn add_noise(values: &mut [f64], share: f64) {
+    let largest = values.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let mut noise = Noise::new(NOISE_SEED);
+    for x in values {
+        *x += share * largest * noise.normal();
+    }
+}
+
+pub(super) fn from_axis(options: &CompareOptions, axis: &KnownAxis) -> Result<Subject, Error> {
+    let rate = options.rate.unwrap_or(RATE);
+    if !(100.0..=100_000.0).contains(&rate) {
+        return Err(Error::usage(format!("--rate {rate}"), "100 to 100000 Hz"));
+    }
+    let noise = noise_of(options)?;
+    let cost = options.cost.unwrap_or(Cost::Six);
+    let excitation = options.excitation.unwrap_or_default();
+    let step = 1.0 / rate;
+    let samples = (DURATION * rate).round() as usize + 1;
+    let law = match options.other_law {
+        true => known::mismatched(&axis.law),
+        false => Ok(axis.law),
+    };
+    let law = law.map_err(|e| Error::usage(e.to_string(), "a law"))?;
+    let side = axis.law.curve().positive();
+    let truth = [
+        ("sigma0", axis.law.stiffness()),
+        ("sigma1", axis.law.damping().at_rest()),
+        ("sigma2", side.viscous),
+        ("coulomb", side.coulomb),
+        ("static", side.static_friction),
+        ("stribeck_velocity", side.stribeck_velocity),
+    ];
+    let truth: Vec<(String, f64)> = truth.map(|(n, v)| (n.to_string(), v)).into();
+    let least = 1e-3 * side.coulomb / (10.0 * side.stribeck_velocity);
+    let bounds = about(&genome(&truth, cost, least), options.decades.unwrap_or(1.0))?;
+    let made = |e: ParamError| Error::usage(e.to_string(), "a law");
+    let (data, motion) = if cost == Cost::Position {
+        if options.excitation.is_some() || options.integrator != Scheme::Explin {
+            return Err(Error::usage(
+                "--excitation or --integrator beside --cost position",
+                "the motion is what the force makes of it",
+            ));
+        }
+        let size = 1.5 * side.static_friction;
+        let force: Vec<f64> = (0..samples)
+            .map(|i| size * libm::sin(std::f64::consts::TAU * (i as f64 + 0.5) * step))
+            .collect();
+        let mut position = moved(axis.mass, law, step, &force).map_err(made)?;
+        add_noise(&mut position, noise);
+        let data = Data::Drive {
+            mass: axis.mass,
+            step,
+            force,
+            position,
+        };
+        (
+            data,
+            "force sine of 1.5 Fs and 1 Hz from rest, position out".into(),
+        )
+    } else {
+        let (velocity, mut force) = match excitation {
+            Excitation::BreakAway => broken_away(axis, law, step, samples).map_err(made)?,
+            _ => along(&law, step, samples, |t| {
+                side.stribeck_velocity * excitation.velocity(t).unwrap_or(0.0)
+            }),
+        };
+        add_noise(&mut force, noise);
+        let record = record(step, velocity, force).map_err(|source| Error::Identify {
+            inputs: axis.name.into(),
+            source,
+        })?;
+        let data = Data::Record {
+            thinned: thinned(&record).map(Box::new),
+            record: Box::new(record),
+            terms: Terms {
+                mass: Mass::Absent,
+                offset: false,
+                ..Terms::default()
+            },
+        };
+        (data, excitation.description().to_string())
+    };
+    let other = if options.other_law {
+        "; the data follow another law: Stribeck exponent 1, in the negative direction Fc and sigma2 of 80 %, Fs of 90 %"
+    } else {
+        ""
+    };
+    Ok(Subject {
+        name: axis.name.into(),
+        source: axis.source.into(),
+        motion: format!("{motion}{other}"),
+        samples,
+        rate_hz: rate,
+        truth,
+        cost,
+        scheme: options.integrator,
+        bounds,
+        data,
+    })
+}
+
+/// Velocity and friction force at each sample, the law on a finer grid.
+fn along(
+    law: &LuGre<f64>,
+    step: f64,
+    samples: usize,
+    velocity: impl Fn(f64) -> f64,
+) -> (Vec<f64>, Vec<f64>) {
+    let h = step / FINE as f64;
+    let mut z = 0.0;
+    (0..samples)
+        .map(|i| {
+            for k in 0..if i > 0 { FINE } else { 0 } {
+                let t = (i - 1) as f64 * step + k as f64 * h;
+                z = law.step_record(z, h, velocity(t), velocity(t + h));
+            }
+            let v = velocity(i as f64 * step);
+            (v, law.force(z, v))
+        })
+        .unzip()
+}
+
+/// The same where force ramps move the mass.
+fn broken_away(
+    axis: &KnownAxis,
+    law: LuGre<f64>,
+    step: f64,
+    samples: usize,
+) -> Result<(Vec<f64>, Vec<f64>), ParamError> {
+    let plant = Plant::new(axis.mass, law)?;
+    let largest = axis.law.curve().positive().static_friction;
+    let h = step / FINE as f64;
+    let mut at = Motion::default();
+    let mut out = (Vec::with_capacity(samples), Vec::with_capacity(samples));
+    for i in 0..samples {
+        for k in 0..if i > 0 { FINE } else { 0 } {
+            let t = (i - 1) as f64 * step + (k as f64 + 0.5) * h;
+            let load = Load::force(largest * Excitation::force(t));
+            at = plant.step(at, h, load).motion;
+        }
+        out.0.push(at.velocity);
+        out.1.push(law.force(at.deflection, at.velocity));
+    }
+    Ok(out)
+}
+
+/// Position at the end of each step under a force held in it.
+fn moved(mass: f64, law: LuGre<f64>, step: f64, force: &[f64]) -> Result<Vec<f64>, ParamError> {
+    let plant = Plant::new(mass, law)?;
+    let h = step / FINE as f64;
+    let mut at = Motion::default();
+    let mut out = Vec::with_capacity(force.len());
+    for &u in force {
+        for _ in 0..FINE {
+            at = plant.step(at, h, Load::force(u)).motion;
+        }
+        out.push(at.position);
+    }
+    Ok(out)
+}
+
+fn record(step: f64, velocity: Vec<f64>, force: Vec<f64>) -> Result<Record, engine::Error> {
+    let samples = Samples {
+        time: (0..velocity.len()).map(|i| i as f64 * step).collect(),
+        velocity: Some(velocity),
+        force,
+        ..Samples::default()
+    };
+    let raw = Conditioning {
+        source_cutoff: Cutoff::Off,
+        common_cutoff: Cutoff::Off,
+        ..Conditioning::default()
+    };
+    engine::condition(&[samples], &raw)
+}
