@@ -2,6 +2,7 @@
 //! is built in a second on a fresh machine. To add a task, write a function and add it to `TASKS`.
 
 mod debian;
+mod instructions;
 mod licences;
 mod python;
 mod shell;
@@ -39,6 +40,16 @@ const TASKS: &[Task] = &[
         run: searches,
     },
     Task {
+        name: "instructions",
+        help: "count the instructions of kernels and identification, compare with bench/instructions.txt",
+        run: instructions::compare,
+    },
+    Task {
+        name: "instructions --accept",
+        help: "write bench/instructions.txt",
+        run: instructions::accept,
+    },
+    Task {
         name: "licences",
         help: "refuse a dependency whose licence is not permissive",
         run: licences::run,
@@ -64,23 +75,21 @@ fn searches() -> shell::Outcome {
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    let task = match words[..] {
-        [] | ["help" | "-h" | "--help"] => {
+    let typed = words.join(" ");
+    let task = match typed.as_str() {
+        "" | "help" | "-h" | "--help" => {
             println!("cargo xtask <task>\n");
             for task in TASKS {
-                println!("  {:10} {}", task.name, task.help);
+                println!("  {:21} {}", task.name, task.help);
             }
             return ExitCode::SUCCESS;
         }
-        [name] => TASKS.iter().find(|task| task.name == name),
-        _ => None,
+        name => TASKS.iter().find(|task| task.name == name),
     };
     let Some(task) = task else {
         let known: Vec<&str> = TASKS.iter().map(|task| task.name).collect();
         eprintln!(
-            "xtask: `{}` is not a task; one of: {}",
-            words.join(" "),
+            "xtask: `{typed}` is not a task; one of: {}",
             known.join(", ")
         );
         return ExitCode::from(2);

@@ -1,7 +1,7 @@
 //! Everything CI checks, the quick refusals first.
 
 use crate::shell::{self, Outcome, cargo};
-use crate::{licences, setup};
+use crate::{instructions, licences, setup};
 
 /// Runs all checks and stops at the first that fails.
 pub fn run() -> Outcome {
@@ -12,6 +12,7 @@ pub fn run() -> Outcome {
     let mut doc = cargo("doc --workspace --no-deps");
     doc.env("RUSTDOCFLAGS", "-D warnings");
     shell::run(doc)?;
+    instructions::compare()?;
     // nextest runs no doctests; where it is missing, `cargo test` runs everything.
     if shell::on_path("cargo-nextest") {
         shell::run(cargo("test --quiet --workspace --doc"))?;

@@ -67,6 +67,15 @@ fn elasto_plastic(bencher: Bencher, sensitivities: bool) {
 }
 
 #[divan::bench]
+fn search_alone(bencher: Bencher) {
+    let record = noisy();
+    let (law, terms) = (Law::new(LawKind::LuGre), terms());
+    bencher.bench(|| {
+        separable(&record, law, &terms, &Settings::default(), &mut Silent).expect("a fit")
+    });
+}
+
+#[divan::bench]
 fn whole_identification(bencher: Bencher) {
     let record = noisy();
     let (law, terms) = (Law::new(LawKind::LuGre), terms());

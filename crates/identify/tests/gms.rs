@@ -256,7 +256,7 @@ fn four_elements_are_found() {
     let counts = found.counts;
     assert_eq!(
         (counts.cost, counts.sensitivities, counts.thinned),
-        (45, 524, 354)
+        (45, 516, 351)
     );
     assert_eq!(found.status, Status::Converged);
     assert!(estimate.fit.rmse < 0.155, "residual {}", estimate.fit.rmse);

@@ -399,7 +399,9 @@ fn a_search_stops_whenever_asked() {
             (found, observer.calls)
         };
         let (whole, calls) = run(usize::MAX);
-        for most in [1, 2, 5, 20, 80, calls / 2, calls - 3] {
+        let stops = [1, 2, 5, 20, 80, calls / 2, calls - 3];
+        // A short search is over before the later ones.
+        for most in stops.into_iter().filter(|&most| most < calls) {
             let (found, seen) = run(most);
             assert_eq!(
                 found.status,

@@ -3,8 +3,8 @@
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use stiction_lanes::{
-    Axis, Candidate, Drive, InstructionSet, Measured, Motion, Scheme, Segment, Time, Track, Trial,
-    costs, plants, sums, sums_alone,
+    Axis, Candidate, Drive, InstructionSet, Measured, Motion, Scheme, Segment, Stepping, Time,
+    Track, Trial, costs, plants, sums, sums_alone,
 };
 
 fn main() {
@@ -103,9 +103,18 @@ fn normal_alone(bencher: Bencher) {
         .bench_local(|| sums_alone(&track, &trial, InstructionSet::best()));
 }
 
-/// A mass of 4 kg under a sine of 60 N.
 #[divan::bench(args = [16, 64], sample_count = 10)]
 fn midpoint(bencher: Bencher, count: usize) {
+    driven(bencher, count, Stepping::Midpoint);
+}
+
+#[divan::bench(args = [16, 64], sample_count = 10)]
+fn semi_implicit(bencher: Bencher, count: usize) {
+    driven(bencher, count, Stepping::SemiImplicit);
+}
+
+/// A mass of 4 kg under a sine of 60 N.
+fn driven(bencher: Bencher, count: usize, stepping: Stepping) {
     let w = 2.0 * std::f64::consts::PI * 1e-4;
     let force: Vec<f64> = (0..SAMPLES)
         .map(|k| 60.0 * libm::sin(w * k as f64))
@@ -125,5 +134,5 @@ fn midpoint(bencher: Bencher, count: usize) {
     };
     bencher
         .counter(ItemsCount::new(count * SAMPLES))
-        .bench_local(|| plants(&drive, &axes, InstructionSet::best()));
+        .bench_local(|| plants(&drive, &axes, stepping, InstructionSet::best()));
 }

@@ -7,8 +7,8 @@
 use std::hint::black_box;
 use std::time::Instant;
 use stiction_lanes::{
-    Axis, Candidate, Drive, InstructionSet, Measured, Motion, Scheme, Segment, Time, Track, Trial,
-    costs, plants, sums, sums_alone,
+    Axis, Candidate, Drive, InstructionSet, Measured, Motion, Scheme, Segment, Stepping, Time,
+    Track, Trial, costs, plants, sums, sums_alone,
 };
 use stiction_servo::plant;
 
@@ -130,6 +130,19 @@ fn main() {
         drop(black_box(sums_alone(&track, &trials[0], set)))
     });
     time("midpoint", 64, &one, &|| {
-        drop(black_box(plants(&drive, &axes[..64], set)))
+        drop(black_box(plants(
+            &drive,
+            &axes[..64],
+            Stepping::Midpoint,
+            set,
+        )))
+    });
+    time("semi-implicit", 64, &one, &|| {
+        drop(black_box(plants(
+            &drive,
+            &axes[..64],
+            Stepping::SemiImplicit,
+            set,
+        )))
     });
 }

@@ -36,7 +36,7 @@ pub use cost::{Scheme, costs};
 pub use dispatch::InstructionSet;
 pub use error::Error;
 pub use normal::{Sums, Trial, shared_sums, sums, sums_alone};
-pub use plant::{Axis, Drive, Measured, Motion, Outcome, plants};
+pub use plant::{Axis, Drive, Measured, Motion, Outcome, Stepping, plants};
 pub use sensitive::OWN;
 pub use trace::{Columns, trace};
 pub use track::{Segment, Time, Track};

@@ -186,6 +186,11 @@ impl Record {
         if full.is_empty() {
             return;
         }
+        if shift == Shift::NONE && self.decimate == 1 {
+            let pairs = full.iter().zip(&segment.keep);
+            out.extend(pairs.filter_map(|(x, &keep)| keep.then_some(*x)));
+            return;
+        }
         for (i, &keep) in segment.keep.iter().enumerate() {
             if keep {
                 out.push(shift.at(full, i * self.decimate));
@@ -269,5 +274,41 @@ impl Record {
             conditioning: None,
             is_thinned: true,
         })
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    /// A record without force or filter: one segment for each velocity.
+    pub(crate) fn of_velocities(step: f64, velocities: &[&[f64]]) -> Record {
+        let segments = velocities
+            .iter()
+            .map(|velocity| Segment {
+                log: 0,
+                step,
+                velocity: velocity.to_vec(),
+                position: vec![0.0; velocity.len()],
+                acceleration: vec![0.0; velocity.len()],
+                drive: vec![0.0; velocity.len()],
+                valid: vec![true; velocity.len()],
+                time: (0..velocity.len()).map(|i| step * i as f64).collect(),
+                force: vec![0.0; velocity.len()],
+                keep: vec![true; velocity.len()],
+                channels: Channels::default(),
+            })
+            .collect();
+        Record {
+            segments,
+            common: None,
+            decimate: 1,
+            position_noise: 0.0,
+            common_hz: None,
+            notes: Vec::new(),
+            resolution: None,
+            conditioning: None,
+            is_thinned: false,
+        }
     }
 }

@@ -4,7 +4,9 @@
 //! that stand at their bound with the descent pointing outward are frozen for the step.
 
 use crate::observe::{Control, Counts, Observer, Progress, Stage};
+use crate::separable::in_lanes::InLanes;
 use crate::separable::objective::{Evaluation, Objective};
+use crate::separable::reduced::Reduced;
 use crate::separable::search_box::SearchBox;
 use nalgebra::{DMatrix, DVector};
 
@@ -89,10 +91,18 @@ const VALLEY: f64 = 1e-9;
 const IN_A_ROW: usize = 5;
 /// Step in the logarithms below which the unknowns count as settled.
 const SETTLED: f64 = 1e-9;
+/// Step in the logarithms within which the quadratic model is taken at its word: what it calls no gain is not
+/// tried.
+const TRUSTED: f64 = 1e-3;
 /// Cost relative to the energy of the force that is rounding only.
 const EXACT: f64 = 1e-27;
+/// Change of a cost from sums of squares, relative to the energy of the force, that may be rounding.
+const ROUNDING: f64 = 1e-13;
 
 /// Descends from `start` for at most `steps` trials.
+///
+/// Where the objective can be had from sums alone, they lead as far as their digits go, and the columns
+/// only finish.
 pub(crate) fn descend(
     objective: &Objective,
     bounds: &SearchBox,
@@ -100,110 +110,211 @@ pub(crate) fn descend(
     steps: usize,
     watch: &mut Watch,
 ) -> Descent {
-    let mut p = bounds.clamp(start);
-    let mut now = objective.evaluate(&p, true);
+    let mut history = Vec::new();
+    let led = objective
+        .sums()
+        .and_then(|sums| lead(objective, sums, bounds, start, steps, &mut history, watch));
+    let (start, done, interrupted) = led.unwrap_or((bounds.clamp(start), 0, false));
+    let mut evaluation = objective.evaluate(&start, true);
     watch.count(objective, true);
-    let mut history = vec![(watch.counts.total(), objective.relative(now.cost))];
-    let mut lambda = 1e-3;
-    let mut grow = 2.0;
-    let mut status = Status::Budget;
-    let mut iterations = 0;
-    let mut slow = 0;
-    if p.is_empty() {
-        status = Status::Converged;
+    history.push((watch.counts.total(), objective.relative(evaluation.cost)));
+    let mut walk = Walk::new(start, evaluation.reduced(), objective.energy());
+    walk.iterations = done;
+    if interrupted {
+        walk.status = Status::Interrupted;
     }
-    while status == Status::Budget && iterations < steps {
-        iterations += 1;
-        if now.cost <= EXACT * objective.energy() {
-            status = Status::Converged;
-            break;
-        }
-        let Some(step) = damped_step(&now, &p, bounds, lambda) else {
-            status = Status::Converged;
-            break;
-        };
-        let trial = bounds.clamp(
-            &p.iter()
-                .zip(step.iter())
-                .map(|(x, d)| x + d)
-                .collect::<Vec<_>>(),
-        );
-        let length = p
-            .iter()
-            .zip(&trial)
-            .map(|(a, b)| (a - b).abs())
-            .fold(0.0, f64::max);
-        if length < SETTLED {
-            status = if lambda <= 1.0 || flat_at(&now, &trial, &p) {
-                Status::Converged
-            } else {
-                Status::Stalled
-            };
-            break;
-        }
+    while let Some(trial) = walk.propose(bounds, steps) {
         let next = objective.evaluate(&trial, true);
         watch.count(objective, true);
-        let predicted = predicted_gain(&now, &trial, &p);
-        let gained = now.cost - next.cost;
-        if next.cost.is_finite() && gained > 0.0 {
-            let ratio = if predicted > 0.0 {
-                gained / predicted
-            } else {
-                1.0
-            };
-            slow = if gained <= VALLEY * now.cost {
-                slow + 1
-            } else {
-                0
-            };
-            let flat = gained <= FLAT * now.cost || slow >= IN_A_ROW;
-            p = trial;
-            now = next;
-            let relative = objective.relative(now.cost);
-            history.push((watch.counts.total(), relative));
-            lambda = (lambda * (1.0 - (2.0 * ratio - 1.0).powi(3)).max(1.0 / 3.0)).max(1e-14);
-            grow = 2.0;
-            if watch.report(relative) == Control::Stop {
-                status = Status::Interrupted;
-            } else if flat {
-                status = Status::Converged;
-            }
-        } else {
-            // A step that a bound cut short may promise a rise: a shorter one follows the gradient.
-            if predicted.abs() <= FLAT * now.cost {
-                status = Status::Converged;
-            } else if lambda > 1e12 {
-                status = Status::Stalled;
-            }
-            lambda *= grow;
-            grow *= 2.0;
-            if watch.report(objective.relative(now.cost)) == Control::Stop {
-                status = Status::Interrupted;
-            }
+        if walk.take(trial, next.reduced()) {
+            evaluation = next;
+            history.push((watch.counts.total(), objective.relative(evaluation.cost)));
+        }
+        if watch.report(objective.relative(evaluation.cost)) == Control::Stop {
+            walk.status = Status::Interrupted;
         }
     }
     Descent {
-        p,
-        evaluation: now,
-        status,
-        iterations,
+        p: walk.p,
+        evaluation,
+        status: walk.status,
+        iterations: walk.iterations,
         history,
     }
 }
 
+/// The descent on sums: where it ends, the trials it took, and whether it was stopped. `None` where a trial
+/// is beyond what the sums can do.
+fn lead(
+    objective: &Objective,
+    sums: &InLanes,
+    bounds: &SearchBox,
+    start: &[f64],
+    steps: usize,
+    history: &mut Vec<(usize, f64)>,
+    watch: &mut Watch,
+) -> Option<(Vec<f64>, usize, bool)> {
+    let mut walk = Walk::new(
+        bounds.clamp(start),
+        sums.reduced(&bounds.clamp(start))?,
+        objective.energy(),
+    );
+    walk.rounding = ROUNDING;
+    walk.untried = true;
+    watch.count(objective, true);
+    while let Some(trial) = walk.propose(bounds, steps) {
+        let next = sums.reduced(&trial)?;
+        watch.count(objective, true);
+        let cost = next.cost;
+        if walk.take(trial, next) {
+            history.push((watch.counts.total(), objective.relative(cost)));
+        }
+        if watch.report(objective.relative(walk.now.cost)) == Control::Stop {
+            return Some((walk.p, walk.iterations, true));
+        }
+    }
+    Some((walk.p, walk.iterations, false))
+}
+
+/// One descent, asked for its next trial and told what became of it.
+pub(crate) struct Walk {
+    pub p: Vec<f64>,
+    pub now: Reduced,
+    pub status: Status,
+    /// Trials so far.
+    pub iterations: usize,
+    /// Gain, relative to the energy of the force, below which costs cannot be compared: the walk ends there.
+    pub rounding: f64,
+    /// Where to end: within this step in the logarithms, when it promises to lower the cost by no more than
+    /// this part.
+    pub near_enough: (f64, f64),
+    /// Whether that step is taken all the same, without a trial: [`now`](Self::now) then belongs to the point
+    /// before.
+    pub untried: bool,
+    energy: f64,
+    lambda: f64,
+    grow: f64,
+    slow: usize,
+    predicted: f64,
+}
+
+impl Walk {
+    pub fn new(p: Vec<f64>, now: Reduced, energy: f64) -> Self {
+        let status = if p.is_empty() {
+            Status::Converged
+        } else {
+            Status::Budget
+        };
+        Self {
+            p,
+            now,
+            status,
+            iterations: 0,
+            rounding: 0.0,
+            near_enough: (TRUSTED, FLAT),
+            untried: false,
+            energy,
+            lambda: 1e-3,
+            grow: 2.0,
+            slow: 0,
+            predicted: 0.0,
+        }
+    }
+
+    /// The next trial; `None` at the end of the walk.
+    pub fn propose(&mut self, bounds: &SearchBox, steps: usize) -> Option<Vec<f64>> {
+        if self.status != Status::Budget || self.iterations >= steps {
+            return None;
+        }
+        self.iterations += 1;
+        let now = &self.now;
+        if now.cost <= EXACT * self.energy {
+            self.status = Status::Converged;
+            return None;
+        }
+        let Some(step) = damped_step(now, &self.p, bounds, self.lambda) else {
+            self.status = Status::Converged;
+            return None;
+        };
+        let moved: Vec<f64> = self.p.iter().zip(step.iter()).map(|(x, d)| x + d).collect();
+        let trial = bounds.clamp(&moved);
+        let length = largest(&self.p, &trial);
+        if length < SETTLED {
+            let settled = self.lambda <= 1.0 || flat_at(now, &trial, &self.p);
+            self.status = if settled {
+                Status::Converged
+            } else {
+                Status::Stalled
+            };
+            return None;
+        }
+        self.predicted = predicted_gain(now, &trial, &self.p);
+        let (short, little) = self.near_enough;
+        let nothing = (little * now.cost).max(self.rounding * self.energy);
+        if length < short && self.lambda <= 1.0 && self.predicted.abs() <= nothing {
+            if self.untried {
+                self.p = trial;
+            }
+            self.status = Status::Converged;
+            return None;
+        }
+        Some(trial)
+    }
+
+    /// What a trial came to; whether it is where the walk now stands.
+    pub fn take(&mut self, trial: Vec<f64>, next: Reduced) -> bool {
+        let now = &self.now;
+        let gained = now.cost - next.cost;
+        if next.cost.is_finite() && gained > 0.0 {
+            let ratio = if self.predicted > 0.0 {
+                gained / self.predicted
+            } else {
+                1.0
+            };
+            self.slow = if gained <= VALLEY * now.cost {
+                self.slow + 1
+            } else {
+                0
+            };
+            if gained <= FLAT * now.cost || self.slow >= IN_A_ROW {
+                self.status = Status::Converged;
+            }
+            self.p = trial;
+            self.now = next;
+            let shrink = (1.0 - (2.0 * ratio - 1.0).powi(3)).max(1.0 / 3.0);
+            self.lambda = (self.lambda * shrink).max(1e-14);
+            self.grow = 2.0;
+            return true;
+        }
+        // A step that a bound cut short may promise a rise: a shorter one follows the gradient.
+        if self.predicted.abs() <= (FLAT * now.cost).max(self.rounding * self.energy) {
+            self.status = Status::Converged;
+        } else if self.lambda > 1e12 {
+            self.status = Status::Stalled;
+        }
+        self.lambda *= self.grow;
+        self.grow *= 2.0;
+        false
+    }
+}
+
+/// Largest distance in any unknown.
+fn largest(a: &[f64], b: &[f64]) -> f64 {
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f64::max)
+}
+
 /// Fall of the cost that the quadratic model promises for a step.
-fn predicted_gain(now: &Evaluation, to: &[f64], from: &[f64]) -> f64 {
+fn predicted_gain(now: &Reduced, to: &[f64], from: &[f64]) -> f64 {
     let taken = DVector::from_iterator(to.len(), to.iter().zip(from).map(|(b, a)| b - a));
     2.0 * now.descent.dot(&taken) - (&now.hessian * &taken).dot(&taken)
 }
 
 /// Whether the gradient is so small that a step of one in the logarithms would promise nothing.
-fn flat_at(now: &Evaluation, to: &[f64], from: &[f64]) -> bool {
-    let length = to
-        .iter()
-        .zip(from)
-        .map(|(a, b)| (a - b).abs())
-        .fold(0.0, f64::max);
+fn flat_at(now: &Reduced, to: &[f64], from: &[f64]) -> bool {
+    let length = largest(to, from);
     length == 0.0 || predicted_gain(now, to, from) / length <= 1e-9 * now.cost
 }
 
@@ -213,12 +324,7 @@ fn flat_at(now: &Evaluation, to: &[f64], from: &[f64]) -> bool {
 /// Unknowns that stand at a bound and push outward are frozen. An unknown whose step would leave the
 /// box goes to its bound, and the others are solved again for that: cutting a step short without
 /// this can turn it uphill.
-fn damped_step(
-    now: &Evaluation,
-    p: &[f64],
-    bounds: &SearchBox,
-    lambda: f64,
-) -> Option<DVector<f64>> {
+fn damped_step(now: &Reduced, p: &[f64], bounds: &SearchBox, lambda: f64) -> Option<DVector<f64>> {
     let mut free: Vec<usize> = (0..p.len())
         .filter(|&i| {
             let d = now.descent[i];
@@ -260,7 +366,7 @@ fn damped_step(
 
 /// Steps of the free unknowns when the others take the given steps.
 fn solve_free(
-    now: &Evaluation,
+    now: &Reduced,
     free: &[usize],
     others: &DVector<f64>,
     lambda: f64,

@@ -139,33 +139,56 @@ fn residual(columns: &[&[f64]], factor: &Factor, c: &[f64], u: &[f64], out: &mut
     }
 }
 
+/// Products of columns with each other and with the target.
+#[derive(Clone, Debug)]
+pub(super) struct Normal {
+    pub gram: DMatrix<f64>,
+    pub rhs: Vec<f64>,
+    /// Sum of squares of the target.
+    pub energy: f64,
+}
+
+impl Normal {
+    /// The factor of the columns that take part and their coefficients, in its order; and the columns that
+    /// depend on others.
+    ///
+    /// Of a handful of bounded columns every subset that a bound could hold at zero is tried in turn, the one
+    /// leaving the least residual and breaking no bound wins; with more,
+    /// [`nonnegative`](super::nonnegative) finds it.
+    pub fn solve(&self, bounded: &[bool]) -> (Factor, Vec<f64>, Vec<usize>) {
+        let held = if bounded.iter().filter(|&&b| b).count() > MOST_TRIED {
+            nonnegative::held(&self.gram, &self.rhs, bounded, self.energy)
+        } else {
+            feasible_set(&self.gram, &self.rhs, bounded)
+        };
+        let wanted: Vec<usize> = (0..self.rhs.len()).filter(|j| !held[*j]).collect();
+        let (factor, dropped) = Factor::new(&self.gram, &wanted);
+        let pick: Vec<f64> = factor.columns.iter().map(|&j| self.rhs[j]).collect();
+        let c = factor.solve(&pick);
+        (factor, c, dropped)
+    }
+}
+
 /// Least squares of `u` on `columns`, with the `bounded` coefficients at or above zero.
 ///
 /// The normal equations are solved on scaled columns and refined once with the true residual, which
-/// brings the accuracy of an orthogonal factorisation. Of a handful of bounded columns every subset
-/// that a bound could hold at zero is tried in turn, the one leaving the least residual and breaking
-/// no bound wins; with more, [`nonnegative`](super::nonnegative) finds it.
+/// brings the accuracy of an orthogonal factorisation.
 pub(crate) fn solve(columns: &[&[f64]], bounded: &[bool], u: &[f64]) -> Solution {
     let m = columns.len();
     let mut gram = DMatrix::zeros(m, m);
-    let mut rhs = vec![0.0; m];
     for i in 0..m {
         for j in 0..=i {
             let x = dot(columns[i], columns[j]);
             gram[(i, j)] = x;
             gram[(j, i)] = x;
         }
-        rhs[i] = dot(columns[i], u);
     }
-    let held = if bounded.iter().filter(|&&b| b).count() > MOST_TRIED {
-        nonnegative::held(&gram, &rhs, bounded, dot(u, u))
-    } else {
-        feasible_set(&gram, &rhs, bounded)
+    let normal = Normal {
+        gram,
+        rhs: columns.iter().map(|column| dot(column, u)).collect(),
+        energy: dot(u, u),
     };
-    let wanted: Vec<usize> = (0..m).filter(|j| !held[*j]).collect();
-    let (factor, dropped) = Factor::new(&gram, &wanted);
-    let pick: Vec<f64> = factor.columns.iter().map(|&j| rhs[j]).collect();
-    let mut c = factor.solve(&pick);
+    let (factor, mut c, dropped) = normal.solve(bounded);
     let mut r = Vec::with_capacity(u.len());
     residual(columns, &factor, &c, u, &mut r);
     let correction: Vec<f64> = factor

@@ -6,10 +6,13 @@ use crate::gms;
 use crate::law::Law;
 use crate::law::dependence::product;
 use crate::law::terms::{ColumnKind, Delay, LinearTerm, Mass, Side, Terms};
+use crate::separable::in_lanes::InLanes;
 use crate::separable::linear::{self, Solution, dot};
 use crate::separable::recursion::{Trace, trace};
+use crate::separable::reduced::Reduced;
 use nalgebra::{DMatrix, DVector};
 use std::borrow::Cow;
+use std::sync::{Arc, OnceLock};
 
 /// A record, a law and the linear terms beside it.
 #[derive(Clone, Debug)]
@@ -33,13 +36,18 @@ pub struct Objective<'a> {
     energy: f64,
     /// A coefficient that is not fitted but held at a value.
     held: Option<(usize, f64)>,
+    /// The record on the batch kernels, where they know the law; made when first needed.
+    lanes: OnceLock<Option<InLanes>>,
 }
+
+/// A column of the regression at the kept samples; one that nothing changes is shared by all trials.
+pub(crate) type Column = Arc<Vec<f64>>;
 
 /// A known column of the regression.
 #[derive(Clone, Debug)]
 enum Fixed {
     /// At the kept samples: without a delay it never changes.
-    Thin(Vec<f64>),
+    Thin(Column),
     /// At the full rate, filtered, for each segment: a delay moves it.
     Full(Vec<Vec<f64>>),
 }
@@ -59,7 +67,7 @@ pub struct Evaluation {
     pub cost: f64,
     pub(crate) solution: Solution,
     /// Columns at the kept samples.
-    pub(crate) columns: Vec<Vec<f64>>,
+    pub(crate) columns: Vec<Column>,
     /// `d(Phi) c` for each nonlinear unknown, at the kept samples; empty without sensitivities.
     pub(crate) slopes: Vec<Vec<f64>>,
     /// `J^T J` of the reduced problem (Kaufman).
@@ -81,9 +89,18 @@ impl Evaluation {
         let active = self.columns.iter().zip(&self.solution.active);
         self.slopes
             .iter()
-            .chain(active.filter_map(|(column, active)| active.then_some(column)))
+            .chain(active.filter_map(|(column, active)| active.then_some(&**column)))
             .map(Vec::as_slice)
             .collect()
+    }
+
+    /// What a step of the search needs to know of it.
+    pub(crate) fn reduced(&self) -> Reduced {
+        Reduced {
+            cost: self.cost,
+            hessian: self.hessian.clone(),
+            descent: self.descent.clone(),
+        }
     }
 }
 
@@ -134,7 +151,35 @@ impl<'a> Objective<'a> {
             inertia,
             energy,
             held: None,
+            lanes: OnceLock::new(),
         }
+    }
+
+    /// The record on the batch kernels, where they know the law.
+    fn lanes(&self) -> Option<&InLanes> {
+        let made = self.lanes.get_or_init(|| {
+            let still = self.delay == Delay::NONE;
+            if self.record.common.is_some() || !still || !self.varying.is_empty() {
+                return InLanes::motion(self.record, &self.law);
+            }
+            let target = self.target(Shift::NONE);
+            let columns: Vec<Option<&[f64]>> = self
+                .fixed
+                .iter()
+                .map(|column| match column {
+                    Some(Fixed::Thin(thin)) => Some(thin.as_slice()),
+                    _ => None,
+                })
+                .collect();
+            InLanes::regression(self.record, &self.law, &self.linear, &target, &columns)
+        });
+        made.as_ref()
+    }
+
+    /// The batch kernels, where the reduced problem follows from their sums: neither a filter nor a delay
+    /// stands between the law and the regression, and no level changes with another channel.
+    pub(crate) fn sums(&self) -> Option<&InLanes> {
+        self.lanes().filter(|lanes| lanes.sums())
     }
 
     /// Number of nonlinear unknowns: those of the law, and the delay where it is one.
@@ -146,6 +191,9 @@ impl<'a> Objective<'a> {
     pub(crate) fn holding(&self, coefficient: usize, value: f64) -> Self {
         let mut out = self.clone();
         out.held = Some((coefficient, value));
+        if let Some(lanes) = self.lanes() {
+            out.lanes = OnceLock::from(Some(lanes.holding(coefficient, value)));
+        }
         out
     }
 
@@ -189,7 +237,7 @@ impl<'a> Objective<'a> {
         let shift = self.shift(p);
         let mut columns = self.columns(&traces, shift);
         let target = self.without_held(&mut columns, shift);
-        let views: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        let views: Vec<&[f64]> = columns.iter().map(|column| column.as_slice()).collect();
         let mut solution = linear::solve(&views, &self.nonnegative, &target);
         if let Some((j, value)) = self.held {
             solution.coefficients[j] = value;
@@ -225,22 +273,30 @@ impl<'a> Objective<'a> {
         }
     }
 
+    /// The measured force without the inertia force of a given mass.
+    fn target(&self, shift: Shift) -> Cow<'_, [f64]> {
+        match self.inertia_force(shift) {
+            Some(inertia) => Cow::Owned(difference(&self.force, &inertia)),
+            None => Cow::Borrowed(&self.force[..]),
+        }
+    }
+
+    /// The cost alone, where sums give it to their digits.
+    pub(crate) fn cost(&self, p: &[f64]) -> f64 {
+        let summed = self.sums().and_then(|sums| sums.reduced(p));
+        summed.map_or_else(|| self.evaluate(p, false).cost, |reduced| reduced.cost)
+    }
+
     /// The target without the part of a held coefficient, whose column is emptied so that the linear
     /// problem leaves it out.
-    fn without_held(&self, columns: &mut [Vec<f64>], shift: Shift) -> Cow<'_, [f64]> {
-        let minus = |from: &[f64], part: &[f64]| -> Vec<f64> {
-            from.iter().zip(part).map(|(u, x)| u - x).collect()
+    fn without_held(&self, columns: &mut [Column], shift: Shift) -> Cow<'_, [f64]> {
+        let target = self.target(shift);
+        let Some((j, value)) = self.held else {
+            return target;
         };
-        let mut target = match self.inertia_force(shift) {
-            Some(inertia) => Cow::Owned(minus(&self.force, &inertia)),
-            None => Cow::Borrowed(&self.force[..]),
-        };
-        if let Some((j, value)) = self.held {
-            columns[j].iter_mut().for_each(|x| *x *= value);
-            target = Cow::Owned(minus(&target, &columns[j]));
-            columns[j].fill(0.0);
-        }
-        target
+        let part: Vec<f64> = columns[j].iter().map(|x| value * x).collect();
+        columns[j] = Arc::new(vec![0.0; part.len()]);
+        Cow::Owned(difference(&target, &part))
     }
 
     /// `-1/2` times the gradient of the cost with respect to the nonlinear unknowns.
@@ -267,11 +323,9 @@ impl<'a> Objective<'a> {
 
     /// Every term of the model force at the kept samples, in the order of the linear unknowns.
     pub(crate) fn parts(&self, p: &[f64], coefficients: &[f64]) -> Vec<Vec<f64>> {
-        let mut parts = self.columns(&self.traces(p, false), self.shift(p));
-        for (column, c) in parts.iter_mut().zip(coefficients) {
-            column.iter_mut().for_each(|x| *x *= c);
-        }
-        parts
+        let columns = self.columns(&self.traces(p, false), self.shift(p));
+        let scaled = |(column, c): (&Column, &f64)| column.iter().map(|x| x * c).collect();
+        columns.iter().zip(coefficients).map(scaled).collect()
     }
 
     /// How much earlier the motion stands that belongs to a force.
@@ -286,55 +340,67 @@ impl<'a> Objective<'a> {
 
     fn inertia_force(&self, shift: Shift) -> Option<Vec<f64>> {
         let (mass, acceleration) = self.inertia.as_ref()?;
-        let mut force = self.at(acceleration, shift);
-        force.iter_mut().for_each(|a| *a *= mass);
-        Some(force)
+        let acceleration = self.at(acceleration, shift);
+        Some(acceleration.iter().map(|a| a * mass).collect())
     }
 
     /// A known column at the kept samples.
-    fn at(&self, column: &Fixed, shift: Shift) -> Vec<f64> {
+    fn at(&self, column: &Fixed, shift: Shift) -> Column {
         match column {
-            Fixed::Thin(thin) => thin.clone(),
+            Fixed::Thin(thin) => Arc::clone(thin),
             Fixed::Full(full) => {
                 let mut out = Vec::with_capacity(self.force.len());
                 for (segment, full) in self.record.segments.iter().zip(full) {
                     self.record.thin(segment, full, shift, &mut out);
                 }
-                out
+                Arc::new(out)
             }
         }
     }
 
     fn traces(&self, p: &[f64], slopes: bool) -> Vec<Run> {
         let p = &p[..self.law.nonlinear()];
-        let segments = self.record.segments.iter().enumerate();
-        segments
-            .map(|(i, s)| {
-                let trace = trace(&self.law, p, s.step, &s.velocity, slopes);
-                // The rate is empty for a static law, and then no column asks for it.
-                let mut columns = vec![trace.eta.clone(), trace.rate.clone()];
-                columns.extend(trace.elements.iter().map(|e| e.level.clone()));
-                for varying in &self.varying {
-                    columns.push(product(&trace.eta, &varying.factors[i], varying.side));
+        let segments = &self.record.segments;
+        let in_lanes = self.lanes().and_then(|lanes| lanes.traces(p, slopes));
+        let traces = in_lanes.unwrap_or_else(|| {
+            let along = |s: &Segment| trace(&self.law, p, s.step, &s.velocity, slopes);
+            segments.iter().map(along).collect()
+        });
+        traces
+            .into_iter()
+            .enumerate()
+            .map(|(i, trace)| {
+                let times = |v: &Varying| product(&trace.eta, &v.factors[i], v.side);
+                let mut varying: Vec<Vec<f64>> = self.varying.iter().map(times).collect();
+                self.record.filter(&mut varying);
+                let mut filtered = Vec::new();
+                if self.record.common.is_some() {
+                    filtered.extend(trace.own().cloned());
+                    self.record.filter(&mut filtered);
                 }
-                self.record.filter(&mut columns);
-                Run { trace, columns }
+                Run {
+                    trace,
+                    filtered,
+                    varying,
+                }
             })
             .collect()
     }
 
     /// The columns of the regression at the kept samples.
-    fn columns(&self, runs: &[Run], shift: Shift) -> Vec<Vec<f64>> {
-        let own = |column: usize| {
+    fn columns(&self, runs: &[Run], shift: Shift) -> Vec<Column> {
+        let gather = |of: &dyn Fn(&Run) -> Option<&Vec<f64>>| {
             let mut out = Vec::with_capacity(self.force.len());
             for (segment, run) in self.record.segments.iter().zip(runs) {
-                self.record
-                    .thin(segment, &run.columns[column], shift, &mut out);
+                if let Some(full) = of(run) {
+                    self.record.thin(segment, full, shift, &mut out);
+                }
             }
-            out
+            Arc::new(out)
         };
-        // They were made in the order of the linear unknowns, after the elements.
-        let mut next = 2 + runs.first().map_or(0, |run| run.trace.elements.len())..;
+        let own = |column: usize| gather(&|run| run.own(column));
+        // They were made in the order of the linear unknowns.
+        let mut next = 0..;
         self.linear
             .iter()
             .zip(&self.fixed)
@@ -342,7 +408,10 @@ impl<'a> Objective<'a> {
                 (Some(column), _) => self.at(column, shift),
                 (None, ColumnKind::Rate) => own(1),
                 (None, ColumnKind::Element(k)) => own(2 + k),
-                (None, ColumnKind::LevelTimes(..)) => next.next().map(&own).unwrap_or_default(),
+                (None, ColumnKind::LevelTimes(..)) => {
+                    let k = next.next().unwrap_or_default();
+                    gather(&|run| run.varying.get(k))
+                }
                 (None, _) => own(0),
             })
             .collect()
@@ -399,16 +468,16 @@ impl<'a> Objective<'a> {
     fn delay_slope(&self, runs: &[Run], p: &[f64], coefficients: &[f64]) -> Vec<f64> {
         let slope = Shift::slope(p.last().copied().unwrap_or(0.0));
         let mut out = vec![0.0; self.force.len()];
-        let mut add = |c: f64, column: Vec<f64>| {
+        let mut add = |c: f64, column: &[f64]| {
             for (y, x) in out.iter_mut().zip(column) {
                 *y += c * x;
             }
         };
-        for (column, &c) in self.columns(runs, slope).into_iter().zip(coefficients) {
+        for (column, &c) in self.columns(runs, slope).iter().zip(coefficients) {
             add(c, column);
         }
         if let Some(inertia) = self.inertia_force(slope) {
-            add(1.0, inertia);
+            add(1.0, &inertia);
         }
         out
     }
@@ -449,9 +518,25 @@ impl<'a> Objective<'a> {
 /// The law along one segment.
 struct Run {
     trace: Trace,
-    /// The columns that the law makes, filtered, at the full rate: `eta`, its rate, the elements, and
-    /// the levels that change with another channel.
-    columns: Vec<Vec<f64>>,
+    /// The law's own columns after the common filter, at the full rate; empty where there is none.
+    filtered: Vec<Vec<f64>>,
+    /// The levels that change with another channel, likewise.
+    varying: Vec<Vec<f64>>,
+}
+
+impl Run {
+    /// What the regression sees of `eta` (0), its rate (1), an element (from 2).
+    fn own(&self, column: usize) -> Option<&Vec<f64>> {
+        if self.filtered.is_empty() {
+            self.trace.own().nth(column)
+        } else {
+            self.filtered.get(column)
+        }
+    }
+}
+
+fn difference(from: &[f64], part: &[f64]) -> Vec<f64> {
+    from.iter().zip(part).map(|(u, x)| u - x).collect()
 }
 
 /// A column that does not depend on the parameters of the law; `None` if it does.
@@ -481,7 +566,7 @@ fn fixed_column(record: &Record, column: ColumnKind, moves: bool) -> Option<Fixe
             velocity.zip(factor.along(s)).map(|(v, f)| v * f).collect()
         }),
         ColumnKind::Acceleration => each(&|s| s.acceleration.clone()),
-        ColumnKind::One if !moves => return Some(Fixed::Thin(vec![1.0; record.kept()])),
+        ColumnKind::One if !moves => return Some(Fixed::Thin(Arc::new(vec![1.0; record.kept()]))),
         ColumnKind::One => each(&|s| vec![1.0; s.velocity.len()]),
         ColumnKind::Sine(rate) => each(&|s| of(&s.position, &|x| libm::sin(rate * x))),
         ColumnKind::Cosine(rate) => each(&|s| of(&s.position, &|x| libm::cos(rate * x))),
@@ -496,5 +581,5 @@ fn fixed_column(record: &Record, column: ColumnKind, moves: bool) -> Option<Fixe
     for (segment, full) in record.segments.iter().zip(&full) {
         record.thin(segment, full, Shift::NONE, &mut thin);
     }
-    Some(Fixed::Thin(thin))
+    Some(Fixed::Thin(Arc::new(thin)))
 }

@@ -84,6 +84,11 @@ pub(super) fn level<const K: usize>(
     Level { value, slope }
 }
 
+/// Intervals are held below this, so that their derivatives stay finite.
+pub(crate) const LONGEST: f64 = 1e150;
+/// Derivatives below this are none: they would die away into numbers below the normal range, which are slow.
+const NONE: f64 = 1e-140;
+
 /// `(1 - exp(-a)) / a` and its derivative.
 #[inline(always)]
 pub(crate) fn phi(a: f64, e: f64) -> (f64, f64) {
@@ -110,6 +115,28 @@ pub(crate) struct Trace {
     pub rate_slope: Vec<Vec<f64>>,
     /// The elements of a Maxwell-slip law; all above is then empty.
     pub elements: Vec<crate::gms::recursion::Element>,
+}
+
+impl Trace {
+    /// `eta`, its rate, and the levels of the elements.
+    pub fn own(&self) -> impl Iterator<Item = &Vec<f64>> {
+        let elements = self.elements.iter().map(|element| &element.level);
+        [&self.eta, &self.rate].into_iter().chain(elements)
+    }
+
+    /// Parts the samples from `at` on.
+    pub fn split_off(&mut self, at: usize) -> Self {
+        let cut = |columns: &mut Vec<Vec<f64>>| -> Vec<Vec<f64>> {
+            columns.iter_mut().map(|c| c.split_off(at)).collect()
+        };
+        Self {
+            eta_slope: cut(&mut self.eta_slope),
+            rate_slope: cut(&mut self.rate_slope),
+            eta: self.eta.split_off(at),
+            rate: self.rate.split_off(at),
+            elements: Vec::new(),
+        }
+    }
 }
 
 /// Runs the law along a velocity; `slopes` asks for the sensitivities too.
@@ -278,7 +305,7 @@ fn advance<const K: usize>(
     eta_slope: &mut [f64; K],
 ) {
     let (qa, qb) = (half * fabs(va) / ga.value, half * fabs(vb) / gb.value);
-    let a = (qa + qb).min(700.0);
+    let a = (qa + qb).min(LONGEST);
     let e = expm1(-a);
     let (ph, ph_slope) = phi(a, e);
     let (ea, eb) = (s * ga.value, s * gb.value);
@@ -290,10 +317,107 @@ fn advance<const K: usize>(
             a_slope += a;
         }
         let (da, db) = (s * ga.slope[k], s * gb.slope[k]);
-        *d = db + (*d - da) * (1.0 + e)
+        let next = db + (*d - da) * (1.0 + e)
             - gap * (1.0 + e) * a_slope
             - (db - da) * ph
             - rise * ph_slope * a_slope;
+        *d = if fabs(next) < NONE { 0.0 } else { next };
     }
     *eta = eb + gap * (1.0 + e) - rise * ph;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::separable::in_lanes::InLanes;
+    use stiction_friction::{Damping, Direction, Shape, Stribeck};
+
+    /// Curve of the tests: Fc 20 N, Fs 30 N, vs 5 mm/s.
+    fn law(stiffness: f64) -> stiction_friction::LuGre<f64> {
+        let both = Direction {
+            coulomb: 20.0,
+            static_friction: 30.0,
+            stribeck_velocity: 5e-3,
+            viscous: 0.0,
+        };
+        let curve = Stribeck::symmetric(Shape::Gaussian, both, 0.0).unwrap();
+        stiction_friction::LuGre::new(stiffness, Damping::Constant(0.0), curve).unwrap()
+    }
+
+    fn unknowns(stiffness: f64) -> [f64; 3] {
+        [log(stiffness / 20.0), log(0.5), log(5e-3)]
+    }
+
+    /// Intervals in which the bristle follows its steady level at once, and how far it lags behind is one
+    /// over their length.
+    #[test]
+    fn a_stiff_bristle_lags_as_the_friction_crate_says() {
+        let velocity: Vec<f64> = (0..50).map(|k| 1e-4 * f64::from(k)).collect();
+        for stiffness in [1e8, 1e9, 1e12] {
+            let law = law(stiffness);
+            let ours = Law::new(LawKind::LuGre);
+            let found = trace(&ours, &unknowns(stiffness), 1e-2, &velocity, false);
+            let mut z = 0.0;
+            for (v, eta) in velocity.windows(2).zip(&found.eta[1..]) {
+                z = law.step_record(z, 1e-2, v[0], v[1]);
+                let right = stiffness * z / 20.0;
+                assert!((eta - right).abs() < 1e-14, "{stiffness:e} {eta} {right}");
+            }
+        }
+    }
+
+    /// What dies away ends at zero: no number below the normal range, which would be slow.
+    #[test]
+    fn derivatives_that_die_away_stay_normal() {
+        let velocity = vec![0.02; 4000];
+        let found = trace(
+            &Law::new(LawKind::LuGre),
+            &unknowns(2e6),
+            1e-4,
+            &velocity,
+            true,
+        );
+        for column in found.eta_slope.iter().chain(&found.rate_slope) {
+            assert!(column.iter().all(|x| *x == 0.0 || x.is_normal()));
+        }
+    }
+
+    /// The kernels and the recursion are one law.
+    #[test]
+    fn lanes_and_recursion_agree() {
+        let velocity: Vec<f64> = (0..3000)
+            .map(|k| 0.02 * libm::sin(0.01 * f64::from(k)) * libm::sin(0.0013 * f64::from(k)))
+            .collect();
+        let parts = [&velocity[..1000], &velocity[1000..1001], &velocity[1001..]];
+        let record = crate::conditioning::record::tests::of_velocities(1e-3, &parts);
+        for kind in [LawKind::Dahl, LawKind::LuGre] {
+            let law = Law::new(kind);
+            let p = &unknowns(1.2e5)[..law.nonlinear()];
+            let lanes = InLanes::motion(&record, &law).unwrap();
+            let found = lanes.traces(p, true).unwrap();
+            for (found, part) in found.iter().zip(parts) {
+                let right = trace(&law, p, 1e-3, part, true);
+                let pairs = |a: &Trace, b: &Trace| -> Vec<(Vec<f64>, Vec<f64>)> {
+                    let all = |t: &Trace| {
+                        let slopes = t.eta_slope.iter().chain(&t.rate_slope);
+                        [&t.eta, &t.rate]
+                            .into_iter()
+                            .chain(slopes)
+                            .cloned()
+                            .collect()
+                    };
+                    let (a, b): (Vec<_>, Vec<_>) = (all(a), all(b));
+                    assert_eq!(a.len(), b.len());
+                    a.into_iter().zip(b).collect()
+                };
+                for (i, (found, right)) in pairs(found, &right).iter().enumerate() {
+                    assert_eq!(found.len(), right.len());
+                    let size = right.iter().fold(1e-3, |m: f64, x| m.max(x.abs()));
+                    for (x, y) in found.iter().zip(right) {
+                        assert!((x - y).abs() <= 1e-12 * size, "{kind} {i}: {x} {y}");
+                    }
+                }
+            }
+        }
+    }
 }

@@ -5,6 +5,7 @@ use crate::law::terms::Terms;
 use crate::law::{Law, LawKind};
 use crate::observe::{Control, Stage};
 use crate::separable::Settings;
+use crate::separable::coarse::Coarse;
 use crate::separable::levenberg::{Descent, Status, Watch, descend};
 use crate::separable::objective::Objective;
 use crate::separable::search_box::SearchBox;
@@ -21,8 +22,10 @@ const SAME: f64 = 1e-2;
 const FAR: f64 = 3.0;
 /// How much worse a start may then be and still be followed to the end.
 const CLOSE: f64 = 1.05;
+/// Of the samples of the thinned record, the scan sees one in this many.
+const ROUGHER: usize = 4;
 /// Stiffnesses tried with the curve of the static law.
-const LINE: usize = 16;
+pub(super) const LINE: usize = 16;
 
 /// One search: an objective on the full record and what is known of the way so far.
 pub(crate) struct Search<'a> {
@@ -67,6 +70,9 @@ impl<'a> Search<'a> {
     /// curve with the stiffness that suits it.
     fn scan_starts(&mut self, bounds: &SearchBox, watch: &mut Watch) -> Vec<Vec<f64>> {
         let objective = Objective::new(self.near(), self.law, self.terms);
+        if let Some(starts) = self.starts_in_lanes(&objective, bounds, watch) {
+            return starts;
+        }
         let points = self.scan(&objective, bounds, watch);
         watch.stage = Stage::Coarse;
         let many = points.len().min(self.settings.starts);
@@ -90,6 +96,54 @@ impl<'a> Search<'a> {
         }
         starts.extend(self.static_starts(bounds, watch));
         starts
+    }
+
+    /// Starts for a law that the batch kernels know; `None` for others.
+    fn starts_in_lanes(
+        &mut self,
+        objective: &Objective,
+        bounds: &SearchBox,
+        watch: &mut Watch,
+    ) -> Option<Vec<Vec<f64>>> {
+        let rough = self.near().thinned(self.settings.thin / ROUGHER);
+        let rough = rough
+            .as_ref()
+            .map(|record| Objective::new(record, self.law, self.terms));
+        let sums = objective.sums()?;
+        let first = rough.as_ref().unwrap_or(objective);
+        let coarse = Coarse {
+            objective: first,
+            sums: first.sums()?,
+            bounds,
+        };
+        let mut minima = coarse.minima(
+            self.seed(),
+            self.settings.scan,
+            self.settings.starts,
+            self.law.layout().kappa?,
+            watch,
+        )?;
+        if rough.is_some() {
+            let coarse = Coarse {
+                objective,
+                sums,
+                bounds,
+            };
+            self.iterations += minima.steps;
+            let points = minima.ends.into_iter().map(|(_, p)| p).collect();
+            minima = coarse.followed(points, watch)?;
+        }
+        self.iterations += minima.steps;
+        let most = FAR * minima.ends.first()?.0;
+        let mut starts: Vec<Vec<f64>> = Vec::new();
+        for (cost, p) in minima.ends {
+            let counts = starts.is_empty() || cost <= most;
+            if counts && !starts.iter().any(|other| same(&p, other)) {
+                starts.push(p);
+            }
+        }
+        starts.truncate(MOST_FINE);
+        Some(starts)
     }
 
     /// Starts for a law with its own parameters per direction: every pairing of two minima of the
@@ -153,7 +207,7 @@ impl<'a> Search<'a> {
         }
         let mut costs: Vec<(f64, &Vec<f64>)> = Vec::with_capacity(starts.len());
         for start in starts {
-            let cost = self.full.evaluate(start, false).cost;
+            let cost = self.full.cost(start);
             // So that no number is the worst, and still a start.
             costs.push((if cost.is_nan() { f64::INFINITY } else { cost }, start));
             watch.count(self.full, false);
@@ -302,29 +356,25 @@ impl<'a> Search<'a> {
             }
             line.push((cost, p));
         }
-        let many = line.len();
-        let mut minima: Vec<_> = (0..many)
-            .filter(|&i| {
-                (i == 0 || line[i].0 <= line[i - 1].0)
-                    && (i + 1 == many || line[i].0 <= line[i + 1].0)
-            })
-            .map(|i| line[i].clone())
-            .collect();
-        minima.sort_by(|a, b| a.0.total_cmp(&b.0));
-        minima.into_iter().take(2).map(|(_, p)| p).collect()
+        let costs: Vec<f64> = line.iter().map(|(cost, _)| *cost).collect();
+        valleys(&costs)
+            .into_iter()
+            .map(|i| line[i].1.clone())
+            .collect()
+    }
+
+    fn seed(&self) -> u32 {
+        (self.settings.seed ^ (self.settings.seed >> 32)) as u32
     }
 
     /// Sobol points of the box, best first.
     fn scan(&self, objective: &Objective, bounds: &SearchBox, watch: &mut Watch) -> Vec<Vec<f64>> {
         watch.stage = Stage::Scan;
-        let seed = (self.settings.seed ^ (self.settings.seed >> 32)) as u32;
+        let seed = self.seed();
         let many = self.settings.scan.max(1);
         let mut points = Vec::with_capacity(many);
         for i in 0..many {
-            let unit: Vec<f64> = (0..bounds.len())
-                .map(|d| f64::from(sobol_burley::sample(i as u32, d as u32, seed)))
-                .collect();
-            let p = bounds.at(&unit);
+            let p = sobol(bounds, i, seed);
             let cost = objective.evaluate(&p, false).cost;
             watch.count(objective, false);
             points.push((if cost.is_nan() { f64::INFINITY } else { cost }, p));
@@ -338,19 +388,38 @@ impl<'a> Search<'a> {
     }
 }
 
+/// A point of the scrambled Sobol sequence in a box.
+pub(super) fn sobol(bounds: &SearchBox, i: usize, seed: u32) -> Vec<f64> {
+    let unit: Vec<f64> = (0..bounds.len())
+        .map(|d| f64::from(sobol_burley::sample(i as u32, d as u32, seed)))
+        .collect();
+    bounds.at(&unit)
+}
+
+/// The two lowest places in a row of costs that neither neighbour undercuts, the lower first.
+pub(super) fn valleys(costs: &[f64]) -> Vec<usize> {
+    let many = costs.len();
+    let mut found: Vec<usize> = (0..many)
+        .filter(|&i| {
+            (i == 0 || costs[i] <= costs[i - 1]) && (i + 1 == many || costs[i] <= costs[i + 1])
+        })
+        .collect();
+    found.sort_by(|&a, &b| costs[a].total_cmp(&costs[b]));
+    found.truncate(2);
+    found
+}
+
+/// Whether two minima are one.
+pub(super) fn same(a: &[f64], b: &[f64]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME)
+}
+
 /// Best first, without those that stand where a better one stands.
 fn distinct(mut found: Vec<Descent>) -> Vec<Descent> {
     found.sort_by(|a, b| a.evaluation.cost.total_cmp(&b.evaluation.cost));
     let mut out: Vec<Descent> = Vec::new();
     for descent in found {
-        let near = |other: &Descent| {
-            descent
-                .p
-                .iter()
-                .zip(&other.p)
-                .all(|(a, b)| (a - b).abs() < SAME)
-        };
-        if !out.iter().any(near) {
+        if !out.iter().any(|other| same(&descent.p, &other.p)) {
             out.push(descent);
         }
     }

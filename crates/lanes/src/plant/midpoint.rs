@@ -230,17 +230,13 @@ impl<const N: usize, const POWER: bool> Kernel for Midpoint<'_, N, POWER> {
                 cost.0[j] = fma(measured - reached, measured - reached, cost.0[j]);
             }
         }
-        let outcome = |j: usize| Outcome {
-            cost: if cost.0[j].is_nan() {
-                f64::INFINITY
-            } else {
-                cost.0[j]
-            },
-            end: Motion {
+        let outcome = |j: usize| {
+            let end = Motion {
                 position: x.0[j],
                 velocity: v.0[j],
                 deflection: eta.0[j] * self.length[j],
-            },
+            };
+            Outcome::new(cost.0[j], end)
         };
         (0..self.used).map(outcome).collect()
     }

@@ -28,6 +28,9 @@ pub(super) fn build(segments: &[Segment]) -> Result<Track, Error> {
         samples: 0,
         kept: 0,
     };
+    // Most records turn seldom.
+    let samples: usize = segments.iter().map(|s| s.velocity.len()).sum();
+    reserve(&mut track, samples + samples / 16 + BLOCK);
     for (index, segment) in segments.iter().enumerate() {
         check(index, segment, columns)?;
         append(&mut track, index, segment)?;
@@ -36,6 +39,19 @@ pub(super) fn build(segments: &[Segment]) -> Result<Track, Error> {
         push(&mut track, Node::still(1.0, 0), None);
     }
     Ok(track)
+}
+
+fn reserve(track: &mut Track, nodes: usize) {
+    let known = [
+        &mut track.speed,
+        &mut track.half_step,
+        &mut track.sign,
+        &mut track.force,
+    ];
+    for channel in known.into_iter().chain(&mut track.columns) {
+        channel.reserve(nodes);
+    }
+    track.marks.reserve(nodes);
 }
 
 impl Node {

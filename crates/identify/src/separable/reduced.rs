@@ -1,0 +1,109 @@
+//! The reduced problem at a trial: cost, gradient and curvature in the nonlinear unknowns alone.
+
+use crate::separable::linear::Normal;
+use nalgebra::{DMatrix, DVector};
+
+/// What a step of the search needs to know of a trial.
+#[derive(Clone, Debug)]
+pub(crate) struct Reduced {
+    /// Sum of squares of the residual.
+    pub cost: f64,
+    /// `J^T J` (Kaufman).
+    pub hessian: DMatrix<f64>,
+    /// `-J^T r`: the direction of descent.
+    pub descent: DVector<f64>,
+}
+
+/// Products of the columns of a trial, none of which is at hand: from them the reduced problem follows.
+pub(super) trait Products {
+    /// Linear columns with each other.
+    fn linear(&self, i: usize, j: usize) -> f64;
+    /// A linear column with the target.
+    fn target(&self, i: usize) -> f64;
+    /// Sum of squares of the target.
+    fn energy(&self) -> f64;
+    /// The derivative of the model with respect to a nonlinear unknown, for given coefficients, with a
+    /// linear column.
+    fn slope_linear(&self, k: usize, i: usize, coefficients: &[f64]) -> f64;
+    /// The same with the target.
+    fn slope_target(&self, k: usize, coefficients: &[f64]) -> f64;
+    /// The same with another derivative.
+    fn slopes(&self, k: usize, l: usize, coefficients: &[f64]) -> f64;
+}
+
+impl Reduced {
+    /// From the products of `bounded.len()` linear columns and `unknowns` derivatives; `held` is a
+    /// coefficient that stands at a value.
+    ///
+    /// The cost has lost what is below about 1e-15 of the energy of the target.
+    pub(super) fn from_products(
+        products: &impl Products,
+        bounded: &[bool],
+        unknowns: usize,
+        held: Option<(usize, f64)>,
+    ) -> Self {
+        let m = bounded.len();
+        let whole = Normal {
+            gram: DMatrix::from_fn(m, m, |i, j| products.linear(i, j)),
+            rhs: (0..m).map(|i| products.target(i)).collect(),
+            energy: products.energy(),
+        };
+        let (factor, found, _) = match held {
+            None => whole.solve(bounded),
+            Some((j, value)) => without(&whole, j, value).solve(bounded),
+        };
+        let mut c = vec![0.0; m];
+        for (&j, &x) in factor.columns().iter().zip(&found) {
+            c[j] = x;
+        }
+        if let Some((j, value)) = held {
+            c[j] = value;
+        }
+        let mut cost = whole.energy;
+        for i in 0..m {
+            let model: f64 = (0..m).map(|j| whole.gram[(i, j)] * c[j]).sum();
+            cost += c[i] * (model - 2.0 * whole.rhs[i]);
+        }
+        let rows: Vec<Vec<f64>> = (0..unknowns)
+            .map(|k| (0..m).map(|i| products.slope_linear(k, i, &c)).collect())
+            .collect();
+        let descent = DVector::from_fn(unknowns, |k, _| {
+            let model: f64 = rows[k].iter().zip(&c).map(|(x, c)| x * c).sum();
+            products.slope_target(k, &c) - model
+        });
+        let mut hessian = DMatrix::zeros(unknowns, unknowns);
+        for k in 0..unknowns {
+            let own: Vec<f64> = factor.columns().iter().map(|&j| rows[k][j]).collect();
+            let inside = factor.solve(&own);
+            for l in 0..=k {
+                let explained: f64 = factor
+                    .columns()
+                    .iter()
+                    .zip(&inside)
+                    .map(|(&j, x)| rows[l][j] * x)
+                    .sum();
+                let outside = products.slopes(k, l, &c) - explained;
+                hessian[(k, l)] = outside;
+                hessian[(l, k)] = outside;
+            }
+        }
+        Self {
+            cost: cost.max(0.0),
+            hessian,
+            descent,
+        }
+    }
+}
+
+/// The same with the part of one column taken from the target, and the column emptied.
+fn without(whole: &Normal, j: usize, value: f64) -> Normal {
+    let mut out = whole.clone();
+    out.energy += value * (value * whole.gram[(j, j)] - 2.0 * whole.rhs[j]);
+    for i in 0..out.rhs.len() {
+        out.rhs[i] -= value * whole.gram[(i, j)];
+        out.gram[(i, j)] = 0.0;
+        out.gram[(j, i)] = 0.0;
+    }
+    out.rhs[j] = 0.0;
+    out
+}

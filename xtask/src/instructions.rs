@@ -1,0 +1,170 @@
+//! Instructions of the kernels and of an identification, counted by callgrind, against a snapshot: a slowdown
+//! shows in review, however busy the machine is.
+
+use crate::debian;
+use crate::shell::{self, Outcome};
+use std::fmt::Write;
+use std::fs;
+
+/// What is counted, by the name that `crates/identify/examples/instructions.rs` knows.
+const WHAT: [&str; 5] = ["friction-step", "costs", "sums", "sums-alone", "identify"];
+/// Counts may differ by this part: the C library picks its copying loops by processor.
+const TOLERANCE: f64 = 0.02;
+const SNAPSHOT: &str = "bench/instructions.txt";
+
+/// Fails where a count differs from the snapshot.
+pub fn compare() -> Outcome {
+    let Some(counts) = counts()? else {
+        return Ok(());
+    };
+    let path = shell::root().join(SNAPSHOT);
+    let text = fs::read_to_string(&path).map_err(|e| format!("{SNAPSHOT}: {e}"))?;
+    let table = table(&text, &counts);
+    print!("{}", table.text);
+    if table.same {
+        return Ok(());
+    }
+    Err(format!(
+        "instruction counts differ by more than {} %, see the table above; {}. If that is meant: \
+         cargo xtask instructions --accept",
+        100.0 * TOLERANCE,
+        compilers(&text)?
+    ))
+}
+
+/// Writes the snapshot.
+pub fn accept() -> Outcome {
+    let Some(counts) = counts()? else {
+        return Err("counts are kept for x86-64 with AVX2 only".into());
+    };
+    let mut text = format!(
+        "# Instructions, by `cargo xtask instructions --accept`: x86-64, AVX2\n# {}\n",
+        rustc()?
+    );
+    for (what, count) in WHAT.iter().zip(&counts) {
+        let _ = writeln!(text, "{what} {count}");
+    }
+    fs::write(shell::root().join(SNAPSHOT), text).map_err(|e| format!("{SNAPSHOT}: {e}"))
+}
+
+/// One count for each of [`WHAT`]; `None` on a processor that the snapshot does not speak of.
+fn counts() -> Result<Option<Vec<u64>>, String> {
+    #[cfg(target_arch = "x86_64")]
+    let known = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
+    #[cfg(not(target_arch = "x86_64"))]
+    let known = false;
+    if !known {
+        println!("==> instructions: not compared, counts are kept for x86-64 with AVX2");
+        return Ok(None);
+    }
+    debian::install()?;
+    shell::run(shell::cargo(
+        "build --quiet --release -p stiction-identify --example instructions",
+    ))?;
+    let program = target().join("release/examples/instructions");
+    let program = program.to_string_lossy();
+    let out = target().join("instructions.callgrind");
+    let file = format!("--callgrind-out-file={}", out.display());
+    WHAT.iter()
+        .map(|what| {
+            let arguments = [
+                "--quiet",
+                "--tool=callgrind",
+                "--toggle-collect=*instructions*counted*",
+                &file,
+                &program,
+                what,
+            ];
+            shell::output(shell::command("valgrind", &arguments))?;
+            let text = fs::read_to_string(&out).map_err(|e| format!("{}: {e}", out.display()))?;
+            total(&text).ok_or_else(|| format!("callgrind counted nothing for `{what}`"))
+        })
+        .collect::<Result<Vec<u64>, String>>()
+        .map(Some)
+}
+
+fn target() -> std::path::PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR")
+        .map_or_else(|| shell::root().join("target"), std::path::PathBuf::from)
+}
+
+/// The sum of a callgrind file.
+fn total(text: &str) -> Option<u64> {
+    let line = text
+        .lines()
+        .find_map(|line| line.strip_prefix("totals: "))?;
+    line.trim().parse().ok().filter(|&count| count > 0)
+}
+
+struct Table {
+    text: String,
+    same: bool,
+}
+
+/// Old beside new.
+fn table(snapshot: &str, counts: &[u64]) -> Table {
+    let mut out = Table {
+        text: format!("    {:14} {:>12} {:>12}\n", "", "snapshot", "now"),
+        same: true,
+    };
+    for (what, &now) in WHAT.iter().zip(counts) {
+        let old = snapshot.lines().find_map(|line| {
+            line.strip_prefix(what)?
+                .strip_prefix(' ')?
+                .parse::<u64>()
+                .ok()
+        });
+        let shift = old.map_or(f64::INFINITY, |old| now as f64 / old as f64 - 1.0);
+        let same = shift.abs() <= TOLERANCE;
+        out.same &= same;
+        let old = old.map_or_else(|| "none".into(), |old| old.to_string());
+        let _ = writeln!(
+            out.text,
+            "    {what:14} {old:>12} {now:>12} {:>+7.1} %{}",
+            100.0 * shift,
+            if same { "" } else { "  <" }
+        );
+    }
+    out
+}
+
+fn rustc() -> Result<String, String> {
+    let version = shell::output(shell::command("rustc", &["--version"]))?;
+    Ok(version.trim().into())
+}
+
+/// With which compilers snapshot and counts were made.
+fn compilers(snapshot: &str) -> Result<String, String> {
+    let now = rustc()?;
+    let then = snapshot
+        .lines()
+        .find_map(|line| line.strip_prefix("# rustc"))
+        .map_or_else(|| "unknown".into(), |rest| format!("rustc{rest}"));
+    Ok(if then == now {
+        format!("both with {now}")
+    } else {
+        format!("the snapshot is of {then}, this is {now}")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{table, total};
+
+    #[test]
+    fn a_count_that_moves_is_marked() {
+        let snapshot = "# a\nfriction-step 1000\ncosts 1000\nsums 1000\nsums-alone 1000\n";
+        let found = table(snapshot, &[1019, 1021, 979, 1000, 5]);
+        assert!(!found.same);
+        let marked: Vec<bool> = found.text.lines().map(|l| l.ends_with('<')).collect();
+        assert_eq!(marked, [false, false, true, true, false, true]);
+        let identify = format!("{snapshot}identify 5\n");
+        assert!(table(&identify, &[1000, 1000, 1000, 1000, 5]).same);
+    }
+
+    #[test]
+    fn nothing_counted_is_no_count() {
+        assert_eq!(total("events: Ir\ntotals: 123\n"), Some(123));
+        assert_eq!(total("events: Ir\ntotals: 0\n"), None);
+    }
+}
