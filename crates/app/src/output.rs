@@ -6,8 +6,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
-/// File that marks a folder as one that stiction wrote and may replace.
-const MARK: &str = "result.json";
+/// Files that mark a folder as one that stiction wrote and may replace, each written last.
+const MARKS: [&str; 3] = ["result.json", "study.json", "reproduce.json"];
 
 /// Files to be written together.
 #[derive(Clone, Debug, Default)]
@@ -27,14 +27,14 @@ impl Bundle {
     }
 
     /// Writes every file into `dir`: all under temporary names first, renamed once the last one is
-    /// complete, `result.json` at the very end. A full disk or an interrupt leaves what was there.
+    /// complete, `result.json` (`study.json`, `reproduce.json`) at the very end. A full disk or an interrupt leaves what was there.
     ///
     /// # Errors
     /// When the folder cannot be made or a file cannot be written.
     pub fn write(&self, dir: &Path) -> Result<Vec<PathBuf>, Error> {
         fs::create_dir_all(dir).map_err(|e| Error::output(dir, describe(&e)))?;
         let mut order: Vec<_> = self.files.iter().collect();
-        order.sort_by_key(|(name, _)| *name == MARK);
+        order.sort_by_key(|(name, _)| MARKS.contains(name));
         let mut staged = Vec::new();
         for (name, content) in order {
             let path = dir.join(name);
@@ -96,8 +96,15 @@ fn temporary_beside(path: &Path) -> std::io::Result<NamedTempFile> {
         .tempfile_in(dir)
 }
 
-/// Names of the files that an identification writes.
-const WRITTEN: [&str; 4] = ["result.json", "model.toml", "report.html", "fit.csv"];
+/// Names of the files that are written.
+const WRITTEN: [&str; 6] = [
+    "result.json",
+    "model.toml",
+    "report.html",
+    "fit.csv",
+    "study.json",
+    "reproduce.json",
+];
 
 /// Refuses an output folder whose files would take the place of an input.
 ///
@@ -131,6 +138,20 @@ pub fn check_inputs<'p>(
 /// # Errors
 /// With the reason and the way out.
 pub fn check_folder(dir: &Path, force: bool) -> Result<(), Error> {
+    check_folder_of(dir, crate::result::SCHEMA, force)
+}
+
+/// [`check_folder`] for files of another schema, such as `stiction.study/1`: what another command wrote into the folder
+/// is not replaced.
+///
+/// # Errors
+/// As [`check_folder`].
+pub fn check_folder_of(dir: &Path, schema: &str, force: bool) -> Result<(), Error> {
+    let kind = schema
+        .trim_start_matches("stiction.")
+        .split('/')
+        .next()
+        .unwrap_or_default();
     // The nearest folder that exists; `symlink_metadata` so that a dangling link counts as something.
     let existing = dir
         .ancestors()
@@ -155,7 +176,7 @@ pub fn check_folder(dir: &Path, force: bool) -> Result<(), Error> {
     }
     let mut entries = fs::read_dir(dir).map_err(|e| Error::output(dir, describe(&e)))?;
     let empty = entries.next().is_none();
-    if empty || force || is_ours(&dir.join(MARK)) {
+    if empty || force || is_ours(&dir.join(format!("{kind}.json")), kind) {
         return Ok(());
     }
     Err(Error::output(
@@ -165,7 +186,7 @@ pub fn check_folder(dir: &Path, force: bool) -> Result<(), Error> {
     ))
 }
 
-fn is_ours(mark: &Path) -> bool {
+fn is_ours(mark: &Path, kind: &str) -> bool {
     // Opening a pipe of this name would wait for ever.
     if !mark.is_file() {
         return false;
@@ -176,7 +197,7 @@ fn is_ours(mark: &Path) -> bool {
     let mut head = Vec::new();
     use std::io::Read;
     file.take(4096).read_to_end(&mut head).is_ok()
-        && String::from_utf8_lossy(&head).contains("\"stiction.result/")
+        && String::from_utf8_lossy(&head).contains(&format!("\"stiction.{kind}/"))
 }
 
 fn describe(e: &std::io::Error) -> String {

@@ -1,14 +1,18 @@
 //! What a terminal shows: plain text tables, the same on every width.
 
 mod procedure;
+mod reproduction;
+mod study;
 
 use crate::check::{Check, LogCheck, short};
 use crate::identify::Outcome;
 use crate::result::LawEntry;
 use crate::symbols;
 pub use procedure::procedure_commands;
+pub use reproduction::reproduction;
 use std::fmt::Write;
 use stiction_identify::IDENTIFIABLE;
+pub use study::study;
 
 /// A table with aligned columns; the first row is the header.
 fn table(rows: &[Vec<String>], right: &[bool]) -> String {

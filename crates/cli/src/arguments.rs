@@ -37,6 +37,10 @@ pub enum Command {
     Check(Check),
     /// Identify a friction law from logs of one axis.
     Identify(Identify),
+    /// Simulate an axis with and without compensation, over paths, controllers and wrong parameters.
+    Simulate(Simulate),
+    /// Run published experiments again, each number beside its reference; exit code 1 if one is off.
+    Reproduce(Reproduce),
 }
 
 #[derive(Clone, Debug, Args)]
@@ -145,4 +149,37 @@ pub enum Method {
     PreslidingStep,
     /// Force in, position out: the axis simulated, with its controller where the axis file has one.
     OutputError,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct Simulate {
+    /// What to simulate: axis, paths, controllers, compensators.
+    #[arg(value_name = "STUDY.toml")]
+    pub study: PathBuf,
+    /// Folder for study.json and report.html.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Write into a folder that holds something else.
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct Reproduce {
+    /// Which publication.
+    #[arg(value_enum)]
+    pub publication: Publication,
+    /// Folder for reproduce.json and report.html.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Write into a folder that holds something else.
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Publication {
+    /// The LuGre paper: presliding, lag, break-away, stick-slip, hunting, drift.
+    #[value(name = "1995")]
+    Canudas1995,
 }
