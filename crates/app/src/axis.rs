@@ -3,7 +3,7 @@
 mod controller;
 mod raw;
 mod resolve;
-mod syntax;
+pub(crate) mod syntax;
 mod template;
 mod tied;
 
@@ -75,45 +75,13 @@ impl Default for Axis {
     }
 }
 
-/// Largest axis file that is read, bytes.
-const MAX_BYTES: u64 = 1 << 20;
-
 impl Axis {
     /// Reads and checks an axis file.
     ///
     /// # Errors
     /// With file, line, key, what was found and what is allowed.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        let refuse = |found: String, allowed: &str| Error::Config {
-            file: file.to_path_buf(),
-            place: String::new(),
-            found,
-            allowed: allowed.into(),
-        };
-        let meta = std::fs::metadata(file).map_err(|e| {
-            refuse(
-                format!("cannot be read ({e})"),
-                "give the path of an axis file",
-            )
-        })?;
-        if !meta.is_file() || meta.len() > MAX_BYTES {
-            return Err(refuse(
-                if meta.is_file() {
-                    format!("{} bytes", meta.len())
-                } else {
-                    "not a file".into()
-                },
-                "an axis file is a text file of at most 1 MiB",
-            ));
-        }
-        let bytes = std::fs::read(file).map_err(|e| {
-            refuse(
-                format!("cannot be read ({e})"),
-                "give the path of an axis file",
-            )
-        })?;
-        let text = String::from_utf8(bytes)
-            .map_err(|_| refuse("is not UTF-8 text".into(), "save it as UTF-8"))?;
+        let text = crate::typed::read(file, "an axis file")?;
         Self::parse(&text, file)
     }
 
@@ -123,7 +91,7 @@ impl Axis {
     /// As [`Axis::read`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
         let raw = raw::parse(text).map_err(|e| {
-            let refusal = syntax::refusal(text, &e);
+            let refusal = syntax::refusal(text, &e, "docs/axis.md");
             Error::Config {
                 file: file.to_path_buf(),
                 place: refusal.place,

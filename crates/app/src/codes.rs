@@ -70,13 +70,22 @@ pub const OWN: &[(&str, &str)] = &[
         "a log that cannot be simulated: position, reference or mass is missing",
     ),
     ("bad-record", "the channels of a log do not fit together"),
-    ("bad-config", "an axis or model file was refused"),
+    ("bad-config", "an axis, study or model file was refused"),
     (
         "bad-checkpoint",
         "a checkpoint is damaged or belongs to another search",
     ),
     ("usage", "the command as typed cannot be carried out"),
     ("output", "the output folder or file cannot be used"),
+    (
+        "model-in-doubt",
+        "the model of a study is not one to rely on",
+    ),
+    (
+        "not-in-study",
+        "the model has terms that a study does not simulate",
+    ),
+    ("not-run", "a combination of a study could not be run"),
 ];
 
 /// Every code with its meaning: findings in logs, refusals of logs, and our own.

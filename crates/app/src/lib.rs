@@ -14,11 +14,14 @@ mod identify;
 mod model;
 mod output;
 mod report;
+pub mod reproduce;
 pub mod result;
 mod source;
 mod spread;
+pub mod study;
 mod symbols;
 pub mod text;
+mod typed;
 
 pub use axis::Axis;
 pub use compare::{
@@ -29,10 +32,11 @@ pub use identify::{
     CostKind, Method, Options, Outcome, Procedures, Searching, Simulated, identify,
 };
 pub use model::ModelFile;
-pub use output::{Bundle, check_folder, check_inputs, write_atomic};
+pub use output::{Bundle, check_folder, check_folder_of, check_inputs, write_atomic};
 pub use source::{Source, load, table};
 pub use stiction_identify::candidates::Scheme;
 pub use stiction_identify::{Control, LawKind, Observer, Progress, Silent, Stage};
+pub use study::{Study, StudyOutcome};
 
 /// Limits the threads of the whole process; the first call counts. Results do not depend on it.
 pub fn set_threads(threads: usize) {

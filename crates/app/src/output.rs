@@ -6,8 +6,13 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
-/// Files that mark a folder as one that stiction wrote and may replace.
-const MARKS: [&str; 2] = ["result.json", "compare.json"];
+/// Files that mark a folder as one that stiction wrote and may replace, each written last.
+const MARKS: [&str; 4] = [
+    "result.json",
+    "compare.json",
+    "study.json",
+    "reproduce.json",
+];
 
 /// Files to be written together.
 #[derive(Clone, Debug, Default)]
@@ -27,7 +32,7 @@ impl Bundle {
     }
 
     /// Writes every file into `dir`: all under temporary names first, renamed once the last one is
-    /// complete, `result.json` or `compare.json` at the very end. A full disk or an interrupt leaves what was there.
+    /// complete, the one that marks the folder at the very end. A full disk or an interrupt leaves what was there.
     ///
     /// # Errors
     /// When the folder cannot be made or a file cannot be written.
@@ -96,13 +101,15 @@ fn temporary_beside(path: &Path) -> std::io::Result<NamedTempFile> {
         .tempfile_in(dir)
 }
 
-/// Names of the files that an identification or a comparison writes.
-const WRITTEN: [&str; 5] = [
+/// Names of the files that are written.
+const WRITTEN: [&str; 7] = [
     "result.json",
     "compare.json",
     "model.toml",
     "report.html",
     "fit.csv",
+    "study.json",
+    "reproduce.json",
 ];
 
 /// Refuses an output folder whose files would take the place of an input.
@@ -137,6 +144,20 @@ pub fn check_inputs<'p>(
 /// # Errors
 /// With the reason and the way out.
 pub fn check_folder(dir: &Path, force: bool) -> Result<(), Error> {
+    check_folder_of(dir, crate::result::SCHEMA, force)
+}
+
+/// [`check_folder`] for files of another schema, such as `stiction.study/1`: what another command wrote into the folder
+/// is not replaced.
+///
+/// # Errors
+/// As [`check_folder`].
+pub fn check_folder_of(dir: &Path, schema: &str, force: bool) -> Result<(), Error> {
+    let kind = schema
+        .trim_start_matches("stiction.")
+        .split('/')
+        .next()
+        .unwrap_or_default();
     // The nearest folder that exists; `symlink_metadata` so that a dangling link counts as something.
     let existing = dir
         .ancestors()
@@ -161,8 +182,7 @@ pub fn check_folder(dir: &Path, force: bool) -> Result<(), Error> {
     }
     let mut entries = fs::read_dir(dir).map_err(|e| Error::output(dir, describe(&e)))?;
     let empty = entries.next().is_none();
-    let ours = || MARKS.iter().any(|mark| is_ours(&dir.join(mark)));
-    if empty || force || ours() {
+    if empty || force || is_ours(&dir.join(format!("{kind}.json")), kind) {
         return Ok(());
     }
     Err(Error::output(
@@ -172,7 +192,7 @@ pub fn check_folder(dir: &Path, force: bool) -> Result<(), Error> {
     ))
 }
 
-fn is_ours(mark: &Path) -> bool {
+fn is_ours(mark: &Path, kind: &str) -> bool {
     // Opening a pipe of this name would wait for ever.
     if !mark.is_file() {
         return false;
@@ -182,10 +202,8 @@ fn is_ours(mark: &Path) -> bool {
     };
     let mut head = Vec::new();
     use std::io::Read;
-    let schemas = ["\"stiction.result/", "\"stiction.compare/"];
-    let read = file.take(4096).read_to_end(&mut head).is_ok();
-    let head = String::from_utf8_lossy(&head);
-    read && schemas.iter().any(|schema| head.contains(schema))
+    file.take(4096).read_to_end(&mut head).is_ok()
+        && String::from_utf8_lossy(&head).contains(&format!("\"stiction.{kind}/"))
 }
 
 fn describe(e: &std::io::Error) -> String {

@@ -7,14 +7,18 @@ mod figures;
 mod formula;
 mod ladder;
 mod procedure;
+mod reproduction;
 mod searched;
 mod simulation;
+mod study;
 mod tables;
 
 pub(crate) use comparison::comparison;
 
 use crate::identify::Outcome;
+pub(crate) use reproduction::reproduction;
 use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
+pub(crate) use study::{judged, quantity, study};
 
 /// The report of one identification.
 pub(crate) fn identification(outcome: &Outcome) -> Document {

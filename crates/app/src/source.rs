@@ -51,7 +51,7 @@ pub fn load(path: &Path, axis: &Axis) -> Result<Source, Error> {
     })
 }
 
-fn sha256(path: &Path) -> Result<String, Error> {
+pub(crate) fn sha256(path: &Path) -> Result<String, Error> {
     let fail = |e: std::io::Error| {
         let kind = stiction_log::Kind::Io;
         Error::Log(stiction_log::Error::new(kind, e.to_string(), "").in_file(path))

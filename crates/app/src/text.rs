@@ -2,6 +2,8 @@
 
 mod comparison;
 mod procedure;
+mod reproduction;
+mod study;
 
 use crate::check::{Check, LogCheck, short};
 use crate::identify::Outcome;
@@ -9,8 +11,10 @@ use crate::result::{LawEntry, SearchedEntry, SearchedPoint};
 use crate::symbols;
 pub use comparison::comparison;
 pub use procedure::procedure_commands;
+pub use reproduction::reproduction;
 use std::fmt::Write;
 use stiction_identify::IDENTIFIABLE;
+pub use study::study;
 
 /// A table with aligned columns; the first row is the header.
 fn table(rows: &[Vec<String>], right: &[bool]) -> String {

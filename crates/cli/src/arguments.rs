@@ -39,6 +39,10 @@ pub enum Command {
     Identify(Identify),
     /// Searches beside each other, many seeds of each, on a log or a problem with a known answer.
     Compare(Compare),
+    /// Simulate an axis with and without compensation, over paths, controllers and wrong parameters.
+    Simulate(Simulate),
+    /// Run published experiments again, each number beside its reference; exit code 1 if one is off.
+    Reproduce(Reproduce),
 }
 
 #[derive(Clone, Debug, Args)]
@@ -289,4 +293,37 @@ pub enum CompareCost {
     Separable,
     /// Six parameters, force in and position out.
     Position,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct Simulate {
+    /// What to simulate: axis, paths, controllers, compensators.
+    #[arg(value_name = "STUDY.toml")]
+    pub study: PathBuf,
+    /// Folder for study.json and report.html.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Write into a folder that holds something else.
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct Reproduce {
+    /// Which publication.
+    #[arg(value_enum)]
+    pub publication: Publication,
+    /// Folder for reproduce.json and report.html.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Write into a folder that holds something else.
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Publication {
+    /// The LuGre paper: presliding, lag, break-away, stick-slip, hunting, drift.
+    #[value(name = "1995")]
+    Canudas1995,
 }

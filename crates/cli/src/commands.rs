@@ -4,12 +4,13 @@ use crate::Exit;
 use crate::arguments::{self, Arguments, Command, Common};
 use crate::interrupt;
 use crate::output;
-use crate::progress::Bar;
+use crate::progress::{Bar, Counter};
 use clap::ValueEnum;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use stiction_app::{
     CompareOptions, Cost, CostKind, Error, Excitation, Input, LawKind, Method, Options, Outcome,
-    Procedures, Scheme, Searching, check_folder, check_inputs, compare_bundle, write_atomic,
+    Procedures, Scheme, Searching, Study, check_folder, check_folder_of, check_inputs,
+    compare_bundle, write_atomic,
 };
 
 /// Runs a command; every error is printed here, once.
@@ -24,6 +25,8 @@ pub fn run(arguments: &Arguments) -> Exit {
         Command::Check(check) => self::check(check, common),
         Command::Identify(identify) => self::identify(identify, common),
         Command::Compare(compare) => self::compare(compare, common),
+        Command::Simulate(simulate) => self::simulate(simulate, common),
+        Command::Reproduce(reproduce) => self::reproduce(reproduce, common),
     };
     result.unwrap_or_else(|e| {
         eprintln!("stiction: [{}] {e}", e.code());
@@ -156,7 +159,7 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
 }
 
 fn compare(compare: &arguments::Compare, common: &Common) -> Result<Exit, Error> {
-    check_folder(&compare.out, compare.force)?;
+    check_folder_of(&compare.out, "stiction.compare/1", compare.force)?;
     check_inputs(&compare.out, compare.logs.iter().chain(&compare.axis))?;
     let options = CompareOptions {
         input: match &compare.problem {
@@ -236,16 +239,8 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
     if common.json {
         output::json(&outcome.result)?;
     } else if !common.quiet {
-        let names: Vec<_> = written
-            .iter()
-            .filter_map(|p| p.file_name().map(|n| n.to_string_lossy().into_owned()))
-            .collect();
-        output::print(&format!(
-            "{}\nwritten to {}: {}\n",
-            stiction_app::text::outcome(outcome),
-            dir.display(),
-            names.join(", ")
-        ))?;
+        let text = stiction_app::text::outcome(outcome);
+        output::print(&format!("{text}\n{}", written_to(dir, &written)))?;
     }
     // An interrupt may also have come while laws were compared, after the search had converged.
     if outcome.result.search.status == "interrupted" || interrupt::asked() {
@@ -256,4 +251,56 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
     } else {
         Exit::NotTrustworthy
     })
+}
+
+fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Error> {
+    let dir = &simulate.out;
+    check_folder_of(dir, stiction_app::study::result::SCHEMA, simulate.force)?;
+    let study = Study::read(&simulate.study)?;
+    let inputs: Vec<PathBuf> = study.inputs().map(PathBuf::from).collect();
+    check_inputs(dir, &inputs)?;
+    let counter = Counter::new("simulating", common.json || common.quiet);
+    let outcome = study.run(&mut |done, all| counter.at(done, all));
+    counter.finish();
+    let written = outcome.bundle().write(dir)?;
+    if common.json {
+        output::json(&outcome.file)?;
+    } else if !common.quiet {
+        let text = stiction_app::text::study(&outcome);
+        output::print(&format!("{text}\n{}", written_to(dir, &written)))?;
+    }
+    Ok(if outcome.file.status == "interrupted" {
+        Exit::Interrupted
+    } else {
+        Exit::Done
+    })
+}
+
+fn reproduce(reproduce: &arguments::Reproduce, common: &Common) -> Result<Exit, Error> {
+    let dir = &reproduce.out;
+    check_folder_of(dir, stiction_app::reproduce::SCHEMA, reproduce.force)?;
+    let outcome = match reproduce.publication {
+        arguments::Publication::Canudas1995 => stiction_app::reproduce::canudas_1995(),
+    };
+    let written = outcome.bundle().write(dir)?;
+    if common.json {
+        output::json(&outcome.file)?;
+    } else if !common.quiet {
+        let text = stiction_app::text::reproduction(&outcome.file);
+        output::print(&format!("{text}{}", written_to(dir, &written)))?;
+    }
+    Ok(if outcome.file.all_within {
+        Exit::Done
+    } else {
+        Exit::NotTrustworthy
+    })
+}
+
+/// The line that says which files are where.
+fn written_to(dir: &Path, written: &[PathBuf]) -> String {
+    let names: Vec<_> = written
+        .iter()
+        .filter_map(|p| p.file_name().map(|n| n.to_string_lossy().into_owned()))
+        .collect();
+    format!("written to {}: {}\n", dir.display(), names.join(", "))
 }

@@ -14,21 +14,58 @@ pub struct Bar {
 impl Bar {
     /// A bar, hidden where nobody would see it or nobody wants it.
     pub fn new(hidden: bool) -> Self {
-        let bar = ProgressBar::new(1000);
-        if hidden || !std::io::stderr().is_terminal() {
-            bar.set_draw_target(ProgressDrawTarget::hidden());
+        Self {
+            bar: bar(1000, hidden),
+            stage: None,
         }
-        if let Ok(style) = ProgressStyle::with_template(
-            "{prefix:>18} {wide_bar} {percent:>3} %  {msg}  left {eta}",
-        ) {
-            bar.set_style(style);
-        }
-        Self { bar, stage: None }
     }
 
     /// Takes the bar away.
     pub fn finish(&self) {
         self.bar.finish_and_clear();
+    }
+}
+
+/// A bar, hidden where nobody would see it or nobody wants it.
+fn bar(length: u64, hidden: bool) -> ProgressBar {
+    let bar = ProgressBar::new(length);
+    if hidden || !std::io::stderr().is_terminal() {
+        bar.set_draw_target(ProgressDrawTarget::hidden());
+    }
+    if let Ok(style) =
+        ProgressStyle::with_template("{prefix:>18} {wide_bar} {percent:>3} %  {msg}  left {eta}")
+    {
+        bar.set_style(style);
+    }
+    bar
+}
+
+/// Counts runs, and passes the user's interrupt on.
+pub struct Counter(ProgressBar);
+
+impl Counter {
+    /// A counter of `what` is done, hidden as a bar is.
+    pub fn new(what: &'static str, hidden: bool) -> Self {
+        let bar = bar(0, hidden);
+        bar.set_prefix(what);
+        Self(bar)
+    }
+
+    /// So many of all are done.
+    pub fn at(&self, done: usize, all: usize) -> Control {
+        self.0.set_length(all as u64);
+        self.0.set_position(done as u64);
+        self.0.set_message(format!("{done} of {all} runs"));
+        if interrupt::asked() {
+            Control::Stop
+        } else {
+            Control::Continue
+        }
+    }
+
+    /// Takes the counter away.
+    pub fn finish(&self) {
+        self.0.finish_and_clear();
     }
 }
 

@@ -43,6 +43,15 @@ impl Controller {
         }
     }
 
+    /// Acceleration feedforward, kg (kg m^2).
+    pub fn mass_feedforward(&self) -> f64 {
+        match self {
+            Controller::Cascade(cascade) => cascade.mass_feedforward,
+            Controller::Pid(pid) => pid.mass_feedforward,
+            Controller::Fuzzy(fuzzy) => fuzzy.base.mass_feedforward,
+        }
+    }
+
     /// The same controller with another acceleration feedforward, kg (kg m^2).
     pub fn with_mass_feedforward(mut self, mass: f64) -> Self {
         match &mut self {

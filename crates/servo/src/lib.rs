@@ -18,6 +18,7 @@
 //! | [`metrics`] | how well it followed |
 //! | [`closed_loop`] | all of them together at a control rate, recorded |
 //! | [`known`] | axes with published parameters |
+//! | [`c95`] | the experiments of 1995 with their numbers |
 //!
 //! SI throughout; units are given for a linear axis, those of a rotary axis in brackets. The friction laws are those of
 //! `stiction-friction`, none are written here. The same settings and seed give the same bits on every machine.
@@ -50,6 +51,7 @@
 #![forbid(unsafe_code)]
 
 pub mod axis;
+pub mod c95;
 pub mod cascade;
 pub mod closed_loop;
 pub mod controller;

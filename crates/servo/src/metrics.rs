@@ -26,6 +26,9 @@ pub struct Tracking {
 /// The least time about a reversal that counts as part of it, s.
 const ABOUT: f64 = 0.02;
 
+/// Shorter stretches of constant velocity are still settling, s.
+const SETTLES: f64 = 0.1;
+
 impl Tracking {
     /// Of the samples given; none give zeros. Leave out what is not to count, as the first cycle.
     pub fn of(samples: &[Sample]) -> Self {
@@ -116,6 +119,21 @@ pub fn velocity_ripple(samples: &[Sample]) -> f64 {
     let mean = samples.iter().map(|s| s.velocity).sum::<f64>() / n;
     let off = samples.iter().map(|s| (s.velocity - mean).powi(2));
     root_mean(off) / mean.abs()
+}
+
+/// The largest [`velocity_ripple`] of all stretches of constant reference velocity of at least .1 s, each from its middle
+/// on; `None` without such a stretch.
+pub fn ripple_at_constant_velocity(samples: &[Sample]) -> Option<f64> {
+    let constant = |s: &Sample| s.reference.acceleration == 0.0 && s.reference.velocity != 0.0;
+    let same = |a: &Sample, b: &Sample| {
+        constant(a) && constant(b) && a.reference.velocity == b.reference.velocity
+    };
+    samples
+        .chunk_by(same)
+        .filter(|stretch| constant(&stretch[0]))
+        .filter(|stretch| stretch[stretch.len() - 1].time - stretch[0].time >= SETTLES)
+        .map(|stretch| velocity_ripple(&stretch[stretch.len() / 2..]))
+        .reduce(f64::max)
 }
 
 /// The square root of the mean; 0 of nothing.

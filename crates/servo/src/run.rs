@@ -32,9 +32,17 @@ pub fn run_with<L: Held<f64>, I: Integrator<L>>(
     trajectory: &impl Trajectory,
     integrator: I,
 ) -> Result<Vec<Sample>, ParamError> {
-    let mut axis = Axis::new(settings.clone(), integrator)?;
-    let n = sample_count(trajectory.duration(), settings.rate)?;
-    let mut reference = Lookahead::new(trajectory, settings.rate, settings.feedforward.preview);
+    follow(&mut Axis::new(settings.clone(), integrator)?, trajectory)
+}
+
+/// Runs an axis over the whole trajectory from where it is.
+pub fn follow<L: Held<f64>, I: Integrator<L>>(
+    axis: &mut Axis<L, I>,
+    trajectory: &(impl Trajectory + ?Sized),
+) -> Result<Vec<Sample>, ParamError> {
+    let (rate, preview) = (axis.settings().rate, axis.settings().feedforward.preview);
+    let n = sample_count(trajectory.duration(), rate)?;
+    let mut reference = Lookahead::new(trajectory, rate, preview);
     let mut samples = Vec::with_capacity(n);
     for _ in 0..n {
         let (now, ahead) = reference.sample();

@@ -1,7 +1,7 @@
-//! What the TOML reader refused, in the words of the axis file.
+//! What the TOML reader refused, in the words of the file.
 
 /// Where, what was found, and what is allowed instead.
-pub(super) struct Refusal {
+pub(crate) struct Refusal {
     pub place: String,
     pub found: String,
     pub allowed: String,
@@ -10,15 +10,16 @@ pub(super) struct Refusal {
 /// Longest piece of the file that is quoted.
 const QUOTED: usize = 60;
 
-/// Puts an error of the reader into place, found and allowed.
-pub(super) fn refusal(text: &str, error: &toml::de::Error) -> Refusal {
+/// Puts an error of the reader into place, found and allowed; `page` lists every key.
+pub(crate) fn refusal(text: &str, error: &toml::de::Error, page: &str) -> Refusal {
+    let see = || format!("see {page} for every key");
     let span = error.span().unwrap_or(0..0);
     let message = error.message().trim().replace('\n', " ");
     let Some(before) = text.get(..span.start).filter(|_| error.span().is_some()) else {
         return Refusal {
             place: String::new(),
             found: message,
-            allowed: "see docs/axis.md for every key".into(),
+            allowed: see(),
         };
     };
     let number = before.matches('\n').count();
@@ -34,7 +35,7 @@ pub(super) fn refusal(text: &str, error: &toml::de::Error) -> Refusal {
         None if message.starts_with(super::raw::EXPECTS) => {
             (quote(text.get(span).unwrap_or("")), message)
         }
-        None => (message, "see docs/axis.md for every key".into()),
+        None => (message, see()),
     };
     Refusal {
         place,

@@ -1,0 +1,375 @@
+//! The report of a study.
+
+use crate::study::StudyOutcome;
+use crate::study::result::{MetricEntry, ResultRow, SimulatedAxis, StudyFile};
+use crate::symbols;
+use stiction_log::Motion;
+use stiction_report::{
+    Align, Axis, Block, Callout, Color, Document, Figure, KeyFigure, Layer, Panel, Severity, Table,
+    Text, number,
+};
+
+/// Sections with figures; the rows of the others stand in their tables.
+const MOST_FIGURES: usize = 12;
+
+pub(crate) fn study(outcome: &StudyOutcome) -> Document {
+    let file = &outcome.file;
+    let mut document = Document::new(format!("Friction compensation: {}", file.name))
+        .subtitle(format!(
+            "{}, simulated at {} Hz; a {} axis of {} {}",
+            file.axis.origin,
+            number::sig(file.axis.rate_hz, 4),
+            file.axis.kind,
+            number::sig(file.axis.mass, 4),
+            mass_unit(&file.axis)
+        ))
+        .footer(format!("stiction {} · seed {}", file.version, file.seed));
+    document = document.block(verdict(file));
+    for warning in &file.warnings {
+        document = document.block(Callout {
+            severity: Severity::Warning,
+            code: warning.code.clone(),
+            text: Text::from(warning.message.as_str()),
+            link: String::new(),
+        });
+    }
+    let cells: Vec<&[ResultRow]> = file
+        .results
+        .chunk_by(|a, b| (&a.path, &a.controller) == (&b.path, &b.controller))
+        .collect();
+    document = document.block(Block::KeyFigures(
+        cells.iter().take(4).filter_map(|c| best(c)).collect(),
+    ));
+    for (i, rows) in cells.iter().enumerate() {
+        document = document
+            .heading(2, format!("{}, {}", rows[0].path, rows[0].controller))
+            .block(table(rows));
+        if i < MOST_FIGURES {
+            let figures = [in_time(outcome, rows), wrong(rows)];
+            document = figures
+                .into_iter()
+                .flatten()
+                .fold(document, |d, f| d.block(f));
+        }
+    }
+    document
+        .heading(2, "The axis")
+        .block(axis(file))
+        .block(parameters(&file.axis))
+        .heading(2, "What the numbers mean")
+        .block(Block::List(MEANING.map(Text::from).to_vec()))
+}
+
+const MEANING: [&str; 6] = [
+    "Errors are reference less true position. What the encoder does not see counts.",
+    "At reversals: the largest error within 20 ms of a change of direction, or a quarter of the time \
+     between two if that is longer.",
+    "Reduction: by how much the error at reversals is below that without compensation, on the same \
+     path and under the same controller; where a path has no reversal, the largest error.",
+    "Worst: the same for the worst set of parameters.",
+    "Command change: rms change of the force from sample to sample.",
+    "Wrong parameters are those of the compensator; the axis keeps its own. A mass that is drawn \
+     with them is the one fed forward.",
+];
+
+fn motion(axis: &SimulatedAxis) -> Motion {
+    match axis.kind.as_str() {
+        "rotary" => Motion::Rotary,
+        _ => Motion::Linear,
+    }
+}
+
+fn mass_unit(axis: &SimulatedAxis) -> &'static str {
+    match motion(axis) {
+        Motion::Linear => "kg",
+        Motion::Rotary => "kg m²",
+    }
+}
+
+/// The metric by which compensators are compared.
+pub(crate) fn judged(row: &ResultRow) -> Option<&MetricEntry> {
+    let reversal = row.metric("reversal_peak").filter(|m| m.largest > 0.0);
+    reversal.or_else(|| row.metric("peak_error"))
+}
+
+fn verdict(file: &StudyFile) -> Callout {
+    let runs: usize = file.results.iter().map(|r| r.runs).sum();
+    let worse = file
+        .results
+        .iter()
+        .filter(|r| judged(r).is_some_and(|m| m.worst_reduction_percent < Some(0.0)))
+        .filter(|r| r.compensator != "none")
+        .count();
+    let (severity, text) = if file.status == "interrupted" {
+        let text = format!(
+            "Stopped early: {} runs are done.",
+            number::count(runs as u64)
+        );
+        (Severity::Warning, text)
+    } else if worse > 0 {
+        let rows = if worse == 1 { "row holds" } else { "rows hold" };
+        let text = format!(
+            "{} runs. {worse} {rows} a run that tracks worse with compensation than without: marked \
+             in the tables.",
+            number::count(runs as u64)
+        );
+        (Severity::Warning, text)
+    } else {
+        let text = format!(
+            "{} runs. No compensator made tracking at reversals worse.",
+            number::count(runs as u64)
+        );
+        (Severity::Good, text)
+    };
+    Callout {
+        severity,
+        code: String::new(),
+        text: Text::from(text),
+        link: String::new(),
+    }
+}
+
+/// The compensator that helps most, with the parameters of the axis.
+fn best(rows: &[ResultRow]) -> Option<KeyFigure> {
+    let exact = rows.iter().filter(|r| r.parameters == "exact");
+    let reduction = |r: &ResultRow| judged(r).and_then(|m| m.reduction_percent);
+    let (row, percent) = exact
+        .filter(|r| r.compensator != "none")
+        .filter_map(|r| Some((r, reduction(r)?)))
+        .max_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some(
+        KeyFigure::new(
+            format!("{}, {}", row.path, row.controller),
+            number::sig(percent, 3),
+            "% less",
+        )
+        .note(format!("error at reversals, {}", row.compensator)),
+    )
+}
+
+fn table(rows: &[ResultRow]) -> Table {
+    let mut table = Table::new([
+        ("Compensator", Align::Left),
+        ("Parameters", Align::Left),
+        ("Runs", Align::Right),
+        ("Rms", Align::Right),
+        ("Largest", Align::Right),
+        ("At reversals", Align::Right),
+        ("Reduction", Align::Right),
+        ("Worst", Align::Right),
+        ("Command change", Align::Right),
+        ("Stands still", Align::Right),
+    ])
+    .caption("Tracking; means over the runs of a row, and the worst of them.");
+    for row in rows {
+        let value = |name: &str| {
+            let metric = row.metric(name);
+            Text::from(metric.map_or("–".into(), |m| quantity(m.mean, &m.unit)))
+        };
+        let percent = |x: Option<f64>| Text::from(x.map_or("–".into(), percent));
+        let judged = judged(row).filter(|_| row.compensator != "none");
+        let worst = judged.and_then(|m| m.worst_reduction_percent);
+        let switched = match row.switched_off {
+            0 => String::new(),
+            _ if row.runs == 1 => ", switched off".into(),
+            n => format!(", switched off in {n}"),
+        };
+        let cells = [
+            Text::from(row.compensator.as_str()),
+            Text::from(format!("{}{switched}", row.parameters)),
+            Text::from(row.runs.to_string()),
+            value("rms_error"),
+            value("peak_error"),
+            value("reversal_peak"),
+            percent(judged.and_then(|m| m.reduction_percent)),
+            percent(worst.filter(|_| row.runs > 1)),
+            value("command_change"),
+            value("stick_time"),
+        ];
+        table = if worst < Some(0.0) && judged.is_some() {
+            table.marked(Severity::Warning, cells)
+        } else {
+            table.row(cells)
+        };
+    }
+    table
+}
+
+/// Percent with one decimal: more would not be worth the axis it was simulated on.
+fn percent(x: f64) -> String {
+    format!("{x:.1} %").replace('-', "−")
+}
+
+/// A value with its unit under an SI prefix.
+pub(crate) fn quantity(x: f64, unit: &str) -> String {
+    let (factor, prefix) = match (x.abs(), unit) {
+        _ if x == 0.0 => (1.0, ""),
+        (a, "m" | "rad" | "s") if a < 0.9995e-6 => (1e9, "n"),
+        (a, "m" | "rad" | "s") if a < 0.9995e-3 => (1e6, "µ"),
+        (a, "m" | "rad" | "s") if a < 0.9995 => (1e3, "m"),
+        _ => (1.0, ""),
+    };
+    format!(
+        "{} {prefix}{}",
+        number::sig(factor * x, 3),
+        unit.replace("N*m", "N m")
+    )
+}
+
+/// Error and compensating force with the parameters of the axis, before and after.
+fn in_time(outcome: &StudyOutcome, rows: &[ResultRow]) -> Option<Figure> {
+    let motion = motion(&outcome.file.axis);
+    let length = symbols::length_unit(motion);
+    let force = match motion {
+        Motion::Linear => "N",
+        Motion::Rotary => "N m",
+    };
+    let time = || Axis::new("Time", "s");
+    let mut reference = Panel::new(time(), Axis::new("Reference", length)).height(80.0);
+    let mut error = Panel::new(time(), Axis::new("Error", length)).height(220.0);
+    let mut added = Panel::new(time(), Axis::new("Compensating force", force)).height(130.0);
+    let exact = rows.iter().filter(|r| r.parameters == "exact");
+    let mut drawn = 0;
+    for row in exact.take(COLORS.len()) {
+        let trace = outcome.trace(row)?;
+        let color = COLORS[drawn];
+        if drawn == 0 {
+            let line = Layer::line(trace.time.clone(), trace.reference.clone());
+            reference = reference.layer(line.color(Color::Grey));
+        }
+        let line = |y: &[f64]| Layer::line(trace.time.clone(), y).color(color);
+        error = error.layer(line(&trace.error).label(row.compensator.as_str()));
+        if row.compensator != "none" {
+            added = added.layer(line(&trace.compensation).width(1.0));
+        }
+        drawn += 1;
+    }
+    let mut figure = Figure::new("Tracking error, parameters exact")
+        .panel(reference)
+        .panel(error)
+        .shared_x();
+    if drawn > 1 {
+        figure = figure.panel(added);
+    }
+    Some(figure.caption("The part of the run that counts."))
+}
+
+const COLORS: [Color; 7] = [
+    Color::Grey,
+    Color::Sky,
+    Color::Orange,
+    Color::Green,
+    Color::Purple,
+    Color::Vermilion,
+    Color::Blue,
+];
+
+/// What is left of the error with wrong parameters.
+fn wrong(rows: &[ResultRow]) -> Option<Figure> {
+    let without = rows.first().and_then(judged)?.mean;
+    let several: Vec<&ResultRow> = rows.iter().filter(|r| r.runs > 1).collect();
+    if several.is_empty() || without == 0.0 {
+        return None;
+    }
+    let share = |x: f64| 100.0 * x / without;
+    let of = |f: &dyn Fn(&MetricEntry) -> f64| -> Vec<f64> {
+        let metrics = several.iter().filter_map(|r| judged(r));
+        metrics.map(|m| share(f(m))).collect()
+    };
+    let place: Vec<f64> = (0..several.len()).map(|i| i as f64).collect();
+    let names = several
+        .iter()
+        .map(|r| format!("{}, {}", r.compensator, r.parameters));
+    let height = (34.0 * several.len() as f64 + 20.0).max(90.0);
+    let panel = Panel::new(
+        Axis::new("Error at reversals, of that without compensation", "%"),
+        Axis::names(names.collect::<Vec<_>>()),
+    )
+    .layer(
+        Layer::intervals(place.clone(), of(&|m| m.least), of(&|m| m.largest))
+            .color(Color::Blue)
+            .label("All sets"),
+    )
+    .layer(
+        Layer::points(of(&|m| m.mean), place)
+            .color(Color::Vermilion)
+            .width(8.0)
+            .opacity(1.0)
+            .label("Mean"),
+    )
+    .layer(Layer::vline(100.0))
+    .layer(Layer::vline(0.0))
+    .height(height);
+    Some(
+        Figure::new("What wrong parameters leave").panel(panel).caption(
+            "From the best to the worst set of parameters; beyond 100 % the axis tracks worse than \
+             without compensation.",
+        ),
+    )
+}
+
+fn axis(file: &StudyFile) -> Block {
+    let axis = &file.axis;
+    let length = symbols::length_unit(motion(axis));
+    let mut facts = vec![
+        ("Friction", axis.origin.clone()),
+        ("σ₁", axis.sigma1.clone()),
+        (
+            "Control rate",
+            format!(
+                "{} Hz, plant stepped {} times a period",
+                number::sig(axis.rate_hz, 4),
+                axis.substeps
+            ),
+        ),
+        ("Delay", quantity(axis.delay_s, "s")),
+        (
+            "Current loop",
+            match axis.current_lag_s {
+                0.0 => "at once".into(),
+                lag => format!("lag of {}", quantity(lag, "s")),
+            },
+        ),
+        ("Encoder step", quantity(axis.encoder, length)),
+    ];
+    if axis.position_noise > 0.0 {
+        let noise = quantity(axis.position_noise, length);
+        facts.push(("Position noise", format!("{noise} rms")));
+    }
+    for path in &file.paths {
+        let text = format!(
+            "{}, {} s, counted from {} s on",
+            path.kind,
+            number::sig(path.duration_s, 4),
+            number::sig(path.skip_s, 4)
+        );
+        facts.push((&path.name, text));
+    }
+    let text = |(name, value): (&str, String)| (Text::from(name), Text::from(value));
+    let mut facts: Vec<_> = facts.into_iter().map(text).collect();
+    for input in &file.inputs {
+        facts.push((
+            Text::new().code(input.path.as_str()),
+            Text::new().code(input.sha256.as_str()),
+        ));
+    }
+    Block::Facts(facts)
+}
+
+fn parameters(axis: &SimulatedAxis) -> Table {
+    let columns = [
+        ("Parameter", Align::Left),
+        ("", Align::Left),
+        ("Value", Align::Right),
+        ("Unit", Align::Left),
+    ];
+    let table = Table::new(columns).caption("Parameters of the simulated axis.");
+    axis.parameters.iter().fold(table, |table, p| {
+        table.row([
+            symbols::meaning(&p.name, motion(axis)),
+            symbols::symbol(&p.name),
+            number::sig(p.value, 4),
+            p.unit.clone(),
+        ])
+    })
+}

@@ -1,0 +1,136 @@
+//! `[[path]]`
+
+use super::{Dimensions, name};
+use crate::error::Error;
+use crate::study::PathPlan;
+use crate::study::raw::Table;
+use stiction_friction::ParamError;
+use stiction_log::{Dimension, Motion};
+use stiction_servo::motion::{Chirp, Limits, Moves, Sine};
+use stiction_servo::path::Path;
+use stiction_servo::trajectory::Trajectory;
+
+const KINDS: [&str; 6] = [
+    "sine",
+    "chirp",
+    "move",
+    "staircase",
+    "constant-velocity",
+    "excitation",
+];
+
+type Boxed = Box<dyn Trajectory + Send + Sync>;
+
+pub(super) fn path(table: &Table<'_>, motion: Motion) -> Result<PathPlan, Error> {
+    let is = Dimensions::of(motion);
+    let found = table.choice("kind", &KINDS)?;
+    let found = table.required("kind", found, &format!("one of {}", KINDS.join(", ")))?;
+    // The choice gave one of them.
+    let kind = KINDS.into_iter().find(|k| *k == found).unwrap_or(KINDS[0]);
+    let asked = Asked { table, is };
+    let trajectory = match kind {
+        "sine" => asked.sine()?,
+        "chirp" => asked.chirp()?,
+        "move" => asked.there_and_back()?,
+        "staircase" => asked.staircase()?,
+        "constant-velocity" => asked.constant_velocity()?,
+        _ => asked.excitation()?,
+    };
+    let duration = trajectory.duration();
+    let default = if kind == "sine" { 0.5 * duration } else { 0.0 };
+    let skip = table
+        .not_negative("skip", Dimension::TIME)?
+        .unwrap_or(default);
+    if skip >= duration {
+        let allowed = format!("shorter than the path, {duration} s");
+        return Err(table.refuse("skip", format!("{skip} s"), &allowed));
+    }
+    let plan = PathPlan {
+        name: name(table, kind.into())?,
+        kind,
+        trajectory,
+        skip,
+    };
+    table.end()?;
+    Ok(plan)
+}
+
+struct Asked<'t, 'a> {
+    table: &'t Table<'a>,
+    is: Dimensions,
+}
+
+impl Asked<'_, '_> {
+    fn value(&self, key: &'static str, dimension: Dimension, example: &str) -> Result<f64, Error> {
+        let value = self.table.positive(key, dimension)?;
+        self.table.required(key, value, example)
+    }
+
+    fn limits(&self) -> Result<Limits, Error> {
+        let acceleration = Dimensions::per(self.is.speed, Dimension::TIME);
+        let jerk = Dimensions::per(acceleration, Dimension::TIME);
+        Ok(Limits {
+            velocity: self.value("velocity", self.is.speed, "the largest velocity")?,
+            acceleration: self.value("acceleration", acceleration, "the largest acceleration")?,
+            jerk: self.value("jerk", jerk, "the largest jerk, such as \"100 m/s3\"")?,
+        })
+    }
+
+    fn made<T: Trajectory + Send + Sync + 'static>(
+        &self,
+        made: Result<T, ParamError>,
+    ) -> Result<Boxed, Error> {
+        match made {
+            Ok(trajectory) => Ok(Box::new(trajectory)),
+            Err(e) => Err(self.table.together(&e)),
+        }
+    }
+
+    fn sine(&self) -> Result<Boxed, Error> {
+        let amplitude = self.value("amplitude", self.is.length, "a way such as \"5 mm\"")?;
+        let frequency = self.value("frequency", Dimension::FREQUENCY, "one such as \"0.5 Hz\"")?;
+        let cycles = self.table.number("cycles", 0.5, 1000.0)?.unwrap_or(4.0);
+        self.made(Sine::new(amplitude, frequency, cycles))
+    }
+
+    fn chirp(&self) -> Result<Boxed, Error> {
+        let amplitude = self.value("amplitude", self.is.length, "a way such as \"1 mm\"")?;
+        let from = self.value(
+            "from",
+            Dimension::FREQUENCY,
+            "a frequency such as \"0.1 Hz\"",
+        )?;
+        let to = self.value("to", Dimension::FREQUENCY, "a frequency such as \"10 Hz\"")?;
+        let duration = self.value("duration", Dimension::TIME, "a time such as \"10 s\"")?;
+        self.made(Chirp::new(amplitude, from, to, duration))
+    }
+
+    fn dwell(&self) -> Result<f64, Error> {
+        let dwell = self.table.not_negative("dwell", Dimension::TIME)?;
+        Ok(dwell.unwrap_or(0.2))
+    }
+
+    fn there_and_back(&self) -> Result<Boxed, Error> {
+        let distance = self.value("distance", self.is.length, "a way such as \"20 mm\"")?;
+        let (dwell, limits) = (self.dwell()?, self.limits()?);
+        self.made(Moves::there_and_back(distance, dwell, limits))
+    }
+
+    fn staircase(&self) -> Result<Boxed, Error> {
+        let distance = self.value("distance", self.is.length, "one step, such as \"1 um\"")?;
+        let steps = self.table.count("steps", 1, 1000)?.unwrap_or(5) as u32;
+        let (dwell, limits) = (self.dwell()?, self.limits()?);
+        self.made(Moves::staircase(distance, steps, dwell, limits))
+    }
+
+    fn constant_velocity(&self) -> Result<Boxed, Error> {
+        let hold = self.value("hold", Dimension::TIME, "a time such as \"2 s\"")?;
+        self.made(Moves::constant_velocity(hold, self.limits()?))
+    }
+
+    fn excitation(&self) -> Result<Boxed, Error> {
+        let speed = self.value("speed", self.is.speed, "the largest speed")?;
+        let duration = self.value("duration", Dimension::TIME, "a time such as \"9 s\"")?;
+        self.made(Path::three_segments(speed, duration))
+    }
+}

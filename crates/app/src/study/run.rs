@@ -1,0 +1,457 @@
+//! The grid of a study, run in parallel, and what is kept of each run.
+
+use super::result::{
+    AxisParameter, MetricEntry, PathEntry, ResultRow, SCHEMA, SimulatedAxis, StudyFile,
+};
+use super::wrong::{Belief, Family};
+use super::{Machine, ModelKind, ModelScheme, PathPlan, Scheme, Study, StudyOutcome};
+use crate::symbols;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+use stiction_friction::compensator::{
+    Compensator, DisturbanceObserver, Friction, Settings, Source,
+};
+use stiction_friction::{CoulombViscous, Damping, LuGre, ParamError};
+use stiction_identify::Control;
+use stiction_log::Motion;
+use stiction_servo::axis::{Axis, AxisSettings, Sample};
+use stiction_servo::controller::Controller;
+use stiction_servo::feedforward::Feedforward;
+use stiction_servo::integrator::Quick;
+use stiction_servo::metrics::{Tracking, ripple_at_constant_velocity};
+use stiction_servo::run::follow;
+
+/// Points of a trace that are kept: more than a figure can show.
+const KEPT: usize = 2000;
+
+/// A run of the grid, by the places in the lists of the study.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) struct Job {
+    path: usize,
+    controller: usize,
+    compensator: usize,
+    family: usize,
+    belief: usize,
+}
+
+impl Job {
+    /// The cell of the grid that the run belongs to.
+    fn cell(self) -> Job {
+        Job { belief: 0, ..self }
+    }
+}
+
+/// The course of the run with exact parameters, for figures.
+pub(crate) struct Trace {
+    pub path: String,
+    pub controller: String,
+    pub compensator: String,
+    /// s
+    pub time: Vec<f64>,
+    /// m (rad)
+    pub reference: Vec<f64>,
+    /// m (rad)
+    pub error: Vec<f64>,
+    /// N (N m)
+    pub compensation: Vec<f64>,
+}
+
+/// What is kept of a run.
+struct Done {
+    job: Job,
+    metrics: Vec<f64>,
+    switched_off: bool,
+    trace: Option<Trace>,
+}
+
+/// Names of the metrics; what they measure is in `docs/study.md`.
+const METRICS: [&str; 6] = [
+    "rms_error",
+    "peak_error",
+    "reversal_peak",
+    "command_change",
+    "stick_time",
+    "velocity_ripple",
+];
+
+impl Study {
+    /// Every run of the grid, in the order of the result.
+    pub(super) fn jobs(&self) -> Vec<Job> {
+        let mut jobs = Vec::new();
+        for path in 0..self.paths.len() {
+            for controller in 0..self.controllers.len() {
+                for compensator in 0..self.compensators.len() {
+                    for (family, beliefs) in self.families.iter().enumerate() {
+                        if !self.matters(compensator, beliefs) {
+                            continue;
+                        }
+                        jobs.extend((0..beliefs.beliefs.len()).map(|belief| Job {
+                            path,
+                            controller,
+                            compensator,
+                            family,
+                            belief,
+                        }));
+                    }
+                }
+            }
+        }
+        jobs
+    }
+
+    /// Whether wrong parameters change anything: those of the law where there is a model, the mass everywhere, as it is
+    /// fed forward.
+    fn matters(&self, compensator: usize, family: &Family) -> bool {
+        let model = matches!(self.compensators[compensator].it, Scheme::Model(_));
+        let mass = |b: &Belief| b.mass != self.machine.mass;
+        family.kind == "exact" || model || family.beliefs.iter().any(mass)
+    }
+}
+
+pub(super) fn run(
+    study: &Study,
+    watch: &mut (dyn FnMut(usize, usize) -> Control + Send),
+) -> StudyOutcome {
+    let jobs = study.jobs();
+    let stopped = AtomicBool::new(false);
+    let count = Mutex::new((0, watch));
+    let mut warnings = study.warnings.clone();
+    let done: Vec<Option<Result<Done, (Job, ParamError)>>> = jobs
+        .par_iter()
+        .map(|&job| {
+            if stopped.load(Ordering::SeqCst) {
+                return None;
+            }
+            let done = study.one(job).map_err(|e| (job, e));
+            let mut count = count.lock().unwrap_or_else(PoisonError::into_inner);
+            count.0 += 1;
+            let so_far = count.0;
+            if (count.1)(so_far, jobs.len()) == Control::Stop {
+                stopped.store(true, Ordering::SeqCst);
+            }
+            Some(done)
+        })
+        .collect();
+    let complete = done.iter().all(Option::is_some);
+    let (mut kept, mut failed) = (Vec::new(), Vec::new());
+    for result in done.into_iter().flatten() {
+        match result {
+            Ok(done) => kept.push(done),
+            Err(e) => failed.push(e),
+        }
+    }
+    // The same fault in every member of a cell is said once.
+    failed.dedup_by_key(|(job, _)| job.cell());
+    warnings.extend(failed.iter().map(|(job, e)| study.not_run(*job, e)));
+    let results = study.rows(&kept);
+    let traces = kept.into_iter().filter_map(|d| d.trace).collect();
+    StudyOutcome {
+        file: StudyFile {
+            schema: SCHEMA.into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            name: study.name.clone(),
+            seed: study.seed,
+            status: if complete { "complete" } else { "interrupted" }.into(),
+            inputs: study.inputs.clone(),
+            axis: study.machine.entry(),
+            paths: study.paths.iter().map(PathPlan::entry).collect(),
+            results,
+            warnings,
+        },
+        traces,
+    }
+}
+
+impl Study {
+    fn one(&self, job: Job) -> Result<Done, ParamError> {
+        let path = &self.paths[job.path];
+        let family = &self.families[job.family];
+        let belief = family.beliefs[job.belief];
+        let truth = self.machine.mass;
+        let controller = self.controllers[job.controller].it;
+        // The part of the mass that is fed forward is the controller's, the mass that of the belief.
+        let fed = controller.mass_feedforward() / truth * belief.mass;
+        let controller = controller.with_mass_feedforward(fed);
+        let scheme = &self.compensators[job.compensator].it;
+        let mut settings = self.machine.settings(controller, self.seed);
+        settings.feedforward = scheme.feedforward(&self.machine, &controller, belief)?;
+        let mut axis = Axis::new(settings.clone(), Quick::new(1)?)?;
+        let mut samples = follow(&mut axis, path.trajectory.as_ref())?;
+        if let Scheme::Learning(learning, passes) = scheme {
+            for _ in 1..*passes {
+                let force = &settings.feedforward.learned;
+                let next = learning.learn(force, &samples, fed, self.machine.rate)?;
+                settings.feedforward.learned = next;
+                axis = Axis::new(settings.clone(), Quick::new(1)?)?;
+                samples = follow(&mut axis, path.trajectory.as_ref())?;
+            }
+        }
+        let from = samples.partition_point(|s| s.time < path.skip);
+        let counted = &samples[from.min(samples.len())..];
+        let tracking = Tracking::of(counted);
+        let compensator = axis.feedforward().compensator();
+        Ok(Done {
+            job,
+            metrics: vec![
+                tracking.rms,
+                tracking.peak,
+                tracking.reversal_peak,
+                tracking.command_change,
+                tracking.stick_time,
+                ripple_at_constant_velocity(counted).unwrap_or(f64::NAN),
+            ],
+            switched_off: compensator.is_some_and(|c| c.state().watch.tripped),
+            trace: (family.kind == "exact").then(|| Trace::of(self, job, counted)),
+        })
+    }
+
+    /// Rows in the order of the grid, of what is done.
+    fn rows(&self, done: &[Done]) -> Vec<ResultRow> {
+        let mut rows: Vec<ResultRow> = Vec::new();
+        for cell in done.chunk_by(|a, b| a.job.cell() == b.job.cell()) {
+            let job = cell[0].job;
+            let family = &self.families[job.family];
+            let name = |i: usize| (METRICS[i].to_string(), self.machine.unit(METRICS[i]));
+            let metrics = (0..METRICS.len()).filter_map(|i| {
+                let values: Vec<f64> = cell.iter().map(|d| d.metrics[i]).collect();
+                if values.iter().any(|x| x.is_nan()) {
+                    return None;
+                }
+                let (name, unit) = name(i);
+                Some(MetricEntry::of(name, unit, values, family.kind))
+            });
+            let mut row = ResultRow {
+                path: self.paths[job.path].name.clone(),
+                controller: self.controllers[job.controller].name.clone(),
+                compensator: self.compensators[job.compensator].name.clone(),
+                parameters: family.name.clone(),
+                runs: cell.len(),
+                switched_off: cell.iter().filter(|d| d.switched_off).count(),
+                metrics: metrics.collect(),
+            };
+            let without = rows
+                .iter()
+                .find(|r| r.path == row.path && r.controller == row.controller)
+                .filter(|r| r.compensator == "none" && r.parameters == "exact");
+            if let Some(without) = without {
+                row.compare(without);
+            }
+            rows.push(row);
+        }
+        rows
+    }
+
+    fn not_run(&self, job: Job, e: &ParamError) -> crate::error::Warning {
+        crate::error::Warning::new(
+            "not-run",
+            format!(
+                "{}, {}, {} was not run: {e}",
+                self.paths[job.path].name,
+                self.controllers[job.controller].name,
+                self.compensators[job.compensator].name
+            ),
+        )
+    }
+}
+
+impl Machine {
+    fn settings(&self, controller: Controller, seed: u64) -> AxisSettings {
+        AxisSettings {
+            plant: self.plant,
+            drive: self.drive,
+            encoder: self.encoder,
+            position_noise: self.position_noise,
+            cogging: self.cogging,
+            disturbance: None,
+            controller,
+            feedforward: Feedforward::default(),
+            rate: self.rate,
+            substeps: self.substeps,
+            seed,
+        }
+    }
+
+    fn unit(&self, metric: &str) -> String {
+        match (metric, self.motion) {
+            ("stick_time", _) => "s",
+            ("velocity_ripple", _) => "1",
+            ("command_change", Motion::Linear) => "N",
+            ("command_change", Motion::Rotary) => "N*m",
+            (_, motion) => symbols::length_unit(motion),
+        }
+        .into()
+    }
+
+    fn entry(&self) -> SimulatedAxis {
+        let parameters = self.model.parameters.iter().map(|p| AxisParameter {
+            name: p.name.clone(),
+            value: p.value,
+            unit: p.unit.clone(),
+        });
+        let sigma1 = match self.law.damping() {
+            Damping::Constant(_) => "constant",
+            _ => "capped",
+        };
+        SimulatedAxis {
+            kind: match self.motion {
+                Motion::Linear => "linear",
+                Motion::Rotary => "rotary",
+            }
+            .into(),
+            origin: self.model.origin.clone(),
+            parameters: parameters.collect(),
+            sigma1: sigma1.into(),
+            mass: self.mass,
+            rate_hz: self.rate,
+            substeps: self.substeps,
+            delay_s: self.drive.delay,
+            current_lag_s: self.drive.current_lag,
+            peak_force: Some(self.drive.peak_force()).filter(|f| f.is_finite()),
+            encoder: self.encoder.resolution(),
+            position_noise: self.position_noise,
+        }
+    }
+}
+
+impl PathPlan {
+    fn entry(&self) -> PathEntry {
+        PathEntry {
+            name: self.name.clone(),
+            kind: self.kind.into(),
+            duration_s: self.trajectory.duration(),
+            skip_s: self.skip,
+        }
+    }
+}
+
+impl Scheme {
+    /// The compensation of an axis of which `belief` is believed.
+    fn feedforward(
+        &self,
+        machine: &Machine,
+        controller: &Controller,
+        belief: Belief,
+    ) -> Result<Feedforward, ParamError> {
+        let limit = controller.force_limit();
+        let observer = |bandwidth: f64| {
+            DisturbanceObserver::new(belief.mass, bandwidth, 1.0 / machine.rate, limit)
+        };
+        match self {
+            Scheme::None | Scheme::Learning(..) => Ok(Feedforward::default()),
+            Scheme::Observer(bandwidth) => Ok(Feedforward::observer(observer(*bandwidth)?)),
+            Scheme::Model(model) => Ok(Feedforward {
+                observer: model.observer.map(observer).transpose()?,
+                ..model.feedforward(machine, limit, &belief.law)?
+            }),
+        }
+    }
+}
+
+impl ModelScheme {
+    fn feedforward(
+        &self,
+        machine: &Machine,
+        limit: f64,
+        law: &LuGre<f64>,
+    ) -> Result<Feedforward, ParamError> {
+        let curve = law.curve();
+        let sides = [curve.positive(), curve.negative()];
+        let friction = match self.kind {
+            ModelKind::Coulomb => Friction::Coulomb(CoulombViscous::new(
+                sides.map(|s| s.coulomb),
+                sides.map(|s| s.viscous),
+                curve.offset(),
+            )?),
+            ModelKind::Stribeck => Friction::Stribeck(*curve),
+            ModelKind::LuGre => Friction::LuGre(*law),
+        };
+        let period = 1.0 / machine.rate;
+        let limit = self.limit.unwrap_or(limit);
+        let settings = Settings {
+            gain: self.gain,
+            dead_zone: self.dead_zone,
+            slew: self.slew.unwrap_or(f64::MAX),
+            ramp: self.ramp,
+            adaptation: self.adaptation,
+            watchdog: self.watchdog,
+            ..Settings::new(period, limit)
+        };
+        let preview = self.preview.unwrap_or(match self.source {
+            Source::Reference => machine.drive.preview(period),
+            _ => 0.0,
+        });
+        let compensator = Compensator::new(friction, self.source, settings)?;
+        Ok(Feedforward::compensator(compensator, preview))
+    }
+}
+
+impl Trace {
+    /// The samples thinned to what a figure can show: of each stretch the least and the largest error.
+    fn of(study: &Study, job: Job, samples: &[Sample]) -> Self {
+        let mut trace = Trace {
+            path: study.paths[job.path].name.clone(),
+            controller: study.controllers[job.controller].name.clone(),
+            compensator: study.compensators[job.compensator].name.clone(),
+            time: Vec::new(),
+            reference: Vec::new(),
+            error: Vec::new(),
+            compensation: Vec::new(),
+        };
+        for stretch in samples.chunks(samples.len().div_ceil(KEPT / 2).max(1)) {
+            let (mut low, mut high) = (0, 0);
+            for (i, sample) in stretch.iter().enumerate() {
+                if sample.error() < stretch[low].error() {
+                    low = i;
+                }
+                if sample.error() > stretch[high].error() {
+                    high = i;
+                }
+            }
+            let ends = [low.min(high), low.max(high)];
+            for &i in &ends[usize::from(low == high)..] {
+                trace.time.push(stretch[i].time);
+                trace.reference.push(stretch[i].reference.position);
+                trace.error.push(stretch[i].error());
+                trace.compensation.push(stretch[i].compensation);
+            }
+        }
+        trace
+    }
+}
+
+impl MetricEntry {
+    fn of(name: String, unit: String, mut values: Vec<f64>, family: &str) -> Self {
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        values.sort_by(f64::total_cmp);
+        let at = |share: f64| {
+            let place = share * (values.len() - 1) as f64;
+            let i = (place as usize).min(values.len().saturating_sub(2));
+            let next = values.get(i + 1).unwrap_or(&values[i]);
+            values[i] + (place - i as f64) * (next - values[i])
+        };
+        MetricEntry {
+            name,
+            unit,
+            mean,
+            least: values[0],
+            largest: values[values.len() - 1],
+            interval95: (family == "covariance").then(|| [at(0.025), at(0.975)]),
+            reduction_percent: None,
+            worst_reduction_percent: None,
+        }
+    }
+}
+
+impl ResultRow {
+    fn compare(&mut self, without: &ResultRow) {
+        for metric in &mut self.metrics {
+            let Some(other) = without.metric(&metric.name).filter(|m| m.mean > 0.0) else {
+                continue;
+            };
+            let reduction = |x: f64| Some(100.0 * (1.0 - x / other.mean));
+            metric.reduction_percent = reduction(metric.mean);
+            metric.worst_reduction_percent = reduction(metric.largest);
+        }
+    }
+}

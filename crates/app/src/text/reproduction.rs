@@ -1,0 +1,37 @@
+//! Published experiments on the terminal.
+
+use super::table;
+use crate::check::short;
+use crate::reproduce::ReproduceFile;
+
+/// Every number beside its reference.
+pub fn reproduction(file: &ReproduceFile) -> String {
+    let header = ["", "number", "reference", "found", "unit", "allowed", ""];
+    let mut rows = vec![header.map(String::from).to_vec()];
+    for check in &file.checks {
+        rows.push(vec![
+            check.experiment.clone(),
+            check.name.clone(),
+            short(check.reference),
+            // A zero is found to the last bits, which no reader needs.
+            if check.reference == 0.0 {
+                format!("{:.0e}", check.found)
+            } else {
+                short(check.found)
+            },
+            check.unit.clone(),
+            match check.reference {
+                0.0 => format!("{:.0e}", check.tolerance),
+                x => format!("{} %", short(100.0 * check.tolerance / x.abs())),
+            },
+            if check.within { "within" } else { "OFF" }.into(),
+        ]);
+    }
+    let mut out = table(&rows, &[false, false, true, true, false, true, false]);
+    let off = file.checks.iter().filter(|c| !c.within).count();
+    out.push_str(&match off {
+        0 => format!("\nall {} within\n", file.checks.len()),
+        n => format!("\n{n} of {} OFF\n", file.checks.len()),
+    });
+    out
+}

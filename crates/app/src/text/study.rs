@@ -1,0 +1,67 @@
+//! A study on the terminal.
+
+use super::table;
+use crate::report::{judged, quantity};
+use crate::study::StudyOutcome;
+use crate::study::result::ResultRow;
+use std::fmt::Write;
+
+/// The outcome of a study.
+pub fn study(outcome: &StudyOutcome) -> String {
+    let file = &outcome.file;
+    let mut out = format!("{}: {}\n", file.name, file.axis.origin);
+    let same = |a: &ResultRow, b: &ResultRow| (&a.path, &a.controller) == (&b.path, &b.controller);
+    for rows in file.results.chunk_by(same) {
+        let _ = writeln!(out, "\n{}, {}", rows[0].path, rows[0].controller);
+        let header = [
+            "compensator",
+            "parameters",
+            "rms",
+            "largest",
+            "at reversals",
+            "less",
+            "worst",
+            "",
+        ];
+        let mut lines = vec![header.map(String::from).to_vec()];
+        lines.extend(rows.iter().map(line));
+        out.push_str(&table(
+            &lines,
+            &[false, false, true, true, true, true, true, false],
+        ));
+    }
+    for warning in &file.warnings {
+        let _ = writeln!(out, "\nwarning [{}] {}", warning.code, warning.message);
+    }
+    if file.status == "interrupted" {
+        out.push_str("\nSTOPPED EARLY: what was done is kept\n");
+    }
+    out
+}
+
+fn line(row: &ResultRow) -> Vec<String> {
+    let value = |name: &str| {
+        let metric = row.metric(name);
+        metric.map_or("-".into(), |m| quantity(m.mean, &m.unit))
+    };
+    let judged = judged(row).filter(|_| row.compensator != "none");
+    let percent = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.1} %"));
+    vec![
+        row.compensator.clone(),
+        row.parameters.clone(),
+        value("rms_error"),
+        value("peak_error"),
+        value("reversal_peak"),
+        percent(judged.and_then(|m| m.reduction_percent)),
+        percent(
+            judged
+                .and_then(|m| m.worst_reduction_percent)
+                .filter(|_| row.runs > 1),
+        ),
+        match row.switched_off {
+            0 => String::new(),
+            _ if row.runs == 1 => "switched off".into(),
+            n => format!("switched off in {n} of {}", row.runs),
+        },
+    ]
+}
