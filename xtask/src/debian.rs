@@ -9,11 +9,18 @@ struct Package {
     why: &'static str,
 }
 
-const PACKAGES: &[Package] = &[Package {
-    name: "build-essential",
-    program: Some("gcc"),
-    why: "a C compiler",
-}];
+const PACKAGES: &[Package] = &[
+    Package {
+        name: "build-essential",
+        program: Some("gcc"),
+        why: "a C compiler",
+    },
+    Package {
+        name: "cppcheck",
+        program: Some("cppcheck"),
+        why: "checks exported C against MISRA",
+    },
+];
 
 /// Installs what is missing as root; otherwise says the command to give.
 pub fn install() -> Outcome {

@@ -73,6 +73,27 @@ pub const OWN: &[(&str, &str)] = &[
     ("bad-config", "an axis or model file was refused"),
     ("usage", "the command as typed cannot be carried out"),
     ("output", "the output folder or file cannot be used"),
+    ("not-exported", "a model that the target cannot express"),
+    (
+        "export-untrusted",
+        "a compensator with numbers that the identification did not stand by",
+    ),
+    (
+        "export-damping",
+        "micro-damping is limited so that the compensator releases no energy",
+    ),
+    (
+        "export-cycle-time",
+        "the cycle time is too long to resolve a reversal",
+    ),
+    (
+        "export-limit",
+        "the force limit is below the friction to compensate",
+    ),
+    (
+        "export-terms",
+        "terms beside friction are not in the compensator",
+    ),
 ];
 
 /// Every code with its meaning: findings in logs, refusals of logs, and our own.

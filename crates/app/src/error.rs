@@ -28,6 +28,9 @@ pub enum Error {
         /// What is allowed.
         allowed: String,
     },
+    /// A model cannot be exported.
+    #[error("{0}")]
+    Export(#[from] stiction_export::Error),
     /// The command as typed cannot be carried out.
     #[error("{found}; {allowed}")]
     Usage {
@@ -68,6 +71,7 @@ impl Error {
                 | Fit::Time { .. } => "bad-record",
             },
             Error::Config { .. } => "bad-config",
+            Error::Export(_) => "not-exported",
             Error::Usage { .. } => "usage",
             Error::Output { .. } => "output",
         }

@@ -8,6 +8,7 @@ pub mod check;
 pub mod codes;
 pub mod demo;
 mod error;
+mod export;
 mod identify;
 mod model;
 mod output;
@@ -19,6 +20,7 @@ pub mod text;
 
 pub use axis::Axis;
 pub use error::{Error, Warning};
+pub use export::{ExportOptions, Exported, Target, export};
 pub use identify::{Method, Options, Outcome, Procedures, Simulated, identify};
 pub use model::ModelFile;
 pub use output::{Bundle, check_folder, check_inputs, write_atomic};

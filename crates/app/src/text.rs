@@ -1,11 +1,13 @@
 //! What a terminal shows: plain text tables, the same on every width.
 
+mod export;
 mod procedure;
 
 use crate::check::{Check, LogCheck, short};
 use crate::identify::Outcome;
 use crate::result::LawEntry;
 use crate::symbols;
+pub use export::exported;
 pub use procedure::procedure_commands;
 use std::fmt::Write;
 use stiction_identify::IDENTIFIABLE;

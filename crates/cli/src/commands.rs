@@ -7,7 +7,8 @@ use crate::output;
 use crate::progress::Bar;
 use std::path::Path;
 use stiction_app::{
-    Error, LawKind, Method, Options, Outcome, Procedures, check_folder, check_inputs, write_atomic,
+    Error, ExportOptions, LawKind, Method, Options, Outcome, Procedures, Target, check_folder,
+    check_inputs, write_atomic,
 };
 
 /// Runs a command; every error is printed here, once.
@@ -21,6 +22,7 @@ pub fn run(arguments: &Arguments) -> Exit {
         Command::Demo(demo) => self::demo(demo, common),
         Command::Check(check) => self::check(check, common),
         Command::Identify(identify) => self::identify(identify, common),
+        Command::Export(export) => self::export(export, common),
     };
     result.unwrap_or_else(|e| {
         eprintln!("stiction: [{}] {e}", e.code());
@@ -175,6 +177,34 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
         return Ok(Exit::Interrupted);
     }
     Ok(if outcome.result.trust.trustworthy {
+        Exit::Done
+    } else {
+        Exit::NotTrustworthy
+    })
+}
+
+fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
+    let options = ExportOptions {
+        model: export.model.clone(),
+        target: match export.target {
+            arguments::Target::C => Target::C,
+            arguments::Target::St => Target::St,
+            arguments::Target::Tcpou => Target::TcPou,
+            arguments::Target::Plcopen => Target::PlcOpen,
+            arguments::Target::Rust => Target::Rust,
+            arguments::Target::Mujoco => Target::Mujoco,
+        },
+        name: export.name.clone(),
+        cycle_time: export.cycle_time,
+        limit: export.limit,
+    };
+    let exported = stiction_app::export(&options, &export.out)?;
+    if common.json {
+        output::json(&exported)?;
+    } else if !common.quiet {
+        output::print(&stiction_app::text::exported(&exported, &export.out))?;
+    }
+    Ok(if exported.trustworthy {
         Exit::Done
     } else {
         Exit::NotTrustworthy
