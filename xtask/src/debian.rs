@@ -20,6 +20,11 @@ const PACKAGES: &[Package] = &[
         program: Some("valgrind"),
         why: "counts instructions",
     },
+    Package {
+        name: "cppcheck",
+        program: Some("cppcheck"),
+        why: "checks exported C against MISRA",
+    },
 ];
 
 /// Installs what is missing as root; otherwise says the command to give.

@@ -86,6 +86,27 @@ pub const OWN: &[(&str, &str)] = &[
         "the model has terms that a study does not simulate",
     ),
     ("not-run", "a combination of a study could not be run"),
+    ("not-exported", "a model that the target cannot express"),
+    (
+        "export-untrusted",
+        "a compensator with numbers that the identification did not stand by",
+    ),
+    (
+        "export-damping",
+        "micro-damping is limited so that the compensator releases no energy",
+    ),
+    (
+        "export-cycle-time",
+        "the cycle time is too long to resolve a reversal",
+    ),
+    (
+        "export-limit",
+        "the force limit is below the friction to compensate",
+    ),
+    (
+        "export-terms",
+        "terms beside friction are not in the compensator",
+    ),
 ];
 
 /// Every code with its meaning: findings in logs, refusals of logs, and our own.

@@ -38,6 +38,9 @@ pub enum Error {
         /// What is allowed.
         allowed: String,
     },
+    /// A model cannot be exported.
+    #[error("{0}")]
+    Export(#[from] stiction_export::Error),
     /// The command as typed cannot be carried out.
     #[error("{found}; {allowed}")]
     Usage {
@@ -79,6 +82,7 @@ impl Error {
             },
             Error::Config { .. } => "bad-config",
             Error::Checkpoint { .. } => "bad-checkpoint",
+            Error::Export(_) => "not-exported",
             Error::Usage { .. } => "usage",
             Error::Output { .. } => "output",
         }

@@ -10,6 +10,7 @@ mod compare;
 pub mod compare_file;
 pub mod demo;
 mod error;
+mod export;
 mod identify;
 mod model;
 mod output;
@@ -28,6 +29,7 @@ pub use compare::{
     CompareOptions, Cost, Excitation, Input, ONE_START, bundle as compare_bundle, compare,
 };
 pub use error::{Error, Warning};
+pub use export::{ExportOptions, Exported, Target, export};
 pub use identify::{
     CostKind, Method, Options, Outcome, Procedures, Searching, Simulated, identify,
 };

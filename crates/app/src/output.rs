@@ -61,6 +61,53 @@ impl Bundle {
     }
 }
 
+/// Writes files (relative path, content) as one folder: made under a temporary name beside `dir` and renamed when it is
+/// complete. `dir` is absent or empty.
+///
+/// # Errors
+/// When the folder holds something, a path leads out of it, or it cannot be written.
+pub fn write_folder<'f>(
+    dir: &Path,
+    files: impl IntoIterator<Item = (&'f str, &'f [u8])>,
+) -> Result<(), Error> {
+    let fail = |e: std::io::Error| Error::output(dir, describe(&e));
+    if dir.symlink_metadata().is_ok() {
+        let free = dir.is_dir() && fs::read_dir(dir).map_err(fail)?.next().is_none();
+        if !free {
+            let what = "exists and is not an empty folder; choose another --out";
+            return Err(Error::output(dir, what));
+        }
+    }
+    let parent = match dir.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    fs::create_dir_all(parent).map_err(fail)?;
+    let staged = tempfile::Builder::new()
+        .prefix(".stiction-")
+        .tempdir_in(parent)
+        .map_err(fail)?;
+    let whole = staged.path().join("whole");
+    fs::create_dir(&whole).map_err(fail)?;
+    for (name, content) in files {
+        let plain = |c| matches!(c, std::path::Component::Normal(_));
+        if !Path::new(name).components().all(plain) {
+            return Err(Error::output(&dir.join(name), "leads out of the folder"));
+        }
+        let path = whole.join(name);
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder).map_err(fail)?;
+        }
+        let mut file = fs::File::create(&path).map_err(fail)?;
+        file.write_all(content).map_err(fail)?;
+        file.sync_all().map_err(fail)?;
+    }
+    if dir.is_dir() {
+        fs::remove_dir(dir).map_err(fail)?;
+    }
+    fs::rename(&whole, dir).map_err(fail)
+}
+
 /// Writes a file under a temporary name in the same folder, then renames it.
 ///
 /// # Errors

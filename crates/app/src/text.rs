@@ -1,6 +1,7 @@
 //! What a terminal shows: plain text tables, the same on every width.
 
 mod comparison;
+mod export;
 mod procedure;
 mod reproduction;
 mod study;
@@ -10,6 +11,7 @@ use crate::identify::Outcome;
 use crate::result::{LawEntry, SearchedEntry, SearchedPoint};
 use crate::symbols;
 pub use comparison::comparison;
+pub use export::exported;
 pub use procedure::procedure_commands;
 pub use reproduction::reproduction;
 use std::fmt::Write;

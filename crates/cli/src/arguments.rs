@@ -43,6 +43,8 @@ pub enum Command {
     Simulate(Simulate),
     /// Run published experiments again, each number beside its reference; exit code 1 if one is off.
     Reproduce(Reproduce),
+    /// Write the compensator of a model as code or tables for a controller.
+    Export(Export),
 }
 
 #[derive(Clone, Debug, Args)]
@@ -326,4 +328,42 @@ pub enum Publication {
     /// The LuGre paper: presliding, lag, break-away, stick-slip, hunting, drift.
     #[value(name = "1995")]
     Canudas1995,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct Export {
+    /// Model as written by stiction identify.
+    #[arg(value_name = "MODEL.toml")]
+    pub model: PathBuf,
+    /// What to write.
+    #[arg(long, value_enum)]
+    pub target: Target,
+    /// Folder for the files; new or empty.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Time between two calls of the compensator, s.
+    #[arg(long, value_name = "S", default_value_t = 1e-3)]
+    pub cycle_time: f64,
+    /// Largest force, N or N m [default: twice static friction and offset].
+    #[arg(long, value_name = "N")]
+    pub limit: Option<f64>,
+    /// What the names in the code begin with [default: from the name of the axis].
+    #[arg(long, value_name = "NAME")]
+    pub name: Option<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Target {
+    /// C99, double and single precision.
+    C,
+    /// IEC 61131-3 Structured Text, LREAL and REAL.
+    St,
+    /// The same as TwinCAT 3 objects.
+    Tcpou,
+    /// The same as PLCopen TC6 XML.
+    Plcopen,
+    /// A no_std crate on stiction-friction.
+    Rust,
+    /// The friction of a joint in MuJoCo 4.
+    Mujoco,
 }

@@ -8,9 +8,9 @@ use crate::progress::{Bar, Counter};
 use clap::ValueEnum;
 use std::path::{Path, PathBuf};
 use stiction_app::{
-    CompareOptions, Cost, CostKind, Error, Excitation, Input, LawKind, Method, Options, Outcome,
-    Procedures, Scheme, Searching, Study, check_folder, check_folder_of, check_inputs,
-    compare_bundle, write_atomic,
+    CompareOptions, Cost, CostKind, Error, Excitation, ExportOptions, Input, LawKind, Method,
+    Options, Outcome, Procedures, Scheme, Searching, Study, Target, check_folder, check_folder_of,
+    check_inputs, compare_bundle, write_atomic,
 };
 
 /// Runs a command; every error is printed here, once.
@@ -27,6 +27,7 @@ pub fn run(arguments: &Arguments) -> Exit {
         Command::Compare(compare) => self::compare(compare, common),
         Command::Simulate(simulate) => self::simulate(simulate, common),
         Command::Reproduce(reproduce) => self::reproduce(reproduce, common),
+        Command::Export(export) => self::export(export, common),
     };
     result.unwrap_or_else(|e| {
         eprintln!("stiction: [{}] {e}", e.code());
@@ -273,6 +274,34 @@ fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Err
         Exit::Interrupted
     } else {
         Exit::Done
+    })
+}
+
+fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
+    let options = ExportOptions {
+        model: export.model.clone(),
+        target: match export.target {
+            arguments::Target::C => Target::C,
+            arguments::Target::St => Target::St,
+            arguments::Target::Tcpou => Target::TcPou,
+            arguments::Target::Plcopen => Target::PlcOpen,
+            arguments::Target::Rust => Target::Rust,
+            arguments::Target::Mujoco => Target::Mujoco,
+        },
+        name: export.name.clone(),
+        cycle_time: export.cycle_time,
+        limit: export.limit,
+    };
+    let exported = stiction_app::export(&options, &export.out)?;
+    if common.json {
+        output::json(&exported)?;
+    } else if !common.quiet {
+        output::print(&stiction_app::text::exported(&exported, &export.out))?;
+    }
+    Ok(if exported.trustworthy {
+        Exit::Done
+    } else {
+        Exit::NotTrustworthy
     })
 }
 

@@ -1,6 +1,7 @@
-//! For tests only: where measured recordings are, and what must hold on them.
+//! For tests only: where measured recordings are, what must hold on them, and an interpreter of Structured Text.
 
 mod cases;
+pub mod st;
 
 pub use cases::{CASES, Case, Limit, Metric};
 

@@ -2,7 +2,7 @@
 
 use super::{Candidates, Named, checked, named, physical};
 use crate::error::Error;
-use stiction_lanes::{Axis, Candidate, Drive, InstructionSet, Measured, Motion, plants};
+use stiction_lanes::{Axis, Candidate, Drive, InstructionSet, Measured, Motion, Stepping, plants};
 use stiction_search::{Bounds, Fidelity, Points, Problem};
 
 /// Mean square of measured minus simulated position over that of the measured position, for a mass
@@ -72,7 +72,7 @@ impl Simulated {
                 friction: Candidate::gaussian(physical(x)),
             })
             .collect();
-        let found = plants(&drive, &axes, InstructionSet::best()).ok()?;
+        let found = plants(&drive, &axes, Stepping::Midpoint, InstructionSet::best()).ok()?;
         Some(found.iter().map(|o| o.cost / self.energy).collect())
     }
 }

@@ -121,9 +121,9 @@ fn shared_columns(objective: &Objective) -> (Vec<Vec<f64>>, Vec<bool>) {
     for (term, column) in objective.linear().iter().zip(columns) {
         match term.column {
             ColumnKind::Level | ColumnKind::Rate => {}
-            ColumnKind::Speed(None) => velocity = column,
+            ColumnKind::Speed(None) => velocity = column.to_vec(),
             _ => {
-                further.push(column);
+                further.push(column.to_vec());
                 nonnegative.push(term.nonnegative);
             }
         }

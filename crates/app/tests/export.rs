@@ -1,0 +1,276 @@
+//! `stiction export` from a model file: what is written, what is refused, what is said.
+
+use std::path::{Path, PathBuf};
+use stiction_app::{Error, ExportOptions, Exported, Target, export};
+
+const LUGRE: [(&str, f64, &str); 6] = [
+    ("sigma0", 1.2e5, "N/m"),
+    ("sigma1", 300.0, "N s/m"),
+    ("coulomb", 20.0, "N"),
+    ("static", 30.0, "N"),
+    ("stribeck_velocity", 5e-3, "m/s"),
+    ("sigma2", 60.0, "N s/m"),
+];
+
+/// The text of a model file.
+fn text(law: &str, parameters: &[(&str, f64, &str)]) -> String {
+    let mut out = format!(
+        "schema = \"stiction.model/1\"\nname = \"X axis */ (left)\"\nkind = \"linear\"\nlaw = \"{law}\"\nasymmetric = false\n\
+         force_unit = \"N\"\ntrustworthy = true\n\n[source]\nversion = \"0.1.0\"\nmethod = \"separable\"\nseed = 0\n\n\
+         [[source.inputs]]\npath = \"log.csv\"\nsha256 = \"{}\"\n",
+        "ab".repeat(32)
+    );
+    for (name, value, unit) in parameters {
+        out += &format!(
+            "\n[[parameter]]\nname = \"{name}\"\nsymbol = \"{name}\"\nvalue = {value:?}\nunit = \"{unit}\"\n\
+             ci95 = [{:?}, {:?}]\nidentifiable = true\norigin = \"identified\"\n",
+            value * 0.9,
+            value * 1.1
+        );
+    }
+    out + "\n[covariance]\nnames = []\nmatrix = []\n"
+}
+
+struct Bench(tempfile::TempDir);
+
+impl Bench {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn options(&self, model: &str) -> ExportOptions {
+        std::fs::write(self.path("model.toml"), model).unwrap();
+        ExportOptions {
+            model: self.path("model.toml"),
+            target: Target::C,
+            name: None,
+            cycle_time: 1e-3,
+            limit: None,
+        }
+    }
+
+    fn export(&self, model: &str) -> Result<Exported, Error> {
+        export(&self.options(model), &self.path("out"))
+    }
+}
+
+fn contents(dir: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut found = Vec::new();
+    for path in std::fs::read_dir(dir).unwrap().map(|e| e.unwrap().path()) {
+        if path.is_dir() {
+            found.extend(contents(&path));
+        } else {
+            found.push((
+                path.to_string_lossy().into_owned(),
+                std::fs::read(&path).unwrap(),
+            ));
+        }
+    }
+    found.sort();
+    found
+}
+
+#[test]
+fn the_same_model_gives_the_same_bytes() {
+    let model = text("lugre", &LUGRE);
+    for target in Target::ALL {
+        let (a, b) = (Bench::new(), Bench::new());
+        for bench in [&a, &b] {
+            let options = ExportOptions {
+                target,
+                ..bench.options(&model)
+            };
+            let exported = export(&options, &bench.path("out")).unwrap();
+            assert!(
+                exported.trustworthy && exported.warnings.is_empty(),
+                "{:?}",
+                exported.warnings
+            );
+            assert_eq!(exported.limit, 60.0);
+        }
+        let bytes = |bench: &Bench| -> Vec<Vec<u8>> {
+            let files = contents(&bench.path("out"));
+            files.into_iter().map(|(_, bytes)| bytes).collect()
+        };
+        assert_eq!(bytes(&a), bytes(&b));
+        let head = String::from_utf8(contents(&a.path("out"))[0].1.clone()).unwrap();
+        assert!(
+            head.contains(&"ab".repeat(32)) && head.contains("X axis _/ (left)"),
+            "{head}"
+        );
+        assert!(
+            head.contains("sigma0 = 1.200000e5 N/m, 1.0800e5 to 1.3200e5"),
+            "{head}"
+        );
+    }
+}
+
+#[test]
+fn a_folder_that_holds_something_is_left_alone() {
+    let bench = Bench::new();
+    std::fs::create_dir(bench.path("out")).unwrap();
+    std::fs::write(bench.path("out/mine.txt"), "mine").unwrap();
+    let before = contents(&bench.path("out"));
+    let error = bench.export(&text("lugre", &LUGRE)).unwrap_err();
+    assert_eq!(error.code(), "output");
+    assert_eq!(contents(&bench.path("out")), before);
+    std::fs::remove_file(bench.path("out/mine.txt")).unwrap();
+    assert_eq!(
+        bench.export(&text("lugre", &LUGRE)).unwrap().written.len(),
+        contents(&bench.path("out")).len()
+    );
+}
+
+/// What is refused, with its code and the place; nothing is left behind.
+#[test]
+fn bad_models_are_refused() {
+    let missing = &LUGRE[1..];
+    let with = |name: &'static str, value: f64| {
+        let mut p: Vec<_> = LUGRE.into_iter().filter(|p| p.0 != name).collect();
+        p.push((name, value, "N"));
+        p
+    };
+    let cases: [(&str, String, &str, &str); 7] = [
+        ("missing", text("lugre", missing), "bad-config", "no sigma0"),
+        (
+            "law",
+            text("gms", &LUGRE),
+            "bad-config",
+            "identify with --law lugre",
+        ),
+        (
+            "static",
+            text("lugre", &with("static", 10.0)),
+            "bad-config",
+            "static = 10",
+        ),
+        (
+            "zero",
+            text("lugre", &with("sigma0", 0.0)),
+            "bad-config",
+            "sigma0 = 0",
+        ),
+        (
+            "single",
+            text("lugre", &with("sigma0", 1e40)),
+            "not-exported",
+            "as float",
+        ),
+        (
+            "term",
+            text("lugre", &with("coulomb_load", 0.1)),
+            "bad-config",
+            "coulomb_load",
+        ),
+        ("not ours", "x = 1".into(), "bad-config", "model.toml"),
+    ];
+    for (name, model, code, says) in cases {
+        let bench = Bench::new();
+        let error = bench.export(&model).unwrap_err();
+        assert_eq!(error.code(), code, "{name}: {error}");
+        assert!(error.to_string().contains(says), "{name}: {error}");
+        assert_eq!(contents(bench.0.path()).len(), 1, "{name}");
+    }
+    for (name, cycle_time, limit, says) in [
+        (Some("../x"), 1e-3, None, "name \"../x\""),
+        (Some("a__b"), 1e-3, None, "underscores"),
+        (None, 250.0, None, "cycle time 250 s"),
+        (None, f64::NAN, None, "cycle time NaN"),
+        (None, 1e-3, Some(-1.0), "limit = -1"),
+        (None, 1e-3, Some(f64::INFINITY), "limit = inf"),
+    ] {
+        let bench = Bench::new();
+        let options = ExportOptions {
+            name: name.map(str::to_string),
+            cycle_time,
+            limit,
+            ..bench.options(&text("lugre", &LUGRE))
+        };
+        let error = export(&options, &bench.path("out")).unwrap_err();
+        assert_eq!(error.code(), "not-exported", "{error}");
+        assert!(error.to_string().contains(says), "{error}");
+        assert_eq!(contents(bench.0.path()).len(), 1);
+    }
+}
+
+#[test]
+fn doubts_are_said_and_written() {
+    let mut stiff = LUGRE;
+    stiff[0].1 = 1e8;
+    stiff[1].1 = 5e3;
+    let mut parameters = stiff.to_vec();
+    parameters.push(("mass", 9.0, "kg"));
+    let model = text("lugre", &parameters)
+        .replace("trustworthy = true", "trustworthy = false")
+        .replacen("identifiable = true", "identifiable = false", 1);
+    let bench = Bench::new();
+    let mut options = bench.options(&model);
+    options.limit = Some(10.0);
+    let exported = export(&options, &bench.path("out")).unwrap();
+    let codes: Vec<_> = exported.warnings.iter().map(|w| w.code.as_str()).collect();
+    let all = [
+        "export-untrusted",
+        "export-untrusted",
+        "export-terms",
+        "export-damping",
+        "export-cycle-time",
+        "export-limit",
+    ];
+    assert_eq!(codes, all);
+    assert!(!exported.trustworthy);
+    let said = stiction_app::text::exported(&exported, Path::new("out"));
+    assert!(
+        said.contains("the data do not determine sigma0") && said.contains("mass is no friction"),
+        "{said}"
+    );
+    for (name, bytes) in contents(&bench.path("out")) {
+        let text = String::from_utf8(bytes).unwrap();
+        assert!(
+            text.contains("NOTE: the identification did not stand by its numbers"),
+            "{name}"
+        );
+        assert!(text.contains("NOT determined by the data"), "{name}");
+    }
+}
+
+/// Every law that a model file can carry and the compensator has.
+#[test]
+fn every_law() {
+    let dahl = [
+        ("sigma0", 1e5, "N/m"),
+        ("coulomb", 20.0, "N"),
+        ("sigma2", 60.0, "N s/m"),
+    ];
+    let lopsided = [
+        ("coulomb_pos", 20.0, "N"),
+        ("coulomb_neg", 14.0, "N"),
+        ("sigma2_pos", 60.0, "N s/m"),
+        ("sigma2_neg", 85.0, "N s/m"),
+        ("offset", -3.0, "N"),
+    ];
+    let mut power = LUGRE.to_vec();
+    power.push(("stribeck_exponent", 1.3, "1"));
+    for (law, parameters, holds) in [
+        ("dahl", &dahl[..], "params->sigma1 = 0.0;"),
+        (
+            "coulomb-viscous",
+            &lopsided[..],
+            "params->neg.coulomb = 14.0;",
+        ),
+        (
+            "stribeck",
+            &LUGRE[..],
+            "params->pos.stribeck_velocity = 0.005;",
+        ),
+        ("lugre", &power[..], "params->exponent = 1.3;"),
+    ] {
+        let bench = Bench::new();
+        bench.export(&text(law, parameters)).unwrap();
+        let source = std::fs::read_to_string(bench.path("out/X_axis_left_friction.c")).unwrap();
+        assert!(source.contains(holds), "{law}");
+    }
+}

@@ -1,0 +1,100 @@
+//! C99: a header, a source and a self-test, in double and in single precision.
+
+use crate::model::cast;
+use crate::number::Literal;
+use crate::template::Fill;
+use crate::vectors::Vectors;
+use crate::{Error, File, Model, header, law};
+
+const HEADER: &str = include_str!("../templates/c/compensator.h.in");
+const SOURCE: &str = include_str!("../templates/c/compensator.c.in");
+const SELFTEST: &str = include_str!("../templates/c/selftest.c.in");
+
+/// How a number type is called in C.
+struct Precision {
+    /// What is appended to the model's identifier.
+    suffix: &'static str,
+    real: &'static str,
+    /// Suffix of a number.
+    literal: &'static str,
+    /// Suffix of a function of `math.h`.
+    function: &'static str,
+    max: &'static str,
+    /// Error allowed in the self-test, of the static friction.
+    tolerance: f64,
+}
+
+const DOUBLE: Precision = Precision {
+    suffix: "",
+    real: "double",
+    literal: "",
+    function: "",
+    max: "DBL_MAX",
+    tolerance: 1e-12,
+};
+
+const FLOAT: Precision = Precision {
+    suffix: "_f32",
+    real: "float",
+    literal: "f",
+    function: "f",
+    max: "FLT_MAX",
+    tolerance: 2e-6,
+};
+
+pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
+    let mut files = precision::<f64>(model, &DOUBLE)?;
+    files.extend(precision::<f32>(model, &FLOAT)?);
+    Ok(files)
+}
+
+fn precision<T: Literal>(model: &Model, precision: &Precision) -> Result<Vec<File>, Error> {
+    let vectors = Vectors::<T>::new(model, precision.real)?;
+    let fill = fill::<T>(model, precision)?;
+    let file = format!("{}_friction{}", model.identifier, precision.suffix);
+    let mut test = fill.clone();
+    law::settings::<T>(&mut test, &cast(&vectors.settings), T::c);
+    let tolerance = precision.tolerance * vectors.scale(model);
+    test.set("rows", rows(&vectors))
+        .set("tolerance", T::from_f64(tolerance).c());
+    Ok(vec![
+        File::text(format!("{file}.h"), fill.render(HEADER)),
+        File::text(format!("{file}.c"), fill.render(SOURCE)),
+        File::text(format!("{file}_selftest.c"), test.render(SELFTEST)),
+    ])
+}
+
+fn rows<T: Literal>(vectors: &Vectors<T>) -> String {
+    let rows: Vec<String> = vectors
+        .rows
+        .iter()
+        .map(|row| {
+            let (v, e, f) = (row.velocity.c(), row.error.c(), row.force.c());
+            format!("    {{ {{ {v}, {e}, {} }}, {f} }}", row.enable)
+        })
+        .collect();
+    rows.join(",\n")
+}
+
+fn fill<T: Literal>(model: &Model, precision: &Precision) -> Result<Fill, Error> {
+    let compensator = model.compensator::<T>(&model.settings, precision.real)?;
+    let name = format!("{}{}", model.identifier, precision.suffix);
+    let mut fill = Fill::default();
+    fill.set("header", header::comment(model, " * "))
+        .set("name", name.clone())
+        .set("NAME", name.to_ascii_uppercase())
+        .set(
+            "file",
+            format!("{}_friction{}", model.identifier, precision.suffix),
+        )
+        .set("real", precision.real)
+        .set("f", precision.literal)
+        .set("m", precision.function)
+        .set("MAX", precision.max)
+        .set("v_unit", model.speed_unit())
+        .set("x_unit", model.length_unit())
+        .set("f_unit", model.force_unit());
+    law::settings(&mut fill, compensator.settings(), T::c);
+    law::fill(&mut fill, compensator.friction(), T::c);
+    Ok(fill)
+}

@@ -1,0 +1,50 @@
+//! Why a model is not exported.
+
+use stiction_friction::ParamError;
+
+/// A model that cannot be exported to a target.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// A name that is no identifier in every target.
+    #[error(
+        "name {found:?}; allowed: a letter, then letters, digits and single underscores, at most {} characters, not ending in an underscore",
+        crate::IDENTIFIER_LENGTH
+    )]
+    Identifier {
+        /// The name found.
+        found: String,
+    },
+    /// A parameter or setting outside the range of the number type of a file.
+    #[error("{source} (as {number_type})")]
+    Number {
+        /// `double`, `float`, `LREAL` or `REAL`.
+        number_type: &'static str,
+        /// What is wrong.
+        source: ParamError,
+    },
+    /// A cycle time that no controller has.
+    #[error("cycle time {found} s; allowed: {} s to {} s", crate::check::CYCLE_TIMES.0, crate::check::CYCLE_TIMES.1)]
+    CycleTime {
+        /// The time found, s.
+        found: f64,
+    },
+    /// A law that the target has no form for.
+    #[error("target {target} has no form for the law {law}; allowed: {allowed}")]
+    Law {
+        /// The target.
+        target: &'static str,
+        /// The law found.
+        law: &'static str,
+        /// What the target takes.
+        allowed: &'static str,
+    },
+}
+
+impl Error {
+    pub(crate) fn number(number_type: &'static str, source: ParamError) -> Self {
+        Error::Number {
+            number_type,
+            source,
+        }
+    }
+}

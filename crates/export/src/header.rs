@@ -1,0 +1,103 @@
+//! The head of every file: what it is, its numbers with intervals, where they came from.
+
+use crate::Model;
+
+/// Lines of plain ASCII without anything that could end a comment in a target's language.
+pub(crate) fn lines(model: &Model) -> Vec<String> {
+    let mut lines = vec![
+        format!(
+            "Friction compensator of the axis '{}', law {}, written by stiction {}.",
+            model.title,
+            model.law(),
+            model.provenance.version
+        ),
+        "The force is a feedforward: add it to the force or torque that the controller asks for."
+            .into(),
+        String::new(),
+        format!(
+            "In:  reference velocity in {}, if known that of the instant at which the force will act (preview);",
+            model.speed_unit()
+        ),
+        format!(
+            "     tracking error, reference less measured position, in {}; enable. Called every {} s.",
+            model.length_unit(),
+            model.settings.cycle_time
+        ),
+        format!(
+            "Out: force in {}, along the positive direction of the velocity.",
+            model.force_unit()
+        ),
+    ];
+    if !model.notes.is_empty() {
+        lines.push(String::new());
+        lines.extend(model.notes.iter().map(|note| format!("NOTE: {note}")));
+    }
+    if !model.parameters.is_empty() {
+        lines.push(String::new());
+        lines.push("Parameters with their 95 percent intervals:".into());
+    }
+    for p in &model.parameters {
+        let interval = match p.interval {
+            Some([low, high]) => format!("{low:.4e} to {high:.4e}"),
+            None => "no interval".into(),
+        };
+        let flag = if p.identifiable {
+            ""
+        } else {
+            ", NOT determined by the data"
+        };
+        lines.push(format!(
+            "  {} = {:.6e} {}, {interval}{flag}",
+            p.name, p.value, p.unit
+        ));
+    }
+    lines.push(String::new());
+    lines.push(format!(
+        "Model file: sha256 {}",
+        model.provenance.model_sha256
+    ));
+    for (path, hash) in &model.provenance.inputs {
+        lines.push(format!("Identified from {path}, sha256 {hash}"));
+    }
+    lines.iter().map(|line| plain(line)).collect()
+}
+
+/// The lines, each after a prefix.
+pub(crate) fn comment(model: &Model, prefix: &str) -> String {
+    let lines: Vec<String> = lines(model)
+        .iter()
+        .map(|line| format!("{prefix}{line}").trim_end().to_string())
+        .collect();
+    lines.join("\n")
+}
+
+/// What is left of a text that may come from anywhere.
+pub(crate) fn plain(text: &str) -> String {
+    let spelled = text
+        .replace('·', " ")
+        .replace('²', "^2")
+        .replace('°', "deg");
+    spelled
+        .chars()
+        .map(|c| match c {
+            ' ' | '_' | '.' | ',' | ':' | ';' | '/' | '+' | '-' | '=' | '^' | '%' | '\'' | '('
+            | ')' => c,
+            c if c.is_ascii_alphanumeric() => c,
+            _ => '_',
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn nothing_ends_a_comment() {
+        assert_eq!(
+            plain("a */ (* *) ]]> ??/ \\\n {x}"),
+            "a _/ (_ _) ___ __/ __ _x_"
+        );
+        assert_eq!(plain("N·m·s/rad"), "N m s/rad");
+    }
+}

@@ -1,0 +1,73 @@
+//! The law and its settings as values of a template; the same keys in every target.
+
+use crate::template::Fill;
+use stiction_friction::compensator::{Friction, Settings};
+use stiction_friction::{Direction, Real, Shape};
+
+/// Settings of the compensator, each written by `text`; a window of 0 is no watchdog.
+pub(crate) fn settings<T: Real>(fill: &mut Fill, settings: &Settings<T>, text: fn(T) -> String) {
+    let watchdog = settings.watchdog.map(|w| (w.window, w.ratio));
+    let (window, ratio) = watchdog.unwrap_or((T::ZERO, T::ONE));
+    fill.set("cycle_time", text(settings.cycle_time))
+        .set("gain", text(settings.gain))
+        .set("dead_zone", text(settings.dead_zone))
+        .set("limit", text(settings.limit))
+        .set("slew", text(settings.slew))
+        .set("ramp", text(settings.ramp))
+        .set("window", text(window))
+        .set("ratio", text(ratio));
+}
+
+/// The law's numbers, each written by `text`, and flags that say which law and shape it is.
+pub(crate) fn fill<T: Real>(fill: &mut Fill, friction: &Friction<T>, text: fn(T) -> String) {
+    let curve = match friction {
+        Friction::Coulomb(_) => None,
+        Friction::Stribeck(curve) => Some(curve),
+        Friction::LuGre(law) => Some(law.curve()),
+    };
+    fill.flag("lugre", matches!(friction, Friction::LuGre(_)))
+        .flag("curve", curve.is_some());
+    if let Friction::LuGre(law) = friction {
+        fill.set("sigma0", text(law.stiffness()))
+            .set("sigma1", text(law.damping().at_rest()));
+    }
+    let flat = |coulomb, viscous| Direction {
+        coulomb,
+        static_friction: coulomb,
+        stribeck_velocity: T::ONE,
+        viscous,
+    };
+    let (pos, neg, offset) = match (curve, friction) {
+        (Some(curve), _) => (*curve.positive(), *curve.negative(), curve.offset()),
+        (None, Friction::Coulomb(law)) => {
+            let (coulomb, viscous) = (law.coulomb(), law.viscous());
+            (
+                flat(coulomb[0], viscous[0]),
+                flat(coulomb[1], viscous[1]),
+                law.offset(),
+            )
+        }
+        (None, _) => unreachable!("every other law has a curve"),
+    };
+    let shape = curve.map(|curve| curve.shape());
+    let power = match shape {
+        Some(Shape::Power(delta)) => Some(delta),
+        _ => None,
+    };
+    fill.set("offset", text(offset))
+        .flag("power", power.is_some())
+        .flag("gaussian", shape == Some(Shape::Gaussian))
+        .flag("exponential", shape == Some(Shape::Exponential))
+        .flag("lorentzian", shape == Some(Shape::Lorentzian))
+        .set("exponent", power.map_or(String::new(), text));
+    let keys = [
+        ["pos_coulomb", "pos_static", "pos_velocity", "pos_viscous"],
+        ["neg_coulomb", "neg_static", "neg_velocity", "neg_viscous"],
+    ];
+    for (keys, side) in keys.into_iter().zip([pos, neg]) {
+        fill.set(keys[0], text(side.coulomb))
+            .set(keys[1], text(side.static_friction))
+            .set(keys[2], text(side.stribeck_velocity))
+            .set(keys[3], text(side.viscous));
+    }
+}

@@ -1,0 +1,48 @@
+//! The compensator of `stiction-friction` written for a target: C, Structured Text and other forms.
+//!
+//! Text out: [`export`] gives relative paths with their bytes, and writes no file. The compensator in
+//! [`stiction_friction::compensator`] is the definition; every target carries vectors computed with it, and a runner.
+//! The same model gives the same bytes.
+//!
+//! ```
+//! use stiction_export::{Model, Provenance, Target, export};
+//! use stiction_friction::compensator::{Friction, Settings};
+//! use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
+//!
+//! let both = Direction { coulomb: 12.0, static_friction: 18.0, stribeck_velocity: 3e-3, viscous: 30.0 };
+//! let law = LuGre::new(2e6, Damping::Capped(1.5e3), Stribeck::symmetric(Shape::Gaussian, both, 0.0)?)?;
+//! let model = Model {
+//!     title: "X axis".into(),
+//!     identifier: "x_axis".into(),
+//!     rotary: false,
+//!     friction: Friction::LuGre(law),
+//!     settings: Settings::new(1e-3, 40.0), // 1 kHz, at most 40 N
+//!     parameters: vec![],
+//!     notes: vec![],
+//!     provenance: Provenance::default(),
+//! };
+//! let files = export(&model, Target::C)?;
+//! assert_eq!(files[0].path, "x_axis_friction.h");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod c;
+mod check;
+mod error;
+mod header;
+mod identifier;
+mod law;
+mod model;
+mod mujoco;
+mod number;
+mod rust;
+mod st;
+mod target;
+mod template;
+mod vectors;
+
+pub use check::{Advice, advice};
+pub use error::Error;
+pub use identifier::{IDENTIFIER_LENGTH, check_identifier, identifier};
+pub use model::{Model, Parameter, Provenance};
+pub use target::{File, Target, export};

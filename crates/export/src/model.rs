@@ -1,0 +1,142 @@
+//! What is exported.
+
+use crate::Error;
+use stiction_friction::compensator::{Compensator, Friction, Settings, Source};
+use stiction_friction::{Damping, LuGre, Real};
+
+/// A friction law with the settings of its compensator, and where its numbers came from. The law is driven by the
+/// reference velocity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    /// Name of the axis, any text.
+    pub title: String,
+    /// What the names in the code begin with; see [`identifier`](crate::identifier).
+    pub identifier: String,
+    /// Rotary: rad, N m; else linear: m, N.
+    pub rotary: bool,
+    /// The law. The micro-damping of bristles is exported capped, whatever form it has here.
+    pub friction: Friction<f64>,
+    /// Settings of the compensator; adaptation is not exported.
+    pub settings: Settings<f64>,
+    /// Parameters as they were identified.
+    pub parameters: Vec<Parameter>,
+    /// Sentences for the head of every file, such as what is not trustworthy.
+    pub notes: Vec<String>,
+    /// Where the numbers came from.
+    pub provenance: Provenance,
+}
+
+/// A parameter as identified.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Name, such as `sigma0`.
+    pub name: String,
+    /// Value in `unit`.
+    pub value: f64,
+    /// SI unit.
+    pub unit: String,
+    /// 95 % interval, if the data bound it.
+    pub interval: Option<[f64; 2]>,
+    /// Whether the data determine it.
+    pub identifiable: bool,
+}
+
+/// Where the numbers came from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Provenance {
+    /// Version of stiction.
+    pub version: String,
+    /// SHA-256 of the model file.
+    pub model_sha256: String,
+    /// Recordings with their SHA-256.
+    pub inputs: Vec<(String, String)>,
+}
+
+impl Model {
+    /// The compensator that the exported code is, in a number type. `number_type` is its name in the target.
+    pub(crate) fn compensator<T: Real>(
+        &self,
+        settings: &Settings<f64>,
+        number_type: &'static str,
+    ) -> Result<Compensator<T>, Error> {
+        let refuse = |e| Error::number(number_type, e);
+        let friction = match &self.friction {
+            Friction::Coulomb(law) => {
+                let both = |pair: [f64; 2]| pair.map(T::from_f64);
+                let offset = T::from_f64(law.offset());
+                stiction_friction::CoulombViscous::new(
+                    both(law.coulomb()),
+                    both(law.viscous()),
+                    offset,
+                )
+                .map(Friction::Coulomb)
+            }
+            Friction::Stribeck(curve) => curve.cast().map(Friction::Stribeck),
+            Friction::LuGre(law) => capped(law).and_then(|l| l.cast()).map(Friction::LuGre),
+        };
+        let friction = friction.map_err(refuse)?;
+        Compensator::new(friction, Source::Reference, cast(settings)).map_err(refuse)
+    }
+
+    /// Unit of velocity.
+    pub(crate) fn speed_unit(&self) -> &'static str {
+        if self.rotary { "rad/s" } else { "m/s" }
+    }
+
+    /// Unit of position.
+    pub(crate) fn length_unit(&self) -> &'static str {
+        if self.rotary { "rad" } else { "m" }
+    }
+
+    /// Unit of force.
+    pub(crate) fn force_unit(&self) -> &'static str {
+        if self.rotary { "N m" } else { "N" }
+    }
+
+    /// Name of the law's family.
+    pub(crate) fn law(&self) -> &'static str {
+        match self.friction {
+            Friction::Coulomb(_) => "coulomb-viscous",
+            Friction::Stribeck(_) => "stribeck",
+            Friction::LuGre(_) => "lugre",
+        }
+    }
+
+    /// Largest force of the law at low speed, N (N m): the scale of its errors.
+    pub(crate) fn scale(&self) -> f64 {
+        match &self.friction {
+            Friction::Coulomb(law) => law.coulomb()[0].max(law.coulomb()[1]),
+            Friction::Stribeck(curve) => curve.largest_static_level(),
+            Friction::LuGre(law) => law.curve().largest_static_level(),
+        }
+    }
+}
+
+/// The law with its micro-damping capped, as it is exported.
+fn capped(law: &LuGre<f64>) -> Result<LuGre<f64>, stiction_friction::ParamError> {
+    law.with_damping(Damping::Capped(law.damping().at_rest()))
+}
+
+/// Settings in another number type, without what is not exported. No limit stays no limit.
+pub(crate) fn cast<T: Real>(settings: &Settings<f64>) -> Settings<T> {
+    let to = T::from_f64;
+    Settings {
+        cycle_time: to(settings.cycle_time),
+        gain: to(settings.gain),
+        dead_zone: to(settings.dead_zone),
+        limit: to(settings.limit),
+        slew: if settings.slew >= T::MAX.to_f64() {
+            T::MAX
+        } else {
+            to(settings.slew)
+        },
+        ramp: to(settings.ramp),
+        adaptation: None,
+        watchdog: settings
+            .watchdog
+            .map(|w| stiction_friction::compensator::Watchdog {
+                window: to(w.window),
+                ratio: to(w.ratio),
+            }),
+    }
+}

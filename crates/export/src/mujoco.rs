@@ -1,0 +1,81 @@
+//! MuJoCo 4: the `dcmotor` with the law's bristles, on a joint.
+//!
+//! MuJoCo holds the velocity over a step as our step does, so the deflections are the same; its force is that of the
+//! step's beginning and has the rate of the state equation, with sigma1 constant. The self-test compares with that.
+
+use crate::number::Literal;
+use crate::template::Fill;
+use crate::vectors::Vectors;
+use crate::{Error, File, Model, header, law};
+use stiction_friction::compensator::Friction;
+use stiction_friction::{Damping, LuGre, Shape};
+
+const MODEL: &str = include_str!("../templates/mujoco/model.xml.in");
+const SELFTEST: &str = include_str!("../templates/mujoco/selftest.py.in");
+
+pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
+    let given = simple(model)?;
+    let constant = Damping::Constant(given.damping().at_rest());
+    let lugre = given
+        .with_damping(constant)
+        .map_err(|e| Error::number("double", e))?;
+    let vectors = Vectors::<f64>::new(model, "double")?;
+    let name = &model.identifier;
+    let mut fill = Fill::default();
+    fill.set("name", name.clone())
+        .set("v_unit", model.speed_unit())
+        .set("x_unit", model.length_unit())
+        .set("f_unit", model.force_unit())
+        .set("type", if model.rotary { "hinge" } else { "slide" })
+        .set("axis", if model.rotary { "0 0 1" } else { "1 0 0" })
+        .set("against", (-lugre.curve().offset()).c())
+        .set("rows", rows(&lugre, &vectors, model.settings.cycle_time))
+        .set("force_tolerance", (1e-9 * vectors.scale(model)).c())
+        .set("deflection_tolerance", (1e-9 * lugre.bound()).c());
+    law::settings(&mut fill, &model.settings, f64::c);
+    law::fill(&mut fill, &Friction::LuGre(lugre), f64::c);
+    // Two hyphens would end a comment in XML.
+    let words = header::comment(model, "").replace("--", "- -");
+    let xml = fill.clone().set("header", words).render(MODEL);
+    let test = fill
+        .set("header", header::comment(model, "# "))
+        .render(SELFTEST);
+    Ok(vec![
+        File::text(format!("{name}_friction.xml"), xml),
+        File::text(format!("{name}_selftest.py"), test),
+    ])
+}
+
+/// The law, if MuJoCo has it.
+fn simple(model: &Model) -> Result<LuGre<f64>, Error> {
+    let refuse = |law| Error::Law {
+        target: "mujoco",
+        law,
+        allowed: "lugre, the same in both directions, with a Stribeck exponent of 2",
+    };
+    let Friction::LuGre(law) = model.friction else {
+        return Err(refuse(model.law()));
+    };
+    let curve = law.curve();
+    if curve.positive() != curve.negative() {
+        return Err(refuse("lugre, asymmetric"));
+    }
+    if curve.shape() != Shape::Gaussian {
+        return Err(refuse("lugre with another Stribeck exponent"));
+    }
+    Ok(law)
+}
+
+fn rows(law: &LuGre<f64>, vectors: &Vectors<f64>, h: f64) -> String {
+    let mut z = 0.0;
+    let rows: Vec<String> = vectors
+        .rows
+        .iter()
+        .map(|row| {
+            let force = law.force(z, row.velocity);
+            z = law.step_held(z, h, row.velocity);
+            format!("    ({}, {}, {}),", row.velocity.c(), force.c(), z.c())
+        })
+        .collect();
+    rows.join("\n")
+}

@@ -1,0 +1,59 @@
+//! A `no_std` crate with the numbers of the model, on `stiction-friction` itself.
+
+use crate::number::Literal;
+use crate::template::Fill;
+use crate::vectors::Vectors;
+use crate::{Error, File, Model, header, law};
+
+const MANIFEST: &str = include_str!("../templates/rust/Cargo.toml.in");
+const LIBRARY: &str = include_str!("../templates/rust/lib.rs.in");
+const SELFTEST: &str = include_str!("../templates/rust/selftest.rs.in");
+
+/// Error allowed in the self-test, of the largest force.
+const TOLERANCE: f64 = 1e-12;
+
+pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
+    let vectors = Vectors::<f64>::new(model, "f64")?;
+    let compensator = model.compensator::<f64>(&model.settings, "f64")?;
+    let name = model.identifier.to_ascii_lowercase();
+    let mut fill = Fill::default();
+    fill.set("crate", format!("{}-friction", name.replace('_', "-")))
+        .set("module", format!("{name}_friction"))
+        .set("repository", env!("CARGO_PKG_REPOSITORY"))
+        .set("version", env!("CARGO_PKG_VERSION"))
+        .set("v_unit", model.speed_unit())
+        .set("x_unit", model.length_unit())
+        .set("f_unit", model.force_unit())
+        .flag("watchdog", model.settings.watchdog.is_some());
+    law::fill(&mut fill, compensator.friction(), f64::c);
+    let mut test = fill.clone();
+    law::settings(&mut fill, compensator.settings(), f64::c);
+    law::settings(&mut test, &vectors.settings, f64::c);
+    test.set("rows", rows(&vectors))
+        .set("count", vectors.rows.len().to_string())
+        .set("tolerance", (TOLERANCE * vectors.scale(model)).c());
+    let manifest = fill
+        .clone()
+        .set("header", header::comment(model, "# "))
+        .render(MANIFEST);
+    let library = fill
+        .set("header", header::comment(model, "//! "))
+        .render(LIBRARY);
+    Ok(vec![
+        File::text("Cargo.toml", manifest),
+        File::text("src/lib.rs", library),
+        File::text("tests/selftest.rs", test.render(SELFTEST)),
+    ])
+}
+
+fn rows(vectors: &Vectors<f64>) -> String {
+    let rows: Vec<String> = vectors
+        .rows
+        .iter()
+        .map(|row| {
+            let (v, e, f) = (row.velocity.c(), row.error.c(), row.force.c());
+            format!("    ({v}, {e}, {}, {f}),", row.enable)
+        })
+        .collect();
+    rows.join("\n")
+}

@@ -1,0 +1,163 @@
+//! IEC 61131-3 Structured Text: a function block and a test program, in LREAL and in REAL; the text itself, or wrapped
+//! in the files of TwinCAT and PLCopen.
+
+mod plcopen;
+mod twincat;
+
+use crate::model::cast;
+use crate::number::Literal;
+use crate::template::Fill;
+use crate::vectors::Vectors;
+use crate::{Error, File, Model, header, law};
+
+const DECLARATION: &str = include_str!("../templates/st/block.declaration.in");
+const BODY: &str = include_str!("../templates/st/block.body.in");
+const TEST_DECLARATION: &str = include_str!("../templates/st/test.declaration.in");
+const TEST_BODY: &str = include_str!("../templates/st/test.body.in");
+
+/// How a number type is called, and what it can hold.
+struct Precision {
+    suffix: &'static str,
+    real: &'static str,
+    /// Largest velocity and tracking error that are taken for one: no product of them overflows.
+    huge: &'static str,
+    /// Arguments at which exp(-x^2), exp(-x) and exp(-exp(x)) have vanished.
+    ends: [&'static str; 3],
+    /// Terms of exp(-a) - 1 below a = 0.3.
+    terms: u32,
+    tolerance: f64,
+}
+
+const LREAL: Precision = Precision {
+    suffix: "",
+    real: "LREAL",
+    huge: "1.0E15",
+    ends: ["26.0", "700.0", "6.5"],
+    terms: 13,
+    tolerance: 1e-12,
+};
+
+const REAL: Precision = Precision {
+    suffix: "_R",
+    real: "REAL",
+    huge: "1.0E12",
+    ends: ["9.0", "87.0", "4.4"],
+    terms: 7,
+    tolerance: 2e-6,
+};
+
+/// A program organisation unit: head with variables, then statements.
+struct Unit {
+    name: String,
+    program: bool,
+    declaration: String,
+    body: String,
+}
+
+impl Unit {
+    fn text(&self) -> String {
+        let end = if self.program {
+            "END_PROGRAM"
+        } else {
+            "END_FUNCTION_BLOCK"
+        };
+        format!("{}{}{end}\n", self.declaration, self.body)
+    }
+}
+
+/// Plain text, a unit a file.
+pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
+    let units = units(model)?;
+    Ok(units
+        .iter()
+        .map(|unit| File::text(format!("{}.st", unit.name), unit.text()))
+        .collect())
+}
+
+/// TwinCAT 3, a unit a file.
+pub(crate) fn twincat(model: &Model) -> Result<Vec<File>, Error> {
+    Ok(units(model)?.iter().map(twincat::file).collect())
+}
+
+/// PLCopen TC6 XML, one file.
+pub(crate) fn plcopen(model: &Model) -> Result<Vec<File>, Error> {
+    let text = plcopen::project(model, &units(model)?);
+    Ok(vec![File::text(
+        format!("{}_friction.xml", model.identifier),
+        text,
+    )])
+}
+
+fn units(model: &Model) -> Result<Vec<Unit>, Error> {
+    let mut units = Vec::new();
+    units.extend(precision::<f64>(model, &LREAL)?);
+    units.extend(precision::<f32>(model, &REAL)?);
+    Ok(units)
+}
+
+fn precision<T: Literal>(model: &Model, precision: &Precision) -> Result<[Unit; 2], Error> {
+    let vectors = Vectors::<T>::new(model, precision.real)?;
+    let compensator = model.compensator::<T>(&model.settings, precision.real)?;
+    let mut fill = Fill::default();
+    fill.set("header", header::comment(model, ""))
+        .set("name", model.identifier.clone())
+        .set("suffix", precision.suffix)
+        .set("REAL", precision.real)
+        .set("huge", precision.huge)
+        .set("gaussian_end", precision.ends[0])
+        .set("exp_end", precision.ends[1])
+        .set("power_end", precision.ends[2])
+        .set("series", series(precision.terms))
+        .set("v_unit", model.speed_unit())
+        .set("x_unit", model.length_unit())
+        .set("f_unit", model.force_unit());
+    law::fill(&mut fill, compensator.friction(), T::st);
+    let mut test = fill.clone();
+    law::settings(&mut fill, compensator.settings(), T::st);
+    law::settings::<T>(&mut test, &cast(&vectors.settings), T::st);
+    let tolerance = T::from_f64(precision.tolerance * vectors.scale(model));
+    test.set("rows", rows(&vectors))
+        .set("count", vectors.rows.len().to_string())
+        .set("tolerance", tolerance.st());
+    let (name, suffix) = (&model.identifier, precision.suffix);
+    Ok([
+        Unit {
+            name: format!("FB_{name}_Friction{suffix}"),
+            program: false,
+            declaration: fill.render(DECLARATION),
+            body: fill.render(BODY),
+        },
+        Unit {
+            name: format!("PRG_{name}_FrictionTest{suffix}"),
+            program: true,
+            declaration: test.render(TEST_DECLARATION),
+            body: test.render(TEST_BODY),
+        },
+    ])
+}
+
+/// `exp(-a) - 1 = -a (1 - a/2 (1 - a/3 (...)))`, innermost first.
+fn series(terms: u32) -> String {
+    let mut lines = vec![format!("                e := 1.0 - a / {terms}.0;")];
+    lines.extend(
+        (2..terms)
+            .rev()
+            .map(|k| format!("                e := 1.0 - a / {k}.0 * e;")),
+    );
+    lines.push("                e := -a * e;".into());
+    lines.join("\n")
+}
+
+fn rows<T: Literal>(vectors: &Vectors<T>) -> String {
+    let rows: Vec<String> = vectors
+        .rows
+        .iter()
+        .enumerate()
+        .map(|(i, row)| {
+            let (v, x, force) = (row.velocity.st(), row.error.st(), row.force.st());
+            let on = if row.enable { "TRUE" } else { "FALSE" };
+            format!("    {i}: v := {v}; x := {x}; on := {on}; due := {force};")
+        })
+        .collect();
+    rows.join("\n")
+}

@@ -1,0 +1,78 @@
+//! The targets and what each consists of.
+
+use crate::{Error, Model, c, check, mujoco, rust, st};
+
+/// A form that the compensator is written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// C99, in double and single precision.
+    C,
+    /// IEC 61131-3 Structured Text, LREAL and REAL.
+    St,
+    /// The same as TwinCAT 3 objects.
+    TcPou,
+    /// The same as PLCopen TC6 XML.
+    PlcOpen,
+    /// A `no_std` crate on `stiction-friction`.
+    Rust,
+    /// The friction of a joint in MuJoCo 4.
+    Mujoco,
+}
+
+/// A file of an export.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct File {
+    /// Path relative to the folder of the export, parts separated by `/`.
+    pub path: String,
+    /// Content.
+    pub bytes: Vec<u8>,
+}
+
+impl File {
+    pub(crate) fn text(path: impl Into<String>, text: String) -> Self {
+        File {
+            path: path.into(),
+            bytes: text.into_bytes(),
+        }
+    }
+}
+
+impl Target {
+    /// All of them.
+    pub const ALL: [Target; 6] = [
+        Target::C,
+        Target::St,
+        Target::TcPou,
+        Target::PlcOpen,
+        Target::Rust,
+        Target::Mujoco,
+    ];
+
+    /// Name as typed.
+    pub fn name(self) -> &'static str {
+        match self {
+            Target::C => "c",
+            Target::St => "st",
+            Target::TcPou => "tcpou",
+            Target::PlcOpen => "plcopen",
+            Target::Rust => "rust",
+            Target::Mujoco => "mujoco",
+        }
+    }
+}
+
+/// The files of a model for a target.
+///
+/// # Errors
+/// Where the model is out of what the target can express: names, numbers, the law.
+pub fn export(model: &Model, target: Target) -> Result<Vec<File>, Error> {
+    check::check(model)?;
+    match target {
+        Target::C => c::files(model),
+        Target::St => st::files(model),
+        Target::TcPou => st::twincat(model),
+        Target::PlcOpen => st::plcopen(model),
+        Target::Rust => rust::files(model),
+        Target::Mujoco => mujoco::files(model),
+    }
+}

@@ -1,0 +1,130 @@
+//! Inputs with the outputs that the exported code has to give, for the self-test of every target.
+
+use crate::{Error, Model};
+use stiction_friction::Real;
+use stiction_friction::compensator::{Friction, Input, Settings, Watchdog};
+
+/// A sample of the self-test.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Row<T> {
+    /// Reference velocity, m/s (rad/s).
+    pub velocity: T,
+    /// Tracking error, m (rad).
+    pub error: T,
+    /// Enable.
+    pub enable: bool,
+    /// The force that is due, N (N m).
+    pub force: T,
+}
+
+/// The self-test: its own settings, so that in a few samples every part of the compensator acts.
+#[derive(Clone, Debug)]
+pub(crate) struct Vectors<T> {
+    pub settings: Settings<f64>,
+    pub rows: Vec<Row<T>>,
+}
+
+/// Error without compensation in the self-test, m (rad); any size does, only ratios count.
+const ERROR: f64 = 1e-5;
+
+impl<T: Real> Vectors<T> {
+    /// Computed with the compensator itself, in the number type of the target.
+    pub(crate) fn new(model: &Model, number_type: &'static str) -> Result<Self, Error> {
+        let settings = settings(model);
+        let mut compensator = model.compensator::<T>(&settings, number_type)?;
+        let rows = motion(model, settings.cycle_time)
+            .into_iter()
+            .map(|(velocity, error, enable)| {
+                let (velocity, error) = (T::from_f64(velocity), T::from_f64(error));
+                let force = compensator.step(Input {
+                    reference_velocity: velocity,
+                    measured_velocity: T::ZERO,
+                    tracking_error: error,
+                    enable,
+                });
+                Row {
+                    velocity,
+                    error,
+                    enable,
+                    force,
+                }
+            })
+            .collect();
+        Ok(Vectors { settings, rows })
+    }
+
+    /// What errors are measured by, N (N m): static friction, or the largest force of the test if larger.
+    pub(crate) fn scale(&self, model: &Model) -> f64 {
+        let forces = self.rows.iter().map(|row| row.force.to_f64().abs());
+        forces.fold(model.scale(), f64::max)
+    }
+}
+
+/// Limits that bite, a ramp of five cycles, a watchdog that learns and trips within the test.
+fn settings(model: &Model) -> Settings<f64> {
+    let h = model.settings.cycle_time;
+    let scale = model.scale();
+    let limit = if scale > 0.0 {
+        round(1.1 * scale).min(model.settings.limit)
+    } else {
+        model.settings.limit
+    };
+    Settings {
+        cycle_time: h,
+        gain: 0.9,
+        dead_zone: round(1e-3 * speed(model)),
+        limit,
+        slew: round(limit / (4.0 * h)),
+        ramp: round(5.0 * h),
+        adaptation: None,
+        watchdog: Some(Watchdog {
+            window: round(10.0 * h),
+            ratio: 1.0,
+        }),
+    }
+}
+
+/// A speed at which the law changes, m/s (rad/s).
+fn speed(model: &Model) -> f64 {
+    match &model.friction {
+        Friction::Coulomb(_) => 0.01,
+        Friction::Stribeck(curve) => curve.positive().stribeck_velocity,
+        Friction::LuGre(law) => law.curve().positive().stribeck_velocity,
+    }
+}
+
+/// Velocity, tracking error, enable.
+fn motion(model: &Model, h: f64) -> Vec<(f64, f64, bool)> {
+    let v = speed(model);
+    // A cycle of this speed moves the bristles by a part of their length.
+    let small = match &model.friction {
+        Friction::LuGre(law) => v.min(0.3 * law.bound() / h),
+        _ => 0.1 * v,
+    };
+    let mut rows = Vec::new();
+    let mut add = |n: usize, error: f64, enable: bool, at: &dyn Fn(f64) -> f64| {
+        rows.extend((0..n).map(|k| (round(at(k as f64)), error, enable)));
+    };
+    let sine = |k: f64, cycles: f64| libm::sin(2.0 * core::f64::consts::PI * k / cycles);
+    add(2, 0.0, false, &|_| 0.0);
+    // The watchdog learns, then compensation comes in.
+    add(14, ERROR, false, &|_| v);
+    add(12, 0.5 * ERROR, true, &|_| v);
+    add(40, 0.5 * ERROR, true, &|k| 3.0 * v * sine(k, 25.0));
+    add(30, 0.5 * ERROR, true, &|k| small * sine(k, 12.0));
+    add(5, 0.5 * ERROR, true, &|_| 0.0);
+    add(6, 0.5 * ERROR, true, &|_| 50.0 * v);
+    add(6, 0.5 * ERROR, true, &|_| -50.0 * v);
+    // Inside the dead zone.
+    add(4, 0.5 * ERROR, true, &|_| -5e-4 * v);
+    add(12, ERROR, false, &|_| -2.0 * v);
+    add(10, 0.5 * ERROR, true, &|_| -2.0 * v);
+    // Worse than without: the watchdog trips.
+    add(10, 3.0 * ERROR, true, &|_| 0.3 * v);
+    rows
+}
+
+/// Four digits are enough for a test and can be read.
+fn round(x: f64) -> f64 {
+    format!("{x:.3e}").parse().unwrap_or(x)
+}

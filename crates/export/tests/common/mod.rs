@@ -1,0 +1,150 @@
+//! Models, and motions that a compensator does not like.
+#![allow(dead_code)]
+
+use rand::{Rng, RngExt, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use stiction_export::{Model, Parameter, Provenance};
+use stiction_friction::compensator::{Friction, Input, Settings, Watchdog};
+use stiction_friction::{CoulombViscous, Damping, Direction, LuGre, Shape, Stribeck};
+
+fn side(
+    coulomb: f64,
+    static_friction: f64,
+    stribeck_velocity: f64,
+    viscous: f64,
+) -> Direction<f64> {
+    Direction {
+        coulomb,
+        static_friction,
+        stribeck_velocity,
+        viscous,
+    }
+}
+
+/// Bristles with a curve of its own in each direction.
+pub fn lugre(shape: Shape<f64>) -> LuGre<f64> {
+    let (pos, neg) = (side(20.0, 31.0, 5e-3, 60.0), side(14.0, 17.0, 2e-3, 85.0));
+    let curve = Stribeck::new(shape, pos, neg, -3.0).unwrap();
+    LuGre::new(1.2e5, Damping::Capped(600.0), curve).unwrap()
+}
+
+/// Every law and shape that is exported.
+pub fn laws() -> Vec<(&'static str, Friction<f64>)> {
+    let stage = Stribeck::symmetric(Shape::Gaussian, side(12.0, 18.0, 3e-3, 30.0), 0.0).unwrap();
+    vec![
+        (
+            "lugre",
+            Friction::LuGre(LuGre::new(2e6, Damping::Capped(1.5e3), stage).unwrap()),
+        ),
+        ("gaussian", Friction::LuGre(lugre(Shape::Gaussian))),
+        ("exponential", Friction::LuGre(lugre(Shape::Exponential))),
+        ("power", Friction::LuGre(lugre(Shape::Power(1.3)))),
+        ("lorentzian", Friction::LuGre(lugre(Shape::Lorentzian))),
+        (
+            "stribeck",
+            Friction::Stribeck(*lugre(Shape::Gaussian).curve()),
+        ),
+        (
+            "coulomb",
+            Friction::Coulomb(CoulombViscous::new([20.0, 14.0], [60.0, 85.0], -3.0).unwrap()),
+        ),
+    ]
+}
+
+pub fn model(friction: Friction<f64>) -> Model {
+    Model {
+        title: "X axis".into(),
+        identifier: "x_axis".into(),
+        rotary: false,
+        friction,
+        settings: Settings::new(1e-3, 60.0),
+        parameters: vec![
+            Parameter {
+                name: "sigma0".into(),
+                value: 1.2e5,
+                unit: "N/m".into(),
+                interval: Some([1.1e5, 1.3e5]),
+                identifiable: true,
+            },
+            Parameter {
+                name: "sigma1".into(),
+                value: 600.0,
+                unit: "N s/m".into(),
+                interval: None,
+                identifiable: false,
+            },
+        ],
+        notes: vec![],
+        provenance: Provenance {
+            version: "0.0.0".into(),
+            model_sha256: "00".repeat(32),
+            inputs: vec![("log.csv".into(), "11".repeat(32))],
+        },
+    }
+}
+
+/// Settings with which everything acts.
+pub fn busy() -> Settings<f64> {
+    Settings {
+        gain: 0.9,
+        dead_zone: 1e-5,
+        limit: 33.0,
+        slew: 8000.0,
+        ramp: 0.02,
+        watchdog: Some(Watchdog {
+            window: 0.5,
+            ratio: 1.0,
+        }),
+        ..Settings::new(1e-3, 60.0)
+    }
+}
+
+pub fn random(seed: u64) -> Xoshiro256PlusPlus {
+    Xoshiro256PlusPlus::seed_from_u64(seed)
+}
+
+/// Samples in runs of a kind each: sines through reversals, standstill, creep, jumps, noise, and, where `wild`, numbers
+/// that are huge, denormal or none. With the time since the sample before, s.
+pub fn adversarial(samples: usize, wild: bool, random: &mut impl Rng) -> Vec<(f64, Input<f64>)> {
+    let mut out = Vec::with_capacity(samples);
+    while out.len() < samples {
+        let kind = random.random_range(0..if wild { 10 } else { 7 });
+        let size = 10f64.powf(random.random_range(-7.0..0.5));
+        let cycles = random.random_range(3.0..300.0);
+        let enable = random.random_range(0..6) != 0;
+        let error = 10f64.powf(random.random_range(-7.0..-5.0));
+        let varying = random.random_range(0..8) == 0;
+        for k in 0..random.random_range(1..400) {
+            let k = f64::from(k);
+            let v = match kind {
+                0 | 1 => size * (k / cycles).sin(),
+                2 => 0.0,
+                3 => size * 1e-3,
+                4 => size * random.random_range(-1.0..1.0),
+                5 => size * [1.0, -1.0, 0.0, 50.0][random.random_range(0..4)],
+                6 => size + 0.1 * size * (k / cycles).sin(),
+                7 => [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1.0][random.random_range(0..4)],
+                8 => f64::from_bits(random.random()),
+                _ => [1e300, -1e155, 5e-324, -1e-310, -0.0, f64::MAX][random.random_range(0..6)],
+            };
+            let h = match kind {
+                8 if varying => f64::from_bits(random.random()),
+                _ if varying => 1e-3 * random.random_range(0.0..3.0),
+                _ => 1e-3,
+            };
+            let tracking_error = match kind {
+                8 if !varying => f64::from_bits(random.random()),
+                _ => error * random.random_range(-1.0..1.0),
+            };
+            let input = Input {
+                reference_velocity: v,
+                measured_velocity: 0.0,
+                tracking_error,
+                enable,
+            };
+            out.push((h, input));
+        }
+    }
+    out.truncate(samples);
+    out
+}

@@ -1,0 +1,101 @@
+//! The text that the receiving engineer reads, of a small model.
+
+mod common;
+
+use common::{laws, model};
+use stiction_export::{Advice, Model, Target, advice, export};
+use stiction_friction::compensator::Friction;
+use stiction_friction::{Damping, LuGre};
+
+/// The friction of the bench stage.
+fn small() -> Model {
+    model(laws().remove(0).1)
+}
+
+#[test]
+fn texts() {
+    for (target, wanted) in [
+        (
+            Target::C,
+            vec!["x_axis_friction.h", "x_axis_friction_f32.c"],
+        ),
+        (Target::St, vec!["FB_x_axis_Friction_R.st"]),
+        (Target::TcPou, vec!["FB_x_axis_Friction.TcPOU"]),
+        (Target::Rust, vec!["Cargo.toml", "src/lib.rs"]),
+        (Target::Mujoco, vec!["x_axis_friction.xml"]),
+    ] {
+        for file in export(&small(), target).unwrap() {
+            if wanted.contains(&file.path.as_str()) {
+                let text = String::from_utf8(file.bytes).unwrap();
+                insta::assert_snapshot!(file.path.replace('/', "_"), text);
+            }
+        }
+    }
+}
+
+/// Every file of every target: ASCII, and at its head the parameters with intervals, the hashes and the notes.
+#[test]
+fn every_file_says_where_it_came_from() {
+    let mut model = small();
+    model.title = "größe */ *) --> ]]> @name@ %if".into();
+    model.notes = vec!["the data do not determine sigma1".into()];
+    for target in Target::ALL {
+        for file in export(&model, target).unwrap() {
+            let text = String::from_utf8(file.bytes).unwrap();
+            assert!(text.is_ascii(), "{}", file.path);
+            // A test program names the block that it tests, which carries the head.
+            if file.path.starts_with("PRG_") || file.path.starts_with("tests/") {
+                continue;
+            }
+            for part in [
+                "sigma0 = 1.200000e5 N/m, 1.1000e5 to 1.3000e5",
+                "NOT determined",
+                "NOTE: the data",
+                "sha256 0000",
+                "sha256 1111",
+            ] {
+                assert!(text.contains(part), "{}: {part}", file.path);
+            }
+        }
+    }
+}
+
+fn codes(model: &Model) -> Vec<&'static str> {
+    advice(model).iter().map(|a: &Advice| a.code).collect()
+}
+
+#[test]
+fn advice_is_given_where_it_applies() {
+    assert_eq!(codes(&small()), [""; 0]);
+    let Friction::LuGre(law) = small().friction else {
+        unreachable!("the small model has bristles")
+    };
+    let change = |stiffness: f64, damping| {
+        let law = LuGre::new(stiffness, damping, *law.curve()).unwrap();
+        Model {
+            friction: Friction::LuGre(law),
+            ..small()
+        }
+    };
+    // Olsson's condition for v to infinity: sigma1 <= sigma2 Fc/(Fs - Fc) = 60 N s/m; nearer to rest more is allowed.
+    assert_eq!(
+        codes(&change(2e6, Damping::Constant(1e3))),
+        ["export-damping"]
+    );
+    assert_eq!(codes(&change(2e6, Damping::Constant(59.0))), [""; 0]);
+    // 18 N / 1e7 N/m = 1.8 um, and 3 um at 3 mm/s for 1 ms.
+    assert_eq!(
+        codes(&change(1e7, Damping::Capped(0.0))),
+        ["export-cycle-time"]
+    );
+    let mut limited = small();
+    limited.settings.limit = 13.4;
+    assert_eq!(codes(&limited), ["export-limit"]);
+    insta::assert_snapshot!(
+        "advice",
+        advice(&change(1e7, Damping::Constant(1e4)))
+            .iter()
+            .map(|a| format!("{}: {}\n", a.code, a.message))
+            .collect::<String>()
+    );
+}
