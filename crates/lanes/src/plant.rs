@@ -97,7 +97,7 @@ pub enum Stepping {
 /// Axes that share the lanes of the midpoint.
 const LANES: usize = 16;
 /// Of the semi-implicit step, which has one long chain of operations a step: more axes fill the gaps in it.
-const WIDE: usize = 32;
+const WIDE: usize = 64;
 
 /// Simulates every axis under the drive. Keep `h sqrt(sigma0/M)` below about 2.
 ///
