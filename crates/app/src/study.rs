@@ -14,6 +14,7 @@ use crate::output::Bundle;
 use crate::report;
 use model::Model;
 use result::StudyFile;
+pub(crate) use run::{Course, Trace};
 use std::path::Path;
 use stiction_friction::LuGre;
 use stiction_friction::compensator::Source;
@@ -121,7 +122,7 @@ pub(crate) enum ModelKind {
 pub struct StudyOutcome {
     /// What goes into `study.json`.
     pub file: StudyFile,
-    pub(crate) traces: Vec<run::Trace>,
+    pub(crate) traces: Vec<Trace>,
 }
 
 impl Study {
@@ -148,7 +149,7 @@ impl Study {
 
 impl StudyOutcome {
     /// The course of the run of a row with exact parameters.
-    pub(crate) fn trace(&self, row: &result::ResultRow) -> Option<&run::Trace> {
+    pub(crate) fn trace(&self, row: &result::ResultRow) -> Option<&Trace> {
         self.traces.iter().find(|t| {
             t.path == row.path && t.controller == row.controller && t.compensator == row.compensator
         })

@@ -1,8 +1,12 @@
 //! Metrics of motions whose errors are known in closed form.
 
 use stiction_servo::axis::Sample;
-use stiction_servo::metrics::{Contour, Tracking, circular_deviation, reversals, velocity_ripple};
+use stiction_servo::metrics::{
+    Contour, Tracking, circular_deviation, reversals, ripple_at_constant_velocity, velocity_ripple,
+};
+use stiction_servo::motion::{Limits, Moves};
 use stiction_servo::path::Reference;
+use stiction_servo::trajectory::Trajectory;
 use stiction_servo::two_axes::PlaneSample;
 
 /// A reference sin(2 pi t), sampled at 1 kHz for 2 s, followed with an error `off(t)` and a velocity `v(t)`.
@@ -117,4 +121,34 @@ fn circular_deviation_is_the_minimum_zone() {
     let width = circular_deviation(&bump);
     assert!((1e-6..=2e-6).contains(&width), "{width}");
     assert_eq!(circular_deviation(&[[0.0, 1.0]; 2]), 0.0);
+}
+
+/// There and back at 20 mm/s, with a velocity that waves by a tenth on the way there and by a fifth on the way back.
+#[test]
+fn ripple_where_the_reference_is_constant() {
+    let limits = Limits {
+        velocity: 0.02,
+        acceleration: 0.5,
+        jerk: 20.0,
+    };
+    let moves = Moves::constant_velocity(1.0, limits).unwrap();
+    let waving: Vec<Sample> = (0..2400)
+        .map(|k| {
+            let time = f64::from(k) * 1e-3;
+            let reference = moves.at(time);
+            let part = if reference.velocity > 0.0 { 0.1 } else { 0.2 };
+            let wave = libm::sin(2.0 * std::f64::consts::PI * 50.0 * time);
+            Sample {
+                time,
+                reference,
+                velocity: reference.velocity * (1.0 + part * wave),
+                ..Sample::default()
+            }
+        })
+        .collect();
+    let ripple = ripple_at_constant_velocity(&waving).unwrap();
+    assert!((ripple - 0.2 / 2f64.sqrt()).abs() < 2e-3, "{ripple}");
+    // Ramps alone are no constant velocity, nor is standstill.
+    assert_eq!(ripple_at_constant_velocity(&waving[..30]), None);
+    assert_eq!(ripple_at_constant_velocity(&[]), None);
 }

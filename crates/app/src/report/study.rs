@@ -2,6 +2,7 @@
 
 use crate::study::StudyOutcome;
 use crate::study::result::{MetricEntry, ResultRow, SimulatedAxis, StudyFile};
+use crate::study::{Course, Trace};
 use crate::symbols;
 use stiction_log::Motion;
 use stiction_report::{
@@ -45,11 +46,8 @@ pub(crate) fn study(outcome: &StudyOutcome) -> Document {
             .heading(2, format!("{}, {}", rows[0].path, rows[0].controller))
             .block(table(rows));
         if i < MOST_FIGURES {
-            let figures = [in_time(outcome, rows), wrong(rows)];
-            document = figures
-                .into_iter()
-                .flatten()
-                .fold(document, |d, f| d.block(f));
+            let figures = in_time(outcome, rows).into_iter().chain(wrong(rows));
+            document = figures.fold(document, |d, f| d.block(f));
         }
     }
     document
@@ -67,7 +65,8 @@ const MEANING: [&str; 6] = [
     "Reduction: by how much the error at reversals is below that without compensation, on the same \
      path and under the same controller; where a path has no reversal, the largest error.",
     "Worst: the same for the worst set of parameters.",
-    "Command change: rms change of the force from sample to sample.",
+    "Δu: rms change of the commanded force from sample to sample. Still: longest standstill about a \
+     reversal.",
     "Wrong parameters are those of the compensator; the axis keeps its own. A mass that is drawn \
      with them is the one fed forward.",
 ];
@@ -151,16 +150,15 @@ fn table(rows: &[ResultRow]) -> Table {
     let mut table = Table::new([
         ("Compensator", Align::Left),
         ("Parameters", Align::Left),
-        ("Runs", Align::Right),
         ("Rms", Align::Right),
         ("Largest", Align::Right),
         ("At reversals", Align::Right),
         ("Reduction", Align::Right),
         ("Worst", Align::Right),
-        ("Command change", Align::Right),
-        ("Stands still", Align::Right),
+        ("Δu", Align::Right),
+        ("Still", Align::Right),
     ])
-    .caption("Tracking; means over the runs of a row, and the worst of them.");
+    .caption("Tracking error; means over the runs of a row, and the worst of them.");
     for row in rows {
         let value = |name: &str| {
             let metric = row.metric(name);
@@ -177,7 +175,6 @@ fn table(rows: &[ResultRow]) -> Table {
         let cells = [
             Text::from(row.compensator.as_str()),
             Text::from(format!("{}{switched}", row.parameters)),
-            Text::from(row.runs.to_string()),
             value("rms_error"),
             value("peak_error"),
             value("reversal_peak"),
@@ -216,9 +213,30 @@ pub(crate) fn quantity(x: f64, unit: &str) -> String {
     )
 }
 
-/// Error and compensating force with the parameters of the axis, before and after.
-fn in_time(outcome: &StudyOutcome, rows: &[ResultRow]) -> Option<Figure> {
+/// Error and compensating force with the parameters of the axis: over all that counts, and about a reversal.
+fn in_time(outcome: &StudyOutcome, rows: &[ResultRow]) -> Vec<Figure> {
+    let traces: Vec<&Trace> = rows
+        .iter()
+        .filter(|r| r.parameters == "exact")
+        .filter_map(|r| outcome.trace(r))
+        .collect();
     let motion = motion(&outcome.file.axis);
+    let caption = "The part of the run that counts, with the parameters of the axis itself.";
+    let mut figures =
+        vec![courses("Tracking error", &traces, motion, &|t| &t.whole).caption(caption)];
+    if traces.iter().any(|t| !t.reversal.time.is_empty()) {
+        let title = "The same about a reversal";
+        figures.push(courses(title, &traces, motion, &|t| &t.reversal));
+    }
+    figures
+}
+
+fn courses(
+    title: &str,
+    traces: &[&Trace],
+    motion: Motion,
+    of: &dyn Fn(&Trace) -> &Course,
+) -> Figure {
     let length = symbols::length_unit(motion);
     let force = match motion {
         Motion::Linear => "N",
@@ -228,30 +246,22 @@ fn in_time(outcome: &StudyOutcome, rows: &[ResultRow]) -> Option<Figure> {
     let mut reference = Panel::new(time(), Axis::new("Reference", length)).height(80.0);
     let mut error = Panel::new(time(), Axis::new("Error", length)).height(220.0);
     let mut added = Panel::new(time(), Axis::new("Compensating force", force)).height(130.0);
-    let exact = rows.iter().filter(|r| r.parameters == "exact");
-    let mut drawn = 0;
-    for row in exact.take(COLORS.len()) {
-        let trace = outcome.trace(row)?;
-        let color = COLORS[drawn];
-        if drawn == 0 {
-            let line = Layer::line(trace.time.clone(), trace.reference.clone());
-            reference = reference.layer(line.color(Color::Grey));
+    for (i, (trace, color)) in traces.iter().zip(COLORS).enumerate() {
+        let course = of(trace);
+        let line = |y: &[f64]| Layer::line(course.time.clone(), y);
+        if i == 0 {
+            reference = reference.layer(line(&course.reference).color(Color::Grey));
+        } else {
+            added = added.layer(line(&course.compensation).color(color).width(1.0));
         }
-        let line = |y: &[f64]| Layer::line(trace.time.clone(), y).color(color);
-        error = error.layer(line(&trace.error).label(row.compensator.as_str()));
-        if row.compensator != "none" {
-            added = added.layer(line(&trace.compensation).width(1.0));
-        }
-        drawn += 1;
+        let line = line(&course.error).color(color);
+        error = error.layer(line.label(trace.compensator.as_str()));
     }
-    let mut figure = Figure::new("Tracking error, parameters exact")
-        .panel(reference)
-        .panel(error)
-        .shared_x();
-    if drawn > 1 {
-        figure = figure.panel(added);
+    let figure = Figure::new(title).panel(reference).panel(error).shared_x();
+    match traces.len() {
+        0 | 1 => figure,
+        _ => figure.panel(added),
     }
-    Some(figure.caption("The part of the run that counts."))
 }
 
 const COLORS: [Color; 7] = [

@@ -79,7 +79,7 @@ impl Model {
         ];
         Some(Model {
             motion,
-            origin: format!("known axis {}: {}", axis.name, axis.source),
+            origin: format!("Known axis {}: {}", axis.name, axis.source),
             parameters,
             covariance: None,
             warnings: Vec::new(),

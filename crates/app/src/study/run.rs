@@ -19,7 +19,7 @@ use stiction_servo::axis::{Axis, AxisSettings, Sample};
 use stiction_servo::controller::Controller;
 use stiction_servo::feedforward::Feedforward;
 use stiction_servo::integrator::Quick;
-use stiction_servo::metrics::{Tracking, ripple_at_constant_velocity};
+use stiction_servo::metrics::{Tracking, reversals, ripple_at_constant_velocity};
 use stiction_servo::run::follow;
 
 /// Points of a trace that are kept: more than a figure can show.
@@ -47,6 +47,15 @@ pub(crate) struct Trace {
     pub path: String,
     pub controller: String,
     pub compensator: String,
+    /// All that counts.
+    pub whole: Course,
+    /// About the last reversal but one; empty without.
+    pub reversal: Course,
+}
+
+/// Signals over time, thinned to what a figure can show.
+#[derive(Default)]
+pub(crate) struct Course {
     /// s
     pub time: Vec<f64>,
     /// m (rad)
@@ -387,17 +396,30 @@ impl ModelScheme {
 }
 
 impl Trace {
-    /// The samples thinned to what a figure can show: of each stretch the least and the largest error.
     fn of(study: &Study, job: Job, samples: &[Sample]) -> Self {
-        let mut trace = Trace {
+        let instants = reversals(samples);
+        let about = match instants[..] {
+            [.., t, next] => {
+                let way = next - t;
+                let place = |time: f64| samples.partition_point(|s| s.time < time);
+                &samples[place(t - 0.05 * way)..place(t + 0.4 * way)]
+            }
+            _ => &[],
+        };
+        Trace {
             path: study.paths[job.path].name.clone(),
             controller: study.controllers[job.controller].name.clone(),
             compensator: study.compensators[job.compensator].name.clone(),
-            time: Vec::new(),
-            reference: Vec::new(),
-            error: Vec::new(),
-            compensation: Vec::new(),
-        };
+            whole: Course::of(samples),
+            reversal: Course::of(about),
+        }
+    }
+}
+
+impl Course {
+    /// Of each stretch the least and the largest error.
+    fn of(samples: &[Sample]) -> Self {
+        let mut course = Course::default();
         for stretch in samples.chunks(samples.len().div_ceil(KEPT / 2).max(1)) {
             let (mut low, mut high) = (0, 0);
             for (i, sample) in stretch.iter().enumerate() {
@@ -410,13 +432,13 @@ impl Trace {
             }
             let ends = [low.min(high), low.max(high)];
             for &i in &ends[usize::from(low == high)..] {
-                trace.time.push(stretch[i].time);
-                trace.reference.push(stretch[i].reference.position);
-                trace.error.push(stretch[i].error());
-                trace.compensation.push(stretch[i].compensation);
+                course.time.push(stretch[i].time);
+                course.reference.push(stretch[i].reference.position);
+                course.error.push(stretch[i].error());
+                course.compensation.push(stretch[i].compensation);
             }
         }
-        trace
+        course
     }
 }
 

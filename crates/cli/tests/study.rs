@@ -1,0 +1,127 @@
+//! `simulate` and `reproduce` as a user or a script meets them.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+const STUDY: &str = r#"
+[axis]
+known      = "motor"
+rate       = "2 kHz"
+peak_force = "200 N"
+
+[[path]]
+kind      = "sine"
+amplitude = "1 mm"
+frequency = "2 Hz"
+
+[[controller]]
+kind      = "cascade"
+bandwidth = "40 Hz"
+
+[[compensator]]
+kind     = "lugre"
+watchdog = false
+"#;
+
+fn command(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_stiction"));
+    command
+        .args(arguments)
+        .current_dir(folder)
+        .stdin(Stdio::null());
+    command
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let output = command(folder, arguments).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (
+        output.status.code().unwrap_or(-1),
+        text(output.stdout),
+        text(output.stderr),
+    )
+}
+
+#[test]
+fn a_study_from_a_clean_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("study.toml"), STUDY).unwrap();
+    let (code, out, err) = run(at, &["simulate", "study.toml", "--out", "a"]);
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    assert!(out.contains("sine, cascade 40 Hz"), "{out}");
+    assert!(
+        out.ends_with("written to a: report.html, study.json\n"),
+        "{out}"
+    );
+    // Again into the same folder, as JSON: the same file.
+    let before = std::fs::read_to_string(at.join("a/study.json")).unwrap();
+    let (code, out, _) = run(at, &["simulate", "study.toml", "--out", "a", "--json"]);
+    assert_eq!((code, out), (0, before));
+    // What another command wrote is not replaced, nor is the study itself.
+    let (code, _, err) = run(at, &["reproduce", "1995", "--out", "a"]);
+    assert_eq!(code, 2);
+    assert!(
+        err.starts_with("stiction: [output] a: is not empty"),
+        "{err}"
+    );
+    std::fs::create_dir(at.join("b")).unwrap();
+    std::fs::write(at.join("b/study.json"), STUDY).unwrap();
+    let arguments = ["simulate", "b/study.json", "--out", "b", "--force"];
+    let (code, _, err) = run(at, &arguments);
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("is an input"), "{err}");
+    let (code, _, err) = run(at, &["simulate", "none.toml", "--out", "c"]);
+    assert_eq!(code, 2);
+    assert!(
+        err.starts_with("stiction: [bad-config] none.toml: "),
+        "{err}"
+    );
+    assert!(!at.join("c").exists());
+}
+
+/// Ctrl-C in the middle: the rows that are done are written.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_keeps_the_runs_that_are_done() {
+    let folder = tempfile::tempdir().unwrap();
+    let long = STUDY.replace("2 Hz", "0.05 Hz")
+        + "\n[[parameter_error]]\nkind = \"corners\"\nby = \"10 %\"\n";
+    std::fs::write(folder.path().join("study.toml"), long).unwrap();
+    let arguments = ["simulate", "study.toml", "--out", "a", "--threads", "1"];
+    let mut child = command(folder.path(), &arguments)
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    assert!(
+        child.try_wait().unwrap().is_none(),
+        "the study is too short to interrupt"
+    );
+    let id = child.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-INT", &id])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    let text = std::fs::read_to_string(folder.path().join("a/study.json")).unwrap();
+    let file: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(file["status"], "interrupted");
+}
+
+#[test]
+fn the_experiments_of_1995() {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, out, err) = run(folder.path(), &["reproduce", "1995", "--out", "a"]);
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    insta::assert_snapshot!(out);
+    let text = std::fs::read_to_string(folder.path().join("a/reproduce.json")).unwrap();
+    let file: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(file["all_within"], true);
+    assert_eq!(file["checks"].as_array().unwrap().len(), 49);
+    assert!(folder.path().join("a/report.html").is_file());
+}
