@@ -63,9 +63,6 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
     for block in procedure::sections(outcome) {
         document = document.block(block);
     }
-    for block in searched::sections(outcome) {
-        document = document.block(block);
-    }
     // Points of a map and displacements are no force sample by sample.
     let sampled = matches!(result.method.as_str(), "separable" | "static-then-dynamic")
         || result.searched.is_some();
@@ -91,6 +88,9 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
         document = document
             .heading(2, "How sure")
             .block(figures::correlation(outcome));
+    }
+    for block in searched::sections(outcome) {
+        document = document.block(block);
     }
     document = document.heading(2, "What was read, and how it was conditioned");
     for input in &result.inputs {

@@ -178,7 +178,7 @@ fn course(runs: &[Steps], whole: bool) -> Course {
     let firsts = runs.iter().filter_map(|run| run.first());
     let first = firsts.map(|s| s.0).fold(0.0, f64::max);
     let mut out = Course::default();
-    if runs.is_empty() || runs.iter().any(Vec::is_empty) || !(first > 0.0) {
+    if runs.is_empty() || runs.iter().any(Vec::is_empty) || first <= 0.0 {
         return out;
     }
     let ratio = libm::log(last / first) / (GRID - 1) as f64;

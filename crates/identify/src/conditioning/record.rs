@@ -290,6 +290,7 @@ pub(crate) mod tests {
                 step,
                 velocity: velocity.to_vec(),
                 position: vec![0.0; velocity.len()],
+                reading: Vec::new(),
                 acceleration: vec![0.0; velocity.len()],
                 drive: vec![0.0; velocity.len()],
                 valid: vec![true; velocity.len()],

@@ -127,8 +127,8 @@ fn differs(a: &Settings, b: &Settings) -> Option<(&'static str, String, String)>
         ("samples", a.samples.to_string(), b.samples.to_string()),
         (
             "law, axis or box of SHA-256",
-            short(&[a.axis.clone()]),
-            short(&[b.axis.clone()]),
+            short(std::slice::from_ref(&a.axis)),
+            short(std::slice::from_ref(&b.axis)),
         ),
     ];
     all.into_iter().find(|(_, a, b)| a != b)
