@@ -163,7 +163,7 @@ fn gradients_are_slopes_whatever_stands_beside_the_law() {
     };
     let filtered = Conditioning {
         common_cutoff: Cutoff::Hz(100.0),
-        ..none.clone()
+        ..none
     };
     for conditioning in [none, filtered] {
         let record = condition(&log, &conditioning).unwrap();
