@@ -76,11 +76,11 @@ pub struct CompareOptions {
     pub seeds: u64,
     /// Most evaluations of a run.
     pub evaluations: u64,
-    /// Noise of a made record; `None` takes [`NOISE`].
+    /// Noise of a made record; `None` takes `NOISE`.
     pub noise: Option<f64>,
     /// Motion of a made record.
     pub excitation: Option<Excitation>,
-    /// Sample rate of a made record, Hz; `None` takes [`RATE`].
+    /// Sample rate of a made record, Hz; `None` takes `RATE`.
     pub rate: Option<f64>,
     /// Whether a made record follows another law than the one that is fitted.
     pub other_law: bool,

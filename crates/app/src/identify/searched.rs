@@ -45,7 +45,7 @@ pub struct Searching {
     /// What it evaluates; `None` takes six for the genetic algorithms of the publication where the law
     /// allows it, separable for all else.
     pub cost: Option<CostKind>,
-    /// Most evaluations of the full record; `None` takes [`EVALUATIONS`].
+    /// Most evaluations of the full record; `None` takes `EVALUATIONS`.
     pub evaluations: Option<u64>,
     /// Stop at this cost: the square of the relative error.
     pub target: Option<f64>,
