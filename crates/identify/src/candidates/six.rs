@@ -22,7 +22,7 @@ use stiction_search::{Bounds, CostsOnly, Derivatives, Fidelity, Points, Problem}
 /// // 20 N of Coulomb and 60 N s/m of viscous friction behind a stiff bristle.
 /// let time: Vec<f64> = (0..2000).map(|i| 1e-3 * f64::from(i)).collect();
 /// let velocity: Vec<f64> = time.iter().map(|t| 0.05 * (12.0 * t).sin()).collect();
-/// let force = velocity.iter().map(|v| 20.0 * (v / 1e-3).tanh() + 60.0 * v).collect();
+/// let force = velocity.iter().map(|v| 20.0 * (v / 1e-5).tanh() + 60.0 * v).collect();
 /// let log = Samples { time, velocity: Some(velocity), force, ..Samples::default() };
 /// let raw = Conditioning {
 ///     source_cutoff: Cutoff::Off,
