@@ -6,7 +6,7 @@
 //! it is made with the noise of the log, and every pair of cut-offs is tried on that, where the truth
 //! is known. The best pair is used, and the whole repeated from the better fit until it stays.
 
-use crate::conditioning::record::Samples;
+use crate::conditioning::record::{Record, Samples};
 use crate::conditioning::{Conditioning, Cutoff, Source, condition};
 use crate::error::Error;
 use crate::estimate::{Estimate, estimate};
@@ -29,9 +29,9 @@ const START: (i32, i32) = (6, 2);
 /// Cut-off of the common filter below that of the position, in the same steps.
 const BELOW: std::ops::RangeInclusive<i32> = 1..=6;
 
-/// Part of the samples left by the cut-offs of the sample rate that any others must leave: on a short
-/// log the ends of a slow filter are most of it, and laws with more unknowns need what is left.
-const LEAST_LEFT: f64 = 0.75;
+/// Thinned samples that cut-offs must leave, or as many as the default ones leave if that is fewer: a
+/// slow filter takes most of a short log, and a law with many elements asks for ten for each unknown.
+const ENOUGH: usize = 300;
 
 /// Cut-offs and how they did.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,7 +84,7 @@ pub fn tune(
     }
     let untuned = condition(logs, wanted)?;
     let rate = 1.0 / untuned.step();
-    let least = LEAST_LEFT * untuned.kept() as f64;
+    let least = untuned.kept().min(ENOUGH);
     let mut at = START;
     for round in 0..ROUNDS {
         let trial = cutoffs(wanted, rate, at);
@@ -155,7 +155,7 @@ fn cutoffs(wanted: &Conditioning, rate: f64, (source, below): (i32, i32)) -> Con
 /// A walk over the scale, downhill in the error on the replicas.
 struct Walk<'a> {
     logs: &'a [Samples],
-    least: f64,
+    least: usize,
     fitted: &'a Estimate,
     replicas: &'a [Replica],
     wanted: &'a Conditioning,
@@ -217,8 +217,8 @@ impl Walk<'_> {
     }
 
     fn tried(&mut self, conditioning: &Conditioning) -> f64 {
-        let left = condition(self.logs, conditioning).map_or(0, |record| record.kept());
-        if (left as f64) < self.least {
+        let enough = |record: Record| record.kept() >= self.least;
+        if !condition(self.logs, conditioning).is_ok_and(enough) {
             return f64::INFINITY;
         }
         let mut sum = 0.0;
