@@ -366,4 +366,6 @@ pub enum Target {
     Rust,
     /// The friction of a joint in MuJoCo 4.
     Mujoco,
+    /// A component of LinuxCNC's HAL.
+    Hal,
 }

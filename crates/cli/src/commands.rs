@@ -287,6 +287,7 @@ fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
             arguments::Target::Plcopen => Target::PlcOpen,
             arguments::Target::Rust => Target::Rust,
             arguments::Target::Mujoco => Target::Mujoco,
+            arguments::Target::Hal => Target::Hal,
         },
         name: export.name.clone(),
         cycle_time: export.cycle_time,

@@ -29,6 +29,7 @@
 mod c;
 mod check;
 mod error;
+mod hal;
 mod header;
 mod identifier;
 mod law;

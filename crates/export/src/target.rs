@@ -1,6 +1,6 @@
 //! The targets and what each consists of.
 
-use crate::{Error, Model, c, check, mujoco, rust, st};
+use crate::{Error, Model, c, check, hal, mujoco, rust, st};
 
 /// A form that the compensator is written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,6 +17,8 @@ pub enum Target {
     Rust,
     /// The friction of a joint in MuJoCo 4.
     Mujoco,
+    /// A component of LinuxCNC's HAL.
+    Hal,
 }
 
 /// A file of an export.
@@ -39,13 +41,14 @@ impl File {
 
 impl Target {
     /// All of them.
-    pub const ALL: [Target; 6] = [
+    pub const ALL: [Target; 7] = [
         Target::C,
         Target::St,
         Target::TcPou,
         Target::PlcOpen,
         Target::Rust,
         Target::Mujoco,
+        Target::Hal,
     ];
 
     /// Name as typed.
@@ -57,6 +60,7 @@ impl Target {
             Target::PlcOpen => "plcopen",
             Target::Rust => "rust",
             Target::Mujoco => "mujoco",
+            Target::Hal => "hal",
         }
     }
 }
@@ -74,5 +78,6 @@ pub fn export(model: &Model, target: Target) -> Result<Vec<File>, Error> {
         Target::PlcOpen => st::plcopen(model),
         Target::Rust => rust::files(model),
         Target::Mujoco => mujoco::files(model),
+        Target::Hal => hal::files(model),
     }
 }

@@ -1,6 +1,8 @@
 //! Models, and motions that a compensator does not like.
 #![allow(dead_code)]
 
+pub mod compiled;
+
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use stiction_export::{Model, Parameter, Provenance};
