@@ -1,5 +1,7 @@
 //! `stiction export`: a model file to the compensator's code.
 
+mod compile;
+
 use crate::error::{Error, Warning};
 use crate::model::ModelFile;
 use crate::output::write_folder;
@@ -65,7 +67,25 @@ pub fn export(options: &ExportOptions, dir: &Path) -> Result<Exported, Error> {
     let (model, mut warnings) = resolve(&file, &bytes, options)?;
     let found = stiction_export::advice(&model);
     warnings.extend(found.into_iter().map(|a| Warning::new(a.code, a.message)));
-    let files = stiction_export::export(&model, options.target)?;
+    let files = match options.target {
+        Target::Fmu => {
+            let mut whole = true;
+            let files = stiction_export::fmu(&model, &mut |source| {
+                let library = compile::shared_library(source);
+                whole &= library.is_some();
+                library
+            })?;
+            if !whole {
+                warnings.push(Warning::new(
+                    "export-source",
+                    "gcc for x86-64 Linux was not found or failed: the FMUs hold their C source and no binary; a tool that runs them has to compile it, \
+                     or install gcc and export again",
+                ));
+            }
+            files
+        }
+        target => stiction_export::export(&model, target)?,
+    };
     write_folder(
         dir,
         files.iter().map(|f| (f.path.as_str(), f.bytes.as_slice())),

@@ -368,4 +368,6 @@ pub enum Target {
     Mujoco,
     /// A component of LinuxCNC's HAL.
     Hal,
+    /// FMUs for co-simulation, FMI 2.0 and 3.0.
+    Fmu,
 }

@@ -288,6 +288,7 @@ fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
             arguments::Target::Rust => Target::Rust,
             arguments::Target::Mujoco => Target::Mujoco,
             arguments::Target::Hal => Target::Hal,
+            arguments::Target::Fmu => Target::Fmu,
         },
         name: export.name.clone(),
         cycle_time: export.cycle_time,

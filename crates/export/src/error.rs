@@ -38,6 +38,12 @@ pub enum Error {
         /// What the target takes.
         allowed: &'static str,
     },
+    /// An archive that cannot be made.
+    #[error("archive: {found}")]
+    Archive {
+        /// What went wrong.
+        found: String,
+    },
 }
 
 impl Error {

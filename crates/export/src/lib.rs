@@ -29,6 +29,8 @@
 mod c;
 mod check;
 mod error;
+mod fmu;
+mod guid;
 mod hal;
 mod header;
 mod identifier;
@@ -44,6 +46,7 @@ mod vectors;
 
 pub use check::{Advice, advice};
 pub use error::Error;
+pub use fmu::{GCC, fmu};
 pub use identifier::{IDENTIFIER_LENGTH, check_identifier, identifier};
 pub use model::{Model, Parameter, Provenance};
 pub use target::{File, Target, export};

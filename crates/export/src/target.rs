@@ -1,6 +1,6 @@
 //! The targets and what each consists of.
 
-use crate::{Error, Model, c, check, hal, mujoco, rust, st};
+use crate::{Error, Model, c, check, fmu, hal, mujoco, rust, st};
 
 /// A form that the compensator is written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +19,8 @@ pub enum Target {
     Mujoco,
     /// A component of LinuxCNC's HAL.
     Hal,
+    /// Functional Mock-up Units for co-simulation, FMI 2.0 and 3.0.
+    Fmu,
 }
 
 /// A file of an export.
@@ -41,7 +43,7 @@ impl File {
 
 impl Target {
     /// All of them.
-    pub const ALL: [Target; 7] = [
+    pub const ALL: [Target; 8] = [
         Target::C,
         Target::St,
         Target::TcPou,
@@ -49,6 +51,7 @@ impl Target {
         Target::Rust,
         Target::Mujoco,
         Target::Hal,
+        Target::Fmu,
     ];
 
     /// Name as typed.
@@ -61,11 +64,12 @@ impl Target {
             Target::Rust => "rust",
             Target::Mujoco => "mujoco",
             Target::Hal => "hal",
+            Target::Fmu => "fmu",
         }
     }
 }
 
-/// The files of a model for a target.
+/// The files of a model for a target; FMUs with their source only, those with a binary are [`fmu`](crate::fmu)'s.
 ///
 /// # Errors
 /// Where the model is out of what the target can express: names, numbers, the law.
@@ -79,5 +83,6 @@ pub fn export(model: &Model, target: Target) -> Result<Vec<File>, Error> {
         Target::Rust => rust::files(model),
         Target::Mujoco => mujoco::files(model),
         Target::Hal => hal::files(model),
+        Target::Fmu => fmu::fmu(model, &mut |_| None),
     }
 }

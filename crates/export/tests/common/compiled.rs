@@ -56,6 +56,7 @@ pub fn drive(dir: &Path, program: &str, samples: &[Sample]) -> Vec<[f64; 2]> {
         .flat_map(f64::to_le_bytes)
         .collect();
     let mut child = Command::new(dir.join(program))
+        .current_dir(dir)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .spawn()

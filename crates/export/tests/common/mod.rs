@@ -5,7 +5,8 @@ pub mod compiled;
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use stiction_export::{Model, Parameter, Provenance};
+use std::io::Read;
+use stiction_export::{File, Model, Parameter, Provenance};
 use stiction_friction::compensator::{Friction, Input, Settings, Watchdog};
 use stiction_friction::{CoulombViscous, Damping, Direction, LuGre, Shape, Stribeck};
 
@@ -149,4 +150,20 @@ pub fn adversarial(samples: usize, wild: bool, random: &mut impl Rng) -> Vec<(f6
     }
     out.truncate(samples);
     out
+}
+
+/// The files in an FMU.
+pub fn parts(archive: &File) -> Vec<File> {
+    let mut zip = zip::ZipArchive::new(std::io::Cursor::new(&archive.bytes)).unwrap();
+    (0..zip.len())
+        .map(|i| {
+            let mut entry = zip.by_index(i).unwrap();
+            let mut bytes = Vec::new();
+            entry.read_to_end(&mut bytes).unwrap();
+            File {
+                path: entry.name().unwrap().into_owned(),
+                bytes,
+            }
+        })
+        .collect()
 }
