@@ -27,6 +27,8 @@ pub struct ExportOptions {
     pub cycle_time: f64,
     /// Largest force, N (N m); twice the static friction and the offset if absent.
     pub limit: Option<f64>,
+    /// Force that the motor is rated for, N (N m); for `tf5200`, and for no other target.
+    pub rated_force: Option<f64>,
 }
 
 /// A compensator that was written.
@@ -61,6 +63,12 @@ const BESIDE: [&str; 4] = ["mass", "delay", "gravity_", "cogging"];
 /// # Errors
 /// When the model cannot be read or exported, or the folder is not free.
 pub fn export(options: &ExportOptions, dir: &Path) -> Result<Exported, Error> {
+    if options.rated_force.is_some() && options.target != Target::Tf5200 {
+        return Err(Error::Usage {
+            found: format!("a rated force for the target {}", options.target.name()),
+            allowed: "only tf5200 takes one".into(),
+        });
+    }
     let file = ModelFile::read(&options.model)?;
     let bytes =
         std::fs::read(&options.model).map_err(|e| Error::output(&options.model, e.to_string()))?;
@@ -147,6 +155,7 @@ fn resolve(
         rotary: file.kind == "rotary",
         friction,
         settings: Settings::new(options.cycle_time, limit),
+        rated_force: options.rated_force,
         parameters: file
             .parameter
             .iter()

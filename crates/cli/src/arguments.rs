@@ -347,6 +347,9 @@ pub struct Export {
     /// Largest force, N or N m [default: twice static friction and offset].
     #[arg(long, value_name = "N")]
     pub limit: Option<f64>,
+    /// Rated force of the motor, N or N m; for tf5200.
+    #[arg(long, value_name = "N")]
+    pub rated_force: Option<f64>,
     /// What the names in the code begin with [default: from the name of the axis].
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
@@ -370,4 +373,6 @@ pub enum Target {
     Hal,
     /// FMUs for co-simulation, FMI 2.0 and 3.0.
     Fmu,
+    /// The friction table of TwinCAT CNC.
+    Tf5200,
 }

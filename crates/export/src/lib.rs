@@ -17,6 +17,7 @@
 //!     rotary: false,
 //!     friction: Friction::LuGre(law),
 //!     settings: Settings::new(1e-3, 40.0), // 1 kHz, at most 40 N
+//!     rated_force: None,
 //!     parameters: vec![],
 //!     notes: vec![],
 //!     provenance: Provenance::default(),
@@ -42,6 +43,7 @@ mod rust;
 mod st;
 mod target;
 mod template;
+mod tf5200;
 mod vectors;
 
 pub use check::{Advice, advice};

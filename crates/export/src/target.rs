@@ -1,6 +1,6 @@
 //! The targets and what each consists of.
 
-use crate::{Error, Model, c, check, fmu, hal, mujoco, rust, st};
+use crate::{Error, Model, c, check, fmu, hal, mujoco, rust, st, tf5200};
 
 /// A form that the compensator is written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,6 +21,8 @@ pub enum Target {
     Hal,
     /// Functional Mock-up Units for co-simulation, FMI 2.0 and 3.0.
     Fmu,
+    /// The friction table of TwinCAT CNC.
+    Tf5200,
 }
 
 /// A file of an export.
@@ -43,7 +45,7 @@ impl File {
 
 impl Target {
     /// All of them.
-    pub const ALL: [Target; 8] = [
+    pub const ALL: [Target; 9] = [
         Target::C,
         Target::St,
         Target::TcPou,
@@ -52,6 +54,7 @@ impl Target {
         Target::Mujoco,
         Target::Hal,
         Target::Fmu,
+        Target::Tf5200,
     ];
 
     /// Name as typed.
@@ -65,6 +68,7 @@ impl Target {
             Target::Mujoco => "mujoco",
             Target::Hal => "hal",
             Target::Fmu => "fmu",
+            Target::Tf5200 => "tf5200",
         }
     }
 }
@@ -84,5 +88,6 @@ pub fn export(model: &Model, target: Target) -> Result<Vec<File>, Error> {
         Target::Mujoco => mujoco::files(model),
         Target::Hal => hal::files(model),
         Target::Fmu => fmu::fmu(model, &mut |_| None),
+        Target::Tf5200 => tf5200::files(model),
     }
 }

@@ -61,6 +61,7 @@ pub fn model(friction: Friction<f64>) -> Model {
         rotary: false,
         friction,
         settings: Settings::new(1e-3, 60.0),
+        rated_force: Some(221.0),
         parameters: vec![
             Parameter {
                 name: "sigma0".into(),
