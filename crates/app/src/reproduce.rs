@@ -1,5 +1,12 @@
 //! Published experiments run again, each number beside its reference.
 
+mod paper;
+
+pub use paper::{Budget, zhang_2025};
+pub(crate) use paper::{
+    Cornered, Dynamics, Fed, LoadFound, PARAMETERS, Paper, Presliding, Searched, Statics, Tracked,
+};
+
 use crate::output::Bundle;
 use crate::report;
 use rayon::prelude::*;
@@ -16,18 +23,31 @@ pub struct ReproduceFile {
     pub schema: String,
     /// Version of stiction.
     pub version: String,
-    /// Which publication: `1995`.
+    /// Which publication: `1995` or `paper`.
     pub name: String,
+    /// `complete` or `interrupted`.
+    #[serde(default = "complete")]
+    pub status: String,
     /// Whether every number is within its tolerance.
     pub all_within: bool,
     /// Every number, in the order of the experiments.
     pub checks: Vec<CheckEntry>,
+    /// Figures of ours beside claims of the publication, which are not of the same experiment.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub claims: Vec<ClaimEntry>,
+    /// What was assumed where the publication gives no number.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub assumptions: Vec<String>,
+}
+
+fn complete() -> String {
+    "complete".into()
 }
 
 /// One number beside its reference.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CheckEntry {
-    /// Letter of the experiment.
+    /// Letter or name of the experiment.
     pub experiment: String,
     /// What it is.
     pub name: String,
@@ -43,12 +63,77 @@ pub struct CheckEntry {
     pub within: bool,
 }
 
+/// A metric of ours without and with compensation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ClaimEntry {
+    /// What it is.
+    pub name: String,
+    /// SI unit.
+    pub unit: String,
+    /// What drives the compensation.
+    pub compensation: String,
+    /// Without compensation.
+    pub without: f64,
+    /// With it.
+    pub with: f64,
+    /// By how much it is less, percent.
+    pub reduction_percent: f64,
+    /// What the publication claims, in its words; may be empty.
+    pub published: String,
+}
+
 /// Everything that came out, in memory.
 #[derive(Clone, Debug)]
 pub struct Reproduction {
     /// What goes into `reproduce.json`.
     pub file: ReproduceFile,
-    pub(crate) experiments: Vec<Experiment>,
+    pub(crate) body: Body,
+}
+
+/// What the report draws.
+#[derive(Clone, Debug)]
+pub(crate) enum Body {
+    Canudas1995(Vec<Experiment>),
+    Zhang2025(Box<Paper>),
+}
+
+impl ReproduceFile {
+    /// A complete reproduction of a publication, in which nothing has been done yet.
+    fn of(name: &str) -> Self {
+        ReproduceFile {
+            schema: SCHEMA.into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            name: name.into(),
+            status: complete(),
+            all_within: true,
+            checks: Vec::new(),
+            claims: Vec::new(),
+            assumptions: Vec::new(),
+        }
+    }
+}
+
+impl CheckEntry {
+    /// A number that may be off by the part `relative` of its reference.
+    fn relative(
+        experiment: &str,
+        name: &str,
+        unit: &str,
+        reference: f64,
+        found: f64,
+        relative: f64,
+    ) -> Self {
+        let tolerance = relative * reference.abs();
+        CheckEntry {
+            experiment: experiment.into(),
+            name: name.into(),
+            unit: unit.into(),
+            reference,
+            found,
+            tolerance,
+            within: (found - reference).abs() <= tolerance,
+        }
+    }
 }
 
 /// The experiments B to G of Canudas de Wit et al. 1995 (doi 10.1109/9.376053).
@@ -72,13 +157,11 @@ pub fn canudas_1995() -> Reproduction {
         .collect();
     Reproduction {
         file: ReproduceFile {
-            schema: SCHEMA.into(),
-            version: env!("CARGO_PKG_VERSION").into(),
-            name: "1995".into(),
             all_within: checks.iter().all(|c| c.within),
             checks,
+            ..ReproduceFile::of("1995")
         },
-        experiments,
+        body: Body::Canudas1995(experiments),
     }
 }
 

@@ -328,6 +328,9 @@ pub enum Publication {
     /// The LuGre paper: presliding, lag, break-away, stick-slip, hunting, drift.
     #[value(name = "1995")]
     Canudas1995,
+    /// Identification by an annealing GA and feedforward on a linear motor axis, Zhang et al. 2025.
+    #[value(name = "paper")]
+    Zhang2025,
 }
 
 #[derive(Clone, Debug, Args)]

@@ -314,6 +314,14 @@ fn reproduce(reproduce: &arguments::Reproduce, common: &Common) -> Result<Exit, 
     check_folder_of(dir, stiction_app::reproduce::SCHEMA, reproduce.force)?;
     let outcome = match reproduce.publication {
         arguments::Publication::Canudas1995 => stiction_app::reproduce::canudas_1995(),
+        arguments::Publication::Zhang2025 => {
+            let counter = Counter::new("reproducing", common.json || common.quiet);
+            let budget = stiction_app::reproduce::Budget::default();
+            let mut watch = |done, all| counter.at(done, all);
+            let outcome = stiction_app::reproduce::zhang_2025(budget, &mut watch);
+            counter.finish();
+            outcome
+        }
     };
     let written = outcome.bundle().write(dir)?;
     if common.json {
@@ -322,7 +330,9 @@ fn reproduce(reproduce: &arguments::Reproduce, common: &Common) -> Result<Exit, 
         let text = stiction_app::text::reproduction(&outcome.file);
         output::print(&format!("{text}{}", written_to(dir, &written)))?;
     }
-    Ok(if outcome.file.all_within {
+    Ok(if outcome.file.status == "interrupted" {
+        Exit::Interrupted
+    } else if outcome.file.all_within {
         Exit::Done
     } else {
         Exit::NotTrustworthy

@@ -55,7 +55,7 @@ impl Counter {
     pub fn at(&self, done: usize, all: usize) -> Control {
         self.0.set_length(all as u64);
         self.0.set_position(done as u64);
-        self.0.set_message(format!("{done} of {all} runs"));
+        self.0.set_message(format!("{done} of {all}"));
         if interrupt::asked() {
             Control::Stop
         } else {

@@ -2,7 +2,7 @@
 
 use crate::axis::{Axis, AxisSettings, Correction, Sample};
 use crate::cross_coupling::{CouplingState, CrossCoupling};
-use crate::integrator::Mid;
+use crate::integrator::{Integrator, Mid};
 use crate::path::Reference;
 use crate::plane::PlaneMotion;
 use crate::run::sample_count;
@@ -45,6 +45,15 @@ impl<M: PlaneMotion + ?Sized> Trajectory for Side<'_, M> {
 impl<L: Held<f64>> TwoAxes<L> {
     /// Runs both from rest over the whole contour, with MID in one step a stretch.
     pub fn run(&self, motion: &impl PlaneMotion) -> Result<Vec<PlaneSample>, ParamError> {
+        self.run_with(motion, Mid::new(1)?)
+    }
+
+    /// [`run`](Self::run) with another integrator, one for each axis.
+    pub fn run_with<I: Integrator<L> + Clone>(
+        &self,
+        motion: &(impl PlaneMotion + ?Sized),
+        integrator: I,
+    ) -> Result<Vec<PlaneSample>, ParamError> {
         let [x, y] = &self.axes;
         if x.rate != y.rate {
             return Err(ParamError::new("rate", y.rate, "that of the other axis"));
@@ -59,8 +68,8 @@ impl<L: Held<f64>> TwoAxes<L> {
             Lookahead::new(&sides[1], rate, y.feedforward.preview),
         ];
         let mut axes = [
-            Axis::new(x.clone(), Mid::new(1)?)?,
-            Axis::new(y.clone(), Mid::new(1)?)?,
+            Axis::new(x.clone(), integrator.clone())?,
+            Axis::new(y.clone(), integrator)?,
         ];
         let mut state = CouplingState::default();
         let mut samples = Vec::with_capacity(n);

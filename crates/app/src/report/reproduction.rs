@@ -1,13 +1,23 @@
 //! The report of published experiments run again.
 
-use crate::reproduce::{CheckEntry, Reproduction};
+mod paper;
+
+use crate::reproduce::{Body, CheckEntry, ReproduceFile, Reproduction};
+use crate::symbols;
 use stiction_report::{
     Align, Axis, Callout, Color, Document, Figure, Layer, Panel, Severity, Table, Text, number,
 };
 use stiction_servo::c95::Experiment;
 
 pub(crate) fn reproduction(outcome: &Reproduction) -> Document {
-    let file = &outcome.file;
+    match &outcome.body {
+        Body::Canudas1995(experiments) => canudas_1995(&outcome.file, experiments),
+        Body::Zhang2025(paper) => paper::report(&outcome.file, paper),
+    }
+}
+
+/// How many numbers are within their tolerance.
+fn verdict(file: &ReproduceFile) -> Callout {
     let off = file.checks.iter().filter(|c| !c.within).count();
     let all = file.checks.len();
     let (severity, text) = match off {
@@ -20,23 +30,27 @@ pub(crate) fn reproduction(outcome: &Reproduction) -> Document {
             format!("{n} of {all} numbers are off; marked below."),
         ),
     };
+    Callout {
+        severity,
+        code: String::new(),
+        text: Text::from(text),
+        link: String::new(),
+    }
+}
+
+fn canudas_1995(file: &ReproduceFile, experiments: &[Experiment]) -> Document {
     let mut document = Document::new("The experiments of 1995")
         .subtitle(
             "Canudas de Wit, Olsson, Åström, Lischinsky 1995 (doi 10.1109/9.376053): a block of 1 kg, \
              σ₀ 10⁵ N/m, σ₁ √10⁵ N s/m (constant), σ₂ 0.4 N s/m, Fc 1 N, Fs 1.5 N, vs 1 mm/s",
         )
         .footer(format!("stiction {}", file.version))
-        .block(Callout {
-            severity,
-            code: String::new(),
-            text: Text::from(text),
-            link: String::new(),
-        })
+        .block(verdict(file))
         .paragraph(
             "References: the equations integrated by an adaptive Radau method at a relative tolerance \
              of 10⁻⁹ to 10⁻¹⁰, not by stiction.",
         );
-    for experiment in &outcome.experiments {
+    for experiment in experiments {
         let letter = experiment.letter.to_string();
         let checks = file.checks.iter().filter(|c| c.experiment == letter);
         document = document
@@ -64,10 +78,10 @@ fn table<'c>(checks: impl Iterator<Item = &'c CheckEntry>) -> Table {
             reference => format!("{} %", number::sig(100.0 * x / reference.abs(), 2)),
         };
         let cells = [
-            check.name.clone(),
+            symbols::symbol(&check.name),
             number::sig(check.reference, 6),
             number::sig(check.found, 6),
-            check.unit.clone(),
+            check.unit.replace('*', " "),
             share(check.found - check.reference),
             share(check.tolerance),
             if check.within { "within" } else { "OFF" }.to_string(),

@@ -204,6 +204,8 @@ pub(crate) fn quantity(x: f64, unit: &str) -> String {
         (a, "m" | "rad" | "s") if a < 0.9995e-6 => (1e9, "n"),
         (a, "m" | "rad" | "s") if a < 0.9995e-3 => (1e6, "µ"),
         (a, "m" | "rad" | "s") if a < 0.9995 => (1e3, "m"),
+        (a, "m/s" | "rad/s") if a < 0.9995e-3 => (1e6, "µ"),
+        (a, "m/s" | "rad/s") if a < 0.9995 => (1e3, "m"),
         _ => (1.0, ""),
     };
     format!(

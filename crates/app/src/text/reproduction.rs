@@ -2,7 +2,8 @@
 
 use super::table;
 use crate::check::short;
-use crate::reproduce::ReproduceFile;
+use crate::report::quantity;
+use crate::reproduce::{ClaimEntry, ReproduceFile};
 
 /// Every number beside its reference.
 pub fn reproduction(file: &ReproduceFile) -> String {
@@ -33,5 +34,39 @@ pub fn reproduction(file: &ReproduceFile) -> String {
         0 => format!("\nall {} within\n", file.checks.len()),
         n => format!("\n{n} of {} OFF\n", file.checks.len()),
     });
+    if !file.claims.is_empty() {
+        out.push('\n');
+        out.push_str(&claims(&file.claims));
+        out.push_str(
+            "\nClaims are of another experiment; what was assumed stands in the report.\n",
+        );
+    }
+    if file.status == "interrupted" {
+        out.push_str("\nSTOPPED EARLY: what was done is kept\n");
+    }
     out
+}
+
+/// Metrics of ours beside the claims of a publication.
+fn claims(claims: &[ClaimEntry]) -> String {
+    let header = [
+        "metric",
+        "law fed by",
+        "without",
+        "with",
+        "less",
+        "published",
+    ];
+    let mut rows = vec![header.map(String::from).to_vec()];
+    rows.extend(claims.iter().map(|claim| {
+        vec![
+            claim.name.clone(),
+            claim.compensation.clone(),
+            quantity(claim.without, &claim.unit),
+            quantity(claim.with, &claim.unit),
+            format!("{:.1} %", claim.reduction_percent),
+            claim.published.clone(),
+        ]
+    }));
+    table(&rows, &[false, false, true, true, true, false])
 }
