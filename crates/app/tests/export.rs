@@ -279,3 +279,117 @@ fn every_law() {
         assert!(source.contains(holds), "{law}");
     }
 }
+
+/// The words of every refusal and warning, as they are read; what is refused leaves nothing behind.
+#[test]
+fn what_is_said() {
+    let with = |changes: &[(&'static str, f64)]| {
+        let mut p = LUGRE.to_vec();
+        for (name, value) in changes {
+            match p.iter_mut().find(|p| p.0 == *name) {
+                Some(p) => p.1 = *value,
+                None => p.push((name, *value, "N")),
+            }
+        }
+        text("lugre", &p)
+    };
+    let good = with(&[]);
+    let loose = good.replacen("identifiable = true", "identifiable = false", 1);
+    let untrusted = good.replace("trustworthy = true", "trustworthy = false");
+    type Change = fn(&mut ExportOptions);
+    let cases: Vec<(&str, &str, Change)> = vec![
+        ("not identifiable", &loose, |_| {}),
+        ("not trusted", &untrusted, |_| {}),
+        ("another name", &good, |o| o.name = Some("2nd axis".into())),
+        ("a key word of C with an ending", &good, |o| {
+            o.name = Some("int".into())
+        }),
+        ("a path for a name", &good, |o| {
+            o.name = Some("../../etc/x".into())
+        }),
+        ("a reserved name", &good, |o| o.name = Some("_x__y".into())),
+        ("a long name", &good, |o| o.name = Some("x".repeat(40))),
+        ("a cycle time in microseconds", &good, |o| {
+            o.cycle_time = 250.0
+        }),
+        ("no cycle time", &good, |o| o.cycle_time = 0.0),
+        ("no force", &good, |o| o.limit = Some(0.0)),
+        ("less than the friction", &good, |o| o.limit = Some(10.0)),
+        ("a table without the motor", &good, |o| {
+            o.target = Target::Tf5200
+        }),
+        ("a table of a motor without force", &good, |o| {
+            (o.target, o.rated_force) = (Target::Tf5200, Some(0.0));
+        }),
+        ("a motor for code", &good, |o| o.rated_force = Some(221.0)),
+    ];
+    let beyond = with(&[("sigma0", 1e40), ("sigma1", 0.0)]);
+    let tiny = with(&[("coulomb", 1e-50), ("static", 1e-50)]);
+    let stiff = with(&[("sigma0", 1e8), ("sigma1", 0.0)]);
+    let active = with(&[("sigma1", 5e3)]);
+    let asymmetric = text(
+        "lugre",
+        &[
+            &LUGRE[..2],
+            &LUGRE[3..],
+            &[("coulomb_pos", 20.0, "N"), ("coulomb_neg", 14.0, "N")],
+        ]
+        .concat(),
+    );
+    let more: Vec<(&str, &str, Change)> = vec![
+        ("beyond REAL", &beyond, |o| o.target = Target::St),
+        ("nothing in REAL", &tiny, |o| o.target = Target::St),
+        ("too stiff for the cycle", &stiff, |_| {}),
+        ("not passive", &active, |_| {}),
+        ("asymmetric in MuJoCo", &asymmetric, |o| {
+            o.target = Target::Mujoco
+        }),
+        ("no law of ours", "law = 3", |_| {}),
+        ("nothing", "", |_| {}),
+    ];
+    let mut said = String::new();
+    for (name, model, change) in cases.into_iter().chain(more) {
+        let bench = Bench::new();
+        let mut options = bench.options(model);
+        change(&mut options);
+        said += &format!("{name}\n");
+        match export(&options, &bench.path("out")) {
+            Ok(exported) => {
+                assert!(bench.path("out").is_dir(), "{name}");
+                let none = exported.warnings.is_empty();
+                said += if none { "  written\n" } else { "" };
+                for w in exported.warnings {
+                    said += &format!("  warning [{}]: {}\n", w.code, w.message);
+                }
+            }
+            Err(e) => {
+                assert_eq!(contents(bench.0.path()).len(), 1, "{name}");
+                let place = bench.0.path().display().to_string();
+                said += &format!(
+                    "  {} [{}]\n",
+                    e.to_string().replace(&place, "DIR"),
+                    e.code()
+                );
+            }
+        }
+    }
+    // Where to write.
+    let bench = Bench::new();
+    let options = bench.options(&good);
+    std::fs::create_dir(bench.path("full")).unwrap();
+    std::fs::write(bench.path("full/mine.txt"), "mine").unwrap();
+    let before = contents(bench.0.path());
+    for (name, out) in [
+        ("a folder that holds something", "full"),
+        ("a file", "full/mine.txt"),
+        ("below a file", "full/mine.txt/out"),
+        ("the model itself", "model.toml"),
+    ] {
+        let error = export(&options, &bench.path(out)).unwrap_err();
+        let place = bench.0.path().display().to_string();
+        let error = error.to_string().replace(&place, "DIR");
+        said += &format!("{name}\n  {error}\n");
+        assert_eq!(contents(bench.0.path()), before, "{name}");
+    }
+    insta::assert_snapshot!(said);
+}

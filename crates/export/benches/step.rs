@@ -1,6 +1,7 @@
 //! Nanoseconds a step: the Rust compensator, and the exported C compiled by gcc with -O2, in the same run.
-//! `cargo bench -p stiction-export`. Both along a sine through its reversals; the C loop is timed by the bench through
-//! one process that runs it many times, less the start of a process that runs none.
+//! `cargo bench -p stiction-export`. Both along the same motions; the C loop is timed by the bench through one process that
+//! runs it many times, and whose start is a millisecond of the half second. A step has no loop, so that the slowest motion
+//! is near the worst case.
 
 use divan::{Bencher, black_box, counter::ItemsCount};
 use std::path::Path;
@@ -28,16 +29,29 @@ fn law() -> Friction<f64> {
     Friction::LuGre(law)
 }
 
-fn velocity() -> Vec<f64> {
-    let sine = |k: usize| 0.03 * libm::sin(2.0 * std::f64::consts::PI * 4.1 * k as f64 * H);
-    (0..1000).map(sine).collect()
+/// A sine through its reversals, standstill, creep within the bristles' length, a reversal every sample, jumps.
+const MOTIONS: [&str; 5] = ["sine", "still", "creep", "reversals", "jumps"];
+
+fn velocity(motion: &str) -> Vec<f64> {
+    let at = |k: usize| {
+        let sine = libm::sin(2.0 * std::f64::consts::PI * 4.1 * k as f64 * H);
+        let sign = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+        match motion {
+            "sine" => 0.03 * sine,
+            "still" => 0.0,
+            "creep" => 1e-5 * sine,
+            "reversals" => 6e-3 * sign,
+            _ => [0.0, 0.3, -1e-4, 6e-3, 5.0][k % 5] * sign,
+        }
+    };
+    (0..1000).map(at).collect()
 }
 
-#[divan::bench(sample_count = 5, sample_size = 1)]
-fn rust(bencher: Bencher) {
+#[divan::bench(sample_count = 5, sample_size = 1, args = MOTIONS)]
+fn rust(bencher: Bencher, motion: &str) {
     let ready = Compensator::new(law(), Source::Reference, Settings::new(H, 100.0))
         .expect("parameters of the bench");
-    let v = velocity();
+    let v = velocity(motion);
     bencher.counter(ItemsCount::new(STEPS)).bench(|| {
         let mut compensator = ready;
         let mut sum = 0.0;
@@ -52,10 +66,19 @@ fn rust(bencher: Bencher) {
     });
 }
 
-#[divan::bench(sample_count = 5, sample_size = 1, args = ["", "_f32"])]
-fn c(bencher: Bencher, suffix: &str) {
+#[divan::bench(sample_count = 5, sample_size = 1, args = MOTIONS)]
+fn c_double(bencher: Bencher, motion: &str) {
+    c(bencher, motion, "");
+}
+
+#[divan::bench(sample_count = 5, sample_size = 1, args = MOTIONS)]
+fn c_float(bencher: Bencher, motion: &str) {
+    c(bencher, motion, "_f32");
+}
+
+fn c(bencher: Bencher, motion: &str, suffix: &str) {
     let dir = tempfile::tempdir().expect("a folder");
-    build(dir.path(), suffix);
+    build(dir.path(), motion, suffix);
     let program = dir.path().join("a.out");
     bencher.counter(ItemsCount::new(STEPS)).bench(|| {
         let status = Command::new(&program).status().expect("the C to run");
@@ -64,7 +87,7 @@ fn c(bencher: Bencher, suffix: &str) {
 }
 
 /// Compiles the exported C with a loop over the same motion; its start takes a millisecond of the second it runs.
-fn build(dir: &Path, suffix: &str) {
+fn build(dir: &Path, motion: &str, suffix: &str) {
     let model = Model {
         title: "bench".into(),
         identifier: "bench".into(),
@@ -80,7 +103,7 @@ fn build(dir: &Path, suffix: &str) {
         std::fs::write(dir.join(file.path), file.bytes).expect("room");
     }
     let real = if suffix.is_empty() { "double" } else { "float" };
-    let values: Vec<String> = velocity()
+    let values: Vec<String> = velocity(motion)
         .iter()
         .map(|v| format!("({real}){v:?}"))
         .collect();

@@ -224,3 +224,55 @@ fn plain_compilers_take_it() {
         }
     }
 }
+
+/// What a step takes of the stack, as gcc counts it: all functions of the file one in the other, which no call is. The
+/// page of the target states it.
+#[test]
+fn the_stack_is_small() {
+    let page =
+        std::fs::read_to_string(stiction_testkit::workspace().join("docs/deploy/c.md")).unwrap();
+    let mut most = 0;
+    for (_, law) in laws() {
+        let dir = tempfile::tempdir().unwrap();
+        write(&export(&model(law), Target::C).unwrap(), dir.path());
+        for file in ["x_axis_friction", "x_axis_friction_f32"] {
+            for level in ["-O2", "-O0"] {
+                let flags = format!("-std=c99 {level} -fstack-usage -c");
+                gcc(&flags, &[&format!("{file}.c")], dir.path());
+                let usage = std::fs::read_to_string(dir.path().join(format!("{file}.su"))).unwrap();
+                let bytes = usage.lines().map(|line| {
+                    let fields: Vec<&str> = line.split('\t').collect();
+                    assert_eq!(fields[2], "static", "{line}");
+                    fields[1].parse::<usize>().unwrap()
+                });
+                let sum = bytes.sum::<usize>();
+                println!("{file} {level}: {sum} bytes");
+                if level == "-O2" {
+                    most = most.max(sum);
+                }
+            }
+        }
+    }
+    let stated = format!("at most {most} bytes of stack");
+    assert!(
+        page.contains(&stated),
+        "docs/deploy/c.md does not say {stated}"
+    );
+}
+
+#[test]
+fn the_example_runs() {
+    let dir = tempfile::tempdir().unwrap();
+    write(
+        &export(&model(laws().remove(0).1), Target::C).unwrap(),
+        dir.path(),
+    );
+    let example = stiction_testkit::workspace().join("examples/export/c/axis.c");
+    gcc(
+        "-std=c99 -O2 -Wall -Wextra -Werror -I.",
+        &[&example.to_string_lossy(), "x_axis_friction.c", "-lm"],
+        dir.path(),
+    );
+    let said = run("./a.out", &[], dir.path());
+    assert_eq!(said, "6.15 N at 10 mm/s\n-6.15 N at -10 mm/s\n");
+}

@@ -98,3 +98,14 @@ fn what_mujoco_has_not_is_refused() {
         );
     }
 }
+
+#[test]
+fn the_example_runs() {
+    let dir = tempfile::tempdir().unwrap();
+    for file in export(&model(laws().remove(0).1), Target::Mujoco).unwrap() {
+        std::fs::write(dir.path().join(&file.path), &file.bytes).unwrap();
+    }
+    let example = stiction_testkit::workspace().join("examples/export/mujoco/push.py");
+    let said = python(&example.to_string_lossy(), &["."], dir.path());
+    assert_eq!(said, "15 N: holds\n20 N: moves\n");
+}

@@ -84,5 +84,25 @@ fn the_crate_is_built_and_runs() {
             said.contains("forces_are_those_that_are_due ... ok")
                 && said.contains("nothing_is_allocated ... ok")
         );
+        if name != "coulomb" {
+            continue;
+        }
+        let example = workspace.join("examples/export/rust/axis.rs");
+        std::fs::create_dir(dir.path().join("examples")).unwrap();
+        std::fs::copy(example, dir.path().join("examples/axis.rs")).unwrap();
+        let output = Command::new(env!("CARGO"))
+            .args(["run", "--quiet", "--offline", "--example", "axis"])
+            .env("CARGO_TARGET_DIR", dir.path().join("target"))
+            .env("RUSTFLAGS", "-Dwarnings")
+            .current_dir(dir.path())
+            .output()
+            .unwrap();
+        // Halves of 20 N + 60 N s/m 10 mm/s - 3 N and of -14 N - 85 N s/m 10 mm/s - 3 N.
+        assert_eq!(
+            String::from_utf8_lossy(&output.stdout),
+            "8.80 N at 10 mm/s\n-8.93 N at -10 mm/s\n",
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
     }
 }

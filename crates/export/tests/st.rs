@@ -381,3 +381,21 @@ fn wrapped_text_is_the_text() {
         }
     }
 }
+
+#[test]
+fn the_example_runs() {
+    let mut library = library(&model(laws().remove(0).1));
+    let example = stiction_testkit::workspace().join("examples/export/st/PRG_Axis.st");
+    library
+        .add(&std::fs::read_to_string(example).unwrap())
+        .unwrap();
+    let mut program = library.instance("PRG_Axis");
+    let torque = program.slot("additive_torque");
+    for (sign, cycles) in [(1.0, 1000), (-1.0, 1000)] {
+        (0..cycles).for_each(|_| program.call());
+        // A half of Fc + (Fs - Fc) exp(-(v/vs)^2) + sigma2 v, in per mille of 200 N.
+        let force = 12.0 + 6.0 * (-(10.0_f64 / 3.0).powi(2)).exp() + 0.3;
+        let due = sign * 0.5 * force / 200.0 * 1000.0;
+        assert!((program.get(torque) - due).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,106 @@
+//! `stiction export` as a user types it: the commands of `examples/export`, a machine without a compiler, a full disk.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn examples() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/export")
+}
+
+fn said(output: &Output) -> String {
+    format!(
+        "{}{}",
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr)
+    )
+}
+
+/// Every command of the page, in a folder that has the examples.
+#[test]
+fn the_commands_of_the_examples() {
+    let page = std::fs::read_to_string(examples().join("README.md")).unwrap();
+    let dir = tempfile::tempdir().unwrap();
+    std::fs::create_dir_all(dir.path().join("examples/export")).unwrap();
+    std::fs::copy(
+        examples().join("model.toml"),
+        dir.path().join("examples/export/model.toml"),
+    )
+    .unwrap();
+    let commands: Vec<&str> = page
+        .lines()
+        .filter_map(|l| l.strip_prefix("stiction "))
+        .collect();
+    assert_eq!(commands.len(), 9);
+    for command in commands {
+        let output = Command::new(env!("CARGO_BIN_EXE_stiction"))
+            .args(command.split(' '))
+            .current_dir(dir.path())
+            .output()
+            .unwrap();
+        let text = said(&output);
+        assert!(output.status.success(), "{command}: {text}");
+        let out = dir.path().join(command.rsplit(' ').next().unwrap());
+        assert!(std::fs::read_dir(out).unwrap().count() > 0, "{command}");
+        // The page that it names is there.
+        let named = text.split("operation as in ").nth(1).unwrap();
+        let named = named.split(".md").next().unwrap();
+        assert!(
+            examples().join(format!("../../{named}.md")).is_file(),
+            "{named}"
+        );
+    }
+    let table = Command::new("python3")
+        .arg("cnc/x_axis_frict_comp_selftest.py")
+        .current_dir(dir.path())
+        .output()
+        .unwrap();
+    assert!(table.status.success(), "{}", said(&table));
+}
+
+fn export(target: &str, dir: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_stiction"));
+    command
+        .arg("export")
+        .arg(examples().join("model.toml"))
+        .args(["--target", target, "--out", "out"])
+        .current_dir(dir);
+    command
+}
+
+/// Without gcc there are FMUs all the same, and a warning says what they are.
+#[test]
+fn no_compiler() {
+    let dir = tempfile::tempdir().unwrap();
+    let output = export("fmu", dir.path())
+        .env("PATH", "/nowhere")
+        .output()
+        .unwrap();
+    let text = said(&output);
+    assert!(output.status.success(), "{text}");
+    assert!(
+        text.contains("warning [export-source]: gcc for x86-64 Linux was not found or failed"),
+        "{text}"
+    );
+    let bytes = std::fs::read(dir.path().join("out/x_axis_friction_fmi2.fmu")).unwrap();
+    let holds = |name: &[u8]| bytes.windows(name.len()).any(|w| w == name);
+    assert!(holds(b"sources/x_axis_friction.c") && !holds(b"binaries/"));
+}
+
+/// No room for the files: nothing has the name of the folder, and nothing is left beside it.
+#[test]
+#[cfg(unix)]
+fn a_full_disk_leaves_nothing() {
+    let dir = tempfile::tempdir().unwrap();
+    let command = export("c", dir.path());
+    // A file may have two blocks of 512 bytes; a longer one is an error as a full disk is.
+    let output = Command::new("sh")
+        .args(["-c", "ulimit -f 2; trap \"\" XFSZ; exec \"$@\"", "sh"])
+        .arg(command.get_program())
+        .args(command.get_args())
+        .current_dir(dir.path())
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2), "{}", said(&output));
+    assert!(said(&output).contains("out: "), "{}", said(&output));
+    assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 0);
+}
