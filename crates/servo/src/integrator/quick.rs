@@ -4,7 +4,8 @@ use super::{Integrator, at_least_one};
 use crate::plant::{Load, Motion, Plant};
 use stiction_friction::{LuGre, ParamError};
 
-/// The step of [`Plant::step`], solved from a guess: the velocity goes on with the acceleration of the step before.
+/// The step of [`Plant::step`], solved from a guess: the velocity goes on with the acceleration of the step before and what
+/// the force on the axis has changed since, as if friction stayed as it was.
 ///
 /// Where one step of Newton's method from there is so small that its square is nothing, velocity and deflection take
 /// that step by their derivatives, and no further evaluation is needed. Where it is not after four, as in a reversal, the
@@ -14,6 +15,8 @@ pub struct Quick {
     steps: u32,
     /// Of the step before, m/s^2 (rad/s^2).
     acceleration: f64,
+    /// That of the load over the step before, N (N m).
+    force: f64,
 }
 
 /// A Newton step of this part of the velocity, or of the Stribeck velocity, leaves its square.
@@ -27,6 +30,7 @@ impl Quick {
         Ok(Quick {
             steps,
             acceleration: 0.0,
+            force: 0.0,
         })
     }
 
@@ -36,7 +40,9 @@ impl Quick {
         let stiffness = load.stiffness + plant.stiffness();
         let inertia = 2.0 * plant.mass() / h;
         let slow = law.curve().direction(from.velocity).stribeck_velocity;
-        let mut w = from.velocity + 0.5 * h * self.acceleration;
+        let mut w =
+            from.velocity + 0.5 * h * self.acceleration + (load.force - self.force) / inertia;
+        self.force = load.force;
         for _ in 0..MOST_EVALUATIONS {
             let end = law.step_held_slope(from.deflection, h, w);
             let (friction, friction_slope) = law.mean_force_from_end(from.deflection, end, h, w);
