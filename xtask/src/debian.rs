@@ -25,6 +25,16 @@ const PACKAGES: &[Package] = &[
         program: Some("cppcheck"),
         why: "checks exported C against MISRA",
     },
+    Package {
+        name: "linuxcnc-uspace",
+        program: Some("halrun"),
+        why: "runs exported HAL components",
+    },
+    Package {
+        name: "linuxcnc-uspace-dev",
+        program: Some("halcompile"),
+        why: "builds exported HAL components",
+    },
 ];
 
 /// Installs what is missing as root; otherwise says the command to give.

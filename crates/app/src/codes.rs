@@ -107,6 +107,7 @@ pub const OWN: &[(&str, &str)] = &[
         "export-terms",
         "terms beside friction are not in the compensator",
     ),
+    ("export-source", "FMUs were written without a binary"),
 ];
 
 /// Every code with its meaning: findings in logs, refusals of logs, and our own.

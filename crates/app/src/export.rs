@@ -1,5 +1,7 @@
 //! `stiction export`: a model file to the compensator's code.
 
+mod compile;
+
 use crate::error::{Error, Warning};
 use crate::model::ModelFile;
 use crate::output::write_folder;
@@ -25,6 +27,8 @@ pub struct ExportOptions {
     pub cycle_time: f64,
     /// Largest force, N (N m); twice the static friction and the offset if absent.
     pub limit: Option<f64>,
+    /// Force that the motor is rated for, N (N m); for `tf5200`, and for no other target.
+    pub rated_force: Option<f64>,
 }
 
 /// A compensator that was written.
@@ -59,13 +63,37 @@ const BESIDE: [&str; 4] = ["mass", "delay", "gravity_", "cogging"];
 /// # Errors
 /// When the model cannot be read or exported, or the folder is not free.
 pub fn export(options: &ExportOptions, dir: &Path) -> Result<Exported, Error> {
+    if options.rated_force.is_some() && options.target != Target::Tf5200 {
+        return Err(Error::Usage {
+            found: format!("a rated force for the target {}", options.target.name()),
+            allowed: "only tf5200 takes one".into(),
+        });
+    }
     let file = ModelFile::read(&options.model)?;
     let bytes =
         std::fs::read(&options.model).map_err(|e| Error::output(&options.model, e.to_string()))?;
     let (model, mut warnings) = resolve(&file, &bytes, options)?;
     let found = stiction_export::advice(&model);
     warnings.extend(found.into_iter().map(|a| Warning::new(a.code, a.message)));
-    let files = stiction_export::export(&model, options.target)?;
+    let files = match options.target {
+        Target::Fmu => {
+            let mut whole = true;
+            let files = stiction_export::fmu(&model, &mut |source| {
+                let library = compile::shared_library(source);
+                whole &= library.is_some();
+                library
+            })?;
+            if !whole {
+                warnings.push(Warning::new(
+                    "export-source",
+                    "gcc for x86-64 Linux was not found or failed: the FMUs hold their C source and no binary; a tool that runs them has to compile it, \
+                     or install gcc and export again",
+                ));
+            }
+            files
+        }
+        target => stiction_export::export(&model, target)?,
+    };
     write_folder(
         dir,
         files.iter().map(|f| (f.path.as_str(), f.bytes.as_slice())),
@@ -127,6 +155,7 @@ fn resolve(
         rotary: file.kind == "rotary",
         friction,
         settings: Settings::new(options.cycle_time, limit),
+        rated_force: options.rated_force,
         parameters: file
             .parameter
             .iter()

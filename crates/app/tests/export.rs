@@ -50,6 +50,7 @@ impl Bench {
             name: None,
             cycle_time: 1e-3,
             limit: None,
+            rated_force: None,
         }
     }
 
@@ -82,6 +83,7 @@ fn the_same_model_gives_the_same_bytes() {
         for bench in [&a, &b] {
             let options = ExportOptions {
                 target,
+                rated_force: (target == Target::Tf5200).then_some(221.0),
                 ..bench.options(&model)
             };
             let exported = export(&options, &bench.path("out")).unwrap();
@@ -97,6 +99,9 @@ fn the_same_model_gives_the_same_bytes() {
             files.into_iter().map(|(_, bytes)| bytes).collect()
         };
         assert_eq!(bytes(&a), bytes(&b));
+        if target == Target::Fmu {
+            continue; // Archives; what is in them is looked at in the crate.
+        }
         let head = String::from_utf8(contents(&a.path("out"))[0].1.clone()).unwrap();
         assert!(
             head.contains(&"ab".repeat(32)) && head.contains("X axis _/ (left)"),

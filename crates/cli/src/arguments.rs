@@ -350,6 +350,9 @@ pub struct Export {
     /// Largest force, N or N m [default: twice static friction and offset].
     #[arg(long, value_name = "N")]
     pub limit: Option<f64>,
+    /// Rated force of the motor, N or N m; for tf5200.
+    #[arg(long, value_name = "N")]
+    pub rated_force: Option<f64>,
     /// What the names in the code begin with [default: from the name of the axis].
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
@@ -369,4 +372,10 @@ pub enum Target {
     Rust,
     /// The friction of a joint in MuJoCo 4.
     Mujoco,
+    /// A component of LinuxCNC's HAL.
+    Hal,
+    /// FMUs for co-simulation, FMI 2.0 and 3.0.
+    Fmu,
+    /// The friction table of TwinCAT CNC.
+    Tf5200,
 }

@@ -287,10 +287,14 @@ fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
             arguments::Target::Plcopen => Target::PlcOpen,
             arguments::Target::Rust => Target::Rust,
             arguments::Target::Mujoco => Target::Mujoco,
+            arguments::Target::Hal => Target::Hal,
+            arguments::Target::Fmu => Target::Fmu,
+            arguments::Target::Tf5200 => Target::Tf5200,
         },
         name: export.name.clone(),
         cycle_time: export.cycle_time,
         limit: export.limit,
+        rated_force: export.rated_force,
     };
     let exported = stiction_app::export(&options, &export.out)?;
     if common.json {

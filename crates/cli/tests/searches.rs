@@ -99,8 +99,9 @@ fn every_method_finds_a_law_and_says_what_it_had_before_the_least_squares() {
             last <= 100.0 * cost("after_least_squares").sqrt() * (1.0 + 1e-9),
             "{method}"
         );
-        // The steady force of this log hardly shows the bristles, and the genetic algorithms of the paper
-        // may end beside the optimum; the others lead to the same law. None finds a better one.
+        // The steady force of this log hardly shows the bristles. Its cost has several hollows, and the genetic
+        // algorithms of the paper may end in another than the deepest; the others lead to the same law. None
+        // finds a better one.
         let off = last / least - 1.0;
         assert!(off > -1e-6, "{method}: {last}, below {least}");
         assert!(paper || off < 1e-6, "{method}: {last} instead of {least}");

@@ -71,6 +71,7 @@ fn build(dir: &Path, suffix: &str) {
         rotary: false,
         friction: law(),
         settings: Settings::new(H, 100.0),
+        rated_force: None,
         parameters: vec![],
         notes: vec![],
         provenance: Provenance::default(),

@@ -64,6 +64,13 @@ fn precision<T: Literal>(model: &Model, precision: &Precision) -> Result<Vec<Fil
     ])
 }
 
+/// The text of the header and the source in double precision, for a file that holds both.
+pub(crate) fn inside(model: &Model) -> Result<String, Error> {
+    let mut fill = fill::<f64>(model, &DOUBLE)?;
+    fill.flag("apart", false);
+    Ok(format!("{}\n{}", fill.render(HEADER), fill.render(SOURCE)))
+}
+
 fn rows<T: Literal>(vectors: &Vectors<T>) -> String {
     let rows: Vec<String> = vectors
         .rows
@@ -91,6 +98,7 @@ fn fill<T: Literal>(model: &Model, precision: &Precision) -> Result<Fill, Error>
         .set("f", precision.literal)
         .set("m", precision.function)
         .set("MAX", precision.max)
+        .flag("apart", true)
         .set("v_unit", model.speed_unit())
         .set("x_unit", model.length_unit())
         .set("f_unit", model.force_unit());

@@ -38,6 +38,20 @@ pub enum Error {
         /// What the target takes.
         allowed: &'static str,
     },
+    /// A target that needs to know the motor.
+    #[error(
+        "target {target} writes forces in per mille of the motor's rated force, and none was given; give it with --rated-force, N or N m"
+    )]
+    RatedForce {
+        /// The target.
+        target: &'static str,
+    },
+    /// An archive that cannot be made.
+    #[error("archive: {found}")]
+    Archive {
+        /// What went wrong.
+        found: String,
+    },
 }
 
 impl Error {

@@ -2,32 +2,18 @@
 
 use crate::Model;
 
-/// Lines of plain ASCII without anything that could end a comment in a target's language.
-pub(crate) fn lines(model: &Model) -> Vec<String> {
-    let mut lines = vec![
-        format!(
-            "Friction compensator of the axis '{}', law {}, written by stiction {}.",
-            model.title,
-            model.law(),
-            model.provenance.version
-        ),
-        "The force is a feedforward: add it to the force or torque that the controller asks for."
-            .into(),
-        String::new(),
-        format!(
-            "In:  reference velocity in {}, if known that of the instant at which the force will act (preview);",
-            model.speed_unit()
-        ),
-        format!(
-            "     tracking error, reference less measured position, in {}; enable. Called every {} s.",
-            model.length_unit(),
-            model.settings.cycle_time
-        ),
-        format!(
-            "Out: force in {}, along the positive direction of the velocity.",
-            model.force_unit()
-        ),
-    ];
+/// Lines of plain ASCII without anything that could end a comment in a target's language; `code` where the compensator
+/// itself follows, with what goes in and comes out.
+pub(crate) fn lines(model: &Model, code: bool) -> Vec<String> {
+    let mut lines = vec![format!(
+        "Friction compensator of the axis '{}', law {}, written by stiction {}.",
+        model.title,
+        model.law(),
+        model.provenance.version
+    )];
+    if code {
+        lines.extend(interface(model));
+    }
     if !model.notes.is_empty() {
         lines.push(String::new());
         lines.extend(model.notes.iter().map(|note| format!("NOTE: {note}")));
@@ -62,9 +48,40 @@ pub(crate) fn lines(model: &Model) -> Vec<String> {
     lines.iter().map(|line| plain(line)).collect()
 }
 
+/// What goes in and comes out.
+fn interface(model: &Model) -> Vec<String> {
+    vec![
+        "The force is a feedforward: add it to the force or torque that the controller asks for."
+            .into(),
+        String::new(),
+        format!(
+            "In:  reference velocity in {}, if known that of the instant at which the force will act (preview);",
+            model.speed_unit()
+        ),
+        format!(
+            "     tracking error, reference less measured position, in {}; enable. Called every {} s.",
+            model.length_unit(),
+            model.settings.cycle_time
+        ),
+        format!(
+            "Out: force in {}, along the positive direction of the velocity.",
+            model.force_unit()
+        ),
+    ]
+}
+
 /// The lines, each after a prefix.
 pub(crate) fn comment(model: &Model, prefix: &str) -> String {
-    let lines: Vec<String> = lines(model)
+    joined(&lines(model, true), prefix)
+}
+
+/// The same without what goes in and comes out, for a table.
+pub(crate) fn table_comment(model: &Model, prefix: &str) -> String {
+    joined(&lines(model, false), prefix)
+}
+
+fn joined(lines: &[String], prefix: &str) -> String {
+    let lines: Vec<String> = lines
         .iter()
         .map(|line| format!("{prefix}{line}").trim_end().to_string())
         .collect();

@@ -17,6 +17,7 @@
 //!     rotary: false,
 //!     friction: Friction::LuGre(law),
 //!     settings: Settings::new(1e-3, 40.0), // 1 kHz, at most 40 N
+//!     rated_force: None,
 //!     parameters: vec![],
 //!     notes: vec![],
 //!     provenance: Provenance::default(),
@@ -29,6 +30,9 @@
 mod c;
 mod check;
 mod error;
+mod fmu;
+mod guid;
+mod hal;
 mod header;
 mod identifier;
 mod law;
@@ -39,10 +43,12 @@ mod rust;
 mod st;
 mod target;
 mod template;
+mod tf5200;
 mod vectors;
 
 pub use check::{Advice, advice};
 pub use error::Error;
+pub use fmu::{GCC, fmu};
 pub use identifier::{IDENTIFIER_LENGTH, check_identifier, identifier};
 pub use model::{Model, Parameter, Provenance};
 pub use target::{File, Target, export};

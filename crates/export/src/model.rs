@@ -18,6 +18,8 @@ pub struct Model {
     pub friction: Friction<f64>,
     /// Settings of the compensator; adaptation is not exported.
     pub settings: Settings<f64>,
+    /// Force that the motor is rated for, N (N m); needed by targets that write per mille of it.
+    pub rated_force: Option<f64>,
     /// Parameters as they were identified.
     pub parameters: Vec<Parameter>,
     /// Sentences for the head of every file, such as what is not trustworthy.

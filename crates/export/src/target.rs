@@ -1,6 +1,6 @@
 //! The targets and what each consists of.
 
-use crate::{Error, Model, c, check, mujoco, rust, st};
+use crate::{Error, Model, c, check, fmu, hal, mujoco, rust, st, tf5200};
 
 /// A form that the compensator is written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,6 +17,12 @@ pub enum Target {
     Rust,
     /// The friction of a joint in MuJoCo 4.
     Mujoco,
+    /// A component of LinuxCNC's HAL.
+    Hal,
+    /// Functional Mock-up Units for co-simulation, FMI 2.0 and 3.0.
+    Fmu,
+    /// The friction table of TwinCAT CNC.
+    Tf5200,
 }
 
 /// A file of an export.
@@ -39,13 +45,16 @@ impl File {
 
 impl Target {
     /// All of them.
-    pub const ALL: [Target; 6] = [
+    pub const ALL: [Target; 9] = [
         Target::C,
         Target::St,
         Target::TcPou,
         Target::PlcOpen,
         Target::Rust,
         Target::Mujoco,
+        Target::Hal,
+        Target::Fmu,
+        Target::Tf5200,
     ];
 
     /// Name as typed.
@@ -57,11 +66,14 @@ impl Target {
             Target::PlcOpen => "plcopen",
             Target::Rust => "rust",
             Target::Mujoco => "mujoco",
+            Target::Hal => "hal",
+            Target::Fmu => "fmu",
+            Target::Tf5200 => "tf5200",
         }
     }
 }
 
-/// The files of a model for a target.
+/// The files of a model for a target; FMUs with their source only, those with a binary are [`fmu`](crate::fmu)'s.
 ///
 /// # Errors
 /// Where the model is out of what the target can express: names, numbers, the law.
@@ -74,5 +86,8 @@ pub fn export(model: &Model, target: Target) -> Result<Vec<File>, Error> {
         Target::PlcOpen => st::plcopen(model),
         Target::Rust => rust::files(model),
         Target::Mujoco => mujoco::files(model),
+        Target::Hal => hal::files(model),
+        Target::Fmu => fmu::fmu(model, &mut |_| None),
+        Target::Tf5200 => tf5200::files(model),
     }
 }

@@ -1,5 +1,6 @@
 //! Inputs with the outputs that the exported code has to give, for the self-test of every target.
 
+use crate::number::Literal;
 use crate::{Error, Model};
 use stiction_friction::Real;
 use stiction_friction::compensator::{Friction, Input, Settings, Watchdog};
@@ -57,6 +58,22 @@ impl<T: Real> Vectors<T> {
     pub(crate) fn scale(&self, model: &Model) -> f64 {
         let forces = self.rows.iter().map(|row| row.force.to_f64().abs());
         forces.fold(model.scale(), f64::max)
+    }
+}
+
+impl Vectors<f64> {
+    /// The rows as a list in Python.
+    pub(crate) fn python(&self) -> String {
+        let rows: Vec<String> = self
+            .rows
+            .iter()
+            .map(|row| {
+                let (v, e, f) = (row.velocity.c(), row.error.c(), row.force.c());
+                let enable = if row.enable { "True" } else { "False" };
+                format!("    ({v}, {e}, {enable}, {f}),")
+            })
+            .collect();
+        rows.join("\n")
     }
 }
 

@@ -31,13 +31,12 @@ pub trait Held<T: Real>: Copy {
 }
 
 impl<T: Real> LuGre<T> {
-    /// The mean force over `h > 0` seconds at the velocity `v` from the deflection `from` to `end`, as
-    /// [`step_held_slope`](Self::step_held_slope) has it with its derivative; and the derivative of that force with respect
-    /// to `v`. N, N s/m (N m, N m s/rad).
+    /// The mean force over `h > 0` seconds at the velocity `v`, level `g`, from the deflection `from` to `end`, which comes
+    /// with its derivative with respect to `v`; and the derivative of that force.
     #[inline]
-    pub fn mean_force_from_end(&self, from: T, end: (T, T), h: T, v: T) -> (T, T) {
+    pub(crate) fn mean_force_from_end(&self, from: T, end: (T, T), h: T, v: T, g: T) -> (T, T) {
         let (end, end_slope) = end;
-        let s1 = self.micro_damping(v);
+        let s1 = self.micro_damping_at_level(v, g);
         // Where sigma1 is what it is at rest its cap does not bite, and there is nothing to differentiate.
         let s1_slope = if s1 == self.damping().at_rest() {
             T::ZERO
@@ -72,7 +71,7 @@ impl<T: Real> Held<T> for LuGre<T> {
 
     #[inline]
     fn mean_force_slope(&self, from: T, h: T, v: T) -> (T, T) {
-        bristle_slope(self, from, self.step_held_slope(from, h, v), h, v)
+        self.step_held_force(from, h, v)[1]
     }
 
     fn force_now(&self, state: T, v: T) -> T {
@@ -104,7 +103,9 @@ impl<T: Real> Held<T> for ElastoPlastic<T> {
 
     #[inline]
     fn mean_force_slope(&self, from: T, h: T, v: T) -> (T, T) {
-        bristle_slope(self.bristle(), from, self.step_held_slope(from, h, v), h, v)
+        let end = self.step_held_slope(from, h, v);
+        let g = Held::curve(self).level(v);
+        self.bristle().mean_force_from_end(from, end, h, v, g)
     }
 
     fn force_now(&self, state: T, v: T) -> T {
@@ -150,18 +151,6 @@ impl<T: Real, const N: usize> Held<T> for Gms<T, N> {
         let swing = T::from_f64(2.0) * self.bound();
         self.bound() + self.damping() * (swing / self.stiffness()) / h
     }
-}
-
-/// Mean force of one bristle that ends at `end`, where both come with their derivatives with respect to `v`.
-#[inline]
-fn bristle_slope<T: Real>(law: &LuGre<T>, from: T, end: (T, T), h: T, v: T) -> (T, T) {
-    let (end, end_slope) = end;
-    let rate = (end - from) / h;
-    let half = T::from_f64(0.5);
-    let slope = end_slope * (half * law.stiffness() + law.micro_damping(v) / h)
-        + rate * damping_slope(law, v)
-        + law.curve().direction(v).viscous;
-    (law.force_at_rate(half * (from + end), rate, v), slope)
 }
 
 /// Derivative of sigma1 in velocity; a difference will do where it only steers Newton's method.

@@ -113,6 +113,7 @@ mod damping;
 mod elasto_plastic;
 mod error;
 pub mod explicit;
+mod exponential;
 mod gms;
 mod held;
 mod lugre;

@@ -130,6 +130,8 @@ impl<T: Real> LuGre<T> {
     pub(crate) fn micro_damping_at_level(&self, v: T, g: T) -> T {
         match self.damping {
             Damping::Constant(s1) => s1,
+            // No cap is below 4g/|v|: of u^2/(u - 1), u > 1, the least is 4.
+            Damping::Capped(s1) if s1 * v.abs() <= T::from_f64(4.0) * g => s1,
             Damping::Capped(s1) => s1.min(passive_cap(&self.curve, v, g)),
             Damping::Olsson { sigma1, velocity } => {
                 let x = v / velocity;

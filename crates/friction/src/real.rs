@@ -1,5 +1,6 @@
 //! The two number types a law can be computed in.
 
+use crate::exponential::{exp, expm1};
 use core::fmt::{Debug, Display};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -11,8 +12,8 @@ mod sealed {
 
 /// `f32` or `f64`. Sealed: no other type implements it.
 ///
-/// Every transcendental function goes through `libm`, never through the platform's C library, so that a law gives the
-/// same bits on a desktop, a drive and a web page.
+/// Every transcendental function is Rust's own arithmetic (`libm`; the exponentials of `f64` are the crate's), never the
+/// platform's C library, so that a law gives the same bits on a desktop, a drive and a web page.
 pub trait Real:
     sealed::Sealed
     + Copy
@@ -66,7 +67,7 @@ pub trait Real:
 }
 
 macro_rules! real {
-    ($t:ident, $series_below:literal, $sqrt:ident, $exp:ident, $expm1:ident, $sin:ident, $tanh:ident, $pow:ident) => {
+    ($t:ident, $series_below:literal, $sqrt:ident, $exp:path, $expm1:path, $sin:ident, $tanh:ident, $pow:ident) => {
         impl Real for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -103,11 +104,11 @@ macro_rules! real {
             }
             #[inline]
             fn exp(self) -> Self {
-                libm::$exp(self)
+                $exp(self)
             }
             #[inline]
             fn expm1(self) -> Self {
-                libm::$expm1(self)
+                $expm1(self)
             }
             #[inline]
             fn sin(self) -> Self {
@@ -125,5 +126,5 @@ macro_rules! real {
     };
 }
 
-real!(f32, 0.2, sqrtf, expf, expm1f, sinf, tanhf, powf);
+real!(f32, 0.2, sqrtf, libm::expf, libm::expm1f, sinf, tanhf, powf);
 real!(f64, 0.01, sqrt, exp, expm1, sin, tanh, pow);

@@ -17,9 +17,10 @@ impl<T: Real> LuGre<T> {
     pub fn step_record(&self, z: T, h: T, va: T, vb: T) -> T {
         let rises = va < T::ZERO && vb > T::ZERO;
         if rises || (va > T::ZERO && vb < T::ZERO) {
+            // Each part by its own quotient: one less the other would lose the digits of a short one.
             let theta = va / (va - vb);
             let turn = self.one_way(!rises, z, theta * h, va.abs(), T::ZERO);
-            self.one_way(rises, turn, (T::ONE - theta) * h, T::ZERO, vb.abs())
+            self.one_way(rises, turn, vb / (vb - va) * h, T::ZERO, vb.abs())
         } else {
             self.one_way(va > T::ZERO || vb > T::ZERO, z, h, va.abs(), vb.abs())
         }

@@ -6,7 +6,7 @@
 //! it is made with the noise of the log, and every pair of cut-offs is tried on that, where the truth
 //! is known. The best pair is used, and the whole repeated from the better fit until it stays.
 
-use crate::conditioning::record::Samples;
+use crate::conditioning::record::{Record, Samples};
 use crate::conditioning::{Conditioning, Cutoff, Source, condition};
 use crate::error::Error;
 use crate::estimate::{Estimate, estimate};
@@ -28,6 +28,10 @@ const STEPS: i32 = 14;
 const START: (i32, i32) = (6, 2);
 /// Cut-off of the common filter below that of the position, in the same steps.
 const BELOW: std::ops::RangeInclusive<i32> = 1..=6;
+
+/// Thinned samples that cut-offs must leave, or as many as the default ones leave if that is fewer: a
+/// slow filter takes most of a short log, and a law with many elements asks for ten for each unknown.
+const ENOUGH: usize = 300;
 
 /// Cut-offs and how they did.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,7 +82,9 @@ pub fn tune(
     if !from_position || !(open(wanted.source_cutoff) || open(wanted.common_cutoff)) {
         return Ok(tuned);
     }
-    let rate = 1.0 / condition(logs, wanted)?.step();
+    let untuned = condition(logs, wanted)?;
+    let rate = 1.0 / untuned.step();
+    let least = untuned.kept().min(ENOUGH);
     let mut at = START;
     for round in 0..ROUNDS {
         let trial = cutoffs(wanted, rate, at);
@@ -99,6 +105,8 @@ pub fn tune(
             .collect();
         let Some(replicas) = replicas else { break };
         let mut search = Walk {
+            logs,
+            least,
             fitted: &fitted,
             replicas: &replicas,
             wanted,
@@ -146,6 +154,8 @@ fn cutoffs(wanted: &Conditioning, rate: f64, (source, below): (i32, i32)) -> Con
 
 /// A walk over the scale, downhill in the error on the replicas.
 struct Walk<'a> {
+    logs: &'a [Samples],
+    least: usize,
     fitted: &'a Estimate,
     replicas: &'a [Replica],
     wanted: &'a Conditioning,
@@ -155,7 +165,7 @@ struct Walk<'a> {
 }
 
 impl Walk<'_> {
-    /// The best place near `start`; `None` if the observer stopped the walk.
+    /// The best place near `start`; `None` if there is none, or if the observer stopped the walk.
     fn walk(
         &mut self,
         start: (i32, i32),
@@ -192,7 +202,7 @@ impl Walk<'_> {
                 }
             }
             if best.0 == before.0 {
-                return Some(best.0);
+                return best.1.is_finite().then_some(best.0);
             }
         }
     }
@@ -201,12 +211,21 @@ impl Walk<'_> {
         if let Some((_, error)) = self.seen.iter().find(|(place, _)| *place == at) {
             return *error;
         }
-        let conditioning = cutoffs(self.wanted, self.rate, at);
+        let error = self.tried(&cutoffs(self.wanted, self.rate, at));
+        self.seen.push((at, error));
+        error
+    }
+
+    fn tried(&mut self, conditioning: &Conditioning) -> f64 {
+        let enough = |record: Record| record.kept() >= self.least;
+        if !condition(self.logs, conditioning).is_ok_and(enough) {
+            return f64::INFINITY;
+        }
         let mut sum = 0.0;
         for replica in self.replicas {
             sum += match refitted(
                 replica,
-                &conditioning,
+                conditioning,
                 self.fitted,
                 1,
                 false,
@@ -216,9 +235,7 @@ impl Walk<'_> {
                 None => f64::INFINITY,
             };
         }
-        let error = (sum / self.replicas.len() as f64).sqrt();
-        self.seen.push((at, error));
-        error
+        (sum / self.replicas.len() as f64).sqrt()
     }
 
     /// Mean square of the relative errors of the parameters that the log determines.

@@ -82,11 +82,11 @@ pub enum Stepping {
     /// solved waits for the others in its lanes.
     #[default]
     Midpoint,
-    /// The cheap one, for the first generations of a search: the bristle exactly with the velocity held, then
-    /// the velocity with the damping taken at the end of the step:
+    /// The cheap one, for the first generations of a search: the bristle by Euler's implicit rule with the
+    /// velocity held, then the velocity with the damping taken at the end of the step:
     ///
     /// ```text
-    /// z+ = z + (z - sgn(v) g(v)/sigma0) expm1(-h sigma0 |v|/g(v))
+    /// z+ = (z + h v)/(1 + h sigma0 |v|/g(v))
     /// M (v+ - v)/h = u - [sigma0 z+ + sigma1 (v+ - sigma0 |v|/g(v) z+) + sigma2 v+],   x+ = x + h v+
     /// ```
     /// First order: what it is off falls in proportion to the step. Nothing is solved by iteration, and it

@@ -1,9 +1,12 @@
 //! Models, and motions that a compensator does not like.
 #![allow(dead_code)]
 
+pub mod compiled;
+
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use stiction_export::{Model, Parameter, Provenance};
+use std::io::Read;
+use stiction_export::{File, Model, Parameter, Provenance};
 use stiction_friction::compensator::{Friction, Input, Settings, Watchdog};
 use stiction_friction::{CoulombViscous, Damping, Direction, LuGre, Shape, Stribeck};
 
@@ -58,6 +61,7 @@ pub fn model(friction: Friction<f64>) -> Model {
         rotary: false,
         friction,
         settings: Settings::new(1e-3, 60.0),
+        rated_force: Some(221.0),
         parameters: vec![
             Parameter {
                 name: "sigma0".into(),
@@ -147,4 +151,20 @@ pub fn adversarial(samples: usize, wild: bool, random: &mut impl Rng) -> Vec<(f6
     }
     out.truncate(samples);
     out
+}
+
+/// The files in an FMU.
+pub fn parts(archive: &File) -> Vec<File> {
+    let mut zip = zip::ZipArchive::new(std::io::Cursor::new(&archive.bytes)).unwrap();
+    (0..zip.len())
+        .map(|i| {
+            let mut entry = zip.by_index(i).unwrap();
+            let mut bytes = Vec::new();
+            entry.read_to_end(&mut bytes).unwrap();
+            File {
+                path: entry.name().unwrap().into_owned(),
+                bytes,
+            }
+        })
+        .collect()
 }

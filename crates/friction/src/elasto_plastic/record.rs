@@ -22,7 +22,7 @@ impl<T: Real> ElastoPlastic<T> {
         if rises || (va > T::ZERO && vb < T::ZERO) {
             let theta = va / (va - vb);
             let turn = self.one_way(!rises, z, theta * h, va.abs(), T::ZERO);
-            self.one_way(rises, turn, (T::ONE - theta) * h, T::ZERO, vb.abs())
+            self.one_way(rises, turn, vb / (vb - va) * h, T::ZERO, vb.abs())
         } else {
             self.one_way(va > T::ZERO || vb > T::ZERO, z, h, va.abs(), vb.abs())
         }

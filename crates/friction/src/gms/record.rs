@@ -22,7 +22,7 @@ impl<T: Real, const N: usize> Gms<T, N> {
         if rises || (va > T::ZERO && vb < T::ZERO) {
             let theta = va / (va - vb);
             let turn = self.one_way(!rises, from, theta * h, va.abs(), T::ZERO);
-            self.one_way(rises, turn, (T::ONE - theta) * h, T::ZERO, vb.abs())
+            self.one_way(rises, turn, vb / (vb - va) * h, T::ZERO, vb.abs())
         } else {
             self.one_way(va > T::ZERO || vb > T::ZERO, from, h, va.abs(), vb.abs())
         }

@@ -15,14 +15,29 @@ use stiction_search::{Bounds, CostsOnly, Derivatives, Fidelity, Points, Problem}
 /// `[sigma0, sigma1, sigma2, Fc, Fs - Fc, vs]`, SI.
 ///
 /// ```
+/// use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 /// use stiction_identify::candidates::{Candidates, Scheme, SixParameters, box_of_six};
 /// use stiction_identify::{Conditioning, Cutoff, Law, LawKind, Mass, Samples, Terms, condition};
 /// use stiction_search::{Limits, Plan, Run, Silent};
 ///
-/// // 20 N of Coulomb and 60 N s/m of viscous friction behind a stiff bristle.
+/// // A log of known friction: 20 N of Coulomb friction and 60 N s/m.
+/// let side = Direction {
+///     coulomb: 20.0,
+///     static_friction: 30.0,
+///     stribeck_velocity: 0.01,
+///     viscous: 60.0,
+/// };
+/// let curve = Stribeck::symmetric(Shape::Gaussian, side, 0.0)?;
+/// let axis = LuGre::new(5e5, Damping::Constant(800.0), curve)?;
 /// let time: Vec<f64> = (0..2000).map(|i| 1e-3 * f64::from(i)).collect();
 /// let velocity: Vec<f64> = time.iter().map(|t| 0.05 * (12.0 * t).sin()).collect();
-/// let force = velocity.iter().map(|v| 20.0 * (v / 1e-5).tanh() + 60.0 * v).collect();
+/// let (mut z, mut before) = (0.0, 0.0);
+/// let force = velocity.iter().map(|&v| {
+///     z = axis.step_record(z, 1e-3, before, v);
+///     before = v;
+///     axis.force(z, v)
+/// });
+/// let force = force.collect();
 /// let log = Samples { time, velocity: Some(velocity), force, ..Samples::default() };
 /// let raw = Conditioning {
 ///     source_cutoff: Cutoff::Off,
@@ -37,9 +52,9 @@ use stiction_search::{Bounds, CostsOnly, Derivatives, Fidelity, Points, Problem}
 /// run.advance(&problem, &Limits::default(), &mut Silent)?;
 /// let best = run.best().expect("a finite cost");
 /// let found = problem.parameters(&best.point);
-/// assert!(best.cost < 0.01);
+/// assert!(best.cost < 1e-9);
 /// assert_eq!(found[3].0, "coulomb");
-/// assert!((found[3].1 / 20.0 - 1.0).abs() < 0.2, "{found:?}");
+/// assert!((found[3].1 / 20.0 - 1.0).abs() < 1e-3, "{found:?}");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct SixParameters {

@@ -40,10 +40,11 @@ impl Shift {
     /// A residual made of encoder steps repeats itself with the motion, which makes it look less certain
     /// than it is. The replicas show by how much (calibration by a bootstrap: Beran 1987,
     /// doi 10.1093/biomet/74.3.457), but they are few and bound to one motion: the geometric mean of the
-    /// variance before and after calibration is used, and not less than the replicas scatter. To it come
-    /// the variance of the mean shift, and what the shift may itself be wrong by.
+    /// variance before calibration and, three times, after it is used, and not less than the replicas
+    /// scatter. To it come the variance of the mean shift, and what the shift may itself be wrong by.
     pub fn total(&self, i: usize, residual: f64) -> f64 {
-        let calibration = (FEW * self.scatter[i] / self.stated[i]).sqrt();
+        let root = (FEW * self.scatter[i] / self.stated[i]).sqrt();
+        let calibration = root * root.sqrt();
         let calibrated = residual
             * if calibration.is_finite() {
                 calibration

@@ -141,7 +141,7 @@ fn run<const K: usize>(
                 let part = Part::new(
                     &layout,
                     &curve,
-                    (1.0 - theta) * step,
+                    v / (v - u) * step,
                     (0.0, &rest[side]),
                     (v, &now),
                 );

@@ -160,7 +160,7 @@ pub(super) fn run<const K: usize>(
             if u != 0.0 && v != 0.0 && (u < 0.0) != (v < 0.0) {
                 let theta = u / (u - v);
                 part(theta, u, old, 0.0, rest[usize::from(u < 0.0)], sign(u));
-                part(1.0 - theta, 0.0, rest[side], v, now, sign(v));
+                part(v / (v - u), 0.0, rest[side], v, now, sign(v));
             } else if u != 0.0 || v != 0.0 {
                 // A step that starts or ends at rest belongs to the direction it moves in.
                 let s = if u < 0.0 || v < 0.0 { -1.0 } else { 1.0 };

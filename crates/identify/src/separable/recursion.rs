@@ -263,7 +263,7 @@ fn bristle<const K: usize>(
                     if u < 0.0 { -1.0 } else { 1.0 },
                 );
                 part(
-                    1.0 - theta,
+                    v / (v - u),
                     0.0,
                     &rest[side],
                     v,

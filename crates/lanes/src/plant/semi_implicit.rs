@@ -3,7 +3,7 @@
 use super::{Axis, Drive, Measured, Motion, Outcome};
 use crate::curve::{Curve, Speed};
 use crate::dispatch::Kernel;
-use crate::exp::{LOWEST, at_least, exp, expm1, fma};
+use crate::exp::{exp, fma};
 use crate::lane_array::{Aligned, lanes, read, write};
 
 /// One axis, in units of its Coulomb level.
@@ -12,7 +12,7 @@ struct Lane {
     curve: Curve,
     /// `M/h`.
     inertia: f64,
-    /// `-h kappa`.
+    /// `h kappa`.
     rate: f64,
     /// Fc.
     level: f64,
@@ -30,7 +30,7 @@ impl Lane {
         Lane {
             curve: Curve::new(kappa, excess, c.stribeck_velocity, c.exponent),
             inertia,
-            rate: -(h * kappa),
+            rate: h * kappa,
             level: c.coulomb,
             micro_damping: c.micro_damping,
             yielding: 1.0 / (inertia + c.micro_damping + c.viscous),
@@ -76,22 +76,16 @@ impl Lane {
     #[inline(always)]
     fn step<const POWER: bool>(&self, v: f64, eta: f64, force: f64) -> (f64, f64) {
         let speed = v.abs();
-        let sign = if v < 0.0 { -1.0 } else { 1.0 };
         let ln = if POWER { libm::log(speed) } else { 0.0 };
         let g = fma(
             self.curve.excess,
             exp(self.curve.exponent::<POWER>(Speed { value: speed, ln })),
             1.0,
         );
-        let pull = speed / g;
-        let lag = fma(sign, eta, -g);
-        let e = expm1(at_least(self.rate * pull, LOWEST));
-        let end = fma(sign * lag, e, eta);
-        let pushed = fma(
-            end,
-            fma(self.micro_damping, pull, -self.level),
-            fma(self.inertia, v, force),
-        );
+        let over_level = fma(self.rate, v, eta) / fma(self.rate, speed, g);
+        let end = over_level * g;
+        let slip = self.micro_damping * (speed * over_level);
+        let pushed = fma(end, -self.level, fma(self.inertia, v, force)) + slip;
         (pushed * self.yielding, end)
     }
 }

@@ -138,7 +138,7 @@ fn append(track: &mut Track, index: usize, segment: &Segment) -> Result<(), Erro
                     ..Node::still(sign, REVERSE)
                 };
                 push(track, turn, None);
-                half_step *= 1.0 - theta;
+                half_step *= v / (v - before);
                 sign = -sign;
             }
         }

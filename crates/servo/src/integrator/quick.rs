@@ -44,8 +44,7 @@ impl Quick {
             from.velocity + 0.5 * h * self.acceleration + (load.force - self.force) / inertia;
         self.force = load.force;
         for _ in 0..MOST_EVALUATIONS {
-            let end = law.step_held_slope(from.deflection, h, w);
-            let (friction, friction_slope) = law.mean_force_from_end(from.deflection, end, h, w);
+            let [end, (friction, friction_slope)] = law.step_held_force(from.deflection, h, w);
             let drive = load.force - stiffness * (from.position + 0.5 * h * w);
             let excess = inertia * (w - from.velocity) + friction + plant.viscous() * w - drive;
             let slope = inertia + plant.viscous() + 0.5 * h * stiffness + friction_slope;

@@ -1,0 +1,150 @@
+//! Functional Mock-up Units for co-simulation, FMI 2.0 and 3.0: the C text behind the interface of the standard, with a
+//! binary where a compiler is at hand.
+//!
+//! Standards: FMI 2.0.4 and FMI 3.0.1, Modelica Association, fmi-standard.org.
+
+mod archive;
+mod description;
+mod unit;
+mod variables;
+
+use crate::guid::guid;
+use crate::number::Literal;
+use crate::template::Fill;
+use crate::vectors::Vectors;
+use crate::{Error, File, Model, c, check, header, law};
+use variables::Variables;
+
+const CORE: &str = include_str!("../templates/fmu/core.c.in");
+const FMI2: &str = include_str!("../templates/fmu/fmi2.c.in");
+const FMI3: &str = include_str!("../templates/fmu/fmi3.c.in");
+const SELFTEST: &str = include_str!("../templates/fmu/selftest.py.in");
+const PAGE: &str = include_str!("../templates/fmu/index.html.in");
+
+/// Error allowed in the self-test, of the largest force.
+const TOLERANCE: f64 = 1e-12;
+
+/// How gcc makes the binary from a source; the same source and compiler give the same bytes. A name for the output and the
+/// source's are to follow.
+pub const GCC: [&str; 9] = [
+    "-std=c99",
+    "-O2",
+    "-ffp-contract=off",
+    "-fPIC",
+    "-shared",
+    "-fvisibility=hidden",
+    "-s",
+    "-Wl,--build-id=none",
+    "-o",
+];
+
+/// A version of the standard.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Version {
+    Two,
+    Three,
+}
+
+impl Version {
+    fn number(self) -> &'static str {
+        match self {
+            Version::Two => "2",
+            Version::Three => "3",
+        }
+    }
+
+    /// Folder of the binary for x86-64 Linux.
+    fn binaries(self) -> &'static str {
+        match self {
+            Version::Two => "binaries/linux64",
+            Version::Three => "binaries/x86_64-linux",
+        }
+    }
+}
+
+/// The FMUs of a model and their self-test. `compile` gives the shared library for x86-64 Linux of a C source ([`GCC`]), or
+/// nothing where there is no compiler for it: the FMU then holds its source only, and a tool has to compile it.
+///
+/// # Errors
+/// As [`export`](crate::export).
+pub fn fmu(
+    model: &Model,
+    compile: &mut dyn FnMut(&File) -> Option<Vec<u8>>,
+) -> Result<Vec<File>, Error> {
+    check::check(model)?;
+    let vectors = Vectors::<f64>::new(model, "double")?;
+    let component = format!("{}_friction", model.identifier.to_ascii_lowercase());
+    let compensator = model.compensator::<f64>(&model.settings, "double")?;
+    let variables = Variables::of(model, &compensator);
+    let mut fill = Fill::default();
+    fill.set("name", model.identifier.clone())
+        .set("component", component.clone())
+        .set("law", c::inside(model)?)
+        .set("v_unit", model.speed_unit())
+        .set("x_unit", model.length_unit())
+        .set("f_unit", model.force_unit());
+    variables.fill(&mut fill);
+    let mut files = Vec::new();
+    for (version, interface) in [(Version::Two, FMI2), (Version::Three, FMI3)] {
+        let mut own = fill.clone();
+        law::settings(&mut own, compensator.settings(), f64::c);
+        // Of the text without its own token, which two models never share.
+        let token = guid(&format!(
+            "{}{}{interface}",
+            version.number(),
+            own_text(model)?
+        ));
+        own.set("token", token.clone())
+            .set("version", version.number())
+            .set("header", header::comment(model, " * "));
+        let text = format!("{}{interface}", own.render(CORE));
+        let source = File::text(format!("sources/{component}.c"), text);
+        let page = own
+            .set("header", escape(&header::comment(model, "")))
+            .render(PAGE);
+        let mut parts = vec![File::text(
+            "modelDescription.xml",
+            description::xml(model, version, &component, &token, &variables),
+        )];
+        if let Some(bytes) = compile(&source) {
+            let path = format!("{}/{component}.so", version.binaries());
+            parts.push(File { path, bytes });
+        }
+        parts.push(File::text("documentation/index.html", page));
+        parts.push(source);
+        if version == Version::Three {
+            let build = description::build(&component);
+            parts.push(File::text("sources/buildDescription.xml", build));
+        }
+        files.push(File {
+            path: format!("{component}_fmi{}.fmu", version.number()),
+            bytes: archive::zip(&parts)?,
+        });
+    }
+    let mut test = fill;
+    law::settings(&mut test, &vectors.settings, f64::c);
+    test.set("header", header::comment(model, "# "))
+        .set("rows", vectors.python())
+        .set("tolerance", (TOLERANCE * vectors.scale(model)).c());
+    files.push(File::text(
+        format!("{component}_selftest.py"),
+        test.render(SELFTEST),
+    ));
+    Ok(files)
+}
+
+/// What makes a model's FMU another one than that of the next.
+fn own_text(model: &Model) -> Result<String, Error> {
+    Ok(format!(
+        "{}{}",
+        header::comment(model, ""),
+        c::inside(model)?
+    ))
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}

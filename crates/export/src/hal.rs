@@ -1,0 +1,43 @@
+//! LinuxCNC: a HAL component, with the C text inside, and a self-test in a real thread.
+
+use crate::number::Literal;
+use crate::template::Fill;
+use crate::vectors::Vectors;
+use crate::{Error, File, Model, c, header, law};
+
+const COMPONENT: &str = include_str!("../templates/hal/component.comp.in");
+const SELFTEST: &str = include_str!("../templates/hal/selftest.py.in");
+
+/// Error allowed in the self-test, of the largest force.
+const TOLERANCE: f64 = 1e-12;
+
+pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
+    let vectors = Vectors::<f64>::new(model, "double")?;
+    let compensator = model.compensator::<f64>(&model.settings, "double")?;
+    let component = format!("{}_friction", model.identifier.to_ascii_lowercase());
+    let mut fill = Fill::default();
+    fill.set("name", model.identifier.clone())
+        .set("component", component.clone())
+        .set("pins", component.replace('_', "-"))
+        .set("version", model.provenance.version.clone())
+        .set("law", c::inside(model)?)
+        .set("v_unit", model.speed_unit())
+        .set("x_unit", model.length_unit())
+        .set("f_unit", model.force_unit());
+    law::fill(&mut fill, compensator.friction(), f64::c);
+    let mut test = fill.clone();
+    law::settings(&mut fill, compensator.settings(), f64::c);
+    law::settings(&mut test, &vectors.settings, f64::c);
+    let period = libm::round(model.settings.cycle_time * 1e9);
+    test.set("header", header::comment(model, "# "))
+        .set("period", format!("{period:.0}"))
+        .set("rows", vectors.python())
+        .set("tolerance", (TOLERANCE * vectors.scale(model)).c());
+    let text = fill
+        .set("header", header::comment(model, ""))
+        .render(COMPONENT);
+    Ok(vec![
+        File::text(format!("{component}.comp"), text),
+        File::text(format!("{component}_selftest.py"), test.render(SELFTEST)),
+    ])
+}

@@ -1,0 +1,132 @@
+//! The friction table of TwinCAT CNC: read back as a controller would, against the law.
+
+mod common;
+
+use common::compiled::{run, write};
+use common::{laws, model};
+use stiction_export::{Error, Model, Target, export};
+use stiction_friction::compensator::Friction;
+
+fn text(model: &Model) -> String {
+    let file = export(model, Target::Tf5200).unwrap().remove(0);
+    String::from_utf8(file.bytes).unwrap()
+}
+
+/// A parameter's value, as the controller reads the list: a name, a blank, a number.
+fn value(text: &str, name: &str) -> f64 {
+    let line = text
+        .lines()
+        .find(|l| l.starts_with(&format!("frict_comp.{name} ")))
+        .unwrap_or_else(|| panic!("no {name}"));
+    line.split(' ').nth(1).unwrap().parse().unwrap()
+}
+
+/// The number after words in a comment.
+fn stated(text: &str, words: &str) -> f64 {
+    let after = text.split(words).nth(1).unwrap().trim();
+    after.split(' ').next().unwrap().parse().unwrap()
+}
+
+fn steady(friction: &Friction<f64>, v: f64) -> f64 {
+    match friction {
+        Friction::Coulomb(law) => law.force(v),
+        Friction::Stribeck(curve) => curve.force(v),
+        Friction::LuGre(law) => law.curve().force(v),
+    }
+}
+
+/// The table, interpolated at ten thousand speeds, is as near to the law as its head says, and no further off.
+#[test]
+fn the_error_is_the_one_that_is_stated() {
+    for (name, friction) in laws() {
+        let mut model = model(friction);
+        model.settings.limit = 1e4;
+        let text = text(&model);
+        let count = value(&text, "table_entries") as usize;
+        assert!((2..=20).contains(&count), "{name}");
+        let points: Vec<[f64; 2]> = (0..count)
+            .map(|i| {
+                let of = |what| value(&text, &format!("table[{i}].{what}"));
+                // um/s; a tenth of a per mille of 221 N
+                [of("in") * 1e-6, of("out") * 221.0e-4]
+            })
+            .collect();
+        assert_eq!(points[0][0], 0.0);
+        assert!(points.windows(2).all(|p| p[0][0] < p[1][0]), "{name}");
+        let (mut mean, mut side) = (0.0_f64, 0.0_f64);
+        let end = points[count - 1][0];
+        for k in 1..=10_000 {
+            let v = end * (f64::from(k) / 10_000.0).powi(3);
+            let after = points.iter().position(|p| p[0] >= v).unwrap();
+            let ([a, low], [b, high]) = (points[after - 1], points[after]);
+            let force = low + (high - low) * (v - a) / (b - a);
+            let (there, back) = (steady(&friction, v), -steady(&friction, -v));
+            mean = mean.max((force - 0.5 * (there + back)).abs());
+            side = side.max((force - there).abs()).max((force - back).abs());
+        }
+        let (said_mean, said_side) = (
+            stated(&text, "against the mean of both directions"),
+            stated(&text, "against each direction with its offset"),
+        );
+        // Three digits are stated, and the two sets of speeds differ.
+        assert!(
+            mean <= 1.01 * said_mean + 1e-9,
+            "{name}: {mean} {said_mean}"
+        );
+        assert!(mean >= 0.9 * said_mean - 1e-9, "{name}: {mean} {said_mean}");
+        assert!(
+            side <= 1.01 * said_side + 1e-9,
+            "{name}: {side} {said_side}"
+        );
+        println!("{name}: {count} points, {mean:.2e} N of the mean, {side:.2e} N of a side");
+    }
+}
+
+/// Of the bench stage's law less than a percent of Fs is lost in the table.
+#[test]
+fn twenty_points_are_enough() {
+    let text = text(&model(laws().remove(0).1));
+    let error = stated(&text, "against the mean of both directions");
+    assert!(error < 0.01 * 18.0, "{error}");
+    insta::assert_snapshot!("x_axis_frict_comp.lis", text);
+}
+
+#[test]
+fn the_self_test_passes_and_notices() {
+    for (name, law) in laws() {
+        let dir = tempfile::tempdir().unwrap();
+        let mut model = model(law);
+        model.rotary = name == "power";
+        write(&export(&model, Target::Tf5200).unwrap(), dir.path());
+        let said = run("python3", &["x_axis_frict_comp_selftest.py"], dir.path());
+        assert!(said.starts_with("ok"), "{name}: {said}");
+        let table = dir.path().join("x_axis_frict_comp.lis");
+        let text = std::fs::read_to_string(&table).unwrap();
+        let first = format!("table[0].out {:.0}", value(&text, "table[0].out"));
+        let other = format!("table[0].out {:.0}", value(&text, "table[0].out") + 20.0);
+        std::fs::write(&table, text.replace(&first, &other)).unwrap();
+        let status = std::process::Command::new("python3")
+            .arg("x_axis_frict_comp_selftest.py")
+            .current_dir(dir.path())
+            .output()
+            .unwrap()
+            .status;
+        assert!(!status.success(), "{name}");
+    }
+}
+
+#[test]
+fn a_rated_force_is_needed() {
+    let mut model = model(laws().remove(0).1);
+    for (rated, says) in [
+        (None, "give it with --rated-force"),
+        (Some(0.0), "rated_force = 0"),
+        (Some(f64::NAN), "rated_force = NaN"),
+        (Some(f64::INFINITY), "rated_force = inf"),
+        (Some(1e-9), "32 bits"),
+    ] {
+        model.rated_force = rated;
+        let error: Error = export(&model, Target::Tf5200).unwrap_err();
+        assert!(error.to_string().contains(says), "{error}");
+    }
+}
