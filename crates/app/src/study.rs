@@ -2,6 +2,7 @@
 //!
 //! Raw as typed, then resolved to SI and the types of the simulation, then run over the whole grid.
 
+mod contour;
 mod model;
 mod raw;
 mod resolve;
@@ -12,6 +13,8 @@ mod wrong;
 use crate::error::{Error, Warning};
 use crate::output::Bundle;
 use crate::report;
+pub(crate) use contour::ContourTrace;
+use contour::{ContourPlan, Second};
 use model::Model;
 use result::StudyFile;
 pub(crate) use run::{Course, Trace};
@@ -35,6 +38,8 @@ pub struct Study {
     seed: u64,
     machine: Machine,
     paths: Vec<PathPlan>,
+    second: Option<Second>,
+    contours: Vec<ContourPlan>,
     controllers: Vec<Named<Controller>>,
     compensators: Vec<Named<Scheme>>,
     families: Vec<Family>,
@@ -123,6 +128,7 @@ pub struct StudyOutcome {
     /// What goes into `study.json`.
     pub file: StudyFile,
     pub(crate) traces: Vec<Trace>,
+    pub(crate) contours: Vec<ContourTrace>,
 }
 
 impl Study {
@@ -152,6 +158,16 @@ impl StudyOutcome {
     pub(crate) fn trace(&self, row: &result::ResultRow) -> Option<&Trace> {
         self.traces.iter().find(|t| {
             t.path == row.path && t.controller == row.controller && t.compensator == row.compensator
+        })
+    }
+
+    /// The same of a row on a contour.
+    pub(crate) fn contour(&self, row: &result::ResultRow) -> Option<&ContourTrace> {
+        self.contours.iter().find(|t| {
+            t.path == row.path
+                && t.controller == row.controller
+                && t.compensator == row.compensator
+                && t.coupled == row.coupled
         })
     }
 

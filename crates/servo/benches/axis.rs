@@ -13,9 +13,11 @@ use stiction_servo::feedforward::Feedforward;
 use stiction_servo::fuzzy::FuzzyPid;
 use stiction_servo::integrator::Quick;
 use stiction_servo::known;
+use stiction_servo::metrics::Tracking;
 use stiction_servo::motion::Sine;
 use stiction_servo::path::Reference;
 use stiction_servo::pid::{Pid, PidState};
+use stiction_servo::run::run_with;
 use stiction_servo::trajectory::Lookahead;
 
 const RATE: f64 = 1e4;
@@ -97,5 +99,22 @@ fn pid(bencher: Bencher, fuzzy: bool) {
                 plain.force(&mut state, 1e-4, r, x, 0.0)
             }
         })
+    });
+}
+
+/// One run of a study: 3 s of a sine at 4 kHz, the whole axis, and its metrics.
+#[divan::bench]
+fn study_run(bencher: Bencher) {
+    let axis = known::find("motor").expect("a known axis");
+    let mut settings = axis.simulated(4000.0, 60.0).expect("settings of the bench");
+    let safe = Settings::new(1.0 / 4000.0, 500.0);
+    let compensator = Compensator::new(Friction::LuGre(axis.law), Source::Reference, safe)
+        .expect("settings of the bench");
+    settings.feedforward = Feedforward::compensator(compensator, 1.64);
+    let sine = Sine::new(5e-3, 1.0, 3.0).expect("a sine");
+    bencher.counter(ItemsCount::new(12_000_usize)).bench(|| {
+        let quick = Quick::new(1).expect("one step");
+        let samples = run_with(black_box(&settings), &sine, quick).expect("settings of the bench");
+        Tracking::of(&samples)
     });
 }

@@ -111,6 +111,22 @@ pub struct RunningDrive {
     heat: f64,
     warming: f64,
     period: f64,
+    /// The lag over the parts of a period that were asked for last: an axis asks for the same ones in every period.
+    lags: [Lag; LAGS],
+    oldest: usize,
+}
+
+/// How many parts of a period are remembered.
+const LAGS: usize = 4;
+
+/// What the current loop does over a part of a period.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Lag {
+    /// Of a period; below 0 before there is one.
+    part: f64,
+    /// What is left of the distance to the command at its end, and of it on average.
+    left: f64,
+    mean: f64,
 }
 
 impl RunningDrive {
@@ -132,6 +148,12 @@ impl RunningDrive {
             heat: 0.0,
             warming: -libm::expm1(-period / drive.thermal_time),
             period,
+            lags: [Lag {
+                part: -1.0,
+                left: 0.0,
+                mean: 0.0,
+            }; LAGS],
+            oldest: 0,
         })
     }
 
@@ -172,15 +194,30 @@ impl RunningDrive {
     fn follow(&mut self, late: usize, part: f64) -> f64 {
         let size = self.commands.len();
         let wanted = self.commands[(self.newest + size - late) % size];
-        let lag = self.drive.current_lag;
-        if lag == 0.0 {
+        if self.drive.current_lag == 0.0 {
             self.current = wanted;
             return wanted;
         }
-        let x = part * self.period / lag;
-        let gone = -libm::expm1(-x);
+        let lag = self.lag(part);
         let off = self.current - wanted;
-        self.current = wanted + off * (1.0 - gone);
-        wanted + off * (gone / x)
+        self.current = wanted + off * lag.left;
+        wanted + off * lag.mean
+    }
+
+    /// The lag of the current loop over `part` of a period.
+    fn lag(&mut self, part: f64) -> Lag {
+        if let Some(known) = self.lags.iter().find(|lag| lag.part == part) {
+            return *known;
+        }
+        let x = part * self.period / self.drive.current_lag;
+        let gone = -libm::expm1(-x);
+        let lag = Lag {
+            part,
+            left: 1.0 - gone,
+            mean: gone / x,
+        };
+        self.lags[self.oldest] = lag;
+        self.oldest = (self.oldest + 1) % LAGS;
+        lag
     }
 }

@@ -55,47 +55,57 @@ impl<L: Held<f64>> TwoAxes<L> {
         integrator: I,
     ) -> Result<Vec<PlaneSample>, ParamError> {
         let [x, y] = &self.axes;
-        if x.rate != y.rate {
-            return Err(ParamError::new("rate", y.rate, "that of the other axis"));
-        }
-        if let Some(coupling) = &self.coupling {
-            coupling.validate()?;
-        }
-        let (rate, n) = (x.rate, sample_count(motion.duration(), x.rate)?);
-        let sides = [Side(motion, 0), Side(motion, 1)];
-        let mut references = [
-            Lookahead::new(&sides[0], rate, x.feedforward.preview),
-            Lookahead::new(&sides[1], rate, y.feedforward.preview),
-        ];
         let mut axes = [
             Axis::new(x.clone(), integrator.clone())?,
             Axis::new(y.clone(), integrator)?,
         ];
-        let mut state = CouplingState::default();
-        let mut samples = Vec::with_capacity(n);
-        for _ in 0..n {
-            let station = motion.at(samples.len() as f64 / rate);
-            let mut correction = [0.0; 2];
-            if let Some(coupling) = &self.coupling {
-                let error = [0, 1].map(|i| station.axes[i].position - axes[i].measure());
-                let deviation = motion.deviation(station.parameter, error);
-                correction = coupling.correction(&mut state, 1.0 / rate, deviation);
-            }
-            let at = [0, 1].map(|i| {
-                let (reference, ahead) = references[i].sample();
-                let correction = Correction {
-                    velocity: correction[i],
-                    force: 0.0,
-                };
-                axes[i].step(reference, ahead, correction)
-            });
-            let position = at.map(|s| s.position);
-            samples.push(PlaneSample {
-                axes: at,
-                parameter: station.parameter,
-                deviation: motion.true_deviation(position, station.parameter).distance,
-            });
-        }
-        Ok(samples)
+        follow(&mut axes, self.coupling.as_ref(), motion)
     }
+}
+
+/// Runs two axes over the whole contour from where they are, with or without control of the contour.
+pub fn follow<L: Held<f64>, I: Integrator<L>>(
+    axes: &mut [Axis<L, I>; 2],
+    coupling: Option<&CrossCoupling>,
+    motion: &(impl PlaneMotion + ?Sized),
+) -> Result<Vec<PlaneSample>, ParamError> {
+    let [x, y] = axes.each_ref().map(Axis::settings);
+    if x.rate != y.rate {
+        return Err(ParamError::new("rate", y.rate, "that of the other axis"));
+    }
+    if let Some(coupling) = coupling {
+        coupling.validate()?;
+    }
+    let (rate, n) = (x.rate, sample_count(motion.duration(), x.rate)?);
+    let sides = [Side(motion, 0), Side(motion, 1)];
+    let mut references = [
+        Lookahead::new(&sides[0], rate, x.feedforward.preview),
+        Lookahead::new(&sides[1], rate, y.feedforward.preview),
+    ];
+    let mut state = CouplingState::default();
+    let mut samples = Vec::with_capacity(n);
+    for _ in 0..n {
+        let station = motion.at(samples.len() as f64 / rate);
+        let mut correction = [0.0; 2];
+        if let Some(coupling) = coupling {
+            let error = [0, 1].map(|i| station.axes[i].position - axes[i].measure());
+            let deviation = motion.deviation(station.parameter, error);
+            correction = coupling.correction(&mut state, 1.0 / rate, deviation);
+        }
+        let at = [0, 1].map(|i| {
+            let (reference, ahead) = references[i].sample();
+            let correction = Correction {
+                velocity: correction[i],
+                force: 0.0,
+            };
+            axes[i].step(reference, ahead, correction)
+        });
+        let position = at.map(|s| s.position);
+        samples.push(PlaneSample {
+            axes: at,
+            parameter: station.parameter,
+            deviation: motion.true_deviation(position, station.parameter).distance,
+        });
+    }
+    Ok(samples)
 }

@@ -1,5 +1,9 @@
 //! The report of a study.
 
+mod contour;
+
+pub(crate) use contour::scheme;
+
 use crate::study::StudyOutcome;
 use crate::study::result::{MetricEntry, ResultRow, SimulatedAxis, StudyFile};
 use crate::study::{Course, Trace};
@@ -17,12 +21,16 @@ pub(crate) fn study(outcome: &StudyOutcome) -> Document {
     let file = &outcome.file;
     let mut document = Document::new(format!("Friction compensation: {}", file.name))
         .subtitle(format!(
-            "{}, simulated at {} Hz; a {} axis of {} {}",
+            "{}, simulated at {} Hz; a {} axis of {} {}{}",
             file.axis.origin,
             number::sig(file.axis.rate_hz, 4),
             file.axis.kind,
             number::sig(file.axis.mass, 4),
-            mass_unit(&file.axis)
+            mass_unit(&file.axis),
+            file.second_axis.as_ref().map_or(String::new(), |second| {
+                let mass = number::sig(second.mass, 4);
+                format!(" and one of {mass} {}", mass_unit(second))
+            })
         ))
         .footer(format!("stiction {} · seed {}", file.version, file.seed));
     document = document.block(verdict(file));
@@ -44,26 +52,43 @@ pub(crate) fn study(outcome: &StudyOutcome) -> Document {
     for (i, rows) in cells.iter().enumerate() {
         document = document
             .heading(2, format!("{}, {}", rows[0].path, rows[0].controller))
-            .block(table(rows));
-        if i < MOST_FIGURES {
+            .block(match contour::is_contour(rows) {
+                true => contour::table(rows),
+                false => table(rows),
+            });
+        if i < MOST_FIGURES && contour::is_contour(rows) {
+            let figures = contour::figures(outcome, rows);
+            document = figures.into_iter().fold(document, |d, f| d.block(f));
+            document = wrong(rows).into_iter().fold(document, |d, f| d.block(f));
+        } else if i < MOST_FIGURES {
             let figures = in_time(outcome, rows).into_iter().chain(wrong(rows));
             document = figures.fold(document, |d, f| d.block(f));
         }
     }
-    document
+    document = document
         .heading(2, "The axis")
-        .block(axis(file))
-        .block(parameters(&file.axis))
+        .block(axis(file, &file.axis))
+        .block(parameters(&file.axis));
+    if let Some(second) = &file.second_axis {
+        document = document
+            .heading(2, "The second axis")
+            .block(axis(file, second))
+            .block(parameters(second));
+    }
+    document
         .heading(2, "What the numbers mean")
         .block(Block::List(MEANING.map(Text::from).to_vec()))
 }
 
-const MEANING: [&str; 6] = [
+const MEANING: [&str; 7] = [
     "Errors are reference less true position. What the encoder does not see counts.",
     "At reversals: the largest error within 20 ms of a change of direction, or a quarter of the time \
      between two if that is longer.",
     "Reduction: by how much the error at reversals is below that without compensation, on the same \
      path and under the same controller; where a path has no reversal, the largest error.",
+    "On a contour the error is the distance to it, and the reduction that of the largest; coupling is \
+     control of that error above both axes. Circular: the least distance of two circles about one centre \
+     that hold the whole path between them.",
     "Worst: the same for the worst set of parameters.",
     "Δu: rms change of the commanded force from sample to sample. Still: longest standstill about a \
      reversal.",
@@ -88,7 +113,8 @@ fn mass_unit(axis: &SimulatedAxis) -> &'static str {
 /// The metric by which compensators are compared.
 pub(crate) fn judged(row: &ResultRow) -> Option<&MetricEntry> {
     let reversal = row.metric("reversal_peak").filter(|m| m.largest > 0.0);
-    reversal.or_else(|| row.metric("peak_error"))
+    let contour = row.metric("contour_peak");
+    contour.or(reversal).or_else(|| row.metric("peak_error"))
 }
 
 fn verdict(file: &StudyFile) -> Callout {
@@ -97,7 +123,7 @@ fn verdict(file: &StudyFile) -> Callout {
         .results
         .iter()
         .filter(|r| judged(r).is_some_and(|m| m.worst_reduction_percent < Some(0.0)))
-        .filter(|r| r.compensator != "none")
+        .filter(|r| r.compensator != "none" || r.coupled)
         .count();
     let (severity, text) = if file.status == "interrupted" {
         let text = format!(
@@ -115,7 +141,7 @@ fn verdict(file: &StudyFile) -> Callout {
         (Severity::Warning, text)
     } else {
         let text = format!(
-            "{} runs. No compensator made tracking at reversals worse.",
+            "{} runs. No compensator made the error that counts larger.",
             number::count(runs as u64)
         );
         (Severity::Good, text)
@@ -133,7 +159,7 @@ fn best(rows: &[ResultRow]) -> Option<KeyFigure> {
     let exact = rows.iter().filter(|r| r.parameters == "exact");
     let reduction = |r: &ResultRow| judged(r).and_then(|m| m.reduction_percent);
     let (row, percent) = exact
-        .filter(|r| r.compensator != "none")
+        .filter(|r| r.compensator != "none" || r.coupled)
         .filter_map(|r| Some((r, reduction(r)?)))
         .max_by(|a, b| a.1.total_cmp(&b.1))?;
     Some(
@@ -142,7 +168,10 @@ fn best(rows: &[ResultRow]) -> Option<KeyFigure> {
             number::sig(percent, 3),
             "% less",
         )
-        .note(format!("error at reversals, {}", row.compensator)),
+        .note(match row.metric("contour_peak") {
+            Some(_) => format!("contour error, {}", contour::scheme(row)),
+            None => format!("error at reversals, {}", row.compensator),
+        }),
     )
 }
 
@@ -291,10 +320,16 @@ fn wrong(rows: &[ResultRow]) -> Option<Figure> {
     let place: Vec<f64> = (0..several.len()).map(|i| i as f64).collect();
     let names = several
         .iter()
-        .map(|r| format!("{}, {}", r.compensator, r.parameters));
+        .map(|r| format!("{}, {}", contour::scheme(r), r.parameters));
     let height = (34.0 * several.len() as f64 + 20.0).max(90.0);
     let panel = Panel::new(
-        Axis::new("Error at reversals, of that without compensation", "%"),
+        Axis::new(
+            match contour::is_contour(rows) {
+                true => "Largest contour error, of that without compensation",
+                false => "Error at reversals, of that without compensation",
+            },
+            "%",
+        ),
         Axis::names(names.collect::<Vec<_>>()),
     )
     .layer(
@@ -320,8 +355,7 @@ fn wrong(rows: &[ResultRow]) -> Option<Figure> {
     )
 }
 
-fn axis(file: &StudyFile) -> Block {
-    let axis = &file.axis;
+fn axis(file: &StudyFile, axis: &SimulatedAxis) -> Block {
     let length = symbols::length_unit(motion(axis));
     let mut facts = vec![
         ("Friction", axis.origin.clone()),

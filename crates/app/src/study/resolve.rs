@@ -1,6 +1,7 @@
 //! From the study file as typed to the types of the simulation.
 
 mod compensators;
+mod contours;
 mod controllers;
 mod machine;
 mod paths;
@@ -8,7 +9,7 @@ mod paths;
 use super::raw::{Source, Table};
 use super::result::StudyInput;
 use super::wrong::{Belief, Family};
-use super::{Named, Study};
+use super::{Machine, Named, Study};
 use crate::error::Error;
 use crate::source::sha256;
 use std::path::Path;
@@ -37,10 +38,17 @@ pub(super) fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
     let axis = root.table("axis")?;
     let axis = root.required("axis", axis, "a table [axis] with model = \"model.toml\"")?;
     let folder = file.parent().unwrap_or(Path::new(""));
-    let machine = machine::machine(&axis, folder)?;
+    let machine = machine::machine(&axis, folder, None)?;
+    let other = root.table("second_axis")?;
+    let second = match &other {
+        Some(table) => Some(contours::second(&root, table, folder, &machine)?),
+        None => None,
+    };
     let mut inputs = vec![file.to_path_buf()];
-    if let Some(model) = axis.text("model")? {
-        inputs.push(folder.join(model));
+    for table in [Some(axis), other].iter().flatten() {
+        if let Some(model) = table.text("model")? {
+            inputs.push(folder.join(model));
+        }
     }
     let inputs = inputs.iter().map(|path| {
         Ok(StudyInput {
@@ -54,6 +62,8 @@ pub(super) fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
         inputs: inputs.collect::<Result<_, Error>>()?,
         warnings: Vec::new(),
         paths: Vec::new(),
+        second,
+        contours: Vec::new(),
         controllers: Vec::new(),
         compensators: Vec::new(),
         families: Vec::new(),
@@ -61,16 +71,20 @@ pub(super) fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
     };
     for table in root.tables("path", MOST)? {
         let path = paths::path(&table, study.machine.motion)?;
-        let samples = sample_count(path.trajectory.duration(), study.machine.rate);
-        if !samples.is_ok_and(|n| n <= MOST_SAMPLES) {
-            let found = format!("{} s", path.trajectory.duration());
-            let allowed = format!("at most {MOST_SAMPLES} samples, duration times rate");
-            return Err(table.refuse("kind", found, &allowed));
-        }
+        few(&table, path.trajectory.duration(), study.machine.rate)?;
         once(&table, study.paths.iter().map(|p| &p.name), &path.name)?;
         study.paths.push(path);
     }
+    for table in root.tables("contour", MOST)? {
+        let contour = contours::contour(&table, &study)?;
+        few(&table, contour.motion.duration(), study.machine.rate)?;
+        let paths = study.paths.iter().map(|p| &p.name);
+        let taken = paths.chain(study.contours.iter().map(|c| &c.name));
+        once(&table, taken, &contour.name)?;
+        study.contours.push(contour);
+    }
     for table in root.tables("controller", MOST)? {
+        contours::controller(&table, &mut study)?;
         let controller = controllers::controller(&table, &study.machine)?;
         once(&table, names(&study.controllers), &controller.name)?;
         study.controllers.push(controller);
@@ -82,7 +96,7 @@ pub(super) fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
         study.compensators.push(compensator);
     }
     for (key, none) in [
-        ("path", study.paths.is_empty()),
+        ("path", study.paths.is_empty() && study.contours.is_empty()),
         ("controller", study.controllers.is_empty()),
     ] {
         if none {
@@ -98,17 +112,28 @@ pub(super) fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
         return Err(root.refuse("path", found, &format!("at most {MOST_RUNS} in all")));
     }
     study.warnings = std::mem::take(&mut study.machine.model.warnings);
+    if let Some(second) = &mut study.second {
+        study.warnings.append(&mut second.machine.model.warnings);
+    }
     Ok(study)
+}
+
+/// A path is not too long.
+fn few(table: &Table<'_>, duration: f64, rate: f64) -> Result<(), Error> {
+    if sample_count(duration, rate).is_ok_and(|n| n <= MOST_SAMPLES) {
+        return Ok(());
+    }
+    let allowed = format!("at most {MOST_SAMPLES} samples, duration times rate");
+    Err(table.refuse("kind", format!("{duration} s"), &allowed))
 }
 
 /// `[[parameter_error]]`: the exact parameters are always there.
 fn families(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
-    let machine = &study.machine;
-    let truth = Belief {
-        law: machine.law,
-        mass: machine.mass,
-    };
-    let mut families = vec![Family::exact(truth)];
+    let mut families = vec![Family::exact(study.machine.truth())];
+    let mut others = Vec::new();
+    if let Some(second) = &study.second {
+        others.push(Family::exact(second.machine.truth()).beliefs);
+    }
     for table in root.tables("parameter_error", MOST)? {
         let kind = table.choice("kind", &["corners", "covariance"])?;
         let family = match table.required("kind", kind, "\"corners\" or \"covariance\"")? {
@@ -119,15 +144,25 @@ fn families(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
                     let allowed = "above 0 and below 100 %";
                     return Err(table.refuse("by", by.to_string(), allowed));
                 }
-                Family::corners(truth, by)
+                let of = |machine: &Machine| Family::corners(machine.truth(), by);
+                others.extend(study.second.as_ref().map(|s| of(&s.machine).beliefs));
+                of(&study.machine)
             }
             _ => {
                 let draws = table.count("draws", 2, 10_000)?.unwrap_or(100);
-                // A mass that the study gives is known.
-                let given = machine.given_mass.then_some(machine.mass);
-                Family::draws(&machine.model, given, draws, study.seed).map_err(|found| {
+                let refused = |found| {
                     table.refuse("kind", found, "a model with a covariance, or \"corners\"")
-                })?
+                };
+                if let Some(second) = &study.second {
+                    // Draws of its own; a known axis has no covariance and is believed as it is.
+                    let seed = study.seed.wrapping_add(1);
+                    let machine = &second.machine;
+                    others.push(match machine.model.covariance {
+                        None => vec![machine.truth(); draws as usize],
+                        Some(_) => machine.draws(draws, seed).map_err(refused)?.beliefs,
+                    });
+                }
+                study.machine.draws(draws, study.seed).map_err(refused)?
             }
         };
         table.end()?;
@@ -135,7 +170,26 @@ fn families(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
         families.push(family);
     }
     study.families = families;
+    if let Some(second) = &mut study.second {
+        second.families = others;
+    }
     Ok(())
+}
+
+impl Machine {
+    /// What an axis is.
+    fn truth(&self) -> Belief {
+        Belief {
+            law: self.law,
+            mass: self.mass,
+        }
+    }
+
+    /// Draws from the covariance of the model. A mass that the study gives is known.
+    fn draws(&self, count: u64, seed: u64) -> Result<Family, String> {
+        let given = self.given_mass.then_some(self.mass);
+        Family::draws(&self.model, given, count, seed)
+    }
 }
 
 fn names<T>(all: &[Named<T>]) -> impl Iterator<Item = &String> {

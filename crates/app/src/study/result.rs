@@ -23,7 +23,10 @@ pub struct StudyFile {
     pub inputs: Vec<StudyInput>,
     /// The simulated axis.
     pub axis: SimulatedAxis,
-    /// Reference motions.
+    /// The second axis, where there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub second_axis: Option<SimulatedAxis>,
+    /// Reference motions, those of two axes last.
     pub paths: Vec<PathEntry>,
     /// One row for each path, controller, compensator and kind of parameters.
     pub results: Vec<ResultRow>,
@@ -102,6 +105,9 @@ pub struct ResultRow {
     pub controller: String,
     /// Name of the compensator.
     pub compensator: String,
+    /// Whether the axes are controlled together.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub coupled: bool,
     /// What it believed of the axis: `exact`, `±10 %`, `100 draws`.
     pub parameters: String,
     /// Runs that count here.

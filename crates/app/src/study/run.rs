@@ -1,5 +1,6 @@
 //! The grid of a study, run in parallel, and what is kept of each run.
 
+use super::contour::{self, ContourPlan, ContourTrace, Plan};
 use super::result::{
     AxisParameter, MetricEntry, PathEntry, ResultRow, SCHEMA, SimulatedAxis, StudyFile,
 };
@@ -28,9 +29,11 @@ const KEPT: usize = 2000;
 /// A run of the grid, by the places in the lists of the study.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) struct Job {
+    /// Contours count on from the paths.
     path: usize,
     controller: usize,
     compensator: usize,
+    coupled: bool,
     family: usize,
     belief: usize,
 }
@@ -72,6 +75,7 @@ struct Done {
     metrics: Vec<f64>,
     switched_off: bool,
     trace: Option<Trace>,
+    contour: Option<ContourTrace>,
 }
 
 /// Names of the metrics; what they measure is in `docs/study.md`.
@@ -88,25 +92,40 @@ impl Study {
     /// Every run of the grid, in the order of the result.
     pub(super) fn jobs(&self) -> Vec<Job> {
         let mut jobs = Vec::new();
-        for path in 0..self.paths.len() {
+        for path in 0..self.paths.len() + self.contours.len() {
             for controller in 0..self.controllers.len() {
                 for compensator in 0..self.compensators.len() {
-                    for (family, beliefs) in self.families.iter().enumerate() {
-                        if !self.matters(compensator, beliefs) {
-                            continue;
+                    for &coupled in self.couplings(path, compensator) {
+                        for (family, beliefs) in self.families.iter().enumerate() {
+                            if !self.matters(compensator, beliefs) {
+                                continue;
+                            }
+                            jobs.extend((0..beliefs.beliefs.len()).map(|belief| Job {
+                                path,
+                                controller,
+                                compensator,
+                                coupled,
+                                family,
+                                belief,
+                            }));
                         }
-                        jobs.extend((0..beliefs.beliefs.len()).map(|belief| Job {
-                            path,
-                            controller,
-                            compensator,
-                            family,
-                            belief,
-                        }));
                     }
                 }
             }
         }
         jobs
+    }
+
+    /// Without and with control of the contour, where there is one. Learning is of one axis.
+    fn couplings(&self, path: usize, compensator: usize) -> &'static [bool] {
+        let learns = matches!(self.compensators[compensator].it, Scheme::Learning(..));
+        let coupling = self.second.as_ref().and_then(|s| s.coupling);
+        match (path < self.paths.len(), coupling) {
+            (true, _) => &[false],
+            (false, _) if learns => &[],
+            (false, None) => &[false],
+            (false, Some(_)) => &[false, true],
+        }
     }
 
     /// Whether wrong parameters change anything: those of the law where there is a model, the mass everywhere, as it is
@@ -154,7 +173,11 @@ pub(super) fn run(
     failed.dedup_by_key(|(job, _)| job.cell());
     warnings.extend(failed.iter().map(|(job, e)| study.not_run(*job, e)));
     let results = study.rows(&kept);
-    let traces = kept.into_iter().filter_map(|d| d.trace).collect();
+    let (mut traces, mut contours) = (Vec::new(), Vec::new());
+    for done in kept {
+        traces.extend(done.trace);
+        contours.extend(done.contour);
+    }
     StudyOutcome {
         file: StudyFile {
             schema: SCHEMA.into(),
@@ -164,24 +187,79 @@ pub(super) fn run(
             status: if complete { "complete" } else { "interrupted" }.into(),
             inputs: study.inputs.clone(),
             axis: study.machine.entry(),
-            paths: study.paths.iter().map(PathPlan::entry).collect(),
+            second_axis: study.second.as_ref().map(|s| s.machine.entry()),
+            paths: (study.paths.iter().map(PathPlan::entry))
+                .chain(study.contours.iter().map(ContourPlan::entry))
+                .collect(),
             results,
             warnings,
         },
         traces,
+        contours,
     }
+}
+
+/// A controller that feeds the mass that is believed forward: the part of it is the controller's.
+pub(super) fn believing(controller: Controller, machine: &Machine, belief: Belief) -> Controller {
+    let fed = controller.mass_feedforward() / machine.mass * belief.mass;
+    controller.with_mass_feedforward(fed)
 }
 
 impl Study {
     fn one(&self, job: Job) -> Result<Done, ParamError> {
+        match self.contours.get(job.path.wrapping_sub(self.paths.len())) {
+            Some(contour) => self.on_contour(job, contour),
+            None => self.on_path(job),
+        }
+    }
+
+    /// The name of a path or contour.
+    fn path_name(&self, job: Job) -> &str {
+        match self.paths.get(job.path) {
+            Some(path) => &path.name,
+            None => &self.contours[job.path - self.paths.len()].name,
+        }
+    }
+
+    fn on_contour(&self, job: Job, contour: &ContourPlan) -> Result<Done, ParamError> {
+        let missing = ParamError::new("axes", 1.0, "two, for a contour");
+        let second = self.second.as_ref().ok_or(missing)?;
+        let family = &self.families[job.family];
+        let plan = Plan {
+            contour,
+            controllers: [
+                self.controllers[job.controller].it,
+                second.controllers[job.controller],
+            ],
+            scheme: &self.compensators[job.compensator].it,
+            beliefs: [
+                family.beliefs[job.belief],
+                second.families[job.family][job.belief],
+            ],
+            coupling: second.coupling.filter(|_| job.coupled),
+        };
+        let (metrics, switched_off, samples) = self.along(second, &plan)?;
+        let names = [
+            self.path_name(job),
+            &self.controllers[job.controller].name,
+            &self.compensators[job.compensator].name,
+        ];
+        Ok(Done {
+            job,
+            metrics,
+            switched_off,
+            trace: None,
+            contour: (family.kind == "exact")
+                .then(|| ContourTrace::of(names, job.coupled, &samples)),
+        })
+    }
+
+    fn on_path(&self, job: Job) -> Result<Done, ParamError> {
         let path = &self.paths[job.path];
         let family = &self.families[job.family];
         let belief = family.beliefs[job.belief];
-        let truth = self.machine.mass;
         let controller = self.controllers[job.controller].it;
-        // The part of the mass that is fed forward is the controller's, the mass that of the belief.
-        let fed = controller.mass_feedforward() / truth * belief.mass;
-        let controller = controller.with_mass_feedforward(fed);
+        let controller = believing(controller, &self.machine, belief);
         let scheme = &self.compensators[job.compensator].it;
         let mut settings = self.machine.settings(controller, self.seed);
         settings.feedforward = scheme.feedforward(&self.machine, &controller, belief)?;
@@ -190,7 +268,12 @@ impl Study {
         if let Scheme::Learning(learning, passes) = scheme {
             for _ in 1..*passes {
                 let force = &settings.feedforward.learned;
-                let next = learning.learn(force, &samples, fed, self.machine.rate)?;
+                let next = learning.learn(
+                    force,
+                    &samples,
+                    controller.mass_feedforward(),
+                    self.machine.rate,
+                )?;
                 settings.feedforward.learned = next;
                 axis = Axis::new(settings.clone(), Quick::new(1)?)?;
                 samples = follow(&mut axis, path.trajectory.as_ref())?;
@@ -212,6 +295,7 @@ impl Study {
             ],
             switched_off: compensator.is_some_and(|c| c.state().watch.tripped),
             trace: (family.kind == "exact").then(|| Trace::of(self, job, counted)),
+            contour: None,
         })
     }
 
@@ -221,8 +305,12 @@ impl Study {
         for cell in done.chunk_by(|a, b| a.job.cell() == b.job.cell()) {
             let job = cell[0].job;
             let family = &self.families[job.family];
-            let name = |i: usize| (METRICS[i].to_string(), self.machine.unit(METRICS[i]));
-            let metrics = (0..METRICS.len()).filter_map(|i| {
+            let names: &[&str] = match job.path < self.paths.len() {
+                true => &METRICS,
+                false => &contour::METRICS,
+            };
+            let name = |i: usize| (names[i].to_string(), self.machine.unit(names[i]));
+            let metrics = (0..names.len()).filter_map(|i| {
                 let values: Vec<f64> = cell.iter().map(|d| d.metrics[i]).collect();
                 if values.iter().any(|x| x.is_nan()) {
                     return None;
@@ -231,9 +319,10 @@ impl Study {
                 Some(MetricEntry::of(name, unit, values, family.kind))
             });
             let mut row = ResultRow {
-                path: self.paths[job.path].name.clone(),
+                path: self.path_name(job).into(),
                 controller: self.controllers[job.controller].name.clone(),
                 compensator: self.compensators[job.compensator].name.clone(),
+                coupled: job.coupled,
                 parameters: family.name.clone(),
                 runs: cell.len(),
                 switched_off: cell.iter().filter(|d| d.switched_off).count(),
@@ -242,7 +331,7 @@ impl Study {
             let without = rows
                 .iter()
                 .find(|r| r.path == row.path && r.controller == row.controller)
-                .filter(|r| r.compensator == "none" && r.parameters == "exact");
+                .filter(|r| r.compensator == "none" && r.parameters == "exact" && !r.coupled);
             if let Some(without) = without {
                 row.compare(without);
             }
@@ -256,7 +345,7 @@ impl Study {
             "not-run",
             format!(
                 "{}, {}, {} was not run: {e}",
-                self.paths[job.path].name,
+                self.path_name(job),
                 self.controllers[job.controller].name,
                 self.compensators[job.compensator].name
             ),
@@ -265,7 +354,7 @@ impl Study {
 }
 
 impl Machine {
-    fn settings(&self, controller: Controller, seed: u64) -> AxisSettings {
+    pub(super) fn settings(&self, controller: Controller, seed: u64) -> AxisSettings {
         AxisSettings {
             plant: self.plant,
             drive: self.drive,
@@ -285,8 +374,8 @@ impl Machine {
         match (metric, self.motion) {
             ("stick_time", _) => "s",
             ("velocity_ripple", _) => "1",
-            ("command_change", Motion::Linear) => "N",
-            ("command_change", Motion::Rotary) => "N*m",
+            (name, Motion::Linear) if name.starts_with("command_change") => "N",
+            (name, Motion::Rotary) if name.starts_with("command_change") => "N*m",
             (_, motion) => symbols::length_unit(motion),
         }
         .into()
@@ -334,9 +423,20 @@ impl PathPlan {
     }
 }
 
+impl ContourPlan {
+    fn entry(&self) -> PathEntry {
+        PathEntry {
+            name: self.name.clone(),
+            kind: self.kind.into(),
+            duration_s: self.motion.duration(),
+            skip_s: self.skip,
+        }
+    }
+}
+
 impl Scheme {
     /// The compensation of an axis of which `belief` is believed.
-    fn feedforward(
+    pub(super) fn feedforward(
         &self,
         machine: &Machine,
         controller: &Controller,
@@ -407,7 +507,7 @@ impl Trace {
             _ => &[],
         };
         Trace {
-            path: study.paths[job.path].name.clone(),
+            path: study.path_name(job).into(),
             controller: study.controllers[job.controller].name.clone(),
             compensator: study.compensators[job.compensator].name.clone(),
             whole: Course::of(samples),

@@ -1,7 +1,7 @@
 //! A study on the terminal.
 
 use super::table;
-use crate::report::{judged, quantity};
+use crate::report::{judged, quantity, scheme};
 use crate::study::StudyOutcome;
 use crate::study::result::ResultRow;
 use std::fmt::Write;
@@ -24,6 +24,9 @@ pub fn study(outcome: &StudyOutcome) -> String {
             "",
         ];
         let mut lines = vec![header.map(String::from).to_vec()];
+        if rows[0].metric("contour_peak").is_some() {
+            lines[0][4] = String::new();
+        }
         lines.extend(rows.iter().map(line));
         out.push_str(&table(
             &lines,
@@ -40,18 +43,27 @@ pub fn study(outcome: &StudyOutcome) -> String {
 }
 
 fn line(row: &ResultRow) -> Vec<String> {
+    let contour = row.metric("contour_peak").is_some();
     let value = |name: &str| {
         let metric = row.metric(name);
         metric.map_or("-".into(), |m| quantity(m.mean, &m.unit))
     };
-    let judged = judged(row).filter(|_| row.compensator != "none");
+    let judged = judged(row).filter(|_| row.compensator != "none" || row.coupled);
     let percent = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.1} %"));
     vec![
-        row.compensator.clone(),
+        scheme(row),
         row.parameters.clone(),
-        value("rms_error"),
-        value("peak_error"),
-        value("reversal_peak"),
+        value(if contour { "contour_rms" } else { "rms_error" }),
+        value(if contour {
+            "contour_peak"
+        } else {
+            "peak_error"
+        }),
+        if contour {
+            String::new()
+        } else {
+            value("reversal_peak")
+        },
         percent(judged.and_then(|m| m.reduction_percent)),
         percent(
             judged

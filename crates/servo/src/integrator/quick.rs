@@ -4,7 +4,8 @@ use super::{Integrator, at_least_one};
 use crate::plant::{Load, Motion, Plant};
 use stiction_friction::{LuGre, ParamError};
 
-/// The step of [`Plant::step`], solved from a guess: the velocity goes on with the acceleration of the step before.
+/// The step of [`Plant::step`], solved from a guess: the velocity changes as in the step before and by what the force on the
+/// axis has changed since, as if friction stayed as it was. Steps are best of one length.
 ///
 /// Where one step of Newton's method from there is so small that its square is nothing, velocity and deflection take
 /// that step by their derivatives, and no further evaluation is needed. Where it is not after four, as in a reversal, the
@@ -12,8 +13,10 @@ use stiction_friction::{LuGre, ParamError};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quick {
     steps: u32,
-    /// Of the step before, m/s^2 (rad/s^2).
-    acceleration: f64,
+    /// From the velocity at the beginning of the step before to its mean, m/s (rad/s): half of what it gained.
+    rise: f64,
+    /// That of the load over the step before, N (N m).
+    force: f64,
 }
 
 /// A Newton step of this part of the velocity, or of the Stribeck velocity, leaves its square.
@@ -26,7 +29,8 @@ impl Quick {
         at_least_one(steps)?;
         Ok(Quick {
             steps,
-            acceleration: 0.0,
+            rise: 0.0,
+            force: 0.0,
         })
     }
 
@@ -36,7 +40,8 @@ impl Quick {
         let stiffness = load.stiffness + plant.stiffness();
         let inertia = 2.0 * plant.mass() / h;
         let slow = law.curve().direction(from.velocity).stribeck_velocity;
-        let mut w = from.velocity + 0.5 * h * self.acceleration;
+        let mut w = from.velocity + self.rise + (load.force - self.force) / inertia;
+        self.force = load.force;
         for _ in 0..MOST_EVALUATIONS {
             let [end, (friction, friction_slope)] = law.step_held_force(from.deflection, h, w);
             let drive = load.force - stiffness * (from.position + 0.5 * h * w);
@@ -46,7 +51,7 @@ impl Quick {
             if moves.abs() <= SMALL * slow.max(w.abs()) {
                 let w = w + moves;
                 let bound = law.bound();
-                self.acceleration = 2.0 * (w - from.velocity) / h;
+                self.rise = w - from.velocity;
                 return Motion {
                     position: from.position + h * w,
                     velocity: 2.0 * w - from.velocity,
@@ -56,7 +61,7 @@ impl Quick {
             w += moves;
         }
         let motion = plant.step(from, h, load).motion;
-        self.acceleration = (motion.velocity - from.velocity) / h;
+        self.rise = 0.5 * (motion.velocity - from.velocity);
         motion
     }
 }

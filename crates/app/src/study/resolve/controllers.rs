@@ -15,6 +15,8 @@ pub(super) fn controller(table: &Table<'_>, machine: &Machine) -> Result<Named<C
     let kind = table.choice("kind", &["cascade", "pid", "fuzzy-pid"])?;
     let kind = table.required("kind", kind, "\"cascade\", \"pid\" or \"fuzzy-pid\"")?;
     let bandwidth = table.positive("bandwidth", Dimension::FREQUENCY)?;
+    // For the second axis, where there is one.
+    let _ = table.positive("second_bandwidth", Dimension::FREQUENCY)?;
     let peak = machine.drive.peak_force();
     let limit = table.positive("force_limit", is.force)?;
     let limit = limit.or_else(|| Some(peak).filter(|f| f.is_finite()));
@@ -51,6 +53,33 @@ pub(super) fn controller(table: &Table<'_>, machine: &Machine) -> Result<Named<C
     };
     table.end()?;
     Ok(named)
+}
+
+/// The same kind of controller for a second axis, tuned for its mass.
+pub(super) fn second(table: &Table<'_>, machine: &Machine) -> Result<Controller, Error> {
+    let own = table.positive("second_bandwidth", Dimension::FREQUENCY)?;
+    let bandwidth = own.or(table.positive("bandwidth", Dimension::FREQUENCY)?);
+    let example = "one such as \"60 Hz\": gains are for one axis";
+    let bandwidth = table.required("bandwidth", bandwidth, example)?;
+    let peak = Some(machine.drive.peak_force()).filter(|f| f.is_finite());
+    let limit = table.positive("force_limit", Dimensions::of(machine.motion).force)?;
+    let limit = table.required(
+        "force_limit",
+        limit.or(peak),
+        "the largest force, here or as peak_force of the second axis",
+    )?;
+    let mass = machine.mass;
+    let friction = machine.law.curve().largest_static_level();
+    let made = match table.text("kind")? {
+        Some("pid") => Pid::tuned(mass, bandwidth, limit).map(Controller::Pid),
+        Some("fuzzy-pid") => {
+            FuzzyPid::tuned(mass, bandwidth, limit, friction).map(Controller::Fuzzy)
+        }
+        _ => Cascade::tuned(mass, bandwidth, limit).map(Controller::Cascade),
+    };
+    let share = table.number("mass_feedforward", 0.0, 1.0)?.unwrap_or(1.0);
+    let made = made.map_err(|e| table.together(&e))?;
+    Ok(made.with_mass_feedforward(share * mass))
 }
 
 /// Gains as they stand in the file.

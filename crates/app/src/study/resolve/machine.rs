@@ -1,4 +1,4 @@
-//! `[axis]`
+//! `[axis]` and `[second_axis]`
 
 use super::Dimensions;
 use crate::error::Error;
@@ -17,7 +17,12 @@ use stiction_servo::plant::Plant;
 /// Least rate at which the plant is stepped, Hz.
 const PLANT_RATE: f64 = 1e4;
 
-pub(super) fn machine(table: &Table<'_>, folder: &Path) -> Result<Machine, Error> {
+/// An axis; the control rate is that of the first axis where there is one.
+pub(super) fn machine(
+    table: &Table<'_>,
+    folder: &Path,
+    first: Option<f64>,
+) -> Result<Machine, Error> {
     let model = match (table.text("model")?, table.text("known")?) {
         (Some(file), None) => Model::read(&folder.join(file))?,
         (None, Some(name)) => Model::known(name).ok_or_else(|| {
@@ -44,7 +49,10 @@ pub(super) fn machine(table: &Table<'_>, folder: &Path) -> Result<Machine, Error
     let given = table.positive("mass", is.mass)?;
     let mass = given.or_else(|| model.value("mass").filter(|m| *m > 0.0));
     let mass = table.required("mass", mass, "one such as \"4.6 kg\": the model has none")?;
-    let rate = table.positive("rate", Dimension::FREQUENCY)?;
+    let rate = match first {
+        None => table.positive("rate", Dimension::FREQUENCY)?,
+        rate => rate,
+    };
     let rate = table.required("rate", rate, "the control rate, such as \"4 kHz\"")?;
     if !(10.0..=1e6).contains(&rate) {
         return Err(table.refuse("rate", format!("{rate} Hz"), "10 Hz to 1 MHz"));

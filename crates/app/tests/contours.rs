@@ -1,0 +1,246 @@
+//! Studies of two axes: the circle that is known from elsewhere, wrong parameters on both axes, what is refused.
+
+use stiction_app::study::result::{ResultRow, StudyFile};
+use stiction_app::{Control, Error, Study, StudyOutcome};
+
+const AXES: &str = r#"
+[axis]
+known        = "motor"
+rate         = "4 kHz"
+encoder      = "50 nm"
+current_loop = "1 kHz"
+
+[second_axis]
+known        = "machine"
+encoder      = "50 nm"
+current_loop = "1 kHz"
+
+[coupling]
+bandwidth = "45 Hz"
+limit     = "100 mm/s"
+"#;
+
+/// Half a turn a second.
+const CIRCLE: &str = r#"
+[[contour]]
+kind         = "circle"
+radius       = "10 mm"
+velocity     = "31.41592653589793 mm/s"
+acceleration = "0.3 m/s2"
+jerk         = "6 m/s3"
+"#;
+
+const CONTROLLER: &str = r#"
+[[controller]]
+kind             = "cascade"
+bandwidth        = "60 Hz"
+second_bandwidth = "45 Hz"
+force_limit      = "1 kN"
+"#;
+
+const WHOLE: &str = r#"
+[[compensator]]
+name     = "whole"
+kind     = "lugre"
+gain     = 1.0
+watchdog = false
+limit    = "200 N"
+ramp     = "0 s"
+"#;
+
+fn read(text: &str) -> Result<Study, Error> {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("study.toml");
+    std::fs::write(&file, text).unwrap();
+    Study::read(&file)
+}
+
+fn run(text: &str) -> StudyOutcome {
+    read(text).unwrap().run(&mut |_, _| Control::Continue)
+}
+
+fn row<'f>(
+    file: &'f StudyFile,
+    compensator: &str,
+    coupled: bool,
+    parameters: &str,
+) -> &'f ResultRow {
+    let is = |r: &&ResultRow| {
+        (r.compensator.as_str(), r.coupled, r.parameters.as_str())
+            == (compensator, coupled, parameters)
+    };
+    file.results.iter().find(is).unwrap()
+}
+
+fn peak(row: &ResultRow) -> f64 {
+    row.metric("contour_peak").unwrap().mean
+}
+
+/// The circle of docs/compensation.md, whose figures come from the axes alone, without a study.
+#[test]
+fn the_published_circle() {
+    let outcome = run(&[AXES, CIRCLE, CONTROLLER, WHOLE].concat());
+    let file = &outcome.file;
+    assert!(file.warnings.is_empty(), "{:?}", file.warnings);
+    // None and whole, each without and with coupling. To the digits that are published, or half a step of the encoder.
+    assert_eq!(file.results.len(), 4);
+    for (compensator, coupled, expected, digit) in [
+        ("none", false, 64.8e-6, 0.1e-6),
+        ("none", true, 4.22e-6, 0.025e-6),
+        ("whole", false, 0.20e-6, 0.025e-6),
+        ("whole", true, 0.09e-6, 0.025e-6),
+    ] {
+        let found = peak(row(file, compensator, coupled, "exact"));
+        assert!(
+            (found - expected).abs() <= digit,
+            "{compensator} {coupled}: {found}"
+        );
+    }
+    // The whole of a circle between two others is no less wide than its largest deviation.
+    let circular = row(file, "none", false, "exact")
+        .metric("circular_deviation")
+        .unwrap();
+    assert!(circular.mean >= 0.9 * 64.8e-6 && circular.mean < 2.0 * 64.8e-6);
+
+    let bundle = outcome.bundle();
+    let html = String::from_utf8(bundle.files()[0].1.clone()).unwrap();
+    for words in [
+        "Deviations ×",
+        "Contour error",
+        "whole, coupling",
+        "The second axis",
+    ] {
+        assert!(html.contains(words), "{words}");
+    }
+    let text = stiction_app::text::study(&outcome);
+    assert!(text.contains("coupling"), "{text}");
+}
+
+/// The same set of wrong parameters on both axes: what they leave is most of what is left, and coupling takes most of it.
+#[test]
+fn wrong_parameters_of_both_axes() {
+    let small = CIRCLE
+        .replace(
+            "radius       = \"10 mm\"",
+            "radius = \"2 mm\"\nturns = 1\nskip = \"0.1 s\"",
+        )
+        .replace("jerk         = \"6 m/s3\"", "jerk = \"20 m/s3\"");
+    let corners = "\n[[parameter_error]]\nkind = \"corners\"\nby = \"15 %\"\n";
+    let outcome = run(&[AXES, &small, CONTROLLER, WHOLE, corners].concat());
+    let metric = |coupled, parameters| {
+        let row = row(&outcome.file, "whole", coupled, parameters);
+        let runs = if parameters == "exact" { 1 } else { 64 };
+        assert_eq!(row.runs, runs);
+        row.metric("contour_peak").unwrap().clone()
+    };
+    let [exact, wrong, coupled] = [
+        metric(false, "exact"),
+        metric(false, "±15 %"),
+        metric(true, "±15 %"),
+    ];
+    assert!(wrong.mean > 5.0 * exact.mean, "{wrong:?} {exact:?}");
+    assert!(coupled.largest < 0.2 * wrong.largest, "{coupled:?}");
+    // Wrong on both: each reverses with a larger error than with its own parameters.
+    for axis in ["reversal_peak_x", "reversal_peak_y"] {
+        let of = |parameters| {
+            let row = row(&outcome.file, "whole", false, parameters);
+            row.metric(axis).unwrap().mean
+        };
+        assert!(of("±15 %") > 3.0 * of("exact"), "{axis}");
+    }
+}
+
+/// Every kind of contour beside a path of the first axis, by any controller; learning is of one axis.
+#[test]
+fn contours_beside_paths() {
+    let limits = "velocity = \"40 mm/s\"\nacceleration = \"1 m/s2\"\njerk = \"100 m/s3\"\n";
+    let contours = format!(
+        "\n[[contour]]\nkind = \"corner\"\nside = \"4 mm\"\n{limits}\n\
+         [[contour]]\nkind = \"square\"\nside = \"4 mm\"\n{limits}\n\
+         [[contour]]\nkind = \"figure-eight\"\nwidth = \"8 mm\"\nheight = \"4 mm\"\nturns = 1\n{limits}\n\
+         [[path]]\nkind = \"sine\"\namplitude = \"1 mm\"\nfrequency = \"2 Hz\"\ncycles = 2\n"
+    );
+    let fuzzy =
+        "\n[[controller]]\nkind = \"fuzzy-pid\"\nbandwidth = \"45 Hz\"\nforce_limit = \"1 kN\"\n";
+    let learning = "\n[[compensator]]\nkind = \"learning\"\nlead = \"2.5 ms\"\ncutoff = \"250 Hz\"\npasses = 2\n";
+    let text = [AXES, &contours, CONTROLLER, fuzzy, WHOLE, learning].concat();
+    let study = read(&text).unwrap();
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let outcome = pool
+            .build()
+            .unwrap()
+            .install(|| study.run(&mut |_, _| Control::Continue));
+        serde_json::to_string(&outcome.file).unwrap()
+    };
+    let one = with(1);
+    assert!(one == with(3), "threads do not count");
+    let file: StudyFile = serde_json::from_str(&one).unwrap();
+    // Two controllers: three compensators on the path, two on each of three contours without and with coupling.
+    assert_eq!(file.results.len(), 2 * (3 + 3 * 2 * 2));
+    let kinds: Vec<&str> = file.paths.iter().map(|p| p.kind.as_str()).collect();
+    assert_eq!(kinds, ["sine", "corner", "square", "figure-eight"]);
+    for row in &file.results {
+        let contour = row.metric("contour_rms").is_some();
+        assert_eq!(contour, row.path != "sine", "{row:?}");
+        assert!(!row.coupled || contour);
+        assert!(row.metric("circular_deviation").is_none());
+    }
+    // A square of the same size has no other deviation than its corners have: micrometres, not millimetres.
+    let squares = file.results.iter().filter(|r| r.path == "square");
+    assert!(squares.map(peak).all(|p| p > 0.0 && p < 1e-4));
+}
+
+#[test]
+fn what_is_refused_of_two_axes() {
+    let good = [AXES, CIRCLE, CONTROLLER, WHOLE].concat();
+    let changes = [
+        ("[second_axis]", "[other_axis]"),
+        ("known        = \"machine\"", "known = \"V6\""),
+        (
+            "known        = \"machine\"",
+            "known = \"machine\"\nrate = \"1 kHz\"",
+        ),
+        ("limit     = \"100 mm/s\"", ""),
+        ("radius       = \"10 mm\"", "radius = \"0 mm\""),
+        ("radius       = \"10 mm\"", "side = \"10 mm\""),
+        (
+            "radius       = \"10 mm\"",
+            "radius = \"10 mm\"\nskip = \"9 s\"",
+        ),
+        ("kind         = \"circle\"", "kind = \"spiral\""),
+        (
+            "kind         = \"circle\"",
+            "kind = \"circle\"\nturns = 1000",
+        ),
+        (
+            "velocity     = \"31.41592653589793 mm/s\"",
+            "velocity = \"1 nm/s\"",
+        ),
+        (
+            "bandwidth        = \"60 Hz\"\nsecond_bandwidth = \"45 Hz\"",
+            "position_gain = \"60 1/s\"\nspeed_gain = \"1 kN s/m\"\nintegral_gain = \"1 kN/m\"",
+        ),
+    ];
+    let mut out = String::new();
+    for (from, to) in changes {
+        assert!(good.contains(from), "{from}");
+        let Err(error) = read(&good.replacen(from, to, 1)) else {
+            panic!("not refused: {to}");
+        };
+        assert_eq!(error.code(), "bad-config");
+        let text = error.to_string();
+        out += text
+            .split_once("study.toml: ")
+            .map_or(text.as_str(), |(_, rest)| rest);
+        out += "\n";
+    }
+    insta::assert_snapshot!(out);
+}
+
+/// The example that comes with the documentation is a study.
+#[test]
+fn the_example_is_a_study() {
+    let file = stiction_testkit::workspace().join("examples/stage/contour.toml");
+    Study::read(&file).unwrap();
+}
