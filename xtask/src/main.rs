@@ -4,6 +4,7 @@
 mod debian;
 mod instructions;
 mod licences;
+mod peers;
 mod python;
 mod shell;
 mod spdx;
@@ -38,6 +39,11 @@ const TASKS: &[Task] = &[
         name: "searches",
         help: "compare the searches and rewrite the tables of docs/searches.md",
         run: searches,
+    },
+    Task {
+        name: "peers",
+        help: "compare with the searches of Python and rewrite their part of docs/performance.md",
+        run: peers::run,
     },
     Task {
         name: "instructions",

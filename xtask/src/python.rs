@@ -1,4 +1,4 @@
-//! The virtual environment `.venv` with the packages that tests compare against.
+//! Virtual environments with the Python packages that stiction is compared against.
 
 use crate::debian;
 use crate::shell::{self, Outcome};
@@ -8,17 +8,38 @@ use std::fs;
 const OLDEST: &str = "3.11";
 const TOO_OLD: &str = "import sys; sys.exit(sys.version_info < (3, 11))";
 
-/// Makes `.venv` afresh unless it was made from the requirements as they are now.
+/// A virtual environment; paths from the workspace root.
+pub struct Environment {
+    pub folder: &'static str,
+    /// Exact versions of its packages.
+    pub requirements: &'static str,
+    /// Python that runs only where the packages are whole.
+    pub probe: &'static str,
+}
+
+/// What tests need.
+const TESTS: Environment = Environment {
+    folder: ".venv",
+    requirements: "xtask/requirements.txt",
+    probe: "import numpy",
+};
+
+/// Makes `.venv`.
 pub fn install() -> Outcome {
-    let folder = shell::root().join(".venv");
+    make(&TESTS).map(drop)
+}
+
+/// Makes an environment afresh unless it was made from the requirements as they are now, and gives its Python.
+pub fn make(environment: &Environment) -> Result<String, String> {
+    let folder = shell::root().join(environment.folder);
     let python = folder.join("bin/python").to_string_lossy().into_owned();
-    let file = shell::root().join("xtask/requirements.txt");
+    let file = shell::root().join(environment.requirements);
     let wanted = fs::read_to_string(&file).map_err(|e| format!("{}: {e}", file.display()))?;
     // A copy of the requirements, written last: it is there only if all of them are installed.
     let stamp = folder.join("requirements.installed");
     let made = fs::read_to_string(&stamp).is_ok_and(|installed| installed == wanted);
-    if made && shell::succeeds(shell::command(&python, &["-c", "import numpy"])) {
-        return Ok(());
+    if made && shell::succeeds(shell::command(&python, &["-c", environment.probe])) {
+        return Ok(python);
     }
     if !shell::on_path("python3") {
         return Err(format!(
@@ -36,13 +57,12 @@ pub fn install() -> Outcome {
     if !has("import ensurepip, venv") {
         debian::install_python_venv()?;
     }
-    shell::run(shell::command(
-        "python3",
-        &["-m", "venv", "--clear", ".venv"],
-    ))?;
-    let arguments = "-m pip install --quiet --disable-pip-version-check --only-binary :all: \
-                     -r xtask/requirements.txt";
-    let arguments: Vec<&str> = arguments.split_whitespace().collect();
+    let arguments = ["-m", "venv", "--clear", environment.folder];
+    shell::run(shell::command("python3", &arguments))?;
+    let install = "-m pip install --quiet --disable-pip-version-check --only-binary :all: -r";
+    let mut arguments: Vec<&str> = install.split_whitespace().collect();
+    arguments.push(environment.requirements);
     shell::run(shell::command(&python, &arguments))?;
-    fs::write(&stamp, wanted).map_err(|e| format!("{}: {e}", stamp.display()))
+    fs::write(&stamp, wanted).map_err(|e| format!("{}: {e}", stamp.display()))?;
+    Ok(python)
 }

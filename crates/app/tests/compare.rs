@@ -113,6 +113,27 @@ fn motions_costs_and_integrators_can_be_chosen() {
     assert!(!files[1].least_squares && !files[2].least_squares && files[3].least_squares);
 }
 
+/// A best cost so far can only fall, also where some runs have none yet.
+#[test]
+fn courses_never_rise() {
+    let several = CompareOptions {
+        seeds: 5,
+        ..options("C95", &["niched-ga", "de", "lm"])
+    };
+    for method in run(&several).methods {
+        for course in [&method.by_evaluations, &method.by_time] {
+            assert!(!course.at.is_empty(), "{}", method.name);
+            for costs in [&course.low, &course.median, &course.high] {
+                assert!(
+                    costs.is_sorted_by(|a, b| a >= b),
+                    "{}: {costs:?}",
+                    method.name
+                );
+            }
+        }
+    }
+}
+
 /// Stops after so many looks.
 struct After(usize);
 

@@ -83,7 +83,8 @@ impl Setting<'_> {
         let mut times: Vec<(f64, f64)> = Vec::new();
         let clock = Instant::now();
         let mut watch = |progress: &Progress| {
-            if times.last().is_none_or(|(_, least)| progress.best < *least) {
+            // A run has begun with its first finite cost.
+            if progress.best < times.last().map_or(f64::INFINITY, |(_, least)| *least) {
                 times.push((clock.elapsed().as_secs_f64(), progress.best));
             }
             match stop.load(Ordering::SeqCst) {

@@ -11,6 +11,9 @@ use stiction_report::{
 /// The genetic algorithms of Zhang et al. 2025, in the order of its figures.
 const PAPER: [&str; 3] = ["ga", "adaptive-ga", "annealing-ga"];
 
+/// Excess over the optimum below which two costs are the same.
+const ROUNDING: f64 = 1e-9;
+
 /// The report.
 pub(crate) fn comparison(file: &CompareFile) -> Document {
     let mut document = Document::new(format!("Searches on {}", file.problem))
@@ -126,6 +129,23 @@ fn shown(values: &Quartiles, digits: usize) -> String {
     values.map_or("–".into(), |v| number::sig(v[1], digits))
 }
 
+/// A number that somebody gave, without zeros that nobody wrote.
+fn plain(value: f64) -> String {
+    let text = number::sig(value, 5);
+    match text.contains('.') && !text.contains('×') {
+        true => text.trim_end_matches('0').trim_end_matches('.').into(),
+        false => text,
+    }
+}
+
+/// Excess over the optimum; what is rounding only is none.
+fn excess(values: &Quartiles) -> String {
+    match values {
+        Some([_, x, _]) if x.abs() < ROUNDING => "0".into(),
+        _ => shown(values, 2),
+    }
+}
+
 fn key_figures(file: &CompareFile) -> Vec<KeyFigure> {
     let mut out = vec![
         KeyFigure::new("Optimum", number::sig(file.reference.cost, 5), "")
@@ -162,15 +182,15 @@ fn key_figures(file: &CompareFile) -> Vec<KeyFigure> {
         out.push(
             KeyFigure::new("Fewest evaluations", m.name.as_str(), "").note(format!(
                 "median {} until near the optimum",
-                shown(&m.evaluations_to_success, 3)
+                number::count(median(&m.evaluations_to_success).round() as u64)
             )),
         );
     }
     if let Some(m) = cheapest(&|m| median(&m.seconds_to_success)) {
         out.push(
             KeyFigure::new("Least time", m.name.as_str(), "").note(format!(
-                "median {} s until near the optimum",
-                shown(&m.seconds_to_success, 2)
+                "median {} until near the optimum",
+                number::si(median(&m.seconds_to_success), "s", 2)
             )),
         );
     }
@@ -184,19 +204,20 @@ fn facts(file: &CompareFile) -> Vec<(Text, Text)> {
         ("Samples", number::count(file.samples as u64)),
     ];
     if file.rate_hz > 0.0 {
-        out.push(("Rate", format!("{} Hz", number::sig(file.rate_hz, 5))));
+        out.push(("Rate", format!("{} Hz", plain(file.rate_hz))));
     }
     if let Some(noise) = file.noise {
         let text = format!(
             "{} % of the largest value (standard deviation)",
-            number::sig(100.0 * noise, 3)
+            plain(100.0 * noise)
         );
         out.push(("Noise", text));
     }
     let decades = file.box_decades.map_or("that of identify".into(), |d| {
+        let decades = if d == 1.0 { "decade" } else { "decades" };
         format!(
-            "{} decades to each side of a point off the answer",
-            number::sig(d, 3)
+            "{} {decades} to each side of a point off the answer",
+            plain(d)
         )
     });
     out.push(("Box", decades));
@@ -229,7 +250,7 @@ fn success(file: &CompareFile) -> Table {
             format!("{} of {runs}", m.own.successes),
             format!("{} of {runs}", m.after_least_squares.successes),
             shown(&m.own.cost, 4),
-            shown(&m.own.excess, 2),
+            excess(&m.own.excess),
             m.evaluations_to_success
                 .map_or("–".into(), |v| number::count(v[1].round() as u64)),
             seconds(&m.seconds_to_success),

@@ -53,6 +53,18 @@ fn cost_axis() -> Axis {
     Axis::new("Best cost J", "").log()
 }
 
+/// Places of a staircase: each but the first ends one tread and begins the next. Best costs so far hold until the
+/// next one, so their quartiles do too, as their median.
+fn corners(at: &[f64]) -> Vec<f64> {
+    at.iter().flat_map(|x| [*x, *x]).skip(1).collect()
+}
+
+/// Heights at the [`corners`].
+fn treads(values: &[f64]) -> Vec<f64> {
+    let twice = values.iter().flat_map(|y| [*y, *y]);
+    twice.take((2 * values.len()).saturating_sub(1)).collect()
+}
+
 pub(super) fn overlay(
     file: &CompareFile,
     title: &str,
@@ -88,11 +100,15 @@ pub(super) fn single(file: &CompareFile, m: &MethodEntry) -> Figure {
     let (color, _) = style(file, &m.name);
     let mut panel = Panel::new(Axis::new("Evaluations", "").log(), cost_axis()).height(160.0);
     if file.reference.cost > 0.0 && file.reference.cost.is_finite() {
-        panel = panel.layer(Layer::hline(file.reference.cost).color(Color::Grey));
+        panel = panel.layer(
+            Layer::hline(file.reference.cost)
+                .color(Color::Grey)
+                .label("Optimum"),
+        );
     }
     let panel = panel
         .layer(
-            Layer::band(c.at.clone(), c.low.clone(), c.high.clone())
+            Layer::band(corners(&c.at), treads(&c.low), treads(&c.high))
                 .color(color)
                 .label("Quartiles"),
         )
@@ -147,7 +163,14 @@ pub(super) fn beside(file: &CompareFile, paper: &[&MethodEntry]) -> Figure {
         let (color, _) = style(file, &m.name);
         let c = &m.by_evaluations;
         panel = panel
-            .layer(Layer::band(c.at.clone(), excess(&c.low), excess(&c.high)).color(color))
+            .layer(
+                Layer::band(
+                    corners(&c.at),
+                    treads(&excess(&c.low)),
+                    treads(&excess(&c.high)),
+                )
+                .color(color),
+            )
             .layer(
                 Layer::steps(c.at.clone(), excess(&c.median))
                     .color(color)

@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""stiction beside the searches that a Python user would take, on the same logs, in the same box, for the same optimum.
+
+    cargo xtask peers
+
+makes the environment from requirements.txt, runs this in it, prints the tables and writes them to docs/performance.md.
+"""
+
+import machine  # first: it sets the threads
+
+import crew
+import stiction
+from methods import METHODS
+from problem import FOUND
+from table import expected, number, table
+
+PAGE = machine.ROOT / "docs/performance.md"
+START, END = "<!-- peers -->", "<!-- end peers -->"
+AXES = ("C95", "machine")
+RATE = 2000
+# Evaluations of a run, the same for all.
+MOST = 20_000
+# No run of a peer begins later than this.
+MINUTES = 8.0
+# Optima of two models of the same law may differ by this part, far less than what counts as found.
+AGREE = 1e-5
+
+
+def write(text):
+    """Puts the text between the marks of the page."""
+    page = PAGE.read_text()
+    before, rest = page.split(START)
+    _, after = rest.split(END)
+    PAGE.write_text(f"{before}{START}\n{text}\n{END}{after}")
+
+
+def section(log, ours, file, theirs, optimum):
+    """Heading, table and remarks of one axis."""
+    off = abs(optimum / file["reference"]["cost"] - 1.0)
+    assert off < AGREE, f"{log}: the optima differ by {off}"
+    annealing = ours["annealing-ga"]
+    remarks = [
+        f"Optima of both models: the same to {off:.0e}.",
+        f"annealing-ga without its least squares: {sum(run['alone'] for run in annealing)} of {len(annealing)}.",
+        f"separable: {number(expected(ours['separable'], 'thinned'))} evaluations of a thinned record besides.",
+    ]
+    cut = [f"{name} {len(theirs[name])} of {wanted}" for name, _, wanted in METHODS if len(theirs[name]) < wanted]
+    if cut:
+        remarks.append(f"Seeds that were begun within {MINUTES:.0f} minutes: {', '.join(cut)}.")
+    return f"{log}, {file['samples']} samples:\n\n{table(ours, theirs)}\n\n{' '.join(remarks)}"
+
+
+def main():
+    stiction.build()
+    logs = {name: stiction.Log(name, RATE) for name in AXES}
+    ours, files = {}, {}
+    for name, log in logs.items():
+        ours[name], files[name] = log.searches(MOST)
+        ours[name]["separable"] = log.commands(files[name]["reference"]["cost"], FOUND)
+    given = {name: (log.file, files[name]["bounds"], log.truth) for name, log in logs.items()}
+    optima, theirs = crew.work(given, MOST, MINUTES)
+    about = machine.described("numpy", "numba", "scipy", "cma", "pymoo", "deap")
+    parts = [section(name, ours[name], files[name], theirs[name], optima[name]) for name in AXES]
+    text = "\n\n".join([f"{about}.", *parts])
+    print(text)
+    write(text)
+
+
+if __name__ == "__main__":
+    main()
