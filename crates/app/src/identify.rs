@@ -143,7 +143,9 @@ pub(crate) fn fit(
     };
     let wanted = conditioning::wanted(&sources, axis);
     let plain = if options.asymmetric { &other } else { &terms };
-    let (chosen, note) = conditioning::choose(&sources, &wanted, plain, &settings, observer)?;
+    let chosen = conditioning::choose(&sources, &wanted, plain, &settings, observer)?;
+    let (note, keep) = (chosen.note, !chosen.interrupted);
+    let chosen = chosen.conditioning;
     // A Maxwell-slip law remembers its past: it is fitted from where the motion has wiped that out.
     let settle = |record: Record| match options.law {
         Some(law) if law.has_elements() => record.settled(),
@@ -201,7 +203,7 @@ pub(crate) fn fit(
         low_speed,
     };
     let mut two_step = None;
-    let mut searched = None;
+    let (mut searched, mut lost) = (None, None);
     let choice = if options.procedures.method == Method::StaticThenDynamic {
         let found = procedure::two_step(
             procedure::TwoStep {
@@ -239,10 +241,12 @@ pub(crate) fn fit(
                         low_speed,
                         settings: &settings,
                         clock,
+                        keep,
                     },
                     observer,
                 )?;
                 searched = Some(found.entry);
+                lost = found.lost;
                 let compare = options.compare_laws;
                 let fitted = (found.estimate, found.optimum);
                 Ok(choice::fitted_already(
@@ -269,6 +273,10 @@ pub(crate) fn fit(
         let text = "the delay between force and motion would be more than four samples, which is \
                     something else that the law does not explain; it is taken as none";
         warnings.push(Warning::new("delay-out-of-range", text));
+    }
+    if let Some(error) = lost {
+        let text = format!("the state of the search could not be kept: {error}");
+        warnings.push(Warning::new("bad-checkpoint", text));
     }
     if laws.is_empty() && compare_laws && estimate.status != Status::Interrupted {
         let text = "the comparison of laws was interrupted and is left out; the fit is complete";
@@ -370,8 +378,8 @@ pub(crate) fn record_of(
     let terms = axis.terms_for(&sources[0].log, false)?;
     let wanted = conditioning::wanted(&sources, axis);
     let settings = Settings::default();
-    let (chosen, _) = conditioning::choose(&sources, &wanted, &terms, &settings, observer)?;
-    let record = condition(&sources, &chosen)?;
+    let chosen = conditioning::choose(&sources, &wanted, &terms, &settings, observer)?;
+    let record = condition(&sources, &chosen.conditioning)?;
     refuse_rest(&record, &sources, sources[0].log.motion)?;
     let terms = terms.about(&record);
     Ok((sources, record, terms))

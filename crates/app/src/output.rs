@@ -132,6 +132,15 @@ fn stage(path: &Path, content: &[u8]) -> Result<NamedTempFile, Error> {
     Ok(file)
 }
 
+/// Refuses a path in whose folder nothing can be written.
+///
+/// # Errors
+/// With the reason.
+pub(crate) fn check_writable(path: &Path) -> Result<(), Error> {
+    let fail = |e: std::io::Error| Error::output(path, describe(&e));
+    temporary_beside(path).map(drop).map_err(fail)
+}
+
 fn publish(file: NamedTempFile, path: &Path) -> Result<(), Error> {
     file.persist(path)
         .map_err(|e| Error::output(path, describe(&e.error)))?;

@@ -7,7 +7,10 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
 use stiction_app::result::ResultFile;
-use stiction_app::{Axis, LawKind, ModelFile, Options, Outcome, Silent, check_folder, codes};
+use stiction_app::{
+    Axis, Control, LawKind, Method, ModelFile, Observer, Options, Outcome, Progress, Silent, Stage,
+    check_folder, codes,
+};
 
 fn run(options: &Options) -> Result<Outcome, stiction_app::Error> {
     stiction_app::identify(options, &mut Silent)
@@ -529,4 +532,37 @@ fn maxwell_slip_from_log_to_files() {
         notes.iter().any(|n| n.contains("at the start not fitted")),
         "{notes:?}"
     );
+}
+
+/// Stops at the first sign of a stage.
+struct StopAt(Stage);
+
+impl Observer for StopAt {
+    fn progress(&mut self, progress: &Progress) -> Control {
+        match progress.stage == self.0 {
+            true => Control::Stop,
+            false => Control::Continue,
+        }
+    }
+}
+
+/// Stopped before the cut-offs are chosen, a search sees a record that the same command would not see again:
+/// there is nothing to go on from, and the result says what it stands on.
+#[test]
+fn a_search_on_a_record_not_yet_chosen_keeps_no_state() {
+    let bench = Bench::new();
+    let log = bench.good("log.csv", 5);
+    let mut options = options(&[&log], LawKind::LuGre);
+    options.procedures.method = Method::Searched("niched-ga");
+    options.searching.evaluations = Some(200);
+    options.searching.checkpoint = Some(bench.path("c.json"));
+    let stopped = stiction_app::identify(&options, &mut StopAt(Stage::Tuning)).unwrap();
+    let notes = stopped.result.axis.conditioning.join("\n");
+    assert!(
+        notes.contains("cut-offs not chosen: the run was stopped"),
+        "{notes}"
+    );
+    assert!(!bench.path("c.json").exists());
+    run(&options).unwrap();
+    assert!(bench.path("c.json").exists());
 }

@@ -206,6 +206,42 @@ fn a_damaged_or_foreign_checkpoint_is_refused() {
 }
 
 #[test]
+fn a_checkpoint_replaces_nothing_but_a_checkpoint() {
+    let bench = Bench::new();
+    let command = |file: &str| format!("{SEARCH} --time 1e-6 --checkpoint {file} --out a");
+    assert!(bench.run(&command("c.json")).0 <= 1);
+    assert!(bench.run(&command("c.json")).0 <= 1);
+    let log = std::fs::read(bench.path("log.csv")).unwrap();
+    std::fs::create_dir(bench.path("folder")).unwrap();
+    std::os::unix::fs::symlink("c.json", bench.path("link")).unwrap();
+    for (file, code, words) in [
+        (
+            "log.csv",
+            "bad-checkpoint",
+            "log.csv: is something else and would be replaced; --checkpoint takes a new file, or one that \
+             --checkpoint wrote",
+        ),
+        (
+            "folder",
+            "bad-checkpoint",
+            "folder: is not a file and would be replaced",
+        ),
+        (
+            "link",
+            "bad-checkpoint",
+            "link: is not a file and would be replaced",
+        ),
+        ("none/c.json", "output", "none/c.json: "),
+    ] {
+        let (exit, out, err) = bench.run(&command(file));
+        assert_eq!((exit, out.as_str()), (2, ""), "{file}: {err}");
+        let start = format!("stiction: [{code}] {words}");
+        assert!(err.starts_with(&start), "{file}: {err}");
+    }
+    assert_eq!(std::fs::read(bench.path("log.csv")).unwrap(), log);
+}
+
+#[test]
 fn limits_of_a_search_belong_to_a_search() {
     let bench = Bench::new();
     for (options, words) in [

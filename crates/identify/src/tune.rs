@@ -53,6 +53,8 @@ pub struct Tuned {
     pub trials: Vec<Trial>,
     /// Evaluations that it took.
     pub counts: Counts,
+    /// Whether the observer stopped it before the choice was made.
+    pub interrupted: bool,
 }
 
 /// Chooses the cut-offs that `wanted` leaves open. They stay as they are where the position does not
@@ -73,6 +75,7 @@ pub fn tune(
         conditioning: *wanted,
         trials: Vec::new(),
         counts: Counts::default(),
+        interrupted: false,
     };
     let open = |cutoff| cutoff == Cutoff::Auto;
     let from_position = match wanted.source {
@@ -94,7 +97,8 @@ pub fn tune(
         let found = separable(&record, law, terms, settings, observer)?;
         tuned.counts.add(&found.counts);
         let fitted = estimate(&record, law, terms, &found, 0.0);
-        if found.status == Status::Interrupted || !worth(&fitted) {
+        tuned.interrupted = found.status == Status::Interrupted;
+        if tuned.interrupted || !worth(&fitted) {
             break;
         }
         let Some(noise) = force_noise(&record, &trial, &fitted, &mut tuned.counts) else {
@@ -113,8 +117,10 @@ pub fn tune(
             rate,
             seen: Vec::new(),
             counts: Counts::default(),
+            stopped: false,
         };
         let Some(best) = search.walk(at, round, observer) else {
+            tuned.interrupted = search.stopped;
             break;
         };
         tuned.counts.add(&search.counts);
@@ -162,6 +168,7 @@ struct Walk<'a> {
     rate: f64,
     seen: Vec<((i32, i32), f64)>,
     counts: Counts,
+    stopped: bool,
 }
 
 impl Walk<'_> {
@@ -198,6 +205,7 @@ impl Walk<'_> {
                     best: best.1,
                 };
                 if observer.progress(&progress) == Control::Stop {
+                    self.stopped = true;
                     return None;
                 }
             }

@@ -28,6 +28,25 @@ pub(crate) fn wanted(sources: &[Source], axis: &Axis) -> Conditioning {
     conditioning
 }
 
+/// The conditioning of a fit.
+pub(super) struct Chosen {
+    pub conditioning: Conditioning,
+    /// How it was chosen.
+    pub note: Option<String>,
+    /// Whether the choice was stopped; the conditioning is then the default one.
+    pub interrupted: bool,
+}
+
+impl Chosen {
+    fn stated(conditioning: Conditioning) -> Self {
+        Self {
+            conditioning,
+            note: None,
+            interrupted: false,
+        }
+    }
+}
+
 /// Chooses the cut-offs that the axis file leaves open, and says how.
 ///
 /// LuGre, the same in both directions and with `terms` beside it, stands for the axis whatever law is
@@ -38,9 +57,9 @@ pub(super) fn choose(
     terms: &Terms,
     settings: &Settings,
     observer: &mut dyn Observer,
-) -> Result<(Conditioning, Option<String>), Error> {
+) -> Result<Chosen, Error> {
     if terms.mass == Mass::Absent || wanted.min_speed > 0.0 {
-        return Ok((*wanted, None));
+        return Ok(Chosen::stated(*wanted));
     }
     let samples = sources
         .iter()
@@ -54,10 +73,20 @@ pub(super) fn choose(
     };
     // What cannot be fitted at all is told by the fit that was asked for.
     let Ok(tuned) = engine::tune(&samples, wanted, law, &plain, settings, observer) else {
-        return Ok((*wanted, None));
+        return Ok(Chosen::stated(*wanted));
     };
-    let note = note(&tuned);
-    Ok((tuned.conditioning, note))
+    let note = match tuned.interrupted {
+        true => Some(
+            "cut-offs not chosen: the run was stopped before; these follow from the sample rate"
+                .into(),
+        ),
+        false => note(&tuned),
+    };
+    Ok(Chosen {
+        conditioning: tuned.conditioning,
+        note,
+        interrupted: tuned.interrupted,
+    })
 }
 
 fn note(tuned: &Tuned) -> Option<String> {

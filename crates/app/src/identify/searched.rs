@@ -97,7 +97,10 @@ pub(super) fn check(options: &Options) -> Result<(), Error> {
     if given.evaluations == Some(0) {
         return Err(Error::usage("--evaluations 0", "at least 1"));
     }
-    Ok(())
+    match &given.checkpoint {
+        Some(file) => checkpoint::check_place(file),
+        None => Ok(()),
+    }
 }
 
 /// One search to make.
@@ -110,6 +113,8 @@ pub(super) struct Task<'a> {
     pub low_speed: f64,
     pub settings: &'a Settings,
     pub clock: Instant,
+    /// Whether the same command would see the same record: only then is the state worth keeping.
+    pub keep: bool,
 }
 
 /// What came of it.
@@ -117,6 +122,16 @@ pub(super) struct Found {
     pub estimate: Estimate,
     pub optimum: Optimum,
     pub entry: SearchedEntry,
+    /// Why the state could not be kept.
+    pub lost: Option<Error>,
+}
+
+/// What a search ends with.
+struct Searched {
+    entry: SearchedEntry,
+    point: Vec<f64>,
+    ended: Ended,
+    lost: Option<Error>,
 }
 
 /// Searches, then descends from the best point found.
@@ -129,7 +144,7 @@ pub(super) fn search(task: Task, observer: &mut dyn Observer) -> Result<Found, E
         Some(cost) => cost == CostKind::Six,
         None => task.paper() && task.six_allowed(),
     };
-    let (entry, start, status) = if six {
+    let (searched, start) = if six {
         let bounds = box_of_six(task.record).map_err(refused)?;
         let problem = SixParameters::new(task.record, task.law, task.terms, bounds, Scheme::Explin)
             .map_err(refused)?;
@@ -142,15 +157,18 @@ pub(super) fn search(task: Task, observer: &mut dyn Observer) -> Result<Found, E
             "stribeck_velocity",
         ];
         let names = names.map(String::from).to_vec();
-        let (entry, point, status) = run(&task, &problem, CostKind::Six, names, observer)?;
-        (entry, SixParameters::nonlinear(&point), status)
+        let searched = run(&task, &problem, CostKind::Six, names, observer)?;
+        let start = SixParameters::nonlinear(&searched.point);
+        (searched, start)
     } else {
         let bounds = SearchBox::from_record(task.record, &task.law).map_err(refused)?;
         let thinned = engine::candidates::thinned(task.record);
         let problem = Nonlinear::new(task.record, thinned.as_ref(), task.law, task.terms, &bounds)
             .map_err(refused)?;
         let names = task.law.unknowns();
-        run(&task, &problem, CostKind::Separable, names, observer)?
+        let searched = run(&task, &problem, CostKind::Separable, names, observer)?;
+        let start = searched.point.clone();
+        (searched, start)
     };
     let (mut estimate, mut optimum) = engine::identify_from(
         &start,
@@ -162,18 +180,19 @@ pub(super) fn search(task: Task, observer: &mut dyn Observer) -> Result<Found, E
         observer,
     )
     .map_err(refused)?;
-    let spent = &entry.evaluations;
+    let spent = &searched.entry.evaluations;
     estimate.counts.cost += (spent.costs + spent.coarse_costs) as usize;
     estimate.counts.sensitivities += (spent.derivatives + spent.coarse_derivatives) as usize;
     estimate.counts.thinned += (spent.coarse_costs + spent.coarse_derivatives) as usize;
-    if status == Ended::Interrupted {
+    if searched.ended == Ended::Interrupted {
         estimate.status = Status::Interrupted;
         optimum.status = Status::Interrupted;
     }
     Ok(Found {
         estimate,
         optimum,
-        entry,
+        entry: searched.entry,
+        lost: searched.lost,
     })
 }
 
@@ -215,20 +234,20 @@ impl Task<'_> {
     }
 }
 
-/// Runs the search to one of its ends: what goes into the result, the best point, how it ended.
+/// Runs the search to one of its ends.
 fn run<P: Candidates + Sync>(
     task: &Task,
     problem: &P,
     cost: CostKind,
     unknowns: Vec<String>,
     observer: &mut dyn Observer,
-) -> Result<(SearchedEntry, Vec<f64>, Ended), Error> {
+) -> Result<Searched, Error> {
     let given = &task.options.searching;
     let name = task.options.procedures.method.name();
     let bounds = problem.bounds().clone();
     let keep = Checkpoint {
         settings: task.settings(cost, &bounds),
-        file: given.checkpoint.as_deref(),
+        file: given.checkpoint.as_deref().filter(|_| task.keep),
     };
     let mut plan = Plan::named(name).expect("a method of the searches");
     // What descends by itself needs no descents after it.
@@ -261,10 +280,11 @@ fn run<P: Candidates + Sync>(
             .map_err(|e| Error::usage(e.to_string(), "a checkpoint of this very search"))?;
         match watch.ended(stop) {
             Some(ended) => break ended,
-            None => keep.write(&run)?,
+            // The search is worth more than its checkpoint: what counts is whether the last one is there.
+            None => drop(keep.write(&run)),
         }
     };
-    keep.write(&run)?;
+    let lost = keep.write(&run).err();
     let share = problem.coarse_share();
     let point = |best: &Best| SearchedPoint {
         cost: best.cost,
@@ -295,6 +315,10 @@ fn run<P: Candidates + Sync>(
             })
             .collect(),
     };
-    let best = run.best().map_or_else(middle, |best| best.point.clone());
-    Ok((entry, best, ended))
+    Ok(Searched {
+        entry,
+        point: run.best().map_or_else(middle, |best| best.point.clone()),
+        ended,
+        lost,
+    })
 }

@@ -1,7 +1,7 @@
 //! The state of a search in a file: a line that says what it belongs to, and the state in a second.
 
 use crate::error::Error;
-use crate::output::write_atomic;
+use crate::output::{check_writable, write_atomic};
 use crate::source::sha256_of;
 use serde::{Deserialize, Serialize};
 use std::io::Read;
@@ -90,6 +90,39 @@ impl Checkpoint<'_> {
         }
         serde_json::from_str(state).map_err(|_| damaged("the state cannot be read"))
     }
+}
+
+/// Refuses a place where a checkpoint cannot be written, or would replace something else: better said before
+/// a long search than after it.
+pub(super) fn check_place(file: &Path) -> Result<(), Error> {
+    let refused = |found: &str| {
+        Err(Error::Checkpoint {
+            file: file.to_path_buf(),
+            found: found.into(),
+            allowed: "--checkpoint takes a new file, or one that --checkpoint wrote".into(),
+        })
+    };
+    if let Ok(there) = file.symlink_metadata() {
+        if !there.is_file() {
+            return refused("is not a file and would be replaced");
+        }
+        if !is_checkpoint(file) {
+            return refused("is something else and would be replaced");
+        }
+    }
+    check_writable(file)
+}
+
+fn is_checkpoint(file: &Path) -> bool {
+    /// What the first line begins with, whatever the settings of its version.
+    #[derive(Deserialize)]
+    struct Begin {
+        schema: String,
+    }
+    let Ok(text) = text(file) else { return false };
+    let head = text.lines().next().unwrap_or_default();
+    serde_json::from_str::<Begin>(head)
+        .is_ok_and(|head| head.schema.starts_with("stiction.checkpoint/"))
 }
 
 fn text(file: &Path) -> Result<String, String> {
