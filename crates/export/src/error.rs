@@ -15,7 +15,7 @@ pub enum Error {
         found: String,
     },
     /// A parameter or setting outside the range of the number type of a file.
-    #[error("{source} (as {number_type})")]
+    #[error("{source} (as {number_type}{})", range(number_type))]
     Number {
         /// `double`, `float`, `LREAL` or `REAL`.
         number_type: &'static str,
@@ -52,6 +52,14 @@ pub enum Error {
         /// What went wrong.
         found: String,
     },
+}
+
+/// What a type of single precision can hold: a number beyond it shows as infinite, or as 0.
+fn range(number_type: &str) -> &'static str {
+    match number_type {
+        "float" | "REAL" => ", which holds 1.2e-38 to 3.4e38",
+        _ => "",
+    }
 }
 
 impl Error {

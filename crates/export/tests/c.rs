@@ -260,6 +260,46 @@ fn the_stack_is_small() {
     );
 }
 
+/// The gain may be set while it runs: one that is no share is none.
+#[test]
+fn a_gain_out_of_range_is_none() {
+    let dir = tempfile::tempdir().unwrap();
+    write(
+        &export(&model(laws().remove(0).1), Target::C).unwrap(),
+        dir.path(),
+    );
+    let program = r#"
+#include "x_axis_friction.h"
+#include <math.h>
+#include <stdio.h>
+int main(void) {
+    const double gains[] = { 0.5, (double)NAN, 1.5, -1.0, (double)INFINITY, 0.5 };
+    x_axis_params_t p;
+    x_axis_state_t s;
+    x_axis_params(&p);
+    p.watchdog_window = 0.0;
+    p.ramp = 0.0;
+    if (!x_axis_init(&p, &s)) { return 1; }
+    for (int i = -9; i < 6; i++) {
+        const x_axis_input_t input = { 0.05, 0.0, true };
+        p.gain = gains[(i < 0) ? 0 : i];
+        const double force = x_axis_step(&p, &s, &input);
+        if (i >= 0) { (void)printf("%.2f ", force); }
+    }
+    return 0;
+}
+"#;
+    std::fs::write(dir.path().join("main.c"), program).unwrap();
+    gcc(
+        "-std=c99",
+        &["main.c", "x_axis_friction.c", "-lm"],
+        dir.path(),
+    );
+    // Fc and 30 N s/m at 50 mm/s: 13.5 N.
+    let said = run("./a.out", &[], dir.path());
+    assert_eq!(said, "6.75 0.00 0.00 0.00 0.00 6.75 ");
+}
+
 #[test]
 fn the_example_runs() {
     let dir = tempfile::tempdir().unwrap();

@@ -124,6 +124,23 @@ fn lreal_agrees() {
     println!("LREAL: largest deviation {worst:.2e} of Fs");
 }
 
+#[test]
+fn the_text_is_passive() {
+    common::compiled::passive(1e-12, |model, _, samples| {
+        let library = library(model);
+        let mut block = library.instance("FB_x_axis_Friction");
+        let names = ["reference_velocity", "enable", "force", "deflection"];
+        let [velocity, enable, force, z] = names.map(|n| block.slot(n));
+        block.set(enable, 1.0);
+        let step = |(_, input): &common::compiled::Sample| {
+            block.set(velocity, input.reference_velocity);
+            block.call();
+            [block.get(force), block.get(z)]
+        };
+        samples.iter().map(step).collect()
+    });
+}
+
 /// REAL against the compensator in double precision, on motions as they are: to single precision.
 #[test]
 fn real_agrees() {

@@ -23,8 +23,14 @@ fn texts() {
         (Target::TcPou, vec!["FB_x_axis_Friction.TcPOU"]),
         (Target::Rust, vec!["Cargo.toml", "src/lib.rs"]),
         (Target::Mujoco, vec!["x_axis_friction.xml"]),
+        (Target::Hal, vec!["x_axis_friction.comp"]),
+        (Target::Fmu, vec!["modelDescription.xml"]),
     ] {
-        for file in export(&small(), target).unwrap() {
+        let files = export(&small(), target).unwrap();
+        // Of the FMUs the first, FMI 2.0.
+        let archive = files.iter().find(|f| f.path.ends_with(".fmu"));
+        let inside = archive.map(common::parts).unwrap_or_default();
+        for file in files.into_iter().chain(inside) {
             if wanted.contains(&file.path.as_str()) {
                 let text = String::from_utf8(file.bytes).unwrap();
                 insta::assert_snapshot!(file.path.replace('/', "_"), text);

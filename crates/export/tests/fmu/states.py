@@ -95,6 +95,11 @@ for version in (2, 3):
     assert b.step(0.004, 12) == once
     half = b.step(0.004, 0.5)
     assert half == a.step(0.004) and b.step(0.004, 0.5) == half
+    # While it is reset there is no force, enabled or not.
+    a.fmu.setBoolean([a.where["reset"]], [True])
+    assert [a.step(0.004)[0] for k in range(5)] == [0.0] * 5
+    a.fmu.setBoolean([a.where["reset"]], [False])
+    assert a.step(0.004)[0] > 0.0
     # What is refused: steps, parameters of the law while it runs, numbers out of range.
     for step in (-1.0, math.nan, math.inf, 1e9):
         assert refused(a.fmu.doStep, 0.0, step), step
