@@ -45,6 +45,10 @@ pub const OWN: &[(&str, &str)] = &[
     ),
     ("few-speeds", "fewer speeds than a static map should have"),
     (
+        "large-shift",
+        "encoder, filters and noise shift a parameter far",
+    ),
+    (
         "unsteady-stretches",
         "stretches of nearly constant velocity were left out",
     ),

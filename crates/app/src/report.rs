@@ -247,12 +247,16 @@ fn key_figures(outcome: &Outcome) -> Vec<KeyFigure> {
 
 fn sureness(outcome: &Outcome) -> String {
     let fit = &outcome.result.fit;
+    let worth = fit.effective_samples.max(0.0) as usize;
+    let resembles = match worth < fit.samples {
+        true => "neighbouring residuals resemble each other, and the intervals count that",
+        false => "neighbouring residuals do not resemble each other",
+    };
     format!(
-        "The residual is worth about {} independent samples of {}: neighbouring residuals resemble \
-         each other, and the intervals count that. What is left outside the band in the \
-         autocorrelation is friction, cogging or dynamics that the law does not describe. The \
-         intervals do not cover the bias of a wrong law.",
-        number::count(fit.effective_samples.max(0.0) as u64),
+        "The residual is worth about {} independent samples of {}: {resembles}. What is left outside the \
+         band in the autocorrelation is friction, cogging or dynamics that the law does not describe. \
+         The intervals do not cover the bias of a wrong law.",
+        number::count(worth as u64),
         number::count(fit.samples as u64)
     )
 }

@@ -20,6 +20,8 @@ pub(super) const BETTER: f64 = 0.8;
 const MUCH_BETTER: f64 = 0.5;
 /// Independent samples of the residual, as a part of all, below which something systematic is left.
 const SYSTEMATIC: f64 = 0.05;
+/// Part of a parameter by which it may be shifted before it is said.
+const FAR: f64 = 0.05;
 /// Part of the samples near rest above which a static law is told of them.
 const AT_REST: f64 = 0.05;
 
@@ -71,6 +73,7 @@ pub(super) fn judge(
     unidentifiable(estimate, motion, warnings, &mut reasons);
     another_wins(estimate, laws, warnings, &mut reasons);
     systematic(estimate, warnings);
+    shifted(estimate, warnings);
     static_at_rest(estimate, motion, warnings);
     Trust {
         trustworthy: reasons.is_empty(),
@@ -162,8 +165,10 @@ fn another_wins(
     };
     let side = if best.asymmetric { " --asymmetric" } else { "" };
     let errors = format!(
-        "on held-out samples --law {}{side} leaves {least:.2} %, this law {mine:.2} %",
-        best.law
+        "on held-out samples --law {}{side} leaves {}, this law {}",
+        best.law,
+        left(least),
+        left(mine)
     );
     if best.parameters < chosen.parameters && mine > WORSE * least {
         warnings.push(Warning::new(
@@ -178,6 +183,39 @@ fn another_wins(
     }
     if least < MUCH_BETTER * mine {
         reasons.push(errors);
+    }
+}
+
+/// A held-out error; above the force itself its size means nothing.
+fn left(percent: f64) -> String {
+    if percent < 1000.0 {
+        format!("{percent:.2} %")
+    } else {
+        "many times the force".into()
+    }
+}
+
+/// Names the parameters that encoder, filters and noise shift far.
+fn shifted(estimate: &Estimate, warnings: &mut Vec<Warning>) {
+    let far = |p: &&stiction_identify::Parameter| {
+        let part = p.bias.map_or(0.0, |bias| (bias / p.value).abs());
+        p.identifiable && p.name != "offset" && p.name != "delay" && part > FAR
+    };
+    let names: Vec<String> = estimate
+        .parameters
+        .iter()
+        .filter(far)
+        .map(|p| format!("{} {:+.0} %", p.name, 100.0 * p.bias.unwrap_or(0.0) / p.value))
+        .collect();
+    if !names.is_empty() {
+        warnings.push(Warning::new(
+            "large-shift",
+            format!(
+                "encoder steps, filters and noise shift {}: taken off, but a shift of this size is known \
+                 in size only",
+                names.join(", ")
+            ),
+        ));
     }
 }
 
