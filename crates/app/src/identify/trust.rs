@@ -205,7 +205,13 @@ fn shifted(estimate: &Estimate, warnings: &mut Vec<Warning>) {
         .parameters
         .iter()
         .filter(far)
-        .map(|p| format!("{} {:+.0} %", p.name, 100.0 * p.bias.unwrap_or(0.0) / p.value))
+        .map(|p| {
+            format!(
+                "{} {:+.0} %",
+                p.name,
+                100.0 * p.bias.unwrap_or(0.0) / p.value
+            )
+        })
         .collect();
     if !names.is_empty() {
         warnings.push(Warning::new(
