@@ -21,7 +21,7 @@ RATE = 2000
 # Evaluations of a run, the same for all.
 MOST = 20_000
 # No run of a peer begins later than this.
-MINUTES = 8.0
+MINUTES = 7.0
 # Optima of two models of the same law may differ by this part, far less than what counts as found.
 AGREE = 1e-5
 

@@ -65,6 +65,10 @@ pub const RATE: f64 = 1000.0;
 /// One start of least squares, drawn at random: what `lm` is without its many starts.
 pub const ONE_START: &str = "lm-one";
 
+/// Part of the energy by which a cost may be less and still be the same: the reference search steps by sums of
+/// squares, and ends where a step promises no more than this.
+const ROUNDING: f64 = 1e-13;
+
 /// What to compare, and how.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CompareOptions {
@@ -142,7 +146,7 @@ pub fn compare(
     let found = trials.iter().filter_map(|t| t.cost());
     let lowest = found.fold(f64::INFINITY, f64::min);
     // What is less by rounding only is the same optimum.
-    let beaten = lowest < least * (1.0 - 1e-6) && least - lowest > 1e-14;
+    let beaten = lowest < least * (1.0 - 1e-6) && least - lowest > ROUNDING;
     let winner = |t: &&Trial| t.cost() == Some(lowest);
     let reference = Reference {
         cost: if beaten { lowest } else { least },

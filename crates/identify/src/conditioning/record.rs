@@ -150,8 +150,7 @@ impl Record {
     pub fn gather(&self, channel: impl Fn(&Segment) -> &[f64]) -> Vec<f64> {
         let mut out = Vec::with_capacity(self.kept());
         for segment in &self.segments {
-            let values = channel(segment).iter().zip(&segment.keep);
-            out.extend(values.filter_map(|(x, &keep)| keep.then_some(*x)));
+            kept_runs(channel(segment), &segment.keep, &mut out);
         }
         out
     }
@@ -187,8 +186,7 @@ impl Record {
             return;
         }
         if shift == Shift::NONE && self.decimate == 1 {
-            let pairs = full.iter().zip(&segment.keep);
-            out.extend(pairs.filter_map(|(x, &keep)| keep.then_some(*x)));
+            kept_runs(full, &segment.keep, out);
             return;
         }
         for (i, &keep) in segment.keep.iter().enumerate() {
@@ -274,6 +272,18 @@ impl Record {
             conditioning: None,
             is_thinned: true,
         })
+    }
+}
+
+/// Appends the samples that are kept, each run of them in one go.
+fn kept_runs(values: &[f64], keep: &[bool], out: &mut Vec<f64>) {
+    let mut rest = values;
+    for run in keep.chunk_by(|a, b| a == b) {
+        let (head, tail) = rest.split_at(run.len().min(rest.len()));
+        if run[0] {
+            out.extend_from_slice(head);
+        }
+        rest = tail;
     }
 }
 
