@@ -262,8 +262,9 @@ fn a_law_that_the_log_does_not_determine_is_not_reported() {
         .iter()
         .find(|p| p.name == "coulomb")
         .unwrap();
+    // The straight line nearest to the bent curve starts at 21.93 N: numpy.linalg.lstsq without noise.
     assert!(
-        (coulomb.value / 20.0 - 1.0).abs() < 0.1,
+        (coulomb.value / 21.93 - 1.0).abs() < 0.03,
         "{}",
         coulomb.value
     );
