@@ -8,9 +8,9 @@ use crate::{Error, Kind, Table};
 use std::ops::Range;
 
 /// Missing cells in a row that a straight line may bridge.
-const BRIDGED: usize = 5;
+pub(super) const BRIDGED: usize = 5;
 /// A column that lacks more than this share is at another rate, or not there.
-const MISSING: f64 = 0.5;
+pub(super) const MISSING: f64 = 0.5;
 /// Share of missing cells above which they are a warning.
 const MANY: f64 = 0.01;
 
@@ -141,7 +141,8 @@ fn missing(values: &[f64]) -> Vec<Range<usize>> {
     runs(values, |x| x.is_nan())
 }
 
-fn runs<T>(values: &[T], test: impl Fn(&T) -> bool) -> Vec<Range<usize>> {
+/// Stretches where a test holds.
+pub(super) fn runs<T>(values: &[T], test: impl Fn(&T) -> bool) -> Vec<Range<usize>> {
     let mut at = 0;
     let mut found = Vec::new();
     for run in values.chunk_by(|a, b| test(a) == test(b)) {
