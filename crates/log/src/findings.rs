@@ -207,6 +207,15 @@ pub(crate) fn short(x: f64) -> String {
     trimmed(&format!("{x:.decimals$}")).to_string()
 }
 
+/// A number in all its digits, for messages; very large and small ones with a power of ten.
+pub(crate) fn full(x: f64) -> String {
+    if x == 0.0 || (1e-9..1e16).contains(&x.abs()) {
+        format!("{x}")
+    } else {
+        format!("{x:e}")
+    }
+}
+
 fn trimmed(digits: &str) -> &str {
     if digits.contains('.') {
         digits.trim_end_matches('0').trim_end_matches('.')

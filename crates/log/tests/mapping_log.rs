@@ -535,3 +535,20 @@ fn numbers_too_large_for_a_measurement_are_named() {
     said.push_str(&format!("{error}\n"));
     insta::assert_snapshot!(said);
 }
+
+/// Numbers of three hundred digits are written with a power of ten.
+#[test]
+fn numbers_of_any_size_stay_short() {
+    for size in [5e-324, 1e300] {
+        let mapping = Mapping {
+            resolution: Some(size),
+            ..Mapping::default()
+        };
+        let error = Log::from_table(&axis(300).table(), &mapping).unwrap_err();
+        assert!(error.found.ends_with(&format!("is {size:e}")), "{error}");
+    }
+    let mut table = axis(300).table();
+    table.columns[0].values[200] = 5e-324;
+    let error = Log::from_table(&table, &Mapping::default()).unwrap_err();
+    assert!(error.found.contains("0.199 to 5e-324"), "{error}");
+}
