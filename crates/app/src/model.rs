@@ -1,5 +1,7 @@
 //! `model.toml`: a friction law with parameters, units, intervals, and where they came from.
 
+mod fault;
+
 use crate::error::Error;
 use crate::result::{CovarianceEntry, ParameterEntry, ResultFile};
 use serde::{Deserialize, Serialize};
@@ -10,18 +12,6 @@ pub const SCHEMA: &str = "stiction.model/1";
 
 /// Largest model file that is read, bytes.
 const MAX_BYTES: u64 = 1 << 20;
-
-/// Parameters that no friction has below zero, without the suffix of their direction.
-const POSITIVE: [&str; 8] = [
-    "sigma0",
-    "sigma1",
-    "sigma2",
-    "coulomb",
-    "static",
-    "stribeck_velocity",
-    "stribeck_exponent",
-    "mass",
-];
 
 /// The whole file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -174,7 +164,8 @@ impl ModelFile {
     /// Reads a model file.
     ///
     /// # Errors
-    /// When the text is no model of this schema.
+    /// When the text is no model of this schema, or its parameters are none of its law: their names,
+    /// units and values.
     pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
         let refuse = |place: String, found: String, allowed: String| Error::Config {
             file: file.to_path_buf(),
@@ -203,51 +194,14 @@ impl ModelFile {
                 format!("this version reads {SCHEMA:?}"),
             ));
         }
-        if let Some(p) = model.parameter.iter().find(|p| !p.value.is_finite()) {
-            let found = format!("{} is {}", p.name, p.value);
-            return Err(refuse("parameter: ".into(), found, "finite numbers".into()));
-        }
-        match model.fault() {
-            Some((place, found, allowed)) => Err(refuse(place.into(), found, allowed.into())),
+        match fault::fault(&model) {
+            Some((place, found, allowed)) => Err(refuse(place.into(), found, allowed)),
             None => Ok(model),
         }
     }
 
-    /// What cannot be of a model that parsed: place, what was found, what is allowed.
-    fn fault(&self) -> Option<(&'static str, String, &'static str)> {
-        if stiction_identify::LawKind::from_name(&self.law).is_none() {
-            return Some((
-                "law: ",
-                format!("{:?}", self.law),
-                "a law that stiction knows",
-            ));
-        }
-        if !["linear", "rotary"].contains(&self.kind.as_str()) {
-            return Some(("kind: ", format!("{:?}", self.kind), "linear or rotary"));
-        }
-        for (i, p) in self.parameter.iter().enumerate() {
-            if self.parameter[..i].iter().any(|other| other.name == p.name) {
-                return Some(("parameter: ", format!("{} twice", p.name), "each once"));
-            }
-            let stem = p.name.trim_end_matches("_pos").trim_end_matches("_neg");
-            if POSITIVE.contains(&stem) && p.value < 0.0 {
-                let found = format!("{} = {}", p.name, p.value);
-                return Some(("parameter: ", found, "not negative"));
-            }
-        }
-        let CovarianceEntry { names, matrix } = &self.covariance;
-        let square = matrix.len() == names.len() && matrix.iter().all(|r| r.len() == names.len());
-        if !square {
-            let found = "a matrix that is not square".into();
-            return Some(("covariance: ", found, "one row and column for each name"));
-        }
-        for (i, name) in names.iter().enumerate() {
-            let variance = matrix[i][i];
-            if variance < 0.0 || variance.is_nan() {
-                let found = format!("a variance of {variance} for {name}");
-                return Some(("covariance: ", found, "variances that are not negative"));
-            }
-        }
-        None
+    /// The first parameter of its law that the model lacks.
+    pub(crate) fn missing(&self) -> Option<&'static str> {
+        fault::missing(self)
     }
 }

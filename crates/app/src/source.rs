@@ -9,6 +9,9 @@ use std::path::{Path, PathBuf};
 use stiction_identify::{Samples, Terms};
 use stiction_log::{Log, ReadOptions, Table, read_table};
 
+/// How a column that was not read is told among what was detected.
+const LEFT_OUT: &str = "left out: ";
+
 /// A log with the file it came from.
 #[derive(Clone, Debug)]
 pub struct Source {
@@ -42,7 +45,7 @@ pub fn load(path: &Path, axis: &Axis) -> Result<Source, Error> {
     let table = table(path, axis)?;
     let log = Log::from_table(&table, &axis.mapping).map_err(|e| e.in_file(path))?;
     let mut detected = log.detected.clone();
-    detected.extend(table.skipped.iter().map(|s| format!("left out: {s}")));
+    detected.extend(table.skipped.iter().map(|s| format!("{LEFT_OUT}{s}")));
     Ok(Source {
         path: path.to_path_buf(),
         sha256: sha256(path)?,
@@ -113,16 +116,28 @@ impl Source {
         Ok(())
     }
 
+    /// Columns of the file that were not read, and why.
+    fn left_out(&self) -> impl Iterator<Item = &str> {
+        self.detected
+            .iter()
+            .filter_map(|text| text.strip_prefix(LEFT_OUT))
+    }
+
     /// What an identification needs of it.
     ///
     /// # Errors
     /// When the log has no force, or neither position nor velocity.
     pub fn samples(&self) -> Result<Samples, Error> {
+        let left_out: Vec<&str> = self.left_out().take(4).collect();
+        let left_out = match left_out.as_slice() {
+            [] => String::new(),
+            columns => format!(" (left out is {})", columns.join(", ")),
+        };
         let missing = |what: &str, key: &str| {
             Error::Log(
                 stiction_log::Error::new(
                     stiction_log::Kind::Missing,
-                    format!("no {what} column"),
+                    format!("no {what} column{left_out}"),
                     format!("name it in the axis file: [columns] {key} = \"...\""),
                 )
                 .in_file(&self.path),

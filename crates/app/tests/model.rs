@@ -136,3 +136,80 @@ fn a_fitted_exponent_is_that_of_the_log() {
     let (low, high) = p.range().unwrap();
     assert!(low < 1.4 && 1.4 < high, "{} in {low} .. {high}", p.value);
 }
+
+/// A model that was edited by hand: what no longer fits its law is named, whoever reads it.
+#[test]
+fn what_is_refused_of_an_edited_model() {
+    let bench = Bench::new();
+    let mut good = ModelFile::from_result(&stribeck(&bench, "", false).result);
+    good.law = "lugre".into();
+    for (name, unit, value) in [("sigma0", "N/m", 1e5), ("sigma1", "N*s/m", 300.0)] {
+        let mut parameter = good.parameter[0].clone();
+        (parameter.name, parameter.unit) = (name.into(), unit.into());
+        parameter.value = value;
+        good.parameter.push(parameter);
+    }
+    let read = |model: &ModelFile| ModelFile::parse(&model.to_toml(), "model.toml".as_ref());
+    assert_eq!(read(&good).unwrap(), good);
+    // Another spelling of the same unit is no fault.
+    let mut spelt = good.clone();
+    spelt.parameter.last_mut().unwrap().unit = "N s/m".into();
+    assert_eq!(read(&spelt).unwrap(), spelt);
+
+    let mut said = String::new();
+    let mut refused = |what: &str, model: &ModelFile| {
+        let error = read(model).expect_err(what);
+        assert_eq!(error.code(), "bad-config");
+        said.push_str(&format!("{what}: {error}\n"));
+    };
+    for (name, value) in [
+        ("sigma0", 1e-300),
+        ("sigma0", -1.0),
+        ("coulomb", 1e300),
+        ("coulomb", -1.0),
+        ("static", f64::NAN),
+        ("stribeck_velocity", 0.0),
+        ("stribeck_exponent", 0.0),
+        ("stribeck_exponent", 1e300),
+        ("mass", f64::INFINITY),
+    ] {
+        let mut model = good.clone();
+        let parameter = model.parameter.iter_mut().find(|p| p.name == name);
+        parameter.unwrap().value = value;
+        refused(&format!("{name} {value:e}"), &model);
+    }
+    for (name, unit) in [("coulomb", "kN"), ("sigma0", "N"), ("mass", "kg*m^2")] {
+        let mut model = good.clone();
+        let parameter = model.parameter.iter_mut().find(|p| p.name == name);
+        parameter.unwrap().unit = unit.into();
+        refused(&format!("{name} in {unit}"), &model);
+    }
+    for law in ["dahl", "gms", "coulomb-viscous", "coulomb"] {
+        let mut model = good.clone();
+        model.law = law.into();
+        refused(law, &model);
+    }
+    let mut model = good.clone();
+    model.asymmetric = true;
+    refused("asymmetric", &model);
+    for side in ["_pos", "_neg"] {
+        let mut parameter = model
+            .parameter
+            .iter()
+            .find(|p| p.name == "coulomb")
+            .cloned();
+        parameter.as_mut().unwrap().name += side;
+        model.parameter.extend(parameter);
+    }
+    model.parameter.retain(|p| p.name != "coulomb");
+    assert_eq!(read(&model).unwrap(), model);
+    model.asymmetric = false;
+    refused("not asymmetric", &model);
+    let mut model = good.clone();
+    model.parameter.last_mut().unwrap().name = "sigma2_pos".into();
+    refused("one side", &model);
+    let mut model = good;
+    model.kind = "rotary".into();
+    refused("rotary", &model);
+    insta::assert_snapshot!(said);
+}

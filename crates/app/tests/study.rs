@@ -247,11 +247,19 @@ fn what_is_refused() {
     let desk = Desk::new();
     desk.write(
         "volts.toml",
-        &model(0.1, 0.1).replace("\"N\"\ntrust", "\"V\"\ntrust"),
+        &model(0.1, 0.1)
+            .replace("\"N", "\"V")
+            .replace("\"kg\"", "\"V*s^2/m\""),
     );
     desk.write(
-        "static.toml",
-        &model(0.1, 0.1).replace("\"lugre\"", "\"stribeck\""),
+        "richer.toml",
+        &model(0.1, 0.1).replace("\"lugre\"", "\"elasto-plastic\""),
+    );
+    desk.write(
+        "part.toml",
+        &model(0.1, 0.1)
+            .replacen("sigma0", "delay", 1)
+            .replacen("N/m", "s", 1),
     );
     let changes = [
         ("amplitude = \"5 mm\"", "amplitude = 5"),
@@ -273,7 +281,8 @@ fn what_is_refused() {
         ("known        = \"motor\"", "known = \"engine\""),
         ("known        = \"motor\"", "model = \"absent.toml\""),
         ("known        = \"motor\"", "model = \"volts.toml\""),
-        ("known        = \"motor\"", "model = \"static.toml\""),
+        ("known        = \"motor\"", "model = \"richer.toml\""),
+        ("known        = \"motor\"", "model = \"part.toml\""),
         ("rate         = \"4 kHz\"", "rate = \"4 MHz\""),
         ("peak_force   = \"1248 N\"", "delay = \"1 s\""),
         ("bandwidth   = \"60 Hz\"", ""),

@@ -566,3 +566,47 @@ fn a_search_on_a_record_not_yet_chosen_keeps_no_state() {
     run(&options).unwrap();
     assert!(bench.path("c.json").exists());
 }
+
+/// A third, or half, of the force written as 0: friction and mass are those of the whole log. Offset
+/// and delay are not compared: a line across a reversal moves the edge of the force by a part of a sample.
+#[test]
+fn zeros_for_missing_samples_are_not_fitted() {
+    let bench = Bench::new();
+    let fit = |name: &str, nth: usize| {
+        let log = bench.log(
+            name,
+            6000,
+            |t| both_ways(t)[0],
+            |i, t| {
+                if i % nth == 1 {
+                    0.0
+                } else {
+                    friction(both_ways(t)) + 0.3 * noise(5, i)
+                }
+            },
+        );
+        let options = options(&[&log], LawKind::CoulombViscous);
+        stiction_app::identify(&options, &mut Silent)
+            .unwrap()
+            .result
+    };
+    let whole = fit("whole.csv", usize::MAX);
+    for (name, nth) in [("third.csv", 3), ("half.csv", 2)] {
+        let filled = fit(name, nth);
+        assert!(
+            filled.warnings.iter().any(|w| w.code == "zero-filled"),
+            "{name}"
+        );
+        let both = whole.parameters.iter().zip(&filled.parameters);
+        for (a, b) in both.filter(|(a, _)| !["offset", "delay"].contains(&a.name.as_str())) {
+            let bound = 0.01 * a.value.abs() + 4.0 * a.std.unwrap_or(0.0);
+            assert!(
+                (a.value - b.value).abs() <= bound,
+                "{name} {}: {} {}",
+                a.name,
+                a.value,
+                b.value
+            );
+        }
+    }
+}

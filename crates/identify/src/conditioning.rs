@@ -7,14 +7,16 @@
 
 pub(crate) mod channels;
 pub(crate) mod grid;
+pub(crate) mod losses;
 pub(crate) mod noise;
 pub(crate) mod record;
 pub(crate) mod shift;
 
 use crate::conditioning::channels::Channels;
 use crate::conditioning::grid::Grid;
+use crate::conditioning::losses::Losses;
 use crate::conditioning::record::{Record, Samples, Segment};
-use crate::error::Error;
+use crate::error::{Error, full};
 use stiction_signal::{Sos, gradient, gradient_sixth_order};
 
 /// Missing samples up to this many in a row are bridged by a straight line (and do not count in the
@@ -138,7 +140,8 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
     };
     if let Some(f) = source_hz {
         notes.push(format!(
-            "{what}: zero-phase Butterworth low-pass, order {ORDER}, {f:.4} Hz"
+            "{what}: zero-phase Butterworth low-pass, order {ORDER}, {} Hz",
+            cutoff(f)
         ));
     }
     let decimate = match (conditioning.decimate, common_hz) {
@@ -157,7 +160,8 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
     if let Some(f) = common_hz {
         notes.push(format!(
             "force and every regressor: the same zero-phase Butterworth low-pass, order {ORDER}, \
-             {f:.4} Hz, then one sample in {decimate}"
+             {} Hz, then one sample in {decimate}",
+            cutoff(f)
         ));
     }
     let trim = [&source_filter, &common]
@@ -174,7 +178,7 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
     if conditioning.min_speed > 0.0 {
         notes.push(format!(
             "only samples faster than {} (SI) count",
-            conditioning.min_speed
+            full(conditioning.min_speed)
         ));
     }
     let filters = Filters {
@@ -188,22 +192,28 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
     };
     let mut segments = Vec::new();
     let mut short = 0;
+    let mut losses = Losses {
+        logged: logs.iter().map(|log| log.time.len()).sum(),
+        decimate,
+        ..Losses::default()
+    };
     for (i, log) in logs.iter().enumerate() {
         for stretch in stretches(log, step) {
-            match filters.segment(i, log, stretch, step) {
+            match filters.segment(i, log, stretch.clone(), step, &mut losses) {
                 Some(segment) => segments.push(segment),
-                None => short += 1,
+                None => {
+                    short += 1;
+                    losses.short += stretch.len();
+                }
             }
         }
     }
     if segments.is_empty() {
-        let total = logs.iter().map(|log| log.time.len()).sum();
         let needed = filters.least();
         return Err(Error::TooFewSamples {
             found: 0,
             needed,
-            dropped: total,
-            total,
+            losses,
         });
     }
     if short > 0 {
@@ -230,8 +240,18 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
         notes,
         resolution: conditioning.resolution,
         conditioning: from_position.then_some(again),
+        losses,
         is_thinned: false,
     })
+}
+
+/// A frequency in Hz for a note.
+fn cutoff(hz: f64) -> String {
+    if (1e-3..1e9).contains(&hz) {
+        format!("{hz:.4}")
+    } else {
+        format!("{hz:.4e}")
+    }
 }
 
 fn low_pass(name: &'static str, hz: Option<f64>, rate: f64) -> Result<Option<Sos>, Error> {
@@ -286,8 +306,10 @@ pub(crate) fn check(number: usize, log: &Samples) -> Result<(), Error> {
         return Err(Error::TooFewSamples {
             found: n,
             needed: 4,
-            dropped: 0,
-            total: n,
+            losses: Losses {
+                logged: n,
+                ..Losses::default()
+            },
         });
     }
     // A NaN in time compares as "does not increase" too.
@@ -352,6 +374,7 @@ impl Filters {
         samples: &Samples,
         range: std::ops::Range<usize>,
         step: f64,
+        losses: &mut Losses,
     ) -> Option<Segment> {
         let grid = Grid::new(&samples.time[range.clone()], step)?;
         let n = grid.len();
@@ -399,7 +422,12 @@ impl Filters {
             .enumerate()
             .step_by(self.decimate)
             .map(|(i, &k)| {
-                k && i >= self.trim && i + self.trim < n && velocity[i].abs() >= self.min_speed
+                let inside = i >= self.trim && i + self.trim < n;
+                let fast = velocity[i].abs() >= self.min_speed;
+                losses.ends += usize::from(!inside);
+                losses.excluded += usize::from(inside && !k);
+                losses.slow += usize::from(inside && k && !fast);
+                k && inside && fast
             })
             .collect();
         Some(Segment {

@@ -1,5 +1,7 @@
 //! Why a record cannot be identified at all.
 
+use crate::conditioning::losses::Losses;
+
 /// Input from which nothing can be identified. A search that ends badly is a
 /// [`Status`](crate::Status), not an error.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -52,18 +54,15 @@ pub enum Error {
     },
     /// Fewer usable samples than the law needs.
     #[error(
-        "{found} usable samples after conditioning, at least {needed} are needed for this law \
-         ({dropped} of {total} were dropped: filter ends, gaps, invalid samples)"
+        "{found} usable samples after conditioning, at least {needed} are needed for this law: {losses}"
     )]
     TooFewSamples {
         /// Usable samples.
         found: usize,
         /// Needed samples.
         needed: usize,
-        /// Samples that conditioning dropped.
-        dropped: usize,
-        /// Samples before.
-        total: usize,
+        /// What took the others.
+        losses: Losses,
     },
     /// The axis does not move.
     #[error(
@@ -76,7 +75,7 @@ pub enum Error {
         unit: &'static str,
     },
     /// The force is zero throughout.
-    #[error("the force is {value:.6} throughout: there is nothing to identify")]
+    #[error("the force is {} throughout: there is nothing to identify", full(nine_digits(*value)))]
     NoForce {
         /// The constant value.
         value: f64,
@@ -111,7 +110,7 @@ pub enum Error {
         reason: &'static str,
     },
     /// A setting outside its range.
-    #[error("{name} = {found}: {allowed}")]
+    #[error("{name} = {}: {allowed}", full(*found))]
     Setting {
         /// Which setting.
         name: &'static str,
@@ -138,4 +137,18 @@ pub enum Error {
         /// What is needed.
         allowed: &'static str,
     },
+}
+
+/// A number without the rounding of a filter.
+fn nine_digits(x: f64) -> f64 {
+    format!("{x:.8e}").parse().unwrap_or(x)
+}
+
+/// A number in all its digits; very large and small ones with a power of ten.
+pub(crate) fn full(x: f64) -> String {
+    if x == 0.0 || (1e-9..1e16).contains(&x.abs()) {
+        format!("{x}")
+    } else {
+        format!("{x:e}")
+    }
 }

@@ -48,6 +48,7 @@ mod tune;
 
 pub use choice::{Standing, choose};
 pub use conditioning::channels::Channels;
+pub use conditioning::losses::Losses;
 pub use conditioning::record::{Record, Samples, Segment};
 pub use conditioning::{Conditioning, Cutoff, Source, condition};
 pub use crossval::{LawScore, cross_validate};

@@ -118,12 +118,11 @@ pub fn output_error(
         .sum();
     let needed = 10 * layout.len() + 4 * runs.len();
     if kept < needed || runs.is_empty() {
-        let total = recordings.iter().map(|r| r.samples.time.len()).sum();
+        let whole: usize = runs.iter().map(|r| r.keep.len()).sum();
         return Err(Error::TooFewSamples {
             found: kept,
             needed,
-            dropped: total - kept.min(total),
-            total,
+            losses: run::losses(recordings, whole, kept),
         });
     }
     let scale = Scale::of(&runs, simulation.quantum).ok_or_else(|| nothing(&runs))?;

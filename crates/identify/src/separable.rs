@@ -216,8 +216,7 @@ pub(crate) fn checked<'a>(
         return Err(Error::TooFewSamples {
             found: record.kept(),
             needed: 10 * unknowns,
-            dropped: record.len() - record.kept(),
-            total: record.len(),
+            losses: record.losses(),
         });
     }
     let full = Objective::new(record, law, terms);

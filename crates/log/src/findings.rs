@@ -12,6 +12,7 @@
 //! | `time-wrap` | a backward step of a full 16-, 31- or 32-bit counter | counted on; any other backward step is refused |
 //! | `jitter` | rms of the step above 1 % (note) or 5 % (warning) of its median, gaps apart | time stamps used as recorded |
 //! | `missing-cells` | cells that are no number, or above 1e30 | up to 5 in a row bridged by a line and excluded; longer runs dropped; refused above half |
+//! | `zero-filled` | position or force 0 in many samples whose neighbours are far from it | as missing cells |
 //! | `short-column` | a column ends before the others | all cut to the shortest; refused if that costs over 1 % |
 //! | `saturation` | force flat at its extreme, 5 samples or more, not a staircase; or at a stated limit | samples excluded |
 //! | `stuck-encoder` | position frozen while velocity, reference or the jump after it tells of motion | samples excluded |
@@ -85,6 +86,7 @@ pub const CODES: &[(&str, &str)] = &[
     ("time-wrap", "the time counter overflowed and started again"),
     ("jitter", "samples are not equally spaced"),
     ("missing-cells", "cells are empty or no numbers"),
+    ("zero-filled", "missing samples were written as 0"),
     ("short-column", "a column ends before the others"),
     (
         "unit-assumed",
@@ -203,6 +205,15 @@ pub(crate) fn short(x: f64) -> String {
         6
     };
     trimmed(&format!("{x:.decimals$}")).to_string()
+}
+
+/// A number in all its digits, for messages; very large and small ones with a power of ten.
+pub(crate) fn full(x: f64) -> String {
+    if x == 0.0 || (1e-9..1e16).contains(&x.abs()) {
+        format!("{x}")
+    } else {
+        format!("{x:e}")
+    }
 }
 
 fn trimmed(digits: &str) -> &str {

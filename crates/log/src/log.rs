@@ -10,7 +10,8 @@
 //! 4. the record is cropped, in seconds from its first sample; trouble outside is of no concern;
 //! 5. rows without a time stamp, and all but the first of equal time stamps, are dropped, each
 //!    refused above 5 % (stamps coarser than the sampling: give the rate instead);
-//! 6. units, scale and sign are applied; a wrapping position is put together;
+//! 6. units, scale and sign are applied; zeros that stand for missing samples of position and force
+//!    become missing cells; a wrapping position is put together;
 //! 7. missing cells of position, velocity and force: up to 5 in a row are bridged by a straight
 //!    line in time and excluded; longer runs are dropped with their rows and leave a gap. Of
 //!    reference, temperature and load any missing cell is bridged or held: they vary slowly;
@@ -20,6 +21,7 @@
 
 mod cells;
 mod clock;
+mod filled;
 mod unwrap;
 
 use crate::findings::{self, Finding, Severity};
@@ -115,6 +117,7 @@ impl Log {
         let clock = clock::read(table, &sources, &mapping, length, &mut findings)?;
         let mut columns = cells::Columns::read(table, &sources, &clock);
         let mut time = clock.time;
+        filled::clear(&mut columns, &mut findings)?;
         if let Some(wrap) = mapping.wrap {
             let unit = mapping
                 .motion

@@ -39,7 +39,7 @@ mod motion;
 mod names;
 mod select;
 
-use crate::findings::Finding;
+use crate::findings::{Finding, full};
 use crate::{Dimension, Error, Kind, Table, Unit, Value};
 pub(crate) use convert::{LARGEST, Source};
 use std::fmt;
@@ -321,7 +321,7 @@ impl Mapping {
                 let allowed = format!("needed is a number from {low:e} to {high:e}, in {unit}");
                 return Err(Error::new(
                     Kind::Value,
-                    format!("{name} is {value}"),
+                    format!("{name} is {}", full(value)),
                     allowed,
                 ));
             }
@@ -331,7 +331,7 @@ impl Mapping {
                 "needed are two times in s from the first sample, the first below the second";
             return Err(Error::new(
                 Kind::Value,
-                format!("crop is {from} to {to}"),
+                format!("crop is {} to {}", full(from), full(to)),
                 allowed,
             ));
         }

@@ -2,7 +2,7 @@
 
 mod mapping_common;
 
-use mapping_common::{codes, column, message, table, told};
+use mapping_common::{axis, codes, column, message, table, told};
 use stiction_log::{Channel, Kind, Log, Mapping, Motion, Selector, Table, Unit, Value};
 
 /// A table with these headers; samples that move, each column its own.
@@ -354,4 +354,39 @@ fn the_rate_stands_in_for_time() {
         (4000.0, 0.05, 601)
     );
     assert_eq!(log.position.unwrap()[0], table.columns[1].values[200]);
+}
+
+#[test]
+fn a_rate_that_contradicts_the_time_stamps_is_refused() {
+    let stamped = |unit: &str, step: f64| {
+        let axis = axis(2000);
+        let time = (0..2000).map(|i| (i as f64 * step).floor()).collect();
+        let mut table = axis.table();
+        table.columns[0] = column(&format!("time{unit}"), time);
+        table
+    };
+    let rate = |hertz: f64| Mapping {
+        rate_hz: Some(hertz),
+        ..Mapping::default()
+    };
+    // Stamps in whole milliseconds of samples at 4 kHz: the rate is what makes them good.
+    for (table, hertz) in [
+        (stamped(" [ms]", 1.0), 1000.0),
+        (stamped(" [ms]", 0.25), 4000.0),
+        // Nothing tells what these count.
+        (stamped("", 1.0), 4000.0),
+    ] {
+        let log = Log::from_table(&table, &rate(hertz)).unwrap();
+        assert_eq!(log.rate_hz, hertz);
+    }
+    for (table, hertz) in [
+        (stamped(" [ms]", 1.0), 500.0),
+        (stamped(" [ms]", 0.25), 4100.0),
+        (stamped(" [us]", 1.0), 1000.0),
+    ] {
+        let error = Log::from_table(&table, &rate(hertz)).unwrap_err();
+        assert_eq!(error.kind, Kind::Ambiguous, "{error}");
+    }
+    let error = Log::from_table(&axis(2000).table(), &rate(500.0)).unwrap_err();
+    insta::assert_snapshot!(error.to_string());
 }

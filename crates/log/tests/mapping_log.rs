@@ -515,3 +515,40 @@ fn many_faults_take_linear_time() {
     // Anything quadratic in 400 000 gaps or 60 000 runs takes many minutes.
     assert!(begin.elapsed().as_secs() < 30, "{:?}", begin.elapsed());
 }
+
+#[test]
+fn numbers_too_large_for_a_measurement_are_named() {
+    let mut said = String::new();
+    for (unit, number) in [("N", 3e100), ("MN", -1e300), ("kN", f64::MAX)] {
+        let mut table = axis(300).table();
+        table.columns[3].unit = Some(unit.into());
+        table.columns[3].values[7..].fill(number);
+        let error = Log::from_table(&table, &Mapping::default()).unwrap_err();
+        assert_eq!(error.place.row, Some(8));
+        said.push_str(&format!("{error}\n"));
+    }
+    // Empty cells are another matter.
+    let mut table = axis(300).table();
+    table.columns[3].values[7..].fill(f64::NAN);
+    table.columns[3].values[9] = 3e100;
+    let error = Log::from_table(&table, &Mapping::default()).unwrap_err();
+    said.push_str(&format!("{error}\n"));
+    insta::assert_snapshot!(said);
+}
+
+/// Numbers of three hundred digits are written with a power of ten.
+#[test]
+fn numbers_of_any_size_stay_short() {
+    for size in [5e-324, 1e300] {
+        let mapping = Mapping {
+            resolution: Some(size),
+            ..Mapping::default()
+        };
+        let error = Log::from_table(&axis(300).table(), &mapping).unwrap_err();
+        assert!(error.found.ends_with(&format!("is {size:e}")), "{error}");
+    }
+    let mut table = axis(300).table();
+    table.columns[0].values[200] = 5e-324;
+    let error = Log::from_table(&table, &Mapping::default()).unwrap_err();
+    assert!(error.found.contains("0.199 to 5e-324"), "{error}");
+}

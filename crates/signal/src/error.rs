@@ -7,7 +7,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum SignalError {
     /// A setting is outside its range.
-    #[error("{parameter} is {found}; allowed: {allowed}")]
+    #[error("{parameter} is {}; allowed: {allowed}", full(*found))]
     Parameter {
         /// What was set.
         parameter: &'static str,
@@ -45,7 +45,7 @@ pub enum SignalError {
         found: f64,
     },
     /// Time stamps must strictly increase.
-    #[error("time stamp {index} is {found} s after {previous} s; time must increase")]
+    #[error("time stamp {index} is {} s after {} s; time must increase", full(*found), full(*previous))]
     NotIncreasing {
         /// Position of the first stamp that does not come after its predecessor.
         index: usize,
@@ -54,4 +54,13 @@ pub enum SignalError {
         /// The stamp, s.
         found: f64,
     },
+}
+
+/// A number in all its digits; very large and small ones with a power of ten.
+fn full(x: f64) -> String {
+    if x == 0.0 || (1e-9..1e16).contains(&x.abs()) {
+        format!("{x}")
+    } else {
+        format!("{x:e}")
+    }
 }

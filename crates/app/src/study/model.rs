@@ -110,6 +110,10 @@ impl Model {
             let found = format!("{:?}", model.force_unit);
             return Err(refuse("force_unit: ", found, &allowed));
         }
+        if let Some(name) = model.missing() {
+            let allowed = "a study needs every parameter of the law";
+            return Err(refuse("parameter: ", format!("no {name}"), allowed));
+        }
         let mut warnings = Vec::new();
         if !model.trustworthy {
             warnings.push(Warning::new(
@@ -157,7 +161,7 @@ impl Model {
         };
         // What the parameters of a file do not allow is said of that file.
         law(&|name| model.value(name)).map_err(|e| {
-            let found = format!("{} = {}", e.name, e.value);
+            let found = format!("{} = {}", e.name, crate::check::short(e.value));
             refuse("parameter: ", found, e.allowed)
         })?;
         Ok(model)

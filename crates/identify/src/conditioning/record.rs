@@ -2,6 +2,7 @@
 
 use crate::conditioning::Conditioning;
 use crate::conditioning::channels::Channels;
+use crate::conditioning::losses::Losses;
 use crate::conditioning::shift::Shift;
 use stiction_signal::Sos;
 
@@ -79,6 +80,8 @@ pub struct Record {
     pub resolution: Option<f64>,
     /// How to condition a position as this record was; `None` where the motion is a logged velocity.
     pub(crate) conditioning: Option<Conditioning>,
+    /// What conditioning took.
+    pub(crate) losses: Losses,
     /// Whether this is a thinned stand-in.
     pub(crate) is_thinned: bool,
 }
@@ -95,6 +98,14 @@ impl Record {
     /// Number of samples of the regression, kept or not.
     pub fn len(&self) -> usize {
         self.segments.iter().map(|s| s.keep.len()).sum()
+    }
+
+    /// What became of the samples that do not count.
+    pub(crate) fn losses(&self) -> Losses {
+        let mut losses = self.losses.clone();
+        let known = losses.excluded + losses.ends + losses.slow;
+        losses.held_back = (self.len() - self.kept()).saturating_sub(known);
+        losses
     }
 
     /// Whether there are no samples.
@@ -270,6 +281,7 @@ impl Record {
             notes: Vec::new(),
             resolution: self.resolution,
             conditioning: None,
+            losses: Losses::default(),
             is_thinned: true,
         })
     }
@@ -319,6 +331,7 @@ pub(crate) mod tests {
             notes: Vec::new(),
             resolution: None,
             conditioning: None,
+            losses: Losses::default(),
             is_thinned: false,
         }
     }

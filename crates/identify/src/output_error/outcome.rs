@@ -114,12 +114,10 @@ pub struct Unseen {
 pub fn simulate_unseen(recordings: &[Recording], fitted: &SimulationFit) -> Result<Unseen, Error> {
     let runs = run::runs(recordings, fitted.controller.as_ref(), fitted.segment)?;
     if runs.is_empty() {
-        let total = recordings.iter().map(|r| r.samples.time.len()).sum();
         return Err(Error::TooFewSamples {
             found: 0,
             needed: 10,
-            dropped: total,
-            total,
+            losses: run::losses(recordings, 0, 0),
         });
     }
     let problem = Problem {

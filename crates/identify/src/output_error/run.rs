@@ -1,6 +1,7 @@
 //! What is simulated: stretches of the logs on an even grid.
 
 use crate::conditioning::grid::Grid;
+use crate::conditioning::losses::Losses;
 use crate::conditioning::record::Samples;
 use crate::conditioning::{median_step, stretches};
 use crate::error::Error;
@@ -48,6 +49,17 @@ const MOST_SAMPLES: usize = 2_000_000;
 const MOST_RUNS: usize = 20_000;
 /// Fewest samples of a stretch.
 const LEAST: usize = 10;
+
+/// What became of the samples of recordings that no run keeps, given how many runs hold and keep.
+pub(crate) fn losses(recordings: &[Recording], held: usize, kept: usize) -> Losses {
+    let logged = recordings.iter().map(|r| r.samples.time.len()).sum();
+    Losses {
+        logged,
+        short: logged.saturating_sub(held),
+        excluded: held - kept,
+        ..Losses::default()
+    }
+}
 
 /// Cuts recordings into runs, of at most `segment` seconds in open loop.
 pub(crate) fn runs(

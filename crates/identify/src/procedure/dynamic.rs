@@ -61,8 +61,7 @@ pub fn dynamic(
         return Err(Error::TooFewSamples {
             found: record.kept(),
             needed,
-            dropped: record.len() - record.kept(),
-            total: record.len(),
+            losses: record.losses(),
         });
     }
     let (p, c) = statics.unknowns(&law, objective.linear());

@@ -2,21 +2,31 @@
 
 use super::Excluded;
 use super::clock::Clock;
-use crate::findings::{Finding, Severity, count};
-use crate::mapping::{Role, Source};
+use crate::findings::{Finding, Severity, count, short};
+use crate::mapping::{LARGEST, Role, Source};
 use crate::{Error, Kind, Table};
 use std::ops::Range;
 
 /// Missing cells in a row that a straight line may bridge.
-const BRIDGED: usize = 5;
+pub(super) const BRIDGED: usize = 5;
 /// A column that lacks more than this share is at another rate, or not there.
-const MISSING: f64 = 0.5;
+pub(super) const MISSING: f64 = 0.5;
 /// Share of missing cells above which they are a warning.
 const MANY: f64 = 0.01;
 
 /// The columns of a log in the making, one number a kept row.
 pub(super) struct Columns {
     columns: Vec<(Role, Vec<f64>)>,
+    beyond: Vec<Beyond>,
+}
+
+/// Numbers of a column that are too large for a measurement.
+struct Beyond {
+    role: Role,
+    cells: usize,
+    /// Data row of the first, counted from 1, and what stands there, with its unit.
+    row: usize,
+    number: String,
 }
 
 /// What mending did.
@@ -28,22 +38,26 @@ pub(super) struct Mended {
 impl Columns {
     /// The kept rows of every column but time, in SI; a missing cell is NaN.
     pub fn read(table: &Table, sources: &[(Role, Source)], clock: &Clock) -> Self {
-        let columns =
-            sources
-                .iter()
-                .filter(|(role, _)| *role != Role::Time)
-                .map(|(role, source)| {
-                    let values = &table.columns[source.column].values;
-                    let mut dropped = clock.dropped.iter().peekable();
-                    let kept = clock
-                        .range
-                        .clone()
-                        .filter(|row| dropped.next_if_eq(&row).is_none());
-                    (*role, kept.map(|row| source.si(values[row])).collect())
+        let (mut columns, mut beyond) = (Vec::new(), Vec::new());
+        for (role, source) in sources.iter().filter(|(role, _)| *role != Role::Time) {
+            let values = &table.columns[source.column].values;
+            let mut dropped = clock.dropped.iter().peekable();
+            let kept = clock
+                .range
+                .clone()
+                .filter(|row| dropped.next_if_eq(&row).is_none());
+            columns.push((*role, kept.map(|row| source.si(values[row])).collect()));
+            let large = |row: &usize| values[*row].is_finite() && source.si(values[*row]).is_nan();
+            if let Some(row) = clock.range.clone().find(large) {
+                beyond.push(Beyond {
+                    role: *role,
+                    cells: clock.range.clone().filter(large).count(),
+                    row: row + 1,
+                    number: format!("{} {}", short(values[row]), source.unit),
                 });
-        Self {
-            columns: columns.collect(),
+            }
         }
+        Self { columns, beyond }
     }
 
     pub fn get_mut(&mut self, wanted: Role) -> Option<&mut Vec<f64>> {
@@ -73,6 +87,11 @@ impl Columns {
             let cells: usize = runs.iter().map(Range::len).sum();
             let core = matches!(role, Role::Position | Role::Velocity | Role::Force);
             if core && cells as f64 > MISSING * rows as f64 {
+                if let Some(beyond) = self.beyond.iter().find(|b| b.role == *role)
+                    && 2 * beyond.cells > cells
+                {
+                    return Err(beyond.refusal(rows));
+                }
                 let found = format!("{role} lacks {cells} of {}", count(rows, "cell"));
                 let allowed = "at most half; a column at a slower rate has to be exported at the \
                                rate of the others";
@@ -137,11 +156,28 @@ impl Columns {
     }
 }
 
+impl Beyond {
+    fn refusal(&self, rows: usize) -> Error {
+        let found = format!(
+            "{} is {} there, and too large in {} of {}",
+            self.role,
+            self.number,
+            self.cells,
+            count(rows, "cell")
+        );
+        let allowed = format!("at most {LARGEST:e} in SI units; check its unit and scale");
+        Error::new(Kind::Value, found, allowed)
+            .at_row(self.row as u64)
+            .in_column(self.role.name())
+    }
+}
+
 fn missing(values: &[f64]) -> Vec<Range<usize>> {
     runs(values, |x| x.is_nan())
 }
 
-fn runs<T>(values: &[T], test: impl Fn(&T) -> bool) -> Vec<Range<usize>> {
+/// Stretches where a test holds.
+pub(super) fn runs<T>(values: &[T], test: impl Fn(&T) -> bool) -> Vec<Range<usize>> {
     let mut at = 0;
     let mut found = Vec::new();
     for run in values.chunk_by(|a, b| test(a) == test(b)) {

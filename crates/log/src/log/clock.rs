@@ -1,6 +1,6 @@
 //! Time stamps to seconds: overflow, order, crop, duplicates.
 
-use crate::findings::{Finding, Severity, count, median, short};
+use crate::findings::{Finding, Severity, count, full, median, short};
 use crate::mapping::{LARGEST, Mapping, Role, Source};
 use crate::{Error, Kind, Table};
 use std::ops::Range;
@@ -209,8 +209,9 @@ fn backward(raw: &[f64], row: usize) -> Error {
         .find(is_stamp)
         .unwrap_or(f64::NAN);
     let found = format!(
-        "time goes back from {before} to {} in data row {}",
-        raw[row],
+        "time goes back from {} to {} in data row {}",
+        full(before),
+        full(raw[row]),
         row + 1
     );
     let allowed = "increasing time stamps; if two recordings are in one file, keep one with crop under [log], or \

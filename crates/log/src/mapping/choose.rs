@@ -4,8 +4,11 @@ use super::convert::is_force;
 use super::names::{self, Hint};
 use super::select::{distinct, select};
 use super::{Channel, Detected, Role, Selector, describe};
-use crate::findings::{Finding, Severity};
+use crate::findings::{Finding, Severity, median, short};
 use crate::{Dimension, Error, Kind, Table, Unit};
+
+/// A stated rate and that of the time stamps may differ by this share.
+const RATE_OFF: f64 = 0.01;
 
 /// A table with what its names and units say.
 struct Scan<'a> {
@@ -49,6 +52,9 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
     let none_named = Role::ALL
         .iter()
         .all(|r| *r == Role::Time || given.channel(*r).is_none());
+    if let Some(rate) = given.rate_hz {
+        scan.refuse_other_rate(rate)?;
+    }
     if given.time.is_none() && given.rate_hz.is_none() {
         match scan.pick(Role::Time)? {
             Some(column) => out.mapping.time = Some(scan.take(column)),
@@ -229,6 +235,44 @@ impl Scan<'_> {
         self.units[column]
             .as_ref()
             .is_none_or(|unit| allows(role, unit.dimension()))
+    }
+
+    /// Refuses a rate that time stamps in a written unit contradict. Their mean step counts as much
+    /// as the median: a clock coarser than the sampling repeats its stamps, and a rate is the cure.
+    fn refuse_other_rate(&self, rate: f64) -> Result<(), Error> {
+        let Ok(Some(column)) = self.pick(Role::Time) else {
+            return Ok(());
+        };
+        let Some(unit) = &self.units[column] else {
+            return Ok(());
+        };
+        let stamps: Vec<(usize, f64)> = self.table.columns[column]
+            .values
+            .iter()
+            .map(|t| unit.to_si(*t))
+            .enumerate()
+            .filter(|(_, t)| t.is_finite())
+            .collect();
+        let (Some(first), Some(last)) = (stamps.first(), stamps.last()) else {
+            return Ok(());
+        };
+        let mean = (last.1 - first.1) / (last.0 - first.0).max(1) as f64;
+        let steps = stamps.windows(2).map(|w| w[1].1 - w[0].1);
+        let Some(usual) = median(&mut steps.filter(|d| *d > 0.0).collect::<Vec<_>>()) else {
+            return Ok(());
+        };
+        let agrees = |step: f64| (rate * step - 1.0).abs() <= RATE_OFF;
+        if agrees(mean) || agrees(usual) {
+            return Ok(());
+        }
+        let found = format!(
+            "rate is {} Hz, and the time stamps run at {} Hz",
+            short(rate),
+            short(1.0 / usual)
+        );
+        let allowed = "rate is for logs without time; take it out of axis.toml, or correct it";
+        let place = describe::place(self.table, column);
+        Err(Error::new(Kind::Ambiguous, found, allowed).in_column(place))
     }
 
     fn no_motion(&self) -> Error {

@@ -26,9 +26,9 @@ pub(super) fn key(table: &Table, index: usize) -> String {
     }
 }
 
-/// What a table has, as a sentence: `there are columns 1 "t", 2 "x"`.
+/// What a table has, as a sentence: `there are columns 1 "t", 2 "x"`, and what was left out of it.
 pub(super) fn columns(table: &Table) -> String {
-    match table.columns.len() {
+    let there = match table.columns.len() {
         0 => "there are no columns".to_string(),
         1 => format!("there is only {}", column(table, 0)),
         count if unnamed(table) => format!("there are {count} columns without names"),
@@ -36,6 +36,19 @@ pub(super) fn columns(table: &Table) -> String {
             "there are columns {}",
             listed((0..count).map(|i| place(table, i)))
         ),
+    };
+    if table.skipped.is_empty() {
+        return there;
+    }
+    let left_out = listed(table.skipped.iter().map(|text| shortened(text)));
+    format!("{there}, and left out is {left_out}")
+}
+
+/// At most 80 characters of a text.
+fn shortened(text: &str) -> String {
+    match text.char_indices().nth(80) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.to_string(),
     }
 }
 

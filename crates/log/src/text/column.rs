@@ -45,7 +45,7 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
                 left_out.push(c);
             }
             Role::Unknown if layout.scope.is_none() => {
-                table.skipped.push(format!("{label}: empty in every row"));
+                table.skipped.push(format!("{label}: no number in any row"));
                 left_out.push(c);
             }
             Role::Moment { dated, .. } => {

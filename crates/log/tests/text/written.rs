@@ -194,7 +194,7 @@ fn text_columns_are_skipped_and_said() {
         table.skipped,
         [
             "phase: text such as `hold` in row 2",
-            "note: empty in every row"
+            "note: no number in any row"
         ]
     );
     let table = detect("t;day\n0;01/02/2024 10:00:00\n1,5;01/02/2024 10:00:01\n").unwrap();

@@ -1,0 +1,245 @@
+//! What cannot be of a model file that parsed: its numbers, units and names against its law.
+
+use super::ModelFile;
+use crate::result::CovarianceEntry;
+use crate::symbols;
+use stiction_identify::{Dimension, LawKind};
+use stiction_log::{Motion, Unit};
+
+/// Place, what was found, what is allowed.
+pub(super) type Fault = (&'static str, String, String);
+
+/// Numbers of a model stay within this size, and those above 0 above its inverse: no machine is
+/// near, and their products stay finite.
+const LARGEST: f64 = 1e100;
+/// Exponents of a Stribeck curve, as in the axis file.
+const EXPONENTS: std::ops::RangeInclusive<f64> = 0.1..=10.0;
+
+/// Stems of the parameters that have a value for each direction in an asymmetric model.
+const SIDED: [&str; 4] = ["coulomb", "static", "stribeck_velocity", "sigma2"];
+
+/// Whether a law has a parameter.
+type Laws = fn(LawKind) -> bool;
+
+/// What is known of a parameter by the stem of its name.
+struct Known {
+    dimension: Dimension,
+    /// The smallest value, if there is one: 0 itself, or above it.
+    least: Option<Least>,
+    /// The laws that have it.
+    of: Laws,
+}
+
+#[derive(PartialEq)]
+enum Least {
+    Zero,
+    AboveZero,
+}
+
+fn known(stem: &str) -> Option<Known> {
+    use Least::{AboveZero, Zero};
+    let any: Laws = |_| true;
+    let (dimension, least, of) = match stem {
+        "sigma0" => (
+            Dimension::Stiffness,
+            Some(Zero),
+            LawKind::has_bristle as Laws,
+        ),
+        "sigma1" => (
+            Dimension::Damping,
+            Some(Zero),
+            LawKind::has_micro_damping as Laws,
+        ),
+        "sigma2" => (Dimension::Damping, Some(Zero), any),
+        "coulomb" => (Dimension::Force, Some(Zero), any),
+        "static" => (Dimension::Force, Some(Zero), LawKind::has_stribeck as Laws),
+        "stribeck_velocity" => (
+            Dimension::Speed,
+            Some(AboveZero),
+            LawKind::has_stribeck as Laws,
+        ),
+        "stribeck_exponent" => (
+            Dimension::One,
+            Some(AboveZero),
+            LawKind::has_stribeck as Laws,
+        ),
+        "mass" => (Dimension::Inertia, Some(Zero), any),
+        "offset" => (Dimension::Force, None, any),
+        "delay" => (Dimension::Time, None, any),
+        _ if symbols::is_element(stem) => {
+            let length = stem.starts_with("yield_");
+            let dimension = if length {
+                Dimension::Length
+            } else {
+                Dimension::Stiffness
+            };
+            (dimension, Some(Zero), LawKind::has_elements as Laws)
+        }
+        _ => return None,
+    };
+    Some(Known {
+        dimension,
+        least,
+        of,
+    })
+}
+
+/// The name without the suffix of a direction.
+fn stem(name: &str) -> &str {
+    let side = name.strip_suffix("_pos").or(name.strip_suffix("_neg"));
+    side.unwrap_or(name)
+}
+
+/// Whether two texts are one unit, however written.
+fn same_unit(found: &str, wanted: &str) -> bool {
+    let parsed = |text| Unit::parse(text).map(|unit| (unit.dimension(), unit.factor()));
+    found == wanted || matches!((parsed(found), parsed(wanted)), (Ok(a), Ok(b)) if a == b)
+}
+
+/// What is wrong with the directions: place, what was found, what is allowed.
+fn directions(model: &ModelFile) -> Option<Fault> {
+    let has = |name: &str| model.parameter.iter().any(|p| p.name == name);
+    let mut sided = None;
+    for stem in SIDED {
+        let names = [
+            stem.to_string(),
+            format!("{stem}_pos"),
+            format!("{stem}_neg"),
+        ];
+        match names.each_ref().map(|name| has(name)) {
+            [_, false, false] => {}
+            [false, true, true] => sided = Some(names[1].clone()),
+            _ => {
+                let present: Vec<_> = names
+                    .iter()
+                    .map(String::as_str)
+                    .filter(|n| has(n))
+                    .collect();
+                let allowed = format!("{stem}, or {stem}_pos and {stem}_neg");
+                return Some(("parameter: ", present.join(" and "), allowed));
+            }
+        }
+    }
+    match (model.asymmetric, sided) {
+        (false, Some(name)) => Some((
+            "asymmetric: ",
+            format!("false beside {name}"),
+            "true".into(),
+        )),
+        (true, None) if SIDED.into_iter().any(has) => {
+            let found = "true, and no parameter has a direction".into();
+            Some((
+                "asymmetric: ",
+                found,
+                "coulomb_pos and coulomb_neg and so on, or false".into(),
+            ))
+        }
+        _ => None,
+    }
+}
+
+/// The first thing that is wrong with a model.
+pub(super) fn fault(model: &ModelFile) -> Option<Fault> {
+    let Some(law) = LawKind::from_name(&model.law) else {
+        let laws: Vec<_> = LawKind::ALL.iter().map(|law| law.name()).collect();
+        let allowed = format!("one of {}", laws.join(", "));
+        return Some(("law: ", format!("{:?}", model.law), allowed));
+    };
+    let motion = match model.kind.as_str() {
+        "linear" => Motion::Linear,
+        "rotary" => Motion::Rotary,
+        other => return Some(("kind: ", format!("{other:?}"), "linear or rotary".into())),
+    };
+    (0..model.parameter.len())
+        .find_map(|i| parameter(model, law, motion, i))
+        .map(|(found, allowed)| ("parameter: ", found, allowed))
+        .or_else(|| directions(model))
+        .or_else(|| covariance(&model.covariance))
+}
+
+/// What is wrong with one parameter: what was found, what is allowed.
+fn parameter(
+    model: &ModelFile,
+    law: LawKind,
+    motion: Motion,
+    i: usize,
+) -> Option<(String, String)> {
+    let p = &model.parameter[i];
+    let (name, value) = (&p.name, crate::check::short(p.value));
+    if model.parameter[..i].iter().any(|other| other.name == *name) {
+        return Some((format!("{name} twice"), "each once".into()));
+    }
+    if p.value.is_nan() || p.value.abs() > LARGEST {
+        return Some((
+            format!("{name} = {value}"),
+            format!("from -{LARGEST:e} to {LARGEST:e}"),
+        ));
+    }
+    let known = known(stem(name))?;
+    let unit = symbols::unit(known.dimension, motion, &model.force_unit, "");
+    if !same_unit(&p.unit, &unit) {
+        return Some((
+            format!("{name} in {:?}", p.unit),
+            format!("{unit:?}, with its value"),
+        ));
+    }
+    if !(known.of)(law) {
+        return Some((
+            format!("{name} in a model of {law}"),
+            "parameters of that law".into(),
+        ));
+    }
+    if name == "stribeck_exponent" && !EXPONENTS.contains(&p.value) {
+        let (low, high) = (EXPONENTS.start(), EXPONENTS.end());
+        return Some((format!("{name} = {value}"), format!("from {low} to {high}")));
+    }
+    let allowed = match known.least {
+        Some(Least::Zero) if p.value < 0.0 => "not negative",
+        Some(Least::AboveZero) if p.value <= 0.0 => "above 0",
+        Some(_) if p.value != 0.0 && p.value < 1.0 / LARGEST => "at least 1e-100",
+        _ => return None,
+    };
+    Some((format!("{name} = {value}"), allowed.into()))
+}
+
+fn covariance(entry: &CovarianceEntry) -> Option<Fault> {
+    let CovarianceEntry { names, matrix } = entry;
+    let square = matrix.len() == names.len() && matrix.iter().all(|r| r.len() == names.len());
+    if !square {
+        let found = "a matrix that is not square".into();
+        return Some((
+            "covariance: ",
+            found,
+            "one row and column for each name".into(),
+        ));
+    }
+    names.iter().enumerate().find_map(|(i, name)| {
+        let variance = matrix[i][i];
+        (variance < 0.0 || variance.is_nan()).then(|| {
+            let found = format!("a variance of {} for {name}", crate::check::short(variance));
+            (
+                "covariance: ",
+                found,
+                "variances that are not negative".into(),
+            )
+        })
+    })
+}
+
+/// The first parameter that a model lacks of its law, without the suffix of its direction; a
+/// procedure may well find a part of them only.
+pub(super) fn missing(model: &ModelFile) -> Option<&'static str> {
+    let law = LawKind::from_name(&model.law)?;
+    let needed = [
+        ("sigma0", law.has_bristle()),
+        ("sigma1", law.has_micro_damping()),
+        ("sigma2", true),
+        ("coulomb", true),
+        ("static", law.has_stribeck()),
+        ("stribeck_velocity", law.has_stribeck()),
+    ];
+    let has = |name: &str| model.parameter.iter().any(|p| stem(&p.name) == name);
+    needed
+        .into_iter()
+        .find_map(|(name, wanted)| (wanted && !has(name)).then_some(name))
+}
