@@ -244,3 +244,39 @@ fn channels_that_do_not_fit_are_refused() {
     let log = made(500, |t| 1e300 * t, |_| 1e300);
     let _ = found(&log, Some(1e-300));
 }
+
+/// Four speeds each way that end in a rest at once: however far a stretch has grown over either end,
+/// each is a point of its own.
+#[test]
+fn a_stretch_beside_a_rest_is_found() {
+    let h = 1.0 / 4000.0;
+    let mut position = vec![0.0; 400];
+    let mut asked = Vec::new();
+    for speed in [0.02_f64, 0.04, 0.08, 0.16] {
+        for velocity in [speed, -speed] {
+            let from = position[position.len() - 1];
+            let samples = ((0.06 / speed).max(0.8) / h) as usize;
+            position.extend((1..=samples).map(|k| from + velocity * h * k as f64));
+            let rest = position[position.len() - 1];
+            position.extend(vec![rest; 600]);
+            asked.push(velocity);
+        }
+    }
+    let samples = Samples {
+        time: (0..position.len()).map(|k| k as f64 * h).collect(),
+        force: vec![9.0; position.len()],
+        position: Some(position.clone()),
+        ..Samples::default()
+    };
+    let run = Run {
+        samples: &samples,
+        reference: Some(&position),
+        resolution: None,
+    };
+    let found = stretches(&[run], &[]).unwrap();
+    let velocities: Vec<f64> = found.points.iter().map(|p| p.velocity).collect();
+    assert_eq!(velocities.len(), asked.len(), "{velocities:?}");
+    for (found, asked) in velocities.iter().zip(asked) {
+        assert!((found / asked - 1.0).abs() < 1e-3, "{found} {asked}");
+    }
+}
