@@ -146,3 +146,13 @@ pub fn meaning(name: &str, motion: Motion) -> String {
     };
     format!("{text}{side}")
 }
+
+/// What drives the axis, in words. A current or voltage that was not scaled keeps its own name.
+pub(crate) fn driver(motion: Motion, force_unit: &str) -> &'static str {
+    match (force_unit, motion) {
+        ("A", _) => "current",
+        ("V", _) => "voltage",
+        (_, Motion::Linear) => "force",
+        (_, Motion::Rotary) => "torque",
+    }
+}

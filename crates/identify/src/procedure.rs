@@ -5,8 +5,8 @@
 //! | `stretch`, `moments`, `settle` | a log | its constant-velocity stretches, one point each | |
 //! | `static_map`, `profile`, `robust` | points | Fc, Fs, vs, sigma2 | Zhang et al. 2025, doi 10.1371/journal.pone.0322844, eqs. 7-8 |
 //! | `dynamic` | a record, static parameters | sigma0, sigma1, mass | the same, eqs. 35-38 |
-//! | `step` | a force step below break-away | sigma0, sigma1 by inversion | the same, eqs. 26-34 |
-//! | `step_fit`, `step_model` | the same | sigma0, sigma1 by simulation | |
+//! | `step`, `level` | a force step below break-away | sigma0, sigma1 by inversion | the same, eqs. 26-34 |
+//! | `step_fit`, `step_model`, `step_given` | the same | sigma0, sigma1 by simulation | |
 //! | `break_away` | a force ramp | the force at break-away, with the ramp's rate | Canudas de Wit et al. 1995, doi 10.1109/9.376053, section III.C |
 //!
 //! A static map knows nothing of acceleration, and break-away is not a point of it: the force at
@@ -15,6 +15,7 @@
 mod assemble;
 mod break_away;
 mod dynamic;
+mod level;
 mod moments;
 mod parameter;
 mod profile;
@@ -24,6 +25,7 @@ mod static_map;
 mod statics;
 mod step;
 mod step_fit;
+mod step_given;
 mod step_model;
 mod stretch;
 

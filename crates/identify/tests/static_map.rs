@@ -328,3 +328,19 @@ fn bad_points_are_refused() {
         let _ = static_map(&points, &settings);
     }
 }
+
+/// Speeds far above the Stribeck range say nothing of the rise, and the map says what to record.
+#[test]
+fn what_fast_speeds_do_not_tell_comes_with_advice() {
+    let side = [9.0, 14.0, 25.0, 4e-3];
+    let fast = points(&curve(side, side, 0.0), &speeds(0.02, 0.16, 4), 0.01, 3);
+    let map = fit(&fast, false);
+    for name in ["static", "stribeck_velocity"] {
+        let p = parameter(&map, name);
+        assert!(!p.identifiable, "{p:?}");
+        assert!(p.advice.contains("below"), "{p:?}");
+    }
+    for name in ["coulomb", "sigma2"] {
+        assert_eq!(parameter(&map, name).advice, "");
+    }
+}

@@ -278,6 +278,55 @@ fn the_uncertainty_of_what_is_given_is_carried_on() {
     }
 }
 
+/// Noise of the recorded force, white or with a memory of some ten samples: the intervals count it. It
+/// moves sigma0, sigma1 and the mass of a log together, and the position shows nothing of it.
+#[test]
+fn intervals_count_the_noise_of_the_force() {
+    const LOGS: u64 = 40;
+    let axis = level_axis(0.4);
+    let truth = [
+        ("sigma0", 1e5),
+        ("sigma1", axis.plant.law().damping().at_rest()),
+        ("mass", 1.0),
+    ];
+    for memory in [0.0, 0.8] {
+        let (mut held, mut off) = (0, 0.0);
+        for seed in 0..LOGS {
+            let logs: Vec<Samples> = [0.1, 0.3]
+                .iter()
+                .zip([7000, 8000])
+                .map(|(share, first)| {
+                    let mut log = log(&axis, *share, 2e-9, first + seed);
+                    let mut random = Noise::new(first + 500 + seed);
+                    let mut wander = 0.0;
+                    for force in &mut log.force {
+                        wander = memory * wander + 5e-3 * random.normal();
+                        *force += wander;
+                    }
+                    log
+                })
+                .collect();
+            let fit = fit(&axis, &logs, false, true);
+            for (name, truth) in truth {
+                let p = fit.parameters.iter().find(|p| p.name == name).unwrap();
+                let (low, high) = p.ci95.unwrap();
+                held += u64::from((low..=high).contains(&truth));
+                off += ((p.value - truth) / p.std.unwrap()).powi(2) / (3 * LOGS) as f64;
+            }
+        }
+        let share = 100.0 * held as f64 / (3 * LOGS) as f64;
+        println!(
+            "memory {memory}: {share:.0} % held, off by {:.2} deviations",
+            off.sqrt()
+        );
+        assert!(
+            (88.0..=100.0).contains(&share),
+            "memory {memory}: {share} %"
+        );
+        assert!((0.6..1.4).contains(&off.sqrt()), "memory {memory}: {off}");
+    }
+}
+
 #[test]
 fn what_is_no_step_is_refused() {
     let axis = level_axis(0.3);

@@ -244,3 +244,49 @@ fn channels_that_do_not_fit_are_refused() {
     let log = made(500, |t| 1e300 * t, |_| 1e300);
     let _ = found(&log, Some(1e-300));
 }
+
+/// Four speeds each way that an axis with a position gain of 80 1/s approaches and leaves, by an
+/// encoder of .1 um: however far a stretch has grown over either end, each is a point of its own.
+#[test]
+fn a_stretch_beside_a_rest_is_found() {
+    let h = 1.0 / 4000.0;
+    for first in (0..10).map(|i| 400 + 37 * i) {
+        let mut wanted = vec![0.0; first];
+        let mut asked = Vec::new();
+        for speed in [0.02_f64, 0.04, 0.08, 0.16] {
+            for velocity in [speed, -speed] {
+                let from = wanted[wanted.len() - 1];
+                let samples = ((0.06 / speed).max(0.8) / h) as usize;
+                wanted.extend((1..=samples).map(|k| from + velocity * h * k as f64));
+                let rest = wanted[wanted.len() - 1];
+                wanted.extend(vec![rest; 600]);
+                asked.push(velocity);
+            }
+        }
+        let mut x = 0.0;
+        let mut position = Vec::new();
+        for goal in &wanted {
+            position.push(1e-7 * (x / 1e-7_f64).round());
+            x += 80.0 * h * (goal - x);
+        }
+        let samples = Samples {
+            time: (0..position.len()).map(|k| k as f64 * h).collect(),
+            force: vec![9.0; position.len()],
+            position: Some(position),
+            ..Samples::default()
+        };
+        for reference in [None, Some(wanted.as_slice())] {
+            let run = Run {
+                samples: &samples,
+                reference,
+                resolution: Some(1e-7),
+            };
+            let found = stretches(&[run], &[]).unwrap();
+            let velocities: Vec<f64> = found.points.iter().map(|p| p.velocity).collect();
+            assert_eq!(velocities.len(), asked.len(), "{first}: {velocities:?}");
+            for (found, asked) in velocities.iter().zip(&asked) {
+                assert!((found / asked - 1.0).abs() < 0.01, "{found} {asked}");
+            }
+        }
+    }
+}

@@ -35,16 +35,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         force_unit,
         ..
     } = parts;
-    let signal = match motion {
-        Motion::Linear => "force",
-        Motion::Rotary => "torque",
-    };
-    // A current or voltage that was not scaled keeps its own name.
-    let signal = match force_unit {
-        "A" => "current",
-        "V" => "voltage",
-        _ => signal,
-    };
+    let signal = symbols::driver(motion, force_unit);
     let fit_entry = |fit: &Fit| FitEntry::new(fit, signal, force_unit);
     let low_entry = |fit: &Fit| LowSpeedEntry {
         bound: estimate.low_speed_bound,

@@ -121,7 +121,7 @@ pub(super) fn fit(
 
     let mut warnings = log_warnings(&sources);
     let both_ways = moves_both_ways(&found.signals);
-    let trust = trust::judge(
+    let mut trust = trust::judge(
         &found.estimate,
         both_ways,
         &sources,
@@ -129,6 +129,7 @@ pub(super) fn fit(
         motion,
         &mut warnings,
     );
+    trust::open_loop(&found, &mut trust, &mut warnings);
     let started = if start.is_some() { "separable" } else { "runs" };
     let resolved = ResolvedAxis {
         name: axis.name.clone(),

@@ -4,7 +4,7 @@ use crate::error::Warning;
 use crate::result::{LawEntry, Trust};
 use crate::source::Source;
 use crate::symbols;
-use stiction_identify::{Estimate, Status};
+use stiction_identify::{Estimate, SimulationFit, Status};
 use stiction_log::Motion;
 
 /// Part of the variance that a fit must explain.
@@ -22,6 +22,10 @@ const MUCH_BETTER: f64 = 0.5;
 const SYSTEMATIC: f64 = 0.05;
 /// Part of a parameter by which it may be shifted before it is said.
 const FAR: f64 = 0.05;
+/// Independent samples of the residual for each unknown below which an open loop tells too little.
+const FOR_EACH: f64 = 5.0;
+/// Residual in encoder steps below which nothing but the encoder is in it.
+const ENCODER: f64 = 2.0;
 /// Part of the samples near rest above which a static law is told of them.
 const AT_REST: f64 = 0.05;
 
@@ -121,7 +125,9 @@ pub(super) fn unidentifiable(
         if !partners.is_empty() {
             text.push_str(&format!("; moves together with {}", partners.join(" and ")));
         }
-        text.push_str(&format!(". {}", parameter.advice));
+        if !parameter.advice.is_empty() {
+            text.push_str(&format!(". {}", parameter.advice));
+        }
         warnings.push(Warning::new("not-identifiable", text));
         if matches!(
             parameter.name.as_str(),
@@ -239,6 +245,38 @@ fn systematic(estimate: &Estimate, warnings: &mut Vec<Warning>) {
             ),
         ));
     }
+}
+
+/// What the logged force did not do drives the simulated axis of an open loop all the same, is summed
+/// up twice on its way to the position, and so ends in the parameters.
+pub(super) fn open_loop(found: &SimulationFit, trust: &mut Trust, warnings: &mut Vec<Warning>) {
+    let fit = &found.position;
+    let encoder_only = found.floor.is_some_and(|floor| fit.rmse < ENCODER * floor);
+    let shared = found.estimate.parameters.iter().filter(|p| p.identified);
+    let unknowns = shared.count() + found.starts();
+    if found.is_closed_loop() || encoder_only || fit.effective_samples >= FOR_EACH * unknowns as f64
+    {
+        return;
+    }
+    let worth = format!(
+        "the residual is worth {:.0} independent samples for {unknowns} unknowns, the starts of the runs \
+         included",
+        fit.effective_samples
+    );
+    warnings.retain(|w| w.code != "correlated-residual");
+    warnings.push(Warning::new(
+        "correlated-residual",
+        format!(
+            "{worth}: the logged force drives the simulated axis, so its noise, and any force that is \
+             not in it, adds up to a slow error of the position and shifts the parameters by more than \
+             their intervals. Cut the log into shorter runs ([simulation] segment in the axis file), or \
+             record a closed loop and give its controller ([controller]), which no force noise drives"
+        ),
+    ));
+    trust.reasons.push(format!(
+        "{worth}: noise of the logged force is in the parameters and not in their intervals"
+    ));
+    trust.trustworthy = false;
 }
 
 /// A static law says nothing of an axis at rest or in presliding.

@@ -12,20 +12,22 @@ const LAGS: usize = 200;
 /// Fewer samples than this make no picture.
 const FEW: usize = 10;
 
-fn signal_name(outcome: &Outcome) -> String {
-    let name = outcome.result.fit.signal.as_str();
-    let mut out: String = name[..1].to_uppercase();
-    out.push_str(&name[1..]);
-    out
+/// What drives the axis: force, torque, current. The signal of a fit may be the position.
+fn driver(outcome: &Outcome) -> &'static str {
+    symbols::driver(outcome.motion, &outcome.force_unit)
 }
 
 pub(super) fn force_axis(outcome: &Outcome) -> Axis {
-    Axis::new(signal_name(outcome), outcome.force_unit.as_str())
+    let name = driver(outcome);
+    Axis::new(
+        format!("{}{}", name[..1].to_uppercase(), &name[1..]),
+        outcome.force_unit.as_str(),
+    )
 }
 
 pub(super) fn friction_axis(outcome: &Outcome) -> Axis {
     Axis::new(
-        format!("Friction {}", outcome.result.fit.signal),
+        format!("Friction {}", driver(outcome)),
         outcome.force_unit.as_str(),
     )
 }

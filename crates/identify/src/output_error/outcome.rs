@@ -91,6 +91,16 @@ impl SimulationFit {
     pub fn is_closed_loop(&self) -> bool {
         self.controller.is_some()
     }
+
+    /// Unknowns of the starts of all runs.
+    pub fn starts(&self) -> usize {
+        let drive = Drive {
+            controller: self.controller.as_ref(),
+            hold: self.hold,
+            substeps: self.substeps,
+        };
+        self.runs * drive.locals()
+    }
 }
 
 /// An unseen recording under a fitted law.

@@ -12,6 +12,7 @@ use super::profile::{Best, Block, EXPONENT_RANGE, best_exponent, fall};
 use super::robust;
 use super::stretch::StaticPoint;
 use crate::error::Error;
+use crate::estimate::advice;
 use crate::estimate::parameter::Parameter;
 use crate::estimate::uncertainty::Covariance;
 use crate::law::physical::Dimension;
@@ -311,6 +312,13 @@ impl Fitted<'_> {
         }
         parameters.sort_by_key(|p| crate::law::physical::rank(&p.name));
         let n = names.len();
+        let covariance = Covariance {
+            names,
+            matrix: (0..n)
+                .map(|i| (0..n).map(|j| matrix[(i, j)]).collect())
+                .collect(),
+        };
+        advice::explain(&mut parameters, &covariance);
         let (model, weights, deviation) = self.by_point();
         StaticMap {
             settings: *self.settings,
@@ -320,12 +328,7 @@ impl Fitted<'_> {
             weights,
             scatter: self.scatter,
             parameters,
-            covariance: Covariance {
-                names,
-                matrix: (0..n)
-                    .map(|i| (0..n).map(|j| matrix[(i, j)]).collect())
-                    .collect(),
-            },
+            covariance,
         }
     }
 

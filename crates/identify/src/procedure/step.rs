@@ -9,6 +9,7 @@
 //! with the step u, the displacement x_ss it settles at and the overshoot Mp. It takes the bristles
 //! for linear, and they slip already: see `step_fit` for what that costs and the way around it.
 
+use super::level::{BLOCK, Level};
 use super::stretch::Run;
 use crate::error::Error;
 use std::f64::consts::PI;
@@ -33,6 +34,8 @@ pub struct StepResponse {
     pub before: f64,
     /// Height of the step, with its sign.
     pub height: f64,
+    /// Standard errors of the force before the step and after it.
+    pub errors: [f64; 2],
     /// Position before the step, m or rad.
     pub rest: f64,
     /// Displacement at which it settles, in the direction of the step, m or rad.
@@ -87,15 +90,18 @@ impl StepResponse {
             ));
         }
         let level = mean(&force[onset..(onset + BEFORE).min(n)]);
-        let base = mean(&force[onset.saturating_sub(50)..onset]);
+        let base = Level::held(force, 0..onset, onset);
         let end = (onset..n)
-            .find(|&i| (force[i] - level).abs() > 0.5 * (level - base).abs())
+            .find(|&i| (force[i] - level).abs() > 0.5 * (level - base.mean).abs())
             .unwrap_or(n);
         if end - onset < AFTER {
             return Err(none("fewer than 30 samples before the force changes again"));
         }
-        let start = onset.saturating_sub(50);
-        let height = mean(&force[onset..end]) - base;
+        let start = onset.saturating_sub(BLOCK);
+        // From the middle: either end may be on the way from or to another level.
+        let middle = (onset + BLOCK).max((onset + end) / 2).min(end);
+        let after = Level::held(force, onset..end, middle);
+        let height = after.mean - base.mean;
         let rest = mean(&position[start..onset]);
         let moved: Vec<f64> = position[onset..end]
             .iter()
@@ -120,8 +126,9 @@ impl StepResponse {
         Ok(Self {
             range: start..end,
             onset,
-            before: base,
+            before: base.mean,
             height,
+            errors: [base.error, after.error],
             rest,
             settled,
             overshoot: peak(&seconds, &moved, settled)

@@ -7,6 +7,7 @@
 
 use super::parameter::{Found, quantile};
 use super::step::StepResponse;
+use super::step_given::carried;
 use super::step_model::{Response, Trial};
 use super::stretch::Run;
 use crate::error::Error;
@@ -216,10 +217,10 @@ pub fn fit_steps(
     Ok(problem.result(&p, status))
 }
 
-struct Problem {
-    responses: Vec<Response>,
+pub(super) struct Problem {
+    pub responses: Vec<Response>,
     steps: Vec<u32>,
-    settings: StepSettings,
+    pub settings: StepSettings,
     highest: f64,
     /// Longest sample time, s.
     step: f64,
@@ -255,7 +256,7 @@ impl Problem {
 
     /// Measured less simulated positions, the mean of each response taken off; not finite for a trial
     /// that is no law.
-    fn residual(&mut self, p: &[f64]) -> Vec<f64> {
+    pub fn residual(&mut self, p: &[f64]) -> Vec<f64> {
         self.counts.cost += 1;
         let trial = self.trial(p);
         let mut out = Vec::new();
@@ -350,70 +351,6 @@ impl Problem {
         (cost, p, Status::Budget)
     }
 
-    /// What the uncertainty of the given numbers does to the unknowns: `K G K^T` with
-    /// `K = -(J^T J)^-1 J^T J_given`.
-    fn carried(&mut self, p: &[f64], slopes: &[Vec<f64>]) -> DMatrix<f64> {
-        let n = p.len();
-        let given = self.settings.given;
-        let scale: Vec<f64> = slopes
-            .iter()
-            .map(|s| 1.0 / dot(s, s).sqrt().max(f64::MIN_POSITIVE))
-            .collect();
-        let gram = DMatrix::from_fn(n, n, |i, j| {
-            dot(&slopes[i], &slopes[j]) * scale[i] * scale[j]
-        });
-        let Some(factor) = gram.cholesky() else {
-            return DMatrix::zeros(n, n);
-        };
-        let mut answer = DMatrix::zeros(n, 5);
-        for (j, row) in given.iter().enumerate() {
-            let std = row[j].sqrt();
-            if !(std > 0.0 && std.is_finite()) {
-                continue;
-            }
-            // A tenth of a deviation either way: within reach of the linear.
-            let by = 0.1 * std;
-            let (Some(up), Some(down)) = (self.moved(p, j, by), self.moved(p, j, -by)) else {
-                continue;
-            };
-            let slope: Vec<f64> = up
-                .iter()
-                .zip(&down)
-                .map(|(a, b)| (a - b) / (2.0 * by))
-                .collect();
-            let rhs = DVector::from_fn(n, |i, _| dot(&slopes[i], &slope) * scale[i]);
-            let x = factor.solve(&rhs);
-            for i in 0..n {
-                answer[(i, j)] = -x[i] * scale[i];
-            }
-        }
-        let known = DMatrix::from_fn(5, 5, |i, j| given[i][j]);
-        &answer * known * answer.transpose()
-    }
-
-    /// The residual with one of the given numbers moved; `None` where it is not given.
-    fn moved(&mut self, p: &[f64], which: usize, by: f64) -> Option<Vec<f64>> {
-        let before = self.settings;
-        let mut after = before;
-        match which {
-            4 => after.mass = Some(before.mass? + by),
-            _ => {
-                let mut curve = before.curve?;
-                match which {
-                    0 => curve.coulomb += by,
-                    1 => curve.static_friction += by,
-                    2 => curve.stribeck_velocity += by,
-                    _ => curve.viscous += by,
-                }
-                after.curve = Some(curve);
-            }
-        }
-        self.settings = after;
-        let residual = self.residual(p);
-        self.settings = before;
-        residual.iter().all(|r| r.is_finite()).then_some(residual)
-    }
-
     fn result(mut self, p: &[f64], status: Status) -> StepFit {
         let residual = self.residual(p);
         let slopes = self.slopes(p);
@@ -425,7 +362,7 @@ impl Problem {
             breaks.push(at);
         }
         let mut covariance = uncertainty::sandwich(&columns, &residual, &breaks).covariance;
-        covariance += self.carried(p, &slopes);
+        covariance += carried(&mut self, p, &slopes);
         let trial = self.trial(p);
         let n = residual.len() as f64;
         let level = trial.curve.coulomb;

@@ -1,5 +1,6 @@
 //! The position of a mass with LuGre friction under a recorded force.
 
+use super::level::Level;
 use super::step::StepResponse;
 use crate::conditioning::record::Samples;
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
@@ -31,6 +32,10 @@ pub(super) struct Response {
     pub force: Vec<f64>,
     pub position: Vec<f64>,
     pub before: f64,
+    /// First sample at the new force.
+    onset: usize,
+    /// Standard errors of the force before the step and after it.
+    pub errors: [f64; 2],
 }
 
 impl Response {
@@ -56,6 +61,19 @@ impl Response {
                 .map(|x| x[start..end].iter().map(|x| x - step.rest).collect())
                 .unwrap_or_default(),
             before: step.before,
+            onset: step.onset - start,
+            errors: step.errors,
+        }
+    }
+
+    /// Moves the force before the step (0) or after it (1).
+    pub fn lift(&mut self, side: usize, by: f64) {
+        let (before, after) = self.force.split_at_mut(self.onset);
+        if side == 0 {
+            self.before += by;
+        }
+        for force in if side == 0 { before } else { after } {
+            *force += by;
         }
     }
 
@@ -115,11 +133,12 @@ fn quieten(force: &mut [f64], onset: usize, before: f64, after: f64) {
     let Some(settled) = rest.iter().position(|f| close(*f)) else {
         return;
     };
-    // Block means of a constant with noise scatter as little as they should.
-    let block = (rest.len() / 10).max(1);
+    // Block means of a constant with noise scatter as little as its memory lets them.
+    let block = (rest.len() / 10).max(2);
     let wander = rest[settled..].chunks_exact(block).any(|c| {
-        let mean = c.iter().sum::<f64>() / block as f64;
-        (mean - after).abs() > 5.0 * scatter / (block as f64).sqrt()
+        let own = Level::of(c);
+        let error = own.error.max(scatter / (block as f64).sqrt());
+        (own.mean - after).abs() > 5.0 * error
     });
     if wander {
         return;

@@ -325,14 +325,15 @@ impl<'a> Search<'a> {
 
     /// The point of a stretch, or why it is none; `None` where it is not worth a word.
     fn point(&self, from: usize, to: usize) -> Result<StaticPoint, Option<Unsteady>> {
+        let corner = (CORNER * (to - from) as f64) as usize;
+        let to = to - corner;
         // The axis may approach a speed that was asked for at once.
         let from = self.after_drift(&self.asked, from, to).ok_or(None)?;
         let from = self
             .after_drift(&self.moved, from, to)
             .ok_or(Some(Unsteady::StickSlip))?;
-        let corner = (CORNER * (to - from) as f64) as usize;
-        let (start, to) = (from + corner, to - corner);
-        if to - start < LEAST {
+        let start = from + corner;
+        if to < start + LEAST {
             return Err(None);
         }
         let mean = self.moved.slope(start, to);
