@@ -120,7 +120,7 @@ impl<L: Held<f64>> Plant<L> {
     /// ```
     /// Second order and A-stable; the work of all forces equals the change of kinetic energy to rounding. It does not
     /// damp what is too fast for the step: keep `h sqrt(sigma0/M)` below about 2. With sigma1 capped friction gives no
-    /// energy back over a closed cycle; where the two directions differ, in steps no longer than Fc/sigma0 of the lower one.
+    /// energy back over a closed cycle, in steps no longer than g(v)/sigma0; a longer one through a reversal can.
     ///
     /// A load that is not finite gives a motion that is not.
     pub fn step(&self, from: Motion<L::State>, h: f64, load: Load) -> Step<L::State> {
