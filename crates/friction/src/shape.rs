@@ -21,14 +21,15 @@ pub enum Shape<T> {
 
 impl<T: Real> Shape<T> {
     /// The weight at `x = |v|/vs >= 0`, in 0..=1, for any `x` up to infinity.
-    #[inline]
+    #[inline(always)]
     pub fn weight(self, x: T) -> T {
-        match self {
-            Shape::Gaussian => (-(x * x)).exp(),
-            Shape::Exponential => (-x).exp(),
-            Shape::Power(delta) => (-x.powf(delta)).exp(),
-            Shape::Lorentzian => T::ONE / (T::ONE + x * x),
-        }
+        let exponent = match self {
+            Shape::Gaussian => x * x,
+            Shape::Exponential => x,
+            Shape::Power(delta) => x.powf(delta),
+            Shape::Lorentzian => return T::ONE / (T::ONE + x * x),
+        };
+        (-exponent).exp()
     }
 
     /// The weight and its derivative with respect to `x`.

@@ -176,7 +176,7 @@ impl<T: Real> Stribeck<T> {
         if positive { &self.pos } else { &self.neg }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn level_on(&self, positive: bool, speed: T) -> T {
         let d = self.side(positive);
         let w = self.shape.weight(speed / d.stribeck_velocity);
