@@ -64,6 +64,7 @@ impl Controller {
 
     /// The force, N (N m), to hold for the next `h` seconds, from the reference and the measured position (m, rad) at
     /// this instant and a further force (N, N m) that is fed forward.
+    #[inline]
     pub fn force(
         &self,
         state: &mut ControllerState,
