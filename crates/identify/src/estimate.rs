@@ -7,6 +7,7 @@ mod curve;
 pub(crate) mod intervals;
 pub(crate) mod parameter;
 mod profile;
+mod sliding;
 pub(crate) mod uncertainty;
 
 use crate::conditioning::record::Record;
@@ -182,6 +183,7 @@ pub fn estimate(
             .collect(),
     };
     curve::stays_within(&law, optimum, &mut parameters);
+    sliding::stays_in_presliding(record.stroke(), &mut parameters);
     advice::explain(&mut parameters, &covariance);
     let series = series(&objective, &optimum.p, c);
     let residual = at.residual();
