@@ -65,9 +65,8 @@ pub const RATE: f64 = 1000.0;
 /// One start of least squares, drawn at random: what `lm` is without its many starts.
 pub const ONE_START: &str = "lm-one";
 
-/// Part of the energy by which a cost may be less and still be the same: the reference search steps by sums of
-/// squares, and ends where a step promises no more than this.
-const ROUNDING: f64 = 1e-13;
+/// Part of the energy by which a cost may be less and still be the same.
+const ROUNDING: f64 = 1e-14;
 
 /// What to compare, and how.
 #[derive(Clone, Debug, PartialEq)]
