@@ -21,7 +21,7 @@ const CURVED: f64 = 0.03;
 /// shift, and replaces linear intervals of the Stribeck velocity and exponent, static friction and
 /// micro-damping by those of the profile where they are poorly known.
 ///
-/// Costs up to 12 evaluations where the motion comes from a position, and some tens for each profile;
+/// Costs some 60 evaluations where the motion comes from a position, and some tens for each profile;
 /// they are added to the counts of the estimate.
 pub fn intervals(
     record: &Record,
