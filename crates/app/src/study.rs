@@ -3,6 +3,7 @@
 //! Raw as typed, then resolved to SI and the types of the simulation, then run over the whole grid.
 
 mod contour;
+pub(crate) mod doubt;
 mod model;
 mod raw;
 mod resolve;

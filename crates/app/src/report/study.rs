@@ -5,6 +5,7 @@ mod contour;
 pub(crate) use contour::scheme;
 
 use crate::study::StudyOutcome;
+use crate::study::doubt::CODES;
 use crate::study::result::{MetricEntry, ResultRow, SimulatedAxis, StudyFile};
 use crate::study::{Course, Trace};
 use crate::symbols;
@@ -82,12 +83,11 @@ pub(crate) fn study(outcome: &StudyOutcome) -> Document {
 
 const MEANING: [&str; 7] = [
     "Errors are reference less true position. What the encoder does not see counts.",
-    "At reversals: the largest error within 20 ms of a change of direction, or a quarter of the time \
-     between two if that is longer.",
-    "Reduction: by how much the error at reversals is below that without compensation, on the same \
-     path and under the same controller; where a path has no reversal, the largest error.",
-    "On a contour the error is the distance to it, and the reduction that of the largest; coupling is \
-     control of that error above both axes. Circular: the least distance of two circles about one centre \
+    "Reduction: by how much the largest error is below that without compensation, on the same path and \
+     under the same controller.",
+    "At reversals: the largest error within 20 ms of a change of direction, or a quarter of the way \
+     before and after in time if that is longer.",
+    "On a contour the error is the distance to it; coupling is control of that error above both axes. Circular: the least distance of two circles about one centre \
      that hold the whole path between them.",
     "Worst: the same for the worst set of parameters.",
     "Δu: rms change of the commanded force from sample to sample. Still: longest standstill about a \
@@ -112,9 +112,8 @@ fn mass_unit(axis: &SimulatedAxis) -> &'static str {
 
 /// The metric by which compensators are compared.
 pub(crate) fn judged(row: &ResultRow) -> Option<&MetricEntry> {
-    let reversal = row.metric("reversal_peak").filter(|m| m.largest > 0.0);
-    let contour = row.metric("contour_peak");
-    contour.or(reversal).or_else(|| row.metric("peak_error"))
+    row.metric("contour_peak")
+        .or_else(|| row.metric("peak_error"))
 }
 
 fn verdict(file: &StudyFile) -> Callout {
@@ -136,6 +135,17 @@ fn verdict(file: &StudyFile) -> Callout {
         let text = format!(
             "{} runs. {worse} {rows} a run that tracks worse with compensation than without: marked \
              in the tables.",
+            number::count(runs as u64)
+        );
+        (Severity::Warning, text)
+    } else if file
+        .warnings
+        .iter()
+        .any(|w| CODES.contains(&w.code.as_str()))
+    {
+        let text = format!(
+            "{} runs. No compensator made the error that counts larger, but not every figure is what it seems: \
+             see the warnings.",
             number::count(runs as u64)
         );
         (Severity::Warning, text)
@@ -170,7 +180,7 @@ fn best(rows: &[ResultRow]) -> Option<KeyFigure> {
         )
         .note(match row.metric("contour_peak") {
             Some(_) => format!("contour error, {}", contour::scheme(row)),
-            None => format!("error at reversals, {}", row.compensator),
+            None => format!("largest error, {}", row.compensator),
         }),
     )
 }
@@ -196,14 +206,9 @@ fn table(rows: &[ResultRow]) -> Table {
         let percent = |x: Option<f64>| Text::from(x.map_or("–".into(), percent));
         let judged = judged(row).filter(|_| row.compensator != "none");
         let worst = judged.and_then(|m| m.worst_reduction_percent);
-        let switched = match row.switched_off {
-            0 => String::new(),
-            _ if row.runs == 1 => ", switched off".into(),
-            n => format!(", switched off in {n}"),
-        };
         let cells = [
             Text::from(row.compensator.as_str()),
-            Text::from(format!("{}{switched}", row.parameters)),
+            Text::from(believed(row)),
             value("rms_error"),
             value("peak_error"),
             value("reversal_peak"),
@@ -219,6 +224,14 @@ fn table(rows: &[ResultRow]) -> Table {
         };
     }
     table
+}
+
+/// The kind of parameters, and what became of the compensation.
+fn believed(row: &ResultRow) -> String {
+    match row.remarks() {
+        remarks if remarks.is_empty() => row.parameters.clone(),
+        remarks => format!("{}, {remarks}", row.parameters),
+    }
 }
 
 /// Percent with one decimal: more would not be worth the axis it was simulated on.
@@ -326,7 +339,7 @@ fn wrong(rows: &[ResultRow]) -> Option<Figure> {
         Axis::new(
             match contour::is_contour(rows) {
                 true => "Largest contour error, of that without compensation",
-                false => "Error at reversals, of that without compensation",
+                false => "Largest error, of that without compensation",
             },
             "%",
         ),

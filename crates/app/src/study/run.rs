@@ -1,6 +1,7 @@
 //! The grid of a study, run in parallel, and what is kept of each run.
 
 use super::contour::{self, ContourPlan, ContourTrace, Plan};
+use super::doubt;
 use super::result::{
     AxisParameter, MetricEntry, PathEntry, ResultRow, SCHEMA, SimulatedAxis, StudyFile,
 };
@@ -20,7 +21,7 @@ use stiction_servo::axis::{Axis, AxisSettings, Sample};
 use stiction_servo::controller::Controller;
 use stiction_servo::feedforward::Feedforward;
 use stiction_servo::integrator::Quick;
-use stiction_servo::metrics::{Tracking, reversals, ripple_at_constant_velocity};
+use stiction_servo::metrics::{Tracking, reversals, ripple_at_constant_velocity, share_at_limit};
 use stiction_servo::run::follow;
 
 /// Points of a trace that are kept: more than a figure can show.
@@ -74,17 +75,19 @@ struct Done {
     job: Job,
     metrics: Vec<f64>,
     switched_off: bool,
+    still_learning: bool,
     trace: Option<Trace>,
     contour: Option<ContourTrace>,
 }
 
 /// Names of the metrics; what they measure is in `docs/study.md`.
-const METRICS: [&str; 6] = [
+const METRICS: [&str; 7] = [
     "rms_error",
     "peak_error",
     "reversal_peak",
     "command_change",
     "stick_time",
+    "saturation",
     "velocity_ripple",
 ];
 
@@ -173,6 +176,7 @@ pub(super) fn run(
     failed.dedup_by_key(|(job, _)| job.cell());
     warnings.extend(failed.iter().map(|(job, e)| study.not_run(*job, e)));
     let results = study.rows(&kept);
+    warnings.extend(doubt::warnings(study, &results));
     let (mut traces, mut contours) = (Vec::new(), Vec::new());
     for done in kept {
         traces.extend(done.trace);
@@ -238,7 +242,7 @@ impl Study {
             ],
             coupling: second.coupling.filter(|_| job.coupled),
         };
-        let (metrics, switched_off, samples) = self.along(second, &plan)?;
+        let ran = self.along(second, &plan)?;
         let names = [
             self.path_name(job),
             &self.controllers[job.controller].name,
@@ -246,11 +250,12 @@ impl Study {
         ];
         Ok(Done {
             job,
-            metrics,
-            switched_off,
+            metrics: ran.metrics,
+            switched_off: ran.switched_off,
+            still_learning: ran.still_learning,
             trace: None,
             contour: (family.kind == "exact")
-                .then(|| ContourTrace::of(names, job.coupled, &samples)),
+                .then(|| ContourTrace::of(names, job.coupled, &ran.samples)),
         })
     }
 
@@ -279,6 +284,7 @@ impl Study {
                 samples = follow(&mut axis, path.trajectory.as_ref())?;
             }
         }
+        let learnt = scheme.learnt(&samples, self.machine.rate);
         let from = samples.partition_point(|s| s.time < path.skip);
         let counted = &samples[from.min(samples.len())..];
         let tracking = Tracking::of(counted);
@@ -291,9 +297,11 @@ impl Study {
                 tracking.reversal_peak,
                 tracking.command_change,
                 tracking.stick_time,
+                share_at_limit(counted, self.machine.largest_force(&controller)),
                 ripple_at_constant_velocity(counted).unwrap_or(f64::NAN),
             ],
             switched_off: compensator.is_some_and(|c| c.state().watch.tripped),
+            still_learning: learnt.is_some_and(|t| t > path.skip),
             trace: (family.kind == "exact").then(|| Trace::of(self, job, counted)),
             contour: None,
         })
@@ -326,6 +334,7 @@ impl Study {
                 parameters: family.name.clone(),
                 runs: cell.len(),
                 switched_off: cell.iter().filter(|d| d.switched_off).count(),
+                still_learning: cell.iter().filter(|d| d.still_learning).count(),
                 metrics: metrics.collect(),
             };
             let without = rows
@@ -370,10 +379,16 @@ impl Machine {
         }
     }
 
+    /// What the controller may ask for and the drive can give, N (N m).
+    pub(super) fn largest_force(&self, controller: &Controller) -> f64 {
+        controller.force_limit().min(self.drive.peak_force())
+    }
+
     fn unit(&self, metric: &str) -> String {
         match (metric, self.motion) {
             ("stick_time", _) => "s",
             ("velocity_ripple", _) => "1",
+            (name, _) if name.starts_with("saturation") => "1",
             (name, Motion::Linear) if name.starts_with("command_change") => "N",
             (name, Motion::Rotary) if name.starts_with("command_change") => "N*m",
             (_, motion) => symbols::length_unit(motion),

@@ -70,10 +70,6 @@ fn line(row: &ResultRow) -> Vec<String> {
                 .and_then(|m| m.worst_reduction_percent)
                 .filter(|_| row.runs > 1),
         ),
-        match row.switched_off {
-            0 => String::new(),
-            _ if row.runs == 1 => "switched off".into(),
-            n => format!("switched off in {n} of {}", row.runs),
-        },
+        row.remarks(),
     ]
 }

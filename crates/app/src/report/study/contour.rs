@@ -1,6 +1,6 @@
 //! Rows and pictures of two axes on a contour.
 
-use super::{COLORS, percent, quantity};
+use super::{COLORS, believed, percent, quantity};
 use crate::study::result::ResultRow;
 use crate::study::{ContourTrace, StudyOutcome};
 use crate::symbols;
@@ -58,14 +58,9 @@ pub(super) fn table(rows: &[ResultRow]) -> Table {
         let without = row.compensator == "none" && !row.coupled;
         let judged = row.metric("contour_peak").filter(|_| !without);
         let worst = judged.and_then(|m| m.worst_reduction_percent);
-        let switched = match row.switched_off {
-            0 => String::new(),
-            _ if row.runs == 1 => ", switched off".into(),
-            n => format!(", switched off in {n}"),
-        };
         let mut cells = vec![
             Text::from(scheme(row)),
-            Text::from(format!("{}{switched}", row.parameters)),
+            Text::from(believed(row)),
             value("contour_rms"),
             value("contour_peak"),
         ];

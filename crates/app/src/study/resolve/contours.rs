@@ -81,8 +81,11 @@ pub(super) fn contour(table: &Table<'_>, study: &Study) -> Result<ContourPlan, E
         _ => asked.figure_eight()?,
     };
     let duration = motion.duration();
-    // A first turn is for starting up.
-    let usual = if turns >= 2.0 { duration / turns } else { 0.0 };
+    let usual = if turns >= 2.0 {
+        first_turn(motion.as_ref(), turns)
+    } else {
+        0.0
+    };
     let skip = table.not_negative("skip", Dimension::TIME)?;
     let skip = skip.unwrap_or(usual);
     if skip >= duration {
@@ -97,6 +100,22 @@ pub(super) fn contour(table: &Table<'_>, study: &Study) -> Result<ContourPlan, E
     };
     table.end()?;
     Ok(plan)
+}
+
+/// When the first of `turns` ends, s: it is for starting up. Its parameter only grows.
+fn first_turn(motion: &dyn PlaneMotion, turns: f64) -> f64 {
+    let turned = motion.end() / turns;
+    let (mut before, mut after) = (0.0, motion.duration());
+    // To the last bit.
+    for _ in 0..64 {
+        let middle = 0.5 * (before + after);
+        if motion.at(middle).parameter < turned {
+            before = middle;
+        } else {
+            after = middle;
+        }
+    }
+    after
 }
 
 struct Asked<'t, 'a> {
