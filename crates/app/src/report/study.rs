@@ -48,7 +48,11 @@ pub(crate) fn study(outcome: &StudyOutcome) -> Document {
         .chunk_by(|a, b| (&a.path, &a.controller) == (&b.path, &b.controller))
         .collect();
     document = document.block(Block::KeyFigures(
-        cells.iter().take(4).filter_map(|c| best(c)).collect(),
+        cells
+            .iter()
+            .take(MOST_FIGURES)
+            .filter_map(|c| best(c))
+            .collect(),
     ));
     for (i, rows) in cells.iter().enumerate() {
         document = document
@@ -172,16 +176,29 @@ fn best(rows: &[ResultRow]) -> Option<KeyFigure> {
         .filter(|r| r.compensator != "none" || r.coupled)
         .filter_map(|r| Some((r, reduction(r)?)))
         .max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let error = match row.metric("contour_peak") {
+        Some(_) => "contour error",
+        None => "largest error",
+    };
+    // Which of them at which risk: the worst of all wrong parameters.
+    let same = |r: &&ResultRow| {
+        r.runs > 1 && (r.coupled, &r.compensator) == (row.coupled, &row.compensator)
+    };
+    let worst = rows.iter().filter(same).filter_map(|r| {
+        let metric = judged(r)?;
+        Some((r, metric.worst_reduction_percent?))
+    });
+    let worst = worst.min_by(|a, b| a.1.total_cmp(&b.1));
+    let risk = worst.map_or(String::new(), |(r, x)| {
+        format!("; {} at the worst of {}", less(x), r.parameters)
+    });
     Some(
         KeyFigure::new(
             format!("{}, {}", row.path, row.controller),
-            number::sig(percent, 3),
+            less(percent).trim_end_matches(" %").to_string(),
             "% less",
         )
-        .note(match row.metric("contour_peak") {
-            Some(_) => format!("contour error, {}", contour::scheme(row)),
-            None => format!("largest error, {}", row.compensator),
-        }),
+        .note(format!("{error}, {}{risk}", contour::scheme(row))),
     )
 }
 
@@ -203,7 +220,7 @@ fn table(rows: &[ResultRow]) -> Table {
             let metric = row.metric(name);
             Text::from(metric.map_or("–".into(), |m| quantity(m.mean, &m.unit)))
         };
-        let percent = |x: Option<f64>| Text::from(x.map_or("–".into(), percent));
+        let percent = |x: Option<f64>| Text::from(x.map_or("–".into(), less));
         let judged = judged(row).filter(|_| row.compensator != "none");
         let worst = judged.and_then(|m| m.worst_reduction_percent);
         let cells = [
@@ -234,9 +251,35 @@ fn believed(row: &ResultRow) -> String {
     }
 }
 
-/// Percent with one decimal: more would not be worth the axis it was simulated on.
-fn percent(x: f64) -> String {
-    format!("{x:.1} %").replace('-', "−")
+/// A reduction with one decimal: more would not be worth the axis it was simulated on. What is not quite all of it is not
+/// said to be.
+pub(crate) fn less(x: f64) -> String {
+    match format!("{x:.1} %") {
+        all if all == "100.0 %" && x < 100.0 => "> 99.9 %".into(),
+        text => text.replace('-', "−"),
+    }
+}
+
+/// Rows that are drawn: those with exact parameters, of many the first, which is without compensation, and those that
+/// leave the least.
+fn drawn(rows: &[ResultRow]) -> (Vec<&ResultRow>, usize) {
+    let exact: Vec<&ResultRow> = rows.iter().filter(|r| r.parameters == "exact").collect();
+    let all = exact.len();
+    let left = |r: &ResultRow| judged(r).map_or(f64::INFINITY, |m| m.mean);
+    let mut order: Vec<usize> = (1..all).collect();
+    order.sort_by(|a, b| left(exact[*a]).total_cmp(&left(exact[*b])));
+    order.truncate(COLORS.len() - 1);
+    order.sort_unstable();
+    let chosen = std::iter::once(0).chain(order).filter_map(|i| exact.get(i));
+    (chosen.copied().collect(), all)
+}
+
+/// What is said of curves that are left out.
+fn left_out(drawn: usize, all: usize) -> String {
+    match all > drawn {
+        true => format!(" {drawn} of {all}: without compensation, and those that leave the least."),
+        false => String::new(),
+    }
 }
 
 /// A value with its unit under an SI prefix.
@@ -259,13 +302,13 @@ pub(crate) fn quantity(x: f64, unit: &str) -> String {
 
 /// Error and compensating force with the parameters of the axis: over all that counts, and about a reversal.
 fn in_time(outcome: &StudyOutcome, rows: &[ResultRow]) -> Vec<Figure> {
-    let traces: Vec<&Trace> = rows
-        .iter()
-        .filter(|r| r.parameters == "exact")
-        .filter_map(|r| outcome.trace(r))
-        .collect();
+    let (rows, all) = drawn(rows);
+    let traces: Vec<&Trace> = rows.iter().filter_map(|r| outcome.trace(r)).collect();
     let motion = motion(&outcome.file.axis);
-    let caption = "The part of the run that counts, with the parameters of the axis itself.";
+    let caption = format!(
+        "The part of the run that counts, with the parameters of the axis itself.{}",
+        left_out(traces.len(), all)
+    );
     let mut figures =
         vec![courses("Tracking error", &traces, motion, &|t| &t.whole).caption(caption)];
     if traces.iter().any(|t| !t.reversal.time.is_empty()) {
@@ -431,4 +474,15 @@ fn parameters(axis: &SimulatedAxis) -> Table {
             p.unit.clone(),
         ])
     })
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn what_is_nearly_all_is_not_all() {
+        assert_eq!(super::less(99.97), "> 99.9 %");
+        assert_eq!(super::less(99.94), "99.9 %");
+        assert_eq!(super::less(100.0), "100.0 %");
+        assert_eq!(super::less(-3.21), "−3.2 %");
+    }
 }

@@ -77,8 +77,9 @@ pub(super) struct Ran {
     /// Whether a watchdog switched off, whether one still learnt when the run began to count.
     pub switched_off: bool,
     pub still_learning: bool,
-    /// The samples that count.
+    /// All samples, and from which on they count.
     pub samples: Vec<PlaneSample>,
+    pub counted: usize,
 }
 
 impl Study {
@@ -93,14 +94,14 @@ impl Study {
         };
         let mut axes = [axis(0, &self.machine)?, axis(1, &second.machine)?];
         let contour = plan.contour;
-        let mut samples = follow(&mut axes, plan.coupling.as_ref(), contour.motion.as_ref())?;
+        let samples = follow(&mut axes, plan.coupling.as_ref(), contour.motion.as_ref())?;
         let sides: [Vec<Sample>; 2] = [0, 1].map(|i| samples.iter().map(|s| s.axes[i]).collect());
         let learnt = sides
             .iter()
             .filter_map(|side| plan.scheme.learnt(side, self.machine.rate));
         let still_learning = learnt.fold(0.0, f64::max) > contour.skip;
         let from = samples.partition_point(|s| s.axes[0].time < contour.skip);
-        let counted = samples.split_off(from.min(samples.len()));
+        let counted = &samples[from..];
         let switched_off = axes.iter().any(|axis| {
             let compensator = axis.feedforward().compensator();
             compensator.is_some_and(|c| c.state().watch.tripped)
@@ -112,13 +113,14 @@ impl Study {
         Ok(Ran {
             metrics: metrics(
                 contour,
-                &counted,
+                counted,
                 sides.each_ref().map(|s| &s[from..]),
                 limits,
             ),
             switched_off,
             still_learning,
-            samples: counted,
+            counted: from,
+            samples,
         })
     }
 }

@@ -1,12 +1,12 @@
 //! The grid of a study, run in parallel, and what is kept of each run.
 
 use super::contour::{self, ContourPlan, ContourTrace, Plan};
-use super::doubt;
 use super::result::{
     AxisParameter, MetricEntry, PathEntry, ResultRow, SCHEMA, SimulatedAxis, StudyFile,
 };
 use super::wrong::{Belief, Family};
 use super::{Machine, ModelKind, ModelScheme, PathPlan, Scheme, Study, StudyOutcome};
+use super::{course, doubt};
 use crate::symbols;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -78,6 +78,8 @@ struct Done {
     still_learning: bool,
     trace: Option<Trace>,
     contour: Option<ContourTrace>,
+    /// Rows of `trajectories.csv` or `contours.csv`.
+    course: String,
 }
 
 /// Names of the metrics; what they measure is in `docs/study.md`.
@@ -178,7 +180,9 @@ pub(super) fn run(
     let results = study.rows(&kept);
     warnings.extend(doubt::warnings(study, &results));
     let (mut traces, mut contours) = (Vec::new(), Vec::new());
+    let mut courses = study.headers();
     for done in kept {
+        courses[usize::from(done.job.path >= study.paths.len())].push_str(&done.course);
         traces.extend(done.trace);
         contours.extend(done.contour);
     }
@@ -200,6 +204,7 @@ pub(super) fn run(
         },
         traces,
         contours,
+        courses,
     }
 }
 
@@ -225,37 +230,65 @@ impl Study {
         }
     }
 
+    fn names(&self, job: Job) -> course::Names<'_> {
+        [
+            self.path_name(job),
+            &self.controllers[job.controller].name,
+            &self.compensators[job.compensator].name,
+        ]
+    }
+
+    /// Headers of the courses on paths and on contours, where there are any.
+    fn headers(&self) -> [String; 2] {
+        let motion = self.machine.motion;
+        [
+            match self.paths.is_empty() {
+                true => String::new(),
+                false => course::header(motion),
+            },
+            match self.contours.is_empty() {
+                true => String::new(),
+                false => course::contour_header(motion),
+            },
+        ]
+    }
+
     fn on_contour(&self, job: Job, contour: &ContourPlan) -> Result<Done, ParamError> {
         let missing = ParamError::new("axes", 1.0, "two, for a contour");
         let second = self.second.as_ref().ok_or(missing)?;
         let family = &self.families[job.family];
+        let controllers = [
+            self.controllers[job.controller].it,
+            second.controllers[job.controller],
+        ];
+        let coupling = second.coupling.filter(|_| job.coupled);
         let plan = Plan {
             contour,
-            controllers: [
-                self.controllers[job.controller].it,
-                second.controllers[job.controller],
-            ],
+            controllers,
             scheme: &self.compensators[job.compensator].it,
             beliefs: [
                 family.beliefs[job.belief],
                 second.families[job.family][job.belief],
             ],
-            coupling: second.coupling.filter(|_| job.coupled),
+            coupling: coupling.map(|c| c.above(controllers.each_ref())),
         };
         let ran = self.along(second, &plan)?;
-        let names = [
-            self.path_name(job),
-            &self.controllers[job.controller].name,
-            &self.compensators[job.compensator].name,
-        ];
+        let names = self.names(job);
+        let exact = family.kind == "exact";
         Ok(Done {
             job,
             metrics: ran.metrics,
             switched_off: ran.switched_off,
             still_learning: ran.still_learning,
             trace: None,
-            contour: (family.kind == "exact")
-                .then(|| ContourTrace::of(names, job.coupled, &ran.samples)),
+            course: match exact {
+                true => {
+                    course::contour_rows(names, job.coupled, &ran.samples, self.rows_of_a_run())
+                }
+                false => String::new(),
+            },
+            contour: exact
+                .then(|| ContourTrace::of(names, job.coupled, &ran.samples[ran.counted..])),
         })
     }
 
@@ -284,6 +317,7 @@ impl Study {
                 samples = follow(&mut axis, path.trajectory.as_ref())?;
             }
         }
+        let exact = family.kind == "exact";
         let learnt = scheme.learnt(&samples, self.machine.rate);
         let from = samples.partition_point(|s| s.time < path.skip);
         let counted = &samples[from.min(samples.len())..];
@@ -302,8 +336,12 @@ impl Study {
             ],
             switched_off: compensator.is_some_and(|c| c.state().watch.tripped),
             still_learning: learnt.is_some_and(|t| t > path.skip),
-            trace: (family.kind == "exact").then(|| Trace::of(self, job, counted)),
+            trace: exact.then(|| Trace::of(self, job, counted)),
             contour: None,
+            course: match exact {
+                true => course::rows(self.names(job), &samples, self.rows_of_a_run()),
+                false => String::new(),
+            },
         })
     }
 
