@@ -132,8 +132,9 @@ impl<T: Real> Compensator<T> {
     }
 
     /// The compensating force, N (N m), to be added to the controller's from now on for one cycle time.
+    #[inline]
     pub fn step(&mut self, input: Input<T>) -> T {
-        self.step_in(self.settings.cycle_time, input)
+        self.advance(self.settings.cycle_time, input)
     }
 
     /// [`step`](Self::step) where the cycle time varies: `h` seconds since the call before.
@@ -141,10 +142,18 @@ impl<T: Real> Compensator<T> {
     /// The force is finite and within the limit whatever comes in. A sample with an input that is not finite moves no
     /// state of the law and counts as not enabled: the force fades while such samples last and comes back with good
     /// ones. An `h` that is negative or not finite repeats the force.
+    #[inline]
     pub fn step_in(&mut self, h: T, input: Input<T>) -> T {
-        if !(h.is_finite() && h >= T::ZERO) {
-            return self.state.output;
+        if h >= T::ZERO && h <= T::MAX {
+            self.advance(h, input)
+        } else {
+            self.state.output
         }
+    }
+
+    /// `h` is finite and not negative.
+    #[inline]
+    fn advance(&mut self, h: T, input: Input<T>) -> T {
         let good = input.is_finite();
         if good {
             let at = self

@@ -8,6 +8,16 @@ use core::f64::consts::LOG2_E;
 /// Beyond this results leave the normal numbers, or come near to it.
 const RANGE: f64 = 708.0;
 
+/// Up to this there is nothing to reduce, the power of two is 1. The velocity of an axis changes little from sample to
+/// sample, so the branch is foreseen, and a third of the time of an exponential is saved.
+const WHOLE: f64 = 0.34;
+
+/// 2^-54: up to this an exponential is 1 plus its argument to rounding.
+const TINY: f64 = 1.0 / (1_u64 << 54) as f64;
+
+/// Below this an exponential is 0 to rounding.
+const VANISHED: f64 = -746.0;
+
 /// Adding this to a number rounds it to an integer; the lowest bits of the sum are then that integer with the bias of
 /// an exponent already on it.
 const ROUND: f64 = 1.5 * (1_u64 << 52) as f64 + 1023.0;
@@ -35,36 +45,53 @@ const ODD: [f64; 5] = [
     2.510038319586702e-08,
 ];
 
-/// `exp(x) = scale (1 + grown)` with `scale` a power of two and |grown| < .42, for |x| <= 708.
+/// `exp(r) - 1` for |r| <= ln2/2.
 #[inline(always)]
-fn parts(x: f64) -> (f64, f64) {
-    let shifted = x * LOG2_E + ROUND;
-    let n = shifted - ROUND;
-    let r = (x - n * LN2[0]) - n * LN2[1];
-    let scale = f64::from_bits(shifted.to_bits() << 52);
+fn grown(r: f64) -> f64 {
     let r2 = r * r;
     let r4 = r2 * r2;
     let half = |c: &[f64; 5]| (c[0] + c[1] * r2) + r4 * ((c[2] + c[3] * r2) + c[4] * r4);
-    (scale, r + r2 * (half(&EVEN) + r * half(&ODD)))
+    r + r2 * (half(&EVEN) + r * half(&ODD))
+}
+
+/// A power of two and what is left: `exp(x) = scale exp(r)` with |r| <= ln2/2, for |x| <= 708.
+#[inline(always)]
+fn reduced(x: f64) -> (f64, f64) {
+    let shifted = x * LOG2_E + ROUND;
+    let n = shifted - ROUND;
+    let r = (x - n * LN2[0]) - n * LN2[1];
+    (f64::from_bits(shifted.to_bits() << 52), r)
 }
 
 /// `exp(x)`, within 2.3e-16 of its value.
-#[inline]
+#[inline(always)]
 pub(crate) fn exp(x: f64) -> f64 {
-    if x.abs() <= RANGE {
-        let (scale, grown) = parts(x);
-        scale + scale * grown
+    let size = x.abs();
+    if size <= WHOLE {
+        // A law at rest asks for this each sample.
+        if size <= TINY {
+            return 1.0 + x;
+        }
+        1.0 + grown(x)
+    } else if size <= RANGE {
+        let (scale, r) = reduced(x);
+        scale + scale * grown(r)
+    } else if x < VANISHED {
+        0.0
     } else {
         libm::exp(x)
     }
 }
 
 /// `exp(x) - 1`, within 2.3e-16 of its value.
-#[inline]
+#[inline(always)]
 pub(crate) fn expm1(x: f64) -> f64 {
-    if x.abs() <= RANGE {
-        let (scale, grown) = parts(x);
-        (scale - 1.0) + scale * grown
+    let size = x.abs();
+    if size <= WHOLE {
+        grown(x)
+    } else if size <= RANGE {
+        let (scale, r) = reduced(x);
+        (scale - 1.0) + scale * grown(r)
     } else {
         libm::expm1(x)
     }

@@ -122,7 +122,7 @@ impl<T: Real> LuGre<T> {
     }
 
     #[inline]
-    fn rate_at_level(&self, z: T, v: T, g: T) -> T {
+    pub(crate) fn rate_at_level(&self, z: T, v: T, g: T) -> T {
         v - v.abs() * (self.stiffness * z / g)
     }
 
@@ -132,7 +132,7 @@ impl<T: Real> LuGre<T> {
             Damping::Constant(s1) => s1,
             // No cap is below 4g/|v|: of u^2/(u - 1), u > 1, the least is 4.
             Damping::Capped(s1) if s1 * v.abs() <= T::from_f64(4.0) * g => s1,
-            Damping::Capped(s1) => s1.min(passive_cap(&self.curve, v, g)),
+            Damping::Capped(s1) => passive_cap(&self.curve, v, g).min(s1),
             Damping::Olsson { sigma1, velocity } => {
                 let x = v / velocity;
                 sigma1 * (-(x * x)).exp()

@@ -46,9 +46,10 @@ pub trait Real:
     fn to_f64(self) -> f64;
     /// Magnitude.
     fn abs(self) -> Self;
-    /// The larger of the two; a NaN loses against a number.
+    /// The larger of the two; a NaN here loses, one in `other` wins. One instruction; against a NaN on either side it
+    /// would be six.
     fn max(self, other: Self) -> Self;
-    /// The smaller of the two; a NaN loses against a number.
+    /// The smaller of the two; a NaN here loses, one in `other` wins.
     fn min(self, other: Self) -> Self;
     /// Neither infinite nor NaN.
     fn is_finite(self) -> bool;
@@ -88,11 +89,11 @@ macro_rules! real {
             }
             #[inline]
             fn max(self, other: Self) -> Self {
-                $t::max(self, other)
+                if self > other { self } else { other }
             }
             #[inline]
             fn min(self, other: Self) -> Self {
-                $t::min(self, other)
+                if self < other { self } else { other }
             }
             #[inline]
             fn is_finite(self) -> bool {
@@ -102,11 +103,11 @@ macro_rules! real {
             fn sqrt(self) -> Self {
                 libm::$sqrt(self)
             }
-            #[inline]
+            #[inline(always)]
             fn exp(self) -> Self {
                 $exp(self)
             }
-            #[inline]
+            #[inline(always)]
             fn expm1(self) -> Self {
                 $expm1(self)
             }

@@ -36,7 +36,7 @@ impl<T: Real> LuGre<T> {
     }
 
     #[inline]
-    fn held_at_level(&self, z: T, h: T, v: T, (g, g_slope): (T, T)) -> (T, T) {
+    pub(crate) fn held_at_level(&self, z: T, h: T, v: T, (g, g_slope): (T, T)) -> (T, T) {
         let sign = if v >= T::ZERO { T::ONE } else { -T::ONE };
         let per_speed = h * self.stiffness() / g;
         let a = per_speed * v.abs();
@@ -45,15 +45,6 @@ impl<T: Real> LuGre<T> {
         let a_slope = sign * per_speed - a * g_slope / g;
         let slope = -(sign * g_slope / self.stiffness()) * e - lag * (T::ONE + e) * a_slope;
         (z + lag * e, slope)
-    }
-
-    /// [`step_held_slope`](Self::step_held_slope), then the mean force over the step with its derivative with respect to
-    /// `v`, N and N s/m (N m, N m s/rad): all that a step of an implicit simulation takes, from one level.
-    #[inline]
-    pub fn step_held_force(&self, z: T, h: T, v: T) -> [(T, T); 2] {
-        let level = self.curve().level_and_slope(v);
-        let end = self.held_at_level(z, h, v, level);
-        [end, self.mean_force_from_end(z, end, h, v, level.0)]
     }
 
     /// One sample of the law in real time: advances `state` by `h` seconds at the velocity `v` (m/s, rad/s) and returns
@@ -66,28 +57,31 @@ impl<T: Real> LuGre<T> {
     ///
     /// With [`Damping::Capped`] no sample creates energy, at any `h`: sigma1 is further limited where the sampled law
     /// would otherwise release some that the law in flowing time does not.
-    #[inline]
+    #[inline(always)]
     pub fn step(&self, state: &mut State<T>, h: T, v: T) -> T {
-        state.z = if state.z.is_finite() {
-            self.clamp(state.z)
-        } else {
-            T::ZERO
-        };
+        let within = state.z.abs() <= self.bound();
+        if !within {
+            state.z = if state.z.is_finite() {
+                self.clamp(state.z)
+            } else {
+                T::ZERO
+            };
+        }
         if !state.force.is_finite() {
             state.force = self.curve().offset();
         }
-        if v.is_finite() && h.is_finite() && h >= T::ZERO {
+        if v.is_finite() && h >= T::ZERO && h <= T::MAX {
             let g = self.curve().level(v);
             let change = self.held_change(state.z, h, v, g);
             let rate = if h > T::ZERO {
                 change / h
             } else {
-                self.deflection_rate(state.z, v)
+                self.rate_at_level(state.z, v, g)
             };
             let z = self.clamp(state.z + change);
             let mut s1 = self.micro_damping_at_level(v, g);
             if let Damping::Capped(_) = self.damping() {
-                s1 = s1.min(self.sampled_cap(state.z, z, rate, v));
+                s1 = self.sampled_cap(s1, state.z, z, rate, v);
             }
             let force = self.force_of(z, rate, v, s1);
             if force.is_finite() {
@@ -97,20 +91,25 @@ impl<T: Real> LuGre<T> {
         state.force
     }
 
-    /// The largest sigma1 with which a sample from `z` to `end` at the deflection rate `rate` creates no energy.
+    /// The largest sigma1 up to `s1` with which a sample from `z` to `end` at the deflection rate `rate` creates no energy.
     ///
     /// [`passive_cap`](Self::passive_cap) is the answer for flowing time. A sample holds the force of its end over its
     /// whole length, and where a bristle unloads that is the smallest force of the sample: up to 13 % of Fs |v| h would
     /// be missing. So the balance of the sample itself is kept: work done on the law >= growth of sigma0 z^2/2.
     #[inline]
-    pub(crate) fn sampled_cap(&self, z: T, end: T, rate: T, v: T) -> T {
+    pub(crate) fn sampled_cap(&self, s1: T, z: T, end: T, rate: T, v: T) -> T {
         let returned = -(rate * v);
         if returned <= T::ZERO {
-            return T::MAX;
+            return s1;
         }
         let taken = (self.stiffness() * end + self.curve().direction(v).viscous * v) * v;
         let stored = self.stiffness() * (T::from_f64(0.5) * (z + end)) * rate;
-        (taken - stored) / returned
+        let left = taken - stored;
+        // The quotient hardly ever is below s1. Where it is not, by more than rounding, it need not be known.
+        if left > T::from_f64(1.0 + 1e-6) * (s1 * returned) {
+            return s1;
+        }
+        (left / returned).min(s1)
     }
 
     #[inline]

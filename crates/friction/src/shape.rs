@@ -21,19 +21,21 @@ pub enum Shape<T> {
 
 impl<T: Real> Shape<T> {
     /// The weight at `x = |v|/vs >= 0`, in 0..=1, for any `x` up to infinity.
-    #[inline]
+    #[inline(always)]
     pub fn weight(self, x: T) -> T {
-        match self {
-            Shape::Gaussian => (-(x * x)).exp(),
-            Shape::Exponential => (-x).exp(),
-            Shape::Power(delta) => (-x.powf(delta)).exp(),
-            Shape::Lorentzian => T::ONE / (T::ONE + x * x),
-        }
+        let exponent = match self {
+            Shape::Gaussian => x * x,
+            Shape::Exponential => x,
+            Shape::Power(delta) => x.powf(delta),
+            Shape::Lorentzian => return T::ONE / (T::ONE + x * x),
+        };
+        (-exponent).exp()
     }
 
     /// The weight and its derivative with respect to `x`.
     ///
     /// At `x = 0` the derivative is taken as 0 for `Power` (below an exponent of 1 it is infinite there).
+    #[inline(always)]
     pub fn weight_and_slope(self, x: T) -> (T, T) {
         let two = T::from_f64(2.0);
         let w = self.weight(x);

@@ -142,6 +142,7 @@ impl<T: Real> Stribeck<T> {
     }
 
     /// Level `g(v)` and its derivative with respect to `v`, N and N s/m (N m, N m s/rad).
+    #[inline(always)]
     pub fn level_and_slope(&self, v: T) -> (T, T) {
         let positive = v >= T::ZERO;
         let d = self.side(positive);
@@ -176,7 +177,7 @@ impl<T: Real> Stribeck<T> {
         if positive { &self.pos } else { &self.neg }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn level_on(&self, positive: bool, speed: T) -> T {
         let d = self.side(positive);
         let w = self.shape.weight(speed / d.stribeck_velocity);

@@ -65,6 +65,7 @@ impl Controller {
     /// The force, N (N m), to hold for the next `h` seconds, from the reference and the measured position (m, rad) at
     /// this instant and a further force (N, N m) that is fed forward. A cascade is given the reference velocity of half
     /// `h` ago, since that is the age of the speed that it measures.
+    #[inline]
     pub fn force(
         &self,
         state: &mut ControllerState,

@@ -62,7 +62,7 @@ impl<T: Real> ElastoPlastic<T> {
         if !state.force.is_finite() {
             state.force = law.curve().offset();
         }
-        if v.is_finite() && h.is_finite() && h >= T::ZERO {
+        if v.is_finite() && h >= T::ZERO && h <= T::MAX {
             let g = law.curve().level(v);
             let change = self.held_change(state.z, h, v, g);
             let z = law.clamp(state.z + change);
@@ -73,7 +73,7 @@ impl<T: Real> ElastoPlastic<T> {
             };
             let mut s1 = law.micro_damping_at_level(v, g);
             if let Damping::Capped(_) = law.damping() {
-                s1 = s1.min(law.sampled_cap(state.z, z, rate, v));
+                s1 = law.sampled_cap(s1, state.z, z, rate, v);
             }
             let force = law.force_of(z, rate, v, s1);
             if force.is_finite() {
