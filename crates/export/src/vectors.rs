@@ -1,6 +1,6 @@
 //! Inputs with the outputs that the exported code has to give, for the self-test of every target.
 
-use crate::number::Literal;
+use crate::number::{Literal, short};
 use crate::{Error, Model};
 use stiction_friction::Real;
 use stiction_friction::compensator::{Friction, Input, Settings, Watchdog};
@@ -82,20 +82,20 @@ fn settings(model: &Model) -> Settings<f64> {
     let h = model.settings.cycle_time;
     let scale = model.scale();
     let limit = if scale > 0.0 {
-        round(1.1 * scale).min(model.settings.limit)
+        short(1.1 * scale).min(model.settings.limit)
     } else {
         model.settings.limit
     };
     Settings {
         cycle_time: h,
         gain: 0.9,
-        dead_zone: round(1e-3 * speed(model)),
+        dead_zone: short(1e-3 * speed(model)),
         limit,
-        slew: round(limit / (4.0 * h)),
-        ramp: round(5.0 * h),
+        slew: short(limit / (4.0 * h)),
+        ramp: short(5.0 * h),
         adaptation: None,
         watchdog: Some(Watchdog {
-            window: round(8.0 * h),
+            window: short(8.0 * h),
             ratio: 1.0,
         }),
     }
@@ -120,7 +120,7 @@ fn motion(model: &Model, h: f64) -> Vec<(f64, f64, bool)> {
     };
     let mut rows = Vec::new();
     let mut add = |n: usize, error: f64, enable: bool, at: &dyn Fn(f64) -> f64| {
-        rows.extend((0..n).map(|k| (round(at(k as f64)), error, enable)));
+        rows.extend((0..n).map(|k| (short(at(k as f64)), error, enable)));
     };
     let sine = |k: f64, cycles: f64| libm::sin(2.0 * core::f64::consts::PI * k / cycles);
     let to_and_fro = |k: f64| {
@@ -147,9 +147,4 @@ fn motion(model: &Model, h: f64) -> Vec<(f64, f64, bool)> {
     // Worse than without: the watchdog trips.
     add(10, 3.0 * ERROR, true, &|_| 0.3 * v);
     rows
-}
-
-/// Four digits are enough for a test and can be read.
-fn round(x: f64) -> f64 {
-    format!("{x:.3e}").parse().unwrap_or(x)
 }
