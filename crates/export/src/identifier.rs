@@ -3,8 +3,8 @@
 use crate::Error;
 use sha2::{Digest, Sha256};
 
-/// Longest identifier: what C99 promises to tell apart (section 5.2.4.1), and less than what any other target takes but
-/// LinuxCNC's HAL.
+/// Longest identifier; LinuxCNC's HAL takes less. The endings of a target come on top: where a C compiler tells apart no
+/// more than the 31 characters that C99 promises (section 5.2.4.1), 18 are the most.
 pub const IDENTIFIER_LENGTH: usize = 31;
 
 /// An identifier from any name: what is no letter or digit becomes an underscore; `axis` where nothing is left. Where it

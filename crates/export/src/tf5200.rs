@@ -34,7 +34,11 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     let rated = rated(model)?;
     let step = speed_step(model.rotary);
     let end = end(model, step);
-    let from = model.saturates_from(1.0).filter(|from| *from < end * step);
+    let limited = largest_force(model) > model.settings.limit;
+    // Where the limit cuts the static friction already, it is part of every error.
+    let from = model
+        .saturates_from(1.0)
+        .filter(|from| model.settings.limit >= model.scale() && *from < end * step);
     let grid = grid(end, &kinks(model, step));
     let wanted: Vec<f64> = grid.iter().map(|n| mean(model, n * step)).collect();
     let count = |force: f64| libm::round(force / rated * 1e4);
@@ -110,7 +114,8 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         )
         .set("delay", format!("{:.0}", delay.min(LONGEST_DELAY)))
         .set("scaling", format!("{:.0}", 100.0 * model.settings.gain))
-        .flag("limited", from.is_some())
+        .flag("limited", limited)
+        .flag("at_speed", from.is_some())
         .set("limit", short(model.settings.limit).to_string())
         .set("last", format!("{all:.3}"))
         .set("beyond", format!("{beyond:.2e}"))

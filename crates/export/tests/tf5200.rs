@@ -158,8 +158,8 @@ fn a_limit_is_stated() {
     let from = stated(&text, "interpolated linearly, from 0 to");
     // 12 N + 30 N s/m v = 36 N at 0.8 m/s; 42 N at 1 m/s.
     assert_eq!(from, 0.8);
-    assert!(text.contains("limited to 36 N (--limit)"), "{text}");
-    assert!((stated(&text, "larger than the table by up to") - 6.0).abs() < 0.05);
+    assert!(text.contains("limited to 36 N\n# (--limit)"), "{text}");
+    assert!((stated(&text, "larger than the table, by up to") - 6.0).abs() < 0.05);
     let error = stated(&text, "against the mean of both directions");
     let points: Vec<[f64; 2]> = (0..value(&text, "table_entries") as usize)
         .map(|i| {
@@ -178,4 +178,10 @@ fn a_limit_is_stated() {
     }
     let said = advice(&model, Target::Tf5200);
     assert!(said[0].message.contains("reaches at 0.8 m/s"), "{said:?}");
+    // Below the static friction the limit is in the error: 42 N - 14 N.
+    model.settings.limit = 14.0;
+    let low = self::text(&model);
+    assert_eq!(stated(&low, "interpolated linearly, from 0 to"), 1.0);
+    assert!((stated(&low, "against the mean of both directions") - 28.0).abs() < 0.05);
+    assert!(low.contains("stays within 14 N (--limit)"), "{low}");
 }
