@@ -111,7 +111,15 @@ pub const OWN: &[(&str, &str)] = &[
     ),
     (
         "export-limit",
-        "the force limit is below the friction to compensate",
+        "the force limit is below the friction to compensate, or reached at speed",
+    ),
+    (
+        "export-name",
+        "a name in the code is not all of the axis' name",
+    ),
+    (
+        "export-rated-force",
+        "the friction table goes beyond the rated force",
     ),
     (
         "export-terms",

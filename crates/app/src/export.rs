@@ -25,9 +25,10 @@ pub struct ExportOptions {
     pub name: Option<String>,
     /// Time between two calls, s.
     pub cycle_time: f64,
-    /// Largest force, N (N m); twice the static friction and the offset if absent.
+    /// Largest force, in the unit of the model's; twice the static friction and the offset if absent, in a table as much
+    /// as it holds. Not for `mujoco`.
     pub limit: Option<f64>,
-    /// Force that the motor is rated for, N (N m); for `tf5200`, and for no other target.
+    /// Force that the motor is rated for, in the unit of the model's; for `tf5200`, and for no other target.
     pub rated_force: Option<f64>,
 }
 
@@ -42,8 +43,10 @@ pub struct Exported {
     pub law: String,
     /// Time between two calls, s.
     pub cycle_time: f64,
-    /// Largest force, N (N m).
+    /// Largest force, in `force_unit`.
     pub limit: f64,
+    /// Unit of the force.
+    pub force_unit: String,
     /// Files, in the folder named.
     pub written: Vec<String>,
     /// What to know before it runs.
@@ -69,12 +72,22 @@ pub fn export(options: &ExportOptions, dir: &Path) -> Result<Exported, Error> {
             allowed: "only tf5200 takes one".into(),
         });
     }
+    if options.limit.is_some() && options.target == Target::Mujoco {
+        return Err(Error::Usage {
+            found: "a limit for the target mujoco".into(),
+            allowed: "a joint in MuJoCo has its whole friction".into(),
+        });
+    }
     let file = ModelFile::read(&options.model)?;
     let bytes =
         std::fs::read(&options.model).map_err(|e| Error::output(&options.model, e.to_string()))?;
-    let (model, mut warnings) = resolve(&file, &bytes, options)?;
-    let found = stiction_export::advice(&model);
+    let (mut model, mut warnings) = resolve(&file, &bytes, options)?;
+    if options.limit.is_none() && options.target == Target::Tf5200 {
+        model.settings.limit = stiction_export::largest_force_in_table(&model);
+    }
+    let found = stiction_export::advice(&model, options.target);
     warnings.extend(found.into_iter().map(|a| Warning::new(a.code, a.message)));
+    model.notes = warnings.iter().map(|w| w.message.clone()).collect();
     let files = match options.target {
         Target::Fmu => {
             let mut whole = true;
@@ -104,6 +117,7 @@ pub fn export(options: &ExportOptions, dir: &Path) -> Result<Exported, Error> {
         law: file.law.clone(),
         cycle_time: model.settings.cycle_time,
         limit: model.settings.limit,
+        force_unit: model.force_unit,
         written: files.into_iter().map(|f| f.path).collect(),
         trustworthy: !warnings.iter().any(|w| w.code == "export-untrusted"),
         warnings,
@@ -148,11 +162,20 @@ fn resolve(
         None => stiction_export::identifier(&title),
     };
     let limit = options.limit.unwrap_or_else(|| default_limit(&friction));
-    let warnings = doubts(file);
+    let mut warnings = doubts(file);
+    if options.name.is_none() && !stiction_export::is_whole(&title) {
+        warnings.push(Warning::new(
+            "export-name",
+            format!(
+                "the names in the code begin with {identifier}, which is not all of the axis' name '{title}': another axis may get the same; give one with --name"
+            ),
+        ));
+    }
     let model = Model {
         title,
         identifier,
         rotary: file.kind == "rotary",
+        force_unit: file.force_unit.replace('*', " "),
         friction,
         settings: Settings::new(options.cycle_time, limit),
         rated_force: options.rated_force,
@@ -164,10 +187,11 @@ fn resolve(
                 value: p.value,
                 unit: p.unit.clone(),
                 interval: p.ci95,
-                identifiable: p.identifiable || p.origin == "given",
+                identifiable: p.identifiable,
+                given: p.origin == "given",
             })
             .collect(),
-        notes: warnings.iter().map(|w| w.message.clone()).collect(),
+        notes: vec![],
         provenance: Provenance {
             version: env!("CARGO_PKG_VERSION").into(),
             model_sha256: hex(&Sha256::digest(bytes)),

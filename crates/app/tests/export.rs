@@ -88,12 +88,19 @@ fn the_same_model_gives_the_same_bytes() {
                 ..bench.options(&model)
             };
             let exported = export(&options, &bench.path("out")).unwrap();
+            // 0.75 (20 N + 60 N s/m v) is 60 N at 1 m/s, where the table ends.
+            let (codes, limit): (&[&str], f64) = match target {
+                Target::Mujoco => (&[], 60.0),
+                Target::Tf5200 => (&[], 80.0),
+                _ => (&["export-limit"], 60.0),
+            };
+            let found: Vec<_> = exported.warnings.iter().map(|w| w.code.as_str()).collect();
             assert!(
-                exported.trustworthy && exported.warnings.is_empty(),
+                exported.trustworthy && found == codes,
                 "{:?}",
                 exported.warnings
             );
-            assert_eq!(exported.limit, 60.0);
+            assert_eq!(exported.limit, limit);
         }
         let bytes = |bench: &Bench| -> Vec<Vec<u8>> {
             let files = contents(&bench.path("out"));
@@ -244,6 +251,83 @@ fn doubts_are_said_and_written() {
     }
 }
 
+/// A model in amperes stays one: its limit, what is said, what a table is in; MuJoCo, which takes newtons, refuses it.
+#[test]
+fn a_current_stays_one() {
+    let model = text("lugre", &LUGRE)
+        .replace("force_unit = \"N\"", "force_unit = \"A\"")
+        .replace("\"N/m\"", "\"A/m\"")
+        .replace("\"N s/m\"", "\"A*s/m\"")
+        .replace("unit = \"N\"", "unit = \"A\"");
+    let bench = Bench::new();
+    let exported = bench.export(&model).unwrap();
+    let said = stiction_app::text::exported(&exported, Path::new("out"));
+    assert!(said.contains("force at most 60.00 A"), "{said}");
+    assert!(said.contains("limited to 60 A, which"), "{said}");
+    for (name, bytes) in contents(&bench.path("out")) {
+        let text = String::from_utf8(bytes).unwrap();
+        assert!(
+            text.contains("The force is in A, as the log counted it"),
+            "{name}"
+        );
+        assert!(text.contains("  sigma1 = 3.000000e2 A s/m, 2.7"), "{name}");
+        assert!(
+            text.contains("NOTE: the force is limited to 60 A"),
+            "{name}"
+        );
+    }
+    let bench = Bench::new();
+    let options = ExportOptions {
+        target: Target::Tf5200,
+        rated_force: Some(200.0),
+        ..bench.options(&model)
+    };
+    export(&options, &bench.path("out")).unwrap();
+    let (_, bytes) = contents(&bench.path("out")).swap_remove(0);
+    let table = String::from_utf8(bytes).unwrap();
+    assert!(table.contains("rated force of 200.0 A"), "{table}");
+    let options = ExportOptions {
+        target: Target::Mujoco,
+        rated_force: None,
+        ..options
+    };
+    let error = export(&options, &bench.path("other")).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("takes forces in N, and those of the model are in A"),
+        "{error}"
+    );
+}
+
+/// Two axes have two names, and where a name is not the whole one it is said, on the terminal and in the files.
+#[test]
+fn names_are_not_lost_without_a_word() {
+    let named = |title: &str| {
+        let bench = Bench::new();
+        let model = text("lugre", &LUGRE).replace("X axis */ (left)", title);
+        let exported = bench.export(&model).unwrap();
+        let said = exported.warnings.iter().any(|w| w.code == "export-name");
+        let text = String::from_utf8(contents(&bench.path("out")).swap_remove(0).1).unwrap();
+        assert_eq!(
+            text.contains("NOTE: the names in the code begin with"),
+            said,
+            "{title}"
+        );
+        (exported.name, said)
+    };
+    assert_eq!(
+        named("gantry axis number 1 left side"),
+        ("gantry_axis_number_1_left_side".into(), false)
+    );
+    assert_eq!(named("\u{8f74}"), ("axis".into(), true));
+    let (left, right) = (
+        named("the gantry of the long machine, left side"),
+        named("the gantry of the long machine, right side"),
+    );
+    assert!(left.1 && right.1 && left.0 != right.0, "{left:?} {right:?}");
+}
+
 /// Every law that a model file can carry and the compensator has.
 #[test]
 fn every_law() {
@@ -324,6 +408,21 @@ fn what_is_said() {
             (o.target, o.rated_force) = (Target::Tf5200, Some(0.0));
         }),
         ("a motor for code", &good, |o| o.rated_force = Some(221.0)),
+        ("a motor far too large", &good, |o| {
+            (o.target, o.rated_force) = (Target::Tf5200, Some(1e6));
+        }),
+        ("a motor far too small", &good, |o| {
+            (o.target, o.rated_force) = (Target::Tf5200, Some(0.5));
+        }),
+        ("a motor too small", &good, |o| {
+            (o.target, o.rated_force) = (Target::Tf5200, Some(20.0));
+        }),
+        ("a limit in MuJoCo", &good, |o| {
+            (o.target, o.limit) = (Target::Mujoco, Some(40.0));
+        }),
+        ("a table with a limit", &good, |o| {
+            (o.target, o.rated_force, o.limit) = (Target::Tf5200, Some(221.0), Some(40.0));
+        }),
     ];
     let beyond = with(&[("sigma0", 1e40), ("sigma1", 0.0)]);
     let tiny = with(&[("coulomb", 1e-50), ("static", 1e-50)]);

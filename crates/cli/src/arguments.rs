@@ -347,11 +347,11 @@ pub struct Export {
     /// Time between two calls of the compensator, s.
     #[arg(long, value_name = "S", default_value_t = 1e-3)]
     pub cycle_time: f64,
-    /// Largest force, N or N m [default: twice static friction and offset].
-    #[arg(long, value_name = "N")]
+    /// Largest force, in the unit of the model's force [default: twice static friction and offset].
+    #[arg(long, value_name = "FORCE")]
     pub limit: Option<f64>,
-    /// Rated force of the motor, N or N m; for tf5200.
-    #[arg(long, value_name = "N")]
+    /// Rated force of the motor, in the unit of the model's force; for tf5200.
+    #[arg(long, value_name = "FORCE")]
     pub rated_force: Option<f64>,
     /// What the names in the code begin with [default: from the name of the axis].
     #[arg(long, value_name = "NAME")]

@@ -88,6 +88,7 @@ fn build(dir: &Path, motion: &str, suffix: &str) {
         title: "bench".into(),
         identifier: "bench".into(),
         rotary: false,
+        force_unit: "N".into(),
         friction: law(),
         settings: Settings::new(H, 100.0),
         rated_force: None,

@@ -40,11 +40,25 @@ pub enum Error {
     },
     /// A target that needs to know the motor.
     #[error(
-        "target {target} writes forces in per mille of the motor's rated force, and none was given; give it with --rated-force, N or N m"
+        "target {target} writes forces in per mille of the motor's rated force, and none was given; give it with --rated-force, in {unit}"
     )]
     RatedForce {
         /// The target.
         target: &'static str,
+        /// Unit of the model's force.
+        unit: String,
+    },
+    /// A target that takes forces only, and a model that counts in something else.
+    #[error(
+        "target {target} takes forces in {allowed}, and those of the model are in {found}; give the force a scale in the axis file, such as the force constant, and identify again"
+    )]
+    ForceUnit {
+        /// The target.
+        target: &'static str,
+        /// Unit of the model's force.
+        found: String,
+        /// Unit that the target takes.
+        allowed: &'static str,
     },
     /// An archive that cannot be made.
     #[error("archive: {found}")]

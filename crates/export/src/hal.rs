@@ -1,5 +1,6 @@
 //! LinuxCNC: a HAL component, with the C text inside, and a self-test in a real thread.
 
+use crate::identifier::shortened;
 use crate::number::Literal;
 use crate::template::Fill;
 use crate::vectors::Vectors;
@@ -11,10 +12,21 @@ const SELFTEST: &str = include_str!("../templates/hal/selftest.py.in");
 /// Error allowed in the self-test, of the largest force.
 const TOLERANCE: f64 = 1e-12;
 
+/// Longest beginning of a component's name: with `_friction`, the number of the instance and the longest parameter,
+/// `tmax-increased`, it stays within 47 characters (`HAL_NAME_LEN` of hal.h), and the component within 31
+/// (`RTAPI_NAME_LEN` of rtapi.h).
+const LENGTH: usize = 20;
+
+/// Name of the component.
+pub(crate) fn component(model: &Model) -> String {
+    let name = model.identifier.to_ascii_lowercase();
+    format!("{}_friction", shortened(&name, LENGTH))
+}
+
 pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     let vectors = Vectors::<f64>::new(model, "double")?;
     let compensator = model.compensator::<f64>(&model.settings, "double")?;
-    let component = format!("{}_friction", model.identifier.to_ascii_lowercase());
+    let component = component(model);
     let mut fill = Fill::default();
     fill.set("name", model.identifier.clone())
         .set("component", component.clone())

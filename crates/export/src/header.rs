@@ -13,6 +13,8 @@ pub(crate) fn lines(model: &Model, code: bool) -> Vec<String> {
     )];
     if code {
         lines.extend(interface(model));
+    } else {
+        lines.extend(counted(model));
     }
     if !model.notes.is_empty() {
         lines.push(String::new());
@@ -24,17 +26,20 @@ pub(crate) fn lines(model: &Model, code: bool) -> Vec<String> {
     }
     for p in &model.parameters {
         let interval = match p.interval {
+            _ if p.given => "given".into(),
             Some([low, high]) => format!("{low:.4e} to {high:.4e}"),
             None => "no interval".into(),
         };
-        let flag = if p.identifiable {
+        let flag = if p.identifiable || p.given {
             ""
         } else {
             ", NOT determined by the data"
         };
         lines.push(format!(
-            "  {} = {:.6e} {}, {interval}{flag}",
-            p.name, p.value, p.unit
+            "  {} = {:.6e}{}, {interval}{flag}",
+            p.name,
+            p.value,
+            unit(&p.unit)
         ));
     }
     lines.push(String::new());
@@ -48,9 +53,18 @@ pub(crate) fn lines(model: &Model, code: bool) -> Vec<String> {
     lines.iter().map(|line| plain(line)).collect()
 }
 
+/// A unit after a number, a product with a blank; none for a bare number.
+fn unit(text: &str) -> String {
+    let text = text.replace(['*', '·'], " ");
+    match text.strip_prefix("1 ").unwrap_or(&text) {
+        "1" | "" => String::new(),
+        unit => format!(" {unit}"),
+    }
+}
+
 /// What goes in and comes out.
 fn interface(model: &Model) -> Vec<String> {
-    vec![
+    let mut lines = vec![
         "The force is a feedforward: add it to the force or torque that the controller asks for."
             .into(),
         String::new(),
@@ -67,7 +81,22 @@ fn interface(model: &Model) -> Vec<String> {
             "Out: force in {}, along the positive direction of the velocity.",
             model.force_unit()
         ),
-    ]
+    ];
+    lines.extend(counted(model));
+    lines
+}
+
+/// What a force is counted in that is none.
+fn counted(model: &Model) -> Option<String> {
+    let share = match model.force_unit() {
+        _ if model.in_newtons() => return None,
+        "p.u." => " (1 is 100 percent)",
+        _ => "",
+    };
+    Some(format!(
+        "The force is in {}{share}, as the log counted it; what it is added to has to count in the same.",
+        model.force_unit()
+    ))
 }
 
 /// The lines, each after a prefix.
@@ -108,6 +137,15 @@ pub(crate) fn plain(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::plain;
+
+    #[test]
+    fn units_follow_a_number() {
+        let units = ["N*s/m", "N·m·s/rad", "1*s/m", "1", "1/m"];
+        let written = ["N s/m", "N m s/rad", "s/m", "", "1/m"];
+        for (unit, text) in units.into_iter().zip(written) {
+            assert_eq!(super::unit(unit).trim_start(), text);
+        }
+    }
 
     #[test]
     fn nothing_ends_a_comment() {

@@ -1,19 +1,35 @@
 //! Names that are legal in every target.
 
 use crate::Error;
+use sha2::{Digest, Sha256};
 
-/// Longest identifier: with the longest ending that a target appends it stays distinct within 31 characters, which is
-/// what C99 promises (section 5.2.4.1).
-pub const IDENTIFIER_LENGTH: usize = 18;
+/// Longest identifier; LinuxCNC's HAL takes less. The endings of a target come on top: where a C compiler tells apart no
+/// more than the 31 characters that C99 promises (section 5.2.4.1), 18 are the most.
+pub const IDENTIFIER_LENGTH: usize = 31;
 
-/// An identifier from any name: what is no letter or digit becomes an underscore; `axis` where nothing is left.
+/// An identifier from any name: what is no letter or digit becomes an underscore; `axis` where nothing is left. Where it
+/// is cut, a mark of the whole name takes the place of its end, so that two names stay two.
 ///
 /// ```
-/// assert_eq!(stiction_export::identifier("X-Achse, links (1)"), "X_Achse_links_1");
-/// assert_eq!(stiction_export::identifier("../"), "axis");
-/// assert_eq!(stiction_export::identifier("2nd"), "axis_2nd");
+/// use stiction_export::identifier;
+/// assert_eq!(identifier("X-Achse, links (1)"), "X_Achse_links_1");
+/// assert_eq!(identifier("../"), "axis");
+/// assert_eq!(identifier("2nd"), "axis_2nd");
+/// let left = identifier("gantry of the long machine, axis 1, left");
+/// assert_eq!(left.len(), 31);
+/// assert_ne!(left, identifier("gantry of the long machine, axis 1, right"));
 /// ```
 pub fn identifier(name: &str) -> String {
+    shortened(&uncut(name), IDENTIFIER_LENGTH)
+}
+
+/// Whether an identifier holds all letters and digits of a name.
+pub fn is_whole(name: &str) -> bool {
+    let lost = |c: char| c.is_alphanumeric() && !c.is_ascii();
+    uncut(name).len() <= IDENTIFIER_LENGTH && !name.contains(lost)
+}
+
+fn uncut(name: &str) -> String {
     let words: Vec<&str> = name
         .split(|c: char| !c.is_ascii_alphanumeric())
         .filter(|word| !word.is_empty())
@@ -22,8 +38,17 @@ pub fn identifier(name: &str) -> String {
     if !text.starts_with(|c: char| c.is_ascii_alphabetic()) {
         text.insert_str(0, if text.is_empty() { "axis" } else { "axis_" });
     }
-    text.truncate(IDENTIFIER_LENGTH);
-    text.trim_end_matches('_').to_string()
+    text
+}
+
+/// An identifier of at most `length` characters, more than five: its beginning and four digits of its hash.
+pub(crate) fn shortened(identifier: &str, length: usize) -> String {
+    if identifier.len() <= length {
+        return identifier.to_string();
+    }
+    let hash = Sha256::digest(identifier.as_bytes());
+    let head = identifier[..length - 5].trim_end_matches('_');
+    format!("{head}_{:02x}{:02x}", hash[0], hash[1])
 }
 
 /// Refuses a name that is no identifier in every target. (Double underscores are reserved in C and forbidden in
@@ -66,7 +91,7 @@ mod tests {
             "a_",
             "../a",
             "größe",
-            "abcdefghijklmnopqrs",
+            "abcdefghijklmnopqrstuvwxyzabcdef",
         ] {
             assert!(check_identifier(name).is_err(), "{name}");
         }

@@ -15,6 +15,7 @@
 //!     title: "X axis".into(),
 //!     identifier: "x_axis".into(),
 //!     rotary: false,
+//!     force_unit: "N".into(),
 //!     friction: Friction::LuGre(law),
 //!     settings: Settings::new(1e-3, 40.0), // 1 kHz, at most 40 N
 //!     rated_force: None,
@@ -49,6 +50,7 @@ mod vectors;
 pub use check::{Advice, advice};
 pub use error::Error;
 pub use fmu::{GCC, fmu};
-pub use identifier::{IDENTIFIER_LENGTH, check_identifier, identifier};
+pub use identifier::{IDENTIFIER_LENGTH, check_identifier, identifier, is_whole};
 pub use model::{Model, Parameter, Provenance};
 pub use target::{File, Target, export};
+pub use tf5200::largest_force as largest_force_in_table;

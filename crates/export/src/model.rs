@@ -12,13 +12,16 @@ pub struct Model {
     pub title: String,
     /// What the names in the code begin with; see [`identifier`](crate::identifier).
     pub identifier: String,
-    /// Rotary: rad, N m; else linear: m, N.
+    /// Rotary: rad; else linear: m.
     pub rotary: bool,
+    /// Unit of the force: `N` (`N m`), or what the drive counts in, such as `A`; `1` where it is a share. The limit, the
+    /// law and what comes out are in it.
+    pub force_unit: String,
     /// The law. The micro-damping of bristles is exported capped, whatever form it has here.
     pub friction: Friction<f64>,
     /// Settings of the compensator; adaptation is not exported.
     pub settings: Settings<f64>,
-    /// Force that the motor is rated for, N (N m); needed by targets that write per mille of it.
+    /// Force that the motor is rated for, in the unit of the force; needed by targets that write per mille of it.
     pub rated_force: Option<f64>,
     /// Parameters as they were identified.
     pub parameters: Vec<Parameter>,
@@ -41,6 +44,8 @@ pub struct Parameter {
     pub interval: Option<[f64; 2]>,
     /// Whether the data determine it.
     pub identifiable: bool,
+    /// It was not identified but given.
+    pub given: bool,
 }
 
 /// Where the numbers came from.
@@ -90,9 +95,17 @@ impl Model {
         if self.rotary { "rad" } else { "m" }
     }
 
-    /// Unit of force.
-    pub(crate) fn force_unit(&self) -> &'static str {
-        if self.rotary { "N m" } else { "N" }
+    /// Unit of force, as it is written.
+    pub(crate) fn force_unit(&self) -> &str {
+        match self.force_unit.as_str() {
+            "1" => "p.u.",
+            unit => unit,
+        }
+    }
+
+    /// Whether the force is one, or a torque, in SI.
+    pub(crate) fn in_newtons(&self) -> bool {
+        self.force_unit == if self.rotary { "N m" } else { "N" }
     }
 
     /// Name of the law's family.
@@ -104,7 +117,49 @@ impl Model {
         }
     }
 
-    /// Largest force of the law at low speed, N (N m): the scale of its errors.
+    /// The steady force at a velocity, m/s (rad/s).
+    pub(crate) fn steady(&self, v: f64) -> f64 {
+        match &self.friction {
+            Friction::Coulomb(law) => law.force(v),
+            Friction::Stribeck(curve) => curve.force(v),
+            Friction::LuGre(law) => law.curve().force(v),
+        }
+    }
+
+    /// The least speed from which on the share `gain` of the steady force is beyond the limit, m/s (rad/s), if that
+    /// is below 1e4.
+    pub(crate) fn saturates_from(&self, gain: f64) -> Option<f64> {
+        let beyond = |speed: f64| {
+            let most = self.steady(speed).abs().max(self.steady(-speed).abs());
+            gain * most > self.settings.limit
+        };
+        let speed = |k: i32| libm::pow(10.0, -6.0 + 0.01 * f64::from(k));
+        let first = (0..=1000).find(|k| beyond(speed(*k)))?;
+        if first == 0 {
+            return Some(0.0);
+        }
+        let (mut low, mut high) = (speed(first - 1), speed(first));
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            *if beyond(middle) { &mut high } else { &mut low } = middle;
+        }
+        Some(high)
+    }
+
+    /// The larger Stribeck velocity, m/s (rad/s); 0 where the level does not fall.
+    pub(crate) fn stribeck_velocity(&self) -> f64 {
+        let curve = match &self.friction {
+            Friction::Coulomb(_) => return 0.0,
+            Friction::Stribeck(curve) => curve,
+            Friction::LuGre(law) => law.curve(),
+        };
+        let falls = [curve.positive(), curve.negative()]
+            .into_iter()
+            .filter(|side| side.static_friction > side.coulomb);
+        falls.fold(0.0, |most, side| most.max(side.stribeck_velocity))
+    }
+
+    /// Largest force of the law at low speed, in its unit: the scale of its errors.
     pub(crate) fn scale(&self) -> f64 {
         match &self.friction {
             Friction::Coulomb(law) => law.coulomb()[0].max(law.coulomb()[1]),

@@ -15,6 +15,13 @@ const SELFTEST: &str = include_str!("../templates/mujoco/selftest.py.in");
 
 pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     let given = simple(model)?;
+    if !model.in_newtons() {
+        return Err(Error::ForceUnit {
+            target: "mujoco",
+            found: model.force_unit().into(),
+            allowed: if model.rotary { "N m" } else { "N" },
+        });
+    }
     let constant = Damping::Constant(given.damping().at_rest());
     let lugre = given
         .with_damping(constant)

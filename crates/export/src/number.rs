@@ -28,6 +28,11 @@ impl Literal for f32 {
     }
 }
 
+/// Four digits: enough to read.
+pub(crate) fn short(x: f64) -> f64 {
+    format!("{x:.3e}").parse().unwrap_or(x)
+}
+
 fn iec(text: String) -> String {
     match text.split_once('e') {
         None => text,

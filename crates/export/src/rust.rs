@@ -29,7 +29,8 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     let mut test = fill.clone();
     law::settings(&mut fill, compensator.settings(), f64::c);
     law::settings(&mut test, &vectors.settings, f64::c);
-    test.set("rows", rows(&vectors))
+    test.set("header", header::comment(model, "//! "))
+        .set("rows", rows(&vectors))
         .set("count", vectors.rows.len().to_string())
         .set("tolerance", (TOLERANCE * vectors.scale(model)).c());
     let manifest = fill

@@ -1,6 +1,6 @@
 //! Inputs with the outputs that the exported code has to give, for the self-test of every target.
 
-use crate::number::Literal;
+use crate::number::{Literal, short};
 use crate::{Error, Model};
 use stiction_friction::Real;
 use stiction_friction::compensator::{Friction, Input, Settings, Watchdog};
@@ -82,20 +82,20 @@ fn settings(model: &Model) -> Settings<f64> {
     let h = model.settings.cycle_time;
     let scale = model.scale();
     let limit = if scale > 0.0 {
-        round(1.1 * scale).min(model.settings.limit)
+        short(1.1 * scale).min(model.settings.limit)
     } else {
         model.settings.limit
     };
     Settings {
         cycle_time: h,
         gain: 0.9,
-        dead_zone: round(1e-3 * speed(model)),
+        dead_zone: short(1e-3 * speed(model)),
         limit,
-        slew: round(limit / (4.0 * h)),
-        ramp: round(5.0 * h),
+        slew: short(limit / (4.0 * h)),
+        ramp: short(5.0 * h),
         adaptation: None,
         watchdog: Some(Watchdog {
-            window: round(10.0 * h),
+            window: short(8.0 * h),
             ratio: 1.0,
         }),
     }
@@ -120,28 +120,31 @@ fn motion(model: &Model, h: f64) -> Vec<(f64, f64, bool)> {
     };
     let mut rows = Vec::new();
     let mut add = |n: usize, error: f64, enable: bool, at: &dyn Fn(f64) -> f64| {
-        rows.extend((0..n).map(|k| (round(at(k as f64)), error, enable)));
+        rows.extend((0..n).map(|k| (short(at(k as f64)), error, enable)));
     };
     let sine = |k: f64, cycles: f64| libm::sin(2.0 * core::f64::consts::PI * k / cycles);
+    let to_and_fro = |k: f64| {
+        if libm::floor(k / 4.0) % 2.0 == 0.0 {
+            v
+        } else {
+            -v
+        }
+    };
     add(2, 0.0, false, &|_| 0.0);
-    // The watchdog learns, then compensation comes in.
-    add(14, ERROR, false, &|_| v);
+    // The watchdog learns over two reversals, then compensation comes in.
+    add(14, ERROR, false, &to_and_fro);
     add(12, 0.5 * ERROR, true, &|_| v);
-    add(40, 0.5 * ERROR, true, &|k| 3.0 * v * sine(k, 25.0));
-    add(30, 0.5 * ERROR, true, &|k| small * sine(k, 12.0));
+    add(35, 0.5 * ERROR, true, &|k| 3.0 * v * sine(k, 25.0));
+    add(25, 0.5 * ERROR, true, &|k| small * sine(k, 12.0));
     add(5, 0.5 * ERROR, true, &|_| 0.0);
     add(6, 0.5 * ERROR, true, &|_| 50.0 * v);
     add(6, 0.5 * ERROR, true, &|_| -50.0 * v);
     // Inside the dead zone.
     add(4, 0.5 * ERROR, true, &|_| -5e-4 * v);
     add(12, ERROR, false, &|_| -2.0 * v);
-    add(10, 0.5 * ERROR, true, &|_| -2.0 * v);
+    // A window that is not judged, although it is worse.
+    add(20, 3.0 * ERROR, true, &|k| 2.0 * to_and_fro(k));
     // Worse than without: the watchdog trips.
     add(10, 3.0 * ERROR, true, &|_| 0.3 * v);
     rows
-}
-
-/// Four digits are enough for a test and can be read.
-fn round(x: f64) -> f64 {
-    format!("{x:.3e}").parse().unwrap_or(x)
 }

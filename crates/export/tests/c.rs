@@ -300,6 +300,56 @@ int main(void) {
     assert_eq!(said, "6.75 0.00 0.00 0.00 0.00 6.75 ");
 }
 
+/// A limit or slew that is no number, whenever it comes, lets no force out, and a window that is none no force in; with
+/// good ones it comes back.
+#[test]
+fn settings_that_are_none_give_no_force() {
+    let dir = tempfile::tempdir().unwrap();
+    write(
+        &export(&model(laws().remove(0).1), Target::C).unwrap(),
+        dir.path(),
+    );
+    let program = r#"
+#include "x_axis_friction.h"
+#include <math.h>
+#include <stdio.h>
+int main(void) {
+    const double bad[] = { (double)NAN, -1.0, 0.0, (double)INFINITY };
+    x_axis_params_t p;
+    x_axis_state_t s;
+    const x_axis_input_t input = { 0.05, 0.0, true };
+    x_axis_params(&p);
+    p.watchdog_window = 0.0;
+    p.ramp = 0.0;
+    if (!x_axis_init(&p, &s)) { return 1; }
+    for (int which = 0; which < 2; which++) {
+        for (int i = 0; i < 4; i++) {
+            x_axis_params_t q = p;
+            *(which ? &q.limit : &q.slew) = bad[i];
+            for (int k = 0; k < 9; k++) { (void)x_axis_step(&p, &s, &input); }
+            (void)printf("%.2f ", s.output);
+            for (int k = 0; k < 9; k++) { (void)x_axis_step(&q, &s, &input); }
+            (void)printf("%.2f, ", s.output);
+        }
+    }
+    p.watchdog_window = (double)NAN;
+    x_axis_reset(&p, &s);
+    for (int k = 0; k < 9; k++) { (void)x_axis_step(&p, &s, &input); }
+    (void)printf("%.2f\n", s.output);
+    return 0;
+}
+"#;
+    std::fs::write(dir.path().join("main.c"), program).unwrap();
+    gcc(
+        "-std=c99",
+        &["main.c", "x_axis_friction.c", "-lm"],
+        dir.path(),
+    );
+    // 0.75 of Fc and 30 N s/m at 50 mm/s.
+    let said = run("./a.out", &[], dir.path());
+    assert_eq!(said, format!("{}0.00\n", "10.12 0.00, ".repeat(8)));
+}
+
 #[test]
 fn the_example_runs() {
     let dir = tempfile::tempdir().unwrap();

@@ -33,6 +33,7 @@ fn mujoco_gives_the_forces_that_are_due() {
     for rotary in [false, true] {
         let mut model = model(laws().remove(0).1);
         model.rotary = rotary;
+        model.force_unit = if rotary { "N m" } else { "N" }.into();
         model.title = "a -- b --> c".into();
         for file in export(&model, Target::Mujoco).unwrap() {
             std::fs::write(dir.path().join(&file.path), &file.bytes).unwrap();

@@ -5,7 +5,7 @@ mod common;
 use common::{laws, model};
 use stiction_export::{Advice, Model, Target, advice, export};
 use stiction_friction::compensator::Friction;
-use stiction_friction::{Damping, LuGre};
+use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 
 /// The friction of the bench stage.
 fn small() -> Model {
@@ -57,10 +57,6 @@ fn every_file_says_where_it_came_from() {
             if file.path.ends_with("Description.xml") {
                 continue;
             }
-            // A test program names the block that it tests, which carries the head.
-            if file.path.starts_with("PRG_") || file.path.starts_with("tests/") {
-                continue;
-            }
             for part in [
                 "sigma0 = 1.200000e5 N/m, 1.1000e5 to 1.3000e5",
                 "NOT determined",
@@ -75,20 +71,32 @@ fn every_file_says_where_it_came_from() {
 }
 
 fn codes(model: &Model) -> Vec<&'static str> {
-    advice(model).iter().map(|a: &Advice| a.code).collect()
+    advice(model, Target::C)
+        .iter()
+        .map(|a: &Advice| a.code)
+        .collect()
 }
 
 #[test]
 fn advice_is_given_where_it_applies() {
-    assert_eq!(codes(&small()), [""; 0]);
-    let Friction::LuGre(law) = small().friction else {
+    // 0.75 (12 N + 30 N s/m v) is 60 N at 2.27 m/s.
+    let mut small = small();
+    assert_eq!(codes(&small), ["export-limit"]);
+    assert!(
+        advice(&small, Target::C)[0]
+            .message
+            .contains("reaches at 2.267 m/s")
+    );
+    small.settings.limit = 1e6;
+    assert_eq!(codes(&small), [""; 0]);
+    let Friction::LuGre(law) = small.friction else {
         unreachable!("the small model has bristles")
     };
     let change = |stiffness: f64, damping| {
         let law = LuGre::new(stiffness, damping, *law.curve()).unwrap();
         Model {
             friction: Friction::LuGre(law),
-            ..small()
+            ..small.clone()
         }
     };
     // Olsson's condition for v to infinity: sigma1 <= sigma2 Fc/(Fs - Fc) = 60 N s/m; nearer to rest more is allowed.
@@ -102,14 +110,79 @@ fn advice_is_given_where_it_applies() {
         codes(&change(1e7, Damping::Capped(0.0))),
         ["export-cycle-time"]
     );
-    let mut limited = small();
+    let mut limited = small.clone();
     limited.settings.limit = 13.4;
     assert_eq!(codes(&limited), ["export-limit"]);
+    // A law whose level is the same at every speed has no Stribeck velocity to speak of.
+    let flat = Direction {
+        coulomb: 12.0,
+        static_friction: 12.0,
+        stribeck_velocity: 1.0,
+        viscous: 0.0,
+    };
+    let flat = Stribeck::symmetric(Shape::Gaussian, flat, 0.0).unwrap();
+    let dahl = LuGre::new(2e6, Damping::Capped(0.0), flat).unwrap();
+    assert_eq!(
+        codes(&Model {
+            friction: Friction::LuGre(dahl),
+            ..small.clone()
+        }),
+        [""; 0]
+    );
+    let long = Model {
+        identifier: "gantry_axis_number_1_left_side".into(),
+        ..small.clone()
+    };
+    assert_eq!(codes(&long), [""; 0]);
+    assert_eq!(advice(&long, Target::Hal)[0].code, "export-name");
+    assert_eq!(advice(&small, Target::Hal), []);
     insta::assert_snapshot!(
         "advice",
-        advice(&change(1e7, Damping::Constant(1e4)))
-            .iter()
+        [Target::C, Target::Mujoco, Target::Tf5200]
+            .into_iter()
+            .flat_map(|target| advice(&change(1e7, Damping::Constant(1e4)), target))
             .map(|a| format!("{}: {}\n", a.code, a.message))
             .collect::<String>()
     );
+}
+
+/// A model whose force is a current says so wherever a force is named, and no target calls it N; one that takes forces
+/// only refuses it.
+#[test]
+fn a_current_is_no_force() {
+    for (unit, written) in [("A", "in A"), ("1", "in p.u.")] {
+        let mut model = small();
+        model.force_unit = unit.into();
+        for p in &mut model.parameters {
+            p.unit = p.unit.replace('N', unit);
+        }
+        for target in Target::ALL {
+            if target == Target::Mujoco {
+                let error = export(&model, target).unwrap_err().to_string();
+                assert!(
+                    error.contains("takes forces in N") && error.contains(written),
+                    "{error}"
+                );
+                continue;
+            }
+            let files = export(&model, target).unwrap();
+            let (archives, mut files): (Vec<_>, Vec<_>) =
+                files.into_iter().partition(|f| f.path.ends_with(".fmu"));
+            files.extend(archives.iter().flat_map(common::parts));
+            for file in files {
+                let text = String::from_utf8(file.bytes).unwrap();
+                let newton = text
+                    .split(|c: char| !c.is_alphanumeric())
+                    .any(|word| word == "N");
+                assert!(!newton, "{}", file.path);
+                if !file.path.ends_with("Description.xml") {
+                    assert!(
+                        text.contains(&format!("The force is {written}")),
+                        "{}",
+                        file.path
+                    );
+                }
+            }
+        }
+    }
 }

@@ -1,10 +1,10 @@
 //! The compensator that runs on the drive: a friction force to be added to the controller's, made safe.
 //!
-//! One call a sample, plain arithmetic, no allocation. [`Settings`] and the law are checked once and never change;
-//! everything that does is in [`State`].
+//! One call a sample, plain arithmetic, no allocation. [`Settings`] and the law are checked once and, the
+//! gain aside, never change; everything that does is in [`State`].
 //!
 //! ```text
-//! velocity --dead zone--> law --level--> x gain --ramp--> saturation --slew limit--> force
+//! velocity --dead zone--> law --level--> x gain, by its ramp --> saturation --slew limit--> force
 //! ```
 //!
 //! ```
@@ -62,7 +62,7 @@ pub struct State<T> {
     pub correction: T,
     /// The force of that correction, N (N m).
     pub corrected: T,
-    /// Share of the force that is let through, 0 off to 1 on.
+    /// Share of the friction that is let through, 0 off, up to the gain.
     pub share: T,
     /// Factor on the law's force, 1 unless adapted or set.
     pub level: T,
@@ -131,6 +131,16 @@ impl<T: Real> Compensator<T> {
         }
     }
 
+    /// Sets the gain, 0 to 1; the force follows within the ramp.
+    ///
+    /// # Errors
+    /// Where it is out of range; the gain then stays.
+    pub fn set_gain(&mut self, gain: T) -> Result<(), ParamError> {
+        Settings::check_gain(gain)?;
+        self.settings.gain = gain;
+        Ok(())
+    }
+
     /// The compensating force, N (N m), to be added to the controller's from now on for one cycle time.
     #[inline]
     pub fn step(&mut self, input: Input<T>) -> T {
@@ -173,7 +183,8 @@ impl<T: Real> Compensator<T> {
                     adaptation.step(self.state.level, h, error, self.state.law.force);
             }
             if let Some(watchdog) = &self.settings.watchdog {
-                watchdog.step(&mut self.state.watch, h, &input, self.state.share);
+                let through = (self.state.share, self.settings.gain, self.state.output);
+                watchdog.step(&mut self.state.watch, h, &input, through);
             }
         }
         let allowed = self.settings.watchdog.is_none() || self.state.watch.allows();

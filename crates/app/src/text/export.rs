@@ -1,5 +1,6 @@
 //! What is said after an export.
 
+use crate::check::short;
 use crate::export::Exported;
 use std::fmt::Write;
 use std::path::Path;
@@ -10,10 +11,20 @@ pub fn exported(exported: &Exported, dir: &Path) -> String {
     for warning in &exported.warnings {
         let _ = writeln!(out, "warning [{}]: {}", warning.code, warning.message);
     }
+    let unit = match exported.force_unit.as_str() {
+        "1" => "(1 is 100 %)",
+        unit => unit,
+    };
+    let most = format!("force at most {} {unit}", short(exported.limit));
+    let what = match exported.target {
+        "mujoco" => format!("for a time step of {} s", exported.cycle_time),
+        "tf5200" => format!("with {most}"),
+        _ => format!("for a cycle of {} s, {most}", exported.cycle_time),
+    };
     let _ = writeln!(
         out,
-        "{} compensator `{}` for a cycle of {} s, force at most {}; put into operation as in docs/deploy/{}.md",
-        exported.law, exported.name, exported.cycle_time, exported.limit, exported.target
+        "{} compensator `{}` {what}; put into operation as in docs/deploy/{}.md",
+        exported.law, exported.name, exported.target
     );
     let _ = writeln!(
         out,

@@ -43,7 +43,7 @@ pub(super) fn xml(
              \x20   <SourceFiles>\n      <File name=\"{component}.c\"/>\n    </SourceFiles>\n  </CoSimulation>\n"
         )
     };
-    units(model.rotary, &mut out);
+    units(model, &mut out);
     out.push_str(
         "  <LogCategories>\n    <Category name=\"logStatusError\"/>\n  </LogCategories>\n",
     );
@@ -56,7 +56,7 @@ pub(super) fn xml(
         out.push_str("    <Float64 name=\"time\" valueReference=\"0\" causality=\"independent\" variability=\"continuous\" unit=\"s\"/>\n");
     }
     for (reference, variable) in variables.iter() {
-        entry(model.rotary, version, reference, variable, &mut out);
+        entry(model, version, reference, variable, &mut out);
     }
     out.push_str("  </ModelVariables>\n  <ModelStructure>\n");
     structure(version, variables, &mut out);
@@ -64,25 +64,25 @@ pub(super) fn xml(
     out
 }
 
-fn units(rotary: bool, out: &mut String) {
+fn units(model: &Model, out: &mut String) {
     out.push_str("  <UnitDefinitions>\n");
     for unit in Unit::ALL {
-        let exponents: String = ["kg", "m", "s", "rad"]
+        let exponents: String = ["kg", "m", "s", "A", "rad"]
             .into_iter()
-            .zip(unit.base(rotary))
+            .zip(unit.base(model.rotary, model.force_unit()))
             .filter(|(_, exponent)| *exponent != 0)
             .map(|(base, exponent)| format!(" {base}=\"{exponent}\""))
             .collect();
         let _ = writeln!(
             out,
             "    <Unit name=\"{}\">\n      <BaseUnit{exponents}/>\n    </Unit>",
-            unit.name(rotary)
+            unit.name(model.rotary, model.force_unit())
         );
     }
     out.push_str("  </UnitDefinitions>\n");
 }
 
-fn entry(rotary: bool, version: Version, reference: usize, variable: &Variable, out: &mut String) {
+fn entry(model: &Model, version: Version, reference: usize, variable: &Variable, out: &mut String) {
     let (causality, variability) = match (variable.role, &variable.start) {
         (Role::Input, Start::Number(..)) => ("input", "continuous"),
         (Role::Input, Start::Flag(_)) => ("input", "discrete"),
@@ -97,7 +97,7 @@ fn entry(rotary: bool, version: Version, reference: usize, variable: &Variable, 
     };
     let unit = match variable.start {
         Start::Number(_, unit) if unit != Unit::One => {
-            format!(" unit=\"{}\"", unit.name(rotary))
+            format!(" unit=\"{}\"", unit.name(model.rotary, model.force_unit()))
         }
         _ => String::new(),
     };

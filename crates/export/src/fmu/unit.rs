@@ -28,37 +28,41 @@ impl Unit {
         Unit::Damping,
     ];
 
-    /// Name, of a linear or a rotary axis; empty for none.
-    pub(super) fn name(self, rotary: bool) -> &'static str {
-        match (self, rotary) {
-            (Unit::One, _) => "",
-            (Unit::Time, _) => "s",
-            (Unit::Length, false) => "m",
-            (Unit::Length, true) => "rad",
-            (Unit::Speed, false) => "m/s",
-            (Unit::Speed, true) => "rad/s",
-            (Unit::Force, false) => "N",
-            (Unit::Force, true) => "N.m",
-            (Unit::Slew, false) => "N/s",
-            (Unit::Slew, true) => "N.m/s",
-            (Unit::Stiffness, false) => "N/m",
-            (Unit::Stiffness, true) => "N.m/rad",
-            (Unit::Damping, false) => "N.s/m",
-            (Unit::Damping, true) => "N.m.s/rad",
+    /// Name, of a linear or a rotary axis whose force is in `force`; empty for none.
+    pub(super) fn name(self, rotary: bool, force: &str) -> String {
+        let length = if rotary { "rad" } else { "m" };
+        // A product as the standard's examples write it.
+        let force = force.replace(' ', ".");
+        match self {
+            Unit::One => String::new(),
+            Unit::Time => "s".into(),
+            Unit::Length => length.into(),
+            Unit::Speed => format!("{length}/s"),
+            Unit::Force => force,
+            Unit::Slew => format!("{force}/s"),
+            Unit::Stiffness => format!("{force}/{length}"),
+            Unit::Damping => format!("{force}.s/{length}"),
         }
     }
 
-    /// Exponents of kg, m, s and rad.
-    pub(super) fn base(self, rotary: bool) -> [i32; 4] {
-        let (length, force) = if rotary {
-            ([0, 0, 0, 1], [1, 2, -2, 0])
+    /// Exponents of kg, m, s, A and rad.
+    pub(super) fn base(self, rotary: bool, force: &str) -> [i32; 5] {
+        let length = if rotary {
+            [0, 0, 0, 0, 1]
         } else {
-            ([0, 1, 0, 0], [1, 1, -2, 0])
+            [0, 1, 0, 0, 0]
         };
-        let time = [0, 0, 1, 0];
-        let over = |a: [i32; 4], b: [i32; 4]| [0, 1, 2, 3].map(|i| a[i] - b[i]);
+        let force = match force {
+            "N" => [1, 1, -2, 0, 0],
+            "N m" => [1, 2, -2, 0, 0],
+            "A" => [0, 0, 0, 1, 0],
+            "V" => [1, 2, -3, -1, 0],
+            _ => [0; 5],
+        };
+        let time = [0, 0, 1, 0, 0];
+        let over = |a: [i32; 5], b: [i32; 5]| [0, 1, 2, 3, 4].map(|i| a[i] - b[i]);
         match self {
-            Unit::One => [0; 4],
+            Unit::One => [0; 5],
             Unit::Time => time,
             Unit::Length => length,
             Unit::Speed => over(length, time),

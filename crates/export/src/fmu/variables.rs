@@ -141,7 +141,7 @@ impl Variables {
             s.ramp,
             Unit::Time,
             "params.ramp",
-            "time to come in and to go",
+            "time in which the share let through goes from 0 to 1",
         );
         number(
             "watchdog_window",
@@ -149,7 +149,7 @@ impl Variables {
             window,
             Unit::Time,
             "params.watchdog_window",
-            "moving time that the watchdog compares; 0: no watchdog",
+            "moving time that the watchdog compares, a cycle of the motion; 0: no watchdog",
         );
         number(
             "watchdog_ratio",

@@ -59,6 +59,7 @@ pub fn model(friction: Friction<f64>) -> Model {
         title: "X axis".into(),
         identifier: "x_axis".into(),
         rotary: false,
+        force_unit: "N".into(),
         friction,
         settings: Settings::new(1e-3, 60.0),
         rated_force: Some(221.0),
@@ -69,6 +70,7 @@ pub fn model(friction: Friction<f64>) -> Model {
                 unit: "N/m".into(),
                 interval: Some([1.1e5, 1.3e5]),
                 identifiable: true,
+                given: false,
             },
             Parameter {
                 name: "sigma1".into(),
@@ -76,6 +78,7 @@ pub fn model(friction: Friction<f64>) -> Model {
                 unit: "N s/m".into(),
                 interval: None,
                 identifiable: false,
+                given: false,
             },
         ],
         notes: vec![],

@@ -4,11 +4,11 @@ use super::{Settings, State};
 use crate::Real;
 
 impl<T: Real> Settings<T> {
-    /// Ramp, gain, saturation and slew limit; the result is finite and within the limit.
+    /// Gain by its ramp, saturation and slew limit; the result is finite and within the limit.
     #[inline]
     pub(super) fn limit(&self, state: &mut State<T>, h: T, on: bool, wanted: T) -> T {
         state.share = self.ramped(state.share, h, on);
-        let force = state.share * self.gain * wanted;
+        let force = state.share * wanted;
         let force = force.max(-self.limit).min(self.limit);
         // h times the slew limit may be infinite: then there is none.
         let most = h * self.slew;
@@ -23,16 +23,17 @@ impl<T: Real> Settings<T> {
         state.output
     }
 
+    /// The share on its way to the gain, or to 0.
     fn ramped(&self, share: T, h: T, on: bool) -> T {
-        let end = if on { T::ONE } else { T::ZERO };
+        let end = if on { self.gain } else { T::ZERO };
         if share == end {
             return end;
         }
         let change = if h < self.ramp { h / self.ramp } else { T::ONE };
-        if on {
-            (share + change).min(T::ONE)
+        if share < end {
+            (share + change).min(end)
         } else {
-            (share - change).max(T::ZERO)
+            (share - change).max(end)
         }
     }
 }

@@ -18,7 +18,8 @@ pub struct Settings<T> {
     pub limit: T,
     /// Fastest change of the force, > 0, N/s (N m/s); the largest number is no limit.
     pub slew: T,
-    /// Time in which the force comes in when enabled and goes when not, >= 0, s.
+    /// Time in which the share that is let through goes from 0 to 1, >= 0, s: so the force comes in when enabled, goes when
+    /// not, and follows a change of the gain.
     pub ramp: T,
     /// Correction of the friction level while running.
     pub adaptation: Option<Adaptation<T>>,
@@ -59,12 +60,7 @@ impl<T: Real> Settings<T> {
     /// Refuses settings out of range.
     pub fn validate(&self) -> Result<(), ParamError> {
         ParamError::positive("cycle_time", self.cycle_time)?;
-        require(
-            self.gain >= T::ZERO && self.gain <= T::ONE,
-            "gain",
-            self.gain,
-            "0 to 1",
-        )?;
+        Self::check_gain(self.gain)?;
         ParamError::not_negative("dead_zone", self.dead_zone)?;
         ParamError::positive("limit", self.limit)?;
         ParamError::positive("slew", self.slew)?;
@@ -76,6 +72,10 @@ impl<T: Real> Settings<T> {
             Some(watchdog) => watchdog.validate(),
             None => Ok(()),
         }
+    }
+
+    pub(super) fn check_gain(gain: T) -> Result<(), ParamError> {
+        require(gain >= T::ZERO && gain <= T::ONE, "gain", gain, "0 to 1")
     }
 
     #[inline]

@@ -6,12 +6,16 @@ use crate::{ParamError, Real};
 /// Compares the tracking error with and without compensation and switches off, until a reset, where it is larger with:
 /// its mean square over a window, or any one error beyond one and a half times the largest without.
 ///
-/// It first lets the axis move for a window without compensation to learn what is normal, and learns again whenever
-/// compensation is not enabled. Only time in which the reference moves counts. A window is to hold a cycle of the motion;
+/// A window goes from one turn of the reference to another, over at least two strokes, so that windows hold the same: what
+/// happens at the reversals. Where the reference does not turn, it ends after ten times as long. The watchdog first lets the axis move for a
+/// window without compensation to learn what is normal, and learns again whenever no force is added, be it that
+/// compensation is not enabled or that the gain is 0. The first window after the gain has been reached is not judged:
+/// a force that comes in disturbs the controller, which had carried the friction itself. Only time in which the reference
+/// moves counts, and with compensation only time in which a force is added. A window is to hold a cycle of the motion;
 /// before a motion of another kind, disable for a window or reset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Watchdog<T> {
-    /// Moving time that is compared, > 0, s.
+    /// Moving time that is compared, > 0, s; at least that of two reversals.
     pub window: T,
     /// Largest allowed error with compensation over that without, > 0.
     pub ratio: T,
@@ -26,6 +30,14 @@ pub struct Watch<T> {
     pub peak: T,
     /// Moving time in the present window, s.
     pub time: T,
+    /// Turns of the reference in the present window with that of its beginning, counted up to three; 0: it began elsewhere.
+    pub turns: u8,
+    /// The reference moved in the positive direction last.
+    pub forward: bool,
+    /// The present window is one with compensation.
+    pub with: bool,
+    /// The present window is judged: it is not the first with this gain.
+    pub judged: bool,
     /// Mean square of the error without compensation, m^2 (rad^2); negative: not known yet.
     pub without: T,
     /// Largest error without compensation, m (rad).
@@ -50,6 +62,10 @@ impl<T: Real> Default for Watch<T> {
             sum: T::ZERO,
             peak: T::ZERO,
             time: T::ZERO,
+            turns: 0,
+            forward: false,
+            with: false,
+            judged: false,
             without: -T::ONE,
             peak_without: T::ZERO,
             tripped: false,
@@ -67,6 +83,7 @@ impl<T: Real> Watch<T> {
     /// Begins a window.
     fn clear(&mut self) {
         (self.sum, self.peak, self.time) = (T::ZERO, T::ZERO, T::ZERO);
+        self.turns = 0;
     }
 }
 
@@ -76,36 +93,57 @@ impl<T: Real> Watchdog<T> {
         ParamError::positive("watchdog_ratio", self.ratio)
     }
 
-    /// Counts a sample of `h` seconds with a compensation let through by `share`.
+    /// Counts a sample of `h` seconds that began with a `share` of the friction, of the share `gain` that is wanted, let
+    /// through as `output`.
     #[inline]
-    pub(super) fn step(&self, watch: &mut Watch<T>, h: T, input: &Input<T>, share: T) {
-        let (off, on) = (share <= T::ZERO, share >= T::ONE);
-        if !(off || on) {
-            // Coming or going: a window that begins now belongs to one side only.
+    pub(super) fn step(
+        &self,
+        watch: &mut Watch<T>,
+        h: T,
+        input: &Input<T>,
+        (share, gain, output): (T, T, T),
+    ) {
+        let off = share == T::ZERO && output == T::ZERO;
+        let on = share == gain && share > T::ZERO;
+        if !(off || on) || on != watch.with {
+            // Coming, going or changing: a window belongs to one side and one gain only.
             watch.clear();
+            (watch.with, watch.judged) = (on, false);
+        }
+        let idle = on && output == T::ZERO;
+        if !(off || on) || idle || input.reference_velocity == T::ZERO {
             return;
         }
-        if input.reference_velocity == T::ZERO {
-            return;
+        let forward = input.reference_velocity > T::ZERO;
+        let turned = forward != watch.forward && watch.time > T::ZERO;
+        watch.forward = forward;
+        if turned {
+            if watch.turns == 0 {
+                watch.clear();
+            }
+            watch.turns = (watch.turns + 1).min(3);
         }
         let error = input.tracking_error.abs();
         watch.sum = watch.sum + error * error * h;
         watch.peak = watch.peak.max(error);
         watch.time = watch.time + h;
         let far = T::from_f64(1.5) * self.ratio * watch.peak_without;
-        if on && error > far {
+        if watch.judged && error > far {
             watch.tripped = true;
         }
-        if watch.time < self.window {
+        let whole = turned && watch.turns == 3 && watch.time >= self.window;
+        if !(whole || watch.time >= T::from_f64(10.0) * self.window) {
             return;
         }
         let mean_square = watch.sum / watch.time;
         if off {
             watch.without = mean_square.min(T::MAX);
             watch.peak_without = watch.peak;
-        } else if mean_square > self.ratio * self.ratio * watch.without {
+        } else if watch.judged && mean_square > self.ratio * self.ratio * watch.without {
             watch.tripped = true;
         }
+        watch.judged = on;
         watch.clear();
+        watch.turns = u8::from(turned);
     }
 }
