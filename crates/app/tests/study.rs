@@ -321,9 +321,16 @@ fn a_watchdog_that_still_learns() {
     let html = String::from_utf8(outcome.bundle().files()[0].1.clone()).unwrap();
     assert!(html.contains("exact, still learning") && html.contains("not every figure"));
     assert!(stiction_app::text::study(&outcome).contains("still learning"));
-    // Half a second of motion; the force has come in 50 ms later.
-    for (skip, still) in [("0.5 s", 1), ("0.56 s", 0)] {
-        let file = run("watchdog_window = \"0.5 s\"\n", skip).file;
+    // Half a second from the first turn, at 0.125 s; the force has come in 50 ms later.
+    for (skip, still) in [("0.67 s", 1), ("0.68 s", 0)] {
+        let outcome = run("watchdog_window = \"0.5 s\"\n", skip);
+        let courses = String::from_utf8(outcome.bundle().files()[1].1.clone()).unwrap();
+        let first = courses.lines().find_map(|line| {
+            let numbers: Vec<f64> = line.split(',').filter_map(|x| x.parse().ok()).collect();
+            (numbers.last().is_some_and(|force| *force != 0.0)).then(|| numbers[0])
+        });
+        assert!((first.unwrap() - 0.625).abs() < 2e-3, "{first:?}");
+        let file = outcome.file;
         assert_eq!(row(&file, "lugre", "exact").still_learning, still, "{skip}");
         assert_eq!(codes(&file).len(), still);
     }
