@@ -29,7 +29,7 @@ AMPLITUDE = 0.05
 STARTS = 20
 # A start has found the optimum if its cost is above the least by no more than this part.
 FOUND = 1e-4
-TIMES = ("search", "estimate", "intervals", "batch-1", "batch-2")
+TIMES = ("search", "estimate", "intervals", "batch-1", "batch-2", "apart-2")
 
 
 def record():
@@ -98,7 +98,8 @@ def main():
     print(f"{ours['evaluations']:.0f} evaluations, {ours['thinned']:.0f} of them on a thinned record")
     print(f"scipy's middle start takes {middle / ours['search']:.1f} times the search, {middle / whole:.1f} times search and estimate")
     print(f"scipy's fastest start takes {best / ours['search']:.1f} times the search, {best / whole:.1f} times search and estimate")
-    print(f"two threads on a batch: {ours['batch-1'] / ours['batch-2']:.2f} times the throughput of one")
+    print(f"two threads on a batch: {ours['batch-1'] / ours['batch-2']:.2f} times the throughput of one;", end=" ")
+    print(f"on its halves, nothing shared: {ours['batch-1'] / ours['apart-2']:.2f}")
     theirs = np.exp(peer.results[hits[0]].x)
     ours["drop"] = ours["static"] - ours["coulomb"]
     print(f"cost: scipy {2 * peer.results[hits[0]].cost:.6g}, stiction {ours['cost']:.6g}")

@@ -1,5 +1,5 @@
 //! Rewrites the tables of `docs/searches.md` from comparisons made on the spot. Run by
-//! `cargo xtask searches`.
+//! `cargo xtask searches`; by itself it takes a number of seeds, and the tables to make if not all.
 
 use std::fmt::Write;
 use std::time::Instant;
@@ -293,7 +293,18 @@ fn main() -> std::io::Result<()> {
         ("position", position),
         ("speed", speed),
     ];
+    let wanted: Vec<String> = words.collect();
+    let known = |word: &String| tables.iter().any(|(name, _)| name == word);
+    if let Some(word) = wanted.iter().find(|word| !known(word)) {
+        panic!(
+            "no table {word}: {}",
+            tables.map(|(name, _)| name).join(", ")
+        );
+    }
     for (name, make) in tables {
+        if !wanted.is_empty() && !wanted.iter().any(|word| word == name) {
+            continue;
+        }
         let clock = Instant::now();
         put(&mut page, name, &make(seeds));
         eprintln!("{name}: {:.0} s", clock.elapsed().as_secs_f64());

@@ -43,6 +43,12 @@ pub const OWN: &[(&str, &str)] = &[
         "too-few-speeds",
         "too few constant-velocity stretches for a static map",
     ),
+    (
+        "still-learning",
+        "a watchdog lets no force through while a run counts",
+    ),
+    ("at-force-limit", "a simulated command is at its limit"),
+    ("unsteady-command", "a simulated command shakes"),
     ("few-speeds", "fewer speeds than a static map should have"),
     (
         "large-shift",

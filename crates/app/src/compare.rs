@@ -65,8 +65,8 @@ pub const RATE: f64 = 1000.0;
 /// One start of least squares, drawn at random: what `lm` is without its many starts.
 pub const ONE_START: &str = "lm-one";
 
-/// Part of the energy by which a cost may be less and still be the same: the reference search steps by sums of
-/// squares, and ends where a step promises no more than this.
+/// Part of the energy by which a cost may be less and still be the same: on V5 without noise least squares from
+/// many starts end 1.004e-14 below the reference search, at 1.8e-12.
 const ROUNDING: f64 = 1e-13;
 
 /// What to compare, and how.

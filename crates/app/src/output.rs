@@ -158,12 +158,14 @@ fn temporary_beside(path: &Path) -> std::io::Result<NamedTempFile> {
 }
 
 /// Names of the files that are written.
-const WRITTEN: [&str; 7] = [
+const WRITTEN: [&str; 9] = [
     "result.json",
     "compare.json",
     "model.toml",
     "report.html",
     "fit.csv",
+    "trajectories.csv",
+    "contours.csv",
     "study.json",
     "reproduce.json",
 ];

@@ -18,7 +18,7 @@ pub(crate) use comparison::comparison;
 use crate::identify::Outcome;
 pub(crate) use reproduction::reproduction;
 use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
-pub(crate) use study::{judged, quantity, scheme, study};
+pub(crate) use study::{judged, less, quantity, scheme, study};
 
 /// The report of one identification.
 pub(crate) fn identification(outcome: &Outcome) -> Document {

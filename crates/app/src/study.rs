@@ -3,6 +3,8 @@
 //! Raw as typed, then resolved to SI and the types of the simulation, then run over the whole grid.
 
 mod contour;
+mod course;
+pub(crate) mod doubt;
 mod model;
 mod raw;
 mod resolve;
@@ -129,6 +131,8 @@ pub struct StudyOutcome {
     pub file: StudyFile,
     pub(crate) traces: Vec<Trace>,
     pub(crate) contours: Vec<ContourTrace>,
+    /// `trajectories.csv` and `contours.csv`; empty without a path, without a contour.
+    courses: [String; 2],
 }
 
 impl Study {
@@ -171,10 +175,16 @@ impl StudyOutcome {
         })
     }
 
-    /// `report.html` and `study.json`.
+    /// `report.html`, `study.json`, and `trajectories.csv`, `contours.csv` with the courses of the runs.
     pub fn bundle(&self) -> Bundle {
         let mut bundle = Bundle::default();
         bundle.add("report.html", report::study(self).to_html());
+        let names = ["trajectories.csv", "contours.csv"];
+        for (name, rows) in names.into_iter().zip(&self.courses) {
+            if !rows.is_empty() {
+                bundle.add(name, rows.as_str());
+            }
+        }
         let json = serde_json::to_string_pretty(&self.file).expect("plain data");
         bundle.add("study.json", json + "\n");
         bundle

@@ -43,6 +43,14 @@ pub fn length_unit(motion: Motion) -> &'static str {
     }
 }
 
+/// Unit of force.
+pub fn force_unit(motion: Motion) -> &'static str {
+    match motion {
+        Motion::Linear => "N",
+        Motion::Rotary => "N*m",
+    }
+}
+
 /// Unit of velocity.
 pub fn speed_unit(motion: Motion) -> &'static str {
     match motion {

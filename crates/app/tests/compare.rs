@@ -61,6 +61,36 @@ fn v2_does_not_determine_what_it_states() {
     assert!(error("static_pos") > 0.1 || error("stribeck_velocity_pos") > 0.1);
 }
 
+/// A parameter that is zero stands inside its box as well as its logarithm allows: the noise asks for no
+/// more of it than the box leaves.
+#[test]
+fn a_parameter_of_zero_costs_no_success() {
+    for noise in [0.002, 0.01] {
+        let noisy = CompareOptions {
+            noise: Some(noise),
+            ..options("V10", &["lm"])
+        };
+        let own = &run(&noisy).methods[0].own;
+        let excess = own.excess.unwrap()[2];
+        assert!(own.successes == 2 && excess < 1e-5, "{noise}: {excess:e}");
+    }
+}
+
+/// A simplex begins where its seed puts it.
+#[test]
+fn seeds_differ_in_every_method() {
+    let file = run(&options(
+        "machine",
+        &["nelder-mead", "lm", "de", "niched-ga"],
+    ));
+    for method in &file.methods {
+        let [a, b] = &method.runs[..] else {
+            panic!("two runs")
+        };
+        assert_ne!(a.cost_own, b.cost_own, "{}", method.name);
+    }
+}
+
 #[test]
 fn motions_costs_and_integrators_can_be_chosen() {
     let base = options("machine", &["de"]);

@@ -86,10 +86,10 @@ fn the_published_circle() {
     // changes is a reading of the encoder now and then: they agree to one of its steps.
     assert_eq!(file.results.len(), 4);
     for (compensator, coupled, expected) in [
-        ("none", false, 64.8e-6),
-        ("none", true, 4.22e-6),
-        ("whole", false, 0.20e-6),
-        ("whole", true, 0.09e-6),
+        ("none", false, 64.9e-6),
+        ("none", true, 4.24e-6),
+        ("whole", false, 0.13e-6),
+        ("whole", true, 0.07e-6),
     ] {
         let found = peak(row(file, compensator, coupled, "exact"));
         assert!(
@@ -115,6 +115,90 @@ fn the_published_circle() {
     }
     let text = stiction_app::text::study(&outcome);
     assert!(text.contains("coupling"), "{text}");
+    assert!(text.contains("second axis: Known axis machine"), "{text}");
+}
+
+/// A contour from a file is followed as the one that made it, and its deviation is the distance across it.
+#[test]
+fn a_contour_from_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let turn = |k: u32| 2.0 * std::f64::consts::PI * f64::from(k) / 2000.0;
+    // A turn of 10 mm in 2 s, started and ended softly.
+    let soft = |a: f64| a - libm::sin(a);
+    let rows = (0..=2000).map(|k| {
+        let (s, c) = libm::sincos(soft(turn(k)));
+        format!("{},{},{}\n", 1e-3 * f64::from(k), 10.0 * c, 10.0 * s)
+    });
+    let text: String = std::iter::once("t [s],x [mm],y [mm]\n".to_string())
+        .chain(rows)
+        .collect();
+    std::fs::write(folder.path().join("turn.csv"), text).unwrap();
+    let contour = "\n[[contour]]\nkind = \"file\"\nfile = \"turn.csv\"\n";
+    let file = folder.path().join("study.toml");
+    std::fs::write(&file, [AXES, contour, CONTROLLER, WHOLE].concat()).unwrap();
+    let outcome = Study::read(&file)
+        .unwrap()
+        .run(&mut |_, _| Control::Continue);
+    assert!(
+        outcome.file.warnings.is_empty(),
+        "{:?}",
+        outcome.file.warnings
+    );
+    let metric = |coupled, name| {
+        let row = row(&outcome.file, "none", coupled, "exact");
+        row.metric(name).unwrap().mean
+    };
+    let bundle = outcome.bundle();
+    let rows = String::from_utf8(bundle.files()[1].1.clone()).unwrap();
+    assert_eq!(bundle.files()[1].0, "contours.csv");
+    let mut worst = 0.0_f64;
+    for line in rows
+        .lines()
+        .filter(|l| l.starts_with("\"file\",\"cascade 60 Hz\",\"none\",0,"))
+    {
+        let values: Vec<f64> = line
+            .split(',')
+            .skip(3)
+            .map(|x| x.parse().unwrap())
+            .collect();
+        let (x, y, deviation) = (values[4], values[5], values[8]);
+        // From the circle itself, whose centre lies 10 mm to the left of the start.
+        let off = libm::hypot(x + 10e-3, y) - 10e-3;
+        assert!(
+            (off - deviation).abs() < 0.02 * metric(false, "contour_peak") + 1e-9,
+            "{line}"
+        );
+        worst = worst.max(deviation.abs());
+    }
+    assert!((worst / metric(false, "contour_peak") - 1.0).abs() < 0.02);
+    let coupled = metric(true, "contour_peak");
+    assert!(worst > 20e-6 && coupled < 0.3 * worst, "{worst} {coupled}");
+}
+
+/// Above a PID, which integrates the position error itself, coupling does not drift: many turns are no worse than few.
+#[test]
+fn coupling_above_pids_does_not_drift() {
+    let pid = CONTROLLER.replace("cascade", "pid");
+    let peaks = [2, 12].map(|turns| {
+        let circle = CIRCLE.replace("10 mm\"", &format!("10 mm\"\nturns = {turns}"));
+        let outcome = run(&[AXES, &circle, &pid].concat());
+        let of = |coupled| peak(row(&outcome.file, "none", coupled, "exact"));
+        (of(false), of(true))
+    });
+    println!("{peaks:?}");
+    assert!(peaks[1].1 < 1.1 * peaks[0].1, "{peaks:?}");
+    assert!(peaks[1].1 < 0.3 * peaks[1].0, "{peaks:?}");
+}
+
+/// The first turn is left out, neither less nor more: with a ramp of v/a + a/j at the start it takes as long as at full
+/// speed and half the ramp.
+#[test]
+fn the_first_turn_does_not_count() {
+    let circle = CIRCLE.replace("10 mm\"", "10 mm\"\nturns = 3");
+    let outcome = run(&[AXES, &circle, CONTROLLER].concat());
+    let v = 10e-3 * std::f64::consts::PI;
+    let expected = 2.0 + 0.5 * (v / 0.3 + 0.3 / 6.0);
+    assert!((outcome.file.paths[0].skip_s - expected).abs() < 1e-9);
 }
 
 /// The same set of wrong parameters on both axes: what they leave is most of what is left, and coupling takes most of it.

@@ -168,7 +168,7 @@ fn threads_do_not_count_and_an_interrupt_keeps_what_is_done() {
     let kept: usize = cut.file.results.iter().map(|r| r.runs).sum();
     assert_eq!(kept, 5);
     // What is kept can be drawn.
-    assert_eq!(cut.bundle().files().len(), 2);
+    assert_eq!(cut.bundle().files().len(), 3);
 }
 
 /// A model file of the stage whose static and Coulomb friction have the standard deviations given, N, and correlate fully.
@@ -241,6 +241,228 @@ fn draws_from_the_covariance() {
     assert!(off.study(&text("m.toml")).is_err());
 }
 
+/// A model whose directions differ, with a force at rest and a constant micro-damping: parameters that are hardly wrong give
+/// hardly another result.
+#[test]
+fn corners_are_the_model_but_for_what_they_name() {
+    let desk = Desk::new();
+    let extra = ["coulomb_neg", "static_neg", "offset"]
+        .into_iter()
+        .zip([8.0, 10.0, 5.0]);
+    let extra: String = extra
+        .map(|(name, value)| {
+            format!(
+                "[[parameter]]\nname = \"{name}\"\nsymbol = \"{name}\"\nvalue = {value:?}\nunit = \"N\"\n\
+                 identifiable = true\norigin = \"identified\"\n"
+            )
+        })
+        .collect();
+    let text = model(0.0, 0.0)
+        .replace("asymmetric = false", "asymmetric = true")
+        .replace("\"coulomb\"", "\"coulomb_pos\"")
+        .replace("\"static\"", "\"static_pos\"")
+        .replace("[covariance]", &(extra + "[covariance]"));
+    desk.write("m.toml", &text);
+    let axis = AXIS.replace(
+        "known        = \"motor\"",
+        "model = \"m.toml\"\nsigma1 = \"constant\"",
+    );
+    let corners = "\n[[parameter_error]]\nkind = \"corners\"\nby = \"0.001 %\"\n";
+    let file = desk.run(&together(&[&axis, SHORT, CASCADE, WHOLE, corners]));
+    let rms = |parameters: &str| {
+        let row = row(&file, "whole", parameters);
+        row.metric("rms_error").unwrap().clone()
+    };
+    let (exact, wrong) = (rms("exact"), rms("±0.001 %"));
+    assert!(exact.reduction_percent.unwrap() > 90.0, "{exact:?}");
+    for of in [wrong.least, wrong.largest] {
+        // A tenth of an encoder step.
+        assert!((of - exact.mean).abs() < 5e-9, "{exact:?} {wrong:?}");
+    }
+}
+
+fn codes(file: &StudyFile) -> Vec<&str> {
+    file.warnings.iter().map(|w| w.code.as_str()).collect()
+}
+
+/// A watchdog whose learning reaches into what counts is named, in the rows too; one that is done by then is not.
+#[test]
+fn a_watchdog_that_still_learns() {
+    let supplied = "\n[[compensator]]\nkind = \"lugre\"\n";
+    let run = |more: &str, skip: &str| {
+        let path = SHORT.replace("cycles    = 2", &format!("cycles = 4\nskip = \"{skip}\""));
+        let text = together(&[AXIS, &path, CASCADE, supplied, more]);
+        let study = Desk::new().study(&text).unwrap();
+        study.run(&mut |_, _| Control::Continue)
+    };
+    let outcome = run("", "0.5 s");
+    let file = &outcome.file;
+    assert_eq!(codes(file), ["still-learning"]);
+    let lugre = row(file, "lugre", "exact");
+    assert_eq!(
+        (lugre.still_learning, lugre.remarks().as_str()),
+        (1, "still learning")
+    );
+    assert!(
+        lugre
+            .metric("rms_error")
+            .unwrap()
+            .reduction_percent
+            .unwrap()
+            .abs()
+            < 1e-9
+    );
+    let html = String::from_utf8(outcome.bundle().files()[0].1.clone()).unwrap();
+    assert!(html.contains("exact, still learning") && html.contains("not every figure"));
+    assert!(stiction_app::text::study(&outcome).contains("still learning"));
+    // Half a second of motion; the force has come in 50 ms later.
+    for (skip, still) in [("0.5 s", 1), ("0.56 s", 0)] {
+        let file = run("watchdog_window = \"0.5 s\"\n", skip).file;
+        assert_eq!(row(&file, "lugre", "exact").still_learning, still, "{skip}");
+        assert_eq!(codes(&file).len(), still);
+    }
+}
+
+/// A drive that cannot even overcome friction, and a loop so fast that it swings between its limits, are named.
+#[test]
+fn forces_at_their_limit_and_loops_that_swing() {
+    let weak = AXIS.replace("1248 N", "10 N");
+    let file = Desk::new().run(&together(&[&weak, SHORT, CASCADE, WHOLE]));
+    assert_eq!(codes(&file), ["at-force-limit"]);
+    assert!(
+        file.warnings[0].message.contains("limit of 10.0 N"),
+        "{:?}",
+        file.warnings
+    );
+    let saturation = row(&file, "none", "exact").metric("saturation").unwrap();
+    assert!(saturation.mean > 0.5 && saturation.mean <= 1.0);
+    let fast = CASCADE.replace("60 Hz", "900 Hz");
+    let file = Desk::new().run(&together(&[AXIS, SHORT, &fast, WHOLE]));
+    assert_eq!(codes(&file), ["at-force-limit", "unsteady-command"]);
+    let file = Desk::new().run(&together(&[AXIS, SHORT, CASCADE, WHOLE]));
+    assert!(codes(&file).is_empty());
+    let saturation = row(&file, "none", "exact").metric("saturation").unwrap();
+    assert_eq!(saturation.largest, 0.0);
+}
+
+/// A sine from a file, in other units and at uneven times, is the sine.
+#[test]
+fn a_path_from_a_file() {
+    let desk = Desk::new();
+    let omega = 8.0 * std::f64::consts::PI;
+    let mut rows = String::from("t [ms];x [mm]\n");
+    for k in 0..=1000 {
+        let t = 0.5e-3 * f64::from(k) + if k % 2 == 1 { 0.1e-3 } else { 0.0 };
+        rows += &format!("{};{}\n", 1e3 * t, 3.0 + 0.2 * (1.0 - libm::cos(omega * t)));
+    }
+    desk.write("sine.csv", &rows);
+    let from_file = "\n[[path]]\nkind = \"file\"\nfile = \"sine.csv\"\nskip = \"0.25 s\"\n";
+    let file = desk.run(&together(&[AXIS, SHORT, from_file, CASCADE, WHOLE]));
+    assert!(file.warnings.is_empty(), "{:?}", file.warnings);
+    assert_eq!(file.inputs.len(), 2);
+    assert!((file.paths[1].duration_s - 0.5).abs() < 1e-9);
+    let rms = |path: &str| {
+        let of = |r: &&ResultRow| r.path == path && r.compensator == "none";
+        let row = file.results.iter().find(of).unwrap();
+        row.metric("rms_error").unwrap().mean
+    };
+    assert!(
+        (rms("file") / rms("sine") - 1.0).abs() < 0.01,
+        "{} {}",
+        rms("file"),
+        rms("sine")
+    );
+
+    let mut out = String::new();
+    for (name, text) in [
+        ("absent.csv", None),
+        ("one.csv", Some("t [s]\n0\n1\n2\n")),
+        ("back.csv", Some("t [s],x [mm]\n0,0\n1,1\n0.5,2\n")),
+        ("unit.csv", Some("t [s],x [N]\n0,0\n1,1\n2,2\n")),
+        ("hole.csv", Some("t [s],x [mm]\n0,0\n1,\n2,2\n")),
+    ] {
+        if let Some(text) = text {
+            desk.write(name, text);
+        }
+        let text = together(&[AXIS, from_file, CASCADE]).replace("sine.csv", name);
+        let Err(error) = desk.study(&text) else {
+            panic!("not refused: {name}");
+        };
+        let folder = format!("{}/", desk.0.path().display());
+        out += &format!("{}: {error}\n", error.code()).replace(&folder, "");
+    }
+    insta::assert_snapshot!(out);
+    // Without units they are those of the SI, and that is said.
+    desk.write("bare.csv", "t,x\n0,0\n0.5,0.001\n1,0\n");
+    let text = together(&[AXIS, from_file, CASCADE]).replace("sine.csv", "bare.csv");
+    assert_eq!(codes(&desk.run(&text)), ["unit-assumed"]);
+}
+
+/// Of many compensators the figures show some, and say so; of the tile's two one names the risk.
+#[test]
+fn what_the_report_does_not_draw_it_says() {
+    let gains: String = (1..=8)
+        .map(|k| {
+            format!(
+                "\n[[compensator]]\nname = \"gain {k}\"\nkind = \"lugre\"\nwatchdog = false\ngain = {}\n",
+                0.1 * f64::from(k)
+            )
+        })
+        .collect();
+    let corners = "\n[[parameter_error]]\nkind = \"corners\"\nby = \"10 %\"\n";
+    let study = Desk::new()
+        .study(&together(&[AXIS, SHORT, CASCADE, &gains, corners]))
+        .unwrap();
+    let outcome = study.run(&mut |_, _| Control::Continue);
+    let html = String::from_utf8(outcome.bundle().files()[0].1.clone()).unwrap();
+    assert!(html.contains("7 of 9: without compensation, and those that leave the least"));
+    assert!(html.contains("largest error, gain 8; ") && html.contains("at the worst of ±10 %"));
+}
+
+/// The courses stand beside the report: the whole run, thinned evenly, one block for each run with exact parameters.
+#[test]
+fn courses_beside_the_report() {
+    let corners = "\n[[parameter_error]]\nkind = \"corners\"\nby = \"10 %\"\n";
+    let path = SHORT.replace("kind", "name = \"to, and \\\"fro\\\"\"\nkind");
+    let study = Desk::new()
+        .study(&together(&[AXIS, &path, CASCADE, WHOLE, corners]))
+        .unwrap();
+    let outcome = study.run(&mut |_, _| Control::Continue);
+    let bundle = outcome.bundle();
+    let (name, rows) = &bundle.files()[1];
+    assert_eq!(*name, "trajectories.csv");
+    let rows = String::from_utf8(rows.clone()).unwrap();
+    let mut lines = rows.lines();
+    assert_eq!(
+        lines.next().unwrap(),
+        "path,controller,compensator,time [s],reference [m],position [m],error [m],force [N],compensation [N]"
+    );
+    let key = "\"to, and \"\"fro\"\"\",\"cascade 60 Hz\",\"whole\",";
+    let whole: Vec<Vec<f64>> = lines
+        .filter_map(|line| line.strip_prefix(key))
+        .map(|line| line.split(',').map(|x| x.parse().unwrap()).collect())
+        .collect();
+    // Half a second at 4 kHz, all of it.
+    assert_eq!(whole.len(), 2001);
+    assert!((whole[2000][0] - 0.5).abs() < 1e-12);
+    for row in &whole {
+        let [_, reference, position, error, force, compensation] = row[..] else {
+            panic!("{row:?}");
+        };
+        assert!((reference - position - error).abs() < 1e-9);
+        assert!(compensation.abs() <= 20.0 && force.abs() <= 200.0);
+    }
+    let of = |name: &str| {
+        row(&outcome.file, "whole", "exact")
+            .metric(name)
+            .unwrap()
+            .mean
+    };
+    let counted = whole.iter().filter(|row| row[0] >= 0.25);
+    let peak = counted.map(|row| row[3].abs()).fold(0.0, f64::max);
+    assert!((peak / of("peak_error") - 1.0).abs() < 1e-6);
+}
+
 #[test]
 fn what_is_refused() {
     let good = together(&[AXIS, SINE, CASCADE, WHOLE]);
@@ -274,6 +496,7 @@ fn what_is_refused() {
             "skip = \"9 s\"\namplitude = \"5 mm\"",
         ),
         ("frequency = \"0.5 Hz\"", ""),
+        ("amplitude = \"5 mm\"", "amplitud = \"5 mm\""),
         ("frequency = \"0.5 Hz\"", "frequency = \"1e-6 Hz\""),
         ("kind      = \"sine\"", "kind = \"sinus\""),
         ("[[path]]", "[path]"),

@@ -192,7 +192,7 @@ pub struct Searching {
     /// LuGre law, else separable].
     #[arg(long, value_enum, value_name = "COST")]
     pub cost: Option<Cost>,
-    /// Most evaluations of a search [default: 20000].
+    /// Most costs that a search may evaluate, and as many with derivatives [default: 20000].
     #[arg(long, value_name = "N")]
     pub evaluations: Option<u64>,
     /// Stop a search at this cost: the square of the relative error.
@@ -232,7 +232,7 @@ pub struct Compare {
     /// Seeds of each method.
     #[arg(long, value_name = "N", default_value_t = 30)]
     pub seeds: u64,
-    /// Most evaluations of a run.
+    /// Most costs that a run may evaluate, and as many with derivatives.
     #[arg(long, value_name = "N", default_value_t = 20_000)]
     pub evaluations: u64,
     /// Noise of a problem: deviation over the largest force [default: 0.01].

@@ -51,7 +51,7 @@ fn a_study_from_a_clean_folder() {
     assert_eq!((code, err.as_str()), (0, ""), "{out}");
     assert!(out.contains("sine, cascade 40 Hz"), "{out}");
     assert!(
-        out.ends_with("written to a: report.html, study.json\n"),
+        out.ends_with("written to a: report.html, trajectories.csv, study.json\n"),
         "{out}"
     );
     // Again into the same folder, as JSON: the same file.

@@ -1,7 +1,7 @@
 //! The micro-damping sigma1 and the velocity dependence that keeps it from creating energy.
 
 use crate::error::ParamError;
-use crate::{Real, Stribeck};
+use crate::{LuGre, Real, Stribeck};
 
 /// Micro-damping sigma1(v), N s/m (N m s/rad).
 ///
@@ -75,4 +75,42 @@ pub(crate) fn passive_cap<T: Real>(curve: &Stribeck<T>, v: T, g: T) -> T {
     } else {
         T::MAX
     }
+}
+
+/// sigma1 at velocity `v` and its derivative with respect to `v`, where the level is `g` with the derivative `g_slope`.
+#[inline]
+pub(crate) fn micro_damping_and_slope<T: Real>(law: &LuGre<T>, v: T, g: T, g_slope: T) -> (T, T) {
+    let s1 = law.micro_damping_at_level(v, g);
+    match law.damping() {
+        Damping::Constant(_) => (s1, T::ZERO),
+        // The cap does not bite.
+        Damping::Capped(at_rest) if s1 == at_rest => (s1, T::ZERO),
+        Damping::Capped(_) => (s1, cap_slope(law.curve(), v, s1, g, g_slope)),
+        Damping::Olsson { velocity, .. } => {
+            let x = v / velocity;
+            (s1, -T::from_f64(2.0) * x / velocity * s1)
+        }
+    }
+}
+
+/// Derivative with respect to `v` of [`passive_cap`], which is `cap` there.
+fn cap_slope<T: Real>(curve: &Stribeck<T>, v: T, cap: T, g: T, g_slope: T) -> T {
+    let speed = v.abs();
+    let sign = if v >= T::ZERO { T::ONE } else { -T::ONE };
+    let g_slope = sign * g_slope;
+    let s2 = curve.direction(v).viscous;
+    let y_max = curve.largest_static_level();
+    let braked = s2 * speed / g;
+    let inner = (T::ONE + braked).sqrt();
+    let root = T::ONE + inner;
+    let slope = if y_max >= g * root {
+        let two = T::from_f64(2.0);
+        let root_slope = (s2 - braked * g_slope) / (two * g * inner);
+        (two * (g_slope * root + g * root_slope) - cap) / speed
+    } else {
+        let u = y_max / g;
+        let falls = y_max * u / speed * (g_slope / g + T::ONE / speed);
+        (cap * u * g_slope / g - falls) / (u - T::ONE)
+    };
+    sign * slope
 }

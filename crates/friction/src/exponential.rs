@@ -15,6 +15,9 @@ const WHOLE: f64 = 0.34;
 /// 2^-54: up to this an exponential is 1 plus its argument to rounding.
 const TINY: f64 = 1.0 / (1_u64 << 54) as f64;
 
+/// Below this an exponential is 0 to rounding.
+const VANISHED: f64 = -746.0;
+
 /// Adding this to a number rounds it to an integer; the lowest bits of the sum are then that integer with the bias of
 /// an exponent already on it.
 const ROUND: f64 = 1.5 * (1_u64 << 52) as f64 + 1023.0;
@@ -73,6 +76,8 @@ pub(crate) fn exp(x: f64) -> f64 {
     } else if size <= RANGE {
         let (scale, r) = reduced(x);
         scale + scale * grown(r)
+    } else if x < VANISHED {
+        0.0
     } else {
         libm::exp(x)
     }

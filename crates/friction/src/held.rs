@@ -71,7 +71,9 @@ impl<T: Real> Held<T> for LuGre<T> {
 
     #[inline]
     fn mean_force_slope(&self, from: T, h: T, v: T) -> (T, T) {
-        self.step_held_force(from, h, v)[1]
+        let level = LuGre::curve(self).level_and_slope(v);
+        let end = self.held_at_level(from, h, v, level);
+        self.mean_force_from_end(from, end, h, v, level.0)
     }
 
     fn force_now(&self, state: T, v: T) -> T {

@@ -123,6 +123,7 @@ mod record;
 mod shape;
 mod statics;
 mod stribeck;
+mod sweep;
 
 pub use dahl::Dahl;
 pub use damping::Damping;
@@ -136,3 +137,4 @@ pub use realtime::State;
 pub use shape::Shape;
 pub use statics::{CoulombViscous, TanhRegularised};
 pub use stribeck::{Direction, Stribeck};
+pub use sweep::Sweep;

@@ -103,11 +103,11 @@ macro_rules! real {
             fn sqrt(self) -> Self {
                 libm::$sqrt(self)
             }
-            #[inline]
+            #[inline(always)]
             fn exp(self) -> Self {
                 $exp(self)
             }
-            #[inline]
+            #[inline(always)]
             fn expm1(self) -> Self {
                 $expm1(self)
             }

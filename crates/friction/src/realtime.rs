@@ -36,7 +36,7 @@ impl<T: Real> LuGre<T> {
     }
 
     #[inline]
-    fn held_at_level(&self, z: T, h: T, v: T, (g, g_slope): (T, T)) -> (T, T) {
+    pub(crate) fn held_at_level(&self, z: T, h: T, v: T, (g, g_slope): (T, T)) -> (T, T) {
         let sign = if v >= T::ZERO { T::ONE } else { -T::ONE };
         let per_speed = h * self.stiffness() / g;
         let a = per_speed * v.abs();
@@ -45,15 +45,6 @@ impl<T: Real> LuGre<T> {
         let a_slope = sign * per_speed - a * g_slope / g;
         let slope = -(sign * g_slope / self.stiffness()) * e - lag * (T::ONE + e) * a_slope;
         (z + lag * e, slope)
-    }
-
-    /// [`step_held_slope`](Self::step_held_slope), then the mean force over the step with its derivative with respect to
-    /// `v`, N and N s/m (N m, N m s/rad): all that a step of an implicit simulation takes, from one level.
-    #[inline]
-    pub fn step_held_force(&self, z: T, h: T, v: T) -> [(T, T); 2] {
-        let level = self.curve().level_and_slope(v);
-        let end = self.held_at_level(z, h, v, level);
-        [end, self.mean_force_from_end(z, end, h, v, level.0)]
     }
 
     /// One sample of the law in real time: advances `state` by `h` seconds at the velocity `v` (m/s, rad/s) and returns

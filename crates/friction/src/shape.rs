@@ -35,6 +35,7 @@ impl<T: Real> Shape<T> {
     /// The weight and its derivative with respect to `x`.
     ///
     /// At `x = 0` the derivative is taken as 0 for `Power` (below an exponent of 1 it is infinite there).
+    #[inline(always)]
     pub fn weight_and_slope(self, x: T) -> (T, T) {
         let two = T::from_f64(2.0);
         let w = self.weight(x);

@@ -142,6 +142,7 @@ impl<T: Real> Stribeck<T> {
     }
 
     /// Level `g(v)` and its derivative with respect to `v`, N and N s/m (N m, N m s/rad).
+    #[inline(always)]
     pub fn level_and_slope(&self, v: T) -> (T, T) {
         let positive = v >= T::ZERO;
         let d = self.side(positive);

@@ -2,7 +2,8 @@
 //!
 //! FILE holds little-endian f64, velocity and force of each sample in turn, at 10 kHz. Prints for each part
 //! the least time in ms and, where the kernel tells it, the mean processor time; the least time of a batch on
-//! one and on two threads; what the search counted, and the parameters.
+//! one and on two threads, and of its two halves on two threads that share nothing, which is what the machine
+//! gives; what the search counted, and the parameters.
 
 use rayon::prelude::*;
 use std::hint::black_box;
@@ -80,9 +81,10 @@ fn main() {
         offset: false,
         ..Terms::default()
     };
-    let search = || -> Optimum {
-        separable(&record, law, &terms, &Settings::default(), &mut Silent).expect("a fit")
+    let searched = |record: &Record| -> Optimum {
+        separable(record, law, &terms, &Settings::default(), &mut Silent).expect("a fit")
     };
+    let search = || searched(&record);
     let estimated = |found: &Optimum| -> Estimate { estimate(&record, law, &terms, found, 0.0) };
     let pool = |threads| {
         let builder = rayon::ThreadPoolBuilder::new().num_threads(threads);
@@ -92,6 +94,19 @@ fn main() {
     let batch = || {
         (0..BATCH).into_par_iter().for_each(|_| {
             black_box(estimated(&search()));
+        });
+    };
+    let halves = [pool(1), pool(1)].map(|pool| (pool, record.clone()));
+    let apart = || {
+        std::thread::scope(|scope| {
+            for (pool, record) in &halves {
+                let half = || {
+                    for _ in 0..BATCH / 2 {
+                        black_box(estimate(record, law, &terms, &searched(record), 0.0));
+                    }
+                };
+                scope.spawn(move || pool.install(half));
+            }
         });
     };
     let found = search();
@@ -108,6 +123,7 @@ fn main() {
     let few = rounds.div_ceil(BATCH);
     timed("batch-1", few, &mut || one.install(batch));
     timed("batch-2", few, &mut || two.install(batch));
+    timed("apart-2", few, &mut || apart());
     println!("evaluations {}", found.counts.total());
     println!("thinned {}", found.counts.thinned);
     println!("cost {:e}", found.evaluation.cost);

@@ -7,6 +7,7 @@ mod curve;
 pub(crate) mod intervals;
 pub(crate) mod parameter;
 mod profile;
+mod sliding;
 pub(crate) mod uncertainty;
 
 use crate::conditioning::record::Record;
@@ -21,7 +22,7 @@ use crate::law::terms::{ColumnKind, Delay, Mass, Terms};
 use crate::observe::Counts;
 use crate::separable::Optimum;
 use crate::separable::levenberg::Status;
-use crate::separable::objective::Objective;
+use crate::separable::objective::{Column, Objective};
 
 /// Signals at the samples of the fit.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -182,8 +183,9 @@ pub fn estimate(
             .collect(),
     };
     curve::stays_within(&law, optimum, &mut parameters);
+    sliding::stays_in_presliding(record.stroke(), &mut parameters);
     advice::explain(&mut parameters, &covariance);
-    let series = series(&objective, &optimum.p, c);
+    let series = series(&objective, &optimum.p, c, &at.columns);
     let residual = at.residual();
     // The search refuses a force without energy; what is left is a residual too large to square.
     let fit = Fit::new(&series.measured, residual).unwrap_or(Fit {
@@ -223,7 +225,8 @@ pub fn estimate(
 /// Signals of another record under a fitted law, nothing fitted again.
 pub fn predict(record: &Record, fitted: &Estimate) -> Series {
     let objective = Objective::new(record, fitted.law, &fitted.terms);
-    series(&objective, &fitted.p, &fitted.coefficients)
+    let columns = objective.columns_at(&fitted.p);
+    series(&objective, &fitted.p, &fitted.coefficients, &columns)
 }
 
 /// What each parameter that may be zero is measured by: the largest Coulomb level, for a coefficient
@@ -244,14 +247,15 @@ fn levels(objective: &Objective, raw: &[Physical]) -> Vec<f64> {
         .collect()
 }
 
-fn series(objective: &Objective, p: &[f64], coefficients: &[f64]) -> Series {
+/// Signals of a record, from the columns of the regression there.
+fn series(objective: &Objective, p: &[f64], coefficients: &[f64], columns: &[Column]) -> Series {
     let record = objective.record();
-    let parts = objective.parts(p, coefficients);
     let n = objective.force().len();
     let mut other = objective.inertia(p);
     other.resize(n, 0.0);
     let mut model = other.clone();
-    for (term, part) in objective.linear().iter().zip(&parts) {
+    let parts = columns.iter().zip(coefficients);
+    for (term, (column, c)) in objective.linear().iter().zip(parts) {
         let friction = matches!(
             term.column,
             ColumnKind::Level
@@ -263,10 +267,12 @@ fn series(objective: &Objective, p: &[f64], coefficients: &[f64]) -> Series {
                 | ColumnKind::LevelTimes(..)
                 | ColumnKind::SpeedTimes(..)
         );
-        for (i, x) in part.iter().enumerate() {
-            model[i] += x;
-            if !friction {
-                other[i] += x;
+        for (y, x) in model.iter_mut().zip(column.iter()) {
+            *y += c * x;
+        }
+        if !friction {
+            for (y, x) in other.iter_mut().zip(column.iter()) {
+                *y += c * x;
             }
         }
     }

@@ -42,6 +42,7 @@ mod observe;
 mod output_error;
 pub mod procedure;
 mod reaction;
+mod refit;
 mod replica;
 mod separable;
 mod tune;

@@ -8,12 +8,9 @@
 
 use crate::conditioning::record::{Record, Samples, Segment};
 use crate::conditioning::shift::Shift;
-use crate::conditioning::{Conditioning, condition};
 use crate::estimate::Estimate;
-use crate::estimate::uncertainty::{Unknowns, unknowns};
 use crate::law::terms::{ColumnKind, Delay, Terms};
 use crate::law::{Law, LawKind};
-use crate::observe::Counts;
 use crate::reaction::{Logging, Reaction};
 use crate::separable::objective::Objective;
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
@@ -23,8 +20,6 @@ use stiction_servo::plant::{Load, Motion, Plant};
 
 /// Delay of a force that is logged where it is held, from its sample to the next, samples.
 const HELD: f64 = -0.5;
-/// Seed of the replica without noise of the force.
-const SILENT: u64 = 999;
 /// The spring that keeps the simulated axis on the recorded motion: its frequency over the sample rate.
 const TRACKING: f64 = 0.01;
 /// The same where the controller's own answer keeps it there: a stiff spring with its damper would calm
@@ -38,7 +33,7 @@ pub(crate) struct Replica {
     /// The nonlinear unknowns behind them.
     pub p: Vec<f64>,
     /// The terms to fit them with: those of the estimate, with the delay that the replica has.
-    terms: Terms,
+    pub terms: Terms,
 }
 
 /// Simulates the axis of an estimate along its record; `None` for an axis that cannot be simulated:
@@ -247,70 +242,4 @@ fn plant(fitted: &Estimate) -> Option<Plant> {
     let damping = Damping::Constant(value("sigma1").unwrap_or(0.0));
     let law = LuGre::new(value("sigma0")?, damping, curve).ok()?;
     Plant::new(value("mass")?, law).ok()
-}
-
-/// Unknowns and coefficients that a fit of a replica finds, from its truth in `steps` Gauss-Newton
-/// steps: the errors are small, so one shows them to first order, two all but exactly. With `surety` also
-/// how sure that fit would be.
-pub(crate) fn refitted(
-    replica: &Replica,
-    conditioning: &Conditioning,
-    fitted: &Estimate,
-    steps: usize,
-    surety: bool,
-    counts: &mut Counts,
-) -> Option<Refit> {
-    let record = condition(&replica.logs, conditioning).ok()?;
-    let objective = Objective::new(&record, fitted.law, &replica.terms);
-    let mut p = replica.p.clone();
-    for _ in 0..steps {
-        let at = objective.evaluate(&p, true);
-        counts.sensitivities += 1;
-        let step = at.hessian.cholesky()?.solve(&at.descent);
-        for (x, d) in p.iter_mut().zip(step.iter()) {
-            *x += d.clamp(-1.0, 1.0);
-        }
-    }
-    let at = objective.evaluate(&p, surety);
-    if surety {
-        counts.sensitivities += 1;
-    } else {
-        counts.cost += 1;
-    }
-    let unknowns = surety.then(|| unknowns(&objective, &at));
-    let refit = Refit {
-        p,
-        square: at.cost / at.residual().len().max(1) as f64,
-        c: at.solution.coefficients,
-        unknowns,
-    };
-    let finite = |x: &[f64]| x.iter().all(|x| x.is_finite());
-    (finite(&refit.p) && finite(&refit.c) && refit.square.is_finite()).then_some(refit)
-}
-
-/// What a fit of a replica finds.
-pub(crate) struct Refit {
-    /// Nonlinear unknowns.
-    pub p: Vec<f64>,
-    /// Linear ones.
-    pub c: Vec<f64>,
-    /// How sure its residual makes it of them, if asked for.
-    pub unknowns: Option<Unknowns>,
-    /// Mean square of the residual.
-    square: f64,
-}
-
-/// White noise of the logged force that the residual of a fit shows: what a replica without any does
-/// not leave. The logged force itself does not tell, because a controller answers every step of its
-/// encoder with a force that the axis did get.
-pub(crate) fn force_noise(
-    record: &Record,
-    conditioning: &Conditioning,
-    fitted: &Estimate,
-    counts: &mut Counts,
-) -> Option<f64> {
-    let quiet = replica(record, fitted, 0.0, SILENT)?;
-    let refit = refitted(&quiet, conditioning, fitted, 1, false, counts)?;
-    let left = (fitted.fit.rmse * fitted.fit.rmse - refit.square).max(0.0);
-    Some((left / record.noise_gain()).sqrt())
 }

@@ -14,7 +14,8 @@ use crate::law::Law;
 use crate::law::physical::physical;
 use crate::law::terms::Terms;
 use crate::observe::{Control, Counts, Observer, Progress, Stage};
-use crate::replica::{Replica, force_noise, refitted, replica};
+use crate::refit::{force_noise, refitted};
+use crate::replica::{Replica, replica};
 use crate::separable::levenberg::Status;
 use crate::separable::{Settings, separable};
 

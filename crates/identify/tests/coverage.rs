@@ -50,14 +50,14 @@ fn sometimes_wrong(what: &str, tallies: &[Tally]) {
 
 #[test]
 fn white_noise() {
-    let tallies = coverage(80, |run| autoregressive(0.0, run));
+    let tallies = coverage(0..80, |run| autoregressive(0.0, run));
     holds("white", &tallies, 7);
     sometimes_wrong("white", &tallies);
 }
 
 #[test]
 fn coloured_noise() {
-    let tallies = coverage(80, |run| autoregressive(0.9, run));
+    let tallies = coverage(0..80, |run| autoregressive(0.9, run));
     holds("AR(1) .9", &tallies, 6);
     sometimes_wrong("AR(1) .9", &tallies);
 }
@@ -71,7 +71,7 @@ fn encoder_steps() {
         common_cutoff: Cutoff::Hz(200.0),
         ..Conditioning::default()
     };
-    let tallies = coverage(25, |run| quantised(1e-6, 0.05, &filters, run));
+    let tallies = coverage(0..25, |run| quantised(1e-6, 0.05, &filters, run));
     holds("1 um", &tallies, 8);
     sometimes_wrong("1 um", &tallies);
     for t in tallies.iter().filter(|t| t.counts()) {

@@ -2,7 +2,7 @@
 //!
 //! RECORD holds little-endian f64, velocity and force of each sample in turn, at 10 kHz; CANDIDATES six
 //! parameters each. Prints one line a kernel, name and least ns per candidate-step, on one thread; `pair`
-//! uses two.
+//! uses two, and `apart` two that share nothing, each with half of the candidates: what the machine gives.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -108,6 +108,16 @@ fn main() {
         black_box(motion);
     };
     let all = candidates.len();
+    let halves = [pool(1), pool(1)].map(|pool| (pool, track.clone()));
+    let apart = || {
+        std::thread::scope(|scope| {
+            let parts = candidates.chunks(all.div_ceil(2).max(1));
+            for ((pool, track), part) in halves.iter().zip(parts) {
+                let half = move || drop(black_box(costs(track, part, Scheme::Explin, set)));
+                scope.spawn(move || pool.install(half));
+            }
+        });
+    };
     println!(
         "# {set}, {} nodes for {} samples",
         track.nodes(),
@@ -117,6 +127,7 @@ fn main() {
     time("scalar-plant", 1, &one, &scalar_plant);
     time("cost", all, &one, &|| drop(black_box(cost(all, set))));
     time("cost-pair", all, &two, &|| drop(black_box(cost(all, set))));
+    time("cost-apart", all, &one, &apart);
     time("cost-8", 8, &one, &|| drop(black_box(cost(8, set))));
     time("cost-alone", 1, &one, &|| drop(black_box(cost(1, set))));
     for set in InstructionSet::all() {

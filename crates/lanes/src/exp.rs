@@ -46,16 +46,15 @@ pub(crate) fn at_most(x: f64, high: f64) -> f64 {
     if x < high { x } else { high }
 }
 
-/// An exponential taken apart: `exp(x) = scale (1 + r + r^2 q)`.
+/// The argument of an exponential, its power of two taken off: `exp(x) = scale exp(r)`, |r| <= ln2/2.
 #[derive(Clone, Copy)]
-struct Parts {
+struct Reduced {
     scale: f64,
     r: f64,
-    q: f64,
     square: f64,
 }
 
-impl Parts {
+impl Reduced {
     /// For `x` in -700..=700.
     #[inline(always)]
     fn of(x: f64) -> Self {
@@ -63,8 +62,17 @@ impl Parts {
         let n = shifted - ROUND;
         // The rounding of ln2 shifts the exponent by 2.3e-17 n, which only numbers far below one feel.
         let r = fma(n, -std::f64::consts::LN_2, x);
-        let scale = f64::from_bits(shifted.to_bits() << 52);
-        let square = r * r;
+        Reduced {
+            scale: f64::from_bits(shifted.to_bits() << 52),
+            r,
+            square: r * r,
+        }
+    }
+
+    /// `(exp(r) - 1 - r)/r^2`.
+    #[inline(always)]
+    fn quotient(&self) -> f64 {
+        let square = self.square;
         let half = |c: &[f64; 5]| {
             fma(
                 fma(fma(fma(c[4], square, c[3]), square, c[2]), square, c[1]),
@@ -72,30 +80,50 @@ impl Parts {
                 c[0],
             )
         };
+        fma(half(&ODD), self.r, half(&EVEN))
+    }
+
+    /// `exp(x)` for that quotient.
+    #[inline(always)]
+    fn exp(&self, quotient: f64) -> f64 {
+        fma(self.scale, fma(self.square, quotient, self.r), self.scale)
+    }
+}
+
+/// An exponential taken apart: `exp(x) = scale (1 + r + r^2 q)`.
+#[derive(Clone, Copy)]
+struct Parts {
+    reduced: Reduced,
+    q: f64,
+}
+
+impl Parts {
+    /// For `x` in -700..=700.
+    #[inline(always)]
+    fn of(x: f64) -> Self {
+        let reduced = Reduced::of(x);
         Self {
-            scale,
-            r,
-            q: fma(half(&ODD), r, half(&EVEN)),
-            square,
+            reduced,
+            q: reduced.quotient(),
         }
     }
 
     /// `exp(x)`.
     #[inline(always)]
     fn exp(&self) -> f64 {
-        fma(self.scale, fma(self.square, self.q, self.r), self.scale)
+        self.reduced.exp(self.q)
     }
 
     /// `(exp(x) - 1)/x` where |x| is below ln2/2.
     #[inline(always)]
     fn mean(&self) -> f64 {
-        fma(self.r, self.q, 1.0)
+        fma(self.reduced.r, self.q, 1.0)
     }
 
     /// Derivative of the mean with respect to `-x`, likewise.
     #[inline(always)]
     fn mean_slope(&self) -> f64 {
-        fma(self.q, 1.0 - self.r, -1.0)
+        fma(self.q, 1.0 - self.reduced.r, -1.0)
     }
 }
 
@@ -108,12 +136,35 @@ pub(crate) fn exp(x: f64) -> f64 {
     Parts::of(at_least(x, LOWEST)).exp()
 }
 
+/// [`exp`] of several numbers, step by step side by side: as written one after the other, the chain of operations
+/// of each would wait for that of the one before.
+#[inline(always)]
+pub(crate) fn exps<const K: usize>(x: [f64; K]) -> [f64; K] {
+    let mut reduced = [Reduced {
+        scale: 0.0,
+        r: 0.0,
+        square: 0.0,
+    }; K];
+    for k in 0..K {
+        reduced[k] = Reduced::of(at_least(x[k], LOWEST));
+    }
+    let mut q = [0.0; K];
+    for k in 0..K {
+        q[k] = reduced[k].quotient();
+    }
+    let mut out = [0.0; K];
+    for k in 0..K {
+        out[k] = reduced[k].exp(q[k]);
+    }
+    out
+}
+
 /// `expm1(x)` for `x` in -700..=0; relative error below 1e-15.
 #[inline(always)]
 pub(crate) fn expm1(x: f64) -> f64 {
-    let parts = Parts::of(x);
-    let grown = fma(parts.square, parts.q, parts.r);
-    fma(parts.scale, grown, parts.scale - 1.0)
+    let Parts { reduced, q } = Parts::of(x);
+    let grown = fma(reduced.square, q, reduced.r);
+    fma(reduced.scale, grown, reduced.scale - 1.0)
 }
 
 /// What an interval of length `a` does to a deviation.

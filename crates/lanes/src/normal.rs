@@ -1,8 +1,9 @@
 //! Sums from which variable projection takes its next step.
 
 use crate::curve::Curve;
-use crate::dispatch::InstructionSet;
+use crate::dispatch::{InstructionSet, Kernel};
 use crate::exp::fma;
+use crate::lane_array::chunk;
 use crate::sensitive::OWN;
 use crate::track::KEPT;
 use crate::{Error, Track};
@@ -142,19 +143,42 @@ pub fn sums_alone(
 /// Sums of products of the columns that all trials share, over the samples that count:
 /// `[force, velocity, columns..]` with each other.
 pub fn shared_sums(track: &Track) -> Vec<Vec<f64>> {
-    let columns = shared(track);
-    let product = |a: &[f64], b: &[f64]| {
-        let counts = track.marks.iter().map(|marks| marks & KEPT != 0);
-        let pairs = a.iter().zip(b).zip(counts);
-        pairs.fold(
-            0.0,
-            |sum, ((a, b), counts)| {
-                if counts { fma(*a, *b, sum) } else { sum }
-            },
-        )
-    };
-    let row = |a: &&[f64]| columns.iter().map(|b| product(a, b)).collect();
-    columns.iter().map(row).collect()
+    InstructionSet::best().run(SharedSums(track))
+}
+
+struct SharedSums<'a>(&'a Track);
+
+impl Kernel for SharedSums<'_> {
+    type Output = Vec<Vec<f64>>;
+
+    #[inline(always)]
+    fn run(self) -> Vec<Vec<f64>> {
+        let columns = shared(self.0);
+        let mut out = vec![vec![0.0; columns.len()]; columns.len()];
+        for i in 0..columns.len() {
+            for j in 0..=i {
+                let x = product(&self.0.marks, columns[i], columns[j]);
+                out[i][j] = x;
+                out[j][i] = x;
+            }
+        }
+        out
+    }
+}
+
+/// Sum of products over the samples that count; what does not count is a number all the same.
+#[inline(always)]
+fn product(marks: &[u8], a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; gram::LANES];
+    for at in (0..marks.len()).step_by(gram::LANES) {
+        let marks: &[u8; gram::LANES] = chunk(marks, at);
+        let (a, b): (&[f64; gram::LANES], &[f64; gram::LANES]) = (chunk(a, at), chunk(b, at));
+        for l in 0..gram::LANES {
+            let counts = f64::from(marks[l] & KEPT) / f64::from(KEPT);
+            sums[l] = fma(counts * a[l], b[l], sums[l]);
+        }
+    }
+    sums.iter().sum()
 }
 
 /// The shared columns in the direction of motion.

@@ -139,7 +139,11 @@ impl<S: Search> Search for Finished<S> {
 
     fn status(&self) -> Option<Status> {
         match &self.descents {
-            Some(descents) => status_of(descents),
+            // Least squares that converge do not make up for a search that was at its end before.
+            Some(descents) => status_of(descents).map(|status| match self.search.status() {
+                None | Some(Status::Exhausted) if status == Status::Converged => Status::Exhausted,
+                _ => status,
+            }),
             None if self.finish.is_some() && !self.niches.points().is_empty() => None,
             None => self.search.status(),
         }

@@ -15,8 +15,8 @@ use serde::{Deserialize, Serialize};
 /// Settings of the simplex method.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// Simplices, one after the other, 1 to 100 000. The first stands in the middle of the box; the
-    /// others alternate between the best so far and a point of a Sobol sequence. Default 20.
+    /// Simplices, one after the other, 1 to 100 000. They stand in turn at a point of a Sobol
+    /// sequence, which differs from seed to seed, and at the best so far. Default 20.
     pub simplices: usize,
     /// Edge of a new simplex in widths of the box, above 0 to 0.5. Default 0.2.
     pub edge: f64,
@@ -112,8 +112,8 @@ impl NelderMead {
     /// A new right-angled simplex, its edges pointing to the middle of the box.
     fn begin(&mut self) {
         let n = self.dimensions();
-        let corner = if self.begun > 0 && self.begun.is_multiple_of(2) {
-            sobol(self.begun / 2 - 1, n, self.seed)
+        let corner = if self.begun.is_multiple_of(2) {
+            sobol(self.begun / 2, n, self.seed)
         } else {
             self.best.clone()
         };

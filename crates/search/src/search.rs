@@ -87,7 +87,7 @@ impl Answers {
 pub enum Status {
     /// By its own criterion: nothing changes any more.
     Converged,
-    /// Its generations, rounds, restarts or steps are over.
+    /// Its generations, rounds, restarts, steps or evaluations are over.
     Exhausted,
     /// No step lowers the cost although the gradient is not small, or no point has a finite cost.
     Stalled,

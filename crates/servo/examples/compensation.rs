@@ -139,10 +139,10 @@ fn wrong_parameters() -> Result<(), ParamError> {
             rate,
             bandwidth: 60.0,
         };
-        let none = case.tracking(Feedforward::default())?.reversal_peak;
+        let none = case.tracking(Feedforward::default())?.peak;
         let reduction = |law: LuGre<f64>| -> Result<f64, ParamError> {
             let with = case.tracking(case.bare(Friction::LuGre(law), Source::Reference)?)?;
-            Ok(100.0 * (1.0 - with.reversal_peak / none))
+            Ok(100.0 * (1.0 - with.peak / none))
         };
         print!("| {rate} Hz | {:.1} % |", reduction(law)?);
         for by in [0.1, 0.3] {

@@ -59,6 +59,7 @@ pub struct Sample {
 
 impl Sample {
     /// Reference less true position, m (rad).
+    #[inline]
     pub fn error(&self) -> f64 {
         self.reference.position - self.position
     }
@@ -147,12 +148,14 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
     /// Changes the mass of the plant, kg (kg m^2), from now on: a load taken up or put down.
     pub fn set_mass(&mut self, mass: f64) -> Result<(), ParamError> {
         self.settings.plant = self.settings.plant.with_mass(mass)?;
+        self.integrator.forget();
         Ok(())
     }
 
     /// Changes the plant's law from now on; what it remembers stays.
     pub fn set_law(&mut self, law: L) {
         self.settings.plant = self.settings.plant.with_law(law);
+        self.integrator.forget();
     }
 
     /// Gives the compensator the level of friction to count on, a factor on its law, from now on.
@@ -169,6 +172,7 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
     }
 
     /// The position that the sensor shows at this sample, m (rad).
+    #[inline]
     pub fn measure(&mut self) -> f64 {
         if !self.fresh {
             let mut position = self.motion.position;
@@ -183,6 +187,7 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
 
     /// Measures, controls, and moves the axis by one control period. `ahead` is the reference velocity, m/s (rad/s), at the
     /// instant for which friction is to be compensated.
+    #[inline]
     pub fn step(&mut self, reference: Reference, ahead: f64, correction: Correction) -> Sample {
         let period = self.period;
         let measured = self.measure();
@@ -218,28 +223,27 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
             velocity: self.motion.velocity,
         };
         self.drive.command(command);
-        self.advance(time);
+        for i in 0..self.settings.substeps {
+            self.advance(time, f64::from(i) * self.stretch);
+        }
         self.count += 1;
         sample
     }
 
-    fn advance(&mut self, time: f64) {
-        let (period, part) = (self.period, self.stretch);
-        let span = period * part;
-        for i in 0..self.settings.substeps {
-            let begin = f64::from(i) * part;
-            let mut force = self.drive.force(begin, begin + part);
-            // Where the axis will be at the middle of the stretch, and when.
-            if let Some(cogging) = &self.settings.cogging {
-                force += cogging.force(self.motion.position + 0.5 * span * self.motion.velocity);
-            }
-            if let Some(disturbance) = &self.settings.disturbance {
-                force += disturbance.force(time + begin * period + 0.5 * span);
-            }
-            let load = Load::force(force);
-            self.motion =
-                self.integrator
-                    .advance(&self.settings.plant, self.motion, span, load, 0.0);
+    /// Moves the axis by a stretch of the period that began at `time`, from the part `begin` of it on.
+    // Not inlined into the loop over the stretches: what stays the same would be kept on the stack.
+    #[inline(never)]
+    fn advance(&mut self, time: f64, begin: f64) {
+        let span = self.period * self.stretch;
+        let mut force = self.drive.force(begin, begin + self.stretch);
+        // Where the axis will be at the middle of the stretch, and when.
+        if let Some(cogging) = &self.settings.cogging {
+            force += cogging.force(self.motion.position + 0.5 * span * self.motion.velocity);
         }
+        if let Some(disturbance) = &self.settings.disturbance {
+            force += disturbance.force(time + begin * self.period + 0.5 * span);
+        }
+        let (plant, load) = (&self.settings.plant, Load::force(force));
+        self.motion = self.integrator.advance(plant, self.motion, span, load, 0.0);
     }
 }

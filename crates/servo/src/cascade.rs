@@ -70,6 +70,7 @@ impl Cascade {
 
     /// [`force`](Self::force) with a further force, N (N m), that is fed forward: it counts for the limit and for the
     /// integral's anti-windup.
+    #[inline]
     pub fn force_with(
         &self,
         state: &mut CascadeState,

@@ -63,7 +63,9 @@ impl Controller {
     }
 
     /// The force, N (N m), to hold for the next `h` seconds, from the reference and the measured position (m, rad) at
-    /// this instant and a further force (N, N m) that is fed forward.
+    /// this instant and a further force (N, N m) that is fed forward. A cascade is given the reference velocity of half
+    /// `h` ago, since that is the age of the speed that it measures.
+    #[inline]
     pub fn force(
         &self,
         state: &mut ControllerState,
@@ -74,6 +76,12 @@ impl Controller {
     ) -> f64 {
         match self {
             Controller::Cascade(cascade) => {
+                // Its measured speed is that over the last period, half of one ago: so is the one it is compared with.
+                let velocity = reference.velocity - 0.5 * h * reference.acceleration;
+                let reference = Reference {
+                    velocity,
+                    ..reference
+                };
                 cascade.force_with(&mut state.cascade, h, reference, position, feedforward)
             }
             Controller::Pid(pid) => pid.force(&mut state.pid, h, reference, position, feedforward),

@@ -1,5 +1,6 @@
 //! Cross-coupled control: the error that counts for a part is that of the contour, not of either axis.
 
+use crate::controller::Controller;
 use crate::plane::Deviation;
 use stiction_friction::ParamError;
 
@@ -44,6 +45,20 @@ impl CrossCoupling {
         };
         coupling.validate()?;
         Ok(coupling)
+    }
+
+    /// The same above axes with these controllers. A PID integrates the position error itself, and two integrators of
+    /// nearly the same error drift against each other until one is at its limit: above it the coupling has none.
+    pub fn above(self, axes: [&Controller; 2]) -> Self {
+        let integrates = |c: &&Controller| matches!(c, Controller::Pid(_) | Controller::Fuzzy(_));
+        if axes.iter().any(integrates) {
+            CrossCoupling {
+                integral: 0.0,
+                ..self
+            }
+        } else {
+            self
+        }
     }
 
     /// Refuses settings out of range.

@@ -163,10 +163,14 @@ impl RunningDrive {
     }
 
     /// Takes the force that the controller asks for, N (N m), at the beginning of a period; limited to the peak.
+    #[inline]
     pub fn command(&mut self, force: f64) {
         let volts = force * self.per_force;
         let current = self.drive.amplifier_gain * volts;
-        self.newest = (self.newest + 1) % self.commands.len();
+        self.newest += 1;
+        if self.newest == self.commands.len() {
+            self.newest = 0;
+        }
         self.commands[self.newest] =
             current.clamp(-self.drive.peak_current, self.drive.peak_current);
         let hot = self.heat > self.drive.rated_current * self.drive.rated_current;
@@ -179,6 +183,7 @@ impl RunningDrive {
 
     /// Mean force, N (N m), over the stretch of the present period from `begin` to `end`, as parts of it, 0 to 1. The
     /// stretches of a period are to be asked for in their order.
+    #[inline]
     pub fn force(&mut self, begin: f64, end: f64) -> f64 {
         if self.part <= begin || self.part >= end {
             let late = usize::from(self.part >= end);
@@ -191,9 +196,13 @@ impl RunningDrive {
     }
 
     /// Mean current, A, while the loop follows the command of `late` periods ago for `part` of a period.
+    #[inline]
     fn follow(&mut self, late: usize, part: f64) -> f64 {
-        let size = self.commands.len();
-        let wanted = self.commands[(self.newest + size - late) % size];
+        let at = match self.newest.checked_sub(late) {
+            Some(at) => at,
+            None => self.newest + self.commands.len() - late,
+        };
+        let wanted = self.commands[at];
         if self.drive.current_lag == 0.0 {
             self.current = wanted;
             return wanted;

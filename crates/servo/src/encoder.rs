@@ -34,6 +34,7 @@ impl Encoder {
     }
 
     /// The position read at the true `position`, m (rad): that of the nearest count.
+    #[inline]
     pub fn read(&self, position: f64) -> f64 {
         if self.resolution == 0.0 {
             return position;

@@ -43,6 +43,8 @@ const REMEMBERED: usize = 34;
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunningFeedforward {
     parts: Feedforward,
+    /// No part is there.
+    none: bool,
     observed: DisturbanceState<f64>,
     /// The last commands less what the compensator and the passes gave, N (N m), the newest at `newest`: the observer
     /// is to find what they leave.
@@ -81,6 +83,7 @@ impl Feedforward {
         }
         Ok(RunningFeedforward {
             parts: self.clone(),
+            none: self.compensator.is_none() && self.observer.is_none() && self.learned.is_empty(),
             observed: DisturbanceState::default(),
             commands: [0.0; REMEMBERED],
             newest: 0,
@@ -105,6 +108,10 @@ impl RunningFeedforward {
 
     #[inline]
     pub(crate) fn force(&mut self, moment: Moment) -> f64 {
+        if self.none { 0.0 } else { self.sum(moment) }
+    }
+
+    fn sum(&mut self, moment: Moment) -> f64 {
         let mut force = 0.0;
         if let Some(compensator) = &mut self.parts.compensator {
             force += compensator.step(Input {

@@ -9,6 +9,10 @@ use stiction_friction::ParamError;
 ///
 /// Rules with the product as "and", singletons as consequences and their weighted mean as the result: with triangles that
 /// overlap by half that is the bilinear interpolation of the table, exactly, at the cost of four entries.
+///
+/// The tables are those of Zhang et al. 2025 (doi 10.1371/journal.pone.0322844). With the signs of error and rate the
+/// entries of the proportional and the integral one turn theirs, where an equal answer to both directions would need the
+/// same gain: a symmetric axis is held unevenly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FuzzyPid {
     /// The gains around which the rules move.

@@ -30,6 +30,9 @@ pub trait Integrator<L: Held<f64>> {
         load: Load,
         rate: f64,
     ) -> Motion<L::State>;
+
+    /// To be told when the plant is no longer that of the call before: what was kept of it is dropped.
+    fn forget(&mut self) {}
 }
 
 /// The implicit midpoint of [`Plant::step`] in equal steps.
@@ -84,6 +87,12 @@ impl Integrator<LuGre<f64>> for Choice {
             Choice::Quick(quick) => quick.advance(plant, from, span, load, rate),
             Choice::Rodas3(rodas3) => rodas3.advance(plant, from, span, load, rate),
             Choice::Ode4(ode4) => ode4.advance(plant, from, span, load, rate),
+        }
+    }
+
+    fn forget(&mut self) {
+        if let Choice::Quick(quick) = self {
+            Integrator::<LuGre<f64>>::forget(quick);
         }
     }
 }

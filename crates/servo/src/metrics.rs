@@ -15,7 +15,9 @@ pub struct Tracking {
     pub peak: f64,
     /// Largest error about a reversal of the reference, m (rad): the quadrant spike. 0 without reversals. A spike stands
     /// where friction has turned round, which on a slow motion is long after the reversal: what counts is 20 ms to either
-    /// side, or a quarter of the time between reversals if that is longer.
+    /// side, or a quarter of the way before and after in time if that is longer. A way is from a reversal, or the
+    /// beginning of the samples, to the next, or their end, without the rest of the reference after it; where the
+    /// reference rests before a reversal, 20 ms before it count.
     pub reversal_peak: f64,
     /// Rms change of the command from sample to sample, N (N m).
     pub command_change: f64,
@@ -32,8 +34,7 @@ const SETTLES: f64 = 0.1;
 impl Tracking {
     /// Of the samples given; none give zeros. Leave out what is not to count, as the first cycle.
     pub fn of(samples: &[Sample]) -> Self {
-        let reversals = reversals(samples);
-        let about = about(&reversals);
+        let turns = turns(samples);
         let squares = samples.iter().map(|s| s.error() * s.error());
         let changes = samples
             .windows(2)
@@ -41,55 +42,69 @@ impl Tracking {
         Tracking {
             rms: root_mean(squares),
             peak: samples.iter().fold(0.0, |m, s| m.max(s.error().abs())),
-            reversal_peak: near(samples, &reversals, about)
+            reversal_peak: about(samples, &turns)
+                .flatten()
                 .fold(0.0, |m, s| m.max(s.error().abs())),
             command_change: root_mean(changes),
-            stick_time: stick_time(samples, &reversals),
+            stick_time: stick_time(samples, &turns),
         }
     }
 }
 
 /// Instants, s, at which the reference velocity changes sign.
 pub fn reversals(samples: &[Sample]) -> Vec<f64> {
-    let mut sign = 0.0;
-    let mut instants = Vec::new();
-    for sample in samples {
-        let v = sample.reference.velocity;
-        if v == 0.0 {
-            continue;
-        }
-        if sign * v < 0.0 {
-            instants.push(sample.time);
-        }
-        sign = v.signum();
-    }
-    instants
+    turns(samples).iter().map(|turn| turn.time).collect()
 }
 
-/// Time about a reversal that counts as part of it, s: from the shortest way between two.
-fn about(reversals: &[f64]) -> f64 {
-    let between = reversals.windows(2).map(|pair| pair[1] - pair[0]);
-    let shortest = between.fold(f64::INFINITY, f64::min);
-    if shortest.is_finite() {
-        ABOUT.max(0.25 * shortest)
-    } else {
-        ABOUT
-    }
+/// A reversal of the reference.
+struct Turn {
+    /// When it moved last the way before, s.
+    left: f64,
+    /// When it moves the other way, s.
+    time: f64,
 }
 
-/// Samples within `about` seconds of an instant of the ascending `instants`.
-fn near<'a>(
-    samples: &'a [Sample],
-    instants: &'a [f64],
-    about: f64,
-) -> impl Iterator<Item = &'a Sample> {
-    samples.iter().filter(move |s| {
-        let next = instants.partition_point(|t| *t < s.time - about);
-        instants.get(next).is_some_and(|t| *t <= s.time + about)
+fn turns(samples: &[Sample]) -> Vec<Turn> {
+    let mut last: Option<&Sample> = None;
+    let mut turns = Vec::new();
+    for sample in samples.iter().filter(|s| moves(s)) {
+        if let Some(last) = last.filter(|l| l.reference.velocity * sample.reference.velocity < 0.0)
+        {
+            turns.push(Turn {
+                left: last.time,
+                time: sample.time,
+            });
+        }
+        last = Some(sample);
+    }
+    turns
+}
+
+fn moves(sample: &Sample) -> bool {
+    sample.reference.velocity != 0.0
+}
+
+/// The samples about each reversal; stretches may overlap.
+fn about<'a>(samples: &'a [Sample], turns: &'a [Turn]) -> impl Iterator<Item = &'a [Sample]> {
+    let begin = samples.iter().find(|s| moves(s)).map(|s| s.time);
+    let end = samples.iter().rfind(|s| moves(s)).map(|s| s.time);
+    let place = |time: f64| samples.partition_point(|s| s.time < time);
+    turns.iter().enumerate().map(move |(i, turn)| {
+        let since = match i.checked_sub(1) {
+            Some(before) => turns[before].time,
+            None => begin.unwrap_or(turn.left),
+        };
+        let until = turns.get(i + 1).map_or(end, |next| Some(next.left));
+        let rested = turn.time - turn.left > ABOUT;
+        let before = if rested { 0.0 } else { turn.left - since };
+        let after = until.unwrap_or(turn.time) - turn.time;
+        let from = turn.time - ABOUT.max(0.25 * before);
+        let to = turn.time + ABOUT.max(0.25 * after);
+        &samples[place(from)..place(to)]
     })
 }
 
-fn stick_time(samples: &[Sample], reversals: &[f64]) -> f64 {
+fn stick_time(samples: &[Sample], turns: &[Turn]) -> f64 {
     let fastest = samples
         .iter()
         .fold(0.0_f64, |m, s| m.max(s.reference.velocity.abs()));
@@ -102,15 +117,21 @@ fn stick_time(samples: &[Sample], reversals: &[f64]) -> f64 {
         }
         let begin = *since.get_or_insert(sample.time);
         // A standstill belongs to a reversal that it holds or follows within the time about it.
-        let next = reversals.partition_point(|t| *t < begin - ABOUT);
-        if reversals
+        let next = turns.partition_point(|turn| turn.time < begin - ABOUT);
+        if turns
             .get(next)
-            .is_some_and(|t| *t <= sample.time + ABOUT)
+            .is_some_and(|turn| turn.time <= sample.time + ABOUT)
         {
             longest = longest.max(sample.time - begin);
         }
     }
     longest
+}
+
+/// Share of the samples whose command is at `limit` > 0, N (N m), or beyond; 0 of none.
+pub fn share_at_limit(samples: &[Sample], limit: f64) -> f64 {
+    let at = samples.iter().filter(|s| s.command.abs() >= limit).count();
+    at as f64 / samples.len().max(1) as f64
 }
 
 /// Rms deviation of the velocity from its mean over the mean: the ripple of a constant speed. Infinite at standstill.

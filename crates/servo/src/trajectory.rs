@@ -67,6 +67,7 @@ impl<'a, T: Trajectory + ?Sized> Lookahead<'a, T> {
         lookahead
     }
 
+    #[inline]
     fn read(&mut self) {
         self.known.copy_within(1..self.count, 0);
         self.known[self.count - 1] = self.trajectory.at(self.next as f64 / self.rate);
@@ -74,10 +75,12 @@ impl<'a, T: Trajectory + ?Sized> Lookahead<'a, T> {
     }
 
     /// The reference of this sample and the velocity `preview` samples later, m/s (rad/s); the next call is the next sample.
+    #[inline]
     pub fn sample(&mut self) -> (Reference, f64) {
         let now = self.known[0];
         if self.count == 1 {
-            self.read();
+            self.known[0] = self.trajectory.at(self.next as f64 / self.rate);
+            self.next += 1;
             return (now, now.velocity);
         }
         let velocities = self.known.map(|r| r.velocity);

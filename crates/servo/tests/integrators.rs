@@ -75,6 +75,31 @@ fn quick_is_mid() {
     }
 }
 
+/// Along a smooth motion the law is evaluated a step ahead; one that is exchanged on the way counts at once.
+#[test]
+fn quick_is_mid_when_the_law_is_exchanged() {
+    let axis = known::find("machine").unwrap();
+    let plant = Plant::new(axis.mass, axis.law).unwrap();
+    let other = known::corners(&axis.law, 0.1).next().unwrap();
+    let (mut a, mut b) = (Motion::default(), Motion::default());
+    let (mut mid, mut quick) = (Mid::new(1).unwrap(), Quick::new(1).unwrap());
+    for k in 0..4000 {
+        let swapped = k / 500 % 2 == 1;
+        let plant = if swapped {
+            plant.with_law(other)
+        } else {
+            plant
+        };
+        if k % 500 == 0 {
+            Integrator::<LuGre<f64>>::forget(&mut quick);
+        }
+        let force = 40.0 * libm::sin(2.0 * std::f64::consts::PI * 3.0 * f64::from(k) * 5e-5);
+        a = mid.advance(&plant, a, 5e-5, Load::force(force), 0.0);
+        b = quick.advance(&plant, b, 5e-5, Load::force(force), 0.0);
+        assert!((a.velocity - b.velocity).abs() < 1e-9, "{k}: {a:?} {b:?}");
+    }
+}
+
 #[test]
 fn rodas3_against_radau_on_the_stick_slip() {
     for (tolerance, allowed) in [(1e-6, 1e-3), (1e-7, 1e-4), (1e-8, 1e-5)] {

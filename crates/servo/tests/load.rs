@@ -141,7 +141,8 @@ fn the_estimate_feeds_the_compensation() {
     let changed = rms((3.0, 6.9, 1.4), false);
     let fed = rms((3.0, 6.9, 1.4), true);
     println!("rms {nominal:.2e} m, changed {changed:.2e}, with the estimate {fed:.2e}");
-    assert!(changed > 3.0 * nominal && fed < 1.1 * nominal);
+    // Nearly all that the change does is taken away; what is left is of the size of the encoder's step.
+    assert!(changed > 3.0 * nominal && fed < 0.01 * changed && fed < 1e-7);
 }
 
 #[test]

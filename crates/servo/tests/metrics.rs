@@ -66,9 +66,49 @@ fn reversals_and_what_stands_about_them() {
     assert!((Tracking::of(&all).reversal_peak - 1e-6).abs() < 1e-12);
     let late = samples(|t| if t > 1.3 && t < 1.32 { 5e-6 } else { 0.0 }, |_| 1.0);
     assert!((Tracking::of(&late).reversal_peak - 5e-6).abs() < 1e-12);
-    // A single reversal: 20 ms.
-    let single = &late[1000..1500];
-    assert_eq!(Tracking::of(single).reversal_peak, 0.0);
+    // A single reversal, at 1.25 s of 1 to 1.5 s: a quarter of the ways to either side, which are .25 s long.
+    let single = |from: f64, to: f64| {
+        let off = samples(|t| if t > from && t < to { 5e-6 } else { 0.0 }, |_| 1.0);
+        Tracking::of(&off[1000..1500]).reversal_peak
+    };
+    for inside in [(1.3, 1.32), (1.19, 1.2)] {
+        assert!((single(inside.0, inside.1) - 5e-6).abs() < 1e-12);
+    }
+    for outside in [(1.32, 1.5), (1.0, 1.18)] {
+        assert!(single(outside.0, outside.1) < 1e-12);
+    }
+}
+
+/// There, a rest, and back: a spike 55 ms after the turn belongs to it, what is left of the first move to settle in the
+/// rest before it does not.
+#[test]
+fn a_reversal_after_a_rest() {
+    let limits = Limits {
+        velocity: 0.05,
+        acceleration: 1.0,
+        jerk: 50.0,
+    };
+    let moves = Moves::there_and_back(0.02, 0.5, limits).unwrap();
+    let turn = 0.5 * moves.duration();
+    let off = |from: f64, to: f64| {
+        let samples: Vec<Sample> = (0..=(moves.duration() * 1e3) as usize)
+            .map(|k| {
+                let time = k as f64 * 1e-3;
+                let reference = moves.at(time);
+                let late = (turn + from..turn + to).contains(&time);
+                Sample {
+                    time,
+                    reference,
+                    position: reference.position - if late { 5e-6 } else { 0.0 },
+                    ..Sample::default()
+                }
+            })
+            .collect();
+        Tracking::of(&samples).reversal_peak
+    };
+    assert!((off(0.05, 0.06) - 5e-6).abs() < 1e-12);
+    assert!((off(-0.015, 0.0) - 5e-6).abs() < 1e-12);
+    assert!(off(-0.5, -0.03) < 1e-12 && off(0.2, 0.5) < 1e-12);
 }
 
 #[test]
@@ -121,6 +161,29 @@ fn circular_deviation_is_the_minimum_zone() {
     let width = circular_deviation(&bump);
     assert!((1e-6..=2e-6).contains(&width), "{width}");
     assert_eq!(circular_deviation(&[[0.0, 1.0]; 2]), 0.0);
+}
+
+/// Four single samples that stand out, two opposite ones and two across them, among very many: the zone holds them all,
+/// and about no centre is it narrower than the mean of what the pairs stand out by.
+#[test]
+fn circular_deviation_sees_single_samples() {
+    let n = 40_000;
+    let spikes = [
+        (1, 3e-6),
+        (n / 2 + 1, 3e-6),
+        (n / 4 + 1, -1e-6),
+        (3 * n / 4 + 1, -1e-6),
+    ];
+    let points: Vec<[f64; 2]> = (0..n)
+        .map(|k| {
+            let spike = spikes.iter().find(|(at, _)| *at == k);
+            let r = 10e-3 + spike.map_or(0.0, |(_, height)| *height);
+            let a = 2.0 * std::f64::consts::PI * f64::from(k) / f64::from(n);
+            [r * libm::cos(a), r * libm::sin(a)]
+        })
+        .collect();
+    let width = circular_deviation(&points);
+    assert!((width / 4e-6 - 1.0).abs() < 1e-6, "{width}");
 }
 
 /// There and back at 20 mm/s, with a velocity that waves by a tenth on the way there and by a fifth on the way back.

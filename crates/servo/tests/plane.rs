@@ -118,6 +118,36 @@ fn references_belong_together_and_corners_are_stops() {
     assert_eq!(stops, 4);
 }
 
+/// Recorded set points that start softly: with the time as parameter the curve hardly moves at first, and a tracking error
+/// is a long way in time. The deviation is still the part across.
+#[test]
+fn foot_points_where_the_reference_hardly_moves() {
+    let soft = |k: i32| {
+        let a = 2.0 * std::f64::consts::PI * f64::from(k) / 2000.0;
+        libm::sincos(a - libm::sin(a))
+    };
+    let xs = (0..=2000).map(|k| 0.01 * soft(k).1).collect();
+    let ys = (0..=2000).map(|k| 0.01 * soft(k).0).collect();
+    let turn = FreeForm::new(1000.0, xs, ys).unwrap();
+    for k in 1..400 {
+        let t = 2.5e-3 * f64::from(k);
+        let at = turn.at(t).axes.map(|r| r.position);
+        // 1 um outside of the circle about (-10 mm, 0), and an error of 5 um behind or ahead along it.
+        let angle = libm::atan2(at[1], at[0] + 0.01);
+        for along in [-5e-6, 5e-6] {
+            let (s, c) = libm::sincos(angle + along / 0.01);
+            let position = [0.010_001 * c - 0.01, 0.010_001 * s];
+            let found = turn.true_deviation(position, t).distance;
+            if angle + along / 0.01 > 0.0 {
+                assert!((found - 1e-6).abs() < 5e-9, "{t} {along}: {found}");
+            } else {
+                // Behind the start the nearest point is the start itself.
+                assert!(found.abs() < 5.1e-6, "{t} {along}: {found}");
+            }
+        }
+    }
+}
+
 #[test]
 fn contours_that_cannot_be_are_named() {
     assert_eq!(Polygon::new(&[]).unwrap_err().name, "points");

@@ -9,13 +9,13 @@ use crate::axis::Axis;
 use crate::error::Error;
 use crate::identify::record_of;
 use crate::spread::Spread;
-use genome::{about, genome};
+use genome::{Floor, about, genome};
 use std::f64::consts::LN_10;
 use stiction_identify as engine;
 use stiction_identify::candidates::{
     Curve, Nonlinear, Scheme, Simulated, SixParameters, box_of_six, thinned,
 };
-use stiction_identify::{Law, LawKind, Observer, Record, SearchBox, Settings, Terms};
+use stiction_identify::{Delay, Law, LawKind, Observer, Record, SearchBox, Settings, Terms};
 use stiction_search::{Bounds, Fidelity, Limits, Method, Plan, Points, Problem, Run, levenberg};
 
 /// Evaluations of the reference of a steady curve, and of a simulation.
@@ -34,6 +34,8 @@ pub(super) struct Subject {
     pub truth: Vec<(String, f64)>,
     pub cost: Cost,
     data: Data,
+    /// The law that is fitted.
+    law: Law,
     bounds: Bounds,
     scheme: Scheme,
 }
@@ -88,12 +90,12 @@ impl Subject {
                     let bounds = search_box(&bounds);
                     let thinned = thinned.as_deref();
                     Box::new(
-                        Nonlinear::new(record, thinned, lugre(), terms, &bounds)
+                        Nonlinear::new(record, thinned, self.law, terms, &bounds)
                             .map_err(refused)?,
                     )
                 }
                 _ => Box::new(
-                    SixParameters::new(record, lugre(), terms, bounds, self.scheme)
+                    SixParameters::new(record, self.law, terms, bounds, self.scheme)
                         .map_err(refused)?,
                 ),
             },
@@ -121,13 +123,17 @@ impl Subject {
     pub fn reference(&self, observer: &mut dyn Observer) -> Result<(f64, &'static str), Error> {
         let refused = |e| self.refused(e);
         if let Data::Record { record, terms, .. } = &self.data {
+            // The searches do not fit a delay; they take one that is given.
             let still = Terms {
-                delay: engine::Delay::NONE,
+                delay: match terms.delay {
+                    Delay::Fitted => Delay::NONE,
+                    given => given,
+                },
                 ..terms.clone()
             };
             let settings = Settings::default();
-            let found =
-                engine::separable(record, lugre(), &still, &settings, observer).map_err(refused)?;
+            let found = engine::separable(record, self.law, &still, &settings, observer)
+                .map_err(refused)?;
             let energy: f64 = record.gather(|s| &s.force).iter().map(|u| u * u).sum();
             if self.scheme == Scheme::Explin {
                 return Ok((found.evaluation.cost / energy, "separable"));
@@ -135,7 +141,7 @@ impl Subject {
             // Where another integrator has its optimum is not known: near that of EXPLIN, if it is stable
             // there.
             let value = |name: &str| {
-                let estimate = engine::estimate(record, lugre(), &still, &found, 0.0);
+                let estimate = engine::estimate(record, self.law, &still, &found, 0.0);
                 estimate.value(name).unwrap_or(f64::NAN)
             };
             let fc = value("coulomb");
@@ -163,7 +169,7 @@ impl Subject {
             return Ok((least, "least squares from 64 starts"));
         }
         // A small box about the truth holds the optimum and nothing else.
-        let middle = genome(&self.truth, self.cost, 0.0);
+        let middle = genome(&self.truth, self.cost, Floor::NONE);
         let reach = 0.1 * LN_10;
         let bounds = Bounds::new(
             middle.iter().map(|x| x - reach).collect(),
@@ -202,6 +208,7 @@ fn least(problem: &Shared, method: Method, evaluations: u64) -> Result<f64, Erro
     Ok(run.best().map_or(f64::INFINITY, |best| best.cost))
 }
 
+/// LuGre with a Gaussian curve.
 fn lugre() -> Law {
     Law::new(LawKind::LuGre)
 }
@@ -230,6 +237,16 @@ fn from_log(
         ));
     }
     let axis = axis.map_or_else(|| Ok(Axis::default()), Axis::read)?;
+    if axis.exponent_fitted {
+        return Err(Error::usage(
+            "stribeck_exponent = \"fit\"",
+            "a number; only the default method of identify fits it",
+        ));
+    }
+    let law = Law {
+        exponent: axis.stribeck_exponent,
+        ..lugre()
+    };
     let (sources, record, terms) = record_of(logs, &axis, observer)?;
     let name: Vec<String> = sources
         .iter()
@@ -243,7 +260,7 @@ fn from_log(
     let cost = options.cost.unwrap_or(Cost::Six);
     let bounds = match (options.decades, cost) {
         (None, Cost::Separable) => {
-            let inner = SearchBox::from_record(&record, &lugre()).map_err(refused)?;
+            let inner = SearchBox::from_record(&record, &law).map_err(refused)?;
             let ends = |end: fn(&SearchBox, usize) -> f64| {
                 (0..inner.len()).map(|i| end(&inner, i)).collect()
             };
@@ -253,14 +270,13 @@ fn from_log(
         (None, _) => box_of_six(&record).map_err(refused)?,
         (Some(decades), _) => {
             let settings = Settings::default();
-            let (estimate, _) =
-                engine::identify(&record, lugre(), &terms, 0.0, &settings, observer)
-                    .map_err(refused)?;
+            let (estimate, _) = engine::identify(&record, law, &terms, 0.0, &settings, observer)
+                .map_err(refused)?;
             let found: Vec<(String, f64)> = (estimate.parameters.iter())
                 .map(|p| (p.name.clone(), p.value))
                 .collect();
-            let least = 1e-3 * estimate.value("coulomb").unwrap_or(1.0) / record.top_speed();
-            about(&genome(&found, cost, least), decades)?
+            let floor = Floor::new(estimate.value("coulomb").unwrap_or(1.0), record.top_speed());
+            about(&genome(&found, cost, floor), decades)?
         }
     };
     Ok(Subject {
@@ -271,6 +287,7 @@ fn from_log(
         rate_hz: 1.0 / record.step(),
         truth: Vec::new(),
         cost,
+        law,
         scheme: options.integrator,
         bounds,
         data: Data::Record {

@@ -158,27 +158,34 @@ type Steps = Vec<(f64, f64)>;
 /// Lower quartile, median, upper quartile of what is finite; `None` without values.
 fn quartiles(mut values: Vec<f64>) -> Option<[f64; 3]> {
     values.retain(|x| x.is_finite());
-    if values.is_empty() {
-        return None;
-    }
+    (!values.is_empty()).then(|| between(values))
+}
+
+/// The same of all values, of which there is at least one.
+fn between(mut values: Vec<f64>) -> [f64; 3] {
     values.sort_by(f64::total_cmp);
     let last = values.len() - 1;
-    Some([1, 2, 3].map(|q| {
+    [1, 2, 3].map(|q| {
         let place = q * last;
         let (at, part) = (place / 4, (place % 4) as f64 / 4.0);
         let above = values[(at + 1).min(last)];
-        values[at] + part * (above - values[at])
-    }))
+        if part == 0.0 || above == values[at] {
+            values[at]
+        } else {
+            values[at] + part * (above - values[at])
+        }
+    })
 }
 
-/// Best cost so far of all runs at places common to them; where not all have begun, none.
+/// Best cost so far of all runs at places common to them, from where three quarters have begun: a run
+/// that has not stands at infinity.
 fn course(runs: &[Steps], whole: bool) -> Course {
     let ends = runs.iter().filter_map(|run| run.last());
     let last = ends.map(|s| s.0).fold(0.0, f64::max);
     let firsts = runs.iter().filter_map(|run| run.first());
-    let first = firsts.map(|s| s.0).fold(0.0, f64::max);
+    let first = firsts.map(|s| s.0).fold(f64::INFINITY, f64::min);
     let mut out = Course::default();
-    if runs.is_empty() || runs.iter().any(Vec::is_empty) || first <= 0.0 {
+    if !(first > 0.0 && first.is_finite()) {
         return out;
     }
     let ratio = libm::log(last / first) / (GRID - 1) as f64;
@@ -188,11 +195,12 @@ fn course(runs: &[Steps], whole: bool) -> Course {
         if out.at.last().is_some_and(|before| x <= *before) {
             continue;
         }
-        let best = |run: &Steps| {
-            let before = run.partition_point(|s| s.0 <= x * (1.0 + 1e-9));
-            run[before.saturating_sub(1)].1
+        let best = |run: &Steps| match run.partition_point(|s| s.0 <= x * (1.0 + 1e-9)) {
+            0 => f64::INFINITY,
+            before => run[before - 1].1,
         };
-        if let Some([low, median, high]) = quartiles(runs.iter().map(best).collect()) {
+        let [low, median, high] = between(runs.iter().map(best).collect());
+        if high.is_finite() {
             out.at.push(x);
             out.low.push(low);
             out.median.push(median);

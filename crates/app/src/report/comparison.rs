@@ -148,8 +148,10 @@ fn excess(values: &Quartiles) -> String {
 
 fn key_figures(file: &CompareFile) -> Vec<KeyFigure> {
     let mut out = vec![
-        KeyFigure::new("Optimum", number::sig(file.reference.cost, 5), "")
-            .note(format!("cost J, by {}", file.reference.by)),
+        KeyFigure::new("Optimum", number::sig(file.reference.cost, 5), "").note(format!(
+            "cost J (sum of squared errors over that of the data), by {}",
+            file.reference.by
+        )),
     ];
     let full: Vec<&MethodEntry> = (file.methods.iter())
         .filter(|m| !m.runs.is_empty() && m.after_least_squares.successes == m.runs.len())
@@ -168,7 +170,7 @@ fn key_figures(file: &CompareFile) -> Vec<KeyFigure> {
         .count();
     out.push(
         KeyFigure::new(
-            "Without least squares",
+            "Without least squares after them",
             format!("{alone} of {}", file.methods.len()),
             "",
         )

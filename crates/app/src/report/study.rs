@@ -5,6 +5,7 @@ mod contour;
 pub(crate) use contour::scheme;
 
 use crate::study::StudyOutcome;
+use crate::study::doubt::CODES;
 use crate::study::result::{MetricEntry, ResultRow, SimulatedAxis, StudyFile};
 use crate::study::{Course, Trace};
 use crate::symbols;
@@ -47,7 +48,11 @@ pub(crate) fn study(outcome: &StudyOutcome) -> Document {
         .chunk_by(|a, b| (&a.path, &a.controller) == (&b.path, &b.controller))
         .collect();
     document = document.block(Block::KeyFigures(
-        cells.iter().take(4).filter_map(|c| best(c)).collect(),
+        cells
+            .iter()
+            .take(MOST_FIGURES)
+            .filter_map(|c| best(c))
+            .collect(),
     ));
     for (i, rows) in cells.iter().enumerate() {
         document = document
@@ -82,12 +87,11 @@ pub(crate) fn study(outcome: &StudyOutcome) -> Document {
 
 const MEANING: [&str; 7] = [
     "Errors are reference less true position. What the encoder does not see counts.",
-    "At reversals: the largest error within 20 ms of a change of direction, or a quarter of the time \
-     between two if that is longer.",
-    "Reduction: by how much the error at reversals is below that without compensation, on the same \
-     path and under the same controller; where a path has no reversal, the largest error.",
-    "On a contour the error is the distance to it, and the reduction that of the largest; coupling is \
-     control of that error above both axes. Circular: the least distance of two circles about one centre \
+    "Reduction: by how much the largest error is below that without compensation, on the same path and \
+     under the same controller.",
+    "At reversals: the largest error within 20 ms of a change of direction, or a quarter of the way \
+     before and after in time if that is longer.",
+    "On a contour the error is the distance to it; coupling is control of that error above both axes. Circular: the least distance of two circles about one centre \
      that hold the whole path between them.",
     "Worst: the same for the worst set of parameters.",
     "Δu: rms change of the commanded force from sample to sample. Still: longest standstill about a \
@@ -112,9 +116,8 @@ fn mass_unit(axis: &SimulatedAxis) -> &'static str {
 
 /// The metric by which compensators are compared.
 pub(crate) fn judged(row: &ResultRow) -> Option<&MetricEntry> {
-    let reversal = row.metric("reversal_peak").filter(|m| m.largest > 0.0);
-    let contour = row.metric("contour_peak");
-    contour.or(reversal).or_else(|| row.metric("peak_error"))
+    row.metric("contour_peak")
+        .or_else(|| row.metric("peak_error"))
 }
 
 fn verdict(file: &StudyFile) -> Callout {
@@ -136,6 +139,17 @@ fn verdict(file: &StudyFile) -> Callout {
         let text = format!(
             "{} runs. {worse} {rows} a run that tracks worse with compensation than without: marked \
              in the tables.",
+            number::count(runs as u64)
+        );
+        (Severity::Warning, text)
+    } else if file
+        .warnings
+        .iter()
+        .any(|w| CODES.contains(&w.code.as_str()))
+    {
+        let text = format!(
+            "{} runs. No compensator made the error that counts larger, but not every figure is what it seems: \
+             see the warnings.",
             number::count(runs as u64)
         );
         (Severity::Warning, text)
@@ -162,16 +176,29 @@ fn best(rows: &[ResultRow]) -> Option<KeyFigure> {
         .filter(|r| r.compensator != "none" || r.coupled)
         .filter_map(|r| Some((r, reduction(r)?)))
         .max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let error = match row.metric("contour_peak") {
+        Some(_) => "contour error",
+        None => "largest error",
+    };
+    // Which of them at which risk: the worst of all wrong parameters.
+    let same = |r: &&ResultRow| {
+        r.runs > 1 && (r.coupled, &r.compensator) == (row.coupled, &row.compensator)
+    };
+    let worst = rows.iter().filter(same).filter_map(|r| {
+        let metric = judged(r)?;
+        Some((r, metric.worst_reduction_percent?))
+    });
+    let worst = worst.min_by(|a, b| a.1.total_cmp(&b.1));
+    let risk = worst.map_or(String::new(), |(r, x)| {
+        format!("; {} at the worst of {}", less(x), r.parameters)
+    });
     Some(
         KeyFigure::new(
             format!("{}, {}", row.path, row.controller),
-            number::sig(percent, 3),
+            less(percent).trim_end_matches(" %").to_string(),
             "% less",
         )
-        .note(match row.metric("contour_peak") {
-            Some(_) => format!("contour error, {}", contour::scheme(row)),
-            None => format!("error at reversals, {}", row.compensator),
-        }),
+        .note(format!("{error}, {}{risk}", contour::scheme(row))),
     )
 }
 
@@ -193,17 +220,12 @@ fn table(rows: &[ResultRow]) -> Table {
             let metric = row.metric(name);
             Text::from(metric.map_or("–".into(), |m| quantity(m.mean, &m.unit)))
         };
-        let percent = |x: Option<f64>| Text::from(x.map_or("–".into(), percent));
+        let percent = |x: Option<f64>| Text::from(x.map_or("–".into(), less));
         let judged = judged(row).filter(|_| row.compensator != "none");
         let worst = judged.and_then(|m| m.worst_reduction_percent);
-        let switched = match row.switched_off {
-            0 => String::new(),
-            _ if row.runs == 1 => ", switched off".into(),
-            n => format!(", switched off in {n}"),
-        };
         let cells = [
             Text::from(row.compensator.as_str()),
-            Text::from(format!("{}{switched}", row.parameters)),
+            Text::from(believed(row)),
             value("rms_error"),
             value("peak_error"),
             value("reversal_peak"),
@@ -221,9 +243,43 @@ fn table(rows: &[ResultRow]) -> Table {
     table
 }
 
-/// Percent with one decimal: more would not be worth the axis it was simulated on.
-fn percent(x: f64) -> String {
-    format!("{x:.1} %").replace('-', "−")
+/// The kind of parameters, and what became of the compensation.
+fn believed(row: &ResultRow) -> String {
+    match row.remarks() {
+        remarks if remarks.is_empty() => row.parameters.clone(),
+        remarks => format!("{}, {remarks}", row.parameters),
+    }
+}
+
+/// A reduction with one decimal: more would not be worth the axis it was simulated on. What is not quite all of it is not
+/// said to be.
+pub(crate) fn less(x: f64) -> String {
+    match format!("{x:.1} %") {
+        all if all == "100.0 %" && x < 100.0 => "> 99.9 %".into(),
+        text => text.replace('-', "−"),
+    }
+}
+
+/// Rows that are drawn: those with exact parameters, of many the first, which is without compensation, and those that
+/// leave the least.
+fn drawn(rows: &[ResultRow]) -> (Vec<&ResultRow>, usize) {
+    let exact: Vec<&ResultRow> = rows.iter().filter(|r| r.parameters == "exact").collect();
+    let all = exact.len();
+    let left = |r: &ResultRow| judged(r).map_or(f64::INFINITY, |m| m.mean);
+    let mut order: Vec<usize> = (1..all).collect();
+    order.sort_by(|a, b| left(exact[*a]).total_cmp(&left(exact[*b])));
+    order.truncate(COLORS.len() - 1);
+    order.sort_unstable();
+    let chosen = std::iter::once(0).chain(order).filter_map(|i| exact.get(i));
+    (chosen.copied().collect(), all)
+}
+
+/// What is said of curves that are left out.
+fn left_out(drawn: usize, all: usize) -> String {
+    match all > drawn {
+        true => format!(" {drawn} of {all}: without compensation, and those that leave the least."),
+        false => String::new(),
+    }
 }
 
 /// A value with its unit under an SI prefix.
@@ -246,13 +302,13 @@ pub(crate) fn quantity(x: f64, unit: &str) -> String {
 
 /// Error and compensating force with the parameters of the axis: over all that counts, and about a reversal.
 fn in_time(outcome: &StudyOutcome, rows: &[ResultRow]) -> Vec<Figure> {
-    let traces: Vec<&Trace> = rows
-        .iter()
-        .filter(|r| r.parameters == "exact")
-        .filter_map(|r| outcome.trace(r))
-        .collect();
+    let (rows, all) = drawn(rows);
+    let traces: Vec<&Trace> = rows.iter().filter_map(|r| outcome.trace(r)).collect();
     let motion = motion(&outcome.file.axis);
-    let caption = "The part of the run that counts, with the parameters of the axis itself.";
+    let caption = format!(
+        "The part of the run that counts, with the parameters of the axis itself.{}",
+        left_out(traces.len(), all)
+    );
     let mut figures =
         vec![courses("Tracking error", &traces, motion, &|t| &t.whole).caption(caption)];
     if traces.iter().any(|t| !t.reversal.time.is_empty()) {
@@ -326,7 +382,7 @@ fn wrong(rows: &[ResultRow]) -> Option<Figure> {
         Axis::new(
             match contour::is_contour(rows) {
                 true => "Largest contour error, of that without compensation",
-                false => "Error at reversals, of that without compensation",
+                false => "Largest error, of that without compensation",
             },
             "%",
         ),
@@ -418,4 +474,15 @@ fn parameters(axis: &SimulatedAxis) -> Table {
             p.unit.clone(),
         ])
     })
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn what_is_nearly_all_is_not_all() {
+        assert_eq!(super::less(99.97), "> 99.9 %");
+        assert_eq!(super::less(99.94), "99.9 %");
+        assert_eq!(super::less(100.0), "100.0 %");
+        assert_eq!(super::less(-3.21), "−3.2 %");
+    }
 }

@@ -3,16 +3,14 @@
 use super::wrong::Belief;
 use super::{Machine, Scheme, Study};
 use stiction_friction::ParamError;
-use stiction_servo::axis::Axis;
+use stiction_servo::axis::{Axis, Sample};
 use stiction_servo::controller::Controller;
 use stiction_servo::cross_coupling::CrossCoupling;
 use stiction_servo::integrator::Quick;
-use stiction_servo::metrics::{Contour, Tracking, circular_deviation};
+use stiction_servo::metrics::{Contour, Tracking, circular_deviation, share_at_limit};
 use stiction_servo::plane::PlaneMotion;
 use stiction_servo::two_axes::{PlaneSample, follow};
 
-/// Most points of which the circular deviation is taken.
-const POINTS: usize = 1000;
 /// Points of a trace that are kept.
 const KEPT: usize = 3000;
 
@@ -36,7 +34,7 @@ pub(crate) struct ContourPlan {
 }
 
 /// Names of the metrics of a contour, in the order in which a run gives them; what they measure is in `docs/study.md`.
-pub(super) const METRICS: [&str; 7] = [
+pub(super) const METRICS: [&str; 9] = [
     "contour_rms",
     "contour_peak",
     "circular_deviation",
@@ -44,6 +42,8 @@ pub(super) const METRICS: [&str; 7] = [
     "reversal_peak_y",
     "command_change_x",
     "command_change_y",
+    "saturation_x",
+    "saturation_y",
 ];
 
 /// The course of a run on a contour with exact parameters, for figures.
@@ -71,8 +71,16 @@ pub(super) struct Plan<'a> {
     pub coupling: Option<CrossCoupling>,
 }
 
-/// What a run gives: its metrics, whether a watchdog switched off, the samples that count.
-pub(super) type Ran = (Vec<f64>, bool, Vec<PlaneSample>);
+/// What a run gives.
+pub(super) struct Ran {
+    pub metrics: Vec<f64>,
+    /// Whether a watchdog switched off, whether one still learnt when the run began to count.
+    pub switched_off: bool,
+    pub still_learning: bool,
+    /// All samples, and from which on they count.
+    pub samples: Vec<PlaneSample>,
+    pub counted: usize,
+}
 
 impl Study {
     pub(super) fn along(&self, second: &Second, plan: &Plan) -> Result<Ran, ParamError> {
@@ -86,32 +94,52 @@ impl Study {
         };
         let mut axes = [axis(0, &self.machine)?, axis(1, &second.machine)?];
         let contour = plan.contour;
-        let mut samples = follow(&mut axes, plan.coupling.as_ref(), contour.motion.as_ref())?;
+        let samples = follow(&mut axes, plan.coupling.as_ref(), contour.motion.as_ref())?;
+        let sides: [Vec<Sample>; 2] = [0, 1].map(|i| samples.iter().map(|s| s.axes[i]).collect());
+        let learnt = sides
+            .iter()
+            .filter_map(|side| plan.scheme.learnt(side, self.machine.rate));
+        let still_learning = learnt.fold(0.0, f64::max) > contour.skip;
         let from = samples.partition_point(|s| s.axes[0].time < contour.skip);
-        let counted = samples.split_off(from.min(samples.len()));
+        let counted = &samples[from..];
         let switched_off = axes.iter().any(|axis| {
             let compensator = axis.feedforward().compensator();
             compensator.is_some_and(|c| c.state().watch.tripped)
         });
-        Ok((metrics(contour, &counted), switched_off, counted))
+        let limits = [
+            self.machine.largest_force(&plan.controllers[0]),
+            second.machine.largest_force(&plan.controllers[1]),
+        ];
+        Ok(Ran {
+            metrics: metrics(
+                contour,
+                counted,
+                sides.each_ref().map(|s| &s[from..]),
+                limits,
+            ),
+            switched_off,
+            still_learning,
+            counted: from,
+            samples,
+        })
     }
 }
 
-fn metrics(contour: &ContourPlan, samples: &[PlaneSample]) -> Vec<f64> {
+fn metrics(
+    contour: &ContourPlan,
+    samples: &[PlaneSample],
+    sides: [&[Sample]; 2],
+    limits: [f64; 2],
+) -> Vec<f64> {
     let deviation = Contour::of(samples);
     let circular = match contour.kind {
         "circle" => {
-            let every = samples.len().div_ceil(POINTS).max(1);
-            let points = samples.iter().step_by(every);
-            let points: Vec<_> = points.map(|s| s.axes.map(|a| a.position)).collect();
+            let points: Vec<_> = samples.iter().map(|s| s.axes.map(|a| a.position)).collect();
             circular_deviation(&points)
         }
         _ => f64::NAN,
     };
-    let [x, y] = [0, 1].map(|i| {
-        let axis: Vec<_> = samples.iter().map(|s| s.axes[i]).collect();
-        Tracking::of(&axis)
-    });
+    let [x, y] = sides.map(Tracking::of);
     vec![
         deviation.rms,
         deviation.peak,
@@ -120,6 +148,8 @@ fn metrics(contour: &ContourPlan, samples: &[PlaneSample]) -> Vec<f64> {
         y.reversal_peak,
         x.command_change,
         y.command_change,
+        share_at_limit(sides[0], limits[0]),
+        share_at_limit(sides[1], limits[1]),
     ]
 }
 

@@ -137,8 +137,17 @@ impl<'a> Table<'a> {
 
     /// A value with its unit, in SI.
     pub fn value(&self, key: &'static str, dimension: Dimension) -> Result<Option<f64>, Error> {
-        let Some(text) = self.text(key)? else {
-            return Ok(None);
+        let text = match self.get(key).map(Spanned::get_ref) {
+            None => return Ok(None),
+            Some(DeValue::String(text)) => text,
+            Some(other) => {
+                let example = match dimension.si_text() {
+                    unit if unit == "1" => "\"10 %\"".into(),
+                    unit => format!("\"0.5 {unit}\""),
+                };
+                let allowed = format!("a value with its unit, in quotes, such as {example}");
+                return Err(self.refuse(key, shown(other), &allowed));
+            }
         };
         let value = Value::parse(text).map_err(|e| self.refuse(key, e.found, &e.allowed))?;
         let value = value
@@ -227,7 +236,25 @@ impl<'a> Table<'a> {
         found: Option<T>,
         example: &str,
     ) -> Result<T, Error> {
-        found.ok_or_else(|| self.refuse(key, "is missing".into(), &format!("give {example}")))
+        found.ok_or_else(|| {
+            let found = match self.mistyped(key) {
+                Some((line, name)) => format!("is missing, but line {line} has {name}"),
+                None => "is missing".into(),
+            };
+            self.refuse(key, found, &format!("give {example}"))
+        })
+    }
+
+    /// A key that nobody asked for so far and that is nearly this one, with its line.
+    fn mistyped(&self, key: &str) -> Option<(usize, &str)> {
+        let asked = self.asked.borrow();
+        let strangers = self
+            .entries
+            .keys()
+            .filter(|name| !asked.iter().any(|a| a == name.get_ref()));
+        let near = |name: &str| edits(key, &name.to_lowercase()) <= 1 + key.len() / 4;
+        let found = strangers.into_iter().find(|name| near(name.get_ref()));
+        found.map(|name| (self.source.line(name.span().start), name.get_ref().as_ref()))
     }
 
     /// Refuses keys that nobody asked for.
@@ -278,6 +305,21 @@ impl<'a> Table<'a> {
             allowed: allowed.into(),
         }
     }
+}
+
+/// Letters to change, add or leave out to make one word of another.
+fn edits(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().take(60).collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut corner = std::mem::replace(&mut row[0], i + 1);
+        for (j, y) in b.iter().enumerate() {
+            let change = corner + usize::from(x != *y);
+            corner = row[j + 1];
+            row[j + 1] = change.min(corner + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
 }
 
 fn whole(x: &toml::de::DeInteger<'_>) -> Option<i64> {

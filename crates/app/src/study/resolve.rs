@@ -3,6 +3,7 @@
 mod compensators;
 mod contours;
 mod controllers;
+mod file;
 mod machine;
 mod paths;
 
@@ -10,7 +11,7 @@ use super::raw::{Source, Table};
 use super::result::StudyInput;
 use super::wrong::{Belief, Family};
 use super::{Machine, Named, Study};
-use crate::error::Error;
+use crate::error::{Error, Warning};
 use crate::source::sha256;
 use std::path::Path;
 use stiction_log::{Dimension, Motion};
@@ -50,12 +51,7 @@ pub(super) fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
             inputs.push(folder.join(model));
         }
     }
-    let inputs = inputs.iter().map(|path| {
-        Ok(StudyInput {
-            path: path.display().to_string(),
-            sha256: sha256(path)?,
-        })
-    });
+    let inputs = inputs.iter().map(|path| input(path));
     let mut study = Study {
         name,
         seed,
@@ -70,13 +66,13 @@ pub(super) fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
         machine,
     };
     for table in root.tables("path", MOST)? {
-        let path = paths::path(&table, study.machine.motion)?;
+        let path = paths::path(&table, folder, &mut study)?;
         few(&table, path.trajectory.duration(), study.machine.rate)?;
         once(&table, study.paths.iter().map(|p| &p.name), &path.name)?;
         study.paths.push(path);
     }
     for table in root.tables("contour", MOST)? {
-        let contour = contours::contour(&table, &study)?;
+        let contour = contours::contour(&table, folder, &mut study)?;
         few(&table, contour.motion.duration(), study.machine.rate)?;
         let paths = study.paths.iter().map(|p| &p.name);
         let taken = paths.chain(study.contours.iter().map(|c| &c.name));
@@ -111,11 +107,30 @@ pub(super) fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
         let found = format!("{runs} runs");
         return Err(root.refuse("path", found, &format!("at most {MOST_RUNS} in all")));
     }
-    study.warnings = std::mem::take(&mut study.machine.model.warnings);
+    study.warnings.append(&mut study.machine.model.warnings);
     if let Some(second) = &mut study.second {
         study.warnings.append(&mut second.machine.model.warnings);
     }
     Ok(study)
+}
+
+fn input(path: &Path) -> Result<StudyInput, Error> {
+    Ok(StudyInput {
+        path: path.display().to_string(),
+        sha256: sha256(path)?,
+    })
+}
+
+impl Study {
+    /// Notes a file that was read, and what was said of it.
+    fn reads(&mut self, file: &Path, warning: Option<Warning>) -> Result<(), Error> {
+        let input = input(file)?;
+        if !self.inputs.contains(&input) {
+            self.inputs.push(input);
+        }
+        self.warnings.extend(warning);
+        Ok(())
+    }
 }
 
 /// A path is not too long.

@@ -114,11 +114,32 @@ pub struct ResultRow {
     pub runs: usize,
     /// Runs in which the watchdog switched the compensation off.
     pub switched_off: usize,
+    /// Runs in which the watchdog still learnt, and let no force through, when the run began to count.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub still_learning: usize,
     /// The metrics.
     pub metrics: Vec<MetricEntry>,
 }
 
+fn is_zero(count: &usize) -> bool {
+    *count == 0
+}
+
 impl ResultRow {
+    /// What became of the compensation: `switched off`, `still learning`, each with how often in several runs.
+    pub fn remarks(&self) -> String {
+        let counts = [
+            (self.switched_off, "switched off"),
+            (self.still_learning, "still learning"),
+        ];
+        let remarks = counts.into_iter().filter(|(n, _)| *n > 0);
+        let words = remarks.map(|(n, what)| match n {
+            _ if n == self.runs => what.to_string(),
+            n => format!("{what} in {n} of {}", self.runs),
+        });
+        words.collect::<Vec<_>>().join(", ")
+    }
+
     /// A metric by its name.
     pub fn metric(&self, name: &str) -> Option<&MetricEntry> {
         self.metrics.iter().find(|m| m.name == name)

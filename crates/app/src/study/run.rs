@@ -6,6 +6,7 @@ use super::result::{
 };
 use super::wrong::{Belief, Family};
 use super::{Machine, ModelKind, ModelScheme, PathPlan, Scheme, Study, StudyOutcome};
+use super::{course, doubt};
 use crate::symbols;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -20,7 +21,7 @@ use stiction_servo::axis::{Axis, AxisSettings, Sample};
 use stiction_servo::controller::Controller;
 use stiction_servo::feedforward::Feedforward;
 use stiction_servo::integrator::Quick;
-use stiction_servo::metrics::{Tracking, reversals, ripple_at_constant_velocity};
+use stiction_servo::metrics::{Tracking, reversals, ripple_at_constant_velocity, share_at_limit};
 use stiction_servo::run::follow;
 
 /// Points of a trace that are kept: more than a figure can show.
@@ -74,17 +75,21 @@ struct Done {
     job: Job,
     metrics: Vec<f64>,
     switched_off: bool,
+    still_learning: bool,
     trace: Option<Trace>,
     contour: Option<ContourTrace>,
+    /// Rows of `trajectories.csv` or `contours.csv`.
+    course: String,
 }
 
 /// Names of the metrics; what they measure is in `docs/study.md`.
-const METRICS: [&str; 6] = [
+const METRICS: [&str; 7] = [
     "rms_error",
     "peak_error",
     "reversal_peak",
     "command_change",
     "stick_time",
+    "saturation",
     "velocity_ripple",
 ];
 
@@ -173,8 +178,11 @@ pub(super) fn run(
     failed.dedup_by_key(|(job, _)| job.cell());
     warnings.extend(failed.iter().map(|(job, e)| study.not_run(*job, e)));
     let results = study.rows(&kept);
+    warnings.extend(doubt::warnings(study, &results));
     let (mut traces, mut contours) = (Vec::new(), Vec::new());
+    let mut courses = study.headers();
     for done in kept {
+        courses[usize::from(done.job.path >= study.paths.len())].push_str(&done.course);
         traces.extend(done.trace);
         contours.extend(done.contour);
     }
@@ -196,6 +204,7 @@ pub(super) fn run(
         },
         traces,
         contours,
+        courses,
     }
 }
 
@@ -221,36 +230,65 @@ impl Study {
         }
     }
 
+    fn names(&self, job: Job) -> course::Names<'_> {
+        [
+            self.path_name(job),
+            &self.controllers[job.controller].name,
+            &self.compensators[job.compensator].name,
+        ]
+    }
+
+    /// Headers of the courses on paths and on contours, where there are any.
+    fn headers(&self) -> [String; 2] {
+        let motion = self.machine.motion;
+        [
+            match self.paths.is_empty() {
+                true => String::new(),
+                false => course::header(motion),
+            },
+            match self.contours.is_empty() {
+                true => String::new(),
+                false => course::contour_header(motion),
+            },
+        ]
+    }
+
     fn on_contour(&self, job: Job, contour: &ContourPlan) -> Result<Done, ParamError> {
         let missing = ParamError::new("axes", 1.0, "two, for a contour");
         let second = self.second.as_ref().ok_or(missing)?;
         let family = &self.families[job.family];
+        let controllers = [
+            self.controllers[job.controller].it,
+            second.controllers[job.controller],
+        ];
+        let coupling = second.coupling.filter(|_| job.coupled);
         let plan = Plan {
             contour,
-            controllers: [
-                self.controllers[job.controller].it,
-                second.controllers[job.controller],
-            ],
+            controllers,
             scheme: &self.compensators[job.compensator].it,
             beliefs: [
                 family.beliefs[job.belief],
                 second.families[job.family][job.belief],
             ],
-            coupling: second.coupling.filter(|_| job.coupled),
+            coupling: coupling.map(|c| c.above(controllers.each_ref())),
         };
-        let (metrics, switched_off, samples) = self.along(second, &plan)?;
-        let names = [
-            self.path_name(job),
-            &self.controllers[job.controller].name,
-            &self.compensators[job.compensator].name,
-        ];
+        let ran = self.along(second, &plan)?;
+        let names = self.names(job);
+        let exact = family.kind == "exact";
         Ok(Done {
             job,
-            metrics,
-            switched_off,
+            metrics: ran.metrics,
+            switched_off: ran.switched_off,
+            still_learning: ran.still_learning,
             trace: None,
-            contour: (family.kind == "exact")
-                .then(|| ContourTrace::of(names, job.coupled, &samples)),
+            course: match exact {
+                true => {
+                    course::contour_rows(names, job.coupled, &ran.samples, self.rows_of_a_run())
+                }
+                false => String::new(),
+            },
+            contour: exact
+                .then(|| ContourTrace::of(names, job.coupled, &ran.samples[ran.counted..])),
         })
     }
 
@@ -279,6 +317,8 @@ impl Study {
                 samples = follow(&mut axis, path.trajectory.as_ref())?;
             }
         }
+        let exact = family.kind == "exact";
+        let learnt = scheme.learnt(&samples, self.machine.rate);
         let from = samples.partition_point(|s| s.time < path.skip);
         let counted = &samples[from.min(samples.len())..];
         let tracking = Tracking::of(counted);
@@ -291,11 +331,17 @@ impl Study {
                 tracking.reversal_peak,
                 tracking.command_change,
                 tracking.stick_time,
+                share_at_limit(counted, self.machine.largest_force(&controller)),
                 ripple_at_constant_velocity(counted).unwrap_or(f64::NAN),
             ],
             switched_off: compensator.is_some_and(|c| c.state().watch.tripped),
-            trace: (family.kind == "exact").then(|| Trace::of(self, job, counted)),
+            still_learning: learnt.is_some_and(|t| t > path.skip),
+            trace: exact.then(|| Trace::of(self, job, counted)),
             contour: None,
+            course: match exact {
+                true => course::rows(self.names(job), &samples, self.rows_of_a_run()),
+                false => String::new(),
+            },
         })
     }
 
@@ -326,6 +372,7 @@ impl Study {
                 parameters: family.name.clone(),
                 runs: cell.len(),
                 switched_off: cell.iter().filter(|d| d.switched_off).count(),
+                still_learning: cell.iter().filter(|d| d.still_learning).count(),
                 metrics: metrics.collect(),
             };
             let without = rows
@@ -370,10 +417,16 @@ impl Machine {
         }
     }
 
+    /// What the controller may ask for and the drive can give, N (N m).
+    pub(super) fn largest_force(&self, controller: &Controller) -> f64 {
+        controller.force_limit().min(self.drive.peak_force())
+    }
+
     fn unit(&self, metric: &str) -> String {
         match (metric, self.motion) {
             ("stick_time", _) => "s",
             ("velocity_ripple", _) => "1",
+            (name, _) if name.starts_with("saturation") => "1",
             (name, Motion::Linear) if name.starts_with("command_change") => "N",
             (name, Motion::Rotary) if name.starts_with("command_change") => "N*m",
             (_, motion) => symbols::length_unit(motion),

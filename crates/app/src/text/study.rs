@@ -1,7 +1,7 @@
 //! A study on the terminal.
 
 use super::table;
-use crate::report::{judged, quantity, scheme};
+use crate::report::{judged, less, quantity, scheme};
 use crate::study::StudyOutcome;
 use crate::study::result::ResultRow;
 use std::fmt::Write;
@@ -10,6 +10,9 @@ use std::fmt::Write;
 pub fn study(outcome: &StudyOutcome) -> String {
     let file = &outcome.file;
     let mut out = format!("{}: {}\n", file.name, file.axis.origin);
+    if let Some(second) = &file.second_axis {
+        let _ = writeln!(out, "second axis: {}", second.origin);
+    }
     let same = |a: &ResultRow, b: &ResultRow| (&a.path, &a.controller) == (&b.path, &b.controller);
     for rows in file.results.chunk_by(same) {
         let _ = writeln!(out, "\n{}, {}", rows[0].path, rows[0].controller);
@@ -49,7 +52,7 @@ fn line(row: &ResultRow) -> Vec<String> {
         metric.map_or("-".into(), |m| quantity(m.mean, &m.unit))
     };
     let judged = judged(row).filter(|_| row.compensator != "none" || row.coupled);
-    let percent = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.1} %"));
+    let percent = |x: Option<f64>| x.map_or(String::new(), less);
     vec![
         scheme(row),
         row.parameters.clone(),
@@ -70,10 +73,6 @@ fn line(row: &ResultRow) -> Vec<String> {
                 .and_then(|m| m.worst_reduction_percent)
                 .filter(|_| row.runs > 1),
         ),
-        match row.switched_off {
-            0 => String::new(),
-            _ if row.runs == 1 => "switched off".into(),
-            n => format!("switched off in {n} of {}", row.runs),
-        },
+        row.remarks(),
     ]
 }

@@ -1,7 +1,7 @@
 //! How often the 95 % intervals hold the truth, parameter by parameter, for three kinds of noise.
 //!
-//! `cargo run --release -p stiction-identify --example coverage -- [runs] [noise]`, with noise one of
-//! `white`, `ar`, `quantised`, `50nm`, `100nm`; all of them if none is named. A binomial count of 200
+//! `cargo run --release -p stiction-identify --example coverage -- [runs] [first run] [noise]`, with
+//! noise one of `white`, `ar`, `quantised`, `50nm`, `100nm`; all of them if none is named. A binomial count of 200
 //! runs at 95 % has a deviation of 1.5 %. In `quantised` (encoder counts of 1 um, .05 N on the force)
 //! the position leaves a residual of .56 N, the noise of the force one of .02 N; the finer encoders
 //! come with 1 N on the force, as the demo.
@@ -19,14 +19,15 @@ use trials::{Tally, Trial, autoregressive, coverage, quantised};
 type Make = Box<dyn Fn(u64) -> Trial>;
 
 fn main() {
-    let mut runs = 200;
-    let mut wanted: Vec<String> = Vec::new();
+    let (mut numbers, mut wanted) = (Vec::new(), Vec::<String>::new());
     for argument in std::env::args().skip(1) {
-        match argument.parse() {
-            Ok(n) => runs = n,
+        match argument.parse::<u64>() {
+            Ok(n) => numbers.push(n),
             Err(_) => wanted.push(argument),
         }
     }
+    let first = numbers.get(1).copied().unwrap_or(0);
+    let runs = first..first + numbers.first().copied().unwrap_or(200);
     // Stated here, so that the figures do not move with the defaults of the conditioning.
     let filters = Conditioning {
         source_cutoff: Cutoff::Hz(400.0),
@@ -43,9 +44,9 @@ fn main() {
     ];
     for (name, trial) in kinds {
         if wanted.is_empty() || wanted.iter().any(|w| w == name) {
-            println!("{name}, {runs} runs");
-            table(&coverage(runs, &trial));
-            rivals::table(runs, &trial);
+            println!("{name}, runs {} to {}", runs.start, runs.end - 1);
+            table(&coverage(runs.clone(), &trial));
+            rivals::table(runs.clone(), &trial);
         }
     }
 }

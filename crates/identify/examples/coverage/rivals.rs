@@ -4,6 +4,7 @@
 use crate::common::MACHINE;
 use crate::trials::{Trial, local};
 use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
 
 /// Name and variances of the estimates, from the weights (a column each) and the residual.
 type Rival = (&'static str, fn(&DMatrix<f64>, &DVector<f64>) -> Vec<f64>);
@@ -20,9 +21,9 @@ pub const ALL: [Rival; 5] = [
 ];
 
 /// Prints the least and the mean coverage over the unknowns of each rival.
-pub fn table(runs: u64, trial: impl Fn(u64) -> Trial) {
+pub fn table(runs: Range<u64>, trial: impl Fn(u64) -> Trial) {
     let mut hits = vec![Vec::<usize>::new(); ALL.len()];
-    for run in 0..runs {
+    for run in runs.clone() {
         let trial = trial(run);
         let (_, found) = local(&trial, &MACHINE);
         let columns = found.evaluation.jacobian();
@@ -45,7 +46,7 @@ pub fn table(runs: u64, trial: impl Fn(u64) -> Trial) {
         }
     }
     for ((name, _), hits) in ALL.iter().zip(&hits) {
-        let part = |k: usize| 100.0 * k as f64 / runs as f64;
+        let part = |k: usize| 100.0 * k as f64 / (runs.end - runs.start) as f64;
         let least = part(*hits.iter().min().unwrap());
         let mean = part(hits.iter().sum()) / hits.len() as f64;
         println!("  {name:30} least {least:5.1} %, mean {mean:5.1} %");

@@ -93,7 +93,8 @@ impl SixParameters {
             return Err(Error::Setting {
                 name: "further terms or filters",
                 found: full.nonnegative.len() as f64,
-                allowed: "none beside an explicit integrator: no mass, no offset, no common filter",
+                allowed: "none beside an explicit integrator: mass = \"none\" and offset = false in the axis file, no common \
+                          filter, no delay",
             });
         }
         let coarse = match thinned(record) {

@@ -207,6 +207,23 @@ impl Record {
         }
     }
 
+    /// The same for a channel that is not needed afterwards: where all of the record is this segment and all of
+    /// it counts, it is what comes out.
+    pub(crate) fn thin_whole(
+        &self,
+        segment: &Segment,
+        full: Vec<f64>,
+        shift: Shift,
+        out: &mut Vec<f64>,
+    ) {
+        let as_it_is = self.segments.len() == 1 && shift == Shift::NONE && self.decimate == 1;
+        if as_it_is && full.len() == segment.keep.len() && segment.keep.iter().all(|&k| k) {
+            *out = full;
+        } else {
+            self.thin(segment, &full, shift, out);
+        }
+    }
+
     /// Indices among the kept samples at which a new segment starts (not 0), in order.
     pub(crate) fn breaks(&self) -> Vec<usize> {
         let mut at = 0;

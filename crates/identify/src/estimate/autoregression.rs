@@ -83,12 +83,10 @@ impl Autoregression {
         let mut out = w.to_vec();
         for s in segments(w.len(), breaks) {
             for t in s.clone().rev() {
-                let reach = self.coefficients.len().min(s.end - 1 - t);
-                let mut x = out[t];
-                for (k, a) in self.coefficients[..reach].iter().enumerate() {
-                    x -= a * out[t + 1 + k];
-                }
-                out[t] = x;
+                let (now, after) = out[t..s.end].split_at_mut(1);
+                // The latest first, so that no more than one product waits for the value just made.
+                let reach = self.coefficients.iter().zip(after.iter()).rev();
+                now[0] = reach.fold(now[0], |x, (a, later)| x - a * later);
             }
         }
         let deviation = self.variance.max(0.0).sqrt();
@@ -98,7 +96,7 @@ impl Autoregression {
 }
 
 /// Ranges between breaks.
-fn segments(n: usize, breaks: &[usize]) -> impl Iterator<Item = std::ops::Range<usize>> {
+pub(super) fn segments(n: usize, breaks: &[usize]) -> impl Iterator<Item = std::ops::Range<usize>> {
     let starts = std::iter::once(0).chain(breaks.iter().copied());
     let ends = breaks.iter().copied().chain(std::iter::once(n));
     starts.zip(ends).map(move |(a, b)| a.min(n)..b.min(n))

@@ -6,11 +6,13 @@
 //! the axis (bootstrap of the bias: Efron and Tibshirani 1993, ISBN 0-412-04231-2, chapter 10; errors
 //! in variables: Carroll et al. 2006, doi 10.1201/9781420010138).
 
+use crate::conditioning::condition;
 use crate::conditioning::record::Record;
 use crate::estimate::Estimate;
 use crate::law::physical::{Physical, physical};
 use crate::observe::{Control, Counts, Observer, Progress, Stage};
-use crate::replica::{force_noise, refitted, replica};
+use crate::refit::{Refit, force_noise, refitted};
+use crate::replica::{Replica, replica};
 
 /// Replicas that the shift is averaged over.
 const REPLICAS: u64 = 10;
@@ -19,6 +21,8 @@ const SEED: u64 = 1000;
 /// What a variance from ten replicas must be larger by to stand for that of many: the square of Student's
 /// 97.5 % quantile of 9 degrees of freedom over the normal one.
 const FEW: f64 = 1.332;
+/// Seeds of the replicas of replicas begin here.
+const SECOND: u64 = 2000;
 /// Part of the shift that counts as one standard deviation of its own error: on simulated closed loops
 /// the replicas show the shift to about a tenth.
 const DOUBT: f64 = 0.1;
@@ -31,6 +35,8 @@ pub(super) struct Shift {
     scatter: Vec<f64>,
     /// Variance that the residuals of the replicas state, on average.
     stated: Vec<f64>,
+    /// Square of what the shift of a replica of a replica differs by, beyond chance.
+    change: Vec<f64>,
 }
 
 impl Shift {
@@ -38,13 +44,14 @@ impl Shift {
     /// of the log states.
     ///
     /// A residual made of encoder steps repeats itself with the motion, which makes it look less certain
-    /// than it is. The replicas show by how much (calibration by a bootstrap: Beran 1987,
-    /// doi 10.1093/biomet/74.3.457), but they are few and bound to one motion: the geometric mean of the
-    /// variance before calibration and, three times, after it is used, and not less than the replicas
-    /// scatter. To it come the variance of the mean shift, and what the shift may itself be wrong by.
+    /// than it is. The replicas show by how much: the variance is taken larger or smaller as they scatter
+    /// more or less than they state (calibration by a bootstrap: Beran 1987,
+    /// doi 10.1093/biomet/74.3.457), and larger for their being few. To it come the variance of the mean
+    /// shift, and what the shift may itself be wrong by: a tenth, and as much as it changes from the
+    /// replicas to replicas of them (a bootstrap iterated: Hall 1992, doi 10.1007/978-1-4612-4384-7,
+    /// section 1.4).
     pub fn total(&self, i: usize, residual: f64) -> f64 {
-        let root = (FEW * self.scatter[i] / self.stated[i]).sqrt();
-        let calibration = root * root.sqrt();
+        let calibration = FEW * self.scatter[i] / self.stated[i];
         let calibrated = residual
             * if calibration.is_finite() {
                 calibration
@@ -52,7 +59,7 @@ impl Shift {
                 1.0
             };
         let doubt = DOUBT * self.bias[i];
-        calibrated.max(self.scatter[i]) + self.scatter[i] / REPLICAS as f64 + doubt * doubt
+        calibrated + self.scatter[i] / REPLICAS as f64 + doubt * doubt + self.change[i]
     }
 }
 
@@ -67,19 +74,27 @@ pub(super) fn shift(
 ) -> Option<Shift> {
     let conditioning = record.conditioning?;
     let noise = force_noise(record, &conditioning, fitted, counts)?;
-    let linear = fitted.terms.columns(&fitted.law);
-    let at = |p: &[f64], c: &[f64]| physical(&fitted.law, &linear, record.step(), p, c);
-    let mut shifts: Vec<Vec<f64>> = Vec::new();
+    let mut first = Shifts::default();
+    let mut second = Shifts::default();
     let mut stated = vec![0.0; raw.len()];
     for i in 0..REPLICAS {
-        let replica = replica(record, fitted, noise, SEED + i)?;
-        let refit = refitted(&replica, &conditioning, fitted, 2, true, counts)?;
-        let truth = at(&replica.p, fitted.coefficients());
-        let found = at(&refit.p, &refit.c);
-        shifts.push(truth.iter().zip(&found).map(|(a, b)| step(a, b)).collect());
-        let surety = &refit.unknowns?.covariance;
-        for (sum, p) in stated.iter_mut().zip(&found) {
+        let (found, replica) = once(record, fitted, noise, SEED + i, counts)?;
+        let surety = &found.refit.unknowns.as_ref()?.covariance;
+        for (sum, p) in stated.iter_mut().zip(&found.parameters) {
             *sum += p.variance(surety) / REPLICAS as f64;
+        }
+        first.0.push(found.shift.clone());
+        // One that cannot be simulated has nothing to say.
+        if let Ok(again) = condition(&replica.logs, &conditioning)
+            && let Some((next, _)) = once(
+                &again,
+                &found.as_fitted(fitted, &replica),
+                noise,
+                SECOND + i,
+                counts,
+            )
+        {
+            second.0.push(next.shift);
         }
         let progress = Progress {
             stage: Stage::Calibration,
@@ -91,21 +106,85 @@ pub(super) fn shift(
             return None;
         }
     }
-    let many = shifts.len() as f64;
-    let bias: Vec<f64> = (0..raw.len())
-        .map(|i| shifts.iter().map(|s| s[i]).sum::<f64>() / many)
-        .collect();
-    let scatter = (0..raw.len())
-        .map(|i| {
-            let spread: f64 = shifts.iter().map(|s| (s[i] - bias[i]).powi(2)).sum();
-            spread / (many - 1.0)
-        })
-        .collect();
+    let all = 0..raw.len();
     Some(Shift {
-        bias,
-        scatter,
+        bias: all.clone().map(|i| first.mean(i)).collect(),
+        scatter: all.clone().map(|i| first.variance(i)).collect(),
         stated,
+        change: all.map(|i| second.change(&first, i)).collect(),
     })
+}
+
+/// Shifts of all parameters, replica by replica.
+#[derive(Default)]
+struct Shifts(Vec<Vec<f64>>);
+
+impl Shifts {
+    fn mean(&self, i: usize) -> f64 {
+        self.0.iter().map(|s| s[i]).sum::<f64>() / self.0.len() as f64
+    }
+
+    /// From one replica to the next.
+    fn variance(&self, i: usize) -> f64 {
+        let mean = self.mean(i);
+        let spread: f64 = self.0.iter().map(|s| (s[i] - mean).powi(2)).sum();
+        spread / (self.0.len() as f64 - 1.0)
+    }
+
+    /// Square of the difference of the means, less what chance makes of it.
+    fn change(&self, other: &Self, i: usize) -> f64 {
+        let difference = self.mean(i) - other.mean(i);
+        let chance =
+            self.variance(i) / self.0.len() as f64 + other.variance(i) / other.0.len() as f64;
+        // No number where there are fewer than two.
+        (difference * difference - chance).max(0.0)
+    }
+}
+
+/// What the fit of one replica found.
+struct Found {
+    refit: Refit,
+    parameters: Vec<Physical>,
+    shift: Vec<f64>,
+}
+
+impl Found {
+    /// It in the place of the estimate that the replica was made of.
+    fn as_fitted(&self, fitted: &Estimate, replica: &Replica) -> Estimate {
+        let mut out = fitted.clone();
+        out.p.clone_from(&self.refit.p);
+        out.coefficients.clone_from(&self.refit.c);
+        out.terms = replica.terms.clone();
+        for p in &self.parameters {
+            if let Some(own) = out.parameters.iter_mut().find(|own| own.name == p.name) {
+                own.value = p.value;
+            }
+        }
+        out
+    }
+}
+
+/// Makes and fits one replica.
+fn once(
+    record: &Record,
+    fitted: &Estimate,
+    noise: f64,
+    seed: u64,
+    counts: &mut Counts,
+) -> Option<(Found, Replica)> {
+    let linear = fitted.terms.columns(&fitted.law);
+    let at = |p: &[f64], c: &[f64]| physical(&fitted.law, &linear, record.step(), p, c);
+    let replica = replica(record, fitted, noise, seed)?;
+    let refit = refitted(&replica, &record.conditioning?, fitted, 2, true, counts)?;
+    let truth = at(&replica.p, fitted.coefficients());
+    let parameters = at(&refit.p, &refit.c);
+    let shift = truth.iter().zip(&parameters).map(|(a, b)| step(a, b));
+    let found = Found {
+        shift: shift.collect(),
+        parameters,
+        refit,
+    };
+    Some((found, replica))
 }
 
 /// From one value to another, in the logarithm where both are positive by nature.

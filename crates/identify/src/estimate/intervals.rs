@@ -6,6 +6,7 @@ use crate::estimate::conditioned::shift;
 use crate::estimate::curve::{missing, stays_within};
 use crate::estimate::parameter::{IntervalKind, Parameter, quantile};
 use crate::estimate::profile::{End, Held, Profile};
+use crate::estimate::sliding::stays_in_presliding;
 use crate::estimate::{Estimate, advice, levels};
 use crate::law::physical::{Physical, physical};
 use crate::observe::{Counts, Observer};
@@ -20,7 +21,7 @@ const CURVED: f64 = 0.03;
 /// shift, and replaces linear intervals of the Stribeck velocity and exponent, static friction and
 /// micro-damping by those of the profile where they are poorly known.
 ///
-/// Costs up to 12 evaluations where the motion comes from a position, and some tens for each profile;
+/// Costs some 60 evaluations where the motion comes from a position, and some tens for each profile;
 /// they are added to the counts of the estimate.
 pub fn intervals(
     record: &Record,
@@ -49,6 +50,7 @@ pub fn intervals(
     }
     estimate.counts.add(&counts);
     stays_within(&estimate.law, optimum, &mut estimate.parameters);
+    stays_in_presliding(record.stroke(), &mut estimate.parameters);
     advice::explain(&mut estimate.parameters, &estimate.covariance);
 }
 

@@ -153,6 +153,10 @@ impl Parameter {
                 Some((value - reach, value + reach))
             }
         });
+        // A share near one may be off by little of its value, and its odds by anything.
+        if ci95.is_none() && reason.is_empty() {
+            reason = "the data bound it on no side".into();
+        }
         Self {
             std,
             bias: bias.filter(|_| known),

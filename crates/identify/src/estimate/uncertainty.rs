@@ -12,7 +12,7 @@
 //!
 //! Why these two: decision 0014.
 
-use crate::estimate::autoregression::Autoregression;
+use crate::estimate::autoregression::{Autoregression, segments};
 use crate::separable::linear::dot;
 use crate::separable::objective::{Evaluation, Objective};
 use nalgebra::{DMatrix, SymmetricEigen};
@@ -109,16 +109,16 @@ pub(crate) fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) 
             if norm > 0.0 { 1.0 / norm } else { 1.0 }
         })
         .collect();
-    let gram = DMatrix::from_fn(q, q, |i, j| {
+    let gram = symmetric(q, |i, j| {
         dot(jacobian[i], jacobian[j]) * scale[i] * scale[j]
     });
     let (bread, lost) = inverse(gram);
     let weights = weights(jacobian, &scale, &bread);
     let stationary = stationary_covariance(&weights, residual, breaks);
-    let scores: Vec<Vec<f64>> = weights
-        .into_iter()
-        .map(|w| w.iter().zip(residual).map(|(w, r)| w * r).collect())
-        .collect();
+    let mut scores = weights;
+    for score in &mut scores {
+        score.iter_mut().zip(residual).for_each(|(w, r)| *w *= r);
+    }
     let long_run = long_run_variances(&scores, breaks);
     let correction = n as f64 / (n - q) as f64;
     let widen: Vec<f64> = (0..q)
@@ -166,19 +166,36 @@ pub(crate) fn inverse(matrix: DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
 
 /// `B J_t`, one column of length n per unknown: what a residual does to the unknown.
 fn weights(jacobian: &[&[f64]], scale: &[f64], bread: &DMatrix<f64>) -> Vec<Vec<f64>> {
-    let q = jacobian.len();
-    (0..q)
-        .map(|i| {
-            let mut out = vec![0.0; jacobian[i].len()];
-            for j in 0..q {
+    let n = jacobian.first().map_or(0, |column| column.len());
+    let mut out = vec![vec![0.0; n]; jacobian.len()];
+    for start in (0..n).step_by(CHUNK) {
+        let end = n.min(start + CHUNK);
+        for (i, out) in out.iter_mut().enumerate() {
+            for (j, column) in jacobian.iter().enumerate() {
                 let weight = bread[(i, j)] * scale[j];
-                for (x, d) in out.iter_mut().zip(jacobian[j]) {
+                for (x, d) in out[start..end].iter_mut().zip(&column[start..end]) {
                     *x += weight * d;
                 }
             }
-            out
-        })
-        .collect()
+        }
+    }
+    out
+}
+
+/// Samples of all columns that stay in the nearest caches.
+const CHUNK: usize = 256;
+
+/// A symmetric matrix, each element worked out once.
+fn symmetric(q: usize, element: impl Fn(usize, usize) -> f64) -> DMatrix<f64> {
+    let mut out = DMatrix::zeros(q, q);
+    for i in 0..q {
+        for j in 0..=i {
+            let x = element(i, j);
+            out[(i, j)] = x;
+            out[(j, i)] = x;
+        }
+    }
+    out
 }
 
 /// Covariance of the sums `sum_t w_t r_t` where the residual is an autoregression.
@@ -188,8 +205,7 @@ fn stationary_covariance(weights: &[Vec<f64>], residual: &[f64], breaks: &[usize
         .iter()
         .map(|w| model.transposed(w, breaks))
         .collect();
-    let q = weights.len();
-    DMatrix::from_fn(q, q, |i, j| dot(&spread[i], &spread[j]))
+    symmetric(weights.len(), |i, j| dot(&spread[i], &spread[j]))
 }
 
 /// Sum over all pairs of samples of the covariance of each score.
@@ -245,11 +261,10 @@ pub(crate) fn of_influence(
 fn whiten(w: &[f64], breaks: &[usize]) -> (f64, Vec<f64>) {
     // Beyond .97 undoing the whitening would amplify noise more than it removes bias.
     let a = lag_one(w, breaks).clamp(-0.97, 0.97);
-    let mut e = w.to_vec();
-    for t in (1..w.len()).rev() {
-        if breaks.binary_search(&t).is_err() {
-            e[t] -= a * w[t - 1];
-        }
+    let mut e = Vec::with_capacity(w.len());
+    for s in segments(w.len(), breaks) {
+        e.extend(w[s.clone()].iter().take(1));
+        e.extend(w[s].windows(2).map(|pair| pair[1] - a * pair[0]));
     }
     (a, e)
 }
@@ -259,9 +274,9 @@ fn lag_one(w: &[f64], breaks: &[usize]) -> f64 {
     if energy <= 0.0 {
         return 0.0;
     }
-    let product: f64 = (1..w.len())
-        .filter(|t| breaks.binary_search(t).is_err())
-        .map(|t| w[t] * w[t - 1])
+    let product: f64 = segments(w.len(), breaks)
+        .filter(|s| s.len() > 1)
+        .map(|s| dot(&w[s.start + 1..s.end], &w[s.start..s.end - 1]))
         .sum();
     product / energy
 }
@@ -290,14 +305,14 @@ fn bandwidth(whitened: &[(f64, Vec<f64>)], breaks: &[usize]) -> usize {
 fn batch_sums(e: &[f64], lag: usize) -> Vec<f64> {
     let mut out = Vec::with_capacity(e.len() + lag);
     let mut sum = 0.0;
-    for t in 0..e.len() + lag - 1 {
-        if t < e.len() {
-            sum += e[t];
-        }
-        if t >= lag {
-            sum -= e[t - lag];
-        }
-        out.push(sum);
-    }
+    let mut add = |x: f64| {
+        sum += x;
+        sum
+    };
+    out.extend(e.iter().take(lag).map(|x| add(*x)));
+    // The difference first, so that the sum waits for one addition only.
+    out.extend(e.iter().skip(lag).zip(e).map(|(x, gone)| add(x - gone)));
+    let last = e.iter().skip(e.len().saturating_sub(lag));
+    out.extend(last.take(lag - 1).map(|gone| add(-gone)));
     out
 }

@@ -2,7 +2,7 @@
 
 use crate::observe::Stage;
 use crate::separable::in_lanes::InLanes;
-use crate::separable::levenberg::{Walk, Watch};
+use crate::separable::levenberg::{Status, Walk, Watch};
 use crate::separable::objective::Objective;
 use crate::separable::reduced::Reduced;
 use crate::separable::search::{LINE, same, sobol, valleys};
@@ -39,6 +39,8 @@ pub(super) struct Coarse<'a> {
     pub objective: &'a Objective<'a>,
     pub sums: &'a InLanes,
     pub bounds: &'a SearchBox,
+    /// Rounds that the others have left once the best of them has ended.
+    pub patience: usize,
 }
 
 impl Coarse<'_> {
@@ -143,12 +145,17 @@ impl Coarse<'_> {
             })
             .collect();
         let mut steps = 0;
+        let mut patience = self.patience;
         for round in 0..ROUNDS {
             watch.fraction = round as f64 / ROUNDS as f64;
-            if watch.stopped {
+            join(&mut walks);
+            let ended = walks
+                .first()
+                .is_some_and(|best| best.status != Status::Budget);
+            if watch.stopped || ended && patience == 0 {
                 break;
             }
-            join(&mut walks);
+            patience -= usize::from(ended);
             let mut trials = Vec::new();
             for (i, walk) in walks.iter_mut().enumerate() {
                 if let Some(p) = walk.propose(self.bounds, ROUNDS) {

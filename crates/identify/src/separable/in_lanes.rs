@@ -5,6 +5,7 @@ use crate::law::terms::{ColumnKind, LinearTerm};
 use crate::law::{Law, LawKind};
 use crate::separable::recursion::Trace;
 use crate::separable::reduced::{Products, Reduced};
+use std::borrow::Cow;
 use std::sync::Arc;
 use stiction_lanes::{
     InstructionSet, Segment, Sums, Time, Track, Trial, shared_sums, sums, sums_alone, trace,
@@ -57,7 +58,9 @@ impl InLanes {
     /// refuse the record.
     pub fn motion(record: &Record, law: &Law) -> Option<Self> {
         let segments = record.segments.iter();
-        let none: Vec<Vec<f64>> = segments.map(|s| vec![0.0; s.velocity.len()]).collect();
+        let none: Vec<Cow<[f64]>> = segments
+            .map(|s| vec![0.0; s.velocity.len()].into())
+            .collect();
         Self::new(record, law, &none, &[])
     }
 
@@ -97,15 +100,15 @@ impl InLanes {
     fn new(
         record: &Record,
         law: &Law,
-        force: &[Vec<f64>],
-        columns: &[Vec<Vec<f64>>],
+        force: &[Cow<[f64]>],
+        columns: &[Vec<Cow<[f64]>>],
     ) -> Option<Self> {
         if !Self::knows(law) {
             return None;
         }
         let keep: Vec<Vec<bool>> = record.segments.iter().map(|s| kept(record, s)).collect();
         let columns: Vec<Vec<&[f64]>> = (0..record.segments.len())
-            .map(|s| columns.iter().map(|c| c[s].as_slice()).collect())
+            .map(|s| columns.iter().map(|c| &*c[s]).collect())
             .collect();
         let segments: Vec<Segment> = record
             .segments
@@ -267,6 +270,9 @@ impl Products for Made<'_> {
 
 /// Which samples of the full rate count.
 fn kept(record: &Record, segment: &record::Segment) -> Vec<bool> {
+    if record.decimate == 1 {
+        return segment.keep.clone();
+    }
     let mut out = vec![false; segment.velocity.len()];
     for (to, keep) in out.iter_mut().step_by(record.decimate).zip(&segment.keep) {
         *to = *keep;
@@ -275,7 +281,12 @@ fn kept(record: &Record, segment: &record::Segment) -> Vec<bool> {
 }
 
 /// A column at the kept samples, put back to the full rate of each segment.
-fn spread(record: &Record, column: &[f64]) -> Vec<Vec<f64>> {
+fn spread<'c>(record: &Record, column: &'c [f64]) -> Vec<Cow<'c, [f64]>> {
+    if let [only] = &record.segments[..]
+        && only.velocity.len() == column.len()
+    {
+        return vec![column.into()];
+    }
     let mut values = column.iter();
     let each = record.segments.iter().map(|segment| {
         let mut out = vec![0.0; segment.velocity.len()];
@@ -284,7 +295,7 @@ fn spread(record: &Record, column: &[f64]) -> Vec<Vec<f64>> {
                 *to = values.next().copied().unwrap_or_default();
             }
         }
-        out
+        out.into()
     });
     each.collect()
 }

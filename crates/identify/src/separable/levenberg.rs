@@ -99,6 +99,9 @@ const EXACT: f64 = 1e-27;
 /// Change of a cost from sums of squares, relative to the energy of the force, that may be rounding.
 const ROUNDING: f64 = 1e-13;
 
+/// Part of what a step promised that the next may, where costs are too coarse to say whether either was good.
+const LESS: f64 = 0.1;
+
 /// Descends from `start` for at most `steps` trials.
 ///
 /// Where the objective can be had from sums alone, they lead as far as their digits go, and the columns
@@ -143,7 +146,7 @@ pub(crate) fn descend(
     }
 }
 
-/// The descent on sums: where it ends, the trials it took, and whether it was stopped. `None` where a trial
+/// The descent on sums, and the steps that are too small for the digits of their costs: where it ends, the trials it took, and whether it was stopped. `None` where a trial
 /// is beyond what the sums can do.
 fn lead(
     objective: &Objective,
@@ -162,7 +165,9 @@ fn lead(
     walk.rounding = ROUNDING;
     walk.untried = true;
     watch.count(objective, true);
+    let mut before = 0.0;
     while let Some(trial) = walk.propose(bounds, steps) {
+        before = walk.predicted;
         let next = sums.reduced(&trial)?;
         watch.count(objective, true);
         let cost = next.cost;
@@ -172,6 +177,34 @@ fn lead(
         if watch.report(objective.relative(walk.now.cost)) == Control::Stop {
             return Some((walk.p, walk.iterations, true));
         }
+    }
+    // The last step was not tried. What is left of the gradient there is good to more digits than a cost: it is
+    // followed as long as it promises less and less. As much less as a step promises than the one before, the next
+    // will promise than this.
+    let mut promised = walk.predicted;
+    let mut left = promised * (promised / before);
+    while walk.status == Status::Converged
+        && walk.iterations < steps
+        && promised > 0.0
+        && left > FLAT * walk.now.cost
+    {
+        let now = sums.reduced(&walk.p)?;
+        watch.count(objective, true);
+        walk.iterations += 1;
+        let Some(step) = damped_step(&now, &walk.p, bounds, 0.0) else {
+            break;
+        };
+        let moved: Vec<f64> = walk.p.iter().zip(step.iter()).map(|(x, d)| x + d).collect();
+        let trial = bounds.clamp(&moved);
+        let promises = predicted_gain(&now, &trial, &walk.p);
+        let fades = promises < LESS * promised;
+        if !fades || largest(&walk.p, &trial) > TRUSTED {
+            break;
+        }
+        walk.p = trial;
+        left = promises * (promises / promised);
+        promised = promises;
+        walk.now = now;
     }
     Some((walk.p, walk.iterations, false))
 }

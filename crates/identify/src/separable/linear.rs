@@ -112,8 +112,8 @@ impl Factor {
 }
 
 impl Solution {
-    /// Part of `d` that the active columns cannot express, in place.
-    pub fn project_out(&self, columns: &[&[f64]], d: &mut [f64]) {
+    /// Part of `d` that the active columns cannot express.
+    pub fn outside(&self, columns: &[&[f64]], d: &[f64]) -> Vec<f64> {
         let rhs: Vec<f64> = self
             .factor
             .columns
@@ -121,23 +121,30 @@ impl Solution {
             .map(|&j| dot(columns[j], d))
             .collect();
         let c = self.factor.solve(&rhs);
-        for (x, &j) in c.iter().zip(&self.factor.columns) {
-            for (d, phi) in d.iter_mut().zip(columns[j]) {
-                *d -= x * phi;
-            }
-        }
+        residual(columns, &self.factor, &c, d)
     }
 }
 
-fn residual(columns: &[&[f64]], factor: &Factor, c: &[f64], u: &[f64], out: &mut Vec<f64>) {
-    out.clear();
-    out.extend_from_slice(u);
-    for (x, &j) in c.iter().zip(&factor.columns) {
-        for (r, phi) in out.iter_mut().zip(columns[j]) {
-            *r -= x * phi;
+/// Samples that stay in the nearest cache while every column is taken from them.
+const CHUNK: usize = 512;
+
+/// `u - Phi c` for the active columns.
+fn residual(columns: &[&[f64]], factor: &Factor, c: &[f64], u: &[f64]) -> Vec<f64> {
+    let mut out = Vec::with_capacity(u.len());
+    for (start, part) in (0..).step_by(CHUNK).zip(u.chunks(CHUNK)) {
+        out.extend_from_slice(part);
+        for (x, &j) in c.iter().zip(&factor.columns) {
+            for (r, phi) in out[start..].iter_mut().zip(&columns[j][start..]) {
+                *r -= x * phi;
+            }
         }
     }
+    out
 }
+
+/// The factor of the columns that take part, their coefficients in its order, and the columns that depend on
+/// others.
+type Taken = (Factor, Vec<f64>, Vec<usize>);
 
 /// Products of columns with each other and with the target.
 #[derive(Clone, Debug)]
@@ -149,23 +156,56 @@ pub(super) struct Normal {
 }
 
 impl Normal {
-    /// The factor of the columns that take part and their coefficients, in its order; and the columns that
-    /// depend on others.
-    ///
-    /// Of a handful of bounded columns every subset that a bound could hold at zero is tried in turn, the one
-    /// leaving the least residual and breaking no bound wins; with more,
+    /// The constrained optimum. Of a handful of bounded columns every subset that a bound could hold at zero is
+    /// tried in turn, the one leaving the least residual and breaking no bound wins; with more,
     /// [`nonnegative`](super::nonnegative) finds it.
-    pub fn solve(&self, bounded: &[bool]) -> (Factor, Vec<f64>, Vec<usize>) {
-        let held = if bounded.iter().filter(|&&b| b).count() > MOST_TRIED {
-            nonnegative::held(&self.gram, &self.rhs, bounded, self.energy)
-        } else {
-            feasible_set(&self.gram, &self.rhs, bounded)
-        };
+    pub fn solve(&self, bounded: &[bool]) -> Taken {
+        if bounded.iter().filter(|&&b| b).count() <= MOST_TRIED {
+            return self.best_subset(bounded);
+        }
+        let held = nonnegative::held(&self.gram, &self.rhs, bounded, self.energy);
         let wanted: Vec<usize> = (0..self.rhs.len()).filter(|j| !held[*j]).collect();
         let (factor, dropped) = Factor::new(&self.gram, &wanted);
-        let pick: Vec<f64> = factor.columns.iter().map(|&j| self.rhs[j]).collect();
-        let c = factor.solve(&pick);
+        let c = factor.solve(&self.of(&factor));
         (factor, c, dropped)
+    }
+
+    /// The right-hand side of the columns that take part.
+    fn of(&self, factor: &Factor) -> Vec<f64> {
+        factor.columns.iter().map(|&j| self.rhs[j]).collect()
+    }
+
+    /// Of all subsets that the bounds could leave free, the one that explains most and breaks no bound.
+    fn best_subset(&self, nonnegative: &[bool]) -> Taken {
+        let m = self.rhs.len();
+        let bounded: Vec<usize> = (0..m).filter(|&j| nonnegative[j]).collect();
+        let mut best: Option<(f64, Taken)> = None;
+        for set in 0_u32..(1 << bounded.len()) {
+            let mut held = vec![false; m];
+            for (bit, &j) in bounded.iter().enumerate() {
+                held[j] = set >> bit & 1 == 1;
+            }
+            let wanted: Vec<usize> = (0..m).filter(|j| !held[*j]).collect();
+            let (factor, dropped) = Factor::new(&self.gram, &wanted);
+            let pick = self.of(&factor);
+            let c = factor.solve(&pick);
+            let mut taken = factor.columns.iter().zip(&c);
+            if taken.any(|(&j, &x)| nonnegative[j] && x < 0.0) {
+                continue;
+            }
+            // Explained sum of squares; the most explained wins.
+            let explained: f64 = c.iter().zip(&pick).map(|(x, b)| x * b).sum();
+            if best.as_ref().is_none_or(|(most, _)| explained > *most) {
+                best = Some((explained, (factor, c, dropped)));
+            }
+            if set == 0 {
+                break; // The free solution breaks no bound: it is the constrained optimum.
+            }
+        }
+        best.map_or_else(
+            || (Factor::new(&self.gram, &[]).0, Vec::new(), Vec::new()),
+            |(_, found)| found,
+        )
     }
 }
 
@@ -189,8 +229,7 @@ pub(crate) fn solve(columns: &[&[f64]], bounded: &[bool], u: &[f64]) -> Solution
         energy: dot(u, u),
     };
     let (factor, mut c, dropped) = normal.solve(bounded);
-    let mut r = Vec::with_capacity(u.len());
-    residual(columns, &factor, &c, u, &mut r);
+    let r = residual(columns, &factor, &c, u);
     let correction: Vec<f64> = factor
         .columns
         .iter()
@@ -199,7 +238,7 @@ pub(crate) fn solve(columns: &[&[f64]], bounded: &[bool], u: &[f64]) -> Solution
     for (x, d) in c.iter_mut().zip(factor.solve(&correction)) {
         *x += d;
     }
-    residual(columns, &factor, &c, u, &mut r);
+    let r = residual(columns, &factor, &c, u);
 
     let mut coefficients = vec![0.0; m];
     let mut active = vec![false; m];
@@ -220,40 +259,6 @@ pub(crate) fn solve(columns: &[&[f64]], bounded: &[bool], u: &[f64]) -> Solution
         cost,
         factor,
     }
-}
-
-/// Which bounded columns are held at zero at the constrained optimum.
-fn feasible_set(gram: &DMatrix<f64>, rhs: &[f64], nonnegative: &[bool]) -> Vec<bool> {
-    let m = rhs.len();
-    let bounded: Vec<usize> = (0..m).filter(|&j| nonnegative[j]).collect();
-    let mut best: Option<(f64, Vec<bool>)> = None;
-    for set in 0_u32..(1 << bounded.len()) {
-        let mut held = vec![false; m];
-        for (bit, &j) in bounded.iter().enumerate() {
-            held[j] = set >> bit & 1 == 1;
-        }
-        let wanted: Vec<usize> = (0..m).filter(|j| !held[*j]).collect();
-        let (factor, _) = Factor::new(gram, &wanted);
-        let pick: Vec<f64> = factor.columns.iter().map(|&j| rhs[j]).collect();
-        let c = factor.solve(&pick);
-        let broken = factor
-            .columns
-            .iter()
-            .zip(&c)
-            .any(|(&j, &x)| nonnegative[j] && x < 0.0);
-        if broken {
-            continue;
-        }
-        // Explained sum of squares; the most explained wins.
-        let explained: f64 = c.iter().zip(&pick).map(|(x, b)| x * b).sum();
-        if best.as_ref().is_none_or(|(most, _)| explained > *most) {
-            best = Some((explained, held));
-        }
-        if set == 0 {
-            break; // The free solution breaks no bound: it is the constrained optimum.
-        }
-    }
-    best.map_or_else(|| vec![true; m], |(_, held)| held)
 }
 
 #[cfg(test)]

@@ -233,7 +233,7 @@ impl<'a> Objective<'a> {
     /// Solves the linear part for the nonlinear unknowns `p`: logarithms in the order of the law, then
     /// the delay in samples where it is unknown.
     pub fn evaluate(&self, p: &[f64], slopes: bool) -> Evaluation {
-        let traces = self.traces(p, slopes);
+        let mut traces = self.traces(p, slopes);
         let shift = self.shift(p);
         let mut columns = self.columns(&traces, shift);
         let target = self.without_held(&mut columns, shift);
@@ -243,7 +243,7 @@ impl<'a> Objective<'a> {
             solution.coefficients[j] = value;
         }
         let slope_columns = if slopes {
-            self.slopes(&traces, p, &solution.coefficients)
+            self.slopes(&mut traces, p, &solution.coefficients)
         } else {
             Vec::new()
         };
@@ -253,8 +253,7 @@ impl<'a> Objective<'a> {
         let mut projected: Vec<Vec<f64>> = Vec::with_capacity(k);
         for (i, d) in slope_columns.iter().enumerate() {
             descent[i] = dot(d, &solution.residual);
-            let mut outside = d.clone();
-            solution.project_out(&views, &mut outside);
+            let outside = solution.outside(&views, d);
             for (j, other) in projected.iter().enumerate() {
                 let x = dot(other, &outside);
                 hessian[(i, j)] = x;
@@ -321,9 +320,14 @@ impl<'a> Objective<'a> {
         out
     }
 
+    /// The columns of the regression at the kept samples.
+    pub(crate) fn columns_at(&self, p: &[f64]) -> Vec<Column> {
+        self.columns(&self.traces(p, false), self.shift(p))
+    }
+
     /// Every term of the model force at the kept samples, in the order of the linear unknowns.
     pub(crate) fn parts(&self, p: &[f64], coefficients: &[f64]) -> Vec<Vec<f64>> {
-        let columns = self.columns(&self.traces(p, false), self.shift(p));
+        let columns = self.columns_at(p);
         let scaled = |(column, c): (&Column, &f64)| column.iter().map(|x| x * c).collect();
         columns.iter().zip(coefficients).map(scaled).collect()
     }
@@ -417,8 +421,9 @@ impl<'a> Objective<'a> {
             .collect()
     }
 
-    /// `d(Phi)/dp_i c` of every nonlinear unknown, filtered and thinned like the columns.
-    fn slopes(&self, runs: &[Run], p: &[f64], coefficients: &[f64]) -> Vec<Vec<f64>> {
+    /// `d(Phi)/dp_i c` of every nonlinear unknown, filtered and thinned like the columns. The derivatives of the
+    /// law are used up.
+    fn slopes(&self, runs: &mut [Run], p: &[f64], coefficients: &[f64]) -> Vec<Vec<f64>> {
         let mut c_eta = 0.0;
         let mut c_rate = 0.0;
         for ((term, fixed), &c) in self.linear.iter().zip(&self.fixed).zip(coefficients) {
@@ -431,31 +436,30 @@ impl<'a> Objective<'a> {
         }
         let k = self.law.nonlinear();
         let shift = self.shift(p);
-        let mut out = vec![Vec::with_capacity(self.force.len()); k];
-        for (s, (segment, run)) in self.record.segments.iter().zip(runs).enumerate() {
-            let t = &run.trace;
-            let level = self.level(s, &t.eta, c_eta, coefficients);
-            let mut full: Vec<Vec<f64>> = (0..k)
-                .map(|i| {
-                    if self.law.kind.has_elements() {
-                        return gms::recursion::slope(&t.elements, i, coefficients);
+        let mut out = vec![Vec::new(); k];
+        for (s, (segment, run)) in self.record.segments.iter().zip(&mut *runs).enumerate() {
+            let t = &mut run.trace;
+            let mut full = if self.law.kind.has_elements() {
+                let slope = |i| gms::recursion::slope(&t.elements, i, coefficients);
+                (0..k).map(slope).collect()
+            } else {
+                let level = self.level(s, &t.eta, c_eta, coefficients);
+                let mut full = std::mem::take(&mut t.eta_slope);
+                let mut rates = t.rate_slope.iter();
+                for d in &mut full {
+                    match &level {
+                        None => d.iter_mut().for_each(|x| *x *= c_eta),
+                        Some(level) => d.iter_mut().zip(level).for_each(|(x, c)| *x *= c),
                     }
-                    let slope = t.eta_slope[i].iter();
-                    let mut d: Vec<f64> = match &level {
-                        None => slope.map(|x| c_eta * x).collect(),
-                        Some(level) => slope.zip(level).map(|(x, c)| c * x).collect(),
-                    };
-                    if let Some(rate) = t.rate_slope.get(i) {
-                        for (x, r) in d.iter_mut().zip(rate) {
-                            *x += c_rate * r;
-                        }
+                    for (x, r) in d.iter_mut().zip(rates.next().into_iter().flatten()) {
+                        *x += c_rate * r;
                     }
-                    d
-                })
-                .collect();
+                }
+                full
+            };
             self.record.filter(&mut full);
-            for (out, column) in out.iter_mut().zip(&full) {
-                self.record.thin(segment, column, shift, out);
+            for (out, column) in out.iter_mut().zip(full) {
+                self.record.thin_whole(segment, column, shift, out);
             }
         }
         if self.delay == Delay::Fitted {

@@ -20,6 +20,11 @@ const MOST_PAIRED: usize = 3;
 const SAME: f64 = 1e-2;
 /// How far a start's cost may be above that of the best start and still be tried.
 const FAR: f64 = 3.0;
+/// The same where its cost has been followed down on thousands of samples, which tell costs apart better than this.
+const NEARLY: f64 = 1.3;
+/// Rounds that starts have left once the best of them has ended, on the record of the scan and on the thinned one:
+/// a round of the second costs as much as four of the first.
+const PATIENCE: [usize; 2] = [6, 2];
 /// How much worse a start may then be and still be followed to the end.
 const CLOSE: f64 = 1.05;
 /// Of the samples of the thinned record, the scan sees one in this many.
@@ -115,6 +120,7 @@ impl<'a> Search<'a> {
             objective: first,
             sums: first.sums()?,
             bounds,
+            patience: PATIENCE[0],
         };
         let mut minima = coarse.minima(
             self.seed(),
@@ -128,13 +134,14 @@ impl<'a> Search<'a> {
                 objective,
                 sums,
                 bounds,
+                patience: PATIENCE[1],
             };
             self.iterations += minima.steps;
             let points = minima.ends.into_iter().map(|(_, p)| p).collect();
             minima = coarse.followed(points, watch)?;
         }
         self.iterations += minima.steps;
-        let most = FAR * minima.ends.first()?.0;
+        let most = NEARLY * minima.ends.first()?.0;
         let mut starts: Vec<Vec<f64>> = Vec::new();
         for (cost, p) in minima.ends {
             let counts = starts.is_empty() || cost <= most;

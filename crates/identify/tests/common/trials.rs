@@ -4,6 +4,7 @@
 
 use crate::common::{MACHINE, Noise, Set, record};
 use std::f64::consts::TAU;
+use std::ops::Range;
 use stiction_friction::LuGre;
 use stiction_identify::{
     Conditioning, Estimate, IntervalKind, Law, LawKind, Mass, Optimum, Record, Samples, SearchBox,
@@ -199,9 +200,9 @@ impl Tally {
 }
 
 /// Fits every run and counts.
-pub fn coverage(runs: u64, trial: impl Fn(u64) -> Trial) -> Vec<Tally> {
+pub fn coverage(runs: Range<u64>, trial: impl Fn(u64) -> Trial) -> Vec<Tally> {
     let mut tallies: Vec<Tally> = Vec::new();
-    for run in 0..runs {
+    for run in runs {
         let trial = trial(run);
         let (law, found) = local(&trial, &MACHINE);
         let mut fitted = estimate(&trial.record, law, &trial.terms, &found, 1e-3);

@@ -3,22 +3,21 @@
 use super::{Axis, Drive, Measured, Motion, Outcome};
 use crate::curve::{Curve, Speed};
 use crate::dispatch::Kernel;
-use crate::exp::{exp, fma};
+use crate::exp::{exps, fma};
 use crate::lane_array::{Aligned, lanes, read, write};
 
 /// One axis, in units of its Coulomb level.
 #[derive(Clone, Copy)]
 struct Lane {
     curve: Curve,
-    /// `M/h`.
-    inertia: f64,
     /// `h kappa`.
     rate: f64,
-    /// Fc.
+    /// `1/(M/h + sigma1 + sigma2)`: velocity for a force.
+    yielding: f64,
+    /// That times `M/h`, times Fc and times sigma1.
+    inertia: f64,
     level: f64,
     micro_damping: f64,
-    /// `1/(M/h + sigma1 + sigma2)`.
-    yielding: f64,
 }
 
 impl Lane {
@@ -27,13 +26,14 @@ impl Lane {
         let kappa = c.stiffness / c.coulomb;
         let excess = (c.static_friction - c.coulomb) / c.coulomb;
         let inertia = axis.mass / h;
+        let yielding = 1.0 / (inertia + c.micro_damping + c.viscous);
         Lane {
             curve: Curve::new(kappa, excess, c.stribeck_velocity, c.exponent),
-            inertia,
             rate: h * kappa,
-            level: c.coulomb,
-            micro_damping: c.micro_damping,
-            yielding: 1.0 / (inertia + c.micro_damping + c.viscous),
+            yielding,
+            inertia: yielding * inertia,
+            level: yielding * c.coulomb,
+            micro_damping: yielding * c.micro_damping,
         }
     }
 
@@ -44,18 +44,18 @@ impl Lane {
             c.fall,
             c.exponent,
             c.ln_velocity,
-            self.inertia,
             self.rate,
+            self.yielding,
+            self.inertia,
             self.level,
             self.micro_damping,
-            self.yielding,
         ]
     }
 
     #[inline(always)]
     fn from_array(numbers: [f64; 9]) -> Self {
         let [excess, fall, exponent, ln_velocity, rest @ ..] = numbers;
-        let [inertia, rate, level, micro_damping, yielding] = rest;
+        let [rate, yielding, inertia, level, micro_damping] = rest;
         Lane {
             curve: Curve {
                 rate,
@@ -64,30 +64,51 @@ impl Lane {
                 exponent,
                 ln_velocity,
             },
-            inertia,
             rate,
+            yielding,
+            inertia,
             level,
             micro_damping,
-            yielding,
         }
     }
+}
 
-    /// Velocity and `eta` at the end of a step that starts with `v` and `eta`.
-    #[inline(always)]
-    fn step<const POWER: bool>(&self, v: f64, eta: f64, force: f64) -> (f64, f64) {
-        let speed = v.abs();
-        let ln = if POWER { libm::log(speed) } else { 0.0 };
-        let g = fma(
-            self.curve.excess,
-            exp(self.curve.exponent::<POWER>(Speed { value: speed, ln })),
-            1.0,
-        );
-        let over_level = fma(self.rate, v, eta) / fma(self.rate, speed, g);
-        let end = over_level * g;
-        let slip = self.micro_damping * (speed * over_level);
-        let pushed = fma(end, -self.level, fma(self.inertia, v, force)) + slip;
-        (pushed * self.yielding, end)
+/// Axes whose chains of operations are written side by side.
+const CHAINS: usize = 4;
+
+/// Velocity and `eta` at the end of a step that starts with `v` and `eta`.
+#[inline(always)]
+fn step<const POWER: bool>(
+    lanes: &[Lane; CHAINS],
+    v: [f64; CHAINS],
+    eta: [f64; CHAINS],
+    force: f64,
+) -> ([f64; CHAINS], [f64; CHAINS]) {
+    let mut exponent = [0.0; CHAINS];
+    for k in 0..CHAINS {
+        let value = v[k].abs();
+        let ln = if POWER { libm::log(value) } else { 0.0 };
+        exponent[k] = lanes[k].curve.exponent::<POWER>(Speed { value, ln });
     }
+    let fall = exps(exponent);
+    let mut g = [0.0; CHAINS];
+    let mut pull = [0.0; CHAINS];
+    let mut over_level = [0.0; CHAINS];
+    for k in 0..CHAINS {
+        let lane = &lanes[k];
+        g[k] = fma(lane.curve.excess, fall[k], 1.0);
+        over_level[k] = fma(lane.rate, v[k], eta[k]) / fma(lane.rate, v[k].abs(), g[k]);
+        pull[k] = fma(-lane.level, g[k], lane.micro_damping * v[k].abs());
+    }
+    let mut end = [0.0; CHAINS];
+    let mut next = [0.0; CHAINS];
+    for k in 0..CHAINS {
+        let lane = &lanes[k];
+        let free = fma(lane.inertia, v[k], lane.yielding * force);
+        next[k] = fma(over_level[k], pull[k], free);
+        end[k] = over_level[k] * g[k];
+    }
+    (next, end)
 }
 
 pub(super) struct SemiImplicit<'a, const N: usize, const POWER: bool> {
@@ -128,8 +149,8 @@ impl<const N: usize, const POWER: bool> Kernel for SemiImplicit<'_, N, POWER> {
             measured,
         } = *self.drive;
         let (measured, of_position) = match measured {
-            Measured::Position(x) => (x, 1.0),
-            Measured::Velocity(v) => (v, 0.0),
+            Measured::Position(x) => (x, true),
+            Measured::Velocity(v) => (v, false),
         };
         let mut x = Aligned([start.position; N]);
         let mut v = Aligned([start.velocity; N]);
@@ -139,14 +160,24 @@ impl<const N: usize, const POWER: bool> Kernel for SemiImplicit<'_, N, POWER> {
         }
         let mut cost = Aligned([0.0; N]);
         for (&force, &measured) in force.iter().zip(measured) {
-            for j in 0..N {
-                let lane = Lane::from_array(read(&self.lanes.0, j));
-                let (next, end) = lane.step::<POWER>(v.0[j], eta.0[j], force);
-                v.0[j] = next;
-                eta.0[j] = end;
-                x.0[j] = fma(h, next, x.0[j]);
-                let reached = fma(of_position, x.0[j] - next, next);
-                cost.0[j] = fma(measured - reached, measured - reached, cost.0[j]);
+            for j in 0..N / CHAINS {
+                let mut own = [Lane::from_array(read(&self.lanes.0, j)); CHAINS];
+                let mut from = [[0.0; CHAINS]; 2];
+                for k in 0..CHAINS {
+                    let j = j + k * (N / CHAINS);
+                    own[k] = Lane::from_array(read(&self.lanes.0, j));
+                    from[0][k] = v.0[j];
+                    from[1][k] = eta.0[j];
+                }
+                let (next, end) = step::<POWER>(&own, from[0], from[1], force);
+                for k in 0..CHAINS {
+                    let j = j + k * (N / CHAINS);
+                    v.0[j] = next[k];
+                    eta.0[j] = end[k];
+                    x.0[j] = fma(h, next[k], x.0[j]);
+                    let reached = if of_position { x.0[j] } else { next[k] };
+                    cost.0[j] = fma(measured - reached, measured - reached, cost.0[j]);
+                }
             }
         }
         let outcome = |j: usize| {

@@ -2,6 +2,7 @@
 
 use super::{BLOCK, KEPT, RESTART, REVERSE, SAMPLE, Segment, Time, Track};
 use crate::Error;
+use std::ops::Range;
 use std::sync::OnceLock;
 
 /// Squares and products of what is below this stay finite.
@@ -90,6 +91,9 @@ fn check(index: usize, segment: &Segment, columns: usize) -> Result<(), Error> {
         same("column", column.len(), n)?;
     }
     let bounded = |channel, values: &[f64], counts: &dyn Fn(usize) -> bool| {
+        if values.iter().all(|x| x.abs() < MOST) {
+            return Ok(());
+        }
         let wrong = |(i, x): &(usize, &f64)| counts(*i) && (x.is_nan() || x.abs() >= MOST);
         match values.iter().enumerate().find(wrong) {
             None => Ok(()),
@@ -115,7 +119,8 @@ fn append(track: &mut Track, index: usize, segment: &Segment) -> Result<(), Erro
     let moving = segment.velocity.iter().find(|&&v| v != 0.0);
     let mut sign = moving.map_or(1.0, |v| v.signum());
     let mut before = 0.0;
-    for (i, &v) in segment.velocity.iter().enumerate() {
+    let mut i = 0;
+    while let Some(&v) = segment.velocity.get(i) {
         let mut half_step = 0.0;
         let mut marks = SAMPLE;
         if i == 0 {
@@ -156,6 +161,69 @@ fn append(track: &mut Track, index: usize, segment: &Segment) -> Result<(), Erro
         };
         push(track, node, kept.then_some((segment, i)));
         before = v;
+        i += 1;
+        // What goes on in this direction, in one go.
+        if before != 0.0 {
+            let ahead = segment.velocity[i..].iter();
+            let run = ahead.take_while(|&&v| v * sign > 0.0).count();
+            append_run(track, index, segment, i..i + run, sign)?;
+            before = segment.velocity[i + run - 1];
+            i += run;
+        }
+    }
+    Ok(())
+}
+
+/// Samples that move in the direction of the one before them.
+fn append_run(
+    track: &mut Track,
+    index: usize,
+    segment: &Segment,
+    run: Range<usize>,
+    sign: f64,
+) -> Result<(), Error> {
+    let velocity = &segment.velocity[run.clone()];
+    track.speed.extend(velocity.iter().map(|v| v.abs()));
+    track.sign.extend(std::iter::repeat_n(sign, run.len()));
+    match segment.time {
+        Time::Step(_) if run.is_empty() => {}
+        Time::Step(_) => {
+            let half_step = 0.5 * step(index, segment, run.start)?;
+            track
+                .half_step
+                .extend(std::iter::repeat_n(half_step, run.len()));
+        }
+        Time::At(_) => {
+            for i in run.clone() {
+                track.half_step.push(0.5 * step(index, segment, i)?);
+            }
+        }
+    }
+    track.samples += run.len();
+    let channels = std::iter::once((&mut track.force, segment.force));
+    let channels = channels.chain(
+        track
+            .columns
+            .iter_mut()
+            .zip(segment.columns.iter().copied()),
+    );
+    if segment.keep.is_empty() {
+        track
+            .marks
+            .extend(std::iter::repeat_n(SAMPLE | KEPT, run.len()));
+        track.kept += run.len();
+        for (to, values) in channels {
+            to.extend(values[run.clone()].iter().map(|x| sign * x));
+        }
+    } else {
+        let keep = &segment.keep[run.clone()];
+        let mark = |&kept: &bool| SAMPLE | if kept { KEPT } else { 0 };
+        track.marks.extend(keep.iter().map(mark));
+        track.kept += keep.iter().filter(|&&kept| kept).count();
+        for (to, values) in channels {
+            let kept = values[run.clone()].iter().zip(keep);
+            to.extend(kept.map(|(x, &kept)| if kept { sign * x } else { 0.0 }));
+        }
     }
     Ok(())
 }

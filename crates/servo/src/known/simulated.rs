@@ -33,15 +33,11 @@ impl KnownAxis {
     }
 }
 
-/// The 64 laws whose six parameters are each too small or too large by the part `by`, 0 to below 1, with sigma1 capped:
-/// what a compensator may be given instead of `law`. Fs is kept at Fc or above.
+/// The 64 laws in which each of sigma0, sigma1, sigma2, Fc, Fs, vs is too small or too large by the part `by`, 0 to below
+/// 1, in both directions of motion alike: what a compensator may be given instead of `law`. Everything else is that of
+/// `law`. Fs is kept at Fc or above.
 pub fn corners(law: &LuGre<f64>, by: f64) -> impl Iterator<Item = LuGre<f64>> {
-    let true_side = *law.curve().positive();
-    let (stiffness, damping, shape) = (
-        law.stiffness(),
-        law.damping().at_rest(),
-        law.curve().shape(),
-    );
+    let law = *law;
     (0..64).filter_map(move |corner| {
         let off = |i: u32| {
             if corner >> i & 1 == 1 {
@@ -50,14 +46,26 @@ pub fn corners(law: &LuGre<f64>, by: f64) -> impl Iterator<Item = LuGre<f64>> {
                 1.0 - by
             }
         };
-        let coulomb = off(3) * true_side.coulomb;
-        let side = Direction {
-            coulomb,
-            static_friction: coulomb.max(off(4) * true_side.static_friction),
-            stribeck_velocity: off(5) * true_side.stribeck_velocity,
-            viscous: off(2) * true_side.viscous,
+        let side = |exact: &Direction<f64>| {
+            let coulomb = off(3) * exact.coulomb;
+            Direction {
+                coulomb,
+                static_friction: coulomb.max(off(4) * exact.static_friction),
+                stribeck_velocity: off(5) * exact.stribeck_velocity,
+                viscous: off(2) * exact.viscous,
+            }
         };
-        let curve = Stribeck::symmetric(shape, side, 0.0).ok()?;
-        LuGre::new(off(0) * stiffness, Damping::Capped(off(1) * damping), curve).ok()
+        let damping = match law.damping() {
+            Damping::Constant(sigma1) => Damping::Constant(off(1) * sigma1),
+            Damping::Capped(sigma1) => Damping::Capped(off(1) * sigma1),
+            Damping::Olsson { sigma1, velocity } => Damping::Olsson {
+                sigma1: off(1) * sigma1,
+                velocity,
+            },
+        };
+        let curve = law.curve();
+        let sides = [curve.positive(), curve.negative()].map(side);
+        let curve = Stribeck::new(curve.shape(), sides[0], sides[1], curve.offset()).ok()?;
+        LuGre::new(off(0) * law.stiffness(), damping, curve).ok()
     })
 }

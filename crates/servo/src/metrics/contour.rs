@@ -30,31 +30,81 @@ pub fn circular_deviation(points: &[[f64; 2]]) -> f64 {
     if points.len() < 3 {
         return 0.0;
     }
-    let zone = |centre: [f64; 2]| {
-        let radii = points
-            .iter()
-            .map(|p| libm::hypot(p[0] - centre[0], p[1] - centre[1]));
-        let (least, largest) = radii.fold((f64::INFINITY, 0.0_f64), |(low, high), r| {
-            (low.min(r), high.max(r))
-        });
-        largest - least
-    };
     let n = points.len() as f64;
     let sum = points
         .iter()
         .fold([0.0; 2], |s, p| [s[0] + p[0], s[1] + p[1]]);
     let mut centre = sum.map(|s| s / n);
-    let mut best = zone(centre);
+    // Few points hold the zone: a part of them is searched, and those that stand out of its zone are added.
+    let every = points.len().div_ceil(SEARCHED);
+    let mut part: Vec<[f64; 2]> = points.iter().copied().step_by(every).collect();
+    let mut best = width(points, centre);
+    for _ in 0..MOST_ROUNDS {
+        let start = width(&part, centre);
+        let found = narrowest(&part, centre, start);
+        let (low, high) = radii(&part, found);
+        let whole = width(points, found);
+        if whole < best {
+            (best, centre) = (whole, found);
+        }
+        if whole - (high - low) <= 1e-9 * whole {
+            break;
+        }
+        for stretch in points.chunks(points.len().div_ceil(STRETCHES)) {
+            let (near, far) = ends(stretch, found);
+            let outside = |p: &[f64; 2]| !(low..=high).contains(&radius(*p, found));
+            part.extend([near, far].iter().filter(|p| outside(p)));
+        }
+    }
+    best
+}
+
+/// Points of which the zone is searched at first, the stretches of all points of which the extremes are added, and how
+/// often.
+const SEARCHED: usize = 1000;
+const STRETCHES: usize = 64;
+const MOST_ROUNDS: usize = 20;
+
+fn radius(point: [f64; 2], centre: [f64; 2]) -> f64 {
+    libm::hypot(point[0] - centre[0], point[1] - centre[1])
+}
+
+/// The least and the largest radius.
+fn radii(points: &[[f64; 2]], centre: [f64; 2]) -> (f64, f64) {
+    points
+        .iter()
+        .map(|p| radius(*p, centre))
+        .fold((f64::INFINITY, 0.0), |(low, high), r| {
+            (low.min(r), high.max(r))
+        })
+}
+
+fn width(points: &[[f64; 2]], centre: [f64; 2]) -> f64 {
+    let (low, high) = radii(points, centre);
+    high - low
+}
+
+/// The nearest and the farthest point.
+fn ends(points: &[[f64; 2]], centre: [f64; 2]) -> ([f64; 2], [f64; 2]) {
+    let by_radius =
+        |a: &&[f64; 2], b: &&[f64; 2]| radius(**a, centre).total_cmp(&radius(**b, centre));
+    let near = points.iter().min_by(by_radius).copied();
+    let far = points.iter().max_by(by_radius).copied();
+    (near.unwrap_or(centre), far.unwrap_or(centre))
+}
+
+/// The centre of the least zone near one whose zone is `best` wide.
+fn narrowest(points: &[[f64; 2]], mut centre: [f64; 2], mut best: f64) -> [f64; 2] {
     // The width is not smooth in the centre: directions are tried, and the stride is halved where none is better.
     let mut stride = best;
     let smallest = 1e-9 * best;
     while stride > smallest {
         let tried = DIRECTIONS.map(|[x, y]| [centre[0] + stride * x, centre[1] + stride * y]);
-        let widths = tried.map(zone);
         let mut next = None;
-        for (place, width) in tried.into_iter().zip(widths) {
-            if width < best {
-                (best, next) = (width, Some(place));
+        for place in tried {
+            let zone = width(points, place);
+            if zone < best {
+                (best, next) = (zone, Some(place));
             }
         }
         match next {
@@ -62,7 +112,7 @@ pub fn circular_deviation(points: &[[f64; 2]]) -> f64 {
             None => stride *= 0.5,
         }
     }
-    best
+    centre
 }
 
 /// Twelve, 30 degrees apart: along a crease of the width few directions lead down.

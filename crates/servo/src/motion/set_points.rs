@@ -4,11 +4,12 @@ use crate::path::Reference;
 use crate::trajectory::Trajectory;
 use stiction_friction::ParamError;
 
-/// Positions at a fixed rate with a cubic spline through them (Catmull and Rom: the slope at a point is that of the chord
-/// of its neighbours), so that the velocity is continuous. Starts and ends at rest; positions count from the first.
+/// Positions at given times, and between them polynomials of fifth order that take over position, velocity and
+/// acceleration at each point: those of the parabola through it and its neighbours. Acceleration is continuous, and what
+/// stands in the points stands between them. Starts and ends at rest; positions count from the first, times too.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SetPoints {
-    rate: f64,
+    times: Vec<f64>,
     positions: Vec<f64>,
 }
 
@@ -16,55 +17,87 @@ impl SetPoints {
     /// At least two positions, m (rad), all finite, at `rate` > 0, Hz.
     pub fn new(rate: f64, positions: Vec<f64>) -> Result<Self, ParamError> {
         ParamError::positive("rate", rate)?;
+        let times = (0..positions.len()).map(|k| k as f64 / rate).collect();
+        SetPoints::timed(times, positions)
+    }
+
+    /// At least two positions, m (rad), all finite, at as many ascending times, s.
+    pub fn timed(mut times: Vec<f64>, mut positions: Vec<f64>) -> Result<Self, ParamError> {
         if positions.len() < 2 {
             let found = positions.len() as f64;
             return Err(ParamError::new("set_points", found, "at least two"));
         }
-        for &position in &positions {
+        if times.len() != positions.len() {
+            let found = times.len() as f64;
+            return Err(ParamError::new("times", found, "as many as positions"));
+        }
+        for (&time, &position) in times.iter().zip(&positions) {
+            ParamError::finite("time", time)?;
             ParamError::finite("set_point", position)?;
         }
-        Ok(SetPoints { rate, positions })
+        if let Some(pair) = times.windows(2).find(|pair| pair[1] <= pair[0]) {
+            return Err(ParamError::new(
+                "time",
+                pair[1],
+                "later than the one before",
+            ));
+        }
+        let (begin, origin) = (times[0], positions[0]);
+        times.iter_mut().for_each(|t| *t -= begin);
+        positions.iter_mut().for_each(|x| *x -= origin);
+        Ok(SetPoints { times, positions })
     }
 
-    /// Slope at a point, m (rad) a sample.
-    fn slope(&self, i: usize) -> f64 {
-        let last = self.positions.len() - 1;
-        if i == 0 || i == last {
-            return 0.0;
+    /// Velocity and acceleration at a point.
+    fn slopes(&self, i: usize) -> (f64, f64) {
+        if i == 0 || i + 1 == self.times.len() {
+            return (0.0, 0.0);
         }
-        0.5 * (self.positions[i + 1] - self.positions[i - 1])
+        let (t, x) = (&self.times, &self.positions);
+        let (before, after) = (t[i] - t[i - 1], t[i + 1] - t[i]);
+        let from = (x[i] - x[i - 1]) / before;
+        let to = (x[i + 1] - x[i]) / after;
+        let both = before + after;
+        (
+            (after * from + before * to) / both,
+            2.0 * (to - from) / both,
+        )
     }
 }
 
 impl Trajectory for SetPoints {
     fn duration(&self) -> f64 {
-        (self.positions.len() - 1) as f64 / self.rate
+        self.times[self.times.len() - 1]
     }
 
     fn at(&self, t: f64) -> Reference {
-        let origin = self.positions[0];
-        let last = self.positions.len() - 1;
-        let at = t * self.rate;
-        if at.is_nan() || at <= 0.0 {
+        if t.is_nan() || t <= 0.0 {
             return Reference::default();
         }
-        if at >= last as f64 {
+        let last = self.times.len() - 1;
+        if t >= self.times[last] {
             return Reference {
-                position: self.positions[last] - origin,
+                position: self.positions[last],
                 ..Reference::default()
             };
         }
-        let i = (at as usize).min(last - 1);
-        let x = at - i as f64;
-        let (p, q) = (self.positions[i], self.positions[i + 1]);
-        let (m, n) = (self.slope(i), self.slope(i + 1));
-        // Hermite: p + m x + c x^2 + d x^3.
-        let c = 3.0 * (q - p) - 2.0 * m - n;
-        let d = 2.0 * (p - q) + m + n;
+        let i = self.times.partition_point(|time| *time <= t) - 1;
+        let h = self.times[i + 1] - self.times[i];
+        let s = (t - self.times[i]) / h;
+        let ((v, a), (w, b)) = (self.slopes(i), self.slopes(i + 1));
+        // In parts of the stretch: what the parabola of the first point misses at the second.
+        let (v, w, a, b) = (h * v, h * w, 0.5 * h * h * a, h * h * b);
+        let position = self.positions[i + 1] - self.positions[i] - v - a;
+        let velocity = w - v - 2.0 * a;
+        let acceleration = b - 2.0 * a;
+        let c3 = 10.0 * position - 4.0 * velocity + 0.5 * acceleration;
+        let c4 = -15.0 * position + 7.0 * velocity - acceleration;
+        let c5 = 6.0 * position - 3.0 * velocity + 0.5 * acceleration;
+        let s2 = s * s;
         Reference {
-            position: p - origin + x * (m + x * (c + x * d)),
-            velocity: self.rate * (m + x * (2.0 * c + x * 3.0 * d)),
-            acceleration: self.rate * self.rate * (2.0 * c + x * 6.0 * d),
+            position: self.positions[i] + s * (v + s * (a + s * (c3 + s * (c4 + s * c5)))),
+            velocity: (v + s * (2.0 * a + s * (3.0 * c3 + s * (4.0 * c4 + s * 5.0 * c5)))) / h,
+            acceleration: (2.0 * a + s * (6.0 * c3 + s * 12.0 * c4) + 20.0 * s2 * s * c5) / (h * h),
         }
     }
 }

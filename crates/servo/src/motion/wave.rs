@@ -33,6 +33,7 @@ impl Trajectory for Sine {
         self.duration
     }
 
+    #[inline]
     fn at(&self, t: f64) -> Reference {
         let omega = self.omega;
         let inside = t.clamp(0.0, self.duration);

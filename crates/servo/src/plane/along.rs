@@ -134,6 +134,16 @@ impl FreeForm {
             axes: [SetPoints::new(rate, x)?, SetPoints::new(rate, y)?],
         })
     }
+
+    /// Set points of x and y, m (rad), at as many ascending times, s.
+    pub fn timed(times: Vec<f64>, x: Vec<f64>, y: Vec<f64>) -> Result<Self, ParamError> {
+        Ok(FreeForm {
+            axes: [
+                SetPoints::timed(times.clone(), x)?,
+                SetPoints::timed(times, y)?,
+            ],
+        })
+    }
 }
 
 impl Curve for FreeForm {

@@ -58,13 +58,18 @@ pub struct Foot {
 
 /// Newton steps are quadratic near the curve; a handful is enough from a reference close by.
 const MOST_STEPS: usize = 8;
+/// How often a step may be halved: where the curve hardly moves with its parameter a whole one leads far away.
+const MOST_HALVINGS: usize = 40;
 
 /// The foot point of `position` on a curve, by Newton's method on `(P - c(p)) c'(p) = 0` from the parameter `start`. Where
-/// the curvature would lead it away from a minimum the step is that of the tangent.
+/// the curvature would lead it away from a minimum the step is that of the tangent, and no step leads farther from the
+/// position. Where the curve stands still at the foot point its direction is that at `start`.
 pub fn foot<C: Curve + ?Sized>(curve: &C, position: [f64; 2], start: f64) -> Foot {
-    let mut p = start.clamp(0.0, curve.end());
+    let clamped = |p: f64| p.clamp(0.0, curve.end());
+    let mut p = clamped(start);
+    let mut at = curve.place(p);
+    let from = at.first;
     for _ in 0..MOST_STEPS {
-        let at = curve.place(p);
         let away = minus(position, at.point);
         let speed = dot(at.first, at.first);
         if speed == 0.0 {
@@ -72,17 +77,27 @@ pub fn foot<C: Curve + ?Sized>(curve: &C, position: [f64; 2], start: f64) -> Foo
         }
         let slope = speed - dot(away, at.second);
         let slope = if slope > 0.1 * speed { slope } else { speed };
-        let next = (p + dot(away, at.first) / slope).clamp(0.0, curve.end());
-        let moved = (next - p).abs();
-        p = next;
+        let mut step = dot(away, at.first) / slope;
+        let mut next = (clamped(p + step), curve.place(clamped(p + step)));
+        for _ in 0..MOST_HALVINGS {
+            let left = minus(position, next.1.point);
+            if dot(left, left) <= dot(away, away) {
+                break;
+            }
+            step *= 0.5;
+            next = (clamped(p + step), curve.place(clamped(p + step)));
+        }
+        let moved = (next.0 - p).abs();
+        (p, at) = next;
         if moved <= 1e-14 * (1.0 + curve.end()) {
             break;
         }
     }
-    let at = curve.place(p);
+    let stands = at.first == [0.0; 2];
+    let direction = if stands { from } else { at.first };
     Foot {
         parameter: p,
-        deviation: from_left(minus(at.point, position), at.first),
+        deviation: from_left(minus(at.point, position), direction),
     }
 }
 

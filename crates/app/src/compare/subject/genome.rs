@@ -8,8 +8,35 @@ use stiction_search::Bounds;
 /// Decades by which the middle of a box is off the truth, in turn; less in boxes of less than a decade.
 const OFF: [f64; 6] = [0.31, -0.27, 0.23, -0.35, 0.29, -0.33];
 
-/// Logarithms of the genes of known parameters; what is zero counts as `least`.
-pub(super) fn genome(truth: &[(String, f64)], cost: Cost, least: f64) -> Vec<f64> {
+/// What a parameter that is zero counts as: so little that no record shows it, since its logarithm needs
+/// a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Floor {
+    /// Of sigma1 and sigma2, N s/m.
+    damping: f64,
+    /// Of the excess of static over Coulomb friction, N.
+    excess: f64,
+}
+
+impl Floor {
+    /// For parameters that are known to be above zero.
+    pub const NONE: Self = Self {
+        damping: 0.0,
+        excess: 0.0,
+    };
+
+    /// A hundred-thousandth of the Coulomb friction (N), at the top speed (m/s).
+    pub fn new(coulomb: f64, top_speed: f64) -> Self {
+        let excess = 1e-5 * coulomb;
+        Self {
+            damping: excess / top_speed,
+            excess,
+        }
+    }
+}
+
+/// Logarithms of the genes of known parameters.
+pub(super) fn genome(truth: &[(String, f64)], cost: Cost, floor: Floor) -> Vec<f64> {
     let value = |name: &str| {
         truth
             .iter()
@@ -28,8 +55,16 @@ pub(super) fn genome(truth: &[(String, f64)], cost: Cost, least: f64) -> Vec<f64
                 value("static"),
                 value("stribeck_velocity"),
             );
-            let s2 = value("sigma2").max(least);
-            let six = [value("sigma0"), value("sigma1"), s2, fc, fs - fc, vs];
+            let damping = |name: &str| value(name).max(floor.damping);
+            let excess = (fs - fc).max(floor.excess);
+            let six = [
+                value("sigma0"),
+                damping("sigma1"),
+                damping("sigma2"),
+                fc,
+                excess,
+                vs,
+            ];
             match cost {
                 Cost::Separable => [six[0] / fc, six[4] / fc, vs].map(libm::log).into(),
                 _ => six.map(libm::log).into(),

@@ -3,8 +3,8 @@
 use super::super::excitation::{DURATION, Excitation};
 use super::super::known::{self, KnownCurve};
 use super::super::{CompareOptions, Cost, NOISE, RATE};
-use super::genome::{about, genome};
-use super::{Data, Subject};
+use super::genome::{Floor, about, genome};
+use super::{Data, Subject, lugre};
 use crate::error::Error;
 use stiction_friction::{LuGre, ParamError};
 use stiction_identify as engine;
@@ -45,11 +45,12 @@ pub(super) fn from_curve(options: &CompareOptions, curve: &KnownCurve) -> Result
         samples: force.len() - 1,
         rate_hz: 0.0,
         bounds: about(
-            &genome(&truth, Cost::Curve, 0.0),
+            &genome(&truth, Cost::Curve, Floor::NONE),
             options.decades.unwrap_or(1.0),
         )?,
         truth,
         cost: Cost::Curve,
+        law: lugre(),
         scheme: Scheme::Explin,
         data: Data::Curve { force },
     })
@@ -100,8 +101,8 @@ pub(super) fn from_axis(options: &CompareOptions, axis: &KnownAxis) -> Result<Su
         ("stribeck_velocity", side.stribeck_velocity),
     ];
     let truth: Vec<(String, f64)> = truth.map(|(n, v)| (n.to_string(), v)).into();
-    let least = 1e-3 * side.coulomb / (10.0 * side.stribeck_velocity);
-    let bounds = about(&genome(&truth, cost, least), options.decades.unwrap_or(1.0))?;
+    let floor = Floor::new(side.coulomb, 10.0 * side.stribeck_velocity);
+    let bounds = about(&genome(&truth, cost, floor), options.decades.unwrap_or(1.0))?;
     let made = |e: ParamError| Error::usage(e.to_string(), "a law");
     let (data, motion) = if cost == Cost::Position {
         if options.excitation.is_some() || options.integrator != Scheme::Explin {
@@ -162,6 +163,7 @@ pub(super) fn from_axis(options: &CompareOptions, axis: &KnownAxis) -> Result<Su
         rate_hz: rate,
         truth,
         cost,
+        law: lugre(),
         scheme: options.integrator,
         bounds,
         data,

@@ -144,7 +144,7 @@ pub(super) fn population(m: &MethodEntry) -> Figure {
     )
     .layer(Layer::line(x, at(0)).color(Color::Blue).label("Best"))
     .height(170.0);
-    Figure::new(format!("{}, the population of one run", m.name))
+    Figure::new(format!("{}, the population of the run with seed 0", m.name))
         .panel(panel)
         .half()
 }

@@ -1,6 +1,6 @@
 //! Rows and pictures of two axes on a contour.
 
-use super::{COLORS, percent, quantity};
+use super::{COLORS, believed, drawn, left_out, quantity};
 use crate::study::result::ResultRow;
 use crate::study::{ContourTrace, StudyOutcome};
 use crate::symbols;
@@ -54,18 +54,13 @@ pub(super) fn table(rows: &[ResultRow]) -> Table {
             let metric = row.metric(name).filter(|m| m.largest > 0.0);
             Text::from(metric.map_or("–".into(), |m| quantity(m.mean, &m.unit)))
         };
-        let less = |x: Option<f64>| Text::from(x.map_or("–".into(), percent));
+        let less = |x: Option<f64>| Text::from(x.map_or("–".into(), super::less));
         let without = row.compensator == "none" && !row.coupled;
         let judged = row.metric("contour_peak").filter(|_| !without);
         let worst = judged.and_then(|m| m.worst_reduction_percent);
-        let switched = match row.switched_off {
-            0 => String::new(),
-            _ if row.runs == 1 => ", switched off".into(),
-            n => format!(", switched off in {n}"),
-        };
         let mut cells = vec![
             Text::from(scheme(row)),
-            Text::from(format!("{}{switched}", row.parameters)),
+            Text::from(believed(row)),
             value("contour_rms"),
             value("contour_peak"),
         ];
@@ -89,9 +84,9 @@ pub(super) fn table(rows: &[ResultRow]) -> Table {
 
 /// The contour with its deviations magnified, beside the deviations over time.
 pub(super) fn figures(outcome: &StudyOutcome, rows: &[ResultRow]) -> Option<Block> {
+    let (rows, all) = drawn(rows);
     let traces: Vec<(String, &ContourTrace)> = rows
         .iter()
-        .filter(|r| r.parameters == "exact")
         .filter_map(|r| Some((scheme(r), outcome.contour(r)?)))
         .collect();
     let (_, first) = traces.first()?;
@@ -125,7 +120,10 @@ pub(super) fn figures(outcome: &StudyOutcome, rows: &[ResultRow]) -> Option<Bloc
     let course = Figure::new("Contour error")
         .half()
         .panel(course)
-        .caption("Positive where the contour lies to the left of the axes.");
+        .caption(format!(
+            "Positive where the contour lies to the left of the axes.{}",
+            left_out(traces.len(), all)
+        ));
     Some(Block::Columns(vec![plane.into(), course.into()]))
 }
 

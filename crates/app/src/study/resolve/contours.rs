@@ -1,7 +1,7 @@
 //! `[[contour]]`, `[second_axis]` and `[coupling]`
 
 use super::machine::machine;
-use super::{Dimensions, controllers, name};
+use super::{Dimensions, controllers, file, name};
 use crate::error::Error;
 use crate::study::contour::{ContourPlan, Second};
 use crate::study::raw::Table;
@@ -11,9 +11,9 @@ use stiction_friction::ParamError;
 use stiction_log::Dimension;
 use stiction_servo::cross_coupling::CrossCoupling;
 use stiction_servo::motion::Limits;
-use stiction_servo::plane::{Along, Circle, Curve, FigureEight, PlaneMotion, Polygon};
+use stiction_servo::plane::{Along, Circle, Curve, FigureEight, FreeForm, PlaneMotion, Polygon};
 
-const KINDS: [&str; 4] = ["circle", "corner", "square", "figure-eight"];
+const KINDS: [&str; 5] = ["circle", "corner", "square", "figure-eight", "file"];
 
 type Boxed = Box<dyn PlaneMotion + Send + Sync>;
 
@@ -61,7 +61,11 @@ pub(super) fn controller(table: &Table<'_>, study: &mut Study) -> Result<(), Err
     Ok(())
 }
 
-pub(super) fn contour(table: &Table<'_>, study: &Study) -> Result<ContourPlan, Error> {
+pub(super) fn contour(
+    table: &Table<'_>,
+    folder: &Path,
+    study: &mut Study,
+) -> Result<ContourPlan, Error> {
     if study.second.is_none() {
         let allowed = "give a table [second_axis]: a contour needs two";
         return Err(table.refuse("kind", "is for two axes".into(), allowed));
@@ -78,11 +82,21 @@ pub(super) fn contour(table: &Table<'_>, study: &Study) -> Result<ContourPlan, E
         "circle" => asked.circle()?,
         "corner" => (asked.polygon(Polygon::corner)?, 1.0),
         "square" => (asked.polygon(Polygon::square)?, 1.0),
-        _ => asked.figure_eight()?,
+        "figure-eight" => asked.figure_eight()?,
+        _ => {
+            let points = file::points::<2>(table, folder, asked.is.length)?;
+            let [x, y] = points.axes;
+            study.reads(&points.file, points.warning)?;
+            let motion = FreeForm::timed(points.times, x, y).map_err(|e| table.together(&e))?;
+            (Box::new(motion) as Boxed, 1.0)
+        }
     };
     let duration = motion.duration();
-    // A first turn is for starting up.
-    let usual = if turns >= 2.0 { duration / turns } else { 0.0 };
+    let usual = if turns >= 2.0 {
+        first_turn(motion.as_ref(), turns)
+    } else {
+        0.0
+    };
     let skip = table.not_negative("skip", Dimension::TIME)?;
     let skip = skip.unwrap_or(usual);
     if skip >= duration {
@@ -97,6 +111,22 @@ pub(super) fn contour(table: &Table<'_>, study: &Study) -> Result<ContourPlan, E
     };
     table.end()?;
     Ok(plan)
+}
+
+/// When the first of `turns` ends, s: it is for starting up. Its parameter only grows.
+fn first_turn(motion: &dyn PlaneMotion, turns: f64) -> f64 {
+    let turned = motion.end() / turns;
+    let (mut before, mut after) = (0.0, motion.duration());
+    // To the last bit.
+    for _ in 0..64 {
+        let middle = 0.5 * (before + after);
+        if motion.at(middle).parameter < turned {
+            before = middle;
+        } else {
+            after = middle;
+        }
+    }
+    after
 }
 
 struct Asked<'t, 'a> {

@@ -1,28 +1,34 @@
 //! `[[path]]`
 
-use super::{Dimensions, name};
+use super::{Dimensions, file, name};
 use crate::error::Error;
-use crate::study::PathPlan;
 use crate::study::raw::Table;
+use crate::study::{PathPlan, Study};
+use std::path::Path as FilePath;
 use stiction_friction::ParamError;
-use stiction_log::{Dimension, Motion};
-use stiction_servo::motion::{Chirp, Limits, Moves, Sine};
+use stiction_log::Dimension;
+use stiction_servo::motion::{Chirp, Limits, Moves, SetPoints, Sine};
 use stiction_servo::path::Path;
 use stiction_servo::trajectory::Trajectory;
 
-const KINDS: [&str; 6] = [
+const KINDS: [&str; 7] = [
     "sine",
     "chirp",
     "move",
     "staircase",
     "constant-velocity",
     "excitation",
+    "file",
 ];
 
 type Boxed = Box<dyn Trajectory + Send + Sync>;
 
-pub(super) fn path(table: &Table<'_>, motion: Motion) -> Result<PathPlan, Error> {
-    let is = Dimensions::of(motion);
+pub(super) fn path(
+    table: &Table<'_>,
+    folder: &FilePath,
+    study: &mut Study,
+) -> Result<PathPlan, Error> {
+    let is = Dimensions::of(study.machine.motion);
     let found = table.choice("kind", &KINDS)?;
     let found = table.required("kind", found, &format!("one of {}", KINDS.join(", ")))?;
     // The choice gave one of them.
@@ -34,7 +40,13 @@ pub(super) fn path(table: &Table<'_>, motion: Motion) -> Result<PathPlan, Error>
         "move" => asked.there_and_back()?,
         "staircase" => asked.staircase()?,
         "constant-velocity" => asked.constant_velocity()?,
-        _ => asked.excitation()?,
+        "excitation" => asked.excitation()?,
+        _ => {
+            let points = file::points::<1>(table, folder, asked.is.length)?;
+            let [positions] = points.axes;
+            study.reads(&points.file, points.warning)?;
+            asked.made(SetPoints::timed(points.times, positions))?
+        }
     };
     let duration = trajectory.duration();
     let default = if kind == "sine" { 0.5 * duration } else { 0.0 };

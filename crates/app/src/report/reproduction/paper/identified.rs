@@ -32,8 +32,9 @@ pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Pap
         .heading(2, "The searches")
         .paragraph(
             "J is the mean square of what the model leaves over that of the force. All six parameters at once \
-             are searched from the record of the dynamic test by each method; least squares follow the \
-             annealing search only, as its module for the precision of the optimum.",
+             are searched from the record of the dynamic test by each method. The paper names a module for the \
+             precision of the optimum after its annealing search and does not describe it; least squares from the \
+             best that the search found stand for it here, after that search only.",
         )
         .block(numbers(file, "six"))
         .block(convergence(statics, dynamics))
@@ -101,9 +102,17 @@ fn stribeck(law: &LuGre<f64>) -> Figure {
     )
     .layer(line(steady(law, &v)).color(Color::Blue).label("Whole"))
     .layer(line(viscous).color(Color::Orange).label("Viscous"))
-    .layer(Layer::hline(side.coulomb).label("Fc"))
-    .layer(Layer::hline(side.static_friction).label("Fs"))
-    .layer(Layer::vline(side.stribeck_velocity).label("vs"));
+    .layer(Layer::hline(side.coulomb).color(Color::Green).label("Fc"))
+    .layer(
+        Layer::hline(side.static_friction)
+            .color(Color::Vermilion)
+            .label("Fs"),
+    )
+    .layer(
+        Layer::vline(side.stribeck_velocity)
+            .color(Color::Purple)
+            .label("vs"),
+    );
     Figure::new("The Stribeck curve of the axis (FIG. 1)").panel(panel)
 }
 

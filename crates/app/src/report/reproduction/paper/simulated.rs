@@ -13,9 +13,11 @@ pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Pap
             .block(friction(without))
             .heading(2, "Compensation")
             .paragraph(
-                "The identified law is fed by the reference velocity, which is a feedforward, and by the measured \
-                 velocity, as the paper draws it, which is a positive feedback of friction and is let through to \
-                 90 %. Both work beside the same fuzzy PID.",
+                "The law identified in the static and then the dynamic test, with least squares, is fed by the \
+                 reference velocity, which is a feedforward, and by the measured velocity, as the paper draws it, \
+                 which is a positive feedback of friction and is let through to 90 %. The measured velocity is the \
+                 difference of two readings of an encoder of 50 nm over a period of 0.1 ms, not the true one. Both \
+                 work beside the same fuzzy PID.",
             )
             .block(compensation(&paper.tracked))
             .block(speed(&paper.tracked))
@@ -139,7 +141,10 @@ fn compensation(runs: &[Tracked]) -> Figure {
             without.friction[0].clone(),
         );
         force = each(
-            force.layer(line.color(Color::Grey).label("True friction")),
+            force.layer(
+                line.color(Color::Grey)
+                    .label("True friction without compensation"),
+            ),
             with,
             |s| s.compensation,
         );
@@ -266,7 +271,10 @@ fn deviation(runs: &[Cornered]) -> Figure {
     Figure::new("Deviation from the contour")
         .half()
         .panel(panel)
-        .caption("Positive where the contour lies to the left of the axes.")
+        .caption(
+            "Positive where the contour lies to the left of the axes. The whole run; the table below counts \
+             0.2 s to either side of the corner, without the start and the stop at the end.",
+        )
 }
 
 fn mass(load: &LoadFound) -> Figure {

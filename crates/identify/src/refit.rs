@@ -1,0 +1,109 @@
+//! What a fit finds on a [`replica`](crate::replica).
+
+use crate::conditioning::record::Record;
+use crate::conditioning::{Conditioning, condition};
+use crate::estimate::Estimate;
+use crate::estimate::uncertainty::{Unknowns, unknowns};
+use crate::observe::{Counts, Silent, Stage};
+use crate::replica::{Replica, replica};
+use crate::separable::levenberg::{Watch, descend};
+use crate::separable::objective::Objective;
+use crate::separable::search_box::SearchBox;
+
+/// Seed of the replica without noise of the force.
+const SILENT: u64 = 999;
+/// A step in the logarithms that is not taken at its word.
+const FAR: f64 = 1.0;
+/// Most trials of a descent.
+const TRIALS: usize = 60;
+
+/// Unknowns and coefficients that a fit of a replica finds, from its truth in `steps` Gauss-Newton
+/// steps: the errors are small, so one shows them to first order, two all but exactly. Where two would
+/// lead far away, the record hardly knows some unknown, and a whole descent shows where its fit ends.
+/// With `surety` also how sure that fit would be.
+pub(crate) fn refitted(
+    replica: &Replica,
+    conditioning: &Conditioning,
+    fitted: &Estimate,
+    steps: usize,
+    surety: bool,
+    counts: &mut Counts,
+) -> Option<Refit> {
+    let record = condition(&replica.logs, conditioning).ok()?;
+    let objective = Objective::new(&record, fitted.law, &replica.terms);
+    let mut p = replica.p.clone();
+    for _ in 0..steps {
+        let at = objective.evaluate(&p, true);
+        counts.sensitivities += 1;
+        let step = at.hessian.cholesky()?.solve(&at.descent);
+        if steps > 1 && step.iter().any(|d| d.abs() > FAR) {
+            p = descended(&objective, &replica.p, counts)?;
+            break;
+        }
+        for (x, d) in p.iter_mut().zip(step.iter()) {
+            *x += d.clamp(-FAR, FAR);
+        }
+    }
+    let at = objective.evaluate(&p, surety);
+    if surety {
+        counts.sensitivities += 1;
+    } else {
+        counts.cost += 1;
+    }
+    let unknowns = surety.then(|| unknowns(&objective, &at));
+    let refit = Refit {
+        p,
+        square: at.cost / at.residual().len().max(1) as f64,
+        c: at.solution.coefficients,
+        unknowns,
+    };
+    let finite = |x: &[f64]| x.iter().all(|x| x.is_finite());
+    (finite(&refit.p) && finite(&refit.c) && refit.square.is_finite()).then_some(refit)
+}
+
+/// What a fit of a replica finds.
+pub(crate) struct Refit {
+    /// Nonlinear unknowns.
+    pub p: Vec<f64>,
+    /// Linear ones.
+    pub c: Vec<f64>,
+    /// How sure its residual makes it of them, if asked for.
+    pub unknowns: Option<Unknowns>,
+    /// Mean square of the residual.
+    square: f64,
+}
+
+/// White noise of the logged force that the residual of a fit shows: what a replica without any does
+/// not leave. The logged force itself does not tell, because a controller answers every step of its
+/// encoder with a force that the axis did get.
+pub(crate) fn force_noise(
+    record: &Record,
+    conditioning: &Conditioning,
+    fitted: &Estimate,
+    counts: &mut Counts,
+) -> Option<f64> {
+    let quiet = replica(record, fitted, 0.0, SILENT)?;
+    let refit = refitted(&quiet, conditioning, fitted, 1, false, counts)?;
+    let left = (fitted.fit.rmse * fitted.fit.rmse - refit.square).max(0.0);
+    Some((left / record.noise_gain()).sqrt())
+}
+
+/// Where a descent from `start` ends.
+fn descended(objective: &Objective, start: &[f64], counts: &mut Counts) -> Option<Vec<f64>> {
+    let record = objective.record();
+    let mut bounds = SearchBox::from_record(record, objective.law()).ok()?;
+    if start.len() > objective.law().nonlinear() {
+        bounds = bounds.with_delay();
+    }
+    let mut watch = Watch {
+        observer: &mut Silent,
+        stage: Stage::Calibration,
+        fraction: 0.0,
+        counts: Counts::default(),
+        best: f64::INFINITY,
+        stopped: false,
+    };
+    let end = descend(objective, &bounds, start, TRIALS, &mut watch);
+    counts.add(&watch.counts);
+    Some(end.p)
+}

@@ -1,0 +1,123 @@
+//! Times closed loops with friction, for `bench/servo/compare.py`: `loops ROUNDS`.
+//!
+//! Prints one line a loop, its name and ns per control step on one core: of each stretch of 1000 steps the least of all
+//! rounds, on average; `study-run` is the least whole run of a study, metrics included. With `loops ROUNDS study` also the
+//! seconds that 1000 such runs take on one thread and on two.
+
+use std::hint::black_box;
+use std::time::Instant;
+use stiction_friction::ParamError;
+use stiction_friction::compensator::{Compensator, Friction, Settings, Source};
+use stiction_servo::axis::{Axis, AxisSettings, Correction};
+use stiction_servo::drive::Drive;
+use stiction_servo::encoder::Encoder;
+use stiction_servo::feedforward::Feedforward;
+use stiction_servo::integrator::Quick;
+use stiction_servo::known;
+use stiction_servo::metrics::{Tracking, ripple_at_constant_velocity};
+use stiction_servo::motion::Sine;
+use stiction_servo::plant::Plant;
+use stiction_servo::run::run_with;
+use stiction_servo::trajectory::Lookahead;
+
+/// Steps of a loop, and those that are timed together: shorter than what a scheduler leaves it.
+const STEPS: usize = 30_000;
+const STRETCH: usize = 1000;
+const RUNS: usize = 1000;
+
+fn main() -> Result<(), ParamError> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let rounds = arguments.first().and_then(|r| r.parse().ok()).unwrap_or(50);
+    let sine = Sine::new(0.02, 1.0, 3.0)?;
+    println!("cascade {:.1}", least(&plain(false)?, &sine, rounds)?);
+    println!("compensated {:.1}", least(&plain(true)?, &sine, rounds)?);
+    let whole = whole()?;
+    println!("everything {:.1}", least(&whole, &sine, rounds)?);
+    println!("study-run {:.1}", least_run(&whole, 4 * rounds)?);
+    if arguments.get(1).is_some_and(|what| what == "study") {
+        for threads in [1, 2] {
+            println!("study-{threads} {:.2}", study(&whole, threads)?);
+        }
+    }
+    Ok(())
+}
+
+/// A 10 kHz cascade with one plant step a control step; no encoder steps, delay or lag.
+fn plain(compensated: bool) -> Result<AxisSettings, ParamError> {
+    let axis = known::find("machine").expect("a known axis");
+    let whole = axis.simulated(1e4, 30.0)?;
+    let settings = Settings::bare(1e-4, 500.0);
+    let compensator = Compensator::new(Friction::LuGre(axis.law), Source::Reference, settings)?;
+    Ok(AxisSettings {
+        plant: Plant::new(axis.mass, axis.law)?,
+        drive: Drive::ideal(),
+        encoder: Encoder::new(0.0)?,
+        feedforward: Feedforward {
+            compensator: compensated.then_some(compensator),
+            ..Feedforward::default()
+        },
+        ..whole
+    })
+}
+
+/// The run of a study: 4 kHz, three plant steps, encoder, delay, current loop, preview, compensator with watchdog.
+fn whole() -> Result<AxisSettings, ParamError> {
+    let axis = known::find("motor").expect("a known axis");
+    let settings = Settings::new(1.0 / 4000.0, 500.0);
+    let compensator = Compensator::new(Friction::LuGre(axis.law), Source::Reference, settings)?;
+    Ok(AxisSettings {
+        feedforward: Feedforward::compensator(compensator, 1.64),
+        ..axis.simulated(4000.0, 60.0)?
+    })
+}
+
+fn least(settings: &AxisSettings, sine: &Sine, rounds: usize) -> Result<f64, ParamError> {
+    let mut least = [f64::INFINITY; STEPS / STRETCH];
+    for _ in 0..rounds {
+        let mut axis = Axis::new(settings.clone(), Quick::new(1)?)?;
+        let mut reference = Lookahead::new(sine, settings.rate, settings.feedforward.preview);
+        for least in &mut least {
+            let start = Instant::now();
+            let squares = (0..STRETCH).fold(0.0, |sum, _| {
+                let (now, ahead) = reference.sample();
+                let error = axis.step(now, ahead, Correction::default()).error();
+                sum + error * error
+            });
+            black_box(squares);
+            *least = least.min(start.elapsed().as_secs_f64());
+        }
+    }
+    Ok(1e9 * least.iter().sum::<f64>() / STEPS as f64)
+}
+
+/// A run of 3 s with its metrics, and how many samples it has.
+fn run_of_study(settings: &AxisSettings) -> Result<usize, ParamError> {
+    let sine = Sine::new(5e-3, 1.0, 3.0)?;
+    let samples = run_with(black_box(settings), &sine, Quick::new(1)?)?;
+    black_box((
+        Tracking::of(&samples),
+        ripple_at_constant_velocity(&samples),
+    ));
+    Ok(samples.len())
+}
+
+/// The least time of a run, ns a sample.
+fn least_run(settings: &AxisSettings, rounds: usize) -> Result<f64, ParamError> {
+    (0..rounds).try_fold(f64::INFINITY, |least, _| {
+        let start = Instant::now();
+        let samples = run_of_study(settings)?;
+        Ok(least.min(1e9 * start.elapsed().as_secs_f64() / samples as f64))
+    })
+}
+
+/// Seconds for all runs.
+fn study(settings: &AxisSettings, threads: usize) -> Result<f64, ParamError> {
+    let start = Instant::now();
+    std::thread::scope(|scope| {
+        let share = || (0..RUNS / threads).try_for_each(|_| run_of_study(settings).map(drop));
+        let running: Vec<_> = (0..threads).map(|_| scope.spawn(share)).collect();
+        let ended = running.into_iter().map(|r| r.join().expect("no panic"));
+        ended.collect::<Result<(), ParamError>>()
+    })?;
+    Ok(start.elapsed().as_secs_f64())
+}
