@@ -49,6 +49,9 @@ pub struct SourceEntry {
     pub method: String,
     /// Seed of the search.
     pub seed: u64,
+    /// Largest speed of the logs that were fitted, m/s or rad/s; absent where it is not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub top_speed: Option<f64>,
     /// Paths and hashes of the logs.
     pub inputs: Vec<SourceInput>,
 }
@@ -119,6 +122,7 @@ impl ModelFile {
                 version: result.version.clone(),
                 method: result.method.clone(),
                 seed: result.seed,
+                top_speed: result.top_speed,
                 inputs: result
                     .inputs
                     .iter()
@@ -194,7 +198,7 @@ impl ModelFile {
                 format!("this version reads {SCHEMA:?}"),
             ));
         }
-        match fault::fault(&model) {
+        match fault::fault(&model).or_else(|| fault::top_speed(&model)) {
             Some((place, found, allowed)) => Err(refuse(place.into(), found, allowed)),
             None => Ok(model),
         }
