@@ -41,6 +41,14 @@ pub enum Error {
     /// A model cannot be exported.
     #[error("{0}")]
     Export(#[from] stiction_export::Error),
+    /// A model cannot be exported because of a number in its file.
+    #[error("{}: parameter: {source}", .file.display())]
+    ExportModel {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: stiction_export::Error,
+    },
     /// The command as typed cannot be carried out.
     #[error("{found}; {allowed}")]
     Usage {
@@ -82,7 +90,7 @@ impl Error {
             },
             Error::Config { .. } => "bad-config",
             Error::Checkpoint { .. } => "bad-checkpoint",
-            Error::Export(_) => "not-exported",
+            Error::Export(_) | Error::ExportModel { .. } => "not-exported",
             Error::Usage { .. } => "usage",
             Error::Output { .. } => "output",
         }

@@ -95,7 +95,8 @@ pub fn export(options: &ExportOptions, dir: &Path) -> Result<Exported, Error> {
                 let library = compile::shared_library(source);
                 whole &= library.is_some();
                 library
-            })?;
+            })
+            .map_err(|e| place(e, options))?;
             if !whole {
                 warnings.push(Warning::new(
                     "export-source",
@@ -105,7 +106,7 @@ pub fn export(options: &ExportOptions, dir: &Path) -> Result<Exported, Error> {
             }
             files
         }
-        target => stiction_export::export(&model, target)?,
+        target => stiction_export::export(&model, target).map_err(|e| place(e, options))?,
     };
     write_folder(
         dir,
@@ -152,7 +153,7 @@ fn resolve(
         ),
         Unfit::Value(e) => refuse(
             "parameter: ",
-            format!("{} = {}", e.name, e.value),
+            format!("{} = {}", e.name, stiction_export::shortest(e.value)),
             e.allowed,
         ),
     })?;
@@ -179,6 +180,7 @@ fn resolve(
         friction,
         settings: Settings::new(options.cycle_time, limit),
         rated_force: options.rated_force,
+        top_speed: file.source.top_speed,
         parameters: file
             .parameter
             .iter()
@@ -212,6 +214,23 @@ fn out_of_the_law(name: &str) -> bool {
             name,
             "coulomb_pos" | "coulomb_neg" | "sigma2_pos" | "sigma2_neg"
         )
+}
+
+/// A refusal with the file it came from, where it is of a number in that file.
+fn place(source: stiction_export::Error, options: &ExportOptions) -> Error {
+    use stiction_export::Error::{Number, Range};
+    let name = match &source {
+        Range { name, .. } => *name,
+        Number { source, .. } => source.name,
+        _ => return source.into(),
+    };
+    if (name == "limit" && options.limit.is_some()) || name == "rated_force" {
+        return source.into();
+    }
+    Error::ExportModel {
+        file: options.model.clone(),
+        source,
+    }
 }
 
 /// What the identification did not stand by, and what the code leaves out.

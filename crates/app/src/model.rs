@@ -50,6 +50,9 @@ pub struct SourceEntry {
     pub method: String,
     /// Seed of the search.
     pub seed: u64,
+    /// Largest speed of the logs that were fitted, m/s or rad/s; absent where it is not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub top_speed: Option<f64>,
     /// Paths and hashes of the logs.
     pub inputs: Vec<SourceInput>,
 }
@@ -120,6 +123,7 @@ impl ModelFile {
                 version: result.version.clone(),
                 method: result.method.clone(),
                 seed: result.seed,
+                top_speed: result.top_speed,
                 inputs: result
                     .inputs
                     .iter()
@@ -195,7 +199,7 @@ impl ModelFile {
                 format!("this version reads {SCHEMA:?}"),
             ));
         }
-        match fault::fault(&model) {
+        match fault::fault(&model).or_else(|| fault::top_speed(&model)) {
             Some((place, found, allowed)) => Err(refuse(place.into(), found, allowed)),
             None => Ok(model),
         }

@@ -62,7 +62,8 @@ impl Bundle {
 }
 
 /// Writes files (relative path, content) as one folder: made under a temporary name beside `dir` and renamed when it is
-/// complete. `dir` is absent or empty.
+/// complete. `dir` is absent or empty; one that is there stays, whether it is a link, a mount or where the user is, and
+/// what was complete is moved into it.
 ///
 /// # Errors
 /// When the folder holds something, a path leads out of it, or it cannot be written.
@@ -71,7 +72,8 @@ pub fn write_folder<'f>(
     files: impl IntoIterator<Item = (&'f str, &'f [u8])>,
 ) -> Result<(), Error> {
     let fail = |e: std::io::Error| Error::output(dir, describe(&e));
-    if dir.symlink_metadata().is_ok() {
+    let there = dir.symlink_metadata().is_ok();
+    if there {
         let free = dir.is_dir() && fs::read_dir(dir).map_err(fail)?.next().is_none();
         if !free {
             let what = "exists and is not an empty folder; choose another --out";
@@ -79,6 +81,7 @@ pub fn write_folder<'f>(
         }
     }
     let parent = match dir.parent() {
+        _ if there => dir,
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
@@ -102,10 +105,28 @@ pub fn write_folder<'f>(
         file.write_all(content).map_err(fail)?;
         file.sync_all().map_err(fail)?;
     }
-    if dir.is_dir() {
-        fs::remove_dir(dir).map_err(fail)?;
+    if there {
+        move_into(&whole, dir).map_err(fail)
+    } else {
+        fs::rename(&whole, dir).map_err(fail)
     }
-    fs::rename(&whole, dir).map_err(fail)
+}
+
+/// Moves what is in `from` into `dir`; what had been moved goes back if one cannot be.
+fn move_into(from: &Path, dir: &Path) -> std::io::Result<()> {
+    let mut moved = Vec::new();
+    for entry in fs::read_dir(from)?.collect::<Result<Vec<_>, _>>()? {
+        let to = dir.join(entry.file_name());
+        if let Err(e) = fs::rename(entry.path(), &to) {
+            for (old, new) in moved {
+                // The first error is the one to tell.
+                let _ = fs::rename(new, old);
+            }
+            return Err(e);
+        }
+        moved.push((entry.path(), to));
+    }
+    Ok(())
 }
 
 /// Writes a file under a temporary name in the same folder, then renames it.

@@ -69,6 +69,9 @@ pub struct ResultFile {
     /// Numbers of elements that were tried for a Maxwell-slip law; absent where there was no choice.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub elements: Vec<ElementsEntry>,
+    /// Largest speed of the samples that were fitted, m/s or rad/s; absent where nothing moved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub top_speed: Option<f64>,
     /// How the search went.
     pub search: Search,
     /// What a search found before the least squares that end it; absent for other methods.

@@ -138,6 +138,51 @@ fn a_folder_that_holds_something_is_left_alone() {
     );
 }
 
+/// A free folder is used as it is: as a link, with its rights, as the one the user is in.
+#[cfg(unix)]
+#[test]
+fn an_empty_folder_stays_the_same_folder() {
+    use std::os::unix::fs::MetadataExt;
+    let model = text("lugre", &LUGRE);
+    let bench = Bench::new();
+    let (real, link) = (bench.path("real"), bench.path("link"));
+    std::fs::create_dir(&real).unwrap();
+    let before = real.metadata().unwrap().ino();
+    std::os::unix::fs::symlink(&real, &link).unwrap();
+    for out in [link.clone(), real.join("."), real.clone()] {
+        let exported = export(&bench.options(&model), &out).unwrap();
+        assert_eq!(contents(&real).len(), exported.written.len(), "{out:?}");
+        assert_eq!(std::fs::read_dir(&real).unwrap().count(), 6, "{out:?}");
+        assert_eq!(real.metadata().unwrap().ino(), before, "{out:?}");
+        assert!(link.is_symlink());
+        for (path, _) in contents(&real) {
+            std::fs::remove_file(path).unwrap();
+        }
+    }
+}
+
+/// The limit is said where the log was fast enough to reach it: 0.75 (20 N + 60 N s/m v) is 60 N at 1 m/s.
+#[test]
+fn the_limit_is_said_where_the_log_reached_it() {
+    for (top, says) in [
+        ("0.99", None),
+        ("1.5", Some("at 1 m/s, and the log goes to 1.5 m/s")),
+        ("0.0", Some("source: top_speed = 0; above 0")),
+        ("inf", Some("source: top_speed = inf; above 0")),
+    ] {
+        let top = format!("seed = 0\ntop_speed = {top}\n");
+        let bench = Bench::new();
+        let said = match bench.export(&text("lugre", &LUGRE).replace("seed = 0\n", &top)) {
+            Ok(exported) => exported.warnings.into_iter().map(|w| w.message).collect(),
+            Err(e) => e.to_string(),
+        };
+        match says {
+            Some(text) => assert!(said.contains(text), "{said}"),
+            None => assert_eq!(said, "", "{top}"),
+        }
+    }
+}
+
 /// What is refused, with its code and the place; nothing is left behind.
 #[test]
 fn bad_models_are_refused() {
@@ -173,7 +218,13 @@ fn bad_models_are_refused() {
             "single",
             text("lugre", &with("sigma0", 1e40)),
             "not-exported",
-            "as float",
+            "model.toml: parameter: sigma0 = 1e40; allowed: from 1e-15 to 1e15 (as float)",
+        ),
+        (
+            "single, small",
+            text("lugre", &with("sigma0", 1e-40)),
+            "not-exported",
+            "model.toml: parameter: sigma0 = 1e-40; allowed",
         ),
         (
             "term",

@@ -92,6 +92,7 @@ fn build(dir: &Path, motion: &str, suffix: &str) {
         friction: law(),
         settings: Settings::new(H, 100.0),
         rated_force: None,
+        top_speed: None,
         parameters: vec![],
         notes: vec![],
         provenance: Provenance::default(),

@@ -70,11 +70,19 @@ fn limited(model: &Model, gain: f64) -> Option<Advice> {
             short(model.scale()),
         )
     } else {
-        let from = short(model.saturates_from(gain)?);
-        format!(
-            "the force is limited to {limit} {unit}, which the share {gain} of the friction reaches at {from} {}: if the axis moves faster, give another --limit",
-            model.speed_unit(),
-        )
+        let from = model.saturates_from(gain)?;
+        let (at, speed) = (short(from), model.speed_unit());
+        let reached = format!(
+            "the force is limited to {limit} {unit}, which the share {gain} of the friction reaches at {at} {speed}"
+        );
+        match model.top_speed {
+            Some(top) if from > top => return None,
+            Some(top) => format!(
+                "{reached}, and the log goes to {} {speed}: give another --limit, or stay slower",
+                short(top)
+            ),
+            None => format!("{reached}: if the axis moves faster, give another --limit"),
+        }
     };
     Some(Advice {
         code: "export-limit",

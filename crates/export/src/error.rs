@@ -1,5 +1,6 @@
 //! Why a model is not exported.
 
+use crate::number::shortest;
 use stiction_friction::ParamError;
 
 /// A model that cannot be exported to a target.
@@ -14,8 +15,30 @@ pub enum Error {
         /// The name found.
         found: String,
     },
-    /// A parameter or setting outside the range of the number type of a file.
-    #[error("{source} (as {number_type}{})", range(number_type))]
+    /// A parameter that is too large, or too close to 0, for the number type of a file to compute with.
+    #[error(
+        "{name} = {}; allowed: from {} to {} (as {number_type})",
+        shortest(*value),
+        shortest(range.0),
+        shortest(range.1)
+    )]
+    Range {
+        /// The parameter, or `limit`.
+        name: &'static str,
+        /// As given.
+        value: f64,
+        /// Least and largest size.
+        range: (f64, f64),
+        /// `double`, `float`, `LREAL` or `REAL`.
+        number_type: &'static str,
+    },
+    /// A parameter or setting that the law or the compensator does not take.
+    #[error(
+        "{} = {}; allowed: {} (as {number_type})",
+        source.name,
+        shortest(source.value),
+        source.allowed
+    )]
     Number {
         /// `double`, `float`, `LREAL` or `REAL`.
         number_type: &'static str,
@@ -66,14 +89,6 @@ pub enum Error {
         /// What went wrong.
         found: String,
     },
-}
-
-/// What a type of single precision can hold: a number beyond it shows as infinite, or as 0.
-fn range(number_type: &str) -> &'static str {
-    match number_type {
-        "float" | "REAL" => ", which holds 1.2e-38 to 3.4e38",
-        _ => "",
-    }
 }
 
 impl Error {

@@ -19,6 +19,7 @@
 //!     friction: Friction::LuGre(law),
 //!     settings: Settings::new(1e-3, 40.0), // 1 kHz, at most 40 N
 //!     rated_force: None,
+//!     top_speed: None,
 //!     parameters: vec![],
 //!     notes: vec![],
 //!     provenance: Provenance::default(),
@@ -40,6 +41,7 @@ mod law;
 mod model;
 mod mujoco;
 mod number;
+mod range;
 mod rust;
 mod st;
 mod target;
@@ -52,5 +54,6 @@ pub use error::Error;
 pub use fmu::{GCC, fmu};
 pub use identifier::{IDENTIFIER_LENGTH, check_identifier, identifier, is_whole};
 pub use model::{Model, Parameter, Provenance};
+pub use number::shortest;
 pub use target::{File, Target, export};
 pub use tf5200::largest_force as largest_force_in_table;

@@ -1,6 +1,6 @@
 //! What is exported.
 
-use crate::Error;
+use crate::{Error, range};
 use stiction_friction::compensator::{Compensator, Friction, Settings, Source};
 use stiction_friction::{Damping, LuGre, Real};
 
@@ -23,6 +23,8 @@ pub struct Model {
     pub settings: Settings<f64>,
     /// Force that the motor is rated for, in the unit of the force; needed by targets that write per mille of it.
     pub rated_force: Option<f64>,
+    /// Largest speed of the recordings that it was identified on, m/s (rad/s), if known.
+    pub top_speed: Option<f64>,
     /// Parameters as they were identified.
     pub parameters: Vec<Parameter>,
     /// Sentences for the head of every file, such as what is not trustworthy.
@@ -66,6 +68,7 @@ impl Model {
         settings: &Settings<f64>,
         number_type: &'static str,
     ) -> Result<Compensator<T>, Error> {
+        range::check::<T>(self, settings.limit, number_type)?;
         let refuse = |e| Error::number(number_type, e);
         let friction = match &self.friction {
             Friction::Coulomb(law) => {

@@ -7,6 +7,7 @@ use common::{adversarial, busy, laws, model, random};
 use std::process::{Command, Stdio};
 use stiction_export::{Model, Target, export};
 use stiction_friction::compensator::{Friction, Input, Settings};
+use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 
 /// What the C has to pass; the undefined-behaviour sanitizer on top where it runs.
 const STRICT: &str = "-std=c99 -pedantic -Wall -Wextra -Wconversion -Wdouble-promotion -Wshadow -Wstrict-prototypes \
@@ -30,6 +31,69 @@ fn the_self_test_passes_under_every_warning() {
             assert!(said.starts_with("ok: 151 samples"), "{name}: {said}");
         }
     }
+}
+
+/// Numbers at the ends of what a number type takes, in all combinations, give a finite self-test that passes (in double
+/// precision it is only looked at); beyond them the model is refused.
+#[test]
+fn the_self_test_holds_to_the_ends_of_the_range() {
+    let corners = |k: u32, most: f64| {
+        let end = |bit: u32| [1.001 / most, 0.999 * most][(k >> bit & 1) as usize];
+        let side = Direction {
+            coulomb: end(0),
+            static_friction: end(0).max(end(1)),
+            stribeck_velocity: end(2),
+            viscous: end(3),
+        };
+        let curve = Stribeck::symmetric(Shape::Gaussian, side, 0.0).unwrap();
+        model(Friction::LuGre(
+            LuGre::new(end(4), Damping::Capped(end(5)), curve).unwrap(),
+        ))
+    };
+    for k in 0..64 {
+        let mut model = corners(k, 1e15);
+        model.settings.limit = 1e29;
+        for file in export(&model, Target::St).unwrap() {
+            let text = String::from_utf8(file.bytes).unwrap();
+            for none in [":= inf", ":= -inf", ":= NaN"] {
+                assert!(!text.contains(none), "{k} {}", file.path);
+            }
+        }
+        let dir = tempfile::tempdir().unwrap();
+        write(&export(&model, Target::C).unwrap(), dir.path());
+        let file = "x_axis_friction_f32";
+        let (source, test) = (format!("{file}.c"), format!("{file}_selftest.c"));
+        gcc("-std=c99 -O1 -Werror", &[&source, &test, "-lm"], dir.path());
+        let said = run("./a.out", &[], dir.path());
+        assert!(said.starts_with("ok: 151 samples"), "{k}: {said}");
+        for file in export(&corners(k, 1e100), Target::Rust).unwrap() {
+            let text = String::from_utf8(file.bytes).unwrap();
+            let rows = text.lines().filter(|line| line.starts_with("    ("));
+            assert!(
+                !rows
+                    .into_iter()
+                    .any(|row| row.contains("inf") || row.contains("NaN"))
+            );
+        }
+    }
+    let mut large = corners(0, 1e15);
+    large.settings.limit = 1e31;
+    let beyond = |large: &Model| export(large, Target::C).unwrap_err().to_string();
+    let said = "limit = 1e31; allowed: from 0 to 1e30 (as float)";
+    assert_eq!(beyond(&large), said);
+    let curve = Stribeck::symmetric(
+        Shape::Gaussian,
+        Direction {
+            coulomb: 12.0,
+            static_friction: 18.0,
+            stribeck_velocity: 1e37,
+            viscous: 30.0,
+        },
+        0.0,
+    )
+    .unwrap();
+    let said = "stribeck_velocity = 1e37; allowed: from 1e-15 to 1e15 (as float)";
+    assert_eq!(beyond(&model(Friction::Stribeck(curve))), said);
 }
 
 /// A self-test that is run with another parameter fails.

@@ -91,6 +91,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         presliding_step: None,
         break_away: Vec::new(),
         elements: elements(estimate),
+        top_speed: top_speed(estimate),
         search: Search {
             status: estimate.status.name().into(),
             evaluations: estimate.counts.total(),
@@ -102,6 +103,12 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         searched: None,
         warnings: parts.warnings,
     }
+}
+
+fn top_speed(estimate: &Estimate) -> Option<f64> {
+    let speeds = estimate.series.velocity.iter().map(|v| v.abs());
+    let top = speeds.fold(0.0, f64::max);
+    (top > 0.0 && top.is_finite()).then_some(top)
 }
 
 fn elements(estimate: &Estimate) -> Vec<ElementsEntry> {

@@ -263,3 +263,13 @@ pub(super) fn missing(model: &ModelFile) -> Option<&'static str> {
         .into_iter()
         .find_map(|(name, wanted)| (wanted && !has(name)).then_some(name))
 }
+
+/// A top speed that is none.
+pub(super) fn top_speed(model: &ModelFile) -> Option<Fault> {
+    let speed = model.source.top_speed?;
+    let within = speed > 0.0 && speed <= LARGEST;
+    (!within).then(|| {
+        let found = stiction_export::shortest(speed);
+        ("source: top_speed = ", found, "above 0, or left out".into())
+    })
+}

@@ -63,6 +63,7 @@ pub fn model(friction: Friction<f64>) -> Model {
         friction,
         settings: Settings::new(1e-3, 60.0),
         rated_force: Some(221.0),
+        top_speed: None,
         parameters: vec![
             Parameter {
                 name: "sigma0".into(),

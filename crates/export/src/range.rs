@@ -1,0 +1,104 @@
+//! Numbers that a number type can compute with: far enough from its ends that what the compensator makes of them, and
+//! the vectors of the self-test, neither overflow nor vanish.
+
+use crate::{Error, Model};
+use stiction_friction::compensator::Friction;
+use stiction_friction::{Direction, Real};
+
+/// A number with its name, and whether it may be as small as it likes.
+struct Number {
+    name: &'static str,
+    value: f64,
+    small: bool,
+}
+
+/// Refuses a law or a limit beyond the range of `T`, which is called `number_type` in the target. Signs and relations are
+/// the constructors' matter.
+pub(crate) fn check<T: Real>(
+    model: &Model,
+    limit: f64,
+    number_type: &'static str,
+) -> Result<(), Error> {
+    // Products of two parameters, and of those with the times and speeds of a test, stay well inside.
+    let (most, largest_limit) = if T::MAX.to_f64() < 1e100 {
+        (1e15, 1e30)
+    } else {
+        (1e100, 1e200)
+    };
+    let refuse = |name, value, range: (f64, f64)| Error::Range {
+        name,
+        value,
+        range,
+        number_type,
+    };
+    for Number { name, value, small } in law(&model.friction) {
+        let size = value.abs();
+        if size > most || (!small && size > 0.0 && size < 1.0 / most) {
+            let least = if small { 0.0 } else { 1.0 / most };
+            return Err(refuse(name, value, (least, most)));
+        }
+    }
+    if limit > largest_limit {
+        return Err(refuse("limit", limit, (0.0, largest_limit)));
+    }
+    Ok(())
+}
+
+/// The numbers of a law; those of a direction under the name of one where both are the same.
+fn law(friction: &Friction<f64>) -> Vec<Number> {
+    let flat = |coulomb, viscous| Direction {
+        coulomb,
+        static_friction: coulomb,
+        stribeck_velocity: 1.0,
+        viscous,
+    };
+    let (pos, neg, offset) = match friction {
+        Friction::Coulomb(law) => {
+            let ([pos, neg], [v_pos, v_neg]) = (law.coulomb(), law.viscous());
+            (flat(pos, v_pos), flat(neg, v_neg), law.offset())
+        }
+        Friction::Stribeck(curve) => (*curve.positive(), *curve.negative(), curve.offset()),
+        Friction::LuGre(law) => {
+            let curve = law.curve();
+            (*curve.positive(), *curve.negative(), curve.offset())
+        }
+    };
+    let number = |name, value, small| Number { name, value, small };
+    let mut numbers = Vec::new();
+    if let Friction::LuGre(law) = friction {
+        numbers.push(number("sigma0", law.stiffness(), false));
+        numbers.push(number("sigma1", law.damping().at_rest(), true));
+    }
+    let names = [
+        ["coulomb", "coulomb_pos", "coulomb_neg"],
+        ["static", "static_pos", "static_neg"],
+        [
+            "stribeck_velocity",
+            "stribeck_velocity_pos",
+            "stribeck_velocity_neg",
+        ],
+        ["sigma2", "sigma2_pos", "sigma2_neg"],
+    ];
+    let values = |side: Direction<f64>| {
+        [
+            side.coulomb,
+            side.static_friction,
+            side.stribeck_velocity,
+            side.viscous,
+        ]
+    };
+    for (names, (pos, neg)) in names
+        .into_iter()
+        .zip(values(pos).into_iter().zip(values(neg)))
+    {
+        let small = names[0] == "sigma2";
+        if pos == neg {
+            numbers.push(number(names[0], pos, small));
+        } else {
+            numbers.push(number(names[1], pos, small));
+            numbers.push(number(names[2], neg, small));
+        }
+    }
+    numbers.push(number("offset", offset, true));
+    numbers
+}
