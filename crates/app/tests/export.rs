@@ -194,7 +194,7 @@ fn bad_models_are_refused() {
         p
     };
     let no_viscous: Vec<_> = LUGRE.into_iter().filter(|p| p.0 != "sigma2").collect();
-    let cases: [(&str, String, &str, &str); 9] = [
+    let cases: [(&str, String, &str, &str); 10] = [
         ("missing", text("lugre", missing), "bad-config", "no sigma0"),
         (
             "law",
