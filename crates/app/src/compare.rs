@@ -127,6 +127,15 @@ pub fn compare(
             return Err(Error::usage(format!("{name} {found}"), allowed));
         }
     }
+    if options.cost == Some(Cost::Separable) && options.integrator != Scheme::Explin {
+        return Err(Error::usage(
+            format!(
+                "--integrator {} beside --cost separable",
+                integrator_name(options.integrator)
+            ),
+            "explin, or --cost six: the separable cost is solved with its own recursion",
+        ));
+    }
     let subject = Subject::new(options, observer)?;
     let methods = methods(options, &subject)?;
     let (least, by) = subject.reference(observer)?;

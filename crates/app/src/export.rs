@@ -309,10 +309,7 @@ fn friction(file: &ModelFile) -> Result<Friction<f64>, Unfit> {
             .ok_or_else(|| Unfit::Missing(name.into()))
     };
     let coulomb = [of("coulomb", "_pos")?, of("coulomb", "_neg")?];
-    let viscous = [
-        of("sigma2", "_pos").unwrap_or(0.0),
-        of("sigma2", "_neg").unwrap_or(0.0),
-    ];
+    let viscous = [of("sigma2", "_pos")?, of("sigma2", "_neg")?];
     let shape = match optional("stribeck_exponent") {
         Some(1.0) => Shape::Exponential,
         Some(delta) if delta != 2.0 => Shape::Power(delta),

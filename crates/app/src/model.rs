@@ -1,5 +1,6 @@
 //! `model.toml`: a friction law with parameters, units, intervals, and where they came from.
 
+mod covariance;
 mod fault;
 
 use crate::error::Error;

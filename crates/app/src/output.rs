@@ -191,7 +191,8 @@ const WRITTEN: [&str; 9] = [
     "reproduce.json",
 ];
 
-/// Refuses an output folder whose files would take the place of an input.
+/// Refuses an output folder whose files would take the place of an input, or of a file that is going to be
+/// written beside them.
 ///
 /// # Errors
 /// With the input that would be lost.
@@ -203,16 +204,29 @@ pub fn check_inputs<'p>(
         return Ok(());
     };
     for input in inputs {
-        let Ok(real) = input.canonicalize() else {
+        let Some(real) = place_of(input) else {
             continue;
         };
         let name = real.file_name().and_then(|name| name.to_str());
         if real.parent() == Some(out.as_path()) && name.is_some_and(|n| WRITTEN.contains(&n)) {
-            let what = "is an input and would be overwritten; choose another --out";
+            let what =
+                "is an input, or a checkpoint, and would be overwritten; choose another --out";
             return Err(Error::output(input, what));
         }
     }
     Ok(())
+}
+
+/// Where a file is, or will be once it is written.
+fn place_of(file: &Path) -> Option<PathBuf> {
+    if let Ok(real) = file.canonicalize() {
+        return Some(real);
+    }
+    let parent = match file.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    Some(parent.canonicalize().ok()?.join(file.file_name()?))
 }
 
 /// Refuses a folder that holds something that stiction did not write, unless `force`.

@@ -151,7 +151,7 @@ impl Study {
     }
 
     /// Runs the whole grid on all threads. `watch` is told how many runs of how many are done, from one thread at a
-    /// time, and may stop the work: what is done then is kept. Results do not depend on the number of threads.
+    /// time, also between the passes of learning, and may stop the work: what is done then is kept. Results do not depend on the number of threads.
     pub fn run(&self, watch: &mut (dyn FnMut(usize, usize) -> Control + Send)) -> StudyOutcome {
         run::run(self, watch)
     }

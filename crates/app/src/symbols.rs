@@ -101,7 +101,10 @@ pub fn symbol(name: &str) -> String {
 
 /// Whether a parameter is that of a single Maxwell-slip element.
 pub fn is_element(name: &str) -> bool {
-    name.starts_with("stiffness_") || name.starts_with("yield_")
+    let number = name
+        .strip_prefix("stiffness_")
+        .or(name.strip_prefix("yield_"));
+    number.is_some_and(|n| n.parse::<u32>().is_ok())
 }
 
 /// A digit below the line.

@@ -215,6 +215,10 @@ fn what_cannot_be_compared_is_refused_in_words() {
             o.cost = Some(Cost::Separable);
         }),
         refused(&|o| {
+            o.cost = Some(Cost::Separable);
+            o.integrator = Scheme::Euler;
+        }),
+        refused(&|o| {
             o.cost = Some(Cost::Position);
             o.excitation = Some(Excitation::Sine);
         }),

@@ -288,6 +288,7 @@ fn what_is_refused_of_two_axes() {
         ),
         ("limit     = \"100 mm/s\"", ""),
         ("radius       = \"10 mm\"", "radius = \"0 mm\""),
+        ("radius       = \"10 mm\"", "radius = \"1e-300 m\""),
         ("radius       = \"10 mm\"", "side = \"10 mm\""),
         (
             "radius       = \"10 mm\"",

@@ -193,7 +193,8 @@ fn bad_models_are_refused() {
         p.push((name, value, unit));
         p
     };
-    let cases: [(&str, String, &str, &str); 8] = [
+    let no_viscous: Vec<_> = LUGRE.into_iter().filter(|p| p.0 != "sigma2").collect();
+    let cases: [(&str, String, &str, &str); 10] = [
         ("missing", text("lugre", missing), "bad-config", "no sigma0"),
         (
             "law",
@@ -230,6 +231,18 @@ fn bad_models_are_refused() {
             text("lugre", &with("coulomb_load", 0.1)),
             "bad-config",
             "coulomb_load",
+        ),
+        (
+            "no sigma2",
+            text("lugre", &no_viscous),
+            "bad-config",
+            "no sigma2",
+        ),
+        (
+            "side",
+            text("lugre", &with("stribeck_exponent_pos", 1.0)),
+            "bad-config",
+            "stribeck_exponent_pos",
         ),
         ("not ours", "x = 1".into(), "bad-config", "model.toml"),
     ];

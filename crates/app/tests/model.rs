@@ -4,6 +4,7 @@
 mod common;
 
 use common::{Bench, both_ways, friction, noise, options};
+use stiction_app::result::CovarianceEntry;
 use stiction_app::{LawKind, ModelFile, Outcome, Silent};
 
 fn stribeck(bench: &Bench, axis: &str, asymmetric: bool) -> Outcome {
@@ -202,12 +203,59 @@ fn what_is_refused_of_an_edited_model() {
         model.parameter.extend(parameter);
     }
     model.parameter.retain(|p| p.name != "coulomb");
+    refused("a name of before", &model);
+    for name in &mut model.covariance.names {
+        if name == "coulomb" {
+            *name += "_pos";
+        }
+    }
     assert_eq!(read(&model).unwrap(), model);
     model.asymmetric = false;
     refused("not asymmetric", &model);
     let mut model = good.clone();
     model.parameter.last_mut().unwrap().name = "sigma2_pos".into();
     refused("one side", &model);
+    for (from, to) in [
+        ("sigma1", "sigma1_pos"),
+        ("stribeck_exponent", "stribeck_exponent_pos"),
+        ("stribeck_exponent", "stribeck_exponant"),
+        ("stribeck_exponent", "stiffness_one"),
+    ] {
+        let mut model = good.clone();
+        let parameter = model.parameter.iter_mut().find(|p| p.name == from);
+        parameter.unwrap().name = to.into();
+        refused(to, &model);
+    }
+    // Names of terms beside the law, some for each direction.
+    let mut model = good.clone();
+    for name in [
+        "gravity_sin",
+        "cogging2_cos",
+        "quadratic_viscous_neg",
+        "coulomb_pitch1_sin_pos",
+    ] {
+        let mut parameter = good.parameter[0].clone();
+        parameter.name = name.into();
+        model.parameter.push(parameter);
+    }
+    assert_eq!(read(&model).unwrap(), model);
+    type Edit = fn(&mut CovarianceEntry);
+    let edits: [(&str, Edit); 7] = [
+        ("no number", |c| {
+            (c.matrix[0][1], c.matrix[1][0]) = (f64::NAN, f64::NAN)
+        }),
+        ("one no number", |c| c.matrix[1][0] = f64::INFINITY),
+        ("two halves", |c| c.matrix[1][0] *= 1.0 + 1e-3),
+        ("infinite", |c| c.matrix[0][0] = f64::INFINITY),
+        ("negative", |c| c.matrix[0][0] = -1.0),
+        ("unknown", |c| c.names[0] = "a".into()),
+        ("named twice", |c| c.names[0] = c.names[1].clone()),
+    ];
+    for (what, edit) in edits {
+        let mut model = good.clone();
+        edit(&mut model.covariance);
+        refused(what, &model);
+    }
     let mut model = good;
     model.kind = "rotary".into();
     refused("rotary", &model);

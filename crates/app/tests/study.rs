@@ -239,6 +239,12 @@ fn draws_from_the_covariance() {
     let off = Desk::new();
     off.write("m.toml", &model(0.1, 0.1).replace("[0.01", "[-0.01"));
     assert!(off.study(&text("m.toml")).is_err());
+    off.write("m.toml", &model(1e9, 1e9));
+    let refusal = off.refusal(&text("m.toml"));
+    assert!(
+        refusal.contains("coulomb = 12.00 has a standard deviation of 1.000e9"),
+        "{refusal}"
+    );
 }
 
 /// A model whose directions differ, with a force at rest and a constant micro-damping: parameters that are hardly wrong give
@@ -315,9 +321,16 @@ fn a_watchdog_that_still_learns() {
     let html = String::from_utf8(outcome.bundle().files()[0].1.clone()).unwrap();
     assert!(html.contains("exact, still learning") && html.contains("not every figure"));
     assert!(stiction_app::text::study(&outcome).contains("still learning"));
-    // Half a second of motion; the force has come in 50 ms later.
-    for (skip, still) in [("0.5 s", 1), ("0.56 s", 0)] {
-        let file = run("watchdog_window = \"0.5 s\"\n", skip).file;
+    // Half a second from the first turn, at 0.125 s; the force has come in 50 ms later.
+    for (skip, still) in [("0.67 s", 1), ("0.68 s", 0)] {
+        let outcome = run("watchdog_window = \"0.5 s\"\n", skip);
+        let courses = String::from_utf8(outcome.bundle().files()[1].1.clone()).unwrap();
+        let first = courses.lines().find_map(|line| {
+            let numbers: Vec<f64> = line.split(',').filter_map(|x| x.parse().ok()).collect();
+            (numbers.last().is_some_and(|force| *force != 0.0)).then(|| numbers[0])
+        });
+        assert!((first.unwrap() - 0.625).abs() < 2e-3, "{first:?}");
+        let file = outcome.file;
         assert_eq!(row(&file, "lugre", "exact").still_learning, still, "{skip}");
         assert_eq!(codes(&file).len(), still);
     }
@@ -463,6 +476,86 @@ fn courses_beside_the_report() {
     assert!((peak / of("peak_error") - 1.0).abs() < 1e-6);
 }
 
+// Motions that are over within a few samples at 4 kHz.
+const CHIRP: &str = "
+[[path]]
+kind = \"chirp\"
+amplitude = \"1 mm\"
+from = \"1 Hz\"
+to = \"500 Hz\"
+duration = \"2 s\"
+";
+const MOVE: &str = "
+[[path]]
+kind = \"staircase\"
+distance = \"1e-300 m\"
+velocity = \"1 m/s\"
+acceleration = \"1 m/s2\"
+jerk = \"100 m/s3\"
+";
+const HOLD: &str = "
+[[path]]
+kind = \"constant-velocity\"
+hold = \"1 ms\"
+velocity = \"1 um/s\"
+acceleration = \"1 m/s2\"
+jerk = \"1e6 m/s3\"
+";
+const EXCITATION: &str = "
+[[path]]
+kind = \"excitation\"
+speed = \"1e300 m/s\"
+duration = \"9 s\"
+";
+const BRIEF: &str = "
+[[path]]
+kind = \"excitation\"
+speed = \"1 m/s\"
+duration = \"1 ms\"
+";
+
+/// Set points that go 1e200 m, the square of which is no number.
+fn far() -> String {
+    let rows = (0..100).map(|i| format!("{},{:e}\n", 0.01 * f64::from(i), 1e198 * f64::from(i)));
+    "t [s],x [m]\n".to_string() + &rows.collect::<String>()
+}
+
+/// A run whose figures are not finite is none: it is named, and no row stands for it.
+#[test]
+fn figures_that_are_no_numbers() {
+    let desk = Desk::new();
+    desk.write("far.csv", &far());
+    let path = "\n[[path]]\nname = \"far\"\nkind = \"file\"\nfile = \"far.csv\"\n";
+    let file = desk.run(&together(&[AXIS, path, CASCADE, WHOLE]));
+    assert!(file.results.is_empty(), "{:?}", file.results);
+    assert_eq!(codes(&file), ["not-run", "not-run"]);
+    insta::assert_snapshot!(file.warnings[0].message);
+}
+
+/// Between the passes of learning the work can be stopped; what was not finished is not kept.
+#[test]
+fn learning_stops_between_passes() {
+    let learning = "\n[[compensator]]\nkind = \"learning\"\nlead = \"2.5 ms\"\ncutoff = \"250 Hz\"\npasses = 50\n";
+    let study = Desk::new()
+        .study(&together(&[AXIS, SHORT, CASCADE, learning]))
+        .unwrap();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1);
+    let mut asked = 0;
+    let outcome = pool.build().unwrap().install(|| {
+        study.run(&mut |done, _| {
+            // The run without compensation, then three passes.
+            asked += 1;
+            assert_eq!(done, 1);
+            match asked {
+                4.. => Control::Stop,
+                _ => Control::Continue,
+            }
+        })
+    });
+    assert_eq!((asked, outcome.file.status.as_str()), (4, "interrupted"));
+    assert_eq!(outcome.file.results.len(), 1);
+}
+
 #[test]
 fn what_is_refused() {
     let good = together(&[AXIS, SINE, CASCADE, WHOLE]);
@@ -498,6 +591,18 @@ fn what_is_refused() {
         ("frequency = \"0.5 Hz\"", ""),
         ("amplitude = \"5 mm\"", "amplitud = \"5 mm\""),
         ("frequency = \"0.5 Hz\"", "frequency = \"1e-6 Hz\""),
+        ("frequency = \"0.5 Hz\"", "frequency = \"3 kHz\""),
+        ("frequency = \"0.5 Hz\"", "frequency = \"1e300 Hz\""),
+        ("amplitude = \"5 mm\"", "amplitude = \"1e300 m\""),
+        (
+            "peak_force   = \"1248 N\"",
+            "peak_force = \"1248 N\"\ncogging = { amplitude = \"1e300 N\", pitch = \"24 mm\" }",
+        ),
+        (SINE, CHIRP),
+        (SINE, MOVE),
+        (SINE, HOLD),
+        (SINE, EXCITATION),
+        (SINE, BRIEF),
         ("kind      = \"sine\"", "kind = \"sinus\""),
         ("[[path]]", "[path]"),
         ("known        = \"motor\"", ""),

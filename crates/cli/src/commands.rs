@@ -6,6 +6,7 @@ use crate::interrupt;
 use crate::output;
 use crate::progress::{Bar, Counter};
 use clap::ValueEnum;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use stiction_app::{
     CompareOptions, Cost, CostKind, Error, Excitation, ExportOptions, Input, LawKind, Method,
@@ -30,7 +31,8 @@ pub fn run(arguments: &Arguments) -> Exit {
         Command::Export(export) => self::export(export, common),
     };
     result.unwrap_or_else(|e| {
-        eprintln!("stiction: [{}] {e}", e.code());
+        // Where nobody listens, the exit code has to do.
+        let _ = writeln!(std::io::stderr(), "stiction: [{}] {e}", e.code());
         if common.json {
             let error =
                 serde_json::json!({ "error": { "code": e.code(), "message": e.to_string() } });

@@ -8,6 +8,7 @@ mod progress;
 
 use arguments::Arguments;
 use clap::Parser;
+use std::io::Write;
 use std::process::ExitCode;
 
 /// What the process says with its exit code.
@@ -41,7 +42,8 @@ fn main() -> ExitCode {
     // A panic is a fault of ours: say so in a sentence, not with a trace alone.
     let result = std::panic::catch_unwind(|| commands::run(&arguments));
     let exit = result.unwrap_or_else(|_| {
-        eprintln!(
+        let _ = writeln!(
+            std::io::stderr(),
             "stiction: internal error. Please report it with the command and, if you can, the log."
         );
         Exit::Internal

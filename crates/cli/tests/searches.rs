@@ -186,9 +186,11 @@ fn a_damaged_or_foreign_checkpoint_is_refused() {
     for (text, words) in [
         (
             damaged.as_str(),
-            "the state is damaged; a file that --checkpoint wrote",
+            "its settings or its state are damaged; a file that --checkpoint wrote",
         ),
-        (&whole[..whole.len() / 2], "the state is damaged"),
+        (&whole[..whole.len() / 2], "damaged"),
+        // A head that says another seed than the state has.
+        (&whole.replacen("\"seed\":4", "\"seed\":5", 1), "damaged"),
         ("", "no checkpoint"),
         ("{\"schema\":\"x\"}", "no checkpoint"),
         (
@@ -239,6 +241,12 @@ fn a_checkpoint_replaces_nothing_but_a_checkpoint() {
         assert!(err.starts_with(&start), "{file}: {err}");
     }
     assert_eq!(std::fs::read(bench.path("log.csv")).unwrap(), log);
+    // Nor does a result take its place, which is still to be written.
+    std::fs::create_dir(bench.path("b")).unwrap();
+    let line = format!("{SEARCH} --time 1e-6 --checkpoint b/result.json --out b");
+    let (exit, _, err) = bench.run(&line);
+    assert_eq!(exit, 2, "{err}");
+    assert!(err.contains("b/result.json: is an input"), "{err}");
 }
 
 #[test]

@@ -108,7 +108,8 @@ fn particle_swarm_is_no_slower_than_pygmo() {
     }
 }
 
-/// No chance in it: one simplex takes the same way, evaluation for evaluation.
+/// No chance in it: one simplex takes the same way, evaluation for evaluation, from the point where seed 0
+/// puts it. From there neither reaches the target on `ellipsoid` and `rosenbrock` with one simplex.
 #[test]
 fn nelder_mead_takes_the_way_of_scipy() {
     let settings = nelder_mead::Settings {
@@ -119,6 +120,10 @@ fn nelder_mead_takes_the_way_of_scipy() {
     for function in ["sphere", "ellipsoid", "rosenbrock"] {
         let theirs = published("nelder-mead", function);
         let ours = ours(&Method::NelderMead(settings.clone()), function, 1);
-        assert_eq!((ours.hits, ours.median), (1, theirs.median), "{function}");
+        assert_eq!(
+            (ours.hits, ours.median),
+            (theirs.hits, theirs.median),
+            "{function}"
+        );
     }
 }

@@ -1,7 +1,6 @@
 //! What cannot be of a model file that parsed: its numbers, units and names against its law.
 
-use super::ModelFile;
-use crate::result::CovarianceEntry;
+use super::{ModelFile, covariance};
 use crate::symbols;
 use stiction_identify::{Dimension, LawKind};
 use stiction_log::{Motion, Unit};
@@ -84,6 +83,46 @@ fn known(stem: &str) -> Option<Known> {
     })
 }
 
+/// Whether a term beside the law may have a value for each direction; `None` for no such term. The name is without the
+/// suffix of a direction.
+fn term(stem: &str) -> Option<bool> {
+    let wave = |of: &str| {
+        let rest = stem.strip_prefix(of).unwrap_or_default();
+        let number = rest.strip_suffix("_sin").or(rest.strip_suffix("_cos"));
+        number.is_some_and(|n| n.parse::<u32>().is_ok())
+    };
+    match stem {
+        "breakaway_ratio" | "attraction" | "gravity_sin" | "gravity_cos" => Some(false),
+        "load_reference" | "temperature_reference" | "position_reference" => Some(false),
+        "quadratic_viscous" | "coulomb_load" | "coulomb_temperature" => Some(true),
+        "coulomb_position" | "sigma2_temperature" => Some(true),
+        _ if wave("cogging") => Some(false),
+        _ if wave("coulomb_pitch") => Some(true),
+        _ => None,
+    }
+}
+
+/// What is wrong with a name: what was found, what is allowed.
+fn stranger(name: &str) -> Option<(String, String)> {
+    let stem = stem(name);
+    let sided = match known(stem) {
+        Some(_) => Some(SIDED.contains(&stem)),
+        None => term(stem),
+    };
+    match sided {
+        None => {
+            let short: String = name.chars().take(60).collect();
+            let found = format!("{short:?}, which is no parameter of any law");
+            Some((found, "names as stiction identify writes them".into()))
+        }
+        Some(false) if stem != name => {
+            let allowed = format!("{stem}: it is the same in both directions");
+            Some((name.into(), allowed))
+        }
+        _ => None,
+    }
+}
+
 /// The name without the suffix of a direction.
 fn stem(name: &str) -> &str {
     let side = name.strip_suffix("_pos").or(name.strip_suffix("_neg"));
@@ -154,7 +193,9 @@ pub(super) fn fault(model: &ModelFile) -> Option<Fault> {
         .find_map(|i| parameter(model, law, motion, i))
         .map(|(found, allowed)| ("parameter: ", found, allowed))
         .or_else(|| directions(model))
-        .or_else(|| covariance(&model.covariance))
+        .or_else(|| {
+            covariance::fault(model).map(|(found, allowed)| ("covariance: ", found, allowed))
+        })
 }
 
 /// What is wrong with one parameter: what was found, what is allowed.
@@ -174,6 +215,9 @@ fn parameter(
             format!("{name} = {value}"),
             format!("from -{LARGEST:e} to {LARGEST:e}"),
         ));
+    }
+    if let Some(fault) = stranger(name) {
+        return Some(fault);
     }
     let known = known(stem(name))?;
     let unit = symbols::unit(known.dimension, motion, &model.force_unit, "");
@@ -200,30 +244,6 @@ fn parameter(
         _ => return None,
     };
     Some((format!("{name} = {value}"), allowed.into()))
-}
-
-fn covariance(entry: &CovarianceEntry) -> Option<Fault> {
-    let CovarianceEntry { names, matrix } = entry;
-    let square = matrix.len() == names.len() && matrix.iter().all(|r| r.len() == names.len());
-    if !square {
-        let found = "a matrix that is not square".into();
-        return Some((
-            "covariance: ",
-            found,
-            "one row and column for each name".into(),
-        ));
-    }
-    names.iter().enumerate().find_map(|(i, name)| {
-        let variance = matrix[i][i];
-        (variance < 0.0 || variance.is_nan()).then(|| {
-            let found = format!("a variance of {} for {name}", crate::check::short(variance));
-            (
-                "covariance: ",
-                found,
-                "variances that are not negative".into(),
-            )
-        })
-    })
 }
 
 /// The first parameter that a model lacks of its law, without the suffix of its direction; a

@@ -24,11 +24,24 @@ impl Scheme {
             return None;
         };
         let window = model.watchdog.as_ref()?.window;
-        let mut moving = samples.iter().filter(|s| s.reference.velocity != 0.0);
-        // It counts the time in which the reference moves.
-        let needed = libm::ceil(window * rate) as usize;
-        let last = moving.nth(needed.saturating_sub(1));
-        Some(last.map_or(f64::INFINITY, |s| s.time + model.ramp))
+        // Its windows: moving time from a turn of the reference over two strokes or more, ten times as long without turns.
+        let (mut time, mut turns, mut forward) = (0.0, 0, false);
+        for s in samples.iter().filter(|s| s.reference.velocity != 0.0) {
+            let now = s.reference.velocity > 0.0;
+            let turned = now != forward && time > 0.0;
+            forward = now;
+            if turned {
+                turns += 1;
+                if turns == 1 {
+                    time = 0.0;
+                }
+            }
+            time += 1.0 / rate;
+            if turned && turns >= 3 && time >= window || time >= 10.0 * window {
+                return Some(s.time + model.ramp);
+            }
+        }
+        Some(f64::INFINITY)
     }
 }
 
@@ -64,9 +77,9 @@ fn still_learning(study: &Study, row: &ResultRow) -> Option<Warning> {
     Some(Warning::new(
         "still-learning",
         format!(
-            "{}, {}: the watchdog lets no force through for the first {} of motion, in which it learns the error \
-             without; of {} what counts begins at {}. Give a longer run and a skip beyond the learning, a \
-             shorter watchdog_window (a cycle of the motion), or watchdog = false",
+            "{}, {}: the watchdog lets no force through until it has learnt the error without, from the first turn of \
+             the motion over {} and two strokes at least; of {} what counts begins at {}. Give a longer run and a \
+             skip beyond the learning, a shorter watchdog_window (a cycle of the motion), or watchdog = false",
             row.path,
             row.compensator,
             quantity(window, "s"),

@@ -9,6 +9,9 @@ use stiction_log::{Dimension, Value};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+/// Largest value with a unit, SI: no machine is near, and products of a few stay finite.
+const LARGEST: f64 = 1e30;
+
 /// The file, for messages.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a> {
@@ -179,7 +182,11 @@ impl<'a> Table<'a> {
     ) -> Result<Option<f64>, Error> {
         match self.value(key, dimension)? {
             Some(x) if !(x.is_finite() && good(x)) => {
-                Err(self.refuse(key, format!("{x} in SI units"), allowed))
+                Err(self.refuse(key, format!("{x:?} in SI units"), allowed))
+            }
+            Some(x) if x > LARGEST => {
+                let allowed = format!("at most {LARGEST:e} in SI units");
+                Err(self.refuse(key, format!("{x:?}"), &allowed))
             }
             x => Ok(x),
         }

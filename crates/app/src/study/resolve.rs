@@ -11,6 +11,7 @@ use super::raw::{Source, Table};
 use super::result::StudyInput;
 use super::wrong::{Belief, Family};
 use super::{Machine, Named, Study};
+use crate::check::short;
 use crate::error::{Error, Warning};
 use crate::source::sha256;
 use std::path::Path;
@@ -23,6 +24,9 @@ const MOST: usize = 32;
 const MOST_RUNS: usize = 100_000;
 /// Most samples of a run.
 const MOST_SAMPLES: usize = 1_000_000;
+
+/// Least samples of a period, a move, a turn: fewer do not show what it is.
+const LEAST_SAMPLES: f64 = 10.0;
 
 /// Checks a study file; `file` is named in messages and paths in it start from its folder.
 pub(super) fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
@@ -139,7 +143,18 @@ fn few(table: &Table<'_>, duration: f64, rate: f64) -> Result<(), Error> {
         return Ok(());
     }
     let allowed = format!("at most {MOST_SAMPLES} samples, duration times rate");
-    Err(table.refuse("kind", format!("{duration} s"), &allowed))
+    Err(table.refuse("kind", format!("{} s", short(duration)), &allowed))
+}
+
+/// What a motion consists of, such as `a period` of some seconds, is not over within a few samples.
+fn sampled(table: &Table<'_>, key: &str, what: &str, seconds: f64, rate: f64) -> Result<(), Error> {
+    let samples = seconds * rate;
+    if samples >= LEAST_SAMPLES {
+        return Ok(());
+    }
+    let found = format!("{what} of {} s, {} samples", short(seconds), short(samples));
+    let allowed = format!("at least {LEAST_SAMPLES} samples at {} Hz", short(rate));
+    Err(table.refuse(key, found, &allowed))
 }
 
 /// `[[parameter_error]]`: the exact parameters are always there.

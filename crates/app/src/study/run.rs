@@ -149,6 +149,16 @@ pub(super) fn run(
     let jobs = study.jobs();
     let stopped = AtomicBool::new(false);
     let count = Mutex::new((0, watch));
+    // Tells of `more` runs that are done, and notes whether the work is to stop.
+    let go_on = |more: usize| {
+        let mut count = count.lock().unwrap_or_else(PoisonError::into_inner);
+        count.0 += more;
+        let so_far = count.0;
+        if (count.1)(so_far, jobs.len()) == Control::Stop {
+            stopped.store(true, Ordering::SeqCst);
+        }
+        !stopped.load(Ordering::SeqCst)
+    };
     let mut warnings = study.warnings.clone();
     let done: Vec<Option<Result<Done, (Job, ParamError)>>> = jobs
         .par_iter()
@@ -156,14 +166,9 @@ pub(super) fn run(
             if stopped.load(Ordering::SeqCst) {
                 return None;
             }
-            let done = study.one(job).map_err(|e| (job, e));
-            let mut count = count.lock().unwrap_or_else(PoisonError::into_inner);
-            count.0 += 1;
-            let so_far = count.0;
-            if (count.1)(so_far, jobs.len()) == Control::Stop {
-                stopped.store(true, Ordering::SeqCst);
-            }
-            Some(done)
+            let done = study.one(job, &|| go_on(0)).transpose()?;
+            go_on(1);
+            Some(done.map_err(|e| (job, e)))
         })
         .collect();
     let complete = done.iter().all(Option::is_some);
@@ -215,10 +220,34 @@ pub(super) fn believing(controller: Controller, machine: &Machine, belief: Belie
 }
 
 impl Study {
-    fn one(&self, job: Job) -> Result<Done, ParamError> {
-        match self.contours.get(job.path.wrapping_sub(self.paths.len())) {
-            Some(contour) => self.on_contour(job, contour),
-            None => self.on_path(job),
+    /// A run whose metrics are numbers; `None` where it was not to go on.
+    fn one(&self, job: Job, go_on: &dyn Fn() -> bool) -> Result<Option<Done>, ParamError> {
+        let done = match self.contours.get(job.path.wrapping_sub(self.paths.len())) {
+            Some(contour) => Some(self.on_contour(job, contour)?),
+            None => self.on_path(job, go_on)?,
+        };
+        for (&name, &value) in self
+            .metrics(job)
+            .iter()
+            .zip(done.iter().flat_map(|d| &d.metrics))
+        {
+            // Not every motion has these.
+            let absent =
+                ["velocity_ripple", "circular_deviation"].contains(&name) && value.is_nan();
+            if !(value.is_finite() || absent) {
+                let allowed =
+                    "a finite number: a smaller motion, slower, with smaller gains and forces";
+                return Err(ParamError::new(name, value, allowed));
+            }
+        }
+        Ok(done)
+    }
+
+    /// Names of the metrics of a run.
+    fn metrics(&self, job: Job) -> &'static [&'static str] {
+        match job.path < self.paths.len() {
+            true => &METRICS,
+            false => &contour::METRICS,
         }
     }
 
@@ -292,7 +321,7 @@ impl Study {
         })
     }
 
-    fn on_path(&self, job: Job) -> Result<Done, ParamError> {
+    fn on_path(&self, job: Job, go_on: &dyn Fn() -> bool) -> Result<Option<Done>, ParamError> {
         let path = &self.paths[job.path];
         let family = &self.families[job.family];
         let belief = family.beliefs[job.belief];
@@ -305,6 +334,9 @@ impl Study {
         let mut samples = follow(&mut axis, path.trajectory.as_ref())?;
         if let Scheme::Learning(learning, passes) = scheme {
             for _ in 1..*passes {
+                if !go_on() {
+                    return Ok(None);
+                }
                 let force = &settings.feedforward.learned;
                 let next = learning.learn(
                     force,
@@ -323,7 +355,7 @@ impl Study {
         let counted = &samples[from.min(samples.len())..];
         let tracking = Tracking::of(counted);
         let compensator = axis.feedforward().compensator();
-        Ok(Done {
+        Ok(Some(Done {
             job,
             metrics: vec![
                 tracking.rms,
@@ -342,7 +374,7 @@ impl Study {
                 true => course::rows(self.names(job), &samples, self.rows_of_a_run()),
                 false => String::new(),
             },
-        })
+        }))
     }
 
     /// Rows in the order of the grid, of what is done.
@@ -351,10 +383,7 @@ impl Study {
         for cell in done.chunk_by(|a, b| a.job.cell() == b.job.cell()) {
             let job = cell[0].job;
             let family = &self.families[job.family];
-            let names: &[&str] = match job.path < self.paths.len() {
-                true => &METRICS,
-                false => &contour::METRICS,
-            };
+            let names = self.metrics(job);
             let name = |i: usize| (names[i].to_string(), self.machine.unit(names[i]));
             let metrics = (0..names.len()).filter_map(|i| {
                 let values: Vec<f64> = cell.iter().map(|d| d.metrics[i]).collect();
@@ -391,10 +420,13 @@ impl Study {
         crate::error::Warning::new(
             "not-run",
             format!(
-                "{}, {}, {} was not run: {e}",
+                "{}, {}, {} was not run: {} = {}; allowed: {}",
                 self.path_name(job),
                 self.controllers[job.controller].name,
-                self.compensators[job.compensator].name
+                self.compensators[job.compensator].name,
+                e.name,
+                crate::check::short(e.value),
+                e.allowed
             ),
         )
     }

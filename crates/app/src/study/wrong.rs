@@ -1,6 +1,7 @@
 //! Wrong parameters: what a compensator is given instead of those of the axis.
 
 use super::model::{Model, law};
+use crate::check::short;
 use crate::result::CovarianceEntry;
 use stiction_friction::LuGre;
 use stiction_servo::known;
@@ -25,6 +26,9 @@ pub(crate) struct Family {
 
 /// Draws that fit no law are drawn again, up to so many times for each one asked for.
 const MOST_TRIES: u64 = 1000;
+
+/// Largest standard deviation of what is drawn, of its value.
+const MOST_SPREAD: f64 = 1e6;
 
 impl Family {
     /// The parameters of the axis itself.
@@ -54,6 +58,7 @@ impl Family {
         let Some(covariance) = &model.covariance else {
             return Err("a known axis has no covariance".into());
         };
+        determined(model, covariance)?;
         let spread = Spread::of(covariance)?;
         let mut noise = Noise::new(seed);
         let mut beliefs = Vec::new();
@@ -82,6 +87,39 @@ impl Family {
             beliefs,
         })
     }
+}
+
+/// Refuses a variance that makes nearly every draw absurd, as of a parameter that the data did not determine. What may
+/// be 0 is measured by the Coulomb friction, and that at the Stribeck velocity.
+fn determined(model: &Model, covariance: &CovarianceEntry) -> Result<(), String> {
+    let of = |name: &str| {
+        let value = |suffix: &str| model.value(&format!("{name}{suffix}"));
+        value("").or_else(|| value("_pos")).map_or(0.0, f64::abs)
+    };
+    let damping = match of("stribeck_velocity") {
+        0.0 => f64::INFINITY,
+        speed => of("coulomb") / speed,
+    };
+    for (i, name) in covariance.names.iter().enumerate() {
+        let value = model.value(name).map_or(0.0, f64::abs);
+        let stem = name.strip_suffix("_pos").or(name.strip_suffix("_neg"));
+        let size = match stem.unwrap_or(name) {
+            "sigma0" | "coulomb" | "static" | "stribeck_velocity" | "stribeck_exponent"
+            | "mass" => value,
+            "sigma1" | "sigma2" => value.max(damping),
+            "offset" => value.max(of("coulomb")),
+            // Not simulated.
+            _ => continue,
+        };
+        let std = libm::sqrt(covariance.matrix[i][i]);
+        if std > MOST_SPREAD * size {
+            let (value, std) = (short(value), short(std));
+            return Err(format!(
+                "{name} = {value} has a standard deviation of {std}: the data did not determine it"
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// A square root of a covariance.

@@ -32,8 +32,14 @@ pub(super) struct Settings {
 struct Head {
     schema: String,
     settings: Settings,
-    /// SHA-256 of the second line.
+    /// SHA-256 of the settings and the second line.
     sha256: String,
+}
+
+/// SHA-256 of all that a checkpoint says.
+fn seal(settings: &Settings, state: &str) -> String {
+    let settings = serde_json::to_string(settings).expect("plain data");
+    sha256_of(format!("{settings}\n{state}").as_bytes())
 }
 
 /// Where the state goes, and what it belongs to.
@@ -54,7 +60,7 @@ impl Checkpoint<'_> {
         let head = Head {
             schema: SCHEMA.into(),
             settings: self.settings.clone(),
-            sha256: sha256_of(state.as_bytes()),
+            sha256: seal(&self.settings, &state),
         };
         let head = serde_json::to_string(&head).expect("plain data");
         write_atomic(file, format!("{head}\n{state}\n").as_bytes())
@@ -79,8 +85,8 @@ impl Checkpoint<'_> {
             return Err(refused(format!("schema {}", head.schema), SCHEMA));
         }
         let state = lines.next().unwrap_or_default();
-        if sha256_of(state.as_bytes()) != head.sha256 {
-            return Err(damaged("the state is damaged"));
+        if seal(&head.settings, state) != head.sha256 {
+            return Err(damaged("its settings or its state are damaged"));
         }
         if let Some((what, theirs, ours)) = differs(&head.settings, &self.settings) {
             return Err(refused(

@@ -1,7 +1,7 @@
 //! `[[contour]]`, `[second_axis]` and `[coupling]`
 
 use super::machine::machine;
-use super::{Dimensions, controllers, file, name};
+use super::{Dimensions, controllers, file, name, sampled};
 use crate::error::Error;
 use crate::study::contour::{ContourPlan, Second};
 use crate::study::raw::Table;
@@ -78,20 +78,28 @@ pub(super) fn contour(
         table,
         is: Dimensions::of(study.machine.motion),
     };
-    let (motion, turns) = match kind {
+    // A part that has to be sampled, how many there are, and the key that makes it small.
+    let (size, part) = match kind {
+        "circle" => ("radius", "a turn"),
+        "corner" | "square" => ("side", "a side"),
+        "figure-eight" => ("width", "a turn"),
+        _ => ("file", "a motion"),
+    };
+    let (motion, turns, parts) = match kind {
         "circle" => asked.circle()?,
-        "corner" => (asked.polygon(Polygon::corner)?, 1.0),
-        "square" => (asked.polygon(Polygon::square)?, 1.0),
+        "corner" => (asked.polygon(Polygon::corner)?, 1.0, 2.0),
+        "square" => (asked.polygon(Polygon::square)?, 1.0, 4.0),
         "figure-eight" => asked.figure_eight()?,
         _ => {
             let points = file::points::<2>(table, folder, asked.is.length)?;
             let [x, y] = points.axes;
             study.reads(&points.file, points.warning)?;
             let motion = FreeForm::timed(points.times, x, y).map_err(|e| table.together(&e))?;
-            (Box::new(motion) as Boxed, 1.0)
+            (Box::new(motion) as Boxed, 1.0, 1.0)
         }
     };
     let duration = motion.duration();
+    sampled(table, size, part, duration / parts, study.machine.rate)?;
     let usual = if turns >= 2.0 {
         first_turn(motion.as_ref(), turns)
     } else {
@@ -171,10 +179,11 @@ impl Asked<'_, '_> {
         }
     }
 
-    fn circle(&self) -> Result<(Boxed, f64), Error> {
+    fn circle(&self) -> Result<(Boxed, f64, f64), Error> {
         let (radius, turns) = (self.length("radius")?, self.turns()?);
         let limits = self.limits(radius)?;
-        Ok((self.along(Circle::new(radius, turns), limits)?, turns))
+        let circle = self.along(Circle::new(radius, turns), limits)?;
+        Ok((circle, turns, turns.max(1.0)))
     }
 
     fn polygon(&self, make: fn(f64) -> Result<Polygon, ParamError>) -> Result<Boxed, Error> {
@@ -182,11 +191,12 @@ impl Asked<'_, '_> {
         self.along(make(side), self.limits(1.0)?)
     }
 
-    fn figure_eight(&self) -> Result<(Boxed, f64), Error> {
+    fn figure_eight(&self) -> Result<(Boxed, f64, f64), Error> {
         let (width, height, turns) = (self.length("width")?, self.length("height")?, self.turns()?);
         let (a, b) = (0.5 * width, 0.5 * height);
         // Fastest in the middle, where both axes are.
         let limits = self.limits(libm::hypot(a, 2.0 * b))?;
-        Ok((self.along(FigureEight::new(a, b, turns), limits)?, turns))
+        let eight = self.along(FigureEight::new(a, b, turns), limits)?;
+        Ok((eight, turns, turns.max(1.0)))
     }
 }

@@ -1,6 +1,6 @@
 //! `[[path]]`
 
-use super::{Dimensions, file, name};
+use super::{Dimensions, file, name, sampled};
 use crate::error::Error;
 use crate::study::raw::Table;
 use crate::study::{PathPlan, Study};
@@ -33,7 +33,8 @@ pub(super) fn path(
     let found = table.required("kind", found, &format!("one of {}", KINDS.join(", ")))?;
     // The choice gave one of them.
     let kind = KINDS.into_iter().find(|k| *k == found).unwrap_or(KINDS[0]);
-    let asked = Asked { table, is };
+    let rate = study.machine.rate;
+    let asked = Asked { table, is, rate };
     let trajectory = match kind {
         "sine" => asked.sine()?,
         "chirp" => asked.chirp()?,
@@ -45,7 +46,9 @@ pub(super) fn path(
             let points = file::points::<1>(table, folder, asked.is.length)?;
             let [positions] = points.axes;
             study.reads(&points.file, points.warning)?;
-            asked.made(SetPoints::timed(points.times, positions))?
+            let points = asked.made(SetPoints::timed(points.times, positions))?;
+            asked.sampled("file", "a motion", points.duration())?;
+            points
         }
     };
     let duration = trajectory.duration();
@@ -70,6 +73,8 @@ pub(super) fn path(
 struct Asked<'t, 'a> {
     table: &'t Table<'a>,
     is: Dimensions,
+    /// Hz
+    rate: f64,
 }
 
 impl Asked<'_, '_> {
@@ -98,22 +103,43 @@ impl Asked<'_, '_> {
         }
     }
 
+    fn sampled(&self, key: &str, what: &str, seconds: f64) -> Result<(), Error> {
+        sampled(self.table, key, what, seconds, self.rate)
+    }
+
+    /// A frequency whose period is sampled.
+    fn frequency(&self, key: &'static str, example: &str) -> Result<f64, Error> {
+        let frequency = self.value(key, Dimension::FREQUENCY, example)?;
+        self.sampled(key, "a period", 1.0 / frequency)?;
+        Ok(frequency)
+    }
+
+    /// Moves of the same length, each `dwell` seconds before the next.
+    fn moves(
+        &self,
+        key: &str,
+        made: Result<Moves, ParamError>,
+        (count, dwell): (u32, f64),
+    ) -> Result<Boxed, Error> {
+        let moves = self.made(made)?;
+        let one = (moves.duration() / f64::from(count) - dwell).max(0.0);
+        self.sampled(key, "a move", one)?;
+        Ok(moves)
+    }
+
     fn sine(&self) -> Result<Boxed, Error> {
         let amplitude = self.value("amplitude", self.is.length, "a way such as \"5 mm\"")?;
-        let frequency = self.value("frequency", Dimension::FREQUENCY, "one such as \"0.5 Hz\"")?;
+        let frequency = self.frequency("frequency", "one such as \"0.5 Hz\"")?;
         let cycles = self.table.number("cycles", 0.5, 1000.0)?.unwrap_or(4.0);
         self.made(Sine::new(amplitude, frequency, cycles))
     }
 
     fn chirp(&self) -> Result<Boxed, Error> {
         let amplitude = self.value("amplitude", self.is.length, "a way such as \"1 mm\"")?;
-        let from = self.value(
-            "from",
-            Dimension::FREQUENCY,
-            "a frequency such as \"0.1 Hz\"",
-        )?;
-        let to = self.value("to", Dimension::FREQUENCY, "a frequency such as \"10 Hz\"")?;
+        let from = self.frequency("from", "a frequency such as \"0.1 Hz\"")?;
+        let to = self.frequency("to", "a frequency such as \"10 Hz\"")?;
         let duration = self.value("duration", Dimension::TIME, "a time such as \"10 s\"")?;
+        self.sampled("duration", "a chirp", duration)?;
         self.made(Chirp::new(amplitude, from, to, duration))
     }
 
@@ -125,24 +151,32 @@ impl Asked<'_, '_> {
     fn there_and_back(&self) -> Result<Boxed, Error> {
         let distance = self.value("distance", self.is.length, "a way such as \"20 mm\"")?;
         let (dwell, limits) = (self.dwell()?, self.limits()?);
-        self.made(Moves::there_and_back(distance, dwell, limits))
+        let made = Moves::there_and_back(distance, dwell, limits);
+        self.moves("distance", made, (2, dwell))
     }
 
     fn staircase(&self) -> Result<Boxed, Error> {
         let distance = self.value("distance", self.is.length, "one step, such as \"1 um\"")?;
         let steps = self.table.count("steps", 1, 1000)?.unwrap_or(5) as u32;
         let (dwell, limits) = (self.dwell()?, self.limits()?);
-        self.made(Moves::staircase(distance, steps, dwell, limits))
+        let made = Moves::staircase(distance, steps, dwell, limits);
+        self.moves("distance", made, (2 * steps, dwell))
     }
 
     fn constant_velocity(&self) -> Result<Boxed, Error> {
         let hold = self.value("hold", Dimension::TIME, "a time such as \"2 s\"")?;
-        self.made(Moves::constant_velocity(hold, self.limits()?))
+        let made = Moves::constant_velocity(hold, self.limits()?);
+        self.moves("hold", made, (2, 0.0))
     }
 
     fn excitation(&self) -> Result<Boxed, Error> {
         let speed = self.value("speed", self.is.speed, "the largest speed")?;
         let duration = self.value("duration", Dimension::TIME, "a time such as \"9 s\"")?;
-        self.made(Path::three_segments(speed, duration))
+        let path = Path::three_segments(speed, duration).map_err(|e| self.table.together(&e))?;
+        for segment in path.segments() {
+            self.sampled("kind", "a period", 1.0 / segment.frequency)?;
+            self.sampled("duration", "a third", segment.duration)?;
+        }
+        Ok(Box::new(path))
     }
 }
