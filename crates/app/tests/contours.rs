@@ -82,18 +82,17 @@ fn the_published_circle() {
     let outcome = run(&[AXES, CIRCLE, CONTROLLER, WHOLE].concat());
     let file = &outcome.file;
     assert!(file.warnings.is_empty(), "{:?}", file.warnings);
-    // None and whole, each without and with coupling. What rounding
-    // changes is a reading of the encoder now and then: they agree to one of its steps.
     assert_eq!(file.results.len(), 4);
-    for (compensator, coupled, expected) in [
-        ("none", false, 64.9e-6),
-        ("none", true, 4.24e-6),
-        ("whole", false, 0.13e-6),
-        ("whole", true, 0.07e-6),
+    // None and whole, each without and with coupling. To the digits that are published, or half a step of the encoder.
+    for (compensator, coupled, expected, digit) in [
+        ("none", false, 64.9e-6, 0.1e-6),
+        ("none", true, 4.24e-6, 0.025e-6),
+        ("whole", false, 0.13e-6, 0.025e-6),
+        ("whole", true, 0.04e-6, 0.025e-6),
     ] {
         let found = peak(row(file, compensator, coupled, "exact"));
         assert!(
-            (found - expected).abs() <= 50e-9,
+            (found - expected).abs() <= digit,
             "{compensator} {coupled}: {found}"
         );
     }
