@@ -85,6 +85,7 @@ pub fn write_folder<'f>(
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
+    writable_above(parent)?;
     fs::create_dir_all(parent).map_err(fail)?;
     let staged = tempfile::Builder::new()
         .prefix(".stiction-")
@@ -251,6 +252,24 @@ pub fn check_folder_of(dir: &Path, schema: &str, force: bool) -> Result<(), Erro
         .split('/')
         .next()
         .unwrap_or_default();
+    let existing = writable_above(dir)?;
+    if existing != dir {
+        return Ok(());
+    }
+    let mut entries = fs::read_dir(dir).map_err(|e| Error::output(dir, describe(&e)))?;
+    let empty = entries.next().is_none();
+    if empty || force || is_ours(&dir.join(format!("{kind}.json")), kind) {
+        return Ok(());
+    }
+    Err(Error::output(
+        dir,
+        "is not empty and holds no result of stiction; choose another --out or add --force to write \
+         into it all the same",
+    ))
+}
+
+/// The nearest folder that exists, `dir` or one above it, in which something can be written.
+fn writable_above(dir: &Path) -> Result<&Path, Error> {
     // The nearest folder that exists; `symlink_metadata` so that a dangling link counts as something.
     let existing = dir
         .ancestors()
@@ -270,19 +289,7 @@ pub fn check_folder_of(dir: &Path, schema: &str, force: bool) -> Result<(), Erro
         ));
     }
     temporary_beside(&existing.join("probe")).map_err(|e| Error::output(existing, describe(&e)))?;
-    if existing != dir {
-        return Ok(());
-    }
-    let mut entries = fs::read_dir(dir).map_err(|e| Error::output(dir, describe(&e)))?;
-    let empty = entries.next().is_none();
-    if empty || force || is_ours(&dir.join(format!("{kind}.json")), kind) {
-        return Ok(());
-    }
-    Err(Error::output(
-        dir,
-        "is not empty and holds no result of stiction; choose another --out or add --force to write \
-         into it all the same",
-    ))
+    Ok(existing)
 }
 
 fn is_ours(mark: &Path, kind: &str) -> bool {

@@ -66,11 +66,14 @@ pub(crate) fn require<T: Real>(
 
 impl fmt::Display for ParamError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{} = {}; allowed: {}",
-            self.name, self.value, self.allowed
-        )
+        let size = self.value.abs();
+        // No hundred zeros.
+        if size >= 1e9 || (size > 0.0 && size < 1e-6) {
+            write!(f, "{} = {:e}", self.name, self.value)?;
+        } else {
+            write!(f, "{} = {}", self.name, self.value)?;
+        }
+        write!(f, "; allowed: {}", self.allowed)
     }
 }
 
