@@ -3,8 +3,9 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use stiction_app::compare_file::CompareFile;
-use stiction_app::{CompareOptions, Input, Scheme, Silent, compare};
+use stiction_app::{CompareOptions, Input, Scheme, Silent, compare, compare_bundle};
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
+use stiction_report::number;
 use stiction_servo::noise::Noise;
 
 const STEP: f64 = 1e-3;
@@ -97,6 +98,12 @@ fn the_exponent_of_the_axis_file_is_fitted_with() {
     let [fs, vs] = ["static", "stribeck_velocity"].map(|name| found(&right, name));
     assert!((fs / 19.5 - 1.0).abs() < 0.05, "Fs {fs}");
     assert!((vs / 8e-3 - 1.0).abs() < 0.1, "vs {vs}");
+    // Of a log nobody knows the answer: the report shows what each method found.
+    let bundle = compare_bundle(&right);
+    let (_, page) = &bundle.files()[0];
+    let page = std::str::from_utf8(page).unwrap();
+    let table = page.split_once("Parameters found").unwrap().1;
+    assert!(table.contains(&number::sig(fs, 5)), "{fs}");
 }
 
 /// A micro-damping of zero has no logarithm; a box about it is a box about next to nothing.

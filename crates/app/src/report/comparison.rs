@@ -2,7 +2,7 @@
 
 mod figures;
 
-use crate::compare_file::{CompareFile, MethodEntry, Quartiles, Stage};
+use crate::compare_file::{CompareFile, MethodEntry, Quartiles, RunEntry, Stage};
 use figures::{beside, overlay, population, rates, single};
 use stiction_report::{
     Align, Axis, Block, Callout, Document, KeyFigure, Severity, Table, Text, number,
@@ -85,6 +85,12 @@ pub(crate) fn comparison(file: &CompareFile) -> Document {
                 &m.after_least_squares
             }));
         }
+    }
+    if file.truth.is_empty() {
+        document = document
+            .heading(2, "Parameters found")
+            .paragraph("Of each method the run that ends at the least cost, in SI units.")
+            .block(found(file));
     }
     document
 }
@@ -274,6 +280,31 @@ fn errors(file: &CompareFile, title: &str, stage: &dyn Fn(&MethodEntry) -> &Stag
         let cells = stage(m).errors.iter().map(|e| {
             let percent = e.relative.map(|v| 100.0 * v[1]);
             percent.map_or("–".into(), |x| format!("{} %", number::sig(x, 2)))
+        });
+        let name = m.name.replace('-', "\u{2011}");
+        table = table.row(std::iter::once(name).chain(cells));
+    }
+    table
+}
+
+fn found(file: &CompareFile) -> Table {
+    let best = |m: &'_ MethodEntry| {
+        let cost = |run: &RunEntry| run.cost.unwrap_or(f64::INFINITY);
+        let least = (m.runs.iter()).min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        least.map_or_else(Vec::new, |run| run.parameters.clone())
+    };
+    let rows: Vec<_> = file.methods.iter().map(|m| (m, best(m))).collect();
+    let names = rows.iter().map(|(_, values)| values);
+    let names = names.max_by_key(|values| values.len());
+    let names: Vec<&str> = names.map_or_else(Vec::new, |values| {
+        values.iter().map(|(name, _)| name.as_str()).collect()
+    });
+    let columns = names.iter().map(|name| (*name, Align::Right));
+    let mut table = Table::new(std::iter::once(("Method", Align::Left)).chain(columns));
+    for (m, values) in &rows {
+        let cells = names.iter().map(|name| {
+            let value = values.iter().find(|(n, _)| n == name);
+            value.map_or("–".into(), |(_, x)| number::sig(*x, 5))
         });
         let name = m.name.replace('-', "\u{2011}");
         table = table.row(std::iter::once(name).chain(cells));
