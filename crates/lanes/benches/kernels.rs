@@ -108,7 +108,7 @@ fn midpoint(bencher: Bencher, count: usize) {
     driven(bencher, count, Stepping::Midpoint);
 }
 
-#[divan::bench(args = [16, 64], sample_count = 10)]
+#[divan::bench(args = [16, 64], sample_count = 300)]
 fn semi_implicit(bencher: Bencher, count: usize) {
     driven(bencher, count, Stepping::SemiImplicit);
 }
