@@ -185,6 +185,35 @@ fn what_is_refused_of_an_edited_model() {
         parameter.unwrap().unit = unit.into();
         refused(&format!("{name} in {unit}"), &model);
     }
+    // It goes into the text of every program that is exported.
+    for unit in [
+        "",
+        "N\"; remove(\"/\"); //",
+        "{1}",
+        "%s",
+        "%",
+        "kN",
+        "N\n",
+        "]]>",
+        " N",
+        &"N*".repeat(900),
+    ] {
+        let mut model = good.clone();
+        model.force_unit = unit.into();
+        refused(
+            &format!("force unit {:?}", &unit[..unit.len().min(20)]),
+            &model,
+        );
+    }
+    for (ends, std) in [
+        ([f64::NAN, 1.0], 1.0),
+        ([2.0, 1.0], 1.0),
+        ([0.0, f64::INFINITY], -1.0),
+    ] {
+        let mut model = good.clone();
+        (model.parameter[0].ci95, model.parameter[0].std) = (Some(ends), Some(std));
+        refused(&format!("interval {ends:?}, std {std}"), &model);
+    }
     for law in ["dahl", "gms", "coulomb-viscous", "coulomb"] {
         let mut model = good.clone();
         model.law = law.into();

@@ -451,6 +451,31 @@ fn a_window_holds_reversals() {
     assert!(learnt.unwrap().abs_diff(3999) <= 1, "{learnt:?}");
 }
 
+/// Slow there and fast back, with an error that is larger one way: a window of an odd number of strokes would hold now more
+/// of the one, now of the other, and what is better would be switched off.
+#[test]
+fn windows_hold_as_many_strokes_each_way() {
+    let mut compensator = coulomb(watched(1.0));
+    let mut judged = 0;
+    for k in 0..40_000_usize {
+        // A window of .1 s is 400 samples, more than two strokes.
+        let there = k % 320 < 180;
+        let error = if there { 3e-5 } else { 1e-5 };
+        let with = if compensator.state().output == 0.0 {
+            1.0
+        } else {
+            0.95
+        };
+        compensator.step(Input {
+            tracking_error: with * error,
+            ..moving(if there { 0.1 } else { -0.1 })
+        });
+        assert!(!compensator.state().watch.tripped, "{k}");
+        judged += usize::from(compensator.state().watch.judged);
+    }
+    assert!(judged > 30_000, "{judged}");
+}
+
 /// A gain that is changed in motion changes the force in steps of its ramp.
 #[test]
 fn a_new_gain_comes_by_its_ramp() {

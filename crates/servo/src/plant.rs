@@ -194,7 +194,8 @@ impl<L: Held<f64>> Balance<'_, L> {
 
         // Below this a velocity is standstill: a millionth of a millionth of the Stribeck velocity.
         let negligible = 1e-12 * law.curve().direction(self.from.velocity).stribeck_velocity;
-        let mut w = self.from.velocity.clamp(low, high);
+        // Not `clamp`: the ends are no numbers where the load is none.
+        let mut w = self.from.velocity.max(low).min(high);
         let mut last_move = high - low;
         for count in 1..=MOST_EVALUATIONS {
             let (excess, slope) = self.at(w);

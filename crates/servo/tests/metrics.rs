@@ -161,6 +161,10 @@ fn circular_deviation_is_the_minimum_zone() {
     let width = circular_deviation(&bump);
     assert!((1e-6..=2e-6).contains(&width), "{width}");
     assert_eq!(circular_deviation(&[[0.0, 1.0]; 2]), 0.0);
+    // An axis that was left behind: along a line the centre moves off without end. From the middle the zone is half as
+    // wide as the line is long.
+    let line = turn(&|a| [libm::cos(a), 1e-6 * libm::sin(3.0 * a)]);
+    assert!(circular_deviation(&line) < 1.0);
 }
 
 /// Four single samples that stand out, two opposite ones and two across them, among very many: the zone holds them all,

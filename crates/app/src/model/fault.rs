@@ -189,6 +189,9 @@ pub(super) fn fault(model: &ModelFile) -> Option<Fault> {
         "rotary" => Motion::Rotary,
         other => return Some(("kind: ", format!("{other:?}"), "linear or rotary".into())),
     };
+    if let Some(fault) = force_unit(model, motion) {
+        return Some(fault);
+    }
     (0..model.parameter.len())
         .find_map(|i| parameter(model, law, motion, i))
         .map(|(found, allowed)| ("parameter: ", found, allowed))
@@ -196,6 +199,23 @@ pub(super) fn fault(model: &ModelFile) -> Option<Fault> {
         .or_else(|| {
             covariance::fault(model).map(|(found, allowed)| ("covariance: ", found, allowed))
         })
+}
+
+/// A unit that is none, which would go into every text about the model: identification writes that of a force, or of what
+/// drives the axis (`A`, `V`, `1`).
+fn force_unit(model: &ModelFile, motion: Motion) -> Option<Fault> {
+    let unit = &model.force_unit;
+    let plain = |c: char| c.is_alphanumeric() || " */^-·".contains(c);
+    let good = unit.trim() == unit
+        && unit.chars().all(plain)
+        && Unit::parse(unit).is_ok_and(|unit| unit.factor() == 1.0);
+    (!good).then(|| {
+        let short: String = unit.chars().take(60).collect();
+        let force = crate::symbols::force_unit(motion);
+        let allowed =
+            format!("{force:?}, or the unit of what drives the axis: \"A\", \"V\", \"1\"");
+        ("force_unit: ", format!("{short:?}"), allowed)
+    })
 }
 
 /// What is wrong with one parameter: what was found, what is allowed.
@@ -218,6 +238,17 @@ fn parameter(
     }
     if let Some(fault) = stranger(name) {
         return Some(fault);
+    }
+    // An end that is not known is infinite.
+    if let Some([low, high]) = p
+        .ci95
+        .filter(|[low, high]| low.is_nan() || high.is_nan() || low > high)
+    {
+        let found = format!("{name}: ci95 = [{low:?}, {high:?}]");
+        return Some((found, "the lower end, then the upper".into()));
+    }
+    if let Some(std) = p.std.filter(|std| std.is_nan() || *std < 0.0) {
+        return Some((format!("{name}: std = {std:?}"), "0 or above".into()));
     }
     let known = known(stem(name))?;
     let unit = symbols::unit(known.dimension, motion, &model.force_unit, "");

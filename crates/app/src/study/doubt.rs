@@ -24,7 +24,7 @@ impl Scheme {
             return None;
         };
         let window = model.watchdog.as_ref()?.window;
-        // Its windows: moving time from a turn of the reference over two strokes or more, ten times as long without turns.
+        // Its windows: moving time from a turn of the reference to one of the same sense, ten times as long without turns.
         let (mut time, mut turns, mut forward) = (0.0, 0, false);
         for s in samples.iter().filter(|s| s.reference.velocity != 0.0) {
             let now = s.reference.velocity > 0.0;
@@ -37,7 +37,8 @@ impl Scheme {
                 }
             }
             time += 1.0 / rate;
-            if turned && turns >= 3 && time >= window || time >= 10.0 * window {
+            let whole = turned && turns >= 3 && turns % 2 == 1;
+            if whole && time >= window || time >= 10.0 * window {
                 return Some(s.time + model.ramp);
             }
         }

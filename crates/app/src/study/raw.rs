@@ -9,8 +9,9 @@ use stiction_log::{Dimension, Value};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// Largest value with a unit, SI: no machine is near, and products of a few stay finite.
-const LARGEST: f64 = 1e30;
+/// Largest value with a unit, SI, and the inverse of the smallest above 0: no machine is near, and products of a few stay
+/// finite.
+const LARGEST: f64 = 1e15;
 
 /// The file, for messages.
 #[derive(Clone, Copy)]
@@ -184,8 +185,8 @@ impl<'a> Table<'a> {
             Some(x) if !(x.is_finite() && good(x)) => {
                 Err(self.refuse(key, format!("{x:?} in SI units"), allowed))
             }
-            Some(x) if x > LARGEST => {
-                let allowed = format!("at most {LARGEST:e} in SI units");
+            Some(x) if x > LARGEST || (x > 0.0 && x < 1.0 / LARGEST) => {
+                let allowed = format!("from {:e} to {LARGEST:e} in SI units", 1.0 / LARGEST);
                 Err(self.refuse(key, format!("{x:?}"), &allowed))
             }
             x => Ok(x),

@@ -6,8 +6,9 @@ use crate::{ParamError, Real};
 /// Compares the tracking error with and without compensation and switches off, until a reset, where it is larger with:
 /// its mean square over a window, or any one error beyond one and a half times the largest without.
 ///
-/// A window goes from one turn of the reference to another, over at least two strokes, so that windows hold the same: what
-/// happens at the reversals. Where the reference does not turn, it ends after ten times as long. The watchdog first lets the axis move for a
+/// A window goes from one turn of the reference to another of the same sense, over two strokes, four and so on, so that
+/// windows hold the same: what happens at the reversals, and each stroke there and back. Where the reference does not turn,
+/// it ends after ten times as long. The watchdog first lets the axis move for a
 /// window without compensation to learn what is normal, and learns again whenever no force is added, be it that
 /// compensation is not enabled or that the gain is 0. The first window after the gain has been reached is not judged:
 /// a force that comes in disturbs the controller, which had carried the friction itself. Only time in which the reference
@@ -30,7 +31,8 @@ pub struct Watch<T> {
     pub peak: T,
     /// Moving time in the present window, s.
     pub time: T,
-    /// Turns of the reference in the present window with that of its beginning, counted up to three; 0: it began elsewhere.
+    /// Turns of the reference in the present window with that of its beginning: 1, 2, 3, and from then on 2 and 3 in turn,
+    /// 3 being of the sense of the first; 0: it began elsewhere.
     pub turns: u8,
     /// The reference moved in the positive direction last.
     pub forward: bool,
@@ -121,7 +123,8 @@ impl<T: Real> Watchdog<T> {
             if watch.turns == 0 {
                 watch.clear();
             }
-            watch.turns = (watch.turns + 1).min(3);
+            // After the third, which turns as the first did, comes one like the second.
+            watch.turns = if watch.turns == 3 { 2 } else { watch.turns + 1 };
         }
         let error = input.tracking_error.abs();
         watch.sum = watch.sum + error * error * h;

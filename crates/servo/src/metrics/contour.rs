@@ -25,7 +25,7 @@ impl Contour {
 
 /// Circular deviation, m: the least distance of two circles about one centre that have all points between them (minimum
 /// zone; the bidirectional deviation of ISO 230-4 if the points are those of both directions). At least three points, all
-/// finite; fewer give 0.
+/// finite; fewer give 0. Of points that are near no circle, as of an axis that was left behind, an upper bound.
 pub fn circular_deviation(points: &[[f64; 2]]) -> f64 {
     if points.len() < 3 {
         return 0.0;
@@ -41,13 +41,13 @@ pub fn circular_deviation(points: &[[f64; 2]]) -> f64 {
     let mut best = width(points, centre);
     for _ in 0..MOST_ROUNDS {
         let start = width(&part, centre);
-        let found = narrowest(&part, centre, start);
+        let (found, ended) = narrowest(&part, centre, start);
         let (low, high) = radii(&part, found);
         let whole = width(points, found);
         if whole < best {
             (best, centre) = (whole, found);
         }
-        if whole - (high - low) <= 1e-9 * whole {
+        if !ended || whole - (high - low) <= 1e-9 * whole {
             break;
         }
         for stretch in points.chunks(points.len().div_ceil(STRETCHES)) {
@@ -64,6 +64,8 @@ pub fn circular_deviation(points: &[[f64; 2]]) -> f64 {
 const SEARCHED: usize = 1000;
 const STRETCHES: usize = 64;
 const MOST_ROUNDS: usize = 20;
+/// Strides of a search: some hundred lead to the centre of a circle; along a line there is no end.
+const MOST_STRIDES: usize = 2000;
 
 fn radius(point: [f64; 2], centre: [f64; 2]) -> f64 {
     libm::hypot(point[0] - centre[0], point[1] - centre[1])
@@ -93,12 +95,16 @@ fn ends(points: &[[f64; 2]], centre: [f64; 2]) -> ([f64; 2], [f64; 2]) {
     (near.unwrap_or(centre), far.unwrap_or(centre))
 }
 
-/// The centre of the least zone near one whose zone is `best` wide.
-fn narrowest(points: &[[f64; 2]], mut centre: [f64; 2], mut best: f64) -> [f64; 2] {
+/// The centre of the least zone near one whose zone is `best` wide, and whether the search came to its end.
+fn narrowest(points: &[[f64; 2]], mut centre: [f64; 2], mut best: f64) -> ([f64; 2], bool) {
     // The width is not smooth in the centre: directions are tried, and the stride is halved where none is better.
     let mut stride = best;
     let smallest = 1e-9 * best;
-    while stride > smallest {
+    for _ in 0..MOST_STRIDES {
+        // Also where the width is no number.
+        if stride.is_nan() || stride <= smallest {
+            return (centre, true);
+        }
         let tried = DIRECTIONS.map(|[x, y]| [centre[0] + stride * x, centre[1] + stride * y]);
         let mut next = None;
         for place in tried {
@@ -112,7 +118,7 @@ fn narrowest(points: &[[f64; 2]], mut centre: [f64; 2], mut best: f64) -> [f64; 
             None => stride *= 0.5,
         }
     }
-    centre
+    (centre, false)
 }
 
 /// Twelve, 30 degrees apart: along a crease of the width few directions lead down.
