@@ -25,8 +25,8 @@ fn text(law: &str, parameters: &[(&str, f64, &str)]) -> String {
         out += &format!(
             "\n[[parameter]]\nname = \"{name}\"\nsymbol = \"{name}\"\nvalue = {value:?}\nunit = \"{unit}\"\n\
              ci95 = [{:?}, {:?}]\nidentifiable = true\norigin = \"identified\"\n",
-            value * 0.9,
-            value * 1.1
+            value - 0.1 * value.abs(),
+            value + 0.1 * value.abs()
         );
     }
     out + "\n[covariance]\nnames = []\nmatrix = []\n"
