@@ -8,15 +8,11 @@ const H: f64 = 250e-6;
 
 /// Forces of the first periods after a step of the command, each period in `parts` stretches.
 fn step_response(drive: Drive, force: f64, periods: usize, parts: u32) -> Vec<f64> {
-    let mut running = RunningDrive::new(drive, H).unwrap();
+    let mut running = RunningDrive::new(drive, H, parts).unwrap();
     let mut forces = Vec::new();
     for _ in 0..periods {
         running.command(force);
-        let each = 1.0 / f64::from(parts);
-        for i in 0..parts {
-            let begin = f64::from(i) * each;
-            forces.push(running.force(begin, begin + each));
-        }
+        forces.extend((0..parts as usize).map(|i| running.force(i)));
     }
     forces
 }
@@ -79,7 +75,7 @@ fn peak_and_rated_current() {
 
 #[test]
 fn drives_that_cannot_be_are_named() {
-    let name = |d: Drive| RunningDrive::new(d, H).unwrap_err().name;
+    let name = |d: Drive| RunningDrive::new(d, H, 1).unwrap_err().name;
     let good = Drive::linear_motor(H);
     assert_eq!(
         name(Drive {

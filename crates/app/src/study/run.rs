@@ -22,10 +22,14 @@ use stiction_servo::controller::Controller;
 use stiction_servo::feedforward::Feedforward;
 use stiction_servo::integrator::Quick;
 use stiction_servo::metrics::{Tracking, reversals, ripple_at_constant_velocity, share_at_limit};
-use stiction_servo::run::follow;
+use stiction_servo::run::{follow, follow_sampled, sample_count};
+use stiction_servo::sampled::Sampled;
 
 /// Points of a trace that are kept: more than a figure can show.
 const KEPT: usize = 2000;
+
+/// Samples of references that are kept for all runs, of all paths together: a hundred megabytes.
+const MOST_SHARED: usize = 4_000_000;
 
 /// A run of the grid, by the places in the lists of the study.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -160,13 +164,14 @@ pub(super) fn run(
         !stopped.load(Ordering::SeqCst)
     };
     let mut warnings = study.warnings.clone();
+    let sampled = study.sampled();
     let done: Vec<Option<Result<Done, (Job, ParamError)>>> = jobs
         .par_iter()
         .map(|&job| {
             if stopped.load(Ordering::SeqCst) {
                 return None;
             }
-            let done = study.one(job, &|| go_on(0)).transpose()?;
+            let done = study.one(job, &sampled, &|| go_on(0)).transpose()?;
             go_on(1);
             Some(done.map_err(|e| (job, e)))
         })
@@ -221,10 +226,15 @@ pub(super) fn believing(controller: Controller, machine: &Machine, belief: Belie
 
 impl Study {
     /// A run whose metrics are numbers; `None` where it was not to go on.
-    fn one(&self, job: Job, go_on: &dyn Fn() -> bool) -> Result<Option<Done>, ParamError> {
+    fn one(
+        &self,
+        job: Job,
+        sampled: &[Option<Sampled>],
+        go_on: &dyn Fn() -> bool,
+    ) -> Result<Option<Done>, ParamError> {
         let done = match self.contours.get(job.path.wrapping_sub(self.paths.len())) {
             Some(contour) => Some(self.on_contour(job, contour)?),
-            None => self.on_path(job, go_on)?,
+            None => self.on_path(job, sampled[job.path].as_ref(), go_on)?,
         };
         for (&name, &value) in self
             .metrics(job)
@@ -321,8 +331,29 @@ impl Study {
         })
     }
 
-    fn on_path(&self, job: Job, go_on: &dyn Fn() -> bool) -> Result<Option<Done>, ParamError> {
+    /// The reference of each path at the control rate, for all runs along it; `None` where that would be too much to keep.
+    fn sampled(&self) -> Vec<Option<Sampled>> {
+        let mut left = MOST_SHARED;
+        let sampled = self.paths.iter().map(|path| {
+            let count = sample_count(path.trajectory.duration(), self.machine.rate).ok()?;
+            left = left.checked_sub(count)?;
+            Sampled::new(path.trajectory.as_ref(), self.machine.rate).ok()
+        });
+        sampled.collect()
+    }
+
+    /// Along `sampled`, if it is there, which is the path's own reference.
+    fn on_path(
+        &self,
+        job: Job,
+        sampled: Option<&Sampled>,
+        go_on: &dyn Fn() -> bool,
+    ) -> Result<Option<Done>, ParamError> {
         let path = &self.paths[job.path];
+        let follow = |axis: &mut Axis<_, _>| match sampled {
+            Some(sampled) => follow_sampled(axis, sampled),
+            None => follow(axis, path.trajectory.as_ref()),
+        };
         let family = &self.families[job.family];
         let belief = family.beliefs[job.belief];
         let controller = self.controllers[job.controller].it;
@@ -331,7 +362,7 @@ impl Study {
         let mut settings = self.machine.settings(controller, self.seed);
         settings.feedforward = scheme.feedforward(&self.machine, &controller, belief)?;
         let mut axis = Axis::new(settings.clone(), Quick::new(1)?)?;
-        let mut samples = follow(&mut axis, path.trajectory.as_ref())?;
+        let mut samples = follow(&mut axis)?;
         if let Scheme::Learning(learning, passes) = scheme {
             for _ in 1..*passes {
                 if !go_on() {
@@ -346,7 +377,7 @@ impl Study {
                 )?;
                 settings.feedforward.learned = next;
                 axis = Axis::new(settings.clone(), Quick::new(1)?)?;
-                samples = follow(&mut axis, path.trajectory.as_ref())?;
+                samples = follow(&mut axis)?;
             }
         }
         let exact = family.kind == "exact";
