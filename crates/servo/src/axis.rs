@@ -238,7 +238,8 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
     #[inline(never)]
     fn advance(&mut self, time: f64, i: u32) {
         let span = self.span;
-        let mut force = self.drive.force(i as usize);
+        let driven = self.drive.force(i as usize);
+        let mut force = driven;
         // Where the axis will be at the middle of the stretch, and when.
         if let Some(cogging) = &self.settings.cogging {
             force += cogging.force(self.motion.position + 0.5 * span * self.motion.velocity);
@@ -246,6 +247,10 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
         if let Some(disturbance) = &self.settings.disturbance {
             let begin = f64::from(i) * self.stretch;
             force += disturbance.force(time + begin * self.period + 0.5 * span);
+        }
+        if let Some(next) = self.drive.next_force(i as usize) {
+            // What else acts changes little over a stretch.
+            self.integrator.expect(next + (force - driven));
         }
         let (plant, load) = (&self.settings.plant, Load::force(force));
         self.motion = self.integrator.advance(plant, self.motion, span, load, 0.0);

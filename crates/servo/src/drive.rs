@@ -108,6 +108,8 @@ pub struct RunningDrive {
     heat: f64,
     warming: f64,
     stretches: Vec<Stretch>,
+    /// Force, N (N m), and current over the stretch to come, if they have been asked for.
+    known: Option<(f64, f64)>,
 }
 
 /// What is the same in every period about a stretch of it.
@@ -154,6 +156,7 @@ impl RunningDrive {
             heat: 0.0,
             warming: -libm::expm1(-period / drive.thermal_time),
             stretches: stretches.collect(),
+            known: None,
         })
     }
 
@@ -187,30 +190,61 @@ impl RunningDrive {
     /// Where there are not so many.
     #[inline]
     pub fn force(&mut self, i: usize) -> f64 {
+        let known = self.known.take();
+        let (force, current) = known.unwrap_or_else(|| self.after(&self.stretches[i], self.newest));
+        self.current = current;
+        force
+    }
+
+    /// The force, N (N m), over the stretch that follows `i`, the one asked for last, where no command to come changes it.
+    #[inline]
+    pub fn next_force(&mut self, i: usize) -> Option<f64> {
+        self.known = self.next(i);
+        self.known.map(|(force, _)| force)
+    }
+
+    /// Force and current as in [`after`](Self::after).
+    #[inline]
+    fn next(&self, i: usize) -> Option<(f64, f64)> {
+        if let Some(stretch) = self.stretches.get(i + 1) {
+            return Some(self.after(stretch, self.newest));
+        }
+        let stretch = &self.stretches[0];
+        let latest = stretch.ends.as_ref().unwrap_or(&stretch.begins).late;
+        let coming = match self.newest + 1 {
+            end if end == self.commands.len() => 0,
+            coming => coming,
+        };
+        (latest > 0).then(|| self.after(stretch, coming))
+    }
+
+    /// Mean force, N (N m), and last current, A, over a stretch from now on, where `newest` is the place of the newest command in it.
+    #[inline]
+    fn after(&self, stretch: &Stretch, newest: usize) -> (f64, f64) {
         let Stretch {
             length,
             begins,
             ends,
-        } = self.stretches[i];
-        let first = self.follow(&begins);
+        } = stretch;
+        let (first, current) = self.follow(begins, newest, self.current);
         let Some(ends) = ends else {
-            return self.drive.force_constant * first;
+            return (self.drive.force_constant * first, current);
         };
-        let second = self.follow(&ends);
-        self.drive.force_constant * ((first * begins.length + second * ends.length) / length)
+        let (second, current) = self.follow(ends, newest, current);
+        let mean = (first * begins.length + second * ends.length) / length;
+        (self.drive.force_constant * mean, current)
     }
 
-    /// Mean current, A, while the loop follows a command.
+    /// Mean current and the last one, A, while the loop follows a command from `current` on.
     #[inline]
-    fn follow(&mut self, following: &Following) -> f64 {
-        let at = match self.newest.checked_sub(following.late) {
+    fn follow(&self, following: &Following, newest: usize, current: f64) -> (f64, f64) {
+        let at = match newest.checked_sub(following.late) {
             Some(at) => at,
-            None => self.newest + self.commands.len() - following.late,
+            None => newest + self.commands.len() - following.late,
         };
         let wanted = self.commands[at];
-        let off = self.current - wanted;
-        self.current = wanted + off * following.left;
-        wanted + off * following.mean
+        let off = current - wanted;
+        (wanted + off * following.mean, wanted + off * following.left)
     }
 }
 
