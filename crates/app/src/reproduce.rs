@@ -1,6 +1,7 @@
 //! Published experiments run again, each number beside its reference.
 
 mod paper;
+mod watch;
 
 pub use paper::{Budget, zhang_2025};
 pub(crate) use paper::{
@@ -11,7 +12,9 @@ use crate::output::Bundle;
 use crate::report;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use stiction_identify::Control;
 use stiction_servo::c95::{self, Experiment};
+use watch::Watch;
 
 /// Name of the schema.
 pub const SCHEMA: &str = "stiction.reproduce/1";
@@ -136,12 +139,23 @@ impl CheckEntry {
     }
 }
 
-/// The experiments B to G of Canudas de Wit et al. 1995 (doi 10.1109/9.376053).
-pub fn canudas_1995() -> Reproduction {
-    let experiments: Vec<Experiment> = c95::ALL
+/// The experiments B to G of Canudas de Wit et al. 1995 (doi 10.1109/9.376053). `watch` is told how many of how many are
+/// done, also within the longest, and may stop the work: those that are done by then are kept.
+pub fn canudas_1995(watch: &mut (dyn FnMut(usize, usize) -> Control + Send)) -> Reproduction {
+    let watch = Watch::new(c95::ALL.len(), watch);
+    let experiments: Vec<Option<Experiment>> = c95::ALL
         .par_iter()
-        .map(|run| run().expect("the settings of 1995 are valid"))
+        .map(|run| {
+            let go_on = || !watch.stopped();
+            let experiment = run(&go_on).expect("the settings of 1995 are valid");
+            if experiment.is_some() {
+                watch.add();
+            }
+            experiment
+        })
         .collect();
+    let all = experiments.iter().all(Option::is_some);
+    let experiments: Vec<Experiment> = experiments.into_iter().flatten().collect();
     let checks: Vec<CheckEntry> = experiments
         .iter()
         .flat_map(|e| e.checks.iter().map(|check| (e.letter, check)))
@@ -157,6 +171,7 @@ pub fn canudas_1995() -> Reproduction {
         .collect();
     Reproduction {
         file: ReproduceFile {
+            status: if all { "complete" } else { "interrupted" }.into(),
             all_within: checks.iter().all(|c| c.within),
             checks,
             ..ReproduceFile::of("1995")

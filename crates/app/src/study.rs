@@ -2,14 +2,19 @@
 //!
 //! Raw as typed, then resolved to SI and the types of the simulation, then run over the whole grid.
 
+mod compensation;
 mod contour;
 mod course;
 pub(crate) mod doubt;
+mod machine;
 mod model;
+mod path;
 mod raw;
 mod resolve;
 pub mod result;
+mod rows;
 mod run;
+mod trace;
 mod wrong;
 
 use crate::error::{Error, Warning};
@@ -19,7 +24,6 @@ pub(crate) use contour::ContourTrace;
 use contour::{ContourPlan, Second};
 use model::Model;
 use result::StudyFile;
-pub(crate) use run::{Course, Trace};
 use std::path::Path;
 use stiction_friction::LuGre;
 use stiction_friction::compensator::Source;
@@ -32,6 +36,7 @@ use stiction_servo::encoder::Encoder;
 use stiction_servo::learning::Learning;
 use stiction_servo::plant::Plant;
 use stiction_servo::trajectory::Trajectory;
+pub(crate) use trace::{Course, Trace};
 use wrong::Family;
 
 /// A study, resolved: ready to run.

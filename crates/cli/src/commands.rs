@@ -314,17 +314,16 @@ fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
 fn reproduce(reproduce: &arguments::Reproduce, common: &Common) -> Result<Exit, Error> {
     let dir = &reproduce.out;
     check_folder_of(dir, stiction_app::reproduce::SCHEMA, reproduce.force)?;
+    let counter = Counter::new("reproducing", common.json || common.quiet);
+    let mut watch = |done, all| counter.at(done, all);
     let outcome = match reproduce.publication {
-        arguments::Publication::Canudas1995 => stiction_app::reproduce::canudas_1995(),
+        arguments::Publication::Canudas1995 => stiction_app::reproduce::canudas_1995(&mut watch),
         arguments::Publication::Zhang2025 => {
-            let counter = Counter::new("reproducing", common.json || common.quiet);
             let budget = stiction_app::reproduce::Budget::default();
-            let mut watch = |done, all| counter.at(done, all);
-            let outcome = stiction_app::reproduce::zhang_2025(budget, &mut watch);
-            counter.finish();
-            outcome
+            stiction_app::reproduce::zhang_2025(budget, &mut watch)
         }
     };
+    counter.finish();
     let written = outcome.bundle().write(dir)?;
     if common.json {
         output::json(&outcome.file)?;

@@ -126,33 +126,36 @@ fn the_experiments_of_1995() {
     assert!(folder.path().join("a/report.html").is_file());
 }
 
-/// Ctrl-C in the middle of the searches: what was done by then is written.
+/// Ctrl-C in the middle of the searches of the one, of the longest experiment of the other: what was done by then is
+/// written.
 #[cfg(unix)]
 #[test]
-fn the_paper_can_be_interrupted() {
-    let folder = tempfile::tempdir().unwrap();
-    let arguments = ["reproduce", "paper", "--out", "a", "--threads", "1"];
-    let mut child = command(folder.path(), &arguments)
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
-    std::thread::sleep(std::time::Duration::from_millis(1000));
-    assert!(
-        child.try_wait().unwrap().is_none(),
-        "the experiments are too short to interrupt"
-    );
-    let id = child.id().to_string();
-    assert!(
-        Command::new("kill")
-            .args(["-INT", &id])
-            .status()
-            .unwrap()
-            .success()
-    );
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130));
-    let text = std::fs::read_to_string(folder.path().join("a/reproduce.json")).unwrap();
-    let file: serde_json::Value = serde_json::from_str(&text).unwrap();
-    assert_eq!(file["status"], "interrupted");
-    assert!(folder.path().join("a/report.html").is_file());
+fn publications_can_be_interrupted() {
+    for publication in ["1995", "paper"] {
+        let folder = tempfile::tempdir().unwrap();
+        let arguments = ["reproduce", publication, "--out", "a", "--threads", "1"];
+        let mut child = command(folder.path(), &arguments)
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(1000));
+        assert!(
+            child.try_wait().unwrap().is_none(),
+            "the experiments are too short to interrupt"
+        );
+        let id = child.id().to_string();
+        assert!(
+            Command::new("kill")
+                .args(["-INT", &id])
+                .status()
+                .unwrap()
+                .success()
+        );
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(130));
+        let text = std::fs::read_to_string(folder.path().join("a/reproduce.json")).unwrap();
+        let file: serde_json::Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(file["status"], "interrupted");
+        assert!(folder.path().join("a/report.html").is_file());
+    }
 }

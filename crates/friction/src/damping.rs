@@ -61,56 +61,112 @@ impl<T: Real> Damping<T> {
 /// parabola's minimum lies at `y = sigma1 |v|/2`: below `y_max` its discriminant decides, else its value at `y_max`.
 /// A bristle may arrive loaded by the other direction, hence the larger of the two static levels as `y_max`.
 pub(crate) fn passive_cap<T: Real>(curve: &Stribeck<T>, v: T, g: T) -> T {
-    let speed = v.abs();
-    if speed == T::ZERO {
+    if v == T::ZERO {
         return T::MAX;
     }
-    let s2 = curve.direction(v).viscous;
-    let y_max = curve.largest_static_level();
-    let root = T::ONE + (T::ONE + s2 * speed / g).sqrt();
-    if y_max >= g * root {
-        T::from_f64(2.0) * g / speed * root
-    } else if y_max > g {
-        (s2 + y_max * (y_max / g) / speed) / (y_max / g - T::ONE)
-    } else {
-        T::MAX
+    Cap::new(curve, v, g).value()
+}
+
+/// What [`passive_cap`] and its derivative take of a velocity other than 0.
+struct Cap<T> {
+    speed: T,
+    level: T,
+    viscous: T,
+    y_max: T,
+    /// `sqrt(1 + sigma2 |v|/g)`
+    inner: T,
+}
+
+impl<T: Real> Cap<T> {
+    #[inline(always)]
+    fn new(curve: &Stribeck<T>, v: T, g: T) -> Self {
+        let (speed, viscous) = (v.abs(), curve.direction(v).viscous);
+        Cap {
+            speed,
+            level: g,
+            viscous,
+            y_max: curve.largest_static_level(),
+            inner: (T::ONE + viscous * speed / g).sqrt(),
+        }
+    }
+
+    #[inline(always)]
+    fn value(&self) -> T {
+        let Cap {
+            speed,
+            level: g,
+            viscous,
+            y_max,
+            inner,
+        } = *self;
+        let root = T::ONE + inner;
+        if y_max >= g * root {
+            T::from_f64(2.0) * g / speed * root
+        } else if y_max > g {
+            (viscous + y_max * (y_max / g) / speed) / (y_max / g - T::ONE)
+        } else {
+            T::MAX
+        }
+    }
+
+    /// Derivative of the value, which is `cap`, with respect to the speed, where the level falls as `g_slope`.
+    #[inline(always)]
+    fn slope(&self, cap: T, g_slope: T) -> T {
+        let Cap {
+            speed,
+            level: g,
+            viscous,
+            y_max,
+            inner,
+        } = *self;
+        let root = T::ONE + inner;
+        if y_max >= g * root {
+            let two = T::from_f64(2.0);
+            let root_slope = (viscous - viscous * speed / g * g_slope) / (two * g * inner);
+            (two * (g_slope * root + g * root_slope) - cap) / speed
+        } else {
+            let u = y_max / g;
+            let falls = y_max * u / speed * (g_slope / g + T::ONE / speed);
+            (cap * u * g_slope / g - falls) / (u - T::ONE)
+        }
     }
 }
 
 /// sigma1 at velocity `v` and its derivative with respect to `v`, where the level is `g` with the derivative `g_slope`.
-#[inline]
+#[inline(always)]
 pub(crate) fn micro_damping_and_slope<T: Real>(law: &LuGre<T>, v: T, g: T, g_slope: T) -> (T, T) {
-    let s1 = law.micro_damping_at_level(v, g);
     match law.damping() {
-        Damping::Constant(_) => (s1, T::ZERO),
-        // The cap does not bite.
-        Damping::Capped(at_rest) if s1 == at_rest => (s1, T::ZERO),
-        Damping::Capped(_) => (s1, cap_slope(law.curve(), v, s1, g, g_slope)),
+        Damping::Constant(s1) => (s1, T::ZERO),
+        Damping::Capped(at_rest) if !may_bite(at_rest, v, g) => (at_rest, T::ZERO),
+        _ => varied(law, v, g, g_slope),
+    }
+}
+
+/// The same where sigma1 varies with velocity: apart, so that it does not stand in every step's way.
+#[inline(never)]
+fn varied<T: Real>(law: &LuGre<T>, v: T, g: T, g_slope: T) -> (T, T) {
+    match law.damping() {
+        Damping::Constant(s1) => (s1, T::ZERO),
+        Damping::Capped(at_rest) => {
+            let limit = Cap::new(law.curve(), v, g);
+            let cap = limit.value();
+            if at_rest <= cap {
+                return (at_rest, T::ZERO);
+            }
+            let sign = if v >= T::ZERO { T::ONE } else { -T::ONE };
+            (cap, sign * limit.slope(cap, sign * g_slope))
+        }
         Damping::Olsson { velocity, .. } => {
+            let s1 = law.micro_damping_at_level(v, g);
             let x = v / velocity;
             (s1, -T::from_f64(2.0) * x / velocity * s1)
         }
     }
 }
 
-/// Derivative with respect to `v` of [`passive_cap`], which is `cap` there.
-fn cap_slope<T: Real>(curve: &Stribeck<T>, v: T, cap: T, g: T, g_slope: T) -> T {
-    let speed = v.abs();
-    let sign = if v >= T::ZERO { T::ONE } else { -T::ONE };
-    let g_slope = sign * g_slope;
-    let s2 = curve.direction(v).viscous;
-    let y_max = curve.largest_static_level();
-    let braked = s2 * speed / g;
-    let inner = (T::ONE + braked).sqrt();
-    let root = T::ONE + inner;
-    let slope = if y_max >= g * root {
-        let two = T::from_f64(2.0);
-        let root_slope = (s2 - braked * g_slope) / (two * g * inner);
-        (two * (g_slope * root + g * root_slope) - cap) / speed
-    } else {
-        let u = y_max / g;
-        let falls = y_max * u / speed * (g_slope / g + T::ONE / speed);
-        (cap * u * g_slope / g - falls) / (u - T::ONE)
-    };
-    sign * slope
+/// Whether the cap at the velocity `v`, level `g`, can be below `sigma1`: none is below 4g/|v|, since of u^2/(u - 1),
+/// u > 1, the least is 4.
+#[inline(always)]
+pub(crate) fn may_bite<T: Real>(sigma1: T, v: T, g: T) -> bool {
+    sigma1 * v.abs() > T::from_f64(4.0) * g
 }

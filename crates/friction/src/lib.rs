@@ -137,4 +137,4 @@ pub use realtime::State;
 pub use shape::Shape;
 pub use statics::{CoulombViscous, TanhRegularised};
 pub use stribeck::{Direction, Stribeck};
-pub use sweep::Sweep;
+pub use sweep::{Sweep, Sweeps};

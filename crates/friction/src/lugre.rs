@@ -1,6 +1,6 @@
 //! The LuGre law itself; its steps are in `record` and `realtime`.
 
-use crate::damping::passive_cap;
+use crate::damping::{may_bite, passive_cap};
 use crate::error::require;
 use crate::{Damping, ParamError, Real, Stribeck};
 
@@ -130,8 +130,7 @@ impl<T: Real> LuGre<T> {
     pub(crate) fn micro_damping_at_level(&self, v: T, g: T) -> T {
         match self.damping {
             Damping::Constant(s1) => s1,
-            // No cap is below 4g/|v|: of u^2/(u - 1), u > 1, the least is 4.
-            Damping::Capped(s1) if s1 * v.abs() <= T::from_f64(4.0) * g => s1,
+            Damping::Capped(s1) if !may_bite(s1, v, g) => s1,
             Damping::Capped(s1) => passive_cap(&self.curve, v, g).min(s1),
             Damping::Olsson { sigma1, velocity } => {
                 let x = v / velocity;

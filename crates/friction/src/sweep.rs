@@ -20,44 +20,85 @@ pub struct Sweep<T> {
     rest: (T, T),
 }
 
+/// Steps of one length at held velocities: what they have in common is computed once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sweeps<T> {
+    law: LuGre<T>,
+    h: T,
+    /// `1/h`, `1/sigma0`
+    per_time: T,
+    compliance: T,
+    /// sigma0 h, N s/m (N m s/rad)
+    swept: T,
+    /// `1/vs` and `Fs - Fc` in the positive and the negative direction.
+    per_velocity: [T; 2],
+    drop: [T; 2],
+}
+
 impl<T: Real> LuGre<T> {
+    /// Steps of `h > 0` seconds.
+    pub fn sweeps(&self, h: T) -> Sweeps<T> {
+        let sides = [self.curve().positive(), self.curve().negative()];
+        Sweeps {
+            law: *self,
+            h,
+            per_time: T::ONE / h,
+            compliance: T::ONE / self.stiffness(),
+            swept: h * self.stiffness(),
+            per_velocity: sides.map(|side| T::ONE / side.stribeck_velocity),
+            drop: sides.map(|side| side.static_friction - side.coulomb),
+        }
+    }
+
     /// The step of `h > 0` seconds at the velocity `v`, m/s (rad/s).
-    #[inline(always)]
+    #[inline]
     pub fn sweep(&self, h: T, v: T) -> Sweep<T> {
+        self.sweeps(h).at(v)
+    }
+}
+
+impl<T: Real> Sweeps<T> {
+    /// Length of the steps, s.
+    #[inline]
+    pub fn h(&self) -> T {
+        self.h
+    }
+
+    /// The step at the velocity `v`, m/s (rad/s).
+    #[inline(always)]
+    pub fn at(&self, v: T) -> Sweep<T> {
         // Each way its own code: the branch is foreseen, and the numbers of a side are there before the velocity is.
         if v >= T::ZERO {
-            self.sweep_towards(h, v, self.curve().positive(), T::ONE)
+            self.towards(v, 0, self.law.curve().positive(), T::ONE)
         } else {
-            self.sweep_towards(h, v, self.curve().negative(), -T::ONE)
+            self.towards(v, 1, self.law.curve().negative(), -T::ONE)
         }
     }
 
     #[inline(always)]
-    fn sweep_towards(&self, h: T, v: T, side: &Direction<T>, sign: T) -> Sweep<T> {
-        let curve = self.curve();
-        // Quotients of what does not change first.
-        let (per_velocity, per_time) = (T::ONE / side.stribeck_velocity, T::ONE / h);
-        let compliance = T::ONE / self.stiffness();
+    fn towards(&self, v: T, i: usize, side: &Direction<T>, sign: T) -> Sweep<T> {
+        let law = &self.law;
+        let curve = law.curve();
+        let (per_velocity, drop) = (self.per_velocity[i], self.drop[i]);
         let (weight, falls) = curve.shape().weight_and_slope(v.abs() * per_velocity);
-        let drop = side.static_friction - side.coulomb;
         let g = side.coulomb + drop * weight;
         let g_slope = sign * (drop * per_velocity) * falls;
         let per_level = T::ONE / g;
         // Of the way there exp(-a) is left.
-        let per_speed = h * self.stiffness() * per_level;
+        let per_speed = self.swept * per_level;
         let a = per_speed * v.abs();
         let a_slope = sign * per_speed - a * g_slope * per_level;
-        let (s1, s1_slope) = micro_damping_and_slope(self, v, g, g_slope);
+        let (s1, s1_slope) = micro_damping_and_slope(law, v, g, g_slope);
         let viscous = side.viscous;
         Sweep {
             velocity: v,
-            steady: (sign * g * compliance, sign * g_slope * compliance),
+            steady: (sign * g * self.compliance, sign * g_slope * self.compliance),
             decay: (-a).expm1(),
             a_slope,
-            stiffness: self.stiffness(),
+            stiffness: law.stiffness(),
             by_change: (
-                T::from_f64(0.5) * self.stiffness() + s1 * per_time,
-                s1_slope * per_time,
+                T::from_f64(0.5) * law.stiffness() + s1 * self.per_time,
+                s1_slope * self.per_time,
             ),
             rest: (viscous * v + curve.offset(), viscous),
         }

@@ -1,7 +1,8 @@
 //! Times closed loops with friction, for `bench/servo/compare.py`: `loops ROUNDS`.
 //!
 //! Prints one line a loop, its name and ns per control step on one core: of each stretch of 1000 steps the least of all
-//! rounds, on average; `study-run` is the least whole run of a study, metrics included. With `loops ROUNDS study` also the
+//! rounds, on average. The sine of the reference is computed in the loop; with `-shared` in the name it was sampled before,
+//! as for the runs of a study. `study-run` is the least whole run of a study, metrics included. With `loops ROUNDS study` also the
 //! seconds that 1000 such runs take on one thread and on two.
 
 use std::hint::black_box;
@@ -16,8 +17,10 @@ use stiction_servo::integrator::Quick;
 use stiction_servo::known;
 use stiction_servo::metrics::{Tracking, ripple_at_constant_velocity};
 use stiction_servo::motion::Sine;
+use stiction_servo::path::Reference;
 use stiction_servo::plant::Plant;
-use stiction_servo::run::run_with;
+use stiction_servo::run::follow_sampled;
+use stiction_servo::sampled::Sampled;
 use stiction_servo::trajectory::Lookahead;
 
 /// Steps of a loop, and those that are timed together: shorter than what a scheduler leaves it.
@@ -28,11 +31,23 @@ const RUNS: usize = 1000;
 fn main() -> Result<(), ParamError> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let rounds = arguments.first().and_then(|r| r.parse().ok()).unwrap_or(50);
-    let sine = Sine::new(0.02, 1.0, 3.0)?;
-    println!("cascade {:.1}", least(&plain(false)?, &sine, rounds)?);
-    println!("compensated {:.1}", least(&plain(true)?, &sine, rounds)?);
     let whole = whole()?;
-    println!("everything {:.1}", least(&whole, &sine, rounds)?);
+    for (name, settings) in [
+        ("cascade", &plain(false)?),
+        ("compensated", &plain(true)?),
+        ("everything", &whole),
+    ] {
+        let (rate, preview) = (settings.rate, settings.feedforward.preview);
+        let sine = Sine::new(0.02, 1.0, STEPS as f64 / rate)?;
+        let computed = || {
+            let mut reference = Lookahead::new(&sine, rate, preview);
+            (0..STEPS).map(move |_| reference.sample())
+        };
+        println!("{name} {:.1}", least(settings, rounds, computed)?);
+        let sampled = Sampled::new(&sine, rate)?;
+        let shared = || sampled.with_preview(preview);
+        println!("{name}-shared {:.1}", least(settings, rounds, shared)?);
+    }
     println!("study-run {:.1}", least_run(&whole, 4 * rounds)?);
     if arguments.get(1).is_some_and(|what| what == "study") {
         for threads in [1, 2] {
@@ -71,15 +86,19 @@ fn whole() -> Result<AxisSettings, ParamError> {
     })
 }
 
-fn least(settings: &AxisSettings, sine: &Sine, rounds: usize) -> Result<f64, ParamError> {
+fn least<R: Iterator<Item = (Reference, f64)>>(
+    settings: &AxisSettings,
+    rounds: usize,
+    references: impl Fn() -> R,
+) -> Result<f64, ParamError> {
     let mut least = [f64::INFINITY; STEPS / STRETCH];
     for _ in 0..rounds {
         let mut axis = Axis::new(settings.clone(), Quick::new(1)?)?;
-        let mut reference = Lookahead::new(sine, settings.rate, settings.feedforward.preview);
+        let mut references = references();
         for least in &mut least {
             let start = Instant::now();
-            let squares = (0..STRETCH).fold(0.0, |sum, _| {
-                let (now, ahead) = reference.sample();
+            let stretch = references.by_ref().take(STRETCH);
+            let squares = stretch.fold(0.0, |sum, (now, ahead)| {
                 let error = axis.step(now, ahead, Correction::default()).error();
                 sum + error * error
             });
@@ -90,10 +109,15 @@ fn least(settings: &AxisSettings, sine: &Sine, rounds: usize) -> Result<f64, Par
     Ok(1e9 * least.iter().sum::<f64>() / STEPS as f64)
 }
 
+/// The motion of all runs of a study.
+fn motion_of_study(settings: &AxisSettings) -> Result<Sampled, ParamError> {
+    Sampled::new(&Sine::new(5e-3, 1.0, 3.0)?, settings.rate)
+}
+
 /// A run of 3 s with its metrics, and how many samples it has.
-fn run_of_study(settings: &AxisSettings) -> Result<usize, ParamError> {
-    let sine = Sine::new(5e-3, 1.0, 3.0)?;
-    let samples = run_with(black_box(settings), &sine, Quick::new(1)?)?;
+fn run_of_study(settings: &AxisSettings, motion: &Sampled) -> Result<usize, ParamError> {
+    let mut axis = Axis::new(black_box(settings).clone(), Quick::new(1)?)?;
+    let samples = follow_sampled(&mut axis, motion)?;
     black_box((
         Tracking::of(&samples),
         ripple_at_constant_velocity(&samples),
@@ -103,9 +127,10 @@ fn run_of_study(settings: &AxisSettings) -> Result<usize, ParamError> {
 
 /// The least time of a run, ns a sample.
 fn least_run(settings: &AxisSettings, rounds: usize) -> Result<f64, ParamError> {
+    let motion = motion_of_study(settings)?;
     (0..rounds).try_fold(f64::INFINITY, |least, _| {
         let start = Instant::now();
-        let samples = run_of_study(settings)?;
+        let samples = run_of_study(settings, &motion)?;
         Ok(least.min(1e9 * start.elapsed().as_secs_f64() / samples as f64))
     })
 }
@@ -113,8 +138,11 @@ fn least_run(settings: &AxisSettings, rounds: usize) -> Result<f64, ParamError> 
 /// Seconds for all runs.
 fn study(settings: &AxisSettings, threads: usize) -> Result<f64, ParamError> {
     let start = Instant::now();
+    let motion = motion_of_study(settings)?;
     std::thread::scope(|scope| {
-        let share = || (0..RUNS / threads).try_for_each(|_| run_of_study(settings).map(drop));
+        let motion = &motion;
+        let share =
+            move || (0..RUNS / threads).try_for_each(|_| run_of_study(settings, motion).map(drop));
         let running: Vec<_> = (0..threads).map(|_| scope.spawn(share)).collect();
         let ended = running.into_iter().map(|r| r.join().expect("no panic"));
         ended.collect::<Result<(), ParamError>>()

@@ -79,9 +79,10 @@ pub struct Correction {
 pub struct Axis<L: Held<f64> = LuGre<f64>, I = Mid> {
     settings: AxisSettings<L>,
     integrator: I,
-    /// Control period, s, and the part of it that is a stretch.
+    /// Control period, s, the part of it that is a stretch, and the length of that, s.
     period: f64,
     stretch: f64,
+    span: f64,
     drive: RunningDrive,
     controller: ControllerState,
     feedforward: RunningFeedforward,
@@ -110,12 +111,14 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
             disturbance.validate()?;
         }
         let period = 1.0 / settings.rate;
-        let drive = RunningDrive::new(settings.drive, period)?;
+        let drive = RunningDrive::new(settings.drive, period, settings.substeps)?;
+        let stretch = 1.0 / f64::from(settings.substeps);
         let feedforward = settings.feedforward.start(&settings.drive, period)?;
         Ok(Axis {
             integrator,
             period,
-            stretch: 1.0 / f64::from(settings.substeps),
+            stretch,
+            span: period * stretch,
             drive,
             controller: ControllerState::default(),
             feedforward,
@@ -224,24 +227,30 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
         };
         self.drive.command(command);
         for i in 0..self.settings.substeps {
-            self.advance(time, f64::from(i) * self.stretch);
+            self.advance(time, i);
         }
         self.count += 1;
         sample
     }
 
-    /// Moves the axis by a stretch of the period that began at `time`, from the part `begin` of it on.
+    /// Moves the axis by the stretch `i` of the period that began at `time`.
     // Not inlined into the loop over the stretches: what stays the same would be kept on the stack.
     #[inline(never)]
-    fn advance(&mut self, time: f64, begin: f64) {
-        let span = self.period * self.stretch;
-        let mut force = self.drive.force(begin, begin + self.stretch);
+    fn advance(&mut self, time: f64, i: u32) {
+        let span = self.span;
+        let driven = self.drive.force(i as usize);
+        let mut force = driven;
         // Where the axis will be at the middle of the stretch, and when.
         if let Some(cogging) = &self.settings.cogging {
             force += cogging.force(self.motion.position + 0.5 * span * self.motion.velocity);
         }
         if let Some(disturbance) = &self.settings.disturbance {
+            let begin = f64::from(i) * self.stretch;
             force += disturbance.force(time + begin * self.period + 0.5 * span);
+        }
+        if let Some(next) = self.drive.next_force(i as usize) {
+            // What else acts changes little over a stretch.
+            self.integrator.expect(next + (force - driven));
         }
         let (plant, load) = (&self.settings.plant, Load::force(force));
         self.motion = self.integrator.advance(plant, self.motion, span, load, 0.0);

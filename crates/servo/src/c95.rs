@@ -109,18 +109,29 @@ impl Curve {
 /// digits of a quantity that falls steeply.
 const TOLERANCE: f64 = 1e-3;
 
-/// An experiment to run.
-pub type Run = fn() -> Result<Experiment, ParamError>;
+/// An experiment to run. It asks now and then whether to go on; `None` where it was not to.
+pub type Run = fn(&dyn Fn() -> bool) -> Result<Option<Experiment>, ParamError>;
 
 /// All of them, B to G.
 pub const ALL: [Run; 6] = [
-    presliding::run,
-    lag::run,
-    break_away::run,
-    stick_slip::run,
+    |go_on| whole(presliding::run, go_on),
+    |go_on| whole(lag::run, go_on),
+    |go_on| whole(break_away::run, go_on),
+    |go_on| whole(stick_slip::run, go_on),
     hunting::run,
-    drift::run,
+    |go_on| whole(drift::run, go_on),
 ];
+
+/// One that takes less than a second.
+fn whole(
+    run: fn() -> Result<Experiment, ParamError>,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Option<Experiment>, ParamError> {
+    match go_on() {
+        true => run().map(Some),
+        false => Ok(None),
+    }
+}
 
 fn axis() -> Result<KnownAxis, ParamError> {
     known::find("C95").ok_or(ParamError::new("axis", 0.0, "a known one"))

@@ -93,15 +93,12 @@ impl Drive {
     }
 }
 
-/// A drive at work at a fixed control period.
+/// A drive at work at a fixed control period, whose force is asked for in equal stretches of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunningDrive {
     drive: Drive,
     /// Volts of command for a force, V/N.
     per_force: f64,
-    /// Whole periods of delay and the part of one that is left.
-    whole: usize,
-    part: f64,
     /// The last commands, A, the newest at `newest`.
     commands: [f64; LONGEST + 2],
     newest: usize,
@@ -110,50 +107,56 @@ pub struct RunningDrive {
     /// Mean square of the current over the thermal time, A^2, and how much of it a period replaces.
     heat: f64,
     warming: f64,
-    period: f64,
-    /// The lag over the parts of a period that were asked for last: an axis asks for the same ones in every period.
-    lags: [Lag; LAGS],
-    oldest: usize,
+    stretches: Vec<Stretch>,
+    /// Force, N (N m), and current over the stretch to come, if they have been asked for.
+    known: Option<(f64, f64)>,
 }
 
-/// How many parts of a period are remembered.
-const LAGS: usize = 4;
-
-/// What the current loop does over a part of a period.
+/// What is the same in every period about a stretch of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Lag {
-    /// Of a period; below 0 before there is one.
-    part: f64,
-    /// What is left of the distance to the command at its end, and of it on average.
+struct Stretch {
+    /// Part of a period.
+    length: f64,
+    begins: Following,
+    /// After a command has come through within the stretch.
+    ends: Option<Following>,
+}
+
+/// The current loop after one command.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Following {
+    /// The command is that of so many periods ago.
+    late: usize,
+    /// Part of a period.
+    length: f64,
+    /// What is left of the distance to the command at the end, and of it on average.
     left: f64,
     mean: f64,
 }
 
 impl RunningDrive {
-    /// At rest, for a control period in s.
-    pub fn new(drive: Drive, period: f64) -> Result<Self, ParamError> {
+    /// At rest, for a control period in s, >= 1 stretches of which are asked for.
+    pub fn new(drive: Drive, period: f64, stretches: u32) -> Result<Self, ParamError> {
         ParamError::positive("period", period)?;
         drive.validate(period)?;
-        let periods = drive.delay / period;
-        // A delay that is whole but for rounding is whole.
-        let whole = libm::floor(periods + 1e-9);
+        if stretches == 0 {
+            return Err(ParamError::new("stretches", 0.0, ">= 1"));
+        }
+        let each = 1.0 / f64::from(stretches);
+        let stretches = (0..stretches).map(|i| {
+            let begin = f64::from(i) * each;
+            drive.stretch(period, begin, begin + each)
+        });
         Ok(RunningDrive {
             drive,
             per_force: 1.0 / drive.gain(),
-            whole: whole as usize,
-            part: (periods - whole).max(0.0),
             commands: [0.0; LONGEST + 2],
             newest: 0,
             current: 0.0,
             heat: 0.0,
             warming: -libm::expm1(-period / drive.thermal_time),
-            period,
-            lags: [Lag {
-                part: -1.0,
-                left: 0.0,
-                mean: 0.0,
-            }; LAGS],
-            oldest: 0,
+            stretches: stretches.collect(),
+            known: None,
         })
     }
 
@@ -181,52 +184,108 @@ impl RunningDrive {
         self.heat += self.warming * (self.current * self.current - self.heat);
     }
 
-    /// Mean force, N (N m), over the stretch of the present period from `begin` to `end`, as parts of it, 0 to 1. The
-    /// stretches of a period are to be asked for in their order.
+    /// Mean force, N (N m), over the stretch `i` of the present period, from 0. All are to be asked for, in their order.
+    ///
+    /// # Panics
+    /// Where there are not so many.
     #[inline]
-    pub fn force(&mut self, begin: f64, end: f64) -> f64 {
-        if self.part <= begin || self.part >= end {
-            let late = usize::from(self.part >= end);
-            return self.drive.force_constant * self.follow(self.whole + late, end - begin);
-        }
-        let first = self.follow(self.whole + 1, self.part - begin);
-        let second = self.follow(self.whole, end - self.part);
-        let mean = (first * (self.part - begin) + second * (end - self.part)) / (end - begin);
-        self.drive.force_constant * mean
+    pub fn force(&mut self, i: usize) -> f64 {
+        let known = self.known.take();
+        let (force, current) = known.unwrap_or_else(|| self.after(&self.stretches[i], self.newest));
+        self.current = current;
+        force
     }
 
-    /// Mean current, A, while the loop follows the command of `late` periods ago for `part` of a period.
+    /// The force, N (N m), over the stretch that follows `i`, the one asked for last, where no command to come changes it.
     #[inline]
-    fn follow(&mut self, late: usize, part: f64) -> f64 {
-        let at = match self.newest.checked_sub(late) {
+    pub fn next_force(&mut self, i: usize) -> Option<f64> {
+        self.known = self.next(i);
+        self.known.map(|(force, _)| force)
+    }
+
+    /// Force and current as in [`after`](Self::after).
+    #[inline]
+    fn next(&self, i: usize) -> Option<(f64, f64)> {
+        if let Some(stretch) = self.stretches.get(i + 1) {
+            return Some(self.after(stretch, self.newest));
+        }
+        let stretch = &self.stretches[0];
+        let latest = stretch.ends.as_ref().unwrap_or(&stretch.begins).late;
+        let coming = match self.newest + 1 {
+            end if end == self.commands.len() => 0,
+            coming => coming,
+        };
+        (latest > 0).then(|| self.after(stretch, coming))
+    }
+
+    /// Mean force, N (N m), and last current, A, over a stretch from now on, where `newest` is the place of the newest command in it.
+    #[inline]
+    fn after(&self, stretch: &Stretch, newest: usize) -> (f64, f64) {
+        let Stretch {
+            length,
+            begins,
+            ends,
+        } = stretch;
+        let (first, current) = self.follow(begins, newest, self.current);
+        let Some(ends) = ends else {
+            return (self.drive.force_constant * first, current);
+        };
+        let (second, current) = self.follow(ends, newest, current);
+        let mean = (first * begins.length + second * ends.length) / length;
+        (self.drive.force_constant * mean, current)
+    }
+
+    /// Mean current and the last one, A, while the loop follows a command from `current` on.
+    #[inline]
+    fn follow(&self, following: &Following, newest: usize, current: f64) -> (f64, f64) {
+        let at = match newest.checked_sub(following.late) {
             Some(at) => at,
-            None => self.newest + self.commands.len() - late,
+            None => newest + self.commands.len() - following.late,
         };
         let wanted = self.commands[at];
-        if self.drive.current_lag == 0.0 {
-            self.current = wanted;
-            return wanted;
+        let off = current - wanted;
+        (wanted + off * following.mean, wanted + off * following.left)
+    }
+}
+
+impl Drive {
+    /// The stretch from `begin` to `end`, as parts of a period of `period` seconds.
+    fn stretch(&self, period: f64, begin: f64, end: f64) -> Stretch {
+        let periods = self.delay / period;
+        // A delay that is whole but for rounding is whole.
+        let whole = libm::floor(periods + 1e-9);
+        let part = (periods - whole).max(0.0);
+        let whole = whole as usize;
+        let length = end - begin;
+        if part <= begin || part >= end {
+            let late = whole + usize::from(part >= end);
+            return Stretch {
+                length,
+                begins: self.following(late, length, period),
+                ends: None,
+            };
         }
-        let lag = self.lag(part);
-        let off = self.current - wanted;
-        self.current = wanted + off * lag.left;
-        wanted + off * lag.mean
+        Stretch {
+            length,
+            begins: self.following(whole + 1, part - begin, period),
+            ends: Some(self.following(whole, end - part, period)),
+        }
     }
 
-    /// The lag of the current loop over `part` of a period.
-    fn lag(&mut self, part: f64) -> Lag {
-        if let Some(known) = self.lags.iter().find(|lag| lag.part == part) {
-            return *known;
-        }
-        let x = part * self.period / self.drive.current_lag;
-        let gone = -libm::expm1(-x);
-        let lag = Lag {
-            part,
-            left: 1.0 - gone,
-            mean: gone / x,
+    fn following(&self, late: usize, length: f64, period: f64) -> Following {
+        let (left, mean) = match self.current_lag {
+            0.0 => (0.0, 0.0),
+            lag => {
+                let x = length * period / lag;
+                let gone = -libm::expm1(-x);
+                (1.0 - gone, gone / x)
+            }
         };
-        self.lags[self.oldest] = lag;
-        self.oldest = (self.oldest + 1) % LAGS;
-        lag
+        Following {
+            late,
+            length,
+            left,
+            mean,
+        }
     }
 }

@@ -31,6 +31,9 @@ pub trait Integrator<L: Held<f64>> {
         rate: f64,
     ) -> Motion<L::State>;
 
+    /// May be told, before a step, the force of the load in the step after it, N (N m), where that is known by then.
+    fn expect(&mut self, _next: f64) {}
+
     /// To be told when the plant is no longer that of the call before: what was kept of it is dropped.
     fn forget(&mut self) {}
 }
@@ -87,6 +90,12 @@ impl Integrator<LuGre<f64>> for Choice {
             Choice::Quick(quick) => quick.advance(plant, from, span, load, rate),
             Choice::Rodas3(rodas3) => rodas3.advance(plant, from, span, load, rate),
             Choice::Ode4(ode4) => ode4.advance(plant, from, span, load, rate),
+        }
+    }
+
+    fn expect(&mut self, next: f64) {
+        if let Choice::Quick(quick) = self {
+            Integrator::<LuGre<f64>>::expect(quick, next);
         }
     }
 

@@ -12,7 +12,7 @@
 //! | [`speeds`] | constant speeds one after the other |
 //! | [`noise`] | white noise from a seed |
 //! | [`feedforward`], [`learning`] | compensation of friction |
-//! | [`axis`], [`run`] | one axis with all of it, along a [`trajectory`] |
+//! | [`axis`], [`run`] | one axis with all of it, along a [`trajectory`], or one [`sampled`] for many runs |
 //! | [`two_axes`], [`cross_coupling`] | two axes along a contour in the [`plane`] |
 //! | [`load`] | mass and level of friction found while running |
 //! | [`metrics`] | how well it followed |
@@ -73,6 +73,7 @@ pub mod pid;
 pub mod plane;
 pub mod plant;
 pub mod run;
+pub mod sampled;
 pub mod speeds;
 pub mod trajectory;
 pub mod two_axes;

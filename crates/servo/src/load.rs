@@ -81,7 +81,7 @@ impl LoadEstimator {
         ParamError::positive("least_acceleration", settings.least_acceleration)?;
         Ok(LoadEstimator {
             law,
-            drive: RunningDrive::new(drive, 1.0 / rate)?,
+            drive: RunningDrive::new(drive, 1.0 / rate, 1)?,
             settings,
             rate,
             load: Load { mass, level: 1.0 },
@@ -117,7 +117,7 @@ impl LoadEstimator {
         self.deflection = end;
         let acceleration = (position - 2.0 * newer + older) * self.rate * self.rate;
         // `force` is of the period that ends now, the drive's output of it was asked for a sample ago.
-        let force = self.drive.force(0.0, 1.0);
+        let force = self.drive.force(0);
         let raw = [
             0.5 * (self.force + force),
             acceleration,

@@ -2,6 +2,8 @@
 
 use crate::axis::{Axis, AxisSettings, Correction, Sample};
 use crate::integrator::{Integrator, Mid};
+use crate::path::Reference;
+use crate::sampled::Sampled;
 use crate::trajectory::{Lookahead, Trajectory};
 use stiction_friction::{Held, ParamError};
 
@@ -43,10 +45,27 @@ pub fn follow<L: Held<f64>, I: Integrator<L>>(
     let (rate, preview) = (axis.settings().rate, axis.settings().feedforward.preview);
     let n = sample_count(trajectory.duration(), rate)?;
     let mut reference = Lookahead::new(trajectory, rate, preview);
-    let mut samples = Vec::with_capacity(n);
-    for _ in 0..n {
-        let (now, ahead) = reference.sample();
-        samples.push(axis.step(now, ahead, Correction::default()));
+    Ok(record(axis, (0..n).map(|_| reference.sample())))
+}
+
+/// [`follow`] along a trajectory that was sampled at the rate of the axis: the same samples.
+pub fn follow_sampled<L: Held<f64>, I: Integrator<L>>(
+    axis: &mut Axis<L, I>,
+    trajectory: &Sampled,
+) -> Result<Vec<Sample>, ParamError> {
+    let (rate, preview) = (axis.settings().rate, axis.settings().feedforward.preview);
+    if rate != trajectory.rate() {
+        return Err(ParamError::new("rate", rate, "that of the samples"));
     }
-    Ok(samples)
+    Ok(record(axis, trajectory.with_preview(preview)))
+}
+
+#[inline]
+fn record<L: Held<f64>, I: Integrator<L>>(
+    axis: &mut Axis<L, I>,
+    references: impl ExactSizeIterator<Item = (Reference, f64)>,
+) -> Vec<Sample> {
+    references
+        .map(|(now, ahead)| axis.step(now, ahead, Correction::default()))
+        .collect()
 }

@@ -2,7 +2,6 @@
 
 use crate::path::{Path, Reference};
 use crate::speeds::Speeds;
-use stiction_friction::compensator::ahead;
 
 /// A reference over time.
 pub trait Trajectory {
@@ -37,12 +36,47 @@ impl Trajectory for Speeds {
 pub const FARTHEST: f64 = 7.0;
 const KNOWN: usize = FARTHEST as usize + 1;
 
+/// How far ahead: whole samples, and the part of one beyond them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Preview {
+    whole: usize,
+    part: f64,
+}
+
+impl Preview {
+    /// 0 to [`FARTHEST`] samples, more counting as that.
+    pub fn new(samples: f64) -> Self {
+        let samples = samples.clamp(0.0, FARTHEST);
+        let whole = (libm::ceil(samples) - 1.0).max(0.0);
+        Preview {
+            whole: whole as usize,
+            part: samples - whole,
+        }
+    }
+
+    /// How many samples are to be known, that of now among them.
+    pub fn count(self) -> usize {
+        self.whole + 1 + usize::from(self.part > 0.0)
+    }
+
+    /// The velocity ahead, m/s (rad/s), from the samples of now on: that of
+    /// [`ahead`](stiction_friction::compensator::ahead).
+    #[inline]
+    pub fn velocity(self, known: &[Reference]) -> f64 {
+        let from = known[self.whole].velocity;
+        if self.part == 0.0 {
+            return from;
+        }
+        from + self.part * (known[self.whole + 1].velocity - from)
+    }
+}
+
 /// A trajectory sample by sample, each evaluated once, with the velocity of a later instant beside it.
 #[derive(Clone, Debug)]
 pub struct Lookahead<'a, T: ?Sized> {
     trajectory: &'a T,
     rate: f64,
-    preview: f64,
+    preview: Preview,
     /// The references known, from that of now on.
     known: [Reference; KNOWN],
     count: usize,
@@ -52,13 +86,13 @@ pub struct Lookahead<'a, T: ?Sized> {
 impl<'a, T: Trajectory + ?Sized> Lookahead<'a, T> {
     /// Samples at `rate` Hz with a preview of 0 to [`FARTHEST`] samples, more counting as that.
     pub fn new(trajectory: &'a T, rate: f64, preview: f64) -> Self {
-        let preview = preview.clamp(0.0, FARTHEST);
+        let preview = Preview::new(preview);
         let mut lookahead = Lookahead {
             trajectory,
             rate,
             preview,
             known: [Reference::default(); KNOWN],
-            count: libm::ceil(preview) as usize + 1,
+            count: preview.count(),
             next: 0,
         };
         for _ in 0..lookahead.count {
@@ -69,7 +103,10 @@ impl<'a, T: Trajectory + ?Sized> Lookahead<'a, T> {
 
     #[inline]
     fn read(&mut self) {
-        self.known.copy_within(1..self.count, 0);
+        // Without a preview, the common case, there is nothing to move.
+        if self.count > 1 {
+            self.known.copy_within(1..self.count, 0);
+        }
         self.known[self.count - 1] = self.trajectory.at(self.next as f64 / self.rate);
         self.next += 1;
     }
@@ -78,13 +115,7 @@ impl<'a, T: Trajectory + ?Sized> Lookahead<'a, T> {
     #[inline]
     pub fn sample(&mut self) -> (Reference, f64) {
         let now = self.known[0];
-        if self.count == 1 {
-            self.known[0] = self.trajectory.at(self.next as f64 / self.rate);
-            self.next += 1;
-            return (now, now.velocity);
-        }
-        let velocities = self.known.map(|r| r.velocity);
-        let later = ahead(&velocities[..self.count], self.preview);
+        let later = self.preview.velocity(&self.known);
         self.read();
         (now, later)
     }

@@ -7,11 +7,18 @@ use stiction_servo::known;
 use stiction_servo::plant::{Load, Motion, Plant};
 
 #[test]
+fn an_experiment_may_be_stopped() {
+    for run in c95::ALL {
+        assert_eq!(run(&|| false), Ok(None));
+    }
+}
+
+#[test]
 fn every_number_of_1995() {
     let mut off = Vec::new();
     let mut counts = Vec::new();
     for run in c95::ALL {
-        let experiment = run().unwrap();
+        let experiment = run(&|| true).unwrap().unwrap();
         counts.push((experiment.letter, experiment.checks.len()));
         for check in &experiment.checks {
             println!(

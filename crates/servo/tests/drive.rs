@@ -8,15 +8,11 @@ const H: f64 = 250e-6;
 
 /// Forces of the first periods after a step of the command, each period in `parts` stretches.
 fn step_response(drive: Drive, force: f64, periods: usize, parts: u32) -> Vec<f64> {
-    let mut running = RunningDrive::new(drive, H).unwrap();
+    let mut running = RunningDrive::new(drive, H, parts).unwrap();
     let mut forces = Vec::new();
     for _ in 0..periods {
         running.command(force);
-        let each = 1.0 / f64::from(parts);
-        for i in 0..parts {
-            let begin = f64::from(i) * each;
-            forces.push(running.force(begin, begin + each));
-        }
+        forces.extend((0..parts as usize).map(|i| running.force(i)));
     }
     forces
 }
@@ -57,6 +53,30 @@ proptest! {
     }
 }
 
+proptest! {
+    /// A force told ahead is the one that comes, and that of the next command is not told.
+    #[test]
+    fn the_next_force(lag in 0.0..1e-3, delay in 0.0..4.0, parts in 1_u32..5, commands in prop::collection::vec(-50.0..50.0, 1..40)) {
+        let drive = Drive { current_lag: lag, delay: delay * H, ..Drive::ideal() };
+        let mut plain = RunningDrive::new(drive, H, parts).unwrap();
+        let mut asked = plain.clone();
+        let mut told = None;
+        for command in commands {
+            plain.command(command);
+            asked.command(command);
+            for i in 0..parts as usize {
+                let force = asked.force(i);
+                prop_assert_eq!(force, plain.force(i));
+                prop_assert!(told.is_none_or(|told| told == force));
+                told = asked.next_force(i);
+                prop_assert!(told.is_some() || i + 1 == parts as usize && delay < 1.0);
+            }
+            let first = f64::from(parts).recip();
+            prop_assert!(told.is_none() || delay >= first);
+        }
+    }
+}
+
 #[test]
 fn peak_and_rated_current() {
     let drive = Drive {
@@ -79,7 +99,7 @@ fn peak_and_rated_current() {
 
 #[test]
 fn drives_that_cannot_be_are_named() {
-    let name = |d: Drive| RunningDrive::new(d, H).unwrap_err().name;
+    let name = |d: Drive| RunningDrive::new(d, H, 1).unwrap_err().name;
     let good = Drive::linear_motor(H);
     assert_eq!(
         name(Drive {

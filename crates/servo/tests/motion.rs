@@ -1,7 +1,9 @@
 //! Test motions: derivatives, limits, rest at both ends, shortest time.
 
 use proptest::prelude::*;
+use stiction_friction::compensator::ahead;
 use stiction_servo::motion::{Chirp, Limits, Move, Moves, Profile, SetPoints, Sine, Step};
+use stiction_servo::sampled::Sampled;
 use stiction_servo::trajectory::{Lookahead, Trajectory};
 
 /// Velocity and acceleration are the derivatives of the position, as long as the jerk stays below `jerk`.
@@ -208,4 +210,26 @@ fn lookahead_is_the_later_velocity() {
             );
         }
     }
+}
+
+/// A shared reference is the one of the moment, to the bit, also where the preview looks beyond the end.
+#[test]
+fn sampled_is_what_a_lookahead_gives() {
+    let sine = Sine::new(5e-3, 0.7, 1.0).unwrap();
+    let rate = 1000.0;
+    let sampled = Sampled::new(&sine, rate).unwrap();
+    for preview in [0.0, 0.3, 1.0, 1.64, 2.0, 6.3, 7.0, 9.0] {
+        let mut lookahead = Lookahead::new(&sine, rate, preview);
+        let mut count = 0;
+        for (k, both) in sampled.with_preview(preview).enumerate() {
+            assert_eq!(both, lookahead.sample(), "{preview} {k}");
+            let velocity = |i: usize| sine.at((k + i) as f64 / rate).velocity;
+            let known: Vec<f64> = (0..8).map(velocity).collect();
+            assert_eq!(both.1, ahead(&known, preview.min(7.0)), "{preview} {k}");
+            count += 1;
+        }
+        assert_eq!(count, 1429);
+    }
+    assert_eq!(Sampled::new(&sine, 0.0).unwrap_err().name, "rate");
+    assert_eq!(Sampled::new(&sine, 1e9).unwrap_err().name, "samples");
 }

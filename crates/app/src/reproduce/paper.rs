@@ -22,8 +22,9 @@ pub(crate) use search::Searched;
 pub(crate) use statics::Statics;
 pub(crate) use tracking::{Fed, Tracked};
 
+use super::watch::Watch;
 use super::{Body, CheckEntry, ClaimEntry, ReproduceFile, Reproduction};
-use fault::{Fault, Watch};
+use fault::Fault;
 use stiction_friction::{Damping, Direction, LuGre, ParamError, Shape, Stribeck};
 use stiction_identify::Control;
 use stiction_identify::candidates::Named;

@@ -1,5 +1,6 @@
 //! Two axes along a contour: one run of the grid, and what is kept of it.
 
+use super::result::PathEntry;
 use super::wrong::Belief;
 use super::{Machine, Scheme, Study};
 use stiction_friction::ParamError;
@@ -86,7 +87,7 @@ impl Study {
     pub(super) fn along(&self, second: &Second, plan: &Plan) -> Result<Ran, ParamError> {
         let axis = |i: usize, machine: &Machine| {
             let belief = plan.beliefs[i];
-            let controller = super::run::believing(plan.controllers[i], machine, belief);
+            let controller = super::compensation::believing(plan.controllers[i], machine, belief);
             // Noise of its own on each axis.
             let mut settings = machine.settings(controller, self.seed.wrapping_add(i as u64));
             settings.feedforward = plan.scheme.feedforward(machine, &controller, belief)?;
@@ -185,5 +186,16 @@ impl ContourTrace {
             trace.deviation.push(sample.deviation);
         }
         trace
+    }
+}
+
+impl ContourPlan {
+    pub(super) fn entry(&self) -> PathEntry {
+        PathEntry {
+            name: self.name.clone(),
+            kind: self.kind.into(),
+            duration_s: self.motion.duration(),
+            skip_s: self.skip,
+        }
     }
 }

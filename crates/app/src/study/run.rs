@@ -1,97 +1,48 @@
 //! The grid of a study, run in parallel, and what is kept of each run.
 
 use super::contour::{self, ContourPlan, ContourTrace, Plan};
-use super::result::{
-    AxisParameter, MetricEntry, PathEntry, ResultRow, SCHEMA, SimulatedAxis, StudyFile,
-};
+use super::result::{SCHEMA, StudyFile};
+use super::trace::Trace;
 use super::wrong::{Belief, Family};
-use super::{Machine, ModelKind, ModelScheme, PathPlan, Scheme, Study, StudyOutcome};
-use super::{course, doubt};
-use crate::symbols;
+use super::{PathPlan, Scheme, Study, StudyOutcome};
+use super::{course, doubt, path};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
-use stiction_friction::compensator::{
-    Compensator, DisturbanceObserver, Friction, Settings, Source,
-};
-use stiction_friction::{CoulombViscous, Damping, LuGre, ParamError};
+use stiction_friction::ParamError;
 use stiction_identify::Control;
-use stiction_log::Motion;
-use stiction_servo::axis::{Axis, AxisSettings, Sample};
-use stiction_servo::controller::Controller;
-use stiction_servo::feedforward::Feedforward;
-use stiction_servo::integrator::Quick;
-use stiction_servo::metrics::{Tracking, reversals, ripple_at_constant_velocity, share_at_limit};
-use stiction_servo::run::follow;
-
-/// Points of a trace that are kept: more than a figure can show.
-const KEPT: usize = 2000;
+use stiction_servo::sampled::Sampled;
 
 /// A run of the grid, by the places in the lists of the study.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) struct Job {
     /// Contours count on from the paths.
-    path: usize,
-    controller: usize,
-    compensator: usize,
-    coupled: bool,
-    family: usize,
-    belief: usize,
+    pub path: usize,
+    pub controller: usize,
+    pub compensator: usize,
+    pub coupled: bool,
+    pub family: usize,
+    pub belief: usize,
 }
 
 impl Job {
     /// The cell of the grid that the run belongs to.
-    fn cell(self) -> Job {
+    pub fn cell(self) -> Job {
         Job { belief: 0, ..self }
     }
 }
 
-/// The course of the run with exact parameters, for figures.
-pub(crate) struct Trace {
-    pub path: String,
-    pub controller: String,
-    pub compensator: String,
-    /// All that counts.
-    pub whole: Course,
-    /// About the last reversal but one; empty without.
-    pub reversal: Course,
-}
-
-/// Signals over time, thinned to what a figure can show.
-#[derive(Default)]
-pub(crate) struct Course {
-    /// s
-    pub time: Vec<f64>,
-    /// m (rad)
-    pub reference: Vec<f64>,
-    /// m (rad)
-    pub error: Vec<f64>,
-    /// N (N m)
-    pub compensation: Vec<f64>,
-}
-
 /// What is kept of a run.
-struct Done {
-    job: Job,
-    metrics: Vec<f64>,
-    switched_off: bool,
-    still_learning: bool,
-    trace: Option<Trace>,
-    contour: Option<ContourTrace>,
+pub(super) struct Done {
+    pub job: Job,
+    pub metrics: Vec<f64>,
+    pub switched_off: bool,
+    pub still_learning: bool,
+    pub trace: Option<Trace>,
+    pub contour: Option<ContourTrace>,
     /// Rows of `trajectories.csv` or `contours.csv`.
-    course: String,
+    pub course: String,
 }
-
-/// Names of the metrics; what they measure is in `docs/study.md`.
-const METRICS: [&str; 7] = [
-    "rms_error",
-    "peak_error",
-    "reversal_peak",
-    "command_change",
-    "stick_time",
-    "saturation",
-    "velocity_ripple",
-];
 
 impl Study {
     /// Every run of the grid, in the order of the result.
@@ -160,13 +111,14 @@ pub(super) fn run(
         !stopped.load(Ordering::SeqCst)
     };
     let mut warnings = study.warnings.clone();
+    let sampled = study.sampled();
     let done: Vec<Option<Result<Done, (Job, ParamError)>>> = jobs
         .par_iter()
         .map(|&job| {
             if stopped.load(Ordering::SeqCst) {
                 return None;
             }
-            let done = study.one(job, &|| go_on(0)).transpose()?;
+            let done = study.one(job, &sampled, &|| go_on(0)).transpose()?;
             go_on(1);
             Some(done.map_err(|e| (job, e)))
         })
@@ -213,18 +165,17 @@ pub(super) fn run(
     }
 }
 
-/// A controller that feeds the mass that is believed forward: the part of it is the controller's.
-pub(super) fn believing(controller: Controller, machine: &Machine, belief: Belief) -> Controller {
-    let fed = controller.mass_feedforward() / machine.mass * belief.mass;
-    controller.with_mass_feedforward(fed)
-}
-
 impl Study {
     /// A run whose metrics are numbers; `None` where it was not to go on.
-    fn one(&self, job: Job, go_on: &dyn Fn() -> bool) -> Result<Option<Done>, ParamError> {
+    fn one(
+        &self,
+        job: Job,
+        sampled: &[Option<Sampled>],
+        go_on: &dyn Fn() -> bool,
+    ) -> Result<Option<Done>, ParamError> {
         let done = match self.contours.get(job.path.wrapping_sub(self.paths.len())) {
             Some(contour) => Some(self.on_contour(job, contour)?),
-            None => self.on_path(job, go_on)?,
+            None => self.on_path(job, sampled[job.path].as_ref(), go_on)?,
         };
         for (&name, &value) in self
             .metrics(job)
@@ -244,22 +195,22 @@ impl Study {
     }
 
     /// Names of the metrics of a run.
-    fn metrics(&self, job: Job) -> &'static [&'static str] {
+    pub(super) fn metrics(&self, job: Job) -> &'static [&'static str] {
         match job.path < self.paths.len() {
-            true => &METRICS,
+            true => &path::METRICS,
             false => &contour::METRICS,
         }
     }
 
     /// The name of a path or contour.
-    fn path_name(&self, job: Job) -> &str {
+    pub(super) fn path_name(&self, job: Job) -> &str {
         match self.paths.get(job.path) {
             Some(path) => &path.name,
             None => &self.contours[job.path - self.paths.len()].name,
         }
     }
 
-    fn names(&self, job: Job) -> course::Names<'_> {
+    pub(super) fn names(&self, job: Job) -> course::Names<'_> {
         [
             self.path_name(job),
             &self.controllers[job.controller].name,
@@ -321,101 +272,6 @@ impl Study {
         })
     }
 
-    fn on_path(&self, job: Job, go_on: &dyn Fn() -> bool) -> Result<Option<Done>, ParamError> {
-        let path = &self.paths[job.path];
-        let family = &self.families[job.family];
-        let belief = family.beliefs[job.belief];
-        let controller = self.controllers[job.controller].it;
-        let controller = believing(controller, &self.machine, belief);
-        let scheme = &self.compensators[job.compensator].it;
-        let mut settings = self.machine.settings(controller, self.seed);
-        settings.feedforward = scheme.feedforward(&self.machine, &controller, belief)?;
-        let mut axis = Axis::new(settings.clone(), Quick::new(1)?)?;
-        let mut samples = follow(&mut axis, path.trajectory.as_ref())?;
-        if let Scheme::Learning(learning, passes) = scheme {
-            for _ in 1..*passes {
-                if !go_on() {
-                    return Ok(None);
-                }
-                let force = &settings.feedforward.learned;
-                let next = learning.learn(
-                    force,
-                    &samples,
-                    controller.mass_feedforward(),
-                    self.machine.rate,
-                )?;
-                settings.feedforward.learned = next;
-                axis = Axis::new(settings.clone(), Quick::new(1)?)?;
-                samples = follow(&mut axis, path.trajectory.as_ref())?;
-            }
-        }
-        let exact = family.kind == "exact";
-        let learnt = scheme.learnt(&samples, self.machine.rate);
-        let from = samples.partition_point(|s| s.time < path.skip);
-        let counted = &samples[from.min(samples.len())..];
-        let tracking = Tracking::of(counted);
-        let compensator = axis.feedforward().compensator();
-        Ok(Some(Done {
-            job,
-            metrics: vec![
-                tracking.rms,
-                tracking.peak,
-                tracking.reversal_peak,
-                tracking.command_change,
-                tracking.stick_time,
-                share_at_limit(counted, self.machine.largest_force(&controller)),
-                ripple_at_constant_velocity(counted).unwrap_or(f64::NAN),
-            ],
-            switched_off: compensator.is_some_and(|c| c.state().watch.tripped),
-            still_learning: learnt.is_some_and(|t| t > path.skip),
-            trace: exact.then(|| Trace::of(self, job, counted)),
-            contour: None,
-            course: match exact {
-                true => course::rows(self.names(job), &samples, self.rows_of_a_run()),
-                false => String::new(),
-            },
-        }))
-    }
-
-    /// Rows in the order of the grid, of what is done.
-    fn rows(&self, done: &[Done]) -> Vec<ResultRow> {
-        let mut rows: Vec<ResultRow> = Vec::new();
-        for cell in done.chunk_by(|a, b| a.job.cell() == b.job.cell()) {
-            let job = cell[0].job;
-            let family = &self.families[job.family];
-            let names = self.metrics(job);
-            let name = |i: usize| (names[i].to_string(), self.machine.unit(names[i]));
-            let metrics = (0..names.len()).filter_map(|i| {
-                let values: Vec<f64> = cell.iter().map(|d| d.metrics[i]).collect();
-                if values.iter().any(|x| x.is_nan()) {
-                    return None;
-                }
-                let (name, unit) = name(i);
-                Some(MetricEntry::of(name, unit, values, family.kind))
-            });
-            let mut row = ResultRow {
-                path: self.path_name(job).into(),
-                controller: self.controllers[job.controller].name.clone(),
-                compensator: self.compensators[job.compensator].name.clone(),
-                coupled: job.coupled,
-                parameters: family.name.clone(),
-                runs: cell.len(),
-                switched_off: cell.iter().filter(|d| d.switched_off).count(),
-                still_learning: cell.iter().filter(|d| d.still_learning).count(),
-                metrics: metrics.collect(),
-            };
-            let without = rows
-                .iter()
-                .find(|r| r.path == row.path && r.controller == row.controller)
-                .filter(|r| r.compensator == "none" && r.parameters == "exact" && !r.coupled);
-            if let Some(without) = without {
-                row.compare(without);
-            }
-            rows.push(row);
-        }
-        rows
-    }
-
     fn not_run(&self, job: Job, e: &ParamError) -> crate::error::Warning {
         crate::error::Warning::new(
             "not-run",
@@ -429,236 +285,5 @@ impl Study {
                 e.allowed
             ),
         )
-    }
-}
-
-impl Machine {
-    pub(super) fn settings(&self, controller: Controller, seed: u64) -> AxisSettings {
-        AxisSettings {
-            plant: self.plant,
-            drive: self.drive,
-            encoder: self.encoder,
-            position_noise: self.position_noise,
-            cogging: self.cogging,
-            disturbance: None,
-            controller,
-            feedforward: Feedforward::default(),
-            rate: self.rate,
-            substeps: self.substeps,
-            seed,
-        }
-    }
-
-    /// What the controller may ask for and the drive can give, N (N m).
-    pub(super) fn largest_force(&self, controller: &Controller) -> f64 {
-        controller.force_limit().min(self.drive.peak_force())
-    }
-
-    fn unit(&self, metric: &str) -> String {
-        match (metric, self.motion) {
-            ("stick_time", _) => "s",
-            ("velocity_ripple", _) => "1",
-            (name, _) if name.starts_with("saturation") => "1",
-            (name, Motion::Linear) if name.starts_with("command_change") => "N",
-            (name, Motion::Rotary) if name.starts_with("command_change") => "N*m",
-            (_, motion) => symbols::length_unit(motion),
-        }
-        .into()
-    }
-
-    fn entry(&self) -> SimulatedAxis {
-        let parameters = self.model.parameters.iter().map(|p| AxisParameter {
-            name: p.name.clone(),
-            value: p.value,
-            unit: p.unit.clone(),
-        });
-        let sigma1 = match self.law.damping() {
-            Damping::Constant(_) => "constant",
-            _ => "capped",
-        };
-        SimulatedAxis {
-            kind: match self.motion {
-                Motion::Linear => "linear",
-                Motion::Rotary => "rotary",
-            }
-            .into(),
-            origin: self.model.origin.clone(),
-            parameters: parameters.collect(),
-            sigma1: sigma1.into(),
-            mass: self.mass,
-            rate_hz: self.rate,
-            substeps: self.substeps,
-            delay_s: self.drive.delay,
-            current_lag_s: self.drive.current_lag,
-            peak_force: Some(self.drive.peak_force()).filter(|f| f.is_finite()),
-            encoder: self.encoder.resolution(),
-            position_noise: self.position_noise,
-        }
-    }
-}
-
-impl PathPlan {
-    fn entry(&self) -> PathEntry {
-        PathEntry {
-            name: self.name.clone(),
-            kind: self.kind.into(),
-            duration_s: self.trajectory.duration(),
-            skip_s: self.skip,
-        }
-    }
-}
-
-impl ContourPlan {
-    fn entry(&self) -> PathEntry {
-        PathEntry {
-            name: self.name.clone(),
-            kind: self.kind.into(),
-            duration_s: self.motion.duration(),
-            skip_s: self.skip,
-        }
-    }
-}
-
-impl Scheme {
-    /// The compensation of an axis of which `belief` is believed.
-    pub(super) fn feedforward(
-        &self,
-        machine: &Machine,
-        controller: &Controller,
-        belief: Belief,
-    ) -> Result<Feedforward, ParamError> {
-        let limit = controller.force_limit();
-        let observer = |bandwidth: f64| {
-            DisturbanceObserver::new(belief.mass, bandwidth, 1.0 / machine.rate, limit)
-        };
-        match self {
-            Scheme::None | Scheme::Learning(..) => Ok(Feedforward::default()),
-            Scheme::Observer(bandwidth) => Ok(Feedforward::observer(observer(*bandwidth)?)),
-            Scheme::Model(model) => Ok(Feedforward {
-                observer: model.observer.map(observer).transpose()?,
-                ..model.feedforward(machine, limit, &belief.law)?
-            }),
-        }
-    }
-}
-
-impl ModelScheme {
-    fn feedforward(
-        &self,
-        machine: &Machine,
-        limit: f64,
-        law: &LuGre<f64>,
-    ) -> Result<Feedforward, ParamError> {
-        let curve = law.curve();
-        let sides = [curve.positive(), curve.negative()];
-        let friction = match self.kind {
-            ModelKind::Coulomb => Friction::Coulomb(CoulombViscous::new(
-                sides.map(|s| s.coulomb),
-                sides.map(|s| s.viscous),
-                curve.offset(),
-            )?),
-            ModelKind::Stribeck => Friction::Stribeck(*curve),
-            ModelKind::LuGre => Friction::LuGre(*law),
-        };
-        let period = 1.0 / machine.rate;
-        let limit = self.limit.unwrap_or(limit);
-        let settings = Settings {
-            gain: self.gain,
-            dead_zone: self.dead_zone,
-            slew: self.slew.unwrap_or(f64::MAX),
-            ramp: self.ramp,
-            adaptation: self.adaptation,
-            watchdog: self.watchdog,
-            ..Settings::new(period, limit)
-        };
-        let preview = self.preview.unwrap_or(match self.source {
-            Source::Reference => machine.drive.preview(period),
-            _ => 0.0,
-        });
-        let compensator = Compensator::new(friction, self.source, settings)?;
-        Ok(Feedforward::compensator(compensator, preview))
-    }
-}
-
-impl Trace {
-    fn of(study: &Study, job: Job, samples: &[Sample]) -> Self {
-        let instants = reversals(samples);
-        let about = match instants[..] {
-            [.., t, next] => {
-                let way = next - t;
-                let place = |time: f64| samples.partition_point(|s| s.time < time);
-                &samples[place(t - 0.05 * way)..place(t + 0.4 * way)]
-            }
-            _ => &[],
-        };
-        Trace {
-            path: study.path_name(job).into(),
-            controller: study.controllers[job.controller].name.clone(),
-            compensator: study.compensators[job.compensator].name.clone(),
-            whole: Course::of(samples),
-            reversal: Course::of(about),
-        }
-    }
-}
-
-impl Course {
-    /// Of each stretch the least and the largest error.
-    fn of(samples: &[Sample]) -> Self {
-        let mut course = Course::default();
-        for stretch in samples.chunks(samples.len().div_ceil(KEPT / 2).max(1)) {
-            let (mut low, mut high) = (0, 0);
-            for (i, sample) in stretch.iter().enumerate() {
-                if sample.error() < stretch[low].error() {
-                    low = i;
-                }
-                if sample.error() > stretch[high].error() {
-                    high = i;
-                }
-            }
-            let ends = [low.min(high), low.max(high)];
-            for &i in &ends[usize::from(low == high)..] {
-                course.time.push(stretch[i].time);
-                course.reference.push(stretch[i].reference.position);
-                course.error.push(stretch[i].error());
-                course.compensation.push(stretch[i].compensation);
-            }
-        }
-        course
-    }
-}
-
-impl MetricEntry {
-    fn of(name: String, unit: String, mut values: Vec<f64>, family: &str) -> Self {
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
-        values.sort_by(f64::total_cmp);
-        let at = |share: f64| {
-            let place = share * (values.len() - 1) as f64;
-            let i = (place as usize).min(values.len().saturating_sub(2));
-            let next = values.get(i + 1).unwrap_or(&values[i]);
-            values[i] + (place - i as f64) * (next - values[i])
-        };
-        MetricEntry {
-            name,
-            unit,
-            mean,
-            least: values[0],
-            largest: values[values.len() - 1],
-            interval95: (family == "covariance").then(|| [at(0.025), at(0.975)]),
-            reduction_percent: None,
-            worst_reduction_percent: None,
-        }
-    }
-}
-
-impl ResultRow {
-    fn compare(&mut self, without: &ResultRow) {
-        for metric in &mut self.metrics {
-            let Some(other) = without.metric(&metric.name).filter(|m| m.mean > 0.0) else {
-                continue;
-            };
-            let reduction = |x: f64| Some(100.0 * (1.0 - x / other.mean));
-            metric.reduction_percent = reduction(metric.mean);
-            metric.worst_reduction_percent = reduction(metric.largest);
-        }
     }
 }

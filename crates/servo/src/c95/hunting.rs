@@ -19,13 +19,15 @@ const RATE: usize = 10_000;
 /// at a tenth of that rate its error after 30 s would be off by .5 %.
 const FINE: usize = 10;
 
-pub(super) fn run() -> Result<Experiment, ParamError> {
+pub(super) fn run(go_on: &dyn Fn() -> bool) -> Result<Option<Experiment>, ParamError> {
     let mut checks = Vec::new();
     let mut near = |name: &str, unit, found, expected| {
         checks.push(Check::relative(name, unit, found, expected, TOLERANCE))
     };
 
-    let x = positioning(None, 1, 200)?;
+    let Some(x) = positioning(None, 1, 200, go_on)? else {
+        return Ok(None);
+    };
     let hunting = thinned("PID alone", &x[..100 * RATE]);
     near("first overshoot", "m", top(&x[..10 * RATE]), 1.5005);
     // The limit cycle: amplitude over the last hundred seconds, period between rising crossings of the target.
@@ -45,36 +47,41 @@ pub(super) fn run() -> Result<Experiment, ParamError> {
     let period = (last - first) as f64 / RATE as f64 / (rising.len() - 1) as f64;
     near("period of the limit cycle", "s", period, 24.44);
 
-    let x = positioning(Some(10.0), FINE, 31)?;
+    let Some(x) = positioning(Some(10.0), FINE, 31, go_on)? else {
+        return Ok(None);
+    };
     let observed = thinned("With the observer, k = 10 1/s", &x);
     near("overshoot with the observer", "m", top(&x), 1.0725);
     let error = x[10 * RATE] - 1.0;
     let name = "error with the observer at 10 s";
     checks.push(Check::absolute(name, "m", error, 0.0, 1e-12));
 
-    let x = positioning(Some(0.0), FINE, 31)?;
+    let Some(x) = positioning(Some(0.0), FINE, 31, go_on)? else {
+        return Ok(None);
+    };
     let open = thinned("The law alone, k = 0", &x);
     for (second, expected) in [(10, 0.0794917), (20, 0.0109630), (30, 0.00232038)] {
         let error = (x[second * RATE] - 1.0).abs();
         let name = format!("error with k = 0 at {second} s");
         checks.push(Check::relative(name, "m", error, expected, TOLERANCE));
     }
-    Ok(Experiment {
+    Ok(Some(Experiment {
         letter: 'F',
         title: "Hunting",
         checks,
         axes: [("Time", "s"), ("Position", "m")],
         curves: vec![hunting, observed, open],
-    })
+    }))
 }
 
 /// Positions under Kv 6, Kp 3, Ki 4 and a step of 1 m, with an observer of that gain and so many control periods between
-/// two of them.
+/// two of them; asks every second of them whether to go on.
 fn positioning(
     observer: Option<f64>,
     periods: usize,
     seconds: usize,
-) -> Result<Vec<f64>, ParamError> {
+    go_on: &dyn Fn() -> bool,
+) -> Result<Option<Vec<f64>>, ParamError> {
     let axis = axis()?;
     let rate = (periods * RATE) as f64;
     let compensator = match observer {
@@ -110,12 +117,15 @@ fn positioning(
     };
     let mut positions = Vec::with_capacity(seconds * RATE + 1);
     for k in 0..=seconds * RATE * periods {
+        if k % (RATE * periods) == 0 && !go_on() {
+            return Ok(None);
+        }
         let sample = axis.step(target, 0.0, Correction::default());
         if k % periods == 0 {
             positions.push(sample.position);
         }
     }
-    Ok(positions)
+    Ok(Some(positions))
 }
 
 fn top(x: &[f64]) -> f64 {

@@ -2,22 +2,32 @@
 
 use super::{Integrator, at_least_one};
 use crate::plant::{Load, Motion, Plant};
-use stiction_friction::{LuGre, ParamError, Sweep};
+use stiction_friction::{LuGre, ParamError, Sweep, Sweeps};
 
 /// The step of [`Plant::step`], solved from a guess: the velocity changes as in the step before and by what the force on the
 /// axis has changed since, as if friction stayed as it was. Steps are best of one length, and are to be of one plant:
-/// before one with another law, [`forget`](Integrator::forget).
+/// before one of another, [`forget`](Integrator::forget).
 ///
 /// Where one step of Newton's method from there is so small that its square is nothing, velocity and deflection take
 /// that step by their derivatives, and no further evaluation is needed. Where it is not after four, as in a reversal, the
 /// safeguarded solution is taken. The motion is that of [`Mid`](super::Mid) to some 1e-10 of the velocity.
 ///
-/// While the velocity runs as smoothly as without an encoder's steps, the law is evaluated a step ahead, at the velocity
-/// that the three steps before lead to: a processor does that beside the step in hand, and the axis and its controller do
-/// not wait for exponentials.
+/// The law is evaluated a step ahead where that step's velocity can be foreseen: a processor does that beside the step in
+/// hand, and the axis and its controller do not wait for exponentials. Where the load of the next step is known already
+/// ([`Integrator::expect`]), as within a control period or behind a delay, the law as it was in the step before leads
+/// there. Else, while the velocity runs as smoothly as without an encoder's steps, it is the one to which the three steps
+/// before lead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quick {
     steps: u32,
+    /// The law in steps of the length of the last one; none before there is one.
+    law: Option<Sweeps<f64>>,
+    course: Course,
+}
+
+/// What is known of the steps before.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Course {
     /// From the velocity at the beginning of the step before to its mean, m/s (rad/s): half of what it gained.
     rise: f64,
     /// That of the load over the step before, N (N m).
@@ -25,13 +35,19 @@ pub struct Quick {
     /// Mean velocity of the step before, and what the last two gained, the later one first, m/s (rad/s).
     last: f64,
     gained: [f64; 2],
-    /// The velocity that was foreseen for the step to come, m/s (rad/s), and how many before it were right.
+    /// The velocity that was foreseen along the parabola for the step to come, m/s (rad/s), and how many before it were
+    /// right.
     foreseen: f64,
     smooth: u32,
-    /// The law at a velocity, whether that is the one foreseen, and for which time step, s.
-    ready: Sweep<f64>,
+    /// The law at the velocity of this step and of the one before, in turn; this step's is at `at`.
+    laws: [Sweep<f64>; 2],
+    at: usize,
+    /// Whether there is one for the step to come, at a velocity foreseen.
     is_ready: bool,
-    h: f64,
+    /// Velocity for a force by the law of the step before, m/s a newton (rad/s a newton metre); 0 without one.
+    yields: f64,
+    /// Load of the step after the one to come, N (N m), where it is known.
+    next: Option<f64>,
 }
 
 /// A Newton step of this part of the velocity, or of the Stribeck velocity, leaves its square.
@@ -46,84 +62,162 @@ impl Quick {
         at_least_one(steps)?;
         Ok(Quick {
             steps,
-            rise: 0.0,
-            force: 0.0,
-            last: 0.0,
-            gained: [0.0; 2],
-            foreseen: 0.0,
-            smooth: 0,
-            ready: Sweep::default(),
-            is_ready: false,
-            h: 0.0,
+            law: None,
+            course: Course::default(),
         })
     }
 
     #[inline(always)]
     fn step(&mut self, plant: &Plant, from: Motion, h: f64, load: Load) -> Motion {
-        let law = plant.law();
-        let slow = law.curve().direction(from.velocity).stribeck_velocity;
-        let stiffness = load.stiffness + plant.stiffness();
-        let inertia = 2.0 * plant.mass() / h;
-        if !(self.is_ready && self.h == h) {
-            let jump = (load.force - self.force) / inertia;
-            evaluate(&mut self.ready, law, h, from.velocity + (self.rise + jump));
+        let law = match &mut self.law {
+            Some(law) if law.h() == h => law,
+            other => {
+                self.course.forget();
+                other.insert(plant.law().sweeps(h))
+            }
+        };
+        self.course.step(law, plant, from, load)
+    }
+
+    #[inline(never)]
+    fn one_of_many(&mut self, plant: &Plant, from: Motion, h: f64, load: Load) -> Motion {
+        self.step(plant, from, h, load)
+    }
+}
+
+impl Course {
+    fn forget(&mut self) {
+        (self.is_ready, self.smooth, self.yields) = (false, 0, 0.0);
+    }
+
+    #[inline(always)]
+    fn step(&mut self, law: &Sweeps<f64>, plant: &Plant, from: Motion, load: Load) -> Motion {
+        let h = law.h();
+        let slow = plant
+            .law()
+            .curve()
+            .direction(from.velocity)
+            .stribeck_velocity;
+        let balance = Balance::new(plant, from, h, load);
+        let at = self.at;
+        if !self.is_ready {
+            let jump = (load.force - self.force) / balance.inertia;
+            let guess = from.velocity + (self.rise + jump);
+            evaluate(&mut self.laws[at], law, guess);
         }
         self.force = load.force;
         for _ in 0..MOST_EVALUATIONS {
-            let sweep = &self.ready;
+            let sweep = &self.laws[at];
             let w = sweep.velocity();
             // What is known without the law first.
-            let drive = load.force - stiffness * (from.position + 0.5 * h * w);
-            let left = drive - inertia * (w - from.velocity) - plant.viscous() * w;
-            let slope = inertia + plant.viscous() + 0.5 * h * stiffness;
+            let (left, slope) = balance.without_friction(w);
             let (friction, friction_slope) = sweep.mean_force(from.deflection);
-            let moves = (left - friction) / (slope + friction_slope);
+            let slope = slope + friction_slope;
+            let moves = (left - friction) / slope;
             if moves.abs() <= small(slow, w) {
                 let w = w + moves;
-                let bound = law.bound();
+                let bound = plant.law().bound();
                 let change = sweep.change(from.deflection);
                 let deflection = from.deflection + (change.0 + change.1 * moves);
-                self.look_ahead(law, h, w, w - from.velocity, slow);
+                self.look_ahead(law, &balance, w, slow);
+                self.yields = 1.0 / slope;
                 return Motion {
                     position: from.position + h * w,
                     velocity: 2.0 * w - from.velocity,
                     deflection: deflection.clamp(-bound, bound),
                 };
             }
-            evaluate(&mut self.ready, law, h, w + moves);
+            evaluate(&mut self.laws[at], law, w + moves);
         }
         let step = plant.step(from, h, load);
-        let w = step.mean_velocity;
-        self.look_ahead(law, h, w, w - from.velocity, slow);
+        self.look_ahead(law, &balance, step.mean_velocity, slow);
+        self.yields = 0.0;
         step.motion
     }
 
-    /// After a step of the mean velocity `w`: the law for the next one, from the three steps before this one, since
-    /// nothing is to wait for `w`.
+    /// After a step of the mean velocity `w`: the law for the next one, at a velocity for which nothing waits for `w`.
     #[inline(always)]
-    fn look_ahead(&mut self, law: &LuGre<f64>, h: f64, w: f64, rise: f64, slow: f64) {
+    fn look_ahead(&mut self, law: &Sweeps<f64>, balance: &Balance, w: f64, slow: f64) {
         // Two steps along the parabola.
-        let foreseen = self.last + 5.0 * self.gained[0] - 3.0 * self.gained[1];
-        self.is_ready = self.smooth >= SMOOTH;
-        if self.is_ready {
-            self.ready = law.sweep(h, foreseen);
-            self.h = h;
+        let along = self.last + 5.0 * self.gained[0] - 3.0 * self.gained[1];
+        let before = &mut self.laws[1 - self.at];
+        let foreseen = match self.next.take() {
+            Some(next) if self.yields > 0.0 => Some(balance.two_steps(before, self.yields, next)),
+            _ if self.smooth >= SMOOTH => Some(along),
+            _ => None,
+        };
+        self.is_ready = foreseen.is_some();
+        if let Some(velocity) = foreseen {
+            *before = law.at(velocity);
         }
+        // The law of this step is that of the step before from now on.
+        self.at = 1 - self.at;
         let right = (w - self.foreseen).abs() <= small(slow, w);
         self.smooth = if right {
             (self.smooth + 1).min(SMOOTH)
         } else {
             0
         };
-        self.foreseen = foreseen;
+        self.foreseen = along;
         self.gained = [w - self.last, self.gained[0]];
         self.last = w;
-        self.rise = rise;
+        self.rise = w - balance.from.velocity;
+    }
+}
+
+/// The forces of one step but friction.
+struct Balance<'a> {
+    plant: &'a Plant,
+    from: Motion,
+    h: f64,
+    force: f64,
+    stiffness: f64,
+    /// 2 M/h
+    inertia: f64,
+}
+
+impl<'a> Balance<'a> {
+    #[inline(always)]
+    fn new(plant: &'a Plant, from: Motion, h: f64, load: Load) -> Self {
+        Balance {
+            plant,
+            from,
+            h,
+            force: load.force,
+            stiffness: load.stiffness + plant.stiffness(),
+            inertia: 2.0 * plant.mass() / h,
+        }
     }
 
-    #[inline(never)]
-    fn one_of_many(&mut self, plant: &Plant, from: Motion, h: f64, load: Load) -> Motion {
-        self.step(plant, from, h, load)
+    /// What is left for friction at the mean velocity `w`, N (N m), and how fast it falls with w.
+    #[inline(always)]
+    fn without_friction(&self, w: f64) -> (f64, f64) {
+        let viscous = self.plant.viscous();
+        let drive = self.force - self.stiffness * (self.from.position + 0.5 * self.h * w);
+        let left = drive - self.inertia * (w - self.from.velocity) - viscous * w;
+        (left, self.inertia + viscous + 0.5 * self.h * self.stiffness)
+    }
+
+    /// The mean velocity of the step after this one, under the force `next`, by one Newton step in each from the law of
+    /// another step, which gives way by `yields`.
+    #[inline(always)]
+    fn two_steps(&self, law: &Sweep<f64>, yields: f64, next: f64) -> f64 {
+        let w = law.velocity();
+        let z = self.from.deflection;
+        let moves = (self.without_friction(w).0 - law.mean_force(z).0) * yields;
+        let mean = w + moves;
+        let change = law.change(z);
+        let from = Motion {
+            position: self.from.position + self.h * mean,
+            velocity: 2.0 * mean - self.from.velocity,
+            deflection: z + (change.0 + change.1 * moves),
+        };
+        let then = Balance {
+            from,
+            force: next,
+            ..*self
+        };
+        w + (then.without_friction(w).0 - law.mean_force(from.deflection).0) * yields
     }
 }
 
@@ -136,8 +230,8 @@ fn small(slow: f64, w: f64) -> f64 {
 
 /// Apart, so that its code stands once.
 #[inline(never)]
-fn evaluate(sweep: &mut Sweep<f64>, law: &LuGre<f64>, h: f64, v: f64) {
-    *sweep = law.sweep(h, v);
+fn evaluate(sweep: &mut Sweep<f64>, law: &Sweeps<f64>, v: f64) {
+    *sweep = law.at(v);
 }
 
 impl Integrator<LuGre<f64>> for Quick {
@@ -155,7 +249,13 @@ impl Integrator<LuGre<f64>> for Quick {
         })
     }
 
+    #[inline]
+    fn expect(&mut self, next: f64) {
+        self.course.next = Some(next);
+    }
+
     fn forget(&mut self) {
-        (self.is_ready, self.smooth) = (false, 0);
+        self.law = None;
+        self.course.forget();
     }
 }

@@ -1,8 +1,9 @@
 //! A corner of two axes, and the deviation from it.
 
-use super::fault::{Fault, Watch};
+use super::fault::Fault;
 use super::stage::{second, settings};
 use super::tracking::Fed;
+use crate::reproduce::watch::Watch;
 use rayon::prelude::*;
 use stiction_friction::{LuGre, ParamError};
 use stiction_servo::integrator::Ode4;

@@ -2,9 +2,10 @@
 //! once from the same record, by each of the three searches.
 
 use super::Budget;
-use super::fault::{Fault, Watch};
+use super::fault::Fault;
 use super::search::{METHODS, Searched, search};
 use super::stage::{RATE, along, settings, truth};
+use crate::reproduce::watch::Watch;
 use rayon::prelude::*;
 use stiction_identify::candidates::{Candidates, Named, Scheme, SixParameters};
 use stiction_identify::{

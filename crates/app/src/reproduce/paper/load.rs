@@ -1,7 +1,8 @@
 //! A load taken up while running, and the mass found by recursive least squares: Z25 Fig. 14.
 
-use super::fault::{Fault, Watch};
+use super::fault::Fault;
 use super::stage::{RATE, settings, truth};
+use crate::reproduce::watch::Watch;
 use stiction_friction::LuGre;
 use stiction_servo::axis::{Axis, Correction};
 use stiction_servo::integrator::Ode4;

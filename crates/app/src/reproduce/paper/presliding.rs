@@ -1,8 +1,9 @@
 //! A step of the voltage below break-away: Z25 eqs. (26)-(34).
 
-use super::fault::{Fault, Watch};
+use super::fault::Fault;
 use super::law;
 use super::stage::{RATE, settings};
+use crate::reproduce::watch::Watch;
 use stiction_friction::Direction;
 use stiction_identify::candidates::Named;
 use stiction_identify::procedure::{

@@ -1,7 +1,8 @@
 //! A genetic search of the paper, with the course of its cost.
 
 use super::Budget;
-use super::fault::{Fault, Watch};
+use super::fault::Fault;
+use crate::reproduce::watch::Watch;
 use stiction_identify::candidates::{Candidates, Named};
 use stiction_search::{Control, Finish, Limits, Method, Plan, Progress, Run, Stop, genetic};
 

@@ -1,9 +1,10 @@
 //! Friction over velocity from runs at constant velocity, and the static parameters from it: Z25 eqs. (7)-(8).
 
 use super::Budget;
-use super::fault::{Fault, Watch};
+use super::fault::Fault;
 use super::search::{Searched, search};
 use super::stage::{along, settings};
+use crate::reproduce::watch::Watch;
 use rayon::prelude::*;
 use stiction_friction::ParamError;
 use stiction_identify::candidates::Curve;

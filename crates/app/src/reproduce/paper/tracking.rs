@@ -1,8 +1,9 @@
 //! A sine tracked without compensation, with the law fed by the reference velocity, and with the law fed by the measured
 //! one, as the paper draws it.
 
-use super::fault::{Fault, Watch};
+use super::fault::Fault;
 use super::stage::{RATE, along, settings};
+use crate::reproduce::watch::Watch;
 use rayon::prelude::*;
 use stiction_friction::compensator::{Compensator, Friction, Settings, Source};
 use stiction_friction::{LuGre, ParamError};
