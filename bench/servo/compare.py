@@ -6,8 +6,9 @@
 Needs numpy and numba. Builds the Rust example `loops` and runs both in turn: a 10 kHz cascade (P in position, PI in
 speed, acceleration fed forward) on a mass with LuGre friction along a sine of 20 mm and 1 Hz for 3 s, with one plant
 step a control step; no encoder steps, delay or lag. numba holds z exactly and takes semi-implicit Euler for the
-motion, of first order; stiction's step is implicit and of second order. Prints the least time of each in ns per
-control step, on one core, and with `study` as second argument what 1000 runs of a study take.
+motion, of first order; stiction's step is implicit and of second order. Both compute the sine of the reference in the
+loop; with `-shared` in the name stiction reads it from samples, as the runs of a study do. Prints the least time of each
+in ns per control step, on one core, and with `study` as second argument what 1000 runs of a study take.
 """
 
 import datetime

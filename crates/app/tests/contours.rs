@@ -88,7 +88,7 @@ fn the_published_circle() {
         ("none", false, 64.9e-6, 0.1e-6),
         ("none", true, 4.24e-6, 0.025e-6),
         ("whole", false, 0.13e-6, 0.025e-6),
-        ("whole", true, 0.07e-6, 0.025e-6),
+        ("whole", true, 0.04e-6, 0.025e-6),
     ] {
         let found = peak(row(file, compensator, coupled, "exact"));
         assert!(

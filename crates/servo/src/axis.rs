@@ -32,7 +32,7 @@ pub struct AxisSettings<L = LuGre<f64>> {
     pub feedforward: Feedforward,
     /// Control rate, > 0, Hz.
     pub rate: f64,
-    /// Stretches of a control period over which the force is held, >= 1; an integrator may take several steps in each.
+    /// Stretches of a control period over which the force is held, 1 to 100 000; an integrator may take several steps in each.
     pub substeps: u32,
     /// Seed of the noise.
     pub seed: u64,
@@ -100,9 +100,6 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
     pub fn new(settings: AxisSettings<L>, integrator: I) -> Result<Self, ParamError> {
         ParamError::positive("rate", settings.rate)?;
         ParamError::not_negative("position_noise", settings.position_noise)?;
-        if settings.substeps == 0 {
-            return Err(ParamError::new("substeps", 0.0, ">= 1"));
-        }
         settings.controller.validate()?;
         if let Some(cogging) = &settings.cogging {
             cogging.validate()?;

@@ -5,6 +5,9 @@ use stiction_friction::ParamError;
 /// Delays longer than this many control periods are refused.
 const LONGEST: usize = 32;
 
+/// More stretches of a control period are refused: what is known of each is kept.
+const MOST_SUBSTEPS: u32 = 100_000;
+
 /// Settings of a drive, immutable while it runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
@@ -135,15 +138,16 @@ struct Following {
 }
 
 impl RunningDrive {
-    /// At rest, for a control period in s, >= 1 stretches of which are asked for.
-    pub fn new(drive: Drive, period: f64, stretches: u32) -> Result<Self, ParamError> {
+    /// At rest, for a control period in s that is asked for in `substeps` stretches, 1 to 100 000.
+    pub fn new(drive: Drive, period: f64, substeps: u32) -> Result<Self, ParamError> {
         ParamError::positive("period", period)?;
         drive.validate(period)?;
-        if stretches == 0 {
-            return Err(ParamError::new("stretches", 0.0, ">= 1"));
+        if !(1..=MOST_SUBSTEPS).contains(&substeps) {
+            let found = f64::from(substeps);
+            return Err(ParamError::new("substeps", found, "1 to 100 000"));
         }
-        let each = 1.0 / f64::from(stretches);
-        let stretches = (0..stretches).map(|i| {
+        let each = 1.0 / f64::from(substeps);
+        let stretches = (0..substeps).map(|i| {
             let begin = f64::from(i) * each;
             drive.stretch(period, begin, begin + each)
         });

@@ -71,6 +71,8 @@ impl<L: Held<f64>> Integrator<L> for Mid {
 }
 
 /// A choice made at run time.
+// One stands in an axis, whose own state is larger.
+#[allow(clippy::large_enum_variant)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Choice {
     /// See [`Mid`].

@@ -101,6 +101,10 @@ fn peak_and_rated_current() {
 fn drives_that_cannot_be_are_named() {
     let name = |d: Drive| RunningDrive::new(d, H, 1).unwrap_err().name;
     let good = Drive::linear_motor(H);
+    for substeps in [0, 100_001] {
+        let refused = RunningDrive::new(good, H, substeps).unwrap_err();
+        assert_eq!(refused.name, "substeps");
+    }
     assert_eq!(
         name(Drive {
             force_constant: 0.0,

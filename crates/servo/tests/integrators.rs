@@ -1,8 +1,10 @@
 //! The integrators against a Radau reference, their orders, and the warning of the explicit one.
 
+use std::f64::consts::PI;
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_servo::integrator::{Choice, Integrator, Mid, Ode4, Quick, Rodas3};
 use stiction_servo::known;
+use stiction_servo::noise::Noise;
 use stiction_servo::plant::{Load, Motion, Plant};
 
 fn plant(name: &str) -> Plant {
@@ -97,6 +99,41 @@ fn quick_is_mid_when_the_law_is_exchanged() {
         a = mid.advance(&plant, a, 5e-5, Load::force(force), 0.0);
         b = quick.advance(&plant, b, 5e-5, Load::force(force), 0.0);
         assert!((a.velocity - b.velocity).abs() < 1e-9, "{k}: {a:?} {b:?}");
+    }
+}
+
+/// Under a force that jumps at every step, told before, not told, told wrongly, or not a number: what is expected is only a
+/// guess.
+#[test]
+fn quick_is_mid_whatever_it_expects() {
+    let h = 5e-5;
+    let axis = known::find("motor").unwrap();
+    let free = Plant::new(axis.mass, axis.capped_law()).unwrap();
+    let held = free.with_viscous(20.0).unwrap().with_stiffness(3e3);
+    for plant in [free, held.unwrap()] {
+        let mut noise = Noise::new(1);
+        let forces: Vec<f64> = (0..40_001)
+            .map(|k| 40.0 * libm::sin(2.0 * PI * 3.0 * f64::from(k) * h) + 2.0 * noise.normal())
+            .collect();
+        for told in [
+            |f: f64| Some(f),
+            |_| None,
+            |f: f64| (f > 0.0).then_some(f),
+            |f: f64| Some(30.0 - f),
+            |_| Some(f64::NAN),
+        ] {
+            let (mut a, mut b) = (Motion::default(), Motion::default());
+            let (mut mid, mut quick) = (Mid::new(1).unwrap(), Quick::new(1).unwrap());
+            for (k, pair) in forces.windows(2).enumerate() {
+                a = mid.advance(&plant, a, h, Load::force(pair[0]), 0.0);
+                if let Some(next) = told(pair[1]) {
+                    Integrator::<LuGre<f64>>::expect(&mut quick, next);
+                }
+                b = quick.advance(&plant, b, h, Load::force(pair[0]), 0.0);
+                let off = (a.velocity - b.velocity).abs();
+                assert!(off < 1e-9, "{k}: {a:?} {b:?}");
+            }
+        }
     }
 }
 
