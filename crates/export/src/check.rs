@@ -17,15 +17,15 @@ pub struct Advice {
     pub message: String,
 }
 
-/// Refuses what no target can express. Number ranges are checked with the number type of the target.
-pub(crate) fn check(model: &Model) -> Result<(), Error> {
+/// Refuses what a target cannot express whose narrowest number type is `number_type`.
+pub(crate) fn check(model: &Model, number_type: &'static str) -> Result<(), Error> {
     check_identifier(&model.identifier)?;
     let found = model.settings.cycle_time;
     if !(found >= CYCLE_TIMES.0 && found <= CYCLE_TIMES.1) {
         return Err(Error::CycleTime { found });
     }
     model
-        .compensator::<f64>(&model.settings, "double")
+        .compensator::<f64>(&model.settings, number_type)
         .map(|_| ())
 }
 

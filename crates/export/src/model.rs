@@ -68,7 +68,7 @@ impl Model {
         settings: &Settings<f64>,
         number_type: &'static str,
     ) -> Result<Compensator<T>, Error> {
-        range::check::<T>(self, settings.limit, number_type)?;
+        range::check(self, settings.limit, number_type)?;
         let refuse = |e| Error::number(number_type, e);
         let friction = match &self.friction {
             Friction::Coulomb(law) => {
