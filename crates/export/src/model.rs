@@ -106,6 +106,11 @@ impl Model {
         }
     }
 
+    /// Whether the force is a share, of which 1 is the whole.
+    pub(crate) fn is_share(&self) -> bool {
+        self.force_unit == "1"
+    }
+
     /// Whether the force is one, or a torque, in SI.
     pub(crate) fn in_newtons(&self) -> bool {
         self.force_unit == if self.rotary { "N m" } else { "N" }
@@ -129,8 +134,13 @@ impl Model {
         }
     }
 
+    /// The larger steady force of the two directions at standstill, with the offset.
+    pub(crate) fn at_rest(&self) -> f64 {
+        self.steady(1e-300).abs().max(self.steady(-1e-300).abs())
+    }
+
     /// The least speed from which on the share `gain` of the steady force is beyond the limit, m/s (rad/s), if that
-    /// is below 1e4.
+    /// is below 1e4; 0 for standstill.
     pub(crate) fn saturates_from(&self, gain: f64) -> Option<f64> {
         let beyond = |speed: f64| {
             let most = self.steady(speed).abs().max(self.steady(-speed).abs());
