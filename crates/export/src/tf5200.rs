@@ -155,12 +155,19 @@ fn rated(model: &Model) -> Result<f64, Error> {
 
 /// Largest steady force at the speeds of the table, without a limit.
 pub fn largest_force(model: &Model) -> f64 {
+    largest_upto(model, f64::MAX)
+}
+
+/// The same at those that are not above a speed, m/s (rad/s), and at that speed.
+pub(crate) fn largest_upto(model: &Model, speed: f64) -> f64 {
     let step = speed_step(model.rotary);
-    let speeds = grid(end(model, step), &[]);
-    let forces = speeds.iter().flat_map(|n| {
-        let v = n * step;
-        [steady(model, v).abs(), steady(model, -v).abs()]
-    });
+    let end = end(model, step);
+    let speeds = grid(end, &[]).into_iter().map(|n| n * step);
+    let last = speed.min(end * step);
+    let forces = speeds
+        .take_while(|v| *v < last)
+        .chain([last])
+        .flat_map(|v| [steady(model, v).abs(), steady(model, -v).abs()]);
     forces.fold(0.0, f64::max)
 }
 

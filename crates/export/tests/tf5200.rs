@@ -146,6 +146,19 @@ fn a_rated_force_is_needed() {
             "{rated}"
         );
     }
+    // 27 N at 0.5 m/s, if the log went no faster.
+    model.top_speed = Some(0.5);
+    model.rated_force = Some(27.1);
+    assert_eq!(advice(&model, Target::Tf5200), []);
+    model.rated_force = Some(20.0);
+    let said = advice(&model, Target::Tf5200).remove(0).message;
+    assert!(
+        said.starts_with(
+            "up to the log's top speed of 0.5 m/s the table goes to 27 N, 135 percent"
+        ),
+        "{said}"
+    );
+    assert!(!said.contains('?'), "heads of files have no question mark");
 }
 
 /// Cut by a limit, the table says from where and how much is missing, against the law itself; and it never exceeds it.
