@@ -41,11 +41,11 @@ pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
         Target::Tf5200 => {
             // Beyond its last speed the table has nothing to say.
             if tf5200::largest_force(model) > model.settings.limit {
-                found.extend(limited(model, 1.0));
+                found.extend(limited(model, 1.0, &|v| tf5200::mean(model, v)));
             }
             found.extend(rated(model));
         }
-        _ => found.extend(limited(model, model.settings.gain)),
+        _ => found.extend(limited(model, model.settings.gain, &|v| model.larger(v))),
     }
     let short = hal::component(model);
     if target == Target::Hal && !short.starts_with(&model.identifier.to_ascii_lowercase()) {
@@ -59,9 +59,10 @@ pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
     found
 }
 
-/// The friction is beyond the limit: its share `gain`, or the whole of it, to which the gain may be raised.
-fn limited(model: &Model, gain: f64) -> Option<Advice> {
-    let (limit, rest) = (model.settings.limit, model.at_rest());
+/// The friction, `force` at a speed, is beyond the limit: its share `gain`, or the whole of it, to which the gain may be
+/// raised.
+fn limited(model: &Model, gain: f64, force: &dyn Fn(f64) -> f64) -> Option<Advice> {
+    let (limit, rest) = (model.settings.limit, force(0.0));
     let (unit, speed_unit) = (model.force_unit(), model.speed_unit());
     let speed = |v: f64| match v {
         0.0 => "standstill".into(),
@@ -69,9 +70,11 @@ fn limited(model: &Model, gain: f64) -> Option<Advice> {
     };
     let head = format!("the force is limited to {} {unit}", short(limit));
     let whole = model
-        .saturates_from(1.0)
+        .saturates_from(force)
         .or((limit < rest).then_some(0.0))?;
-    let by_gain = model.saturates_from(gain).filter(|_| gain < 1.0);
+    let by_gain = model
+        .saturates_from(&|v| gain * force(v))
+        .filter(|_| gain < 1.0);
     let share = match gain {
         1.0 => String::new(),
         gain => format!("the share {gain} of "),

@@ -134,18 +134,15 @@ impl Model {
         }
     }
 
-    /// The larger steady force of the two directions at standstill, with the offset.
-    pub(crate) fn at_rest(&self) -> f64 {
-        self.steady(1e-300).abs().max(self.steady(-1e-300).abs())
+    /// The larger steady force of the two directions at a speed, with the offset; at standstill that of the least speed.
+    pub(crate) fn larger(&self, speed: f64) -> f64 {
+        let v = speed.max(1e-300);
+        self.steady(v).abs().max(self.steady(-v).abs())
     }
 
-    /// The least speed from which on the share `gain` of the steady force is beyond the limit, m/s (rad/s), if that
-    /// is below 1e4; 0 for standstill.
-    pub(crate) fn saturates_from(&self, gain: f64) -> Option<f64> {
-        let beyond = |speed: f64| {
-            let most = self.steady(speed).abs().max(self.steady(-speed).abs());
-            gain * most > self.settings.limit
-        };
+    /// The least speed from which on a force is beyond the limit, m/s (rad/s), if that is below 1e4; 0 for standstill.
+    pub(crate) fn saturates_from(&self, force: &dyn Fn(f64) -> f64) -> Option<f64> {
+        let beyond = |speed: f64| force(speed) > self.settings.limit;
         let speed = |k: i32| libm::pow(10.0, -6.0 + 0.01 * f64::from(k));
         let first = (0..=1000).find(|k| beyond(speed(*k)))?;
         if first == 0 {
