@@ -270,6 +270,18 @@ fn bad_models_are_refused() {
         (None, f64::NAN, None, "cycle time NaN"),
         (None, 1e-3, Some(-1.0), "limit = -1"),
         (None, 1e-3, Some(f64::INFINITY), "limit = inf"),
+        (
+            None,
+            1e-3,
+            Some(1e-40),
+            "limit = 1e-40; allowed: from 1e-30 to 1e30 (as float)",
+        ),
+        (
+            None,
+            1e-3,
+            Some(1e-300),
+            "limit = 1e-300; allowed: from 1e-30 to 1e30 (as float)",
+        ),
     ] {
         let bench = Bench::new();
         let options = ExportOptions {

@@ -241,6 +241,11 @@ fn a_current_is_no_force() {
                     .split(|c: char| !c.is_alphanumeric())
                     .any(|word| word == "N");
                 assert!(!newton, "{}", file.path);
+                assert!(
+                    !text.contains("p.u..s") && !text.contains("e5 1/m"),
+                    "{}",
+                    file.path
+                );
                 if !file.path.ends_with("Description.xml") {
                     assert!(
                         text.contains(&format!("The force is {written}")),
