@@ -76,7 +76,11 @@ pub fn write_folder<'f>(
     if there {
         let free = dir.is_dir() && fs::read_dir(dir).map_err(fail)?.next().is_none();
         if !free {
-            let what = "exists and is not an empty folder; choose another --out";
+            let what = if dir.is_dir() {
+                "holds something, and an export never overwrites; delete it or choose another --out"
+            } else {
+                "exists and is no folder, and an export never overwrites; choose another --out"
+            };
             return Err(Error::output(dir, what));
         }
     }

@@ -88,7 +88,7 @@ fn the_same_model_gives_the_same_bytes() {
                 ..bench.options(&model)
             };
             let exported = export(&options, &bench.path("out")).unwrap();
-            // 0.75 (20 N + 60 N s/m v) is 60 N at 1 m/s, where the table ends.
+            // 20 N + 60 N s/m v is 60 N at 0.67 m/s, and 80 N at 1 m/s, where the table ends.
             let (codes, limit): (&[&str], f64) = match target {
                 Target::Mujoco => (&[], 60.0),
                 Target::Tf5200 => (&[], 80.0),
@@ -161,19 +161,29 @@ fn an_empty_folder_stays_the_same_folder() {
     }
 }
 
-/// The limit is said where the log was fast enough to reach it: 0.75 (20 N + 60 N s/m v) is 60 N at 1 m/s.
+/// The limit is said where the log was fast enough to reach it with the whole friction: 20 N + 60 N s/m v is 60 N at
+/// 0.667 m/s; at the gain that is written at 1 m/s.
 #[test]
 fn the_limit_is_said_where_the_log_reached_it() {
     for (top, says) in [
-        ("0.99", None),
-        ("1.5", Some("at 1 m/s, and the log goes to 1.5 m/s")),
+        ("0.66", None),
+        (
+            "0.7",
+            Some("at 0.6667 m/s with a gain of 1, at 1 m/s with 0.75, and the log goes to 0.7 m/s"),
+        ),
         ("0.0", Some("source: top_speed = 0; above 0")),
         ("inf", Some("source: top_speed = inf; above 0")),
     ] {
         let top = format!("seed = 0\ntop_speed = {top}\n");
         let bench = Bench::new();
         let said = match bench.export(&text("lugre", &LUGRE).replace("seed = 0\n", &top)) {
-            Ok(exported) => exported.warnings.into_iter().map(|w| w.message).collect(),
+            Ok(exported) => {
+                let limits = exported
+                    .warnings
+                    .into_iter()
+                    .filter(|w| w.code == "export-limit");
+                limits.map(|w| w.message).collect()
+            }
             Err(e) => e.to_string(),
         };
         match says {
@@ -260,6 +270,18 @@ fn bad_models_are_refused() {
         (None, f64::NAN, None, "cycle time NaN"),
         (None, 1e-3, Some(-1.0), "limit = -1"),
         (None, 1e-3, Some(f64::INFINITY), "limit = inf"),
+        (
+            None,
+            1e-3,
+            Some(1e-40),
+            "limit = 1e-40; allowed: from 1e-30 to 1e30 (as float)",
+        ),
+        (
+            None,
+            1e-3,
+            Some(1e-300),
+            "limit = 1e-300; allowed: from 1e-30 to 1e30 (as float)",
+        ),
     ] {
         let bench = Bench::new();
         let options = ExportOptions {

@@ -17,15 +17,15 @@ pub struct Advice {
     pub message: String,
 }
 
-/// Refuses what no target can express. Number ranges are checked with the number type of the target.
-pub(crate) fn check(model: &Model) -> Result<(), Error> {
+/// Refuses what a target cannot express whose narrowest number type is `number_type`.
+pub(crate) fn check(model: &Model, number_type: &'static str) -> Result<(), Error> {
     check_identifier(&model.identifier)?;
     let found = model.settings.cycle_time;
     if !(found >= CYCLE_TIMES.0 && found <= CYCLE_TIMES.1) {
         return Err(Error::CycleTime { found });
     }
     model
-        .compensator::<f64>(&model.settings, "double")
+        .compensator::<f64>(&model.settings, number_type)
         .map(|_| ())
 }
 
@@ -41,11 +41,11 @@ pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
         Target::Tf5200 => {
             // Beyond its last speed the table has nothing to say.
             if tf5200::largest_force(model) > model.settings.limit {
-                found.extend(limited(model, 1.0));
+                found.extend(limited(model, 1.0, &|v| tf5200::mean(model, v)));
             }
             found.extend(rated(model));
         }
-        _ => found.extend(limited(model, model.settings.gain)),
+        _ => found.extend(limited(model, model.settings.gain, &|v| model.larger(v))),
     }
     let short = hal::component(model);
     if target == Target::Hal && !short.starts_with(&model.identifier.to_ascii_lowercase()) {
@@ -59,27 +59,51 @@ pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
     found
 }
 
-/// The share `gain` of the friction is beyond the limit.
-fn limited(model: &Model, gain: f64) -> Option<Advice> {
-    let (limit, unit) = (model.settings.limit, model.force_unit());
-    let beyond = limit < gain * model.scale();
-    let limit = short(limit);
-    let message = if beyond {
+/// The friction, `force` at a speed, is beyond the limit: its share `gain`, or the whole of it, to which the gain may be
+/// raised.
+fn limited(model: &Model, gain: f64, force: &dyn Fn(f64) -> f64) -> Option<Advice> {
+    let (limit, rest) = (model.settings.limit, force(0.0));
+    let (unit, speed_unit) = (model.force_unit(), model.speed_unit());
+    let speed = |v: f64| match v {
+        0.0 => "standstill".into(),
+        v => format!("{} {speed_unit}", short(v)),
+    };
+    let head = format!("the force is limited to {} {unit}", short(limit));
+    let whole = model
+        .saturates_from(force)
+        .or((limit < rest).then_some(0.0))?;
+    let by_gain = model
+        .saturates_from(&|v| gain * force(v))
+        .filter(|_| gain < 1.0);
+    let share = match gain {
+        1.0 => String::new(),
+        gain => format!("the share {gain} of "),
+    };
+    let message = if limit < gain * rest {
         format!(
-            "the force is limited to {limit} {unit}, below the share {gain} of the static friction of {} {unit}: what is beyond stays uncompensated",
-            short(model.scale()),
+            "{head}, below {share}the friction at standstill of {} {unit}: what is beyond stays uncompensated",
+            short(rest)
+        )
+    } else if limit < rest || whole == 0.0 {
+        let until = by_gain.map_or(String::new(), |v| format!(" up to {}", speed(v)));
+        format!(
+            "{head}, no more than the friction at standstill of {} {unit}: enough for a gain of {gain}{until}, but with a gain of 1 what is beyond stays \
+             uncompensated; give another --limit before the gain is raised",
+            short(rest)
         )
     } else {
-        let from = model.saturates_from(gain)?;
-        let (at, speed) = (short(from), model.speed_unit());
+        let with_gain = by_gain.map_or(String::new(), |v| {
+            format!(" with a gain of 1, at {} with {gain}", speed(v))
+        });
         let reached = format!(
-            "the force is limited to {limit} {unit}, which the share {gain} of the friction reaches at {at} {speed}"
+            "{head}, which the friction reaches at {}{with_gain}",
+            speed(whole)
         );
         match model.top_speed {
-            Some(top) if from > top => return None,
+            Some(top) if whole > top => return None,
             Some(top) => format!(
-                "{reached}, and the log goes to {} {speed}: give another --limit, or stay slower",
-                short(top)
+                "{reached}, and the log goes to {}: give another --limit, or stay slower",
+                speed(top)
             ),
             None => format!("{reached}: if the axis moves faster, give another --limit"),
         }
@@ -90,14 +114,19 @@ fn limited(model: &Model, gain: f64) -> Option<Advice> {
     })
 }
 
-/// The friction is more than what the motor is rated for.
+/// The friction is more than what the motor is rated for, at the speeds of the log where they are known.
 fn rated(model: &Model) -> Option<Advice> {
-    let (rated, most) = (model.rated_force?, tf5200::largest_force(model));
-    let most = most.min(model.settings.limit);
+    let rated = model.rated_force?;
+    let upto = model.top_speed.unwrap_or(f64::MAX);
+    let most = tf5200::largest_upto(model, upto).min(model.settings.limit);
+    let at = model.top_speed.map_or(String::new(), |top| {
+        let top = short(top);
+        format!("up to the log's top speed of {top} {} ", model.speed_unit())
+    });
     (most > rated).then(|| Advice {
         code: "export-rated-force",
         message: format!(
-            "the table goes to {} {unit}, {:.0} percent of the rated force of {rated} {unit}: is that in {unit}, and the motor's?",
+            "{at}the table goes to {} {unit}, {:.0} percent of the rated force of {rated} {unit}: see that this is in {unit}, and the motor's",
             short(most),
             100.0 * most / rated,
             unit = model.force_unit(),
@@ -105,17 +134,29 @@ fn rated(model: &Model) -> Option<Advice> {
     })
 }
 
-/// The law as identified is not passive.
+/// The law as identified is not passive at the speeds of the log, or where those are not known, below a hundred Stribeck
+/// velocities.
 fn released(model: &Model, law: &LuGre<f64>, target: Target) -> Option<Advice> {
     let Damping::Constant(sigma1) = law.damping() else {
         return None;
     };
-    // The cap falls with speed; its least value on a grid of 1 % to 10 000 % of the Stribeck velocity.
-    let vs = law.curve().positive().stribeck_velocity;
-    let speeds = (0..=80).map(|k| vs * libm::pow(10.0, -2.0 + 0.05 * f64::from(k)));
-    let least = speeds
-        .flat_map(|v| [law.passive_cap(v), law.passive_cap(-v)])
-        .fold(f64::MAX, f64::min);
+    let cap = |v: f64| law.passive_cap(v).min(law.passive_cap(-v));
+    let fast = 100.0 * law.curve().positive().stribeck_velocity;
+    let top = model.top_speed.unwrap_or(fast);
+    let least = cap(top);
+    if sigma1 <= least {
+        return None;
+    }
+    // The cap falls with speed, and is beyond all numbers at rest.
+    let (mut low, mut high) = (1e-15 * top, top);
+    while high > 1.0001 * low {
+        let middle = libm::sqrt(low * high);
+        *if cap(middle) < sigma1 {
+            &mut high
+        } else {
+            &mut low
+        } = middle;
+    }
     let outcome = match target {
         Target::Mujoco => {
             "MuJoCo keeps it constant; if the joint trembles where it should stand, take a smaller one"
@@ -124,14 +165,20 @@ fn released(model: &Model, law: &LuGre<f64>, target: Target) -> Option<Advice> {
             "The exported code limits sigma1 to what is passive at each speed, so its force differs from the identified law's where speed changes suddenly"
         }
     };
-    (sigma1 > least).then(|| Advice {
+    let whose = match model.top_speed {
+        Some(_) => "the largest of the log",
+        None => "a hundred Stribeck velocities",
+    };
+    Some(Advice {
         code: "export-damping",
         message: format!(
-            "sigma1 = {} as a constant would release energy: at speed no more than {} {} s/{} is passive. {outcome}",
+            "sigma1 = {} {unit} as a constant would release energy: from {} {speed} on only less is passive, at {} {speed} ({whose}) no more than {} {unit}. {outcome}",
             short(sigma1),
+            short(high),
+            short(top),
             short(least),
-            model.force_unit(),
-            model.length_unit(),
+            unit = format_args!("{} s/{}", model.force_unit(), model.length_unit()),
+            speed = model.speed_unit(),
         ),
     })
 }
@@ -145,16 +192,30 @@ fn unresolved(model: &Model, law: &LuGre<f64>, target: Target) -> Option<Advice>
         Target::Mujoco => "time step",
         _ => "cycle",
     };
+    let below = two_digits(length / vs);
+    let remedy = if below > CYCLE_TIMES.0 {
+        format!("ask for a {cycle} below {below:.1e} s with --cycle-time")
+    } else {
+        format!(
+            "no {cycle} that is allowed, {:?} s or more, resolves it",
+            CYCLE_TIMES.0
+        )
+    };
     (path > length).then(|| Advice {
         code: "export-cycle-time",
         message: format!(
             "at the Stribeck velocity of {} {} a {cycle} of {} s moves {path:.3e} {unit}, more than the whole presliding length of {length:.3e} {unit}: \
-             the force stays bounded and follows the steady curve, but a reversal is not resolved; ask for a {cycle} below {:.1e} s with --cycle-time",
+             the force stays bounded and follows the steady curve, but a reversal is not resolved; {remedy}",
             short(vs),
             model.speed_unit(),
             model.settings.cycle_time,
-            length / vs,
             unit = model.length_unit(),
         ),
     })
+}
+
+/// Cut to two digits: never more than the number, but for rounding.
+fn two_digits(x: f64) -> f64 {
+    let unit = libm::pow(10.0, libm::floor(libm::log10(x)) - 1.0);
+    libm::floor(x / unit * (1.0 + 1e-9)) * unit
 }

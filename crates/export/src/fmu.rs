@@ -71,7 +71,7 @@ pub fn fmu(
     model: &Model,
     compile: &mut dyn FnMut(&File) -> Option<Vec<u8>>,
 ) -> Result<Vec<File>, Error> {
-    check::check(model)?;
+    check::check(model, "double")?;
     let vectors = Vectors::<f64>::new(model, "double")?;
     let component = format!("{}_friction", model.identifier.to_ascii_lowercase());
     let compensator = model.compensator::<f64>(&model.settings, "double")?;

@@ -1,6 +1,6 @@
 //! The head of every file: what it is, its numbers with intervals, where they came from.
 
-use crate::Model;
+use crate::{Model, Parameter};
 
 /// Lines of plain ASCII without anything that could end a comment in a target's language; `code` where the compensator
 /// itself follows, with what goes in and comes out.
@@ -27,7 +27,7 @@ pub(crate) fn lines(model: &Model, code: bool) -> Vec<String> {
     for p in &model.parameters {
         let interval = match p.interval {
             _ if p.given => "given".into(),
-            Some([low, high]) => format!("{low:.4e} to {high:.4e}"),
+            Some(ends) => interval(ends),
             None => "no interval".into(),
         };
         let flag = if p.identifiable || p.given {
@@ -39,7 +39,7 @@ pub(crate) fn lines(model: &Model, code: bool) -> Vec<String> {
             "  {} = {:.6e}{}, {interval}{flag}",
             p.name,
             p.value,
-            unit(&p.unit)
+            unit(p, model.is_share())
         ));
     }
     lines.push(String::new());
@@ -53,12 +53,30 @@ pub(crate) fn lines(model: &Model, code: bool) -> Vec<String> {
     lines.iter().map(|line| plain(line)).collect()
 }
 
-/// A unit after a number, a product with a blank; none for a bare number.
-fn unit(text: &str) -> String {
-    let text = text.replace(['*', '·'], " ");
-    match text.strip_prefix("1 ").unwrap_or(&text) {
-        "1" | "" => String::new(),
-        unit => format!(" {unit}"),
+/// An interval, which the data may bound on one side only.
+fn interval([low, high]: [f64; 2]) -> String {
+    match (low.is_finite(), high.is_finite()) {
+        (true, true) => format!("{low:.4e} to {high:.4e}"),
+        (false, true) => format!("at most {high:.4e}"),
+        (true, false) => format!("at least {low:.4e}"),
+        (false, false) => "no interval".into(),
+    }
+}
+
+/// A unit after a number, a product with a blank; none for a bare number. Where the force is a share, what stands for it
+/// in a unit is 1.
+fn unit(p: &Parameter, share: bool) -> String {
+    let text = p.unit.replace(['*', '·'], " ");
+    let unit = match text.strip_prefix('1') {
+        // The only number of a law that is one in any unit of the force.
+        Some(rest) if share && p.name != "stribeck_exponent" => format!("p.u.{rest}"),
+        Some(rest) if rest.is_empty() || rest.starts_with(' ') => rest.trim_start().into(),
+        _ => text,
+    };
+    if unit.is_empty() {
+        unit
+    } else {
+        format!(" {unit}")
     }
 }
 
@@ -136,15 +154,39 @@ pub(crate) fn plain(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::plain;
+    use super::{Parameter, interval, plain, unit};
 
     #[test]
     fn units_follow_a_number() {
-        let units = ["N*s/m", "N·m·s/rad", "1*s/m", "1", "1/m"];
-        let written = ["N s/m", "N m s/rad", "s/m", "", "1/m"];
-        for (unit, text) in units.into_iter().zip(written) {
-            assert_eq!(super::unit(unit).trim_start(), text);
+        for (name, text, plain, share) in [
+            ("sigma1", "N*s/m", "N s/m", "N s/m"),
+            ("sigma1", "N·m·s/rad", "N m s/rad", "N m s/rad"),
+            ("sigma1", "1*s/m", "s/m", "p.u. s/m"),
+            ("sigma0", "1/m", "1/m", "p.u./m"),
+            ("static", "1", "", "p.u."),
+            ("stribeck_exponent", "1", "", ""),
+            ("stribeck_velocity", "m/s", "m/s", "m/s"),
+        ] {
+            let p = Parameter {
+                name: name.into(),
+                value: 1.0,
+                unit: text.into(),
+                interval: None,
+                identifiable: true,
+                given: false,
+            };
+            assert_eq!(unit(&p, false).trim_start(), plain);
+            assert_eq!(unit(&p, true).trim_start(), share);
         }
+    }
+
+    #[test]
+    fn an_interval_may_be_open() {
+        let inf = f64::INFINITY;
+        assert_eq!(interval([1.0, 98.0]), "1.0000e0 to 9.8000e1");
+        assert_eq!(interval([-inf, 98.0]), "at most 9.8000e1");
+        assert_eq!(interval([1.0, inf]), "at least 1.0000e0");
+        assert_eq!(interval([-inf, inf]), "no interval");
     }
 
     #[test]

@@ -68,7 +68,7 @@ impl Model {
         settings: &Settings<f64>,
         number_type: &'static str,
     ) -> Result<Compensator<T>, Error> {
-        range::check::<T>(self, settings.limit, number_type)?;
+        range::check(self, settings.limit, number_type)?;
         let refuse = |e| Error::number(number_type, e);
         let friction = match &self.friction {
             Friction::Coulomb(law) => {
@@ -106,6 +106,11 @@ impl Model {
         }
     }
 
+    /// Whether the force is a share, of which 1 is the whole.
+    pub(crate) fn is_share(&self) -> bool {
+        self.force_unit == "1"
+    }
+
     /// Whether the force is one, or a torque, in SI.
     pub(crate) fn in_newtons(&self) -> bool {
         self.force_unit == if self.rotary { "N m" } else { "N" }
@@ -129,13 +134,15 @@ impl Model {
         }
     }
 
-    /// The least speed from which on the share `gain` of the steady force is beyond the limit, m/s (rad/s), if that
-    /// is below 1e4.
-    pub(crate) fn saturates_from(&self, gain: f64) -> Option<f64> {
-        let beyond = |speed: f64| {
-            let most = self.steady(speed).abs().max(self.steady(-speed).abs());
-            gain * most > self.settings.limit
-        };
+    /// The larger steady force of the two directions at a speed, with the offset; at standstill that of the least speed.
+    pub(crate) fn larger(&self, speed: f64) -> f64 {
+        let v = speed.max(1e-300);
+        self.steady(v).abs().max(self.steady(-v).abs())
+    }
+
+    /// The least speed from which on a force is beyond the limit, m/s (rad/s), if that is below 1e4; 0 for standstill.
+    pub(crate) fn saturates_from(&self, force: &dyn Fn(f64) -> f64) -> Option<f64> {
+        let beyond = |speed: f64| force(speed) > self.settings.limit;
         let speed = |k: i32| libm::pow(10.0, -6.0 + 0.01 * f64::from(k));
         let first = (0..=1000).find(|k| beyond(speed(*k)))?;
         if first == 0 {

@@ -58,7 +58,7 @@ fn simple(model: &Model) -> Result<LuGre<f64>, Error> {
     let refuse = |law| Error::Law {
         target: "mujoco",
         law,
-        allowed: "lugre, the same in both directions, with a Stribeck exponent of 2",
+        allowed: "dahl, or lugre with a Stribeck exponent of 2, the same in both directions",
     };
     let Friction::LuGre(law) = model.friction else {
         return Err(refuse(model.law()));

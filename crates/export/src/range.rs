@@ -2,8 +2,8 @@
 //! the vectors of the self-test, neither overflow nor vanish.
 
 use crate::{Error, Model};
+use stiction_friction::Direction;
 use stiction_friction::compensator::Friction;
-use stiction_friction::{Direction, Real};
 
 /// A number with its name, and whether it may be as small as it likes.
 struct Number {
@@ -12,19 +12,44 @@ struct Number {
     small: bool,
 }
 
-/// Refuses a law or a limit beyond the range of `T`, which is called `number_type` in the target. Signs and relations are
-/// the constructors' matter.
-pub(crate) fn check<T: Real>(
-    model: &Model,
-    limit: f64,
-    number_type: &'static str,
-) -> Result<(), Error> {
-    // Products of two parameters, and of those with the times and speeds of a test, stay well inside.
-    let (most, largest_limit) = if T::MAX.to_f64() < 1e100 {
-        (1e15, 1e30)
-    } else {
-        (1e100, 1e200)
-    };
+/// The sizes that a number type computes with.
+struct Range {
+    /// Parameters that are divided by, or multiplied with each other.
+    parameters: (f64, f64),
+    /// Largest stiffness and micro-damping of bristles.
+    bristles: f64,
+    limit: (f64, f64),
+}
+
+impl Range {
+    /// Of the number type that is called so in its target. Products of two parameters, and of those with the times and
+    /// speeds of a test, stay well inside.
+    fn of(number_type: &str) -> Self {
+        match number_type {
+            // No operation of the block overflows in REAL, at any speed that it takes; the block's `valid` is the same.
+            "REAL" | "LREAL" => Range {
+                parameters: (1e-9, 1e9),
+                bristles: 1e15,
+                limit: (1e-15, 1e15),
+            },
+            "float" => Range {
+                parameters: (1e-15, 1e15),
+                bristles: 1e15,
+                limit: (1e-30, 1e30),
+            },
+            _ => Range {
+                parameters: (1e-100, 1e100),
+                bristles: 1e100,
+                limit: (1e-200, 1e200),
+            },
+        }
+    }
+}
+
+/// Refuses a law or a limit beyond the range of a number type, which is called `number_type` in the target. Signs and
+/// relations are the constructors' matter.
+pub(crate) fn check(model: &Model, limit: f64, number_type: &'static str) -> Result<(), Error> {
+    let range = Range::of(number_type);
     let refuse = |name, value, range: (f64, f64)| Error::Range {
         name,
         value,
@@ -33,13 +58,17 @@ pub(crate) fn check<T: Real>(
     };
     for Number { name, value, small } in law(&model.friction) {
         let size = value.abs();
-        if size > most || (!small && size > 0.0 && size < 1.0 / most) {
-            let least = if small { 0.0 } else { 1.0 / most };
+        let least = if small { 0.0 } else { range.parameters.0 };
+        let most = match name {
+            "sigma0" | "sigma1" => range.bristles,
+            _ => range.parameters.1,
+        };
+        if size > most || (size > 0.0 && size < least) {
             return Err(refuse(name, value, (least, most)));
         }
     }
-    if limit > largest_limit {
-        return Err(refuse("limit", limit, (0.0, largest_limit)));
+    if limit > range.limit.1 || (limit > 0.0 && limit < range.limit.0) {
+        return Err(refuse("limit", limit, range.limit));
     }
     Ok(())
 }

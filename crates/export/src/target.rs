@@ -71,6 +71,16 @@ impl Target {
             Target::Tf5200 => "tf5200",
         }
     }
+
+    /// The number type that holds least, as it is called there.
+    fn narrowest(self) -> &'static str {
+        match self {
+            Target::C => "float",
+            Target::St | Target::TcPou | Target::PlcOpen => "REAL",
+            Target::Rust => "f64",
+            Target::Mujoco | Target::Hal | Target::Fmu | Target::Tf5200 => "double",
+        }
+    }
 }
 
 /// The files of a model for a target; FMUs with their source only, those with a binary are [`fmu`](crate::fmu)'s.
@@ -78,7 +88,7 @@ impl Target {
 /// # Errors
 /// Where the model is out of what the target can express: names, numbers, the law.
 pub fn export(model: &Model, target: Target) -> Result<Vec<File>, Error> {
-    check::check(model)?;
+    check::check(model, target.narrowest())?;
     match target {
         Target::C => c::files(model),
         Target::St => st::files(model),

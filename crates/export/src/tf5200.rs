@@ -21,7 +21,7 @@ const POINTS: usize = 19;
 /// Largest force in rated ones: the drive's 60B2h counts per mille in 16 bits.
 const MOST_RATED: f64 = 32.0;
 
-/// Least static friction in rated forces: ten steps of the table.
+/// Least static friction, and least limit, in rated forces: ten steps of the table.
 const LEAST_RATED: f64 = 1e-3;
 
 /// Largest `position_delay` (P-COMP-00043).
@@ -34,13 +34,17 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     let rated = rated(model)?;
     let step = speed_step(model.rotary);
     let end = end(model, step);
-    let limited = largest_force(model) > model.settings.limit;
-    // Where the limit cuts the static friction already, it is part of every error.
-    let from = model
-        .saturates_from(1.0)
-        .filter(|from| model.settings.limit >= model.scale() && *from < end * step);
-    let grid = grid(end, &kinks(model, step));
-    let wanted: Vec<f64> = grid.iter().map(|n| mean(model, n * step)).collect();
+    let limit = model.settings.limit;
+    let kinks = kinks(model, step);
+    let grid = grid(end, &kinks);
+    let cut = |v: f64| mean(model, v) > limit;
+    let limited = grid.iter().any(|n| cut(n * step));
+    let at_rest = limited && cut(0.0);
+    // Up to there it is cut at standstill, and from there on at speed.
+    let turns = |kept: bool| kinks.iter().find(|n| cut(**n * step) != kept).copied();
+    let (free, from) = (turns(true), turns(false));
+    let from = from.map(|n| n * step);
+    let wanted: Vec<f64> = grid.iter().map(|n| held(model, n * step)).collect();
     let count = |force: f64| libm::round(force / rated * 1e4);
     let table: Vec<(f64, f64)> = spacing::least_error(&grid, &wanted, POINTS)
         .into_iter()
@@ -60,13 +64,25 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
             if error > most { (error, n) } else { (most, at) }
         })
     };
-    let (all, good) = (end * step, from.unwrap_or(end * step));
-    let (mean_error, _) = largest(good, &|v| mean_of(v, &|v| steady(model, v)));
-    let side_error = largest(good, &|v| steady(model, v))
-        .0
-        .max(largest(good, &|v| -steady(model, -v)).0);
-    let (beyond, _) = largest(all, &|v| mean_of(v, &|v| steady(model, v)));
-    let (due_error, worst) = largest(all, &|v| mean(model, v));
+    let all = end * step;
+    // Where the limit cuts at standstill already, errors are those within it.
+    let good = from.filter(|_| !at_rest).unwrap_or(all);
+    let most = if at_rest { limit } else { f64::MAX };
+    let (mean_error, _) = largest(good, &|v| mean(model, v).min(most));
+    let (there, _) = largest(good, &|v| steady(model, v).min(most));
+    let (back, _) = largest(good, &|v| (-steady(model, -v)).min(most));
+    let side_error = there.max(back);
+    let beyond = mean(model, all) - limit;
+    let (v_unit, f_unit) = (model.speed_unit(), model.force_unit());
+    let at_end = format!("by {beyond:.2e} {f_unit} at {all:.3} {v_unit}");
+    let at_speed = from.map_or(String::new(), |v| {
+        format!(", and again from {} {v_unit} on, {at_end}", short(v))
+    });
+    let where_cut = match free {
+        Some(n) => format!("up to {} {v_unit}{at_speed}", short(n * step)),
+        None => format!("at every speed, {at_end}"),
+    };
+    let (due_error, worst) = largest(all, &|v| held(model, v));
     let length = match &model.friction {
         Friction::LuGre(law) => law.bound(),
         _ => 0.0,
@@ -75,14 +91,14 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     let scale = model.scale().max(f64::MIN_POSITIVE);
     let file = format!("{}_frict_comp", model.identifier);
     let mut speeds: Vec<f64> = grid.iter().copied().step_by(GRID / 40).collect();
-    speeds.extend(kinks(model, step));
+    speeds.extend(kinks);
     speeds.push(worst);
     speeds.sort_by(f64::total_cmp);
     let due: Vec<String> = speeds
         .iter()
         .map(|n| {
             let v = n * step;
-            format!("    ({}, {}),", v.c(), mean(model, v).c())
+            format!("    ({}, {}),", v.c(), held(model, v).c())
         })
         .collect();
     let rows: Vec<String> = table
@@ -115,9 +131,11 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         .set("delay", format!("{:.0}", delay.min(LONGEST_DELAY)))
         .set("scaling", format!("{:.0}", 100.0 * model.settings.gain))
         .flag("limited", limited)
-        .flag("at_speed", from.is_some())
-        .set("limit", short(model.settings.limit).to_string())
+        .flag("at_rest", at_rest)
+        .set("limit", short(limit).to_string())
         .set("last", format!("{all:.3}"))
+        .set("rest_beyond", format!("{:.2e}", mean(model, 0.0) - limit))
+        .set("cut", where_cut)
         .set("beyond", format!("{beyond:.2e}"))
         .set("mean_error", format!("{mean_error:.2e}"))
         .set("mean_percent", format!("{:.2}", 100.0 * mean_error / scale))
@@ -141,27 +159,37 @@ fn rated(model: &Model) -> Result<f64, Error> {
             unit: model.force_unit().into(),
         });
     };
-    let most = largest_force(model).min(model.settings.limit);
-    if rated.is_finite() && rated >= most / MOST_RATED && rated * LEAST_RATED <= model.scale() {
-        return Ok(rated);
+    let limit = model.settings.limit;
+    let most = largest_force(model).min(limit);
+    let refuse = |name, value, allowed| {
+        let source = ParamError::new(name, value, allowed);
+        Err(Error::number("table", source))
+    };
+    if !(rated.is_finite() && rated >= most / MOST_RATED && rated * LEAST_RATED <= model.scale()) {
+        let allowed = "from a 32nd of the table's largest force, which is the range of the drive's 60B2h, to 1000 times the static friction, \
+             below which tenths of a per mille are too coarse";
+        return refuse("rated_force", rated, allowed);
     }
-    let allowed = "from a 32nd of the table's largest force, which is the range of the drive's 60B2h, to 1000 times the static friction, \
-         below which tenths of a per mille are too coarse";
-    Err(Error::number(
-        "table",
-        ParamError::new("rated_force", rated, allowed),
-    ))
+    if limit < rated * LEAST_RATED {
+        let allowed = "from a thousandth of the rated force, below which tenths of a per mille are too coarse";
+        return refuse("limit", limit, allowed);
+    }
+    Ok(rated)
 }
 
-/// Largest steady force at the speeds of the table, without a limit.
+/// Largest force of the table, without a limit.
 pub fn largest_force(model: &Model) -> f64 {
+    largest_upto(model, f64::MAX)
+}
+
+/// The same at speeds that are not above one, m/s (rad/s), and at that one.
+pub(crate) fn largest_upto(model: &Model, speed: f64) -> f64 {
     let step = speed_step(model.rotary);
-    let speeds = grid(end(model, step), &[]);
-    let forces = speeds.iter().flat_map(|n| {
-        let v = n * step;
-        [steady(model, v).abs(), steady(model, -v).abs()]
-    });
-    forces.fold(0.0, f64::max)
+    let end = end(model, step);
+    let last = speed.min(end * step);
+    let speeds = grid(end, &[]).into_iter().map(|n| n * step);
+    let speeds = speeds.take_while(|v| *v < last).chain([last]);
+    speeds.fold(0.0, |most, v| most.max(mean(model, v)))
 }
 
 /// What one in a table's speed is, m/s (rad/s).
@@ -193,29 +221,26 @@ fn grid(end: f64, kinks: &[f64]) -> Vec<f64> {
     grid
 }
 
-/// Speeds, in steps, at which the limit begins or ends to cut a direction, each between two of the plain grid.
+/// Speeds, in steps, at which the limit begins or ends to cut, each between two of the plain grid.
 fn kinks(model: &Model, step: f64) -> Vec<f64> {
     let plain = grid(end(model, step), &[]);
-    let limit = model.settings.limit;
+    let beyond = |n: f64| mean(model, n * step) > model.settings.limit;
     let mut found = Vec::new();
-    for sign in [1.0, -1.0] {
-        let beyond = |n: f64| steady(model, sign * n * step).abs() > limit;
-        for ends in plain.windows(2) {
-            let (mut low, mut high) = (ends[0], ends[1]);
-            let first = beyond(low);
-            if first == beyond(high) {
-                continue;
-            }
-            while high - low > 0.01 {
-                let middle = 0.5 * (low + high);
-                *if beyond(middle) == first {
-                    &mut low
-                } else {
-                    &mut high
-                } = middle;
-            }
-            found.push(high);
+    for ends in plain.windows(2) {
+        let (mut low, mut high) = (ends[0], ends[1]);
+        let first = beyond(low);
+        if first == beyond(high) {
+            continue;
         }
+        while high - low > 0.01 {
+            let middle = 0.5 * (low + high);
+            *if beyond(middle) == first {
+                &mut low
+            } else {
+                &mut high
+            } = middle;
+        }
+        found.push(high);
     }
     found
 }
@@ -226,14 +251,13 @@ fn steady(model: &Model, v: f64) -> f64 {
 }
 
 /// The mean of both directions; the offset falls out.
-fn mean_of(speed: f64, side: &dyn Fn(f64) -> f64) -> f64 {
-    0.5 * (side(speed) - side(-speed))
+pub(crate) fn mean(model: &Model, speed: f64) -> f64 {
+    0.5 * (steady(model, speed) - steady(model, -speed))
 }
 
 /// The same within the limit: what the table is to hold.
-fn mean(model: &Model, speed: f64) -> f64 {
-    let limit = model.settings.limit;
-    mean_of(speed, &|v| steady(model, v).clamp(-limit, limit))
+fn held(model: &Model, speed: f64) -> f64 {
+    mean(model, speed).min(model.settings.limit)
 }
 
 fn interpolate(table: &[(f64, f64)], n: f64) -> f64 {

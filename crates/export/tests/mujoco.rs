@@ -6,8 +6,8 @@ use common::{laws, model};
 use std::path::PathBuf;
 use std::process::Command;
 use stiction_export::{Error, Target, export};
-use stiction_friction::Damping;
 use stiction_friction::compensator::Friction;
+use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 
 fn python(script: &str, arguments: &[&str], dir: &std::path::Path) -> String {
     let local = stiction_testkit::workspace().join(".venv/bin/python");
@@ -30,8 +30,17 @@ fn python(script: &str, arguments: &[&str], dir: &std::path::Path) -> String {
 #[test]
 fn mujoco_gives_the_forces_that_are_due() {
     let dir = tempfile::tempdir().unwrap();
-    for rotary in [false, true] {
-        let mut model = model(laws().remove(0).1);
+    let flat = Direction {
+        coulomb: 12.0,
+        static_friction: 12.0,
+        stribeck_velocity: 1.0,
+        viscous: 30.0,
+    };
+    let flat = Stribeck::symmetric(Shape::Gaussian, flat, 2.0).unwrap();
+    let dahl = Friction::LuGre(LuGre::new(2e6, Damping::Capped(0.0), flat).unwrap());
+    let stage = laws().remove(0).1;
+    for (rotary, law) in [(false, stage), (true, stage), (false, dahl)] {
+        let mut model = model(law);
         model.rotary = rotary;
         model.force_unit = if rotary { "N m" } else { "N" }.into();
         model.title = "a -- b --> c".into();

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::process::Command;
 use stiction_export::{File, Model, Target, export};
 use stiction_friction::compensator::{Compensator, Friction, Input, Source};
-use stiction_friction::{Damping, Shape};
+use stiction_friction::{CoulombViscous, Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_testkit::st::Library;
 
 fn text(files: &[File], name: &str) -> String {
@@ -47,6 +47,71 @@ fn the_test_program_passes() {
             assert_eq!(program.get(passed), 1.0, "{name}: {}", program.get(worst));
         }
     }
+}
+
+/// Every combination of the largest and smallest parameters that are exported: the block takes them, its test passes,
+/// and at no speed and cycle time that it takes does an operation overflow (the interpreter stops there).
+#[test]
+fn what_is_exported_is_valid() {
+    let corners = |k: u32, near: f64| {
+        let end = |bit: u32, most: f64| [near * 1e-9, most / near][(k >> bit & 1) as usize];
+        let side = Direction {
+            coulomb: end(0, 1e9),
+            static_friction: end(0, 1e9).max(end(1, 1e9)),
+            stribeck_velocity: end(2, 1e9),
+            viscous: end(3, 1e9),
+        };
+        let curve = Stribeck::symmetric(Shape::Gaussian, side, 0.0).unwrap();
+        let law = LuGre::new(end(4, 1e15), Damping::Capped(end(5, 1e15)), curve).unwrap();
+        model(Friction::LuGre(law))
+    };
+    for k in 0..64 {
+        let mut model = corners(k, 1.0);
+        model.settings.limit = 1e15;
+        let library = library(&model);
+        for (suffix, huge) in [("", 1e15), ("_R", 1e12)] {
+            let mut program = library.instance(&format!("PRG_x_axis_FrictionTest{suffix}"));
+            (0..152).for_each(|_| program.call());
+            let of = |name: &str| program.get(program.slot(name));
+            assert_eq!(of("passed"), 1.0, "{k}{suffix}: {}", of("worst"));
+            let mut block = library.instance(&format!("FB_x_axis_Friction{suffix}"));
+            let [velocity, time, window, enable] = [
+                "reference_velocity",
+                "cycle_time",
+                "watchdog_window",
+                "enable",
+            ]
+            .map(|name| block.slot(name));
+            block.set(window, 0.0);
+            block.set(enable, 1.0);
+            for h in [1e-3, 1.001e-7, 10.0] {
+                block.set(time, h);
+                for v in [huge, 1.0, -1e-24, -huge, 1e-9, -1e3, 0.0, 1e-24, huge] {
+                    block.set(velocity, 0.999 * v);
+                    block.call();
+                    assert_eq!(block.get(block.slot("valid")), 1.0, "{k}{suffix} {v} {h}");
+                }
+            }
+        }
+    }
+    let beyond = |model: &Model| export(model, Target::St).unwrap_err().to_string();
+    assert_eq!(
+        beyond(&corners(0, 0.999)),
+        "sigma0 = 9.99e-10; allowed: from 1e-9 to 1e15 (as REAL)"
+    );
+    let mut viscous = laws().pop().map(|(_, law)| model(law)).unwrap();
+    let law = CoulombViscous::new([20.0, 14.0], [2e9, 85.0], -3.0).unwrap();
+    viscous.friction = Friction::Coulomb(law);
+    assert_eq!(
+        beyond(&viscous),
+        "sigma2_pos = 2e9; allowed: from 0 to 1e9 (as REAL)"
+    );
+    let mut limit = model(laws().remove(0).1);
+    limit.settings.limit = 1.1e15;
+    assert_eq!(
+        beyond(&limit),
+        "limit = 1.1e15; allowed: from 1e-15 to 1e15 (as REAL)"
+    );
 }
 
 /// A velocity that no machine has counts as none, so that no operation of a controller overflows.

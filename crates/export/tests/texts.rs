@@ -79,13 +79,48 @@ fn codes(model: &Model) -> Vec<&'static str> {
 
 #[test]
 fn advice_is_given_where_it_applies() {
-    // 0.75 (12 N + 30 N s/m v) is 60 N at 2.27 m/s.
+    // 12 N + 30 N s/m v is 60 N at 1.6 m/s, and three quarters of it at 2.27 m/s.
     let mut small = small();
     assert_eq!(codes(&small), ["export-limit"]);
     assert!(
         advice(&small, Target::C)[0]
             .message
-            .contains("reaches at 2.267 m/s")
+            .contains("reaches at 1.6 m/s with a gain of 1, at 2.267 m/s with 0.75")
+    );
+    // Between the share of the gain and the whole, the offset counted: 18 N at rest, of which 13.5 N.
+    for (limit, says) in [
+        (18.01, "which the friction reaches at 0.200"),
+        (17.0, "enough for a gain of 0.75 up to 0.35"),
+        (
+            13.4,
+            "below the share 0.75 of the friction at standstill of 18 N",
+        ),
+    ] {
+        small.settings.limit = limit;
+        let said = advice(&small, Target::C).remove(0).message;
+        assert!(said.contains(says), "{said}");
+    }
+    let said = |limit, target, offset| {
+        let side = Direction {
+            coulomb: 1.1,
+            static_friction: 1.6,
+            stribeck_velocity: 0.05,
+            viscous: 0.06,
+        };
+        let curve = Stribeck::symmetric(Shape::Gaussian, side, offset).unwrap();
+        let mut model = model(Friction::Stribeck(curve));
+        model.settings.limit = limit;
+        model.rated_force = Some(6.0);
+        advice(&model, target).remove(0).message
+    };
+    assert!(
+        said(1.21, Target::C, 0.1)
+            .contains("below the share 0.75 of the friction at standstill of 1.7 N")
+    );
+    assert!(said(1.3, Target::Tf5200, 0.0).contains("below the friction at standstill of 1.6 N"));
+    assert!(
+        said(1.6, Target::C, 0.0)
+            .contains("no more than the friction at standstill of 1.6 N: enough for a gain of 0.75 up to 17.22 m/s")
     );
     small.settings.limit = 1e6;
     assert_eq!(codes(&small), [""; 0]);
@@ -105,6 +140,37 @@ fn advice_is_given_where_it_applies() {
         ["export-damping"]
     );
     assert_eq!(codes(&change(2e6, Damping::Constant(59.0))), [""; 0]);
+    // At 30 mm/s the level is Fc: (30 + 18 18/12/v)/(18/12 - 1) = 1860 N s/m, and 2000 N s/m at 27.8 mm/s.
+    for (sigma1, top, says) in [
+        (1859.0, 0.03, ""),
+        (2e3, 0.0278, ""),
+        (
+            2e3,
+            0.03,
+            "from 0.02784 m/s on only less is passive, at 0.03 m/s (the largest of the log) no more than 1860 N s/m",
+        ),
+    ] {
+        let mut model = change(2e6, Damping::Constant(sigma1));
+        model.top_speed = Some(top);
+        let found = advice(&model, Target::C);
+        assert_eq!(found.len(), usize::from(!says.is_empty()), "{found:?}");
+        assert!(found.iter().all(|a| a.message.contains(says)), "{found:?}");
+    }
+    // 18 N / 1e12 N/m and 3 mm/s: 6 ns; 18 N / 1.52e6 N/m: 3.95 ms.
+    for (stiffness, cycle, says) in [
+        (
+            1e12,
+            1e-3,
+            "no cycle that is allowed, 1e-6 s or more, resolves it",
+        ),
+        (1.52e6, 4e-3, "ask for a cycle below 3.9e-3 s"),
+        (2e6, 4e-3, "ask for a cycle below 3.0e-3 s"),
+    ] {
+        let mut model = change(stiffness, Damping::Capped(0.0));
+        model.settings.cycle_time = cycle;
+        let said = advice(&model, Target::C).remove(0).message;
+        assert!(said.contains(says), "{said}");
+    }
     // 18 N / 1e7 N/m = 1.8 um, and 3 um at 3 mm/s for 1 ms.
     assert_eq!(
         codes(&change(1e7, Damping::Capped(0.0))),
@@ -175,6 +241,11 @@ fn a_current_is_no_force() {
                     .split(|c: char| !c.is_alphanumeric())
                     .any(|word| word == "N");
                 assert!(!newton, "{}", file.path);
+                assert!(
+                    !text.contains("p.u..s") && !text.contains("e5 1/m"),
+                    "{}",
+                    file.path
+                );
                 if !file.path.ends_with("Description.xml") {
                     assert!(
                         text.contains(&format!("The force is {written}")),

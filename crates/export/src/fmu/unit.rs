@@ -32,7 +32,10 @@ impl Unit {
     pub(super) fn name(self, rotary: bool, force: &str) -> String {
         let length = if rotary { "rad" } else { "m" };
         // A product as the standard's examples write it.
-        let force = force.replace(' ', ".");
+        let force = match force {
+            "p.u." => "pu".into(),
+            force => force.replace(' ', "."),
+        };
         match self {
             Unit::One => String::new(),
             Unit::Time => "s".into(),
