@@ -13,7 +13,7 @@ pub(crate) mod reduced;
 pub(crate) mod search;
 pub(crate) mod search_box;
 
-use crate::conditioning::record::Record;
+use crate::conditioning::record::{Record, extent};
 use crate::error::Error;
 use crate::gms::{self, choose::ElementsScore};
 use crate::law::Law;
@@ -235,11 +235,7 @@ pub(crate) fn checked<'a>(
 
 /// The value of a force that never changes, rounding of the filters apart.
 fn constant(force: &[f64]) -> Option<f64> {
-    let (low, high) = force
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &u| {
-            (low.min(u), high.max(u))
-        });
+    let (low, high) = extent(force);
     let still = high - low <= 1e-9 * low.abs().max(high.abs());
     still.then_some(high)
 }

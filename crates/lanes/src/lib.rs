@@ -11,7 +11,9 @@
 //! | what a step of the separable search needs, for many trials | [`sums`], [`shared_sums`] |
 //! | the same for one trial | [`sums_alone`] |
 //! | the motion of a mass under a given force, and its cost | [`plants`] |
+//! | the cost of the best linear coefficients, for many trials | [`levels`], [`shared_sums`] |
 //! | the columns of one trial, written out | [`trace`] |
+//! | their derivatives, for given coefficients | [`slopes`] |
 //!
 //! Loops over `[f64; N]` are compiled for several instruction sets, of which [`InstructionSet::best`] is
 //! taken at run time. A result has the same bits with any of them, with any number of threads, and in any
@@ -35,8 +37,8 @@ pub use candidate::Candidate;
 pub use cost::{Scheme, costs};
 pub use dispatch::InstructionSet;
 pub use error::Error;
-pub use normal::{Sums, Trial, shared_sums, sums, sums_alone};
+pub use normal::{Sums, Trial, levels, shared_sums, sums, sums_alone};
 pub use plant::{Axis, Drive, Measured, Motion, Outcome, Stepping, plants};
 pub use sensitive::OWN;
-pub use trace::{Columns, trace};
+pub use trace::{Columns, slopes, trace};
 pub use track::{Segment, Time, Track};

@@ -13,6 +13,7 @@ use stiction_friction::ParamError;
 pub(crate) mod alone;
 mod batch;
 mod gram;
+mod levels;
 
 /// The nonlinear unknowns of the separable form of the LuGre law, as logarithms.
 ///
@@ -64,12 +65,14 @@ impl Trial {
 ///
 /// A residual that is taken from sums of squares has lost what is small beside the measured force: its sum
 /// of squares is good to about 1e-15 of that of the force.
+///
+/// Without the derivatives there are two own columns.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sums {
+pub struct Sums<const C: usize = OWN> {
     /// `own[i][j]`: own column i times own column j; symmetric.
-    pub own: [[f64; OWN]; OWN],
+    pub own: [[f64; C]; C],
     /// `shared[s][i]`: shared column s times own column i.
-    pub shared: Vec<[f64; OWN]>,
+    pub shared: Vec<[f64; C]>,
 }
 
 /// Sums for each of many trials, which advance together in lanes.
@@ -100,16 +103,7 @@ pub fn sums(
     trials: &[Trial],
     instructions: InstructionSet,
 ) -> Result<Vec<Sums>, Error> {
-    let curves = trials
-        .iter()
-        .enumerate()
-        .map(|(index, trial)| {
-            trial
-                .curve()
-                .map_err(|source| Error::Candidate { index, source })
-        })
-        .collect::<Result<Vec<Curve>, Error>>()?;
-    let groups: Vec<Vec<Sums>> = curves
+    let groups: Vec<Vec<Sums>> = curves(trials)?
         .par_chunks(gram::LANES)
         .map(|group| {
             if group.iter().any(|c| c.exponent != 2.0) {
@@ -120,6 +114,35 @@ pub fn sums(
         })
         .collect();
     Ok(groups.into_iter().flatten().collect())
+}
+
+/// Sums of eta and rate alone for each of many trials, which advance together in lanes: for a search that
+/// compares trials and takes no step. A third of the time of [`sums`], and the same as those to rounding.
+pub fn levels(
+    track: &Track,
+    trials: &[Trial],
+    instructions: InstructionSet,
+) -> Result<Vec<Sums<2>>, Error> {
+    let groups: Vec<Vec<Sums<2>>> = curves(trials)?
+        .par_chunks(gram::LANES)
+        .map(|group| {
+            if group.iter().any(|c| c.exponent != 2.0) {
+                instructions.run(levels::Levels::<true>::new(track, group))
+            } else {
+                instructions.run(levels::Levels::<false>::new(track, group))
+            }
+        })
+        .collect();
+    Ok(groups.into_iter().flatten().collect())
+}
+
+fn curves(trials: &[Trial]) -> Result<Vec<Curve>, Error> {
+    let curve = |(index, trial): (usize, &Trial)| {
+        trial
+            .curve()
+            .map_err(|source| Error::Candidate { index, source })
+    };
+    trials.iter().enumerate().map(curve).collect()
 }
 
 /// Sums for one trial, with the samples in lanes: for a descent, which has one trial at a time.

@@ -1,11 +1,11 @@
-//! The columns of one trial, written out: for a record whose columns have yet to pass a filter.
+//! The columns of one trial, written out.
 
 use crate::curve::{Curve, START, reversed};
 use crate::dispatch::{InstructionSet, Kernel};
 use crate::exp::fma;
 use crate::lane_array::chunk;
 use crate::normal::alone::{Sink, along};
-use crate::sensitive::OWN;
+use crate::sensitive::{OWN, UNKNOWNS};
 use crate::time_lanes::Block;
 use crate::track::{BLOCK, RESTART, REVERSE, SAMPLE};
 use crate::{Error, Track, Trial};
@@ -53,6 +53,76 @@ pub fn trace(
     })
 }
 
+/// Derivatives of `weights[0] eta + weights[1] rate` with respect to `ln kappa`, `ln(r - 1)`, `ln vs`, at every
+/// sample: what a regression whose coefficients are known needs of them.
+///
+/// ```
+/// use stiction_lanes::{InstructionSet, Segment, Time, Track, Trial, slopes};
+/// let velocity = vec![0.05; 200]; // m/s
+/// # let force = vec![0.0; 200];
+/// # let segment = Segment { time: Time::Step(1e-3), velocity: &velocity, force: &force, keep: &[], columns: &[] };
+/// # let track = Track::new(&[segment])?;
+/// let trial = Trial { ln_kappa: 5e3_f64.ln(), ln_excess: 0.5_f64.ln(), ln_velocity: 5e-3_f64.ln(), exponent: 2.0 };
+/// let [kappa, excess, _] = slopes(&track, &trial, [20.0, 600.0], InstructionSet::best())?;
+/// // Steady and far above vs, the force knows neither stiffness nor static friction.
+/// assert!(kappa[199].abs() < 1e-12 && excess[199].abs() < 1e-12);
+/// # Ok::<(), stiction_lanes::Error>(())
+/// ```
+pub fn slopes(
+    track: &Track,
+    trial: &Trial,
+    weights: [f64; 2],
+    instructions: InstructionSet,
+) -> Result<[Vec<f64>; UNKNOWNS], Error> {
+    let curve = trial
+        .curve()
+        .map_err(|source| Error::Candidate { index: 0, source })?;
+    Ok(if curve.exponent == 2.0 {
+        instructions.run(Weighted::<false>(track, curve, weights))
+    } else {
+        instructions.run(Weighted::<true>(track, curve, weights))
+    })
+}
+
+struct Weighted<'a, const POWER: bool>(&'a Track, Curve, [f64; 2]);
+
+impl<const POWER: bool> Kernel for Weighted<'_, POWER> {
+    type Output = [Vec<f64>; UNKNOWNS];
+
+    #[inline(always)]
+    fn run(self) -> [Vec<f64>; UNKNOWNS] {
+        let Weighted(track, curve, weights) = self;
+        let mut adding = Adding {
+            track,
+            weights,
+            slopes: std::array::from_fn(|_| Vec::with_capacity(track.samples())),
+        };
+        along::<POWER>(track, &curve, &mut adding);
+        adding.slopes
+    }
+}
+
+/// Appends the weighted derivatives of each block.
+struct Adding<'a> {
+    track: &'a Track,
+    weights: [f64; 2],
+    slopes: [Vec<f64>; UNKNOWNS],
+}
+
+impl Sink for Adding<'_> {
+    #[inline(always)]
+    fn block(&mut self, at: usize, own: &[[f64; BLOCK]; OWN]) {
+        for (k, out) in self.slopes.iter_mut().enumerate() {
+            let mut column = [0.0; BLOCK];
+            for t in 0..BLOCK {
+                let eta = self.weights[0] * own[2 + k][t];
+                column[t] = eta + self.weights[1] * own[2 + UNKNOWNS + k][t];
+            }
+            append(self.track, at, &column, out);
+        }
+    }
+}
+
 struct Sensitive<'a, const POWER: bool>(&'a Track, Curve);
 
 impl<const POWER: bool> Kernel for Sensitive<'_, POWER> {
@@ -94,12 +164,23 @@ impl Sink for Writing<'_> {
 /// Appends the samples of a block, with the sign that the motion has.
 #[inline(always)]
 fn append(track: &Track, at: usize, column: &[f64; BLOCK], out: &mut Vec<f64>) {
-    let sign: &[f64; BLOCK] = chunk(&track.sign, at);
+    let sign: &[i8; BLOCK] = chunk(&track.sign, at);
     let marks: &[u8; BLOCK] = chunk(&track.marks, at);
     let mut values = [0.0; BLOCK];
+    for t in 0..BLOCK {
+        values[t] = f64::from(sign[t]) * column[t];
+    }
+    let mut all = SAMPLE;
+    for t in 0..BLOCK {
+        all &= marks[t];
+    }
+    if all != 0 {
+        out.extend_from_slice(&values);
+        return;
+    }
     let mut count = 0;
     for t in 0..BLOCK {
-        values[count] = sign[t] * column[t];
+        values[count] = values[t];
         count += usize::from(marks[t] & SAMPLE != 0);
     }
     out.extend_from_slice(&values[..count]);
@@ -133,9 +214,17 @@ impl<const POWER: bool> Kernel for Plain<'_, POWER> {
             let marks: &[u8; BLOCK] = chunk(&track.marks, at);
             let (ln, half) = (chunk(ln_speed, at), chunk(&track.half_step, at));
             block.fill::<POWER>(&curve, speed, ln, half);
+            let mut turns = 0;
+            for t in 0..BLOCK {
+                turns |= marks[t] & (RESTART | REVERSE);
+            }
             for t in 0..BLOCK {
                 let g = block.g.0[t + 1];
                 w = fma(block.keep.0[t], w, block.add.0[t]);
+                if turns == 0 {
+                    eta[t] = w + g;
+                    continue;
+                }
                 if marks[t] & RESTART != 0 {
                     w = -g;
                 }

@@ -58,7 +58,7 @@ pub struct Track {
     /// Half the time since the node before, s.
     pub(crate) half_step: Vec<f64>,
     /// Direction of motion, 1 or -1.
-    pub(crate) sign: Vec<f64>,
+    pub(crate) sign: Vec<i8>,
     pub(crate) marks: Vec<u8>,
     /// Measured force in the direction of motion; 0 where nothing counts.
     pub(crate) force: Vec<f64>,

@@ -5,8 +5,8 @@ mod common;
 use common::{candidate, force, motion, sine, spread, trial};
 use proptest::prelude::*;
 use stiction_lanes::{
-    Candidate, InstructionSet, OWN, Segment, Sums, Time, Track, Trial, shared_sums, sums,
-    sums_alone, trace,
+    Candidate, InstructionSet, OWN, Segment, Sums, Time, Track, Trial, levels, shared_sums, slopes,
+    sums, sums_alone, trace,
 };
 
 /// eta and rate by the scalar law with Fc = 1.
@@ -121,15 +121,15 @@ fn dense(own: &[Vec<f64>; OWN], shared: &[&[f64]], keep: &[bool]) -> Sums {
     }
 }
 
-fn close(found: &Sums, right: &Sums, energy: &[f64]) {
+fn close<const C: usize>(found: &Sums<C>, right: &Sums, energy: &[f64]) {
     let within = |x: f64, y: f64, a: f64, b: f64| {
         assert!(
             (x - y).abs() <= 1e-12 * (a * b).sqrt() + 1e-290,
             "{x} instead of {y}"
         );
     };
-    for i in 0..OWN {
-        for j in 0..OWN {
+    for i in 0..C {
+        for j in 0..C {
             within(
                 found.own[i][j],
                 right.own[i][j],
@@ -150,10 +150,18 @@ fn close(found: &Sums, right: &Sums, energy: &[f64]) {
 
 #[test]
 fn sums_are_those_of_the_columns() {
+    for further in 0..5 {
+        sums_beside(further, |k| k % 5 != 2);
+        sums_beside(further, |_| true);
+    }
+}
+
+/// With further shared columns, and samples left out.
+fn sums_beside(further: usize, keep: impl Fn(usize) -> bool) {
     let velocity = sine(1003, 1e-3, 0.05, 3.0);
     let force = force(&velocity);
-    let keep: Vec<bool> = (0..1003).map(|k| k % 5 != 2).collect();
-    let further: Vec<Vec<f64>> = (0..4)
+    let keep: Vec<bool> = (0..1003).map(keep).collect();
+    let further: Vec<Vec<f64>> = (0..further)
         .map(|c| {
             velocity
                 .iter()
@@ -187,6 +195,25 @@ fn sums_are_those_of_the_columns() {
         close(&batch, &right, &energy);
         close(&sums_alone(&track, t, set).unwrap(), &right, &energy);
     }
+    for (t, batch) in trials.iter().zip(levels(&track, &trials, set).unwrap()) {
+        close(&batch, &dense(&own(&track, t), &shared, &keep), &energy);
+    }
+}
+
+#[test]
+fn slopes_are_those_of_the_weighed_columns() {
+    let velocity = sine(1003, 1e-3, 0.05, 3.0);
+    let track = common::track(1e-3, &velocity, &force(&velocity));
+    for t in spread(11, true).iter().map(trial) {
+        let [_, _, eta @ .., a, b, c] = own(&track, &t);
+        let found = slopes(&track, &t, [20.0, 600.0], InstructionSet::best()).unwrap();
+        for ((found, eta), rate) in found.iter().zip(&eta).zip([a, b, c]) {
+            assert_eq!(found.len(), 1003);
+            for ((found, eta), rate) in found.iter().zip(eta).zip(&rate) {
+                assert_eq!(*found, 20.0 * eta + 600.0 * rate);
+            }
+        }
+    }
 }
 
 #[test]
@@ -204,6 +231,10 @@ fn sums_have_the_same_bits_in_any_company_and_instruction_set() {
             for count in [1, 3, 7, 8, 9, 17, 33] {
                 let found = sums(&track, &trials[33 - count..], set).unwrap();
                 assert_eq!(found, right[33 - count..], "{set} {count}");
+                let [found, right] = [set, best].map(|s| levels(&track, &trials, s).unwrap());
+                assert_eq!(found, right);
+                let few = levels(&track, &trials[33 - count..], set).unwrap();
+                assert_eq!(few, right[33 - count..], "{set} {count}");
             }
             for t in &trials[..3] {
                 let [found, right] = [set, best].map(|s| sums_alone(&track, t, s).unwrap());
@@ -211,6 +242,8 @@ fn sums_have_the_same_bits_in_any_company_and_instruction_set() {
                 let [found, right] = [set, best].map(|s| trace(&track, t, true, s).unwrap());
                 assert_eq!(found, right);
                 let [found, right] = [set, best].map(|s| trace(&track, t, false, s).unwrap());
+                assert_eq!(found, right);
+                let [found, right] = [set, best].map(|s| slopes(&track, t, [3.0, 7.0], s).unwrap());
                 assert_eq!(found, right);
             }
         }

@@ -4,6 +4,7 @@ use crate::conditioning::Conditioning;
 use crate::conditioning::channels::Channels;
 use crate::conditioning::losses::Losses;
 use crate::conditioning::shift::Shift;
+use std::borrow::Cow;
 use stiction_signal::Sos;
 
 /// One log in SI units on its own time axis: m or rad, m/s or rad/s, N or N·m (or A, V).
@@ -86,6 +87,15 @@ pub struct Record {
     pub(crate) is_thinned: bool,
 }
 
+impl Segment {
+    /// Whether every sample that a regression could see counts.
+    pub(crate) fn counts_whole(&self) -> bool {
+        // Without leaving a run early, so that many are looked at together.
+        let run = |keep: &[bool]| keep.iter().fold(true, |all, &k| all & k);
+        self.keep.chunks(256).all(run)
+    }
+}
+
 impl Record {
     /// Number of samples that count.
     pub fn kept(&self) -> usize {
@@ -127,10 +137,10 @@ impl Record {
 
     /// Largest speed, m/s or rad/s.
     pub fn top_speed(&self) -> f64 {
-        self.segments
-            .iter()
-            .flat_map(|s| &s.velocity)
-            .fold(0.0, |top: f64, v| top.max(v.abs()))
+        self.segments.iter().fold(0.0, |top: f64, s| {
+            let (low, high) = extent(&s.velocity);
+            top.max(high).max(-low)
+        })
     }
 
     /// Largest distance between two positions of one segment, by integration of the velocity, m or
@@ -176,6 +186,16 @@ impl Record {
         out
     }
 
+    /// The same, as it stands in the record where all of it counts.
+    pub(crate) fn whole(&self, channel: impl Fn(&Segment) -> &[f64]) -> Cow<'_, [f64]> {
+        match &self.segments[..] {
+            [only] if only.counts_whole() && channel(only).len() == only.keep.len() => {
+                channel(only).into()
+            }
+            _ => self.gather(channel).into(),
+        }
+    }
+
     /// Passes full-rate channels of a segment through the common filter, in place.
     pub(crate) fn filter<'c>(&self, full: impl IntoIterator<Item = &'c mut Vec<f64>>) {
         if let Some(filter) = &self.common {
@@ -217,7 +237,7 @@ impl Record {
         out: &mut Vec<f64>,
     ) {
         let as_it_is = self.segments.len() == 1 && shift == Shift::NONE && self.decimate == 1;
-        if as_it_is && full.len() == segment.keep.len() && segment.keep.iter().all(|&k| k) {
+        if as_it_is && full.len() == segment.keep.len() && segment.counts_whole() {
             *out = full;
         } else {
             self.thin(segment, &full, shift, out);
@@ -302,6 +322,23 @@ impl Record {
             is_thinned: true,
         })
     }
+}
+
+/// Least and greatest of some values, what is no number apart; infinite the wrong way round for none.
+pub(crate) fn extent(values: &[f64]) -> (f64, f64) {
+    let mut low = [f64::INFINITY; 8];
+    let mut high = [f64::NEG_INFINITY; 8];
+    let mut see = |values: &[f64]| {
+        for ((low, high), &x) in low.iter_mut().zip(&mut high).zip(values) {
+            *low = if x < *low { x } else { *low };
+            *high = if x > *high { x } else { *high };
+        }
+    };
+    let (wide, rest) = values.as_chunks::<8>();
+    wide.iter().for_each(|x| see(x));
+    see(rest);
+    let low = low.into_iter().fold(f64::INFINITY, f64::min);
+    (low, high.into_iter().fold(f64::NEG_INFINITY, f64::max))
 }
 
 /// Appends the samples that are kept, each run of them in one go.

@@ -6,6 +6,7 @@
 //! autoregression is the sharper one (and the generalised Cramer-Rao bound of this estimator).
 
 use crate::separable::linear::dot;
+use nalgebra::DMatrix;
 
 /// Longest memory that is looked for, samples. After the common filter the regression keeps 2.5
 /// samples a period of the cut-off, so 20 reach over 8 of its periods.
@@ -77,23 +78,60 @@ impl Autoregression {
         best
     }
 
-    /// `L^T w` for a column `w`, where `L L^T` is the covariance of the residual: its energy is the
-    /// variance of `sum w_t r_t`.
-    pub fn transposed(&self, w: &[f64], breaks: &[usize]) -> Vec<f64> {
-        let mut out = w.to_vec();
-        for s in segments(w.len(), breaks) {
-            for t in s.clone().rev() {
-                let (now, after) = out[t..s.end].split_at_mut(1);
-                // The latest first, so that no more than one product waits for the value just made.
-                let reach = self.coefficients.iter().zip(after.iter()).rev();
-                now[0] = reach.fold(now[0], |x, (a, later)| x - a * later);
+    /// Covariance of the sums `sum w_t r_t` of columns `w`: the products of `L^T w`, where `L L^T` is the covariance
+    /// of the residual.
+    ///
+    /// The columns are taken side by side, from the last sample on, a chunk at a time.
+    pub fn covariance(&self, columns: &[Vec<f64>], breaks: &[usize]) -> DMatrix<f64> {
+        let q = columns.len();
+        let n = columns.first().map_or(0, Vec::len);
+        let order = self.coefficients.len();
+        let mut sums = vec![0.0; q * q];
+        // `L^T w` of a chunk and of the samples after it that it reaches to, sample by sample.
+        let mut rows = vec![0.0; (CHUNK + order) * q];
+        for s in segments(n, breaks) {
+            rows.fill(0.0);
+            let mut end = s.end;
+            while end > s.start {
+                let start = s.start.max(end.saturating_sub(CHUNK));
+                let many = end - start;
+                for (k, column) in columns.iter().enumerate() {
+                    let to = rows[k..].iter_mut().step_by(q);
+                    to.zip(&column[start..end]).for_each(|(to, x)| *to = *x);
+                }
+                for t in (0..many).rev() {
+                    let (now, after) = rows[t * q..].split_at_mut(q);
+                    // The latest first, so that no more than one product waits for the values just made.
+                    let reach = self.coefficients.iter().zip(after.chunks_exact(q));
+                    for (a, later) in reach.rev() {
+                        for (x, later) in now.iter_mut().zip(later) {
+                            *x -= a * later;
+                        }
+                    }
+                }
+                for row in rows[..many * q].chunks_exact(q) {
+                    for (i, x) in row.iter().enumerate() {
+                        for (sum, y) in sums[i * q..].iter_mut().zip(&row[..=i]) {
+                            *sum += x * y;
+                        }
+                    }
+                }
+                // The next chunk is put before what it reaches to.
+                let next = CHUNK.min(start - s.start);
+                rows.copy_within(..many.min(order) * q, next * q);
+                if many < order {
+                    rows[(next + many) * q..(next + order) * q].fill(0.0);
+                }
+                end = start;
             }
         }
-        let deviation = self.variance.max(0.0).sqrt();
-        out.iter_mut().for_each(|x| *x *= deviation);
-        out
+        let variance = self.variance.max(0.0);
+        DMatrix::from_fn(q, q, |i, j| variance * sums[i.max(j) * q + i.min(j)])
     }
 }
+
+/// Samples of all columns that stay in the nearest caches.
+const CHUNK: usize = 256;
 
 /// Ranges between breaks.
 pub(super) fn segments(n: usize, breaks: &[usize]) -> impl Iterator<Item = std::ops::Range<usize>> {
@@ -140,20 +178,44 @@ mod tests {
     #[test]
     fn the_variance_of_a_sum_is_the_spectral_density_at_zero() {
         let found = Autoregression::fit(&process(60_000), &[]);
-        let ones = vec![1.0; 20_000];
-        let sum = found.transposed(&ones, &[]);
-        let per_sample = dot(&sum, &sum) / 20_000.0;
+        let energy =
+            |ones: usize, breaks: &[usize]| found.covariance(&[vec![1.0; ones]], breaks)[(0, 0)];
+        let per_sample = energy(20_000, &[]) / 20_000.0;
         assert!((per_sample * 0.3 * 0.3 - 1.0).abs() < 0.1, "{per_sample}");
         // Two halves that know nothing of each other have the sum of their variances.
-        let halves = found.transposed(&ones, &[10_000]);
-        let one = found.transposed(&ones[..10_000], &[]);
-        assert!((dot(&halves, &halves) / (2.0 * dot(&one, &one)) - 1.0).abs() < 1e-12);
+        let halves = energy(20_000, &[10_000]);
+        assert!((halves / (2.0 * energy(10_000, &[])) - 1.0).abs() < 1e-12);
+        // A chunk is where it is cut: three samples more than one, with columns beside each other.
+        let pair = [vec![1.0; 259], vec![2.0; 259]];
+        let both = found.covariance(&pair, &[2]);
+        let one = energy(2, &[]) + energy(257, &[]);
+        assert!((both[(0, 0)] / one - 1.0).abs() < 1e-12);
+        assert!((both[(1, 0)] / (2.0 * one) - 1.0).abs() < 1e-12);
+    }
+
+    /// `w L L^T w` written out for a first-order process, whose covariance is known in closed form.
+    #[test]
+    fn the_covariance_of_a_first_order_process_is_its_closed_form() {
+        let (a, n) = (-0.6_f64, 700);
+        let process = Autoregression {
+            coefficients: vec![a],
+            variance: 2.0,
+        };
+        let w: Vec<f64> = (0..n).map(|t| libm::sin(0.37 * t as f64)).collect();
+        // L is the inverse of the whitening from rest: r_t = sum_k (-a)^k e_{t-k}.
+        let mut closed = 0.0;
+        for from in 0..n {
+            let reach: f64 = (from..n).map(|t| (-a).powi((t - from) as i32) * w[t]).sum();
+            closed += 2.0 * reach * reach;
+        }
+        let found = process.covariance(&[w], &[])[(0, 0)];
+        assert!((found / closed - 1.0).abs() < 1e-12, "{found} {closed}");
     }
 
     #[test]
     fn a_residual_without_energy_gives_nothing() {
         let found = Autoregression::fit(&[0.0; 500], &[]);
-        assert_eq!(dot(&found.transposed(&[1.0; 500], &[]), &[1.0; 500]), 0.0);
+        assert_eq!(found.covariance(&[vec![1.0; 500]], &[])[(0, 0)], 0.0);
         assert!(Autoregression::fit(&[], &[]).coefficients.is_empty());
     }
 }

@@ -114,12 +114,12 @@ pub(crate) fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) 
     });
     let (bread, lost) = inverse(gram);
     let weights = weights(jacobian, &scale, &bread);
-    let stationary = stationary_covariance(&weights, residual, breaks);
+    let stationary = Autoregression::fit(residual, breaks).covariance(&weights, breaks);
     let mut scores = weights;
     for score in &mut scores {
         score.iter_mut().zip(residual).for_each(|(w, r)| *w *= r);
     }
-    let long_run = long_run_variances(&scores, breaks);
+    let long_run = long_run_variances(scores, breaks);
     let correction = n as f64 / (n - q) as f64;
     let widen: Vec<f64> = (0..q)
         .map(|i| {
@@ -198,27 +198,14 @@ fn symmetric(q: usize, element: impl Fn(usize, usize) -> f64) -> DMatrix<f64> {
     out
 }
 
-/// Covariance of the sums `sum_t w_t r_t` where the residual is an autoregression.
-fn stationary_covariance(weights: &[Vec<f64>], residual: &[f64], breaks: &[usize]) -> DMatrix<f64> {
-    let model = Autoregression::fit(residual, breaks);
-    let spread: Vec<Vec<f64>> = weights
-        .iter()
-        .map(|w| model.transposed(w, breaks))
-        .collect();
-    symmetric(weights.len(), |i, j| dot(&spread[i], &spread[j]))
-}
-
 /// Sum over all pairs of samples of the covariance of each score.
-fn long_run_variances(scores: &[Vec<f64>], breaks: &[usize]) -> Vec<f64> {
+fn long_run_variances(scores: Vec<Vec<f64>>, breaks: &[usize]) -> Vec<f64> {
     let n = scores.first().map_or(0, Vec::len);
-    let whitened: Vec<(f64, Vec<f64>)> = scores.iter().map(|w| whiten(w, breaks)).collect();
+    let whitened: Vec<(f64, Vec<f64>)> = scores.into_iter().map(|w| whiten(w, breaks)).collect();
     let lag = bandwidth(&whitened, breaks).min(n / 4).max(1);
     whitened
         .iter()
-        .map(|(a, e)| {
-            let sums = batch_sums(e, lag);
-            dot(&sums, &sums) / lag as f64 / ((1.0 - a) * (1.0 - a))
-        })
+        .map(|(a, e)| batch_energy(e, lag) / lag as f64 / ((1.0 - a) * (1.0 - a)))
         .collect()
 }
 
@@ -232,7 +219,10 @@ pub(crate) fn of_influence(
 ) -> DMatrix<f64> {
     let q = influence.len();
     let n = influence.first().map_or(0, Vec::len);
-    let whitened: Vec<(f64, Vec<f64>)> = influence.iter().map(|w| whiten(w, breaks)).collect();
+    let whitened: Vec<(f64, Vec<f64>)> = influence
+        .iter()
+        .map(|w| whiten(w.clone(), breaks))
+        .collect();
     let lag = bandwidth(&whitened, breaks).min(n / 4).max(1);
     let sums: Vec<Vec<f64>> = whitened.iter().map(|(_, e)| batch_sums(e, lag)).collect();
     let long_run = DMatrix::from_fn(q, q, |i, j| {
@@ -258,15 +248,18 @@ pub(crate) fn of_influence(
 }
 
 /// First-order autoregression: its coefficient and what it leaves.
-fn whiten(w: &[f64], breaks: &[usize]) -> (f64, Vec<f64>) {
+fn whiten(mut w: Vec<f64>, breaks: &[usize]) -> (f64, Vec<f64>) {
     // Beyond .97 undoing the whitening would amplify noise more than it removes bias.
-    let a = lag_one(w, breaks).clamp(-0.97, 0.97);
-    let mut e = Vec::with_capacity(w.len());
+    let a = lag_one(&w, breaks).clamp(-0.97, 0.97);
     for s in segments(w.len(), breaks) {
-        e.extend(w[s.clone()].iter().take(1));
-        e.extend(w[s].windows(2).map(|pair| pair[1] - a * pair[0]));
+        let mut before = 0.0;
+        for x in &mut w[s] {
+            let now = *x;
+            *x = now - a * before;
+            before = now;
+        }
     }
-    (a, e)
+    (a, w)
 }
 
 fn lag_one(w: &[f64], breaks: &[usize]) -> f64 {
@@ -304,15 +297,27 @@ fn bandwidth(whitened: &[(f64, Vec<f64>)], breaks: &[usize]) -> usize {
 /// Sums of all windows of `lag` samples, also those that hang over an end.
 fn batch_sums(e: &[f64], lag: usize) -> Vec<f64> {
     let mut out = Vec::with_capacity(e.len() + lag);
+    each_batch(e, lag, |sum| out.push(sum));
+    out
+}
+
+/// The energy of those sums.
+fn batch_energy(e: &[f64], lag: usize) -> f64 {
+    let mut energy = 0.0;
+    each_batch(e, lag, |sum| energy += sum * sum);
+    energy
+}
+
+fn each_batch(e: &[f64], lag: usize, mut see: impl FnMut(f64)) {
     let mut sum = 0.0;
     let mut add = |x: f64| {
         sum += x;
-        sum
+        see(sum);
     };
-    out.extend(e.iter().take(lag).map(|x| add(*x)));
+    e.iter().take(lag).for_each(|x| add(*x));
     // The difference first, so that the sum waits for one addition only.
-    out.extend(e.iter().skip(lag).zip(e).map(|(x, gone)| add(x - gone)));
+    let both = e.iter().skip(lag).zip(e);
+    both.for_each(|(x, gone)| add(x - gone));
     let last = e.iter().skip(e.len().saturating_sub(lag));
-    out.extend(last.take(lag - 1).map(|gone| add(-gone)));
-    out
+    last.take(lag - 1).for_each(|gone| add(-gone));
 }

@@ -26,10 +26,18 @@ struct Point {
     at: Reduced,
 }
 
+/// Where a descent has ended.
+pub(super) struct End {
+    pub p: Vec<f64>,
+    pub cost: f64,
+    /// Whether it would not have gone on.
+    pub settled: bool,
+}
+
 /// Where descents have ended.
 pub(super) struct Minima {
-    /// Cost and place, best first.
-    pub ends: Vec<(f64, Vec<f64>)>,
+    /// Best first.
+    pub ends: Vec<End>,
     /// Trials that they took.
     pub steps: usize,
 }
@@ -39,6 +47,8 @@ pub(super) struct Coarse<'a> {
     pub objective: &'a Objective<'a>,
     pub sums: &'a InLanes,
     pub bounds: &'a SearchBox,
+    /// Whether few trials are under way, faster one by one with their samples in lanes.
+    pub few: bool,
     /// Rounds that the others have left once the best of them has ended.
     pub patience: usize,
 }
@@ -58,39 +68,52 @@ impl Coarse<'_> {
     ) -> Option<Minima> {
         watch.stage = Stage::Scan;
         let points = (0..scan.max(1)).map(|i| sobol(self.bounds, i, seed));
-        let mut first = self.tried(points.collect(), watch)?;
+        let first = self.tried(points.collect(), watch)?;
         watch.fraction = 0.5;
+        let mut chosen: Vec<Vec<f64>> = best_first(&first)
+            .into_iter()
+            .take(starts.max(1))
+            .map(|i| first[i].0.clone())
+            .collect();
         if !watch.stopped && self.bounds.len() > 1 {
             let stiff = self.bounds.holding(kappa, self.bounds.high(kappa));
             let points = (0..(scan / RIGID).max(1)).map(|i| sobol(&stiff, i, seed));
             let curves = self.tried(points.collect(), watch)?;
+            let curve = &curves[best_first(&curves)[0]].0;
             let line = (0..LINE).map(|i| {
                 let part = i as f64 / (LINE - 1) as f64;
-                let mut p = curves[0].p.clone();
+                let mut p = curve.clone();
                 p[kappa] = self.bounds.low(kappa)
                     + part * (self.bounds.high(kappa) - self.bounds.low(kappa));
                 p
             });
-            first.truncate(starts.max(1));
-            let along = self.evaluated(line.collect(), watch)?;
-            let costs: Vec<f64> = along.iter().map(|point| point.at.cost).collect();
-            let chosen = valleys(&costs);
-            first.extend(
-                along
-                    .into_iter()
-                    .enumerate()
-                    .filter_map(|(i, point)| chosen.contains(&i).then_some(point)),
-            );
-        } else {
-            first.truncate(starts.max(1));
+            let along = self.tried(line.collect(), watch)?;
+            let costs: Vec<f64> = along.iter().map(|(_, cost)| *cost).collect();
+            chosen.extend(valleys(&costs).into_iter().map(|i| along[i].0.clone()));
         }
-        self.descended(first, watch)
+        self.followed(chosen, watch)
     }
 
     /// Ends of descents from given points.
     pub fn followed(&self, points: Vec<Vec<f64>>, watch: &mut Watch) -> Option<Minima> {
         let points = self.evaluated(points, watch)?;
         self.descended(points, watch)
+    }
+
+    /// Points and their costs, in the order given; fewer where the observer stops it.
+    fn tried(&self, points: Vec<Vec<f64>>, watch: &mut Watch) -> Option<Vec<(Vec<f64>, f64)>> {
+        let mut out: Vec<(Vec<f64>, f64)> = Vec::with_capacity(points.len());
+        for batch in points.chunks(BATCH) {
+            if watch.stopped && !out.is_empty() {
+                break;
+            }
+            let trials: Vec<&[f64]> = batch.iter().map(Vec::as_slice).collect();
+            let costs = self.sums.costs(&trials)?.into_iter().map(or_worst);
+            let costs: Vec<f64> = costs.collect();
+            self.report(&costs, false, watch);
+            out.extend(batch.iter().cloned().zip(costs));
+        }
+        Some(out)
     }
 
     /// Points in the order given, whatever they come to; fewer where the observer stops it.
@@ -101,34 +124,31 @@ impl Coarse<'_> {
                 break;
             }
             let trials: Vec<&[f64]> = batch.iter().map(Vec::as_slice).collect();
-            let found = self.sums.many(&trials)?;
-            for (p, mut at) in batch.iter().zip(found) {
-                if at.cost.is_nan() {
-                    at.cost = f64::INFINITY;
-                }
-                out.push(Point { p: p.clone(), at });
-            }
-            let tried = &out[out.len() - batch.len()..];
-            self.report(tried.iter().map(|point| point.at.cost), watch);
+            let mut found = self.reduced(&trials)?;
+            found.iter_mut().for_each(|at| at.cost = or_worst(at.cost));
+            let costs: Vec<f64> = found.iter().map(|at| at.cost).collect();
+            self.report(&costs, true, watch);
+            let points = batch.iter().cloned().zip(found);
+            out.extend(points.map(|(p, at)| Point { p, at }));
         }
         Some(out)
     }
 
+    fn reduced(&self, trials: &[&[f64]]) -> Option<Vec<Reduced>> {
+        if self.few {
+            return trials.iter().map(|p| self.sums.reduced(p)).collect();
+        }
+        self.sums.many(trials)
+    }
+
     /// Counts trials, and tells of each until the observer has heard enough.
-    fn report(&self, costs: impl Iterator<Item = f64>, watch: &mut Watch) {
-        for cost in costs {
-            watch.count(self.objective, true);
+    fn report(&self, costs: &[f64], sensitivities: bool, watch: &mut Watch) {
+        for &cost in costs {
+            watch.count(self.objective, sensitivities);
             if !watch.stopped {
                 watch.report(self.objective.relative(cost));
             }
         }
-    }
-
-    /// The same, best first.
-    fn tried(&self, points: Vec<Vec<f64>>, watch: &mut Watch) -> Option<Vec<Point>> {
-        let mut out = self.evaluated(points, watch)?;
-        out.sort_by(|a, b| a.at.cost.total_cmp(&b.at.cost));
-        Some(out)
     }
 
     /// Follows all points down together.
@@ -166,21 +186,35 @@ impl Coarse<'_> {
                 break;
             }
             let places: Vec<&[f64]> = trials.iter().map(|(_, p)| p.as_slice()).collect();
-            let found = self.sums.many(&places)?;
+            let found = self.reduced(&places)?;
             steps += trials.len();
             let costs: Vec<f64> = found.iter().map(|at| at.cost).collect();
             for ((i, p), at) in trials.into_iter().zip(found) {
                 walks[i].take(p, at);
             }
-            self.report(costs.into_iter(), watch);
+            self.report(&costs, true, watch);
         }
-        let mut ends: Vec<(f64, Vec<f64>)> = walks
-            .into_iter()
-            .map(|walk| (walk.now.cost, walk.p))
-            .collect();
-        ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let end = |walk: Walk| End {
+            cost: walk.now.cost,
+            settled: walk.status != Status::Budget,
+            p: walk.p,
+        };
+        let mut ends: Vec<End> = walks.into_iter().map(end).collect();
+        ends.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         Some(Minima { ends, steps })
     }
+}
+
+/// So that no number is the worst.
+fn or_worst(cost: f64) -> f64 {
+    if cost.is_nan() { f64::INFINITY } else { cost }
+}
+
+/// Indices of points, the least cost first.
+fn best_first(points: &[(Vec<f64>, f64)]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|&a, &b| points[a].1.total_cmp(&points[b].1));
+    order
 }
 
 /// Leaves out walks that have come to where a better one stands.

@@ -8,7 +8,8 @@ use crate::separable::reduced::{Products, Reduced};
 use std::borrow::Cow;
 use std::sync::Arc;
 use stiction_lanes::{
-    InstructionSet, Segment, Sums, Time, Track, Trial, shared_sums, sums, sums_alone, trace,
+    InstructionSet, Segment, Sums, Time, Track, Trial, levels, shared_sums, slopes, sums,
+    sums_alone, trace,
 };
 
 /// A record as the kernels read it.
@@ -106,7 +107,7 @@ impl InLanes {
         if !Self::knows(law) {
             return None;
         }
-        let keep: Vec<Vec<bool>> = record.segments.iter().map(|s| kept(record, s)).collect();
+        let keep: Vec<Cow<[bool]>> = record.segments.iter().map(|s| kept(record, s)).collect();
         let columns: Vec<Vec<&[f64]>> = (0..record.segments.len())
             .map(|s| columns.iter().map(|c| &*c[s]).collect())
             .collect();
@@ -180,6 +181,23 @@ impl InLanes {
         Some(out)
     }
 
+    /// The derivatives of `weights[0] eta + weights[1] rate` along each segment, one column for each unknown;
+    /// `None` for unknowns that the kernels refuse.
+    pub fn slopes(&self, p: &[f64], weights: [f64; 2]) -> Option<Vec<Vec<Vec<f64>>>> {
+        let found = slopes(&self.track, &self.trial(p), weights, InstructionSet::best()).ok()?;
+        let mut whole: Vec<Vec<f64>> = found.into_iter().take(self.unknowns).collect();
+        let mut out = Vec::with_capacity(self.lengths.len());
+        for (i, &n) in self.lengths.iter().enumerate().rev() {
+            let last = |column: &mut Vec<f64>| match i {
+                0 => std::mem::take(column),
+                _ => column.split_off(column.len() - n),
+            };
+            out.push(whole.iter_mut().map(last).collect());
+        }
+        out.reverse();
+        Some(out)
+    }
+
     /// The reduced problem at a trial, samples in lanes; `None` for unknowns that the kernels refuse, or a
     /// record that was not made for it.
     pub fn reduced(&self, p: &[f64]) -> Option<Reduced> {
@@ -197,6 +215,15 @@ impl InLanes {
         let reduce = |sums| summed.reduce(sums, self.unknowns);
         Some(found.iter().map(reduce).collect())
     }
+
+    /// The costs alone of many trials, likewise.
+    pub fn costs(&self, trials: &[&[f64]]) -> Option<Vec<f64>> {
+        let summed = self.summed.as_ref()?;
+        let trials: Vec<Trial> = trials.iter().map(|p| self.trial(p)).collect();
+        let found = levels(&self.track, &trials, InstructionSet::best()).ok()?;
+        let cost = |own| Reduced::cost(&Made { summed, own }, &summed.nonnegative, summed.held);
+        Some(found.iter().map(cost).collect())
+    }
 }
 
 impl Summed {
@@ -207,12 +234,12 @@ impl Summed {
 }
 
 /// The products of one trial.
-struct Made<'a> {
+struct Made<'a, const C: usize> {
     summed: &'a Summed,
-    own: &'a Sums,
+    own: &'a Sums<C>,
 }
 
-impl Made<'_> {
+impl<const C: usize> Made<'_, C> {
     fn product(&self, a: Place, b: Place) -> f64 {
         match (a, b) {
             (Place::Own(i), Place::Own(j)) => self.own.own[i][j],
@@ -235,7 +262,7 @@ impl Made<'_> {
     }
 }
 
-impl Products for Made<'_> {
+impl<const C: usize> Products for Made<'_, C> {
     fn linear(&self, i: usize, j: usize) -> f64 {
         self.product(self.summed.places[i], self.summed.places[j])
     }
@@ -268,16 +295,17 @@ impl Products for Made<'_> {
     }
 }
 
-/// Which samples of the full rate count.
-fn kept(record: &Record, segment: &record::Segment) -> Vec<bool> {
+/// Which samples of the full rate count; none said where all do.
+fn kept<'s>(record: &Record, segment: &'s record::Segment) -> Cow<'s, [bool]> {
     if record.decimate == 1 {
-        return segment.keep.clone();
+        let whole = segment.counts_whole();
+        return if whole { &[] } else { &segment.keep[..] }.into();
     }
     let mut out = vec![false; segment.velocity.len()];
     for (to, keep) in out.iter_mut().step_by(record.decimate).zip(&segment.keep) {
         *to = *keep;
     }
-    out
+    out.into()
 }
 
 /// A column at the kept samples, put back to the full rate of each segment.

@@ -11,16 +11,37 @@ const MOST_TRIED: usize = 6;
 
 /// Sum of products in a fixed order: four partial sums for speed, the same bits everywhere.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let (wide_a, rest_a) = a.as_chunks::<4>();
-    let (wide_b, rest_b) = b.as_chunks::<4>();
-    for (x, y) in wide_a.iter().zip(wide_b) {
-        for lane in 0..4 {
-            sums[lane] += x[lane] * y[lane];
+    let mut sum = Dot::default();
+    sum.add(a, b);
+    sum.sum()
+}
+
+/// A sum of products that comes in parts, of which all but the last are multiples of four long.
+#[derive(Clone, Copy, Default)]
+struct Dot {
+    sums: [f64; 4],
+    tail: f64,
+}
+
+impl Dot {
+    #[inline]
+    fn add(&mut self, a: &[f64], b: &[f64]) {
+        let mut sums = self.sums;
+        let (wide_a, rest_a) = a.as_chunks::<4>();
+        let (wide_b, rest_b) = b.as_chunks::<4>();
+        for (x, y) in wide_a.iter().zip(wide_b) {
+            for lane in 0..4 {
+                sums[lane] += x[lane] * y[lane];
+            }
         }
+        self.sums = sums;
+        self.tail = rest_a.iter().zip(rest_b).map(|(x, y)| x * y).sum();
     }
-    let tail: f64 = rest_a.iter().zip(rest_b).map(|(x, y)| x * y).sum();
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + tail
+
+    fn sum(self) -> f64 {
+        let [a, b, c, d] = self.sums;
+        (a + b) + (c + d) + self.tail
+    }
 }
 
 /// Solution of the inner problem.
@@ -96,6 +117,22 @@ impl Factor {
         )
     }
 
+    /// Takes `Phi c` of the active columns from the samples from `start` on.
+    fn subtract(&self, columns: &[&[f64]], c: &[f64], start: usize, from: &mut [f64]) {
+        for (x, &j) in c.iter().zip(&self.columns) {
+            for (r, phi) in from.iter_mut().zip(&columns[j][start..]) {
+                *r -= x * phi;
+            }
+        }
+    }
+
+    /// The same from all samples.
+    fn subtract_all(&self, columns: &[&[f64]], c: &[f64], from: &mut [f64]) {
+        for (start, part) in (0..).step_by(CHUNK).zip(from.chunks_mut(CHUNK)) {
+            self.subtract(columns, c, start, part);
+        }
+    }
+
     /// Indices of the active columns.
     pub fn columns(&self) -> &[usize] {
         &self.columns
@@ -112,35 +149,39 @@ impl Factor {
 }
 
 impl Solution {
-    /// Part of `d` that the active columns cannot express.
-    pub fn outside(&self, columns: &[&[f64]], d: &[f64]) -> Vec<f64> {
-        let rhs: Vec<f64> = self
-            .factor
-            .columns
+    /// `J^T J` of the reduced problem (Kaufman) for the derivatives of the model: the products of their parts that
+    /// the active columns cannot express.
+    pub fn curvature(&self, columns: &[&[f64]], slopes: &[Vec<f64>]) -> DMatrix<f64> {
+        let inside: Vec<Vec<f64>> = slopes
             .iter()
-            .map(|&j| dot(columns[j], d))
+            .map(|d| {
+                let taken = self.factor.columns.iter();
+                self.factor
+                    .solve(&taken.map(|&j| dot(columns[j], d)).collect::<Vec<f64>>())
+            })
             .collect();
-        let c = self.factor.solve(&rhs);
-        residual(columns, &self.factor, &c, d)
+        let k = slopes.len();
+        let mut sums = vec![Dot::default(); k * k];
+        let mut outside = vec![[0.0; CHUNK]; k];
+        for start in (0..self.residual.len()).step_by(CHUNK) {
+            let end = self.residual.len().min(start + CHUNK);
+            for ((outside, d), c) in outside.iter_mut().zip(slopes).zip(&inside) {
+                let part = &mut outside[..end - start];
+                part.copy_from_slice(&d[start..end]);
+                self.factor.subtract(columns, c, start, part);
+            }
+            for i in 0..k {
+                for j in 0..=i {
+                    sums[i * k + j].add(&outside[i][..end - start], &outside[j][..end - start]);
+                }
+            }
+        }
+        DMatrix::from_fn(k, k, |i, j| sums[i.max(j) * k + i.min(j)].sum())
     }
 }
 
 /// Samples that stay in the nearest cache while every column is taken from them.
 const CHUNK: usize = 512;
-
-/// `u - Phi c` for the active columns.
-fn residual(columns: &[&[f64]], factor: &Factor, c: &[f64], u: &[f64]) -> Vec<f64> {
-    let mut out = Vec::with_capacity(u.len());
-    for (start, part) in (0..).step_by(CHUNK).zip(u.chunks(CHUNK)) {
-        out.extend_from_slice(part);
-        for (x, &j) in c.iter().zip(&factor.columns) {
-            for (r, phi) in out[start..].iter_mut().zip(&columns[j][start..]) {
-                *r -= x * phi;
-            }
-        }
-    }
-    out
-}
 
 /// The factor of the columns that take part, their coefficients in its order, and the columns that depend on
 /// others.
@@ -229,7 +270,8 @@ pub(crate) fn solve(columns: &[&[f64]], bounded: &[bool], u: &[f64]) -> Solution
         energy: dot(u, u),
     };
     let (factor, mut c, dropped) = normal.solve(bounded);
-    let r = residual(columns, &factor, &c, u);
+    let mut r = u.to_vec();
+    factor.subtract_all(columns, &c, &mut r);
     let correction: Vec<f64> = factor
         .columns
         .iter()
@@ -238,7 +280,8 @@ pub(crate) fn solve(columns: &[&[f64]], bounded: &[bool], u: &[f64]) -> Solution
     for (x, d) in c.iter_mut().zip(factor.solve(&correction)) {
         *x += d;
     }
-    let r = residual(columns, &factor, &c, u);
+    r.copy_from_slice(u);
+    factor.subtract_all(columns, &c, &mut r);
 
     let mut coefficients = vec![0.0; m];
     let mut active = vec![false; m];

@@ -29,7 +29,7 @@ pub struct Objective<'a> {
     /// rate of each segment.
     varying: Vec<Varying>,
     /// Measured force.
-    force: Vec<f64>,
+    force: Cow<'a, [f64]>,
     /// A mass that is given, and the acceleration.
     inertia: Option<(f64, Fixed)>,
     /// Sum of squares of the measured force at the kept samples.
@@ -130,7 +130,7 @@ impl<'a> Objective<'a> {
                 _ => None,
             })
             .collect();
-        let force = record.gather(|s| &s.force);
+        let force = record.whole(|s| &s.force);
         let energy = dot(&force, &force);
         let nonnegative = linear.iter().map(|term| term.nonnegative).collect();
         let inertia = match terms.mass {
@@ -235,7 +235,7 @@ impl<'a> Objective<'a> {
     pub fn evaluate(&self, p: &[f64], slopes: bool) -> Evaluation {
         let mut traces = self.traces(p, slopes);
         let shift = self.shift(p);
-        let mut columns = self.columns(&traces, shift);
+        let mut columns = self.columns(&mut traces, shift);
         let target = self.without_held(&mut columns, shift);
         let views: Vec<&[f64]> = columns.iter().map(|column| column.as_slice()).collect();
         let mut solution = linear::solve(&views, &self.nonnegative, &target);
@@ -247,21 +247,9 @@ impl<'a> Objective<'a> {
         } else {
             Vec::new()
         };
-        let k = slope_columns.len();
-        let mut hessian = DMatrix::zeros(k, k);
-        let mut descent = DVector::zeros(k);
-        let mut projected: Vec<Vec<f64>> = Vec::with_capacity(k);
-        for (i, d) in slope_columns.iter().enumerate() {
-            descent[i] = dot(d, &solution.residual);
-            let outside = solution.outside(&views, d);
-            for (j, other) in projected.iter().enumerate() {
-                let x = dot(other, &outside);
-                hessian[(i, j)] = x;
-                hessian[(j, i)] = x;
-            }
-            hessian[(i, i)] = dot(&outside, &outside);
-            projected.push(outside);
-        }
+        let hessian = solution.curvature(&views, &slope_columns);
+        let descent = slope_columns.iter().map(|d| dot(d, &solution.residual));
+        let descent = DVector::from_iterator(slope_columns.len(), descent);
         Evaluation {
             cost: solution.cost,
             solution,
@@ -322,7 +310,7 @@ impl<'a> Objective<'a> {
 
     /// The columns of the regression at the kept samples.
     pub(crate) fn columns_at(&self, p: &[f64]) -> Vec<Column> {
-        self.columns(&self.traces(p, false), self.shift(p))
+        self.columns(&mut self.traces(p, false), self.shift(p))
     }
 
     /// Every term of the model force at the kept samples, in the order of the linear unknowns.
@@ -365,7 +353,11 @@ impl<'a> Objective<'a> {
     fn traces(&self, p: &[f64], slopes: bool) -> Vec<Run> {
         let p = &p[..self.law.nonlinear()];
         let segments = &self.record.segments;
-        let in_lanes = self.lanes().and_then(|lanes| lanes.traces(p, slopes));
+        // Where one level does for all samples, the kernels weigh the derivatives as they make them.
+        let in_lanes = self.lanes().and_then(|lanes| {
+            let apart = slopes && !self.varying.is_empty();
+            lanes.traces(p, apart)
+        });
         let traces = in_lanes.unwrap_or_else(|| {
             let along = |s: &Segment| trace(&self.law, p, s.step, &s.velocity, slopes);
             segments.iter().map(along).collect()
@@ -392,8 +384,10 @@ impl<'a> Objective<'a> {
     }
 
     /// The columns of the regression at the kept samples.
-    fn columns(&self, runs: &[Run], shift: Shift) -> Vec<Column> {
-        let gather = |of: &dyn Fn(&Run) -> Option<&Vec<f64>>| {
+    fn columns(&self, runs: &mut [Run], shift: Shift) -> Vec<Column> {
+        // Whether eta is needed again, beside the column that it is.
+        let again = !self.varying.is_empty() || self.delay == Delay::Fitted;
+        let gather = |runs: &[Run], of: &dyn Fn(&Run) -> Option<&Vec<f64>>| {
             let mut out = Vec::with_capacity(self.force.len());
             for (segment, run) in self.record.segments.iter().zip(runs) {
                 if let Some(full) = of(run) {
@@ -402,7 +396,15 @@ impl<'a> Objective<'a> {
             }
             Arc::new(out)
         };
-        let own = |column: usize| gather(&|run| run.own(column));
+        let own = |runs: &mut [Run], column: usize| match (&self.record.segments[..], runs) {
+            ([segment], [run]) if !again => {
+                let mut out = Vec::new();
+                let full = run.take(column);
+                self.record.thin_whole(segment, full, shift, &mut out);
+                Arc::new(out)
+            }
+            (_, runs) => gather(runs, &|run| run.own(column)),
+        };
         // They were made in the order of the linear unknowns.
         let mut next = 0..;
         self.linear
@@ -410,13 +412,13 @@ impl<'a> Objective<'a> {
             .zip(&self.fixed)
             .map(|(term, fixed)| match (fixed, term.column) {
                 (Some(column), _) => self.at(column, shift),
-                (None, ColumnKind::Rate) => own(1),
-                (None, ColumnKind::Element(k)) => own(2 + k),
+                (None, ColumnKind::Rate) => own(runs, 1),
+                (None, ColumnKind::Element(k)) => own(runs, 2 + k),
                 (None, ColumnKind::LevelTimes(..)) => {
                     let k = next.next().unwrap_or_default();
-                    gather(&|run| run.varying.get(k))
+                    gather(runs, &|run| run.varying.get(k))
                 }
-                (None, _) => own(0),
+                (None, _) => own(runs, 0),
             })
             .collect()
     }
@@ -436,10 +438,17 @@ impl<'a> Objective<'a> {
         }
         let k = self.law.nonlinear();
         let shift = self.shift(p);
+        let weighed = self
+            .lanes()
+            .filter(|_| self.varying.is_empty())
+            .and_then(|lanes| lanes.slopes(&p[..k], [c_eta, c_rate]));
+        let mut weighed = weighed.into_iter().flatten();
         let mut out = vec![Vec::new(); k];
         for (s, (segment, run)) in self.record.segments.iter().zip(&mut *runs).enumerate() {
             let t = &mut run.trace;
-            let mut full = if self.law.kind.has_elements() {
+            let mut full = if let Some(full) = weighed.next() {
+                full
+            } else if self.law.kind.has_elements() {
                 let slope = |i| gms::recursion::slope(&t.elements, i, coefficients);
                 (0..k).map(slope).collect()
             } else {
@@ -469,7 +478,7 @@ impl<'a> Objective<'a> {
     }
 
     /// Derivative of the model with respect to the delay, per sample.
-    fn delay_slope(&self, runs: &[Run], p: &[f64], coefficients: &[f64]) -> Vec<f64> {
+    fn delay_slope(&self, runs: &mut [Run], p: &[f64], coefficients: &[f64]) -> Vec<f64> {
         let slope = Shift::slope(p.last().copied().unwrap_or(0.0));
         let mut out = vec![0.0; self.force.len()];
         let mut add = |c: f64, column: &[f64]| {
@@ -477,7 +486,7 @@ impl<'a> Objective<'a> {
                 *y += c * x;
             }
         };
-        for (column, &c) in self.columns(runs, slope).iter().zip(coefficients) {
+        for (column, &c) in self.columns(&mut *runs, slope).iter().zip(coefficients) {
             add(c, column);
         }
         if let Some(inertia) = self.inertia_force(slope) {
@@ -537,6 +546,16 @@ impl Run {
             self.filtered.get(column)
         }
     }
+
+    /// The same; a column of the law itself, if it is no element, is not there afterwards.
+    fn take(&mut self, column: usize) -> Vec<f64> {
+        let taken = match column {
+            0 if self.filtered.is_empty() => Some(std::mem::take(&mut self.trace.eta)),
+            1 if self.filtered.is_empty() => Some(std::mem::take(&mut self.trace.rate)),
+            _ => None,
+        };
+        taken.unwrap_or_else(|| self.own(column).cloned().unwrap_or_default())
+    }
 }
 
 fn difference(from: &[f64], part: &[f64]) -> Vec<f64> {
@@ -581,9 +600,9 @@ fn fixed_column(record: &Record, column: ColumnKind, moves: bool) -> Option<Fixe
     if moves {
         return Some(Fixed::Full(full));
     }
-    let mut thin = Vec::with_capacity(record.kept());
-    for (segment, full) in record.segments.iter().zip(&full) {
-        record.thin(segment, full, Shift::NONE, &mut thin);
+    let mut thin = Vec::new();
+    for (segment, full) in record.segments.iter().zip(full) {
+        record.thin_whole(segment, full, Shift::NONE, &mut thin);
     }
     Some(Fixed::Thin(Arc::new(thin)))
 }

@@ -1,6 +1,6 @@
 //! The reduced problem at a trial: cost, gradient and curvature in the nonlinear unknowns alone.
 
-use crate::separable::linear::Normal;
+use crate::separable::linear::{Factor, Normal};
 use nalgebra::{DMatrix, DVector};
 
 /// What a step of the search needs to know of a trial.
@@ -43,27 +43,7 @@ impl Reduced {
         held: Option<(usize, f64)>,
     ) -> Self {
         let m = bounded.len();
-        let whole = Normal {
-            gram: DMatrix::from_fn(m, m, |i, j| products.linear(i, j)),
-            rhs: (0..m).map(|i| products.target(i)).collect(),
-            energy: products.energy(),
-        };
-        let (factor, found, _) = match held {
-            None => whole.solve(bounded),
-            Some((j, value)) => without(&whole, j, value).solve(bounded),
-        };
-        let mut c = vec![0.0; m];
-        for (&j, &x) in factor.columns().iter().zip(&found) {
-            c[j] = x;
-        }
-        if let Some((j, value)) = held {
-            c[j] = value;
-        }
-        let mut cost = whole.energy;
-        for i in 0..m {
-            let model: f64 = (0..m).map(|j| whole.gram[(i, j)] * c[j]).sum();
-            cost += c[i] * (model - 2.0 * whole.rhs[i]);
-        }
+        let (factor, c, cost) = linear(products, bounded, held);
         let rows: Vec<Vec<f64>> = (0..unknowns)
             .map(|k| (0..m).map(|i| products.slope_linear(k, i, &c)).collect())
             .collect();
@@ -88,11 +68,51 @@ impl Reduced {
             }
         }
         Self {
-            cost: cost.max(0.0),
+            cost,
             hessian,
             descent,
         }
     }
+
+    /// The cost alone.
+    pub(super) fn cost(
+        products: &impl Products,
+        bounded: &[bool],
+        held: Option<(usize, f64)>,
+    ) -> f64 {
+        linear(products, bounded, held).2
+    }
+}
+
+/// The linear problem: its factor, the coefficients, and the cost.
+fn linear(
+    products: &impl Products,
+    bounded: &[bool],
+    held: Option<(usize, f64)>,
+) -> (Factor, Vec<f64>, f64) {
+    let m = bounded.len();
+    let whole = Normal {
+        gram: DMatrix::from_fn(m, m, |i, j| products.linear(i, j)),
+        rhs: (0..m).map(|i| products.target(i)).collect(),
+        energy: products.energy(),
+    };
+    let (factor, found, _) = match held {
+        None => whole.solve(bounded),
+        Some((j, value)) => without(&whole, j, value).solve(bounded),
+    };
+    let mut c = vec![0.0; m];
+    for (&j, &x) in factor.columns().iter().zip(&found) {
+        c[j] = x;
+    }
+    if let Some((j, value)) = held {
+        c[j] = value;
+    }
+    let mut cost = whole.energy;
+    for i in 0..m {
+        let model: f64 = (0..m).map(|j| whole.gram[(i, j)] * c[j]).sum();
+        cost += c[i] * (model - 2.0 * whole.rhs[i]);
+    }
+    (factor, c, cost.max(0.0))
 }
 
 /// The same with the part of one column taken from the target, and the column emptied.

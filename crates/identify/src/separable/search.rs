@@ -5,7 +5,7 @@ use crate::law::terms::Terms;
 use crate::law::{Law, LawKind};
 use crate::observe::{Control, Stage};
 use crate::separable::Settings;
-use crate::separable::coarse::Coarse;
+use crate::separable::coarse::{Coarse, End};
 use crate::separable::levenberg::{Descent, Status, Watch, descend};
 use crate::separable::objective::Objective;
 use crate::separable::search_box::SearchBox;
@@ -120,6 +120,7 @@ impl<'a> Search<'a> {
             objective: first,
             sums: first.sums()?,
             bounds,
+            few: false,
             patience: PATIENCE[0],
         };
         let mut minima = coarse.minima(
@@ -134,16 +135,20 @@ impl<'a> Search<'a> {
                 objective,
                 sums,
                 bounds,
+                few: true,
                 patience: PATIENCE[1],
             };
             self.iterations += minima.steps;
-            let points = minima.ends.into_iter().map(|(_, p)| p).collect();
+            let most = FAR * minima.ends.first()?.cost;
+            let ends = minima.ends.into_iter();
+            let points = ends.filter(|end| !end.settled || end.cost <= most);
+            let points = points.map(|end| end.p).collect();
             minima = coarse.followed(points, watch)?;
         }
         self.iterations += minima.steps;
-        let most = NEARLY * minima.ends.first()?.0;
+        let most = NEARLY * minima.ends.first()?.cost;
         let mut starts: Vec<Vec<f64>> = Vec::new();
-        for (cost, p) in minima.ends {
+        for End { p, cost, .. } in minima.ends {
             let counts = starts.is_empty() || cost <= most;
             if counts && !starts.iter().any(|other| same(&p, other)) {
                 starts.push(p);

@@ -53,8 +53,8 @@ impl<const N: usize> Kernel for Explicit<'_, N> {
             if marks & SAMPLE == 0 {
                 continue;
             }
-            let v = track.sign[k] * track.speed[k];
-            let force = track.sign[k] * track.force[k];
+            let v = f64::from(track.sign[k]) * track.speed[k];
+            let force = f64::from(track.sign[k]) * track.force[k];
             let middle = 0.5 * (before + v);
             let ln = libm::log(track.speed[k]);
             let ln_middle = libm::log(middle.abs());

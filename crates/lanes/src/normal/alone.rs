@@ -1,6 +1,6 @@
 //! One trial: samples in lanes.
 
-use super::gram::{BLOCK as FOUR, Gram, LANES, Row, SharedRow};
+use super::gram::{Columns, Gram, LANES};
 use super::{Sums, shared};
 use crate::Track;
 use crate::curve::{Curve, START, Speed, reversed};
@@ -32,8 +32,6 @@ impl<const POWER: bool> Kernel for Alone<'_, POWER> {
             track,
             gram: Gram::new(shared.len()),
             shared,
-            rows: [Aligned([[0.0; LANES]; OWN]); BLOCK / LANES],
-            shared_rows: [Aligned([[0.0; LANES]; FOUR]); BLOCK / LANES],
         };
         along::<POWER>(track, &self.curve, &mut adding);
         adding.gram.sums(|lanes| lanes.iter().sum())
@@ -51,36 +49,68 @@ struct Adding<'a> {
     track: &'a Track,
     gram: Gram,
     shared: Vec<&'a [f64]>,
-    rows: [Row; BLOCK / LANES],
-    shared_rows: [SharedRow; BLOCK / LANES],
 }
 
 impl Sink for Adding<'_> {
     #[inline(always)]
     fn block(&mut self, at: usize, own: &[[f64; BLOCK]; OWN]) {
         let marks: &[u8; BLOCK] = chunk(&self.track.marks, at);
+        let shared = Along {
+            columns: &self.shared,
+            at,
+        };
+        let mut all = KEPT;
+        for t in 0..BLOCK {
+            all &= marks[t];
+        }
+        if all != 0 {
+            self.gram.add(&Made(own), &shared);
+            return;
+        }
         let mut counts = [0.0; BLOCK];
         for t in 0..BLOCK {
             counts[t] = f64::from(marks[t] & KEPT) / f64::from(KEPT);
         }
+        let mut left = *own;
         for c in 0..OWN {
-            let mut column = [0.0; BLOCK];
             for t in 0..BLOCK {
-                column[t] = counts[t] * own[c][t];
-            }
-            for r in 0..BLOCK / LANES {
-                self.rows[r].0[c] = *chunk(&column, LANES * r);
+                left[c][t] *= counts[t];
             }
         }
-        self.gram.add_own(&self.rows);
-        for b in 0..self.gram.shared_blocks() {
-            for (s, column) in self.shared.iter().skip(b * FOUR).take(FOUR).enumerate() {
-                for r in 0..BLOCK / LANES {
-                    self.shared_rows[r].0[s] = *chunk(column, at + LANES * r);
-                }
-            }
-            self.gram.add_shared(b, &self.shared_rows, &self.rows);
-        }
+        self.gram.add(&Made(&left), &shared);
+    }
+}
+
+/// The own columns of a block, eight samples at a place.
+struct Made<'a>(&'a [[f64; BLOCK]; OWN]);
+
+impl Columns for Made<'_> {
+    #[inline(always)]
+    fn places(&self) -> usize {
+        BLOCK / LANES
+    }
+
+    #[inline(always)]
+    fn at(&self, place: usize, column: usize) -> [f64; LANES] {
+        *chunk(&self.0[column], LANES * place)
+    }
+}
+
+/// Shared columns from a node on, eight samples at a place.
+struct Along<'a> {
+    columns: &'a [&'a [f64]],
+    at: usize,
+}
+
+impl Columns for Along<'_> {
+    #[inline(always)]
+    fn places(&self) -> usize {
+        BLOCK / LANES
+    }
+
+    #[inline(always)]
+    fn at(&self, place: usize, column: usize) -> [f64; LANES] {
+        *chunk(self.columns[column], self.at + LANES * place)
     }
 }
 
@@ -126,9 +156,18 @@ pub(crate) fn along<const POWER: bool>(track: &Track, curve: &Curve, sink: &mut 
         // The deviation first, which nothing else is needed for.
         let [keep, add, ..] = &interval_rows.0;
         let g = &node_rows.0[0];
+        let mut turns = 0;
+        for t in 0..BLOCK {
+            turns |= marks[t] & (RESTART | REVERSE);
+        }
         for t in 0..BLOCK {
             before.0[t] = w;
             w = fma(keep[t], w, add[t]);
+            // Most blocks have no such node, and the branch alone costs as much as the step.
+            if turns == 0 {
+                now.0[t] = w;
+                continue;
+            }
             if marks[t] & RESTART != 0 {
                 w = -g[t + 1];
             }
@@ -146,7 +185,7 @@ pub(crate) fn along<const POWER: bool>(track: &Track, curve: &Curve, sink: &mut 
             for k in 0..UNKNOWNS {
                 w_slope[k] = fma(keep[t], w_slope[k], slopes.0[k][t]);
             }
-            if marks[t] & (RESTART | REVERSE) == 0 {
+            if turns == 0 || marks[t] & (RESTART | REVERSE) == 0 {
                 write(&mut slopes.0, t, w_slope);
                 continue;
             }

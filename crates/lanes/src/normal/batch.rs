@@ -1,13 +1,13 @@
 //! Trials in lanes.
 
-use super::gram::{BLOCK as FOUR, Gram, LANES, Row, SharedRow};
+use super::gram::{Columns, Gram, LANES};
 use super::{Sums, shared};
 use crate::Track;
 use crate::curve::{Curve, START, Speed, reversed};
 use crate::dispatch::Kernel;
 use crate::exp::fma;
 use crate::lane_array::{Aligned, lanes, read, write};
-use crate::sensitive::{Interval, Node, UNKNOWNS, columns, intervals, nodes, slope_adds};
+use crate::sensitive::{Interval, Node, OWN, UNKNOWNS, columns, intervals, nodes, slope_adds};
 use crate::track::{HALF, KEPT, RESTART, REVERSE, TILE};
 
 pub(super) struct Batch<'a, const POWER: bool> {
@@ -18,7 +18,7 @@ pub(super) struct Batch<'a, const POWER: bool> {
 
 /// The curve of each lane, one array for each number.
 #[repr(C, align(64))]
-struct Curves {
+pub(super) struct Curves {
     rate: [f64; LANES],
     excess: [f64; LANES],
     fall: [f64; LANES],
@@ -27,8 +27,21 @@ struct Curves {
 }
 
 impl Curves {
+    /// Lanes to spare repeat the last of the group.
+    pub fn new(group: &[Curve]) -> Self {
+        let all: [Curve; LANES] = lanes(group, |c| *c);
+        let each = |f: fn(&Curve) -> f64| all.each_ref().map(f);
+        Curves {
+            rate: each(|c| c.rate),
+            excess: each(|c| c.excess),
+            fall: each(|c| c.fall),
+            exponent: each(|c| c.exponent),
+            ln_velocity: each(|c| c.ln_velocity),
+        }
+    }
+
     #[inline(always)]
-    fn at(&self, j: usize) -> Curve {
+    pub fn at(&self, j: usize) -> Curve {
         Curve {
             rate: self.rate[j],
             excess: self.excess[j],
@@ -41,19 +54,47 @@ impl Curves {
 
 impl<'a, const POWER: bool> Batch<'a, POWER> {
     pub fn new(track: &'a Track, group: &[Curve]) -> Self {
-        let all: [Curve; LANES] = lanes(group, |c| *c);
-        let each = |f: fn(&Curve) -> f64| all.each_ref().map(f);
         Batch {
             track,
-            curves: Curves {
-                rate: each(|c| c.rate),
-                excess: each(|c| c.excess),
-                fall: each(|c| c.fall),
-                exponent: each(|c| c.exponent),
-                ln_velocity: each(|c| c.ln_velocity),
-            },
+            curves: Curves::new(group),
             used: group.len(),
         }
+    }
+}
+
+/// The own columns at a node, for each lane.
+type Row = Aligned<[[f64; LANES]; OWN]>;
+
+/// The own columns at the nodes that count.
+struct Made<'a>(&'a [Row]);
+
+impl Columns for Made<'_> {
+    #[inline(always)]
+    fn places(&self) -> usize {
+        self.0.len()
+    }
+
+    #[inline(always)]
+    fn at(&self, place: usize, column: usize) -> [f64; LANES] {
+        self.0[place].0[column]
+    }
+}
+
+/// Shared columns at the nodes that count, the same in every lane.
+struct Broadcast<'a> {
+    columns: &'a [&'a [f64]],
+    nodes: &'a [usize],
+}
+
+impl Columns for Broadcast<'_> {
+    #[inline(always)]
+    fn places(&self) -> usize {
+        self.nodes.len()
+    }
+
+    #[inline(always)]
+    fn at(&self, place: usize, column: usize) -> [f64; LANES] {
+        [self.columns[column][self.nodes[place]]; LANES]
     }
 }
 
@@ -78,8 +119,7 @@ impl<const POWER: bool> Kernel for Batch<'_, POWER> {
         let start = Node::START.map(|x| [x; LANES]);
         let mut node_rows: Rows<6, { TILE + 1 }> = Aligned([start; TILE + 1]);
         let mut interval_rows: Rows<8, TILE> = Aligned([[[0.0; LANES]; 8]; TILE]);
-        let mut own: [Row; TILE] = [Aligned([[0.0; LANES]; 8]); TILE];
-        let mut shared_rows: [SharedRow; TILE] = [Aligned([[0.0; LANES]; FOUR]); TILE];
+        let mut own: [Row; TILE] = [Aligned([[0.0; LANES]; OWN]); TILE];
         for at in (0..track.speed.len()).step_by(TILE) {
             for t in 0..HALF {
                 let speed = |t: usize| Speed {
@@ -143,15 +183,11 @@ impl<const POWER: bool> Kernel for Batch<'_, POWER> {
                     }
                 }
             }
-            gram.add_own(&own[..count]);
-            for b in 0..gram.shared_blocks() {
-                for (s, column) in shared.iter().skip(b * FOUR).take(FOUR).enumerate() {
-                    for (row, &at) in shared_rows.iter_mut().zip(&kept[..count]) {
-                        row.0[s] = [column[at]; LANES];
-                    }
-                }
-                gram.add_shared(b, &shared_rows[..count], &own[..count]);
-            }
+            let shared = Broadcast {
+                columns: &shared,
+                nodes: &kept[..count],
+            };
+            gram.add(&Made(&own[..count]), &shared);
             node_rows.0[0] = node_rows.0[TILE];
         }
         (0..self.used)

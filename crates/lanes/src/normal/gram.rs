@@ -3,17 +3,12 @@
 use super::Sums;
 use crate::exp::fma;
 use crate::lane_array::Aligned;
-use crate::sensitive::OWN;
 
 /// Lanes of a sum.
 pub(super) const LANES: usize = 8;
 /// Columns whose products are added up together, in registers.
-pub(super) const BLOCK: usize = 4;
+const BLOCK: usize = 4;
 
-/// The own columns at a node, for each lane.
-pub(super) type Row = Aligned<[[f64; LANES]; OWN]>;
-/// Four shared columns at a node, for each lane.
-pub(super) type SharedRow = Aligned<[[f64; LANES]; BLOCK]>;
 type Products = [[[f64; LANES]; BLOCK]; BLOCK];
 
 /// Running sums of products.
@@ -26,6 +21,14 @@ pub(super) struct Gram {
 
 const NONE: Aligned<Products> = Aligned([[[0.0; LANES]; BLOCK]; BLOCK]);
 
+/// Columns at some places, in lanes. Its methods must be `#[inline(always)]`.
+pub(super) trait Columns {
+    /// How many places there are.
+    fn places(&self) -> usize;
+    /// A column at a place.
+    fn at(&self, place: usize, column: usize) -> [f64; LANES];
+}
+
 impl Gram {
     /// For this many shared columns.
     pub fn new(count: usize) -> Self {
@@ -36,25 +39,23 @@ impl Gram {
         }
     }
 
-    /// Adds the products of own columns.
+    /// Adds the products of own columns with each other and with the shared ones, at the places of the own.
     #[inline(always)]
-    pub fn add_own(&mut self, rows: &[Row]) {
-        add(&mut self.own[0].0, rows, 0, rows, 0);
-        add(&mut self.own[1].0, rows, BLOCK, rows, 0);
-        add(&mut self.own[2].0, rows, BLOCK, rows, BLOCK);
-    }
-
-    /// How many times [`add_shared`](Self::add_shared) is to be called.
-    pub fn shared_blocks(&self) -> usize {
-        self.shared.len()
-    }
-
-    /// Adds the products with the `b`-th four shared columns; what is beyond the last column is not read.
-    #[inline(always)]
-    pub fn add_shared(&mut self, b: usize, shared: &[SharedRow], rows: &[Row]) {
-        let [first, last] = &mut self.shared[b];
-        add(&mut first.0, shared, 0, rows, 0);
-        add(&mut last.0, shared, 0, rows, BLOCK);
+    pub fn add(&mut self, own: &impl Columns, shared: &impl Columns) {
+        add::<true, BLOCK>(&mut self.own[0].0, own, 0, own, 0);
+        add::<false, BLOCK>(&mut self.own[1].0, own, BLOCK, own, 0);
+        add::<true, BLOCK>(&mut self.own[2].0, own, BLOCK, own, BLOCK);
+        for (b, [low, high]) in self.shared.iter_mut().enumerate() {
+            let first = b * BLOCK;
+            for (sums, of) in [(&mut low.0, 0), (&mut high.0, BLOCK)] {
+                match self.count - first {
+                    1 => add::<false, 1>(sums, shared, first, own, of),
+                    2 => add::<false, 2>(sums, shared, first, own, of),
+                    3 => add::<false, 3>(sums, shared, first, own, of),
+                    _ => add::<false, BLOCK>(sums, shared, first, own, of),
+                }
+            }
+        }
     }
 
     /// The sums, where `pick` makes one number of the lanes.
@@ -75,21 +76,27 @@ impl Gram {
     }
 }
 
+/// Adds the products of `ROWS` columns of one with four of the other, or with no more than the row's own
+/// number where they are the same.
 #[inline(always)]
-fn add<const A: usize, const B: usize>(
+fn add<const TRIANGLE: bool, const ROWS: usize>(
     sums: &mut Products,
-    a: &[Aligned<[[f64; LANES]; A]>],
+    a: &impl Columns,
     first_a: usize,
-    b: &[Aligned<[[f64; LANES]; B]>],
+    b: &impl Columns,
     first_b: usize,
 ) {
     let mut local = *sums;
-    for (a, b) in a.iter().zip(b) {
-        for i in 0..BLOCK {
-            for j in 0..BLOCK {
+    for place in 0..b.places() {
+        let mut columns = [[0.0; LANES]; BLOCK];
+        for j in 0..BLOCK {
+            columns[j] = b.at(place, first_b + j);
+        }
+        for i in 0..ROWS {
+            let row = a.at(place, first_a + i);
+            for j in 0..if TRIANGLE { i + 1 } else { BLOCK } {
                 for l in 0..LANES {
-                    let product = (a.0[first_a + i][l], b.0[first_b + j][l]);
-                    local[i][j][l] = fma(product.0, product.1, local[i][j][l]);
+                    local[i][j][l] = fma(row[l], columns[j][l], local[i][j][l]);
                 }
             }
         }

@@ -43,15 +43,11 @@ pub(super) fn build(segments: &[Segment]) -> Result<Track, Error> {
 }
 
 fn reserve(track: &mut Track, nodes: usize) {
-    let known = [
-        &mut track.speed,
-        &mut track.half_step,
-        &mut track.sign,
-        &mut track.force,
-    ];
+    let known = [&mut track.speed, &mut track.half_step, &mut track.force];
     for channel in known.into_iter().chain(&mut track.columns) {
         channel.reserve(nodes);
     }
+    track.sign.reserve(nodes);
     track.marks.reserve(nodes);
 }
 
@@ -184,7 +180,9 @@ fn append_run(
 ) -> Result<(), Error> {
     let velocity = &segment.velocity[run.clone()];
     track.speed.extend(velocity.iter().map(|v| v.abs()));
-    track.sign.extend(std::iter::repeat_n(sign, run.len()));
+    track
+        .sign
+        .extend(std::iter::repeat_n(sign as i8, run.len()));
     match segment.time {
         Time::Step(_) if run.is_empty() => {}
         Time::Step(_) => {
@@ -255,7 +253,7 @@ fn step(index: usize, segment: &Segment, i: usize) -> Result<f64, Error> {
 fn push(track: &mut Track, node: Node, sample: Option<(&Segment, usize)>) {
     track.speed.push(node.speed);
     track.half_step.push(node.half_step);
-    track.sign.push(node.sign);
+    track.sign.push(node.sign as i8);
     track.marks.push(node.marks);
     let signed = |values: &[f64], i: usize| node.sign * values[i];
     track
