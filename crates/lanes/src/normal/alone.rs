@@ -32,6 +32,7 @@ impl<const POWER: bool> Kernel for Alone<'_, POWER> {
             track,
             gram: Gram::new(shared.len()),
             shared,
+            left: Aligned([[0.0; BLOCK]; OWN]),
         };
         along::<POWER>(track, &self.curve, &mut adding);
         adding.gram.sums(|lanes| lanes.iter().sum())
@@ -49,6 +50,8 @@ struct Adding<'a> {
     track: &'a Track,
     gram: Gram,
     shared: Vec<&'a [f64]>,
+    /// The columns of a block at the samples that count, 0 elsewhere.
+    left: Aligned<[[f64; BLOCK]; OWN]>,
 }
 
 impl Sink for Adding<'_> {
@@ -71,13 +74,12 @@ impl Sink for Adding<'_> {
         for t in 0..BLOCK {
             counts[t] = f64::from(marks[t] & KEPT) / f64::from(KEPT);
         }
-        let mut left = *own;
         for c in 0..OWN {
             for t in 0..BLOCK {
-                left[c][t] *= counts[t];
+                self.left.0[c][t] = own[c][t] * counts[t];
             }
         }
-        self.gram.add(&Made(&left), &shared);
+        self.gram.add(&Made(&self.left.0), &shared);
     }
 }
 
@@ -143,11 +145,7 @@ pub(crate) fn along<const POWER: bool>(track: &Track, curve: &Curve, sink: &mut 
             }
         }
         for tile in (0..BLOCK).step_by(TILE) {
-            let mut ends = [[[0.0; TILE]; 6]; 2];
-            for f in 0..6 {
-                ends[0][f] = *chunk(&node_rows.0[f], tile);
-                ends[1][f] = *chunk(&node_rows.0[f], tile + 1);
-            }
+            let ends = [tile, tile + 1].map(|from| row_chunks(&node_rows.0, from));
             let found = interval_tile(curve, chunk(&track.half_step, at + tile), &ends);
             for (row, found) in interval_rows.0.iter_mut().zip(&found) {
                 row[tile..tile + TILE].copy_from_slice(found);
@@ -228,16 +226,22 @@ fn node_tile<const POWER: bool>(
     rows
 }
 
+/// A tile of each row, from a node on.
+#[inline(always)]
+fn row_chunks(rows: &[[f64; BLOCK + 1]; 6], from: usize) -> [&[f64; TILE]; 6] {
+    rows.each_ref().map(|row| chunk(row, from))
+}
+
 #[inline(always)]
 fn interval_tile(
     curve: &Curve,
     half_step: &[f64; TILE],
-    ends: &[[[f64; TILE]; 6]; 2],
+    ends: &[[&[f64; TILE]; 6]; 2],
 ) -> [[f64; TILE]; 8] {
     let mut rows = [[0.0; TILE]; 8];
     for t in 0..HALF {
         let half = [half_step[t], half_step[t + HALF]];
-        let node = |end: usize, t: usize| Node::from_array(read(&ends[end], t));
+        let node = |end: usize, t: usize| Node::from_array(ends[end].map(|row| row[t]));
         let ends = [
             [node(0, t), node(1, t)],
             [node(0, t + HALF), node(1, t + HALF)],
