@@ -11,6 +11,10 @@ use clap::Parser;
 use std::io::Write;
 use std::process::ExitCode;
 
+/// Keeps the memory that one search gives back for the next, where the system's would be asked for anew.
+#[global_allocator]
+static MEMORY: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// What the process says with its exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Exit {

@@ -13,6 +13,10 @@ use stiction_identify::{
     Terms, condition, estimate, intervals, separable,
 };
 
+/// As in the program.
+#[global_allocator]
+static MEMORY: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 const STEP: f64 = 1e-4;
 const NAMES: [&str; 6] = [
     "sigma0",
