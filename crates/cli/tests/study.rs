@@ -42,6 +42,26 @@ fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
     )
 }
 
+/// Ctrl-C after some milliseconds of a command that takes longer: its exit code and the status in its file say so.
+#[cfg(unix)]
+fn interrupted(folder: &Path, arguments: &[&str], after: u64, file: &str) {
+    let mut child = command(folder, arguments)
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(after));
+    let ended = child.try_wait().unwrap();
+    assert!(ended.is_none(), "{arguments:?}: too short to interrupt");
+    let id = child.id().to_string();
+    let kill = Command::new("kill").args(["-INT", &id]).status();
+    assert!(kill.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    let text = std::fs::read_to_string(folder.join(file)).unwrap();
+    let file: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(file["status"], "interrupted");
+}
+
 #[test]
 fn a_study_from_a_clean_folder() {
     let folder = tempfile::tempdir().unwrap();
@@ -89,28 +109,7 @@ fn an_interrupt_keeps_the_runs_that_are_done() {
         + "\n[[parameter_error]]\nkind = \"corners\"\nby = \"10 %\"\n";
     std::fs::write(folder.path().join("study.toml"), long).unwrap();
     let arguments = ["simulate", "study.toml", "--out", "a", "--threads", "1"];
-    let mut child = command(folder.path(), &arguments)
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
-    std::thread::sleep(std::time::Duration::from_millis(500));
-    assert!(
-        child.try_wait().unwrap().is_none(),
-        "the study is too short to interrupt"
-    );
-    let id = child.id().to_string();
-    assert!(
-        Command::new("kill")
-            .args(["-INT", &id])
-            .status()
-            .unwrap()
-            .success()
-    );
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130));
-    let text = std::fs::read_to_string(folder.path().join("a/study.json")).unwrap();
-    let file: serde_json::Value = serde_json::from_str(&text).unwrap();
-    assert_eq!(file["status"], "interrupted");
+    interrupted(folder.path(), &arguments, 500, "a/study.json");
 }
 
 #[test]
@@ -134,28 +133,7 @@ fn publications_can_be_interrupted() {
     for publication in ["1995", "paper"] {
         let folder = tempfile::tempdir().unwrap();
         let arguments = ["reproduce", publication, "--out", "a", "--threads", "1"];
-        let mut child = command(folder.path(), &arguments)
-            .stdout(Stdio::piped())
-            .spawn()
-            .unwrap();
-        std::thread::sleep(std::time::Duration::from_millis(1000));
-        assert!(
-            child.try_wait().unwrap().is_none(),
-            "the experiments are too short to interrupt"
-        );
-        let id = child.id().to_string();
-        assert!(
-            Command::new("kill")
-                .args(["-INT", &id])
-                .status()
-                .unwrap()
-                .success()
-        );
-        let output = child.wait_with_output().unwrap();
-        assert_eq!(output.status.code(), Some(130));
-        let text = std::fs::read_to_string(folder.path().join("a/reproduce.json")).unwrap();
-        let file: serde_json::Value = serde_json::from_str(&text).unwrap();
-        assert_eq!(file["status"], "interrupted");
+        interrupted(folder.path(), &arguments, 1000, "a/reproduce.json");
         assert!(folder.path().join("a/report.html").is_file());
     }
 }
