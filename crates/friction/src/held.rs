@@ -2,6 +2,17 @@
 
 use crate::{Damping, ElastoPlastic, Elements, Gms, LuGre, Real, Stribeck};
 
+/// A step of an axis as its friction meets it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pace<T> {
+    /// Length of the step, > 0, s.
+    pub h: T,
+    /// Velocity at its beginning, m/s (rad/s).
+    pub start: T,
+    /// Mass of the axis, > 0, kg (kg m^2).
+    pub mass: T,
+}
+
 /// A law stepped at a velocity that is held over the step, with the mean force over the step: enough for an implicit
 /// simulation of an axis that has this law.
 ///
@@ -19,9 +30,10 @@ pub trait Held<T: Real>: Copy {
     /// Mean friction force, N (N m), over `h > 0` seconds at the velocity `v` that led from one state to another.
     fn mean_force(&self, from: Self::State, to: Self::State, h: T, v: T) -> T;
 
-    /// The mean force over the next `h > 0` seconds at the velocity `v`, and its derivative with respect to `v`
-    /// (N s/m, N m s/rad).
-    fn mean_force_slope(&self, from: Self::State, h: T, v: T) -> (T, T);
+    /// Mean friction force, N (N m), over a step at the mean velocity `v`, and its derivative with respect to `v`
+    /// (N s/m, N m s/rad). LuGre counts how the deflection bends within the step, in the derivative about so, see
+    /// [`Sweep::mean_force`](crate::Sweep::mean_force); the other laws take the mean of both ends.
+    fn mean_force_slope(&self, from: Self::State, pace: &Pace<T>, v: T) -> (T, T);
 
     /// Friction force, N (N m), at a state and the velocity `v` (m/s, rad/s).
     fn force_now(&self, state: Self::State, v: T) -> T;
@@ -70,10 +82,9 @@ impl<T: Real> Held<T> for LuGre<T> {
     }
 
     #[inline]
-    fn mean_force_slope(&self, from: T, h: T, v: T) -> (T, T) {
-        let level = LuGre::curve(self).level_and_slope(v);
-        let end = self.held_at_level(from, h, v, level);
-        self.mean_force_from_end(from, end, h, v, level.0)
+    fn mean_force_slope(&self, from: T, pace: &Pace<T>, v: T) -> (T, T) {
+        let sweep = self.sweeps(pace.h, pace.mass).at(v);
+        sweep.mean_force(from, pace.start)
     }
 
     fn force_now(&self, state: T, v: T) -> T {
@@ -82,7 +93,8 @@ impl<T: Real> Held<T> for LuGre<T> {
 
     fn reach(&self, h: T) -> T {
         let swing = T::from_f64(2.0) * self.bound();
-        self.stiffness() * self.bound() + self.damping().at_rest() * swing / h
+        // The deflection and what its correction adds to it at most.
+        T::from_f64(3.0) * self.stiffness() * self.bound() + self.damping().at_rest() * swing / h
     }
 }
 
@@ -104,7 +116,7 @@ impl<T: Real> Held<T> for ElastoPlastic<T> {
     }
 
     #[inline]
-    fn mean_force_slope(&self, from: T, h: T, v: T) -> (T, T) {
+    fn mean_force_slope(&self, from: T, &Pace { h, .. }: &Pace<T>, v: T) -> (T, T) {
         let end = self.step_held_slope(from, h, v);
         let g = Held::curve(self).level(v);
         self.bristle().mean_force_from_end(from, end, h, v, g)
@@ -135,7 +147,7 @@ impl<T: Real, const N: usize> Held<T> for Gms<T, N> {
         self.force_at_rate(T::from_f64(0.5) * (begin + end), (end - begin) / h, v)
     }
 
-    fn mean_force_slope(&self, from: Elements<T, N>, h: T, v: T) -> (T, T) {
+    fn mean_force_slope(&self, from: Elements<T, N>, &Pace { h, .. }: &Pace<T>, v: T) -> (T, T) {
         let (end, end_slope) = self.total_held_slope(&from, h, v);
         let begin = from.total();
         let half = T::from_f64(0.5);

@@ -32,11 +32,7 @@ impl<T: Real> LuGre<T> {
     /// simulation needs. `h > 0`.
     #[inline]
     pub fn step_held_slope(&self, z: T, h: T, v: T) -> (T, T) {
-        self.held_at_level(z, h, v, self.curve().level_and_slope(v))
-    }
-
-    #[inline]
-    pub(crate) fn held_at_level(&self, z: T, h: T, v: T, (g, g_slope): (T, T)) -> (T, T) {
+        let (g, g_slope) = self.curve().level_and_slope(v);
         let sign = if v >= T::ZERO { T::ONE } else { -T::ONE };
         let per_speed = h * self.stiffness() / g;
         let a = per_speed * v.abs();

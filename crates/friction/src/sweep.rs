@@ -1,23 +1,40 @@
 //! What a step at a held velocity takes of the law before the deflection is known.
 
 use crate::damping::micro_damping_and_slope;
-use crate::{Direction, LuGre, Real};
+use crate::{Direction, LuGre, Real, Shape};
 
-/// A step of `h > 0` seconds at a held velocity, whatever the deflection z that it begins with: the end of the step and
-/// its mean force are linear in z. An implicit simulation may have this ready before it knows z, and so wait less for
-/// the exponentials.
+/// A step of `h > 0` seconds at a mean velocity, whatever the deflection z and the velocity that it begins with. An
+/// implicit simulation may have this ready before it knows them, and so wait less for the exponentials.
+///
+/// The deflection goes as at a held velocity w. Its mean over the step, on which the mean force rests, is that of the
+/// trapezoidal rule corrected at its ends (Euler-Maclaurin), with the rate at the ends from the derivatives of z' at w and
+/// at the mean deflection:
+/// ```text
+/// (z + z+)/2 - c h/12 [(v+ - v) dz'/dv + (z+ - z) dz'/dz],   c = 1/(1 + sigma0 h^2/(12 M))
+/// ```
+/// The first part acts as if the mass M were less by sigma0 h^2/12 while the bristles hold; with c it stays positive. A
+/// step that is long for the bristles, `a = sigma0 |w| h/g`, leaves nothing to correct: the first part fades as
+/// `1/(1 + a^2)` and is worth g/4 at most, the second fades as `1/(1 + a^2/60)`, as the mean of an exponential demands.
+/// And no correction gives back energy that the bristles do not hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sweep<T> {
     velocity: T,
+    /// The way, m (rad).
+    path: T,
     /// Deflection that the velocity leads to, with its derivative in velocity.
     steady: (T, T),
     /// `exp(-a) - 1`, the share of the way there with its sign reversed, and the derivative of a.
     decay: T,
     a_slope: T,
-    /// Force for a deflection, for its change over the step, and without either.
+    /// Force for a deflection, and for its change over the step, with the derivative and without the correction.
     stiffness: T,
     by_change: (T, T),
+    by_rate: T,
+    /// Force without deflection, with its derivative.
     rest: (T, T),
+    /// Force taken off for half the rise of the velocity, linear in the deflection; and the most of it, N (N m).
+    bend: [T; 2],
+    most: T,
 }
 
 /// Steps of one length at held velocities: what they have in common is computed once.
@@ -30,30 +47,40 @@ pub struct Sweeps<T> {
     compliance: T,
     /// sigma0 h, N s/m (N m s/rad)
     swept: T,
+    /// Of the correction: 5 c sigma0, N/m (N m/rad), and c sigma0 h/6, N s/m (N m s/rad).
+    relaxed: T,
+    bend: T,
+    /// `|v|/vs` beyond which the level is the Coulomb level to rounding.
+    flat: T,
     /// `1/vs` and `Fs - Fc` in the positive and the negative direction.
     per_velocity: [T; 2],
     drop: [T; 2],
 }
 
 impl<T: Real> LuGre<T> {
-    /// Steps of `h > 0` seconds.
-    pub fn sweeps(&self, h: T) -> Sweeps<T> {
+    /// Steps of `h > 0` seconds of an axis with the mass `mass` > 0, kg (kg m^2).
+    pub fn sweeps(&self, h: T, mass: T) -> Sweeps<T> {
         let sides = [self.curve().positive(), self.curve().negative()];
+        let swept = h * self.stiffness();
+        let twelve = T::from_f64(12.0);
+        let corrected = self.stiffness() / (T::ONE + swept * h / (twelve * mass));
         Sweeps {
             law: *self,
             h,
             per_time: T::ONE / h,
             compliance: T::ONE / self.stiffness(),
-            swept: h * self.stiffness(),
+            swept,
+            relaxed: T::from_f64(5.0) * corrected,
+            bend: corrected * h / T::from_f64(6.0),
+            flat: match self.curve().shape() {
+                // There w < 2^-64.
+                Shape::Gaussian => T::from_f64(6.7),
+                Shape::Exponential => T::from_f64(44.5),
+                Shape::Power(_) | Shape::Lorentzian => T::MAX,
+            },
             per_velocity: sides.map(|side| T::ONE / side.stribeck_velocity),
             drop: sides.map(|side| side.static_friction - side.coulomb),
         }
-    }
-
-    /// The step of `h > 0` seconds at the velocity `v`, m/s (rad/s).
-    #[inline]
-    pub fn sweep(&self, h: T, v: T) -> Sweep<T> {
-        self.sweeps(h).at(v)
     }
 }
 
@@ -64,7 +91,7 @@ impl<T: Real> Sweeps<T> {
         self.h
     }
 
-    /// The step at the velocity `v`, m/s (rad/s).
+    /// The step at the mean velocity `v`, m/s (rad/s).
     #[inline(always)]
     pub fn at(&self, v: T) -> Sweep<T> {
         // Each way its own code: the branch is foreseen, and the numbers of a side are there before the velocity is.
@@ -79,8 +106,14 @@ impl<T: Real> Sweeps<T> {
     fn towards(&self, v: T, i: usize, side: &Direction<T>, sign: T) -> Sweep<T> {
         let law = &self.law;
         let curve = law.curve();
+        let half = T::from_f64(0.5);
         let (per_velocity, drop) = (self.per_velocity[i], self.drop[i]);
-        let (weight, falls) = curve.shape().weight_and_slope(v.abs() * per_velocity);
+        let x = v.abs() * per_velocity;
+        let (weight, falls) = if x > self.flat {
+            (T::ZERO, T::ZERO)
+        } else {
+            curve.shape().weight_and_slope(x)
+        };
         let g = side.coulomb + drop * weight;
         let g_slope = sign * (drop * per_velocity) * falls;
         let per_level = T::ONE / g;
@@ -90,23 +123,42 @@ impl<T: Real> Sweeps<T> {
         let a_slope = sign * per_speed - a * g_slope * per_level;
         let (s1, s1_slope) = micro_damping_and_slope(law, v, g, g_slope);
         let viscous = side.viscous;
+        let decay = (-a).expm1();
+        let steady = (sign * g * self.compliance, sign * g_slope * self.compliance);
+
+        // Both parts of the correction by one division.
+        let sixty = T::from_f64(60.0) + a * a;
+        let fades = T::ONE + a * a;
+        let per_both = T::ONE / (sixty * fades);
+        let relaxes = a * (fades * per_both);
+        let by_rate = half * law.stiffness() + s1 * self.per_time;
+
+        // dz'/dv = 1 - q z with q = (1 - v g'/g)/steady, at the mean of the ends.
+        let gain = self.bend * (sixty * per_both);
+        let q = (sign * law.stiffness() * per_level) * (T::ONE - (g_slope * v) * per_level);
+        let bent = gain * q;
+        let half_decay = half * decay;
         Sweep {
             velocity: v,
-            steady: (sign * g * self.compliance, sign * g_slope * self.compliance),
-            decay: (-a).expm1(),
+            path: v * self.h,
+            steady,
+            decay,
             a_slope,
             stiffness: law.stiffness(),
-            by_change: (
-                T::from_f64(0.5) * law.stiffness() + s1 * self.per_time,
-                s1_slope * self.per_time,
-            ),
+            by_change: (by_rate + self.relaxed * relaxes, s1_slope * self.per_time),
+            by_rate,
             rest: (viscous * v + curve.offset(), viscous),
+            bend: [
+                gain + bent * (half_decay * steady.0),
+                -(bent + bent * half_decay),
+            ],
+            most: T::from_f64(0.25) * g,
         }
     }
 }
 
 impl<T: Real> Sweep<T> {
-    /// The velocity, m/s (rad/s).
+    /// The mean velocity, m/s (rad/s).
     #[inline]
     pub fn velocity(&self) -> T {
         self.velocity
@@ -123,17 +175,71 @@ impl<T: Real> Sweep<T> {
         )
     }
 
-    /// Mean force over the step from the deflection `z`, and its derivative with respect to the velocity, N and N s/m
-    /// (N m, N m s/rad).
+    /// The force of [`mean_force`](Self::mean_force) where its correction is within bounds: enough to foresee a velocity by.
     #[inline]
-    pub fn mean_force(&self, z: T) -> (T, T) {
-        // Both linear in the exponential, which is known last.
-        let off = z - self.steady.0;
-        let by_decay = -(off * self.a_slope) * self.by_change.0;
-        let steady = off * self.by_change.1 - self.steady.1 * self.by_change.0;
-        (
-            self.decay * (off * self.by_change.0) + (self.stiffness * z + self.rest.0),
-            self.decay * (by_decay + steady) + (by_decay + self.rest.1),
-        )
+    pub fn likely_force(&self, z: T, start: T) -> T {
+        let change = self.change(z).0;
+        let bends = (self.velocity - start) * (self.bend[0] + self.bend[1] * z);
+        (self.stiffness * z + self.rest.0) + change * self.by_change.0 - bends
+    }
+
+    /// Mean force over the step from the deflection `z` and the velocity `start` (m/s, rad/s), and its derivative with
+    /// respect to the mean velocity, N and N s/m (N m, N m s/rad). The derivative leaves out what the correction's own
+    /// coefficients change by: of the order of `sigma0 h^2/(12 M)`, enough to be led by.
+    #[inline]
+    pub fn mean_force(&self, z: T, start: T) -> (T, T) {
+        let (change, change_slope) = self.change(z);
+        let by_rise = self.bend[0] + self.bend[1] * z;
+        let bends = (self.velocity - start) * by_rise;
+        let bristle = self.stiffness * z + change * self.by_change.0 - bends;
+        // Work done on the bristles, and what they keep of it.
+        let kept = self.stiffness * (z + T::from_f64(0.5) * change) * change;
+        let (bristle, slope) = if bends.abs() <= self.most && bristle * self.path >= kept {
+            let slope = change_slope * self.by_change.0 + change * self.by_change.1 - by_rise;
+            (bristle, slope)
+        } else {
+            self.bounded(z, by_rise, bends)
+        };
+        (bristle + self.rest.0, slope + self.rest.1)
+    }
+
+    /// The force of the bristles where the correction is more than it may be.
+    #[cold]
+    #[inline(never)]
+    fn bounded(&self, z: T, by_rise: T, bends: T) -> (T, T) {
+        let (change, change_slope) = self.change(z);
+        let least = -self.most;
+        let (bends, by_rise) = if bends > self.most {
+            (self.most, T::ZERO)
+        } else if bends < least {
+            (least, T::ZERO)
+        } else {
+            (bends, by_rise)
+        };
+        let of_change = |by_change: T| {
+            (
+                self.stiffness * z + change * by_change,
+                change_slope * by_change + change * self.by_change.1,
+            )
+        };
+        let (force, slope) = of_change(self.by_change.0);
+        let corrected = (force - bends, slope - by_rise);
+        let mean = z + T::from_f64(0.5) * change;
+        let kept = self.stiffness * mean * change;
+        if corrected.0 * self.path >= kept {
+            return corrected;
+        }
+        // The law itself may give energy back where sigma1 is not capped: that is left to it.
+        let plain = of_change(self.by_rate);
+        let enough = kept / self.path;
+        let kept_slope = self.stiffness * change_slope * (mean + T::from_f64(0.5) * change);
+        let enough = (enough, kept_slope / self.path - enough / self.velocity);
+        let less = |a: (T, T), b: (T, T)| a.0 * self.path < b.0 * self.path;
+        let allowed = if less(plain, enough) { plain } else { enough };
+        if less(corrected, allowed) {
+            allowed
+        } else {
+            corrected
+        }
     }
 }

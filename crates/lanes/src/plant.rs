@@ -72,7 +72,7 @@ impl Outcome {
 /// How velocity and bristle are stepped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Stepping {
-    /// The accurate one, the implicit-midpoint step MID:
+    /// The accurate one, the implicit-midpoint step MID with the mean force from the mean of both ends:
     ///
     /// ```text
     /// 2 M (w - v)/h = u - [sigma0 (z + z+(w))/2 + sigma1 (z+(w) - z)/h + sigma2 w]

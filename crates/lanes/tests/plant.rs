@@ -8,6 +8,7 @@ use stiction_lanes::{
     Axis, Candidate, Drive, InstructionSet, Measured, Motion, Outcome, Stepping, plants,
 };
 use stiction_servo::plant::{self, Load, Plant};
+use stiction_testkit::MeanOfEnds;
 
 const MID: Stepping = Stepping::Midpoint;
 
@@ -19,7 +20,8 @@ fn force(steps: usize, most: f64) -> Vec<f64> {
 
 /// The motion by the scalar plant, at the end of each step.
 fn scalar(axis: &Axis, h: f64, force: &[f64]) -> Vec<plant::Motion> {
-    let plant = Plant::new(axis.mass, axis.friction.law().unwrap()).unwrap();
+    let law = MeanOfEnds(axis.friction.law().unwrap());
+    let plant = Plant::new(axis.mass, law).unwrap();
     let mut motion = plant::Motion::default();
     force
         .iter()

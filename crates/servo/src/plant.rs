@@ -1,6 +1,6 @@
 //! A mass with friction, driven by a force: the implicit-midpoint step MID.
 
-use stiction_friction::{Held, LuGre, ParamError};
+use stiction_friction::{Held, LuGre, Pace, ParamError};
 
 /// A mass (inertia) on a guide with friction: LuGre unless said otherwise, any law that is [`Held`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -115,12 +115,13 @@ impl<L: Held<f64>> Plant<L> {
     ///
     /// MID: implicit midpoint in velocity and position, the law's own step at the mean velocity w, for LuGre
     /// ```text
-    /// 2 M (w - v)/h = u(t + h/2, x + h w/2) - [sigma0 (z + z+(w))/2 + sigma1 (z+(w) - z)/h + sigma2 w + F0]
+    /// 2 M (w - v)/h = u(t + h/2, x + h w/2) - [sigma0 z_mean(w) + sigma1 (z+(w) - z)/h + sigma2 w + F0]
     /// x+ = x + h w,  v+ = 2 w - v
     /// ```
-    /// Second order and A-stable; the work of all forces equals the change of kinetic energy to rounding. It does not
-    /// damp what is too fast for the step: keep `h sqrt(sigma0/M)` below about 2. With sigma1 capped friction gives no
-    /// energy back over a closed cycle, in steps no longer than g(v)/sigma0; a longer one through a reversal can.
+    /// with the mean deflection z_mean of [`Sweep`](stiction_friction::Sweep); other laws take `(z + z+)/2`. Second order
+    /// and A-stable; the work of all forces equals the change of kinetic energy to rounding. It does not damp what is too
+    /// fast for the step: keep `h sqrt(sigma0/M)` below about 2. With sigma1 capped friction gives no energy back over a
+    /// closed cycle, in steps no longer than g(v)/sigma0; a longer one through a reversal can.
     ///
     /// A load that is not finite gives a motion that is not.
     pub fn step(&self, from: Motion<L::State>, h: f64, load: Load) -> Step<L::State> {
@@ -128,23 +129,31 @@ impl<L: Held<f64>> Plant<L> {
             stiffness: load.stiffness + self.stiffness,
             ..load
         };
+        let pace = Pace {
+            h,
+            start: from.velocity,
+            mass: self.mass,
+        };
         let balance = Balance {
             plant: self,
             from,
-            h,
+            pace,
             load,
         };
-        let (w, evaluations) = balance.solve();
-        let end = self.law.hold(from.deflection, h, w);
+        let Solution {
+            mean_velocity,
+            friction,
+            evaluations,
+        } = balance.solve();
         let motion = Motion {
-            position: from.position + h * w,
-            velocity: 2.0 * w - from.velocity,
-            deflection: end,
+            position: from.position + h * mean_velocity,
+            velocity: 2.0 * mean_velocity - from.velocity,
+            deflection: self.law.hold(from.deflection, h, mean_velocity),
         };
         Step {
             motion,
-            mean_velocity: w,
-            friction: self.law.mean_force(from.deflection, end, h, w),
+            mean_velocity,
+            friction,
             evaluations,
         }
     }
@@ -157,36 +166,43 @@ const MOST_EVALUATIONS: u32 = 200;
 struct Balance<'a, L: Held<f64>> {
     plant: &'a Plant<L>,
     from: Motion<L::State>,
-    h: f64,
+    pace: Pace<f64>,
     load: Load,
 }
 
+struct Solution {
+    mean_velocity: f64,
+    friction: f64,
+    evaluations: u32,
+}
+
 impl<L: Held<f64>> Balance<'_, L> {
-    /// Inertia and friction less drive at the mean velocity `w`, and the derivative.
-    fn at(&self, w: f64) -> (f64, f64) {
+    /// Inertia and friction less drive at the mean velocity `w`, and friction; each with its derivative.
+    fn at(&self, w: f64) -> [(f64, f64); 2] {
         let Balance {
             plant,
             from,
-            h,
+            pace,
             load,
         } = *self;
-        let (friction, friction_slope) = plant.law.mean_force_slope(from.deflection, h, w);
-        let inertia = 2.0 * plant.mass / h;
-        let drive = load.force - load.stiffness * (from.position + 0.5 * h * w);
-        let excess = inertia * (w - from.velocity) + friction + plant.viscous * w - drive;
-        let slope = inertia + plant.viscous + 0.5 * h * load.stiffness + friction_slope;
-        (excess, slope)
+        let friction = plant.law.mean_force_slope(from.deflection, &pace, w);
+        let inertia = 2.0 * plant.mass / pace.h;
+        let drive = load.force - load.stiffness * (from.position + 0.5 * pace.h * w);
+        let excess = inertia * (w - from.velocity) + friction.0 + plant.viscous * w - drive;
+        let slope = inertia + plant.viscous + 0.5 * pace.h * load.stiffness + friction.1;
+        [(excess, slope), friction]
     }
 
     /// Newton's method inside a bracket that bisection shrinks whenever Newton leaves it or is slow.
-    fn solve(&self) -> (f64, u32) {
+    fn solve(&self) -> Solution {
         let law = &self.plant.law;
-        let inertia = 2.0 * self.plant.mass / self.h;
+        let h = self.pace.h;
+        let inertia = 2.0 * self.plant.mass / h;
         // Whatever w is, the bristle contributes no more than this; the viscous part and the spring only brake.
-        let bristle = law.reach(self.h);
+        let bristle = law.reach(h);
         let drive =
             self.load.force - self.load.stiffness * self.from.position - law.curve().offset();
-        let passive = inertia + self.plant.viscous + 0.5 * self.h * self.load.stiffness;
+        let passive = inertia + self.plant.viscous + 0.5 * h * self.load.stiffness;
         let free = (inertia * self.from.velocity + drive) / passive;
         // The small share keeps rounding from shutting the solution out.
         let reach = 1.01 * bristle / inertia + 1e-6 * (free.abs() + self.from.velocity.abs());
@@ -197,8 +213,10 @@ impl<L: Held<f64>> Balance<'_, L> {
         // Not `clamp`: the ends are no numbers where the load is none.
         let mut w = self.from.velocity.max(low).min(high);
         let mut last_move = high - low;
-        for count in 1..=MOST_EVALUATIONS {
-            let (excess, slope) = self.at(w);
+        let mut evaluations = 0;
+        loop {
+            let [(excess, slope), (friction, friction_slope)] = self.at(w);
+            evaluations += 1;
             if excess > 0.0 {
                 high = w;
             } else {
@@ -208,18 +226,25 @@ impl<L: Held<f64>> Balance<'_, L> {
             let moves = (newton - w).abs();
             // Newton converges quadratically: after a move of 1e-8 what remains is rounding.
             if moves <= 1e-8 * w.abs() + negligible {
-                return (newton, count);
+                return Solution {
+                    mean_velocity: newton,
+                    friction: friction + friction_slope * (newton - w),
+                    evaluations,
+                };
             }
             // At standstill the force of a law may jump, as where slipping elements come to stick.
             let shut = high - low <= (4.0 * f64::EPSILON * w.abs()).max(1e-3 * negligible);
-            if shut {
-                return (w, count);
+            if shut || evaluations == MOST_EVALUATIONS {
+                return Solution {
+                    mean_velocity: w,
+                    friction,
+                    evaluations,
+                };
             }
             let trusted = newton > low && newton < high && 2.0 * moves <= last_move;
             let next = if trusted { newton } else { 0.5 * (low + high) };
             last_move = (next - w).abs();
             w = next;
         }
-        (w, MOST_EVALUATIONS)
     }
 }

@@ -1,9 +1,12 @@
-//! For tests only: where measured recordings are, what must hold on them, and an interpreter of Structured Text.
+//! For tests only: where measured recordings are, what must hold on them, an interpreter of Structured Text, and the
+//! plain midpoint step.
 
 mod cases;
+mod mean_of_ends;
 pub mod st;
 
 pub use cases::{CASES, Case, Limit, Metric};
+pub use mean_of_ends::MeanOfEnds;
 
 use std::path::{Path, PathBuf};
 

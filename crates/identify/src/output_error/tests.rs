@@ -11,6 +11,7 @@ use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_servo::cascade::{Cascade, CascadeState};
 use stiction_servo::path::Reference;
 use stiction_servo::plant::{Load, Motion, Plant};
+use stiction_testkit::MeanOfEnds;
 
 fn axis() -> Axis {
     let side = |coulomb, fixed, velocity, viscous| Curve {
@@ -30,7 +31,7 @@ fn axis() -> Axis {
     }
 }
 
-fn plant(axis: &Axis) -> Plant {
+fn plant(axis: &Axis) -> Plant<MeanOfEnds> {
     let side = |c: &Curve| Direction {
         coulomb: c.coulomb,
         static_friction: c.fixed,
@@ -46,7 +47,7 @@ fn plant(axis: &Axis) -> Plant {
     );
     let damping = Damping::Constant(axis.micro_damping);
     let law = LuGre::new(axis.stiffness, damping, curve.unwrap()).unwrap();
-    Plant::new(axis.mass, law).unwrap()
+    Plant::new(axis.mass, MeanOfEnds(law)).unwrap()
 }
 
 /// Reversals, sticking and sliding.

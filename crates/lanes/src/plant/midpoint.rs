@@ -1,4 +1,4 @@
-//! The step MID as `stiction-servo` takes it, axes in lanes.
+//! The step MID as `stiction-servo` takes it but for the bend of the deflection within a step, axes in lanes.
 
 use super::{Axis, Drive, Measured, Motion, Outcome};
 use crate::curve::{Curve, Speed};

@@ -73,7 +73,7 @@ impl Quick {
             Some(law) if law.h() == h => law,
             other => {
                 self.course.forget();
-                other.insert(plant.law().sweeps(h))
+                other.insert(plant.law().sweeps(h, plant.mass()))
             }
         };
         self.course.step(law, plant, from, load)
@@ -111,7 +111,7 @@ impl Course {
             let w = sweep.velocity();
             // What is known without the law first.
             let (left, slope) = balance.without_friction(w);
-            let (friction, friction_slope) = sweep.mean_force(from.deflection);
+            let (friction, friction_slope) = sweep.mean_force(from.deflection, from.velocity);
             let slope = slope + friction_slope;
             let moves = (left - friction) / slope;
             if moves.abs() <= small(slow, w) {
@@ -204,7 +204,7 @@ impl<'a> Balance<'a> {
     fn two_steps(&self, law: &Sweep<f64>, yields: f64, next: f64) -> f64 {
         let w = law.velocity();
         let z = self.from.deflection;
-        let moves = (self.without_friction(w).0 - law.mean_force(z).0) * yields;
+        let moves = (self.without_friction(w).0 - law.likely_force(z, self.from.velocity)) * yields;
         let mean = w + moves;
         let change = law.change(z);
         let from = Motion {
@@ -217,7 +217,7 @@ impl<'a> Balance<'a> {
             force: next,
             ..*self
         };
-        w + (then.without_friction(w).0 - law.mean_force(from.deflection).0) * yields
+        w + (then.without_friction(w).0 - law.likely_force(from.deflection, from.velocity)) * yields
     }
 }
 
