@@ -126,11 +126,12 @@ impl<T: Real> Sweeps<T> {
         let decay = (-a).expm1();
         let steady = (sign * g * self.compliance, sign * g_slope * self.compliance);
 
-        // Both parts of the correction by one division.
-        let sixty = T::from_f64(60.0) + a * a;
-        let fades = T::ONE + a * a;
+        // Both parts of the correction by one division, far from overflow; with a million there is nothing left of either.
+        let long = a.min(T::from_f64(1e6));
+        let sixty = T::from_f64(60.0) + long * long;
+        let fades = T::ONE + long * long;
         let per_both = T::ONE / (sixty * fades);
-        let relaxes = a * (fades * per_both);
+        let relaxes = long * (fades * per_both);
         let by_rate = half * law.stiffness() + s1 * self.per_time;
 
         // dz'/dv = 1 - q z with q = (1 - v g'/g)/steady, at the mean of the ends.

@@ -110,6 +110,21 @@ proptest! {
     }
 }
 
+/// However far a search for the velocity goes, it finds the force of a bristle that slides.
+#[test]
+fn any_velocity_has_a_force() {
+    for (shape, damping) in (0..4).flat_map(|s| (0..4).map(move |d| (s, d))) {
+        let law = law(shape, damping);
+        let sweeps = law.sweeps(1e-3, 10.0);
+        for v in [1e3, 1e9, 1e30, 1e100, 1e200] {
+            let (force, slope) = sweeps.at(v).mean_force(-law.bound(), 0.0);
+            let smooth = 60.0 * v - 1.5;
+            let bristle = if v < 1e12 { force - smooth } else { 0.0 };
+            assert!(force.is_finite() && slope.is_finite() && bristle.abs() < law.reach(1e-3));
+        }
+    }
+}
+
 #[test]
 fn the_bounds_of_the_correction_are_met() {
     let (law, h, mass) = (law(0, 1), 1e-3, 10.0);
