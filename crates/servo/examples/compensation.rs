@@ -13,11 +13,12 @@ use stiction_friction::{CoulombViscous, LuGre, ParamError};
 use stiction_servo::axis::AxisSettings;
 use stiction_servo::cross_coupling::CrossCoupling;
 use stiction_servo::feedforward::Feedforward;
+use stiction_servo::integrator::Quick;
 use stiction_servo::known::{self, KnownAxis};
 use stiction_servo::metrics::Tracking;
 use stiction_servo::motion::{Limits, Sine};
 use stiction_servo::plane::{Along, Circle};
-use stiction_servo::run::run;
+use stiction_servo::run::run_with;
 use stiction_servo::two_axes::TwoAxes;
 
 const LIMIT: f64 = 200.0;
@@ -42,7 +43,11 @@ impl Case {
             feedforward,
             ..self.axis()?
         };
-        let all = run(&axis, &Sine::new(self.amplitude, self.frequency, 4.0)?)?;
+        let all = run_with(
+            &axis,
+            &Sine::new(self.amplitude, self.frequency, 4.0)?,
+            Quick::new(1)?,
+        )?;
         Ok(Tracking::of(&all[all.len() / 2..]))
     }
 
@@ -176,7 +181,7 @@ fn small_motion() -> Result<(), ParamError> {
             feedforward,
             ..case.axis()?
         };
-        Ok(Tracking::of(&run(&axis, &sine)?))
+        Ok(Tracking::of(&run_with(&axis, &sine, Quick::new(1)?)?))
     };
     let none = whole(Feedforward::default())?;
     let safe = Settings::new(1.0 / case.rate, LIMIT);
@@ -230,7 +235,7 @@ fn circle() -> Result<(), ParamError> {
             axes: [x?, y?],
             coupling: coupled.then_some(coupling),
         };
-        let all = two.run(&circle)?;
+        let all = two.run_with(&circle, Quick::new(1)?)?;
         let second = &all[all.len() / 2..];
         Ok(second.iter().fold(0.0, |m, s| m.max(s.deviation.abs())))
     };
