@@ -192,7 +192,13 @@ pub(super) fn law(value: &dyn Fn(&str) -> Option<f64>) -> Result<LuGre<f64>, Par
         _ => Shape::Gaussian,
     };
     let offset = value("offset").unwrap_or(0.0);
-    let curve = Stribeck::new(shape, side("_pos"), side("_neg"), offset)?;
+    let (pos, neg) = (side("_pos"), side("_neg"));
+    // Where both are the same, an error names the parameter as the model does.
+    let curve = if pos == neg {
+        Stribeck::symmetric(shape, pos, offset)?
+    } else {
+        Stribeck::new(shape, pos, neg, offset)?
+    };
     let damping = Damping::Capped(value("sigma1").unwrap_or(0.0));
     LuGre::new(value("sigma0").unwrap_or(f64::NAN), damping, curve)
 }
