@@ -291,6 +291,24 @@ fn codes(file: &StudyFile) -> Vec<&str> {
     file.warnings.iter().map(|w| w.code.as_str()).collect()
 }
 
+/// The plant is stepped as often as its bristles need, or the study says that it is not.
+#[test]
+fn stiff_bristles_get_shorter_steps() {
+    let desk = Desk::new();
+    for (sigma0, substeps, warned) in [
+        ("2000000.0", 3, false),
+        ("1e10", 12, false),
+        ("1e14", 100, true),
+    ] {
+        desk.write("stiff.toml", &model(0.0, 0.0).replace("2000000.0", sigma0));
+        let text = together(&[AXIS, SHORT, CASCADE])
+            .replace("known        = \"motor\"", "model = \"stiff.toml\"");
+        let file = desk.run(&text);
+        assert_eq!(file.axis.substeps, substeps, "{sigma0}");
+        assert_eq!(codes(&file).contains(&"long-steps"), warned, "{sigma0}");
+    }
+}
+
 /// A watchdog whose learning reaches into what counts is named, in the rows too; one that is done by then is not.
 #[test]
 fn a_watchdog_that_still_learns() {

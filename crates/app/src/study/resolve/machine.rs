@@ -1,7 +1,7 @@
 //! `[axis]` and `[second_axis]`
 
 use super::Dimensions;
-use crate::error::Error;
+use crate::error::{Error, Warning};
 use crate::study::Machine;
 use crate::study::model::{Model, law};
 use crate::study::raw::Table;
@@ -16,6 +16,10 @@ use stiction_servo::plant::Plant;
 
 /// Least rate at which the plant is stepped, Hz.
 const PLANT_RATE: f64 = 1e4;
+/// Most plant steps of a control period.
+const MOST_SUBSTEPS: f64 = 100.0;
+/// `h sqrt(sigma0/M)` up to which a step shows how the axis swings on its bristles.
+const SHORT: f64 = 1.0;
 
 /// An axis; the control rate is that of the first axis where there is one.
 pub(super) fn machine(
@@ -23,7 +27,7 @@ pub(super) fn machine(
     folder: &Path,
     first: Option<f64>,
 ) -> Result<Machine, Error> {
-    let model = match (table.text("model")?, table.text("known")?) {
+    let mut model = match (table.text("model")?, table.text("known")?) {
         (Some(file), None) => Model::read(&folder.join(file))?,
         (None, Some(name)) => Model::known(name).ok_or_else(|| {
             let names: Vec<_> = known::all().map(|axis| axis.name).collect();
@@ -57,6 +61,20 @@ pub(super) fn machine(
     if !(10.0..=1e6).contains(&rate) {
         return Err(table.refuse("rate", format!("{rate} Hz"), "10 Hz to 1 MHz"));
     }
+    let swing = (law.stiffness() / mass).sqrt();
+    let substeps = (PLANT_RATE.max(swing / SHORT) / rate).ceil();
+    let substeps = substeps.clamp(1.0, MOST_SUBSTEPS.max(PLANT_RATE / rate).ceil());
+    let long = swing / (rate * substeps);
+    if long > SHORT {
+        model.warnings.push(Warning::new(
+            "long-steps",
+            format!(
+                "the bristles are too stiff for a plant step of {:.3e} s: h sqrt(sigma0/M) = {long:.1}, above {SHORT}; \
+                 what happens before break-away is not to be relied on; a higher rate makes the steps shorter",
+                1.0 / (rate * substeps)
+            ),
+        ));
+    }
     let machine = Machine {
         motion,
         law,
@@ -64,7 +82,7 @@ pub(super) fn machine(
         plant: Plant::new(mass, law).map_err(|e| table.together(&e))?,
         given_mass: given.is_some(),
         rate,
-        substeps: libm::ceil(PLANT_RATE / rate) as u32,
+        substeps: substeps as u32,
         drive: drive(table, &is, rate)?,
         encoder: Encoder::new(table.not_negative("encoder", is.length)?.unwrap_or(0.0))
             .map_err(|e| table.together(&e))?,
