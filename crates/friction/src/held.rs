@@ -31,8 +31,8 @@ pub trait Held<T: Real>: Copy {
     fn mean_force(&self, from: Self::State, to: Self::State, h: T, v: T) -> T;
 
     /// Mean friction force, N (N m), over a step at the mean velocity `v`, and its derivative with respect to `v`
-    /// (N s/m, N m s/rad). LuGre counts how the deflection bends within the step, in the derivative about so, see
-    /// [`Sweep::mean_force`](crate::Sweep::mean_force); the other laws take the mean of both ends.
+    /// (N s/m, N m s/rad), good enough to lead Newton's method. LuGre counts how the deflection bends within the step, see
+    /// [`Sweep`](crate::Sweep); the other laws take the mean of both ends.
     fn mean_force_slope(&self, from: Self::State, pace: &Pace<T>, v: T) -> (T, T);
 
     /// Friction force, N (N m), at a state and the velocity `v` (m/s, rad/s).

@@ -131,7 +131,7 @@ fn second_order_through_reversals_on_average() {
 /// spring, driven by a force, swung on a spring.
 #[test]
 fn the_bend_is_worth_counting() {
-    // Evenly spread over the ranges: multiples of the powers of the generalised golden ratio.
+    // Spread over the ranges: multiples of the powers of a generalised golden ratio, x^9 = x + 1.
     let spread = |i: u32, k: i32| (f64::from(i) * 1.0853_f64.powi(-k)).fract();
     let between = |low: f64, high: f64, share: f64| low + (high - low) * share;
     let (h, seconds) = (1e-3, 4.0);
@@ -145,7 +145,7 @@ fn the_bend_is_worth_counting() {
             stribeck_velocity: 10f64.powf(at(4, -3.0, -1.5)),
             viscous: coulomb * at(5, 0.0, 1.0),
         };
-        // From a twentieth to twice what a step should be at most for the bristles.
+        // From a twentieth to all of what a step may be for the bristles.
         let stiffness = mass * (10f64.powf(at(6, -1.0, 0.3)) / h).powi(2);
         let sigma1 = at(7, 0.3, 1.5) * (stiffness * mass).sqrt();
         let damping = if i % 2 == 0 {
