@@ -1,7 +1,7 @@
 //! Writes `docs/validation.md`: every measured recording, its recipe, what was found and what must
 //! hold. Run by `cargo xtask validation`.
 
-#[path = "../tests/measure/mod.rs"]
+#[path = "../tests/suite/measure/mod.rs"]
 mod measure;
 
 use std::fmt::Write;

@@ -1,14 +1,12 @@
 //! Cost of the Maxwell-slip ladder: 3 to 10 elements on 40 000 samples, fitted and held out in blocks.
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/suite/common/mod.rs"]
 mod common;
-#[path = "../tests/common/maxwell.rs"]
-mod maxwell;
 
+use common::maxwell::{four, motion};
 use common::{Noise, record};
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use maxwell::{four, motion};
 use stiction_identify::{Law, LawKind, Objective, Record, Settings, Silent, Terms, separable};
 
 fn main() {

@@ -1,6 +1,6 @@
 //! Cost of an identification: six parameters of 30 001 samples with 1 % noise, and its parts.
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/suite/common/mod.rs"]
 mod common;
 
 use common::{MACHINE, Noise, record, sine_record};

@@ -1,10 +1,10 @@
 //! Prints the tables of `docs/conditioning.md`: how well the automatic conditioning does on simulated
 //! logs whose truth is known.
 
-#[path = "../tests/common/closed_loop.rs"]
-mod closed_loop;
+#[path = "../tests/suite/common/mod.rs"]
+mod common;
 
-use closed_loop::{axis, encoder, error, identified, three_segments, truth};
+use common::closed_loop::{axis, encoder, error, identified, three_segments, truth};
 use stiction_identify::{
     Conditioning, Cutoff, Law, LawKind, Samples, Settings, Silent, Source, Terms, condition,
     identify,

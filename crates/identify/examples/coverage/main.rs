@@ -6,14 +6,12 @@
 //! the position leaves a residual of .56 N, the noise of the force one of .02 N; the finer encoders
 //! come with 1 N on the force, as the demo.
 
-#[path = "../../tests/common/mod.rs"]
+#[path = "../../tests/suite/common/mod.rs"]
 mod common;
 mod rivals;
-#[path = "../../tests/common/trials.rs"]
-mod trials;
 
+use common::trials::{Tally, Trial, autoregressive, coverage, quantised};
 use stiction_identify::{Conditioning, Cutoff};
-use trials::{Tally, Trial, autoregressive, coverage, quantised};
 
 /// Makes the record of one run.
 type Make = Box<dyn Fn(u64) -> Trial>;

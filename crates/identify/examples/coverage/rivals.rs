@@ -2,7 +2,7 @@
 //! (ln kappa, ln (r - 1), ln vs, then the coefficients) with the normal quantile.
 
 use crate::common::MACHINE;
-use crate::trials::{Trial, local};
+use crate::common::trials::{Trial, local};
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
 

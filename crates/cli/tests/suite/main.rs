@@ -1,0 +1,7 @@
+//! The integration tests of `stiction-cli` in one program, which is linked once: a new file is a module here.
+
+mod cli;
+mod export;
+mod procedures;
+mod searches;
+mod study;

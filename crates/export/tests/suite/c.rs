@@ -1,0 +1,426 @@
+//! The C text: compiled under every warning, its self-test run, and sample by sample against the compensator.
+
+use crate::common::compiled::{agree, drive, gcc, level, passive, run, through_rust, write};
+use crate::common::{adversarial, busy, laws, model, random};
+use std::process::{Command, Stdio};
+use stiction_export::{Model, Target, export};
+use stiction_friction::compensator::{Friction, Input, Settings};
+use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
+
+/// What the C has to pass; the undefined-behaviour sanitizer on top where it runs.
+const STRICT: &str = "-std=c99 -pedantic -Wall -Wextra -Wconversion -Wdouble-promotion -Wshadow -Wstrict-prototypes \
+     -Wmissing-prototypes -Wfloat-equal -Wsign-conversion -Wundef -Wcast-qual -O2 -Werror";
+const SANITIZE: &str = "-fsanitize=undefined,float-divide-by-zero -fno-sanitize-recover=all";
+
+#[test]
+fn the_self_test_passes_under_every_warning() {
+    for (name, law) in laws() {
+        let dir = tempfile::tempdir().unwrap();
+        write(&export(&model(law), Target::C).unwrap(), dir.path());
+        for file in ["x_axis_friction", "x_axis_friction_f32"] {
+            let (source, test) = (format!("{file}.c"), format!("{file}_selftest.c"));
+            gcc(&format!("{STRICT} -fanalyzer -c"), &[&source], dir.path());
+            gcc(
+                &format!("{STRICT} {}", SANITIZE.replace(",float-divide-by-zero", "")),
+                &[&source, &test, "-lm"],
+                dir.path(),
+            );
+            let said = run("./a.out", &[], dir.path());
+            assert!(said.starts_with("ok: 151 samples"), "{name}: {said}");
+        }
+    }
+}
+
+/// Numbers at the ends of what a number type takes, in all combinations, give a finite self-test that passes (in double
+/// precision it is only looked at); beyond them the model is refused.
+#[test]
+fn the_self_test_holds_to_the_ends_of_the_range() {
+    let corners = |k: u32, most: f64| {
+        let end = |bit: u32| [1.001 / most, 0.999 * most][(k >> bit & 1) as usize];
+        let side = Direction {
+            coulomb: end(0),
+            static_friction: end(0).max(end(1)),
+            stribeck_velocity: end(2),
+            viscous: end(3),
+        };
+        let curve = Stribeck::symmetric(Shape::Gaussian, side, 0.0).unwrap();
+        model(Friction::LuGre(
+            LuGre::new(end(4), Damping::Capped(end(5)), curve).unwrap(),
+        ))
+    };
+    for k in 0..64 {
+        let mut model = corners(k, 1e15);
+        model.settings.limit = 1e29;
+        let dir = tempfile::tempdir().unwrap();
+        write(&export(&model, Target::C).unwrap(), dir.path());
+        let file = "x_axis_friction_f32";
+        let (source, test) = (format!("{file}.c"), format!("{file}_selftest.c"));
+        gcc("-std=c99 -O1 -Werror", &[&source, &test, "-lm"], dir.path());
+        let said = run("./a.out", &[], dir.path());
+        assert!(said.starts_with("ok: 151 samples"), "{k}: {said}");
+        for file in export(&corners(k, 1e100), Target::Rust).unwrap() {
+            let text = String::from_utf8(file.bytes).unwrap();
+            let rows = text.lines().filter(|line| line.starts_with("    ("));
+            assert!(
+                !rows
+                    .into_iter()
+                    .any(|row| row.contains("inf") || row.contains("NaN"))
+            );
+        }
+    }
+    let beyond = |large: &Model| export(large, Target::C).unwrap_err().to_string();
+    for (limit, typed) in [(1e31, "1e31"), (1e-40, "1e-40"), (1e-300, "1e-300")] {
+        let mut model = corners(0, 1e15);
+        model.settings.limit = limit;
+        let said = format!("limit = {typed}; allowed: from 1e-30 to 1e30 (as float)");
+        assert_eq!(beyond(&model), said);
+    }
+    let curve = Stribeck::symmetric(
+        Shape::Gaussian,
+        Direction {
+            coulomb: 12.0,
+            static_friction: 18.0,
+            stribeck_velocity: 1e37,
+            viscous: 30.0,
+        },
+        0.0,
+    )
+    .unwrap();
+    let said = "stribeck_velocity = 1e37; allowed: from 1e-15 to 1e15 (as float)";
+    assert_eq!(beyond(&model(Friction::Stribeck(curve))), said);
+}
+
+/// A self-test that is run with another parameter fails.
+#[test]
+fn the_self_test_notices() {
+    let dir = tempfile::tempdir().unwrap();
+    write(
+        &export(&model(laws().remove(0).1), Target::C).unwrap(),
+        dir.path(),
+    );
+    let path = dir.path().join("x_axis_friction.c");
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(
+        &path,
+        text.replace("params->sigma1 = 1500.0;", "params->sigma1 = 1500.1;"),
+    )
+    .unwrap();
+    gcc(
+        "-std=c99",
+        &["x_axis_friction.c", "x_axis_friction_selftest.c", "-lm"],
+        dir.path(),
+    );
+    let status = Command::new(dir.path().join("a.out"))
+        .stdout(Stdio::null())
+        .status()
+        .unwrap();
+    assert_eq!(status.code(), Some(1));
+}
+
+/// The deviations are those that stand in the page of the target, and no others.
+#[test]
+fn misra() {
+    let dir = tempfile::tempdir().unwrap();
+    let found: std::collections::BTreeSet<String> = laws()
+        .into_iter()
+        .filter(|(name, _)| ["power", "stribeck", "coulomb"].contains(name))
+        .flat_map(|(_, law)| {
+            write(&export(&model(law), Target::C).unwrap(), dir.path());
+            let arguments = "--addon=misra --enable=style,warning,performance,portability --inconclusive --std=c99 \
+                 --suppress=missingIncludeSystem --suppress=unusedStructMember --quiet --template={id} x_axis_friction.c x_axis_friction_f32.c";
+            let said = run("cppcheck", &arguments.split_whitespace().collect::<Vec<_>>(), dir.path());
+            said.lines().map(str::to_string).collect::<Vec<_>>()
+        })
+        .collect();
+    let page =
+        std::fs::read_to_string(stiction_testkit::workspace().join("docs/deploy/c.md")).unwrap();
+    for id in &found {
+        let rule = id.trim_start_matches("misra-c2012-");
+        assert!(
+            page.contains(&format!("| {rule} |")),
+            "{found:?}: {id} is not justified in docs/deploy/c.md"
+        );
+    }
+}
+
+/// Reads `h, velocity, error, enable` as doubles, writes force and deflection.
+const DRIVER: &str = r#"
+#include "x_axis_friction@F@.h"
+#include <stdio.h>
+int main(void) {
+    double in[4];
+    x_axis@F@_params_t p;
+    x_axis@F@_state_t s;
+    x_axis@F@_params(&p);
+    if (!x_axis@F@_init(&p, &s)) { return 1; }
+    while (fread(in, sizeof in, 1, stdin) == 1) {
+        const x_axis@F@_input_t input = { (@R@)in[1], (@R@)in[2], in[3] != 0.0 };
+        double out[2];
+        out[0] = (double)x_axis@F@_step_in(&p, &s, (@R@)in[0], &input);
+        out[1] = @Z@;
+        (void)fwrite(out, sizeof out, 1, stdout);
+    }
+    return 0;
+}
+"#;
+
+/// Force and deflection of the compiled C for each sample.
+fn through_c(
+    model: &Model,
+    single: bool,
+    bristles: bool,
+    samples: &[(f64, Input<f64>)],
+) -> Vec<[f64; 2]> {
+    let dir = tempfile::tempdir().unwrap();
+    write(&export(model, Target::C).unwrap(), dir.path());
+    let (suffix, real) = if single {
+        ("_f32", "float")
+    } else {
+        ("", "double")
+    };
+    let deflection = if bristles {
+        "(double)s.deflection"
+    } else {
+        "0.0"
+    };
+    let driver = DRIVER
+        .replace("@F@", suffix)
+        .replace("@R@", real)
+        .replace("@Z@", deflection);
+    std::fs::write(dir.path().join("driver.c"), driver).unwrap();
+    let source = format!("x_axis_friction{suffix}.c");
+    gcc(
+        "-std=c99 -O2 -fsanitize=undefined -fno-sanitize-recover=all",
+        &["driver.c", &source, "-lm"],
+        dir.path(),
+    );
+    drive(dir.path(), "./a.out", samples)
+}
+
+#[test]
+fn double_precision_agrees() {
+    agree(
+        "C",
+        |_| {},
+        |model, bristles, samples| through_c(model, false, bristles, samples),
+    );
+}
+
+#[test]
+fn single_precision_agrees() {
+    let mut worst = 0.0_f64;
+    let laws = laws();
+    let each = 1_000_000 / laws.len() + 1;
+    for (seed, (name, friction)) in laws.into_iter().enumerate() {
+        let mut model = model(friction);
+        model.settings = busy();
+        let samples = adversarial(each, true, &mut random(100 + seed as u64));
+        let c = through_c(&model, true, false, &samples);
+        let to = |x: [f64; 2]| x.map(|x| x as f32);
+        let small: Friction<f32> = match &friction {
+            Friction::Coulomb(law) => Friction::Coulomb(
+                stiction_friction::CoulombViscous::new(
+                    to(law.coulomb()),
+                    to(law.viscous()),
+                    law.offset() as f32,
+                )
+                .unwrap(),
+            ),
+            Friction::Stribeck(curve) => Friction::Stribeck(curve.cast().unwrap()),
+            Friction::LuGre(law) => Friction::LuGre(law.cast().unwrap()),
+        };
+        let s = model.settings;
+        let settings = Settings {
+            gain: s.gain as f32,
+            dead_zone: s.dead_zone as f32,
+            slew: s.slew as f32,
+            ramp: s.ramp as f32,
+            watchdog: Some(stiction_friction::compensator::Watchdog {
+                window: 0.5,
+                ratio: 1.0,
+            }),
+            ..Settings::new(s.cycle_time as f32, s.limit as f32)
+        };
+        for (i, ([force, _], due)) in c
+            .into_iter()
+            .zip(through_rust(small, settings, &samples))
+            .enumerate()
+        {
+            let off = (force - due).abs() / level(&friction);
+            worst = worst.max(off);
+            assert!(off <= 2e-6, "{name} {i}: {force} {due} at {:?}", samples[i]);
+        }
+    }
+    println!("single: largest deviation {worst:.2e} of Fs");
+}
+
+#[test]
+fn the_exported_law_is_passive() {
+    for (single, rounding) in [(false, 1e-12), (true, 1e-5)] {
+        passive(rounding, |model, bristles, samples| {
+            through_c(model, single, bristles, samples)
+        });
+    }
+}
+
+/// As a compiler takes it that is not told which C it is: with everything that its headers declare beyond the standard.
+#[test]
+fn plain_compilers_take_it() {
+    let dir = tempfile::tempdir().unwrap();
+    write(
+        &export(&model(laws().remove(0).1), Target::C).unwrap(),
+        dir.path(),
+    );
+    for flags in [
+        "",
+        "-std=gnu99 -D_GNU_SOURCE",
+        "-std=c17",
+        "-xc++ -fpermissive",
+    ] {
+        for file in ["x_axis_friction.c", "x_axis_friction_f32.c"] {
+            gcc(&format!("{flags} -Wall -Werror -c"), &[file], dir.path());
+        }
+    }
+}
+
+/// What a step takes of the stack, as gcc counts it: all functions of the file one in the other, which no call is. The
+/// page of the target states it.
+#[test]
+fn the_stack_is_small() {
+    let page =
+        std::fs::read_to_string(stiction_testkit::workspace().join("docs/deploy/c.md")).unwrap();
+    let mut most = 0;
+    for (_, law) in laws() {
+        let dir = tempfile::tempdir().unwrap();
+        write(&export(&model(law), Target::C).unwrap(), dir.path());
+        for file in ["x_axis_friction", "x_axis_friction_f32"] {
+            for level in ["-O2", "-O0"] {
+                let flags = format!("-std=c99 {level} -fstack-usage -c");
+                gcc(&flags, &[&format!("{file}.c")], dir.path());
+                let usage = std::fs::read_to_string(dir.path().join(format!("{file}.su"))).unwrap();
+                let bytes = usage.lines().map(|line| {
+                    let fields: Vec<&str> = line.split('\t').collect();
+                    assert_eq!(fields[2], "static", "{line}");
+                    fields[1].parse::<usize>().unwrap()
+                });
+                let sum = bytes.sum::<usize>();
+                println!("{file} {level}: {sum} bytes");
+                if level == "-O2" {
+                    most = most.max(sum);
+                }
+            }
+        }
+    }
+    let stated = format!("at most {most} bytes of stack");
+    assert!(
+        page.contains(&stated),
+        "docs/deploy/c.md does not say {stated}"
+    );
+}
+
+/// The gain may be set while it runs: one that is no share is none.
+#[test]
+fn a_gain_out_of_range_is_none() {
+    let dir = tempfile::tempdir().unwrap();
+    write(
+        &export(&model(laws().remove(0).1), Target::C).unwrap(),
+        dir.path(),
+    );
+    let program = r#"
+#include "x_axis_friction.h"
+#include <math.h>
+#include <stdio.h>
+int main(void) {
+    const double gains[] = { 0.5, (double)NAN, 1.5, -1.0, (double)INFINITY, 0.5 };
+    x_axis_params_t p;
+    x_axis_state_t s;
+    x_axis_params(&p);
+    p.watchdog_window = 0.0;
+    p.ramp = 0.0;
+    if (!x_axis_init(&p, &s)) { return 1; }
+    for (int i = -9; i < 6; i++) {
+        const x_axis_input_t input = { 0.05, 0.0, true };
+        p.gain = gains[(i < 0) ? 0 : i];
+        const double force = x_axis_step(&p, &s, &input);
+        if (i >= 0) { (void)printf("%.2f ", force); }
+    }
+    return 0;
+}
+"#;
+    std::fs::write(dir.path().join("main.c"), program).unwrap();
+    gcc(
+        "-std=c99",
+        &["main.c", "x_axis_friction.c", "-lm"],
+        dir.path(),
+    );
+    // Fc and 30 N s/m at 50 mm/s: 13.5 N.
+    let said = run("./a.out", &[], dir.path());
+    assert_eq!(said, "6.75 0.00 0.00 0.00 0.00 6.75 ");
+}
+
+/// A limit or slew that is no number, whenever it comes, lets no force out, and a window that is none no force in; with
+/// good ones it comes back.
+#[test]
+fn settings_that_are_none_give_no_force() {
+    let dir = tempfile::tempdir().unwrap();
+    write(
+        &export(&model(laws().remove(0).1), Target::C).unwrap(),
+        dir.path(),
+    );
+    let program = r#"
+#include "x_axis_friction.h"
+#include <math.h>
+#include <stdio.h>
+int main(void) {
+    const double bad[] = { (double)NAN, -1.0, 0.0, (double)INFINITY };
+    x_axis_params_t p;
+    x_axis_state_t s;
+    const x_axis_input_t input = { 0.05, 0.0, true };
+    x_axis_params(&p);
+    p.watchdog_window = 0.0;
+    p.ramp = 0.0;
+    if (!x_axis_init(&p, &s)) { return 1; }
+    for (int which = 0; which < 2; which++) {
+        for (int i = 0; i < 4; i++) {
+            x_axis_params_t q = p;
+            *(which ? &q.limit : &q.slew) = bad[i];
+            for (int k = 0; k < 9; k++) { (void)x_axis_step(&p, &s, &input); }
+            (void)printf("%.2f ", s.output);
+            for (int k = 0; k < 9; k++) { (void)x_axis_step(&q, &s, &input); }
+            (void)printf("%.2f, ", s.output);
+        }
+    }
+    p.watchdog_window = (double)NAN;
+    x_axis_reset(&p, &s);
+    for (int k = 0; k < 9; k++) { (void)x_axis_step(&p, &s, &input); }
+    (void)printf("%.2f\n", s.output);
+    return 0;
+}
+"#;
+    std::fs::write(dir.path().join("main.c"), program).unwrap();
+    gcc(
+        "-std=c99",
+        &["main.c", "x_axis_friction.c", "-lm"],
+        dir.path(),
+    );
+    // 0.75 of Fc and 30 N s/m at 50 mm/s.
+    let said = run("./a.out", &[], dir.path());
+    assert_eq!(said, format!("{}0.00\n", "10.12 0.00, ".repeat(8)));
+}
+
+#[test]
+fn the_example_runs() {
+    let dir = tempfile::tempdir().unwrap();
+    write(
+        &export(&model(laws().remove(0).1), Target::C).unwrap(),
+        dir.path(),
+    );
+    let example = stiction_testkit::workspace().join("examples/export/c/axis.c");
+    gcc(
+        "-std=c99 -O2 -Wall -Wextra -Werror -I.",
+        &[&example.to_string_lossy(), "x_axis_friction.c", "-lm"],
+        dir.path(),
+    );
+    let said = run("./a.out", &[], dir.path());
+    assert_eq!(said, "6.15 N at 10 mm/s\n-6.15 N at -10 mm/s\n");
+}

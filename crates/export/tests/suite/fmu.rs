@@ -1,0 +1,263 @@
+//! The FMUs: validated and simulated by FMPy, and sample by sample against the compensator through the functions of the
+//! standard.
+
+use crate::common::compiled::{Sample, agree, drive, gcc, passive, run, write};
+use crate::common::{laws, model, parts};
+use std::path::{Path, PathBuf};
+use stiction_export::{File, GCC, Model, fmu};
+
+fn python(arguments: &[&str], dir: &Path) -> String {
+    let local = stiction_testkit::workspace().join(".venv/bin");
+    let python = std::env::var_os("STICTION_PYTHON").map_or(local.join("python"), PathBuf::from);
+    // Where the packages of the set-up put their programs.
+    let path = format!(
+        "PATH={}:{}",
+        python.parent().unwrap_or(&local).display(),
+        std::env::var("PATH").unwrap_or_default()
+    );
+    let python = python.to_string_lossy().into_owned();
+    run("env", &[&[path.as_str(), &python], arguments].concat(), dir)
+}
+
+/// With the compiler and the flags of the export.
+fn compile(source: &File) -> Option<Vec<u8>> {
+    let dir = tempfile::tempdir().unwrap();
+    let name = source.path.rsplit('/').next().unwrap();
+    std::fs::write(dir.path().join(name), &source.bytes).unwrap();
+    gcc(&GCC.join(" "), &["fmu.so", name, "-lm"], dir.path());
+    std::fs::read(dir.path().join("fmu.so")).ok()
+}
+
+/// FMPy validates both, simulates them over the samples of the self-test, and finds the forces that are due.
+#[test]
+fn fmpy_gives_the_forces_that_are_due() {
+    for (name, law) in laws()
+        .into_iter()
+        .filter(|(name, _)| ["lugre", "power", "coulomb"].contains(name))
+    {
+        let dir = tempfile::tempdir().unwrap();
+        let mut model = model(law);
+        model.rotary = name == "power";
+        write(&fmu(&model, &mut compile).unwrap(), dir.path());
+        let said = python(&["x_axis_friction_selftest.py"], dir.path());
+        for version in [2, 3] {
+            let good = format!("ok FMI {version}.0: 151 samples");
+            assert!(said.contains(&good), "{name}: {said}");
+        }
+        println!("{name}: {said}");
+    }
+}
+
+/// Without a compiler the source is there, and FMPy builds it as the FMU says.
+#[test]
+fn the_source_is_enough() {
+    let dir = tempfile::tempdir().unwrap();
+    let files = fmu(&model(laws().remove(0).1), &mut |_| None).unwrap();
+    for archive in &files[..2] {
+        assert!(!parts(archive).iter().any(|f| f.path.ends_with(".so")));
+    }
+    write(&files, dir.path());
+    let said = python(&["x_axis_friction_selftest.py"], dir.path());
+    assert!(
+        said.contains("ok FMI 2.0") && said.contains("ok FMI 3.0"),
+        "{said}"
+    );
+}
+
+/// State taken, gone back to, through bytes and back; reset; two instances of one library side by side; refusals.
+#[test]
+fn states_resets_and_instances() {
+    let dir = tempfile::tempdir().unwrap();
+    write(
+        &fmu(&model(laws().remove(0).1), &mut compile).unwrap(),
+        dir.path(),
+    );
+    let script = stiction_testkit::workspace().join("crates/export/tests/fmu/states.py");
+    let said = python(&[&script.to_string_lossy()], dir.path());
+    let (refusals, done): (Vec<_>, Vec<_>) = said.lines().partition(|l| l.starts_with("[ERROR]"));
+    assert_eq!(done, ["ok 2.0", "ok 3.0"]);
+    // Every refusal is said through the logger of the standard.
+    assert_eq!(refusals.len(), 2 * 9, "{said}");
+}
+
+/// The page of the target runs this file.
+#[test]
+fn the_example_runs() {
+    let dir = tempfile::tempdir().unwrap();
+    write(
+        &fmu(&model(laws().remove(0).1), &mut compile).unwrap(),
+        dir.path(),
+    );
+    let example = stiction_testkit::workspace().join("examples/export/fmu/simulate.py");
+    let said = python(&[&example.to_string_lossy(), "."], dir.path());
+    // A share of a half of 12 N and 30 N s/m at 10 mm/s, both ways.
+    assert!(
+        said.contains("6.15 N at 10 mm/s, -6.15 N at -10 mm/s"),
+        "{said}"
+    );
+}
+
+#[test]
+fn the_source_compiles_under_every_warning() {
+    for (_, law) in laws() {
+        let dir = tempfile::tempdir().unwrap();
+        for archive in &fmu(&model(law), &mut |_| None).unwrap()[..2] {
+            write(&parts(archive), dir.path());
+            gcc(
+                "-std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wfloat-equal -Wsign-conversion -Wundef -Wcast-qual -O2 -Werror -c -o fmu.o",
+                &["sources/x_axis_friction.c"],
+                dir.path(),
+            );
+        }
+    }
+}
+
+/// The same bytes at any time of day, every entry with the first date that a zip can hold.
+#[test]
+fn the_same_model_gives_the_same_bytes() {
+    let model = model(laws().remove(0).1);
+    let once = fmu(&model, &mut compile).unwrap();
+    assert_eq!(once, fmu(&model, &mut compile).unwrap());
+    let mut zip = zip::ZipArchive::new(std::io::Cursor::new(&once[0].bytes)).unwrap();
+    for i in 0..zip.len() {
+        let date = zip.by_index(i).unwrap().last_modified().unwrap();
+        assert_eq!((date.year(), date.month(), date.day()), (1980, 1, 1));
+    }
+}
+
+/// Two models never pass for each other: the token is of the content.
+#[test]
+fn another_model_has_another_token() {
+    let token = |model: &Model| {
+        let archive = fmu(model, &mut |_| None).unwrap().remove(0);
+        let text = String::from_utf8(parts(&archive).remove(0).bytes).unwrap();
+        text.split("guid=\"").nth(1).unwrap()[..38].to_string()
+    };
+    let mut other = model(laws().remove(0).1);
+    other.settings.limit += 1.0;
+    assert_ne!(token(&model(laws().remove(0).1)), token(&other));
+}
+
+/// The functions of the standard, and the loop of the other targets' drivers.
+const DRIVER: &str = r#"
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+static void *library;
+static void *find(const char *name) {
+    void *at = dlsym(library, name);
+    if (at == NULL) { (void)fprintf(stderr, "no %s\n", name); abort(); }
+    return at;
+}
+#define GET(type, name, arguments) type (*name)arguments = (type (*)arguments)find(#name)
+int main(void) {
+    static const unsigned inputs[] = { 1, 2 }, enable[] = { 3 }, outputs[] = { 5, 9 };
+    double in[4];
+    library = dlopen("./binaries/@FOLDER@/x_axis_friction.so", RTLD_NOW);
+    if (library == NULL) { return 1; }
+@SETUP@
+    for (long k = 0; fread(in, sizeof in, 1, stdin) == 1; k++) {
+        double out[2];
+@STEP@
+        (void)fwrite(out, sizeof out, 1, stdout);
+    }
+    return 0;
+}
+"#;
+
+const SETUP_2: &str = r#"
+    struct { void (*logger)(void); void *(*allocate)(size_t, size_t); void (*release)(void *); void *finished; void *environment; }
+        callbacks = { NULL, calloc, free, NULL, NULL };
+    GET(void *, fmi2Instantiate, (const char *, int, const char *, const char *, const void *, int, int));
+    GET(int, fmi2SetupExperiment, (void *, int, double, double, int, double));
+    GET(int, fmi2EnterInitializationMode, (void *));
+    GET(int, fmi2ExitInitializationMode, (void *));
+    GET(int, fmi2SetReal, (void *, const unsigned *, size_t, const double *));
+    GET(int, fmi2GetReal, (void *, const unsigned *, size_t, double *));
+    GET(int, fmi2SetBoolean, (void *, const unsigned *, size_t, const int *));
+    GET(int, fmi2DoStep, (void *, double, double, int));
+    void *c = fmi2Instantiate("test", 1, "@TOKEN@", "", &callbacks, 0, 0);
+    if (c == NULL || fmi2SetupExperiment(c, 0, 0, 0, 0, 0) || fmi2EnterInitializationMode(c) || fmi2ExitInitializationMode(c)) { return 2; }
+"#;
+
+const STEP_2: &str = r#"
+        const int on[] = { in[3] != 0.0 };
+        if (fmi2SetReal(c, inputs, 2, &in[1]) || fmi2SetBoolean(c, enable, 1, on) || fmi2DoStep(c, (double)k * 1e-3, 1e-3, 1)
+            || fmi2GetReal(c, outputs, 2, out)) { return 3; }
+"#;
+
+const SETUP_3: &str = r#"
+    GET(void *, fmi3InstantiateCoSimulation, (const char *, const char *, const char *, bool, bool, bool, bool, const unsigned *, size_t, void *, void *, void *));
+    GET(int, fmi3EnterInitializationMode, (void *, bool, double, double, bool, double));
+    GET(int, fmi3ExitInitializationMode, (void *));
+    GET(int, fmi3SetFloat64, (void *, const unsigned *, size_t, const double *, size_t));
+    GET(int, fmi3GetFloat64, (void *, const unsigned *, size_t, double *, size_t));
+    GET(int, fmi3SetBoolean, (void *, const unsigned *, size_t, const bool *, size_t));
+    GET(int, fmi3DoStep, (void *, double, double, bool, bool *, bool *, bool *, double *));
+    void *c = fmi3InstantiateCoSimulation("test", "@TOKEN@", "", false, false, false, false, NULL, 0, NULL, NULL, NULL);
+    if (c == NULL || fmi3EnterInitializationMode(c, false, 0, 0, false, 0) || fmi3ExitInitializationMode(c)) { return 2; }
+"#;
+
+const STEP_3: &str = r#"
+        const bool on[] = { in[3] != 0.0 };
+        bool event, end, early;
+        double last;
+        if (fmi3SetFloat64(c, inputs, 2, &in[1], 2) || fmi3SetBoolean(c, enable, 1, on, 1)
+            || fmi3DoStep(c, (double)k * 1e-3, 1e-3, true, &event, &end, &early, &last) || fmi3GetFloat64(c, outputs, 2, out, 2)) { return 3; }
+"#;
+
+/// Through the library in the FMU of a version.
+fn through_fmu(version: usize, model: &Model, bristles: bool, samples: &[Sample]) -> Vec<[f64; 2]> {
+    let dir = tempfile::tempdir().unwrap();
+    let archive = fmu(model, &mut compile).unwrap().remove(version - 2);
+    let parts = parts(&archive);
+    let text = String::from_utf8(parts[0].bytes.clone()).unwrap();
+    let key = ["guid=\"", "instantiationToken=\""][version - 2];
+    let token = &text.split(key).nth(1).unwrap()[..38];
+    let [folder, setup, step] = [
+        ["linux64", SETUP_2, STEP_2],
+        ["x86_64-linux", SETUP_3, STEP_3],
+    ][version - 2];
+    write(&parts, dir.path());
+    let driver = DRIVER
+        .replace("@FOLDER@", folder)
+        .replace("@SETUP@", setup)
+        .replace("@STEP@", step)
+        .replace("@TOKEN@", token)
+        // Without bristles there is no deflection; the force then stands for it.
+        .replace("{ 5, 9 }", if bristles { "{ 5, 9 }" } else { "{ 5, 5 }" });
+    std::fs::write(dir.path().join("driver.c"), driver).unwrap();
+    gcc("-std=gnu99 -O2", &["driver.c", "-ldl"], dir.path());
+    drive(dir.path(), "./a.out", samples)
+}
+
+/// A fixed cycle, as the FMU samples.
+fn regular(samples: &mut [Sample]) {
+    samples.iter_mut().for_each(|(h, _)| *h = 1e-3);
+}
+
+#[test]
+fn fmi_2_agrees() {
+    agree("FMI 2.0", regular, |model, bristles, samples| {
+        through_fmu(2, model, bristles, samples)
+    });
+}
+
+#[test]
+fn fmi_3_agrees() {
+    agree("FMI 3.0", regular, |model, bristles, samples| {
+        through_fmu(3, model, bristles, samples)
+    });
+}
+
+#[test]
+fn both_are_passive() {
+    for version in [2, 3] {
+        passive(1e-12, |model, bristles, samples| {
+            through_fmu(version, model, bristles, samples)
+        });
+    }
+}

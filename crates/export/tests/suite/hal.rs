@@ -1,0 +1,234 @@
+//! The HAL component: built by halcompile, run by LinuxCNC in a real thread, and sample by sample against the compensator.
+
+use crate::common::compiled::{Sample, agree, drive, gcc, passive, run, write};
+use crate::common::{laws, model};
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use stiction_export::{Model, Target, export};
+
+/// Where LinuxCNC looks for components, and nowhere else.
+const MODULES: &str = "/usr/lib/linuxcnc/modules";
+
+/// A component that is removed again.
+struct Installed(PathBuf);
+
+impl Installed {
+    fn new(component: &str, dir: &Path) -> Self {
+        let source = format!("{component}.comp");
+        // As the page of the target has it; where the test runs as root, sudo need not be there.
+        let probe = Path::new(MODULES).join(format!(".{component}"));
+        if std::fs::write(&probe, "").is_ok() {
+            std::fs::remove_file(probe).unwrap();
+            run("halcompile", &["--install", &source], dir);
+        } else {
+            run("sudo", &["-n", "halcompile", "--install", &source], dir);
+        }
+        Self(Path::new(MODULES).join(format!("{component}.so")))
+    }
+}
+
+impl Drop for Installed {
+    fn drop(&mut self) {
+        if std::fs::remove_file(&self.0).is_err() {
+            let _ = std::process::Command::new("sudo")
+                .args(["-n", "rm", "-f"])
+                .arg(&self.0)
+                .status();
+        }
+    }
+}
+
+/// There is one HAL a machine: only one of these tests runs at a time, in whichever workspace.
+fn alone() -> File {
+    let path = std::env::temp_dir().join("stiction-hal.lock");
+    let lock = File::options()
+        .create(true)
+        .append(true)
+        .open(path)
+        .unwrap();
+    lock.lock().unwrap();
+    lock
+}
+
+#[test]
+fn linuxcnc_gives_the_forces_that_are_due() {
+    let _alone = alone();
+    for (name, law) in laws()
+        .into_iter()
+        .filter(|(name, _)| ["lugre", "power", "coulomb"].contains(name))
+    {
+        let mut model = model(law);
+        model.identifier = "Stiction_test".into();
+        model.settings.cycle_time = if name == "power" { 250e-6 } else { 1e-3 };
+        let dir = tempfile::tempdir().unwrap();
+        write(&export(&model, Target::Hal).unwrap(), dir.path());
+        let _installed = Installed::new("stiction_test_friction", dir.path());
+        let said = run(
+            "python3",
+            &["stiction_test_friction_selftest.py"],
+            dir.path(),
+        );
+        assert!(said.starts_with("ok 151 samples"), "{name}: {said}");
+        assert!(said.contains("in cycles or ns: 0 "), "{name}: {said}");
+        println!("{name}: {said}");
+    }
+}
+
+/// The example of the page, with the model beside it: Fc 12 N and 30 N s/m at 31.4 mm/s, a share of a half.
+#[test]
+fn the_example_runs() {
+    let _alone = alone();
+    let dir = tempfile::tempdir().unwrap();
+    let mut model = model(laws().remove(0).1);
+    model.identifier = "stiction_example".into();
+    write(&export(&model, Target::Hal).unwrap(), dir.path());
+    let _installed = Installed::new("stiction_example_friction", dir.path());
+    let example = stiction_testkit::workspace().join("examples/export/hal/axis.hal");
+    let text = std::fs::read_to_string(example)
+        .unwrap()
+        .replace("x_axis", "stiction_example")
+        .replace("x-axis", "stiction-example");
+    std::fs::write(dir.path().join("axis.hal"), text).unwrap();
+    // As root, HAL becomes another user, who has to reach the folder.
+    std::fs::set_permissions(
+        dir.path(),
+        std::os::unix::fs::PermissionsExt::from_mode(0o777),
+    )
+    .unwrap();
+    let environment = format!("RTAPI_FIFO_PATH={}", dir.path().join("fifo").display());
+    let said = run(
+        "env",
+        &["RTAPI_UID=65534", &environment, "halrun", "axis.hal"],
+        dir.path(),
+    );
+    let mut lines = said.lines();
+    assert_eq!(lines.next(), Some("TRUE"), "{said}");
+    let [v, force, permille] = [(); 3].map(|()| lines.next().unwrap().parse::<f64>().unwrap());
+    // How far the sine is after a second of sleep is up to the machine's other work: wherever it moves, the force is that of
+    // its speed. Six digits are printed, and it has moved on between two of them.
+    assert!(v != 0.0 && v.abs() < 31.5, "{said}");
+    assert!(force != 0.0 && force.abs() < 9.1, "{said}");
+    if v.abs() > 10.0 {
+        let due = 0.5 * (12.0 + 30.0 * v.abs() / 1000.0);
+        assert!((force * v.signum() - due).abs() < 0.1, "{said}");
+    }
+    assert!((permille - 5.0 * force).abs() < 0.1, "{said}");
+}
+
+/// HAL as far as a component sees it, and the loop of the other targets' drivers.
+const DRIVER: &str = r#"
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "rtapi.h"
+#include "hal.h"
+
+static struct { char name[HAL_NAME_LEN + 1]; void *at; } known[64];
+static int count;
+static void (*function)(void *, long);
+static void *instance;
+
+int rtapi_app_main(void);
+
+static void keep(void *at, const char *format, va_list list) {
+    (void)vsnprintf(known[count].name, sizeof known[count].name, format, list);
+    known[count++].at = at;
+}
+static void *pin(const char *name) {
+    for (int i = 0; i < count; i++) {
+        const char *dot = strrchr(known[i].name, '.');
+        if (strcmp(dot + 1, name) == 0) { return known[i].at; }
+    }
+    abort();
+}
+int hal_init(const char *name) { (void)name; return 1; }
+int hal_exit(int id) { (void)id; return 0; }
+int hal_ready(int id) { (void)id; return 0; }
+void *hal_malloc(long size) { return calloc(1, (size_t)size); }
+#define KEEP(at) va_list list; (void)dir; (void)id; va_start(list, format); keep((void *)(at), format, list); va_end(list); return 0
+int hal_pin_bit_newf(hal_pin_dir_t dir, hal_bit_t **at, int id, const char *format, ...) { *at = calloc(1, sizeof(hal_bit_t)); KEEP(*at); }
+int hal_pin_float_newf(hal_pin_dir_t dir, hal_float_t **at, int id, const char *format, ...) { *at = calloc(1, sizeof(hal_float_t)); KEEP(*at); }
+int hal_param_float_newf(hal_param_dir_t dir, hal_float_t *at, int id, const char *format, ...) { KEEP(at); }
+int hal_export_funct(const char *name, void (*f)(void *, long), void *arg, int fp, int reentrant, int id) {
+    (void)name; (void)fp; (void)reentrant; (void)id;
+    function = f;
+    instance = arg;
+    return 0;
+}
+int rtapi_snprintf(char *to, unsigned long size, const char *format, ...) {
+    va_list list;
+    va_start(list, format);
+    const int length = vsnprintf(to, size, format, list);
+    va_end(list);
+    return length;
+}
+void rtapi_print_msg(msg_level_t level, const char *format, ...) { (void)level; (void)format; }
+
+int main(void) {
+    double in[4];
+    if (rtapi_app_main() != 0) { return 1; }
+    hal_float_t *velocity = pin("velocity"), *error = pin("error"), *force = pin("force"), *z = @Z@;
+    hal_bit_t *enable = pin("enable"), *valid = pin("valid");
+    while (fread(in, sizeof in, 1, stdin) == 1) {
+        double out[2];
+        *velocity = in[1];
+        *error = in[2];
+        *enable = in[3] != 0.0;
+        function(instance, (long)(in[0] * 1e9 + 0.5));
+        if (!*valid) { return 2; }
+        out[0] = *force;
+        out[1] = *z;
+        (void)fwrite(out, sizeof out, 1, stdout);
+    }
+    return 0;
+}
+"#;
+
+/// The C that halcompile makes of the component, with its pins held by the driver.
+fn through_hal(model: &Model, bristles: bool, samples: &[Sample]) -> Vec<[f64; 2]> {
+    let dir = tempfile::tempdir().unwrap();
+    write(&export(model, Target::Hal).unwrap(), dir.path());
+    run(
+        "halcompile",
+        &["--preprocess", "x_axis_friction.comp"],
+        dir.path(),
+    );
+    let deflection = if bristles {
+        "pin(\"deflection\")"
+    } else {
+        "force"
+    };
+    std::fs::write(
+        dir.path().join("driver.c"),
+        DRIVER.replace("@Z@", deflection),
+    )
+    .unwrap();
+    gcc(
+        "-std=gnu99 -O2 -D_GNU_SOURCE -DRTAPI -DUSPACE -I/usr/include/linuxcnc -fsanitize=undefined -fno-sanitize-recover=all",
+        &["driver.c", "x_axis_friction.c", "-lm"],
+        dir.path(),
+    );
+    drive(dir.path(), "./a.out", samples)
+}
+
+/// A thread's period is a whole number of nanoseconds.
+fn whole(samples: &mut [Sample]) {
+    for (h, _) in samples {
+        *h = if *h >= 0.0 && *h < 10.0 {
+            (*h * 1e9).round() / 1e9
+        } else {
+            1e-3
+        };
+    }
+}
+
+#[test]
+fn the_component_agrees() {
+    agree("HAL", whole, through_hal);
+}
+
+#[test]
+fn the_component_is_passive() {
+    passive(1e-12, through_hal);
+}

@@ -1,0 +1,11 @@
+//! The integration tests of `stiction-export` in one program, which is linked once: a new file is a module here.
+
+mod c;
+mod common;
+mod fmu;
+mod hal;
+mod mujoco;
+mod rust;
+mod st;
+mod texts;
+mod tf5200;

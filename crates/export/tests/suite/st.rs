@@ -1,0 +1,482 @@
+//! The Structured Text: parsed by two parsers, its test program run, and executed beside the compensator.
+
+use crate::common;
+use crate::common::{adversarial, busy, laws, model, random};
+use std::path::PathBuf;
+use std::process::Command;
+use stiction_export::{File, Model, Target, export};
+use stiction_friction::compensator::{Compensator, Friction, Input, Source};
+use stiction_friction::{CoulombViscous, Damping, Direction, LuGre, Shape, Stribeck};
+use stiction_testkit::st::Library;
+
+fn text(files: &[File], name: &str) -> String {
+    let file = files
+        .iter()
+        .find(|f| f.path == name)
+        .unwrap_or_else(|| panic!("no {name}"));
+    String::from_utf8(file.bytes.clone()).unwrap()
+}
+
+fn library(model: &Model) -> Library {
+    let mut library = Library::default();
+    for file in export(model, Target::St).unwrap() {
+        let text = String::from_utf8(file.bytes).unwrap();
+        library
+            .add(&text)
+            .unwrap_or_else(|e| panic!("{}: {e}", file.path));
+    }
+    library
+}
+
+#[test]
+fn the_test_program_passes() {
+    for (name, law) in laws() {
+        let library = library(&model(law));
+        for program in ["PRG_x_axis_FrictionTest", "PRG_x_axis_FrictionTest_R"] {
+            let mut program = library.instance(program);
+            let (done, passed, worst) = (
+                program.slot("done"),
+                program.slot("passed"),
+                program.slot("worst"),
+            );
+            for _ in 0..152 {
+                program.call();
+            }
+            assert_eq!(program.get(done), 1.0, "{name}");
+            assert_eq!(program.get(passed), 1.0, "{name}: {}", program.get(worst));
+        }
+    }
+}
+
+/// Every combination of the largest and smallest parameters that are exported: the block takes them, its test passes,
+/// and at no speed and cycle time that it takes does an operation overflow (the interpreter stops there).
+#[test]
+fn what_is_exported_is_valid() {
+    let corners = |k: u32, near: f64| {
+        let end = |bit: u32, most: f64| [near * 1e-9, most / near][(k >> bit & 1) as usize];
+        let side = Direction {
+            coulomb: end(0, 1e9),
+            static_friction: end(0, 1e9).max(end(1, 1e9)),
+            stribeck_velocity: end(2, 1e9),
+            viscous: end(3, 1e9),
+        };
+        let curve = Stribeck::symmetric(Shape::Gaussian, side, 0.0).unwrap();
+        let law = LuGre::new(end(4, 1e15), Damping::Capped(end(5, 1e15)), curve).unwrap();
+        model(Friction::LuGre(law))
+    };
+    for k in 0..64 {
+        let mut model = corners(k, 1.0);
+        model.settings.limit = 1e15;
+        let library = library(&model);
+        for (suffix, huge) in [("", 1e15), ("_R", 1e12)] {
+            let mut program = library.instance(&format!("PRG_x_axis_FrictionTest{suffix}"));
+            (0..152).for_each(|_| program.call());
+            let of = |name: &str| program.get(program.slot(name));
+            assert_eq!(of("passed"), 1.0, "{k}{suffix}: {}", of("worst"));
+            let mut block = library.instance(&format!("FB_x_axis_Friction{suffix}"));
+            let [velocity, time, window, enable] = [
+                "reference_velocity",
+                "cycle_time",
+                "watchdog_window",
+                "enable",
+            ]
+            .map(|name| block.slot(name));
+            block.set(window, 0.0);
+            block.set(enable, 1.0);
+            for h in [1e-3, 1.001e-7, 10.0] {
+                block.set(time, h);
+                for v in [huge, 1.0, -1e-24, -huge, 1e-9, -1e3, 0.0, 1e-24, huge] {
+                    block.set(velocity, 0.999 * v);
+                    block.call();
+                    assert_eq!(block.get(block.slot("valid")), 1.0, "{k}{suffix} {v} {h}");
+                }
+            }
+        }
+    }
+    let beyond = |model: &Model| export(model, Target::St).unwrap_err().to_string();
+    assert_eq!(
+        beyond(&corners(0, 0.999)),
+        "sigma0 = 9.99e-10; allowed: from 1e-9 to 1e15 (as REAL)"
+    );
+    let mut viscous = laws().pop().map(|(_, law)| model(law)).unwrap();
+    let law = CoulombViscous::new([20.0, 14.0], [2e9, 85.0], -3.0).unwrap();
+    viscous.friction = Friction::Coulomb(law);
+    assert_eq!(
+        beyond(&viscous),
+        "sigma2_pos = 2e9; allowed: from 0 to 1e9 (as REAL)"
+    );
+    let mut limit = model(laws().remove(0).1);
+    limit.settings.limit = 1.1e15;
+    assert_eq!(
+        beyond(&limit),
+        "limit = 1.1e15; allowed: from 1e-15 to 1e15 (as REAL)"
+    );
+}
+
+/// A velocity that no machine has counts as none, so that no operation of a controller overflows.
+fn seen(h: f64, input: &Input<f64>, huge: f64) -> (f64, Input<f64>) {
+    let none = |x: f64| if x.abs() <= huge { x } else { f64::NAN };
+    let h = if (1e-7..=10.0).contains(&h) {
+        h
+    } else {
+        f64::NAN
+    };
+    let input = Input {
+        reference_velocity: none(input.reference_velocity),
+        tracking_error: none(input.tracking_error),
+        ..*input
+    };
+    (h, input)
+}
+
+/// A million samples of every kind over all laws, in LREAL: within 1e-12 of the larger of force and static friction.
+/// Deflection within its bound.
+#[test]
+fn lreal_agrees() {
+    let mut worst = 0.0_f64;
+    let laws = laws();
+    let each = 1_000_000 / laws.len() + 1;
+    for (seed, (name, friction)) in laws.into_iter().enumerate() {
+        let mut model = model(friction);
+        model.settings = busy();
+        if seed % 2 == 1 {
+            model.settings.watchdog = None;
+        }
+        let library = library(&model);
+        let mut block = library.instance("FB_x_axis_Friction");
+        let slots = [
+            "cycle_time",
+            "reference_velocity",
+            "tracking_error",
+            "enable",
+        ]
+        .map(|n| block.slot(n));
+        let (force, z) = (
+            block.slot("force"),
+            bristles(&friction).map(|_| block.slot("deflection")),
+        );
+        let mut compensator =
+            Compensator::new(friction, Source::Reference, model.settings).unwrap();
+        for (i, (h, input)) in adversarial(each, true, &mut random(seed as u64))
+            .iter()
+            .enumerate()
+        {
+            let enable = f64::from(u8::from(input.enable));
+            for (slot, x) in
+                slots
+                    .into_iter()
+                    .zip([*h, input.reference_velocity, input.tracking_error, enable])
+            {
+                block.set(slot, x);
+            }
+            block.call();
+            let (h, input) = seen(*h, input, 1e15);
+            let due = compensator.step_in(h, input);
+            let scale = due.abs().max(level(&friction));
+            let off = (block.get(force) - due).abs() / scale;
+            worst = worst.max(off);
+            assert!(
+                off <= 1e-12,
+                "{name} {i}: {} {due} at {h} {input:?}",
+                block.get(force)
+            );
+            if let (Some(bound), Some(z)) = (bristles(&friction), z) {
+                assert!(block.get(z).abs() <= bound, "{name} {i}");
+            }
+        }
+    }
+    println!("LREAL: largest deviation {worst:.2e} of Fs");
+}
+
+#[test]
+fn the_text_is_passive() {
+    common::compiled::passive(1e-12, |model, _, samples| {
+        let library = library(model);
+        let mut block = library.instance("FB_x_axis_Friction");
+        let names = ["reference_velocity", "enable", "force", "deflection"];
+        let [velocity, enable, force, z] = names.map(|n| block.slot(n));
+        block.set(enable, 1.0);
+        let step = |(_, input): &common::compiled::Sample| {
+            block.set(velocity, input.reference_velocity);
+            block.call();
+            [block.get(force), block.get(z)]
+        };
+        samples.iter().map(step).collect()
+    });
+}
+
+/// REAL against the compensator in double precision, on motions as they are: to single precision.
+#[test]
+fn real_agrees() {
+    let mut worst = 0.0_f64;
+    for (seed, (name, friction)) in laws().into_iter().enumerate() {
+        let mut model = model(friction);
+        model.settings = busy();
+        model.settings.watchdog = None;
+        let library = library(&model);
+        let mut block = library.instance("FB_x_axis_Friction_R");
+        let slots = [
+            "cycle_time",
+            "reference_velocity",
+            "tracking_error",
+            "enable",
+        ]
+        .map(|n| block.slot(n));
+        let force = block.slot("force");
+        let small = stiction_friction::compensator::Settings {
+            gain: 0.9_f32,
+            dead_zone: 1e-5,
+            slew: 8000.0,
+            ramp: 0.02,
+            watchdog: None,
+            ..stiction_friction::compensator::Settings::new(1e-3, 33.0)
+        };
+        let to = |x: [f64; 2]| x.map(|x| x as f32);
+        let law: Friction<f32> = match &friction {
+            Friction::Coulomb(law) => Friction::Coulomb(
+                stiction_friction::CoulombViscous::new(
+                    to(law.coulomb()),
+                    to(law.viscous()),
+                    law.offset() as f32,
+                )
+                .unwrap(),
+            ),
+            Friction::Stribeck(curve) => Friction::Stribeck(curve.cast().unwrap()),
+            Friction::LuGre(law) => Friction::LuGre(law.cast().unwrap()),
+        };
+        let mut compensator = Compensator::new(law, Source::Reference, small).unwrap();
+        for (i, (h, input)) in adversarial(150_000, true, &mut random(50 + seed as u64))
+            .iter()
+            .enumerate()
+        {
+            // As the controller's REAL inputs hold it.
+            let single = |x: f64| f64::from(x as f32);
+            let (h, v, x) = (
+                single(*h),
+                single(input.reference_velocity),
+                single(input.tracking_error),
+            );
+            let input = Input {
+                reference_velocity: v,
+                tracking_error: x,
+                ..*input
+            };
+            for (slot, x) in slots
+                .into_iter()
+                .zip([h, v, x, f64::from(u8::from(input.enable))])
+            {
+                block.set(slot, x);
+            }
+            block.call();
+            let (h, input) = seen(h, &input, 1e12);
+            let input = Input {
+                reference_velocity: input.reference_velocity as f32,
+                measured_velocity: 0.0,
+                tracking_error: input.tracking_error as f32,
+                enable: input.enable,
+            };
+            let due = f64::from(compensator.step_in(h as f32, input));
+            let off = (block.get(force) - due).abs() / level(&friction);
+            worst = worst.max(off);
+            assert!(
+                off <= 2e-6,
+                "{name} {i}: {} {due} at {h} {input:?}",
+                block.get(force)
+            );
+        }
+    }
+    println!("REAL: largest deviation {worst:.2e} of Fs");
+}
+
+fn bristles(friction: &Friction<f64>) -> Option<f64> {
+    match friction {
+        Friction::LuGre(law) => Some(law.bound()),
+        _ => None,
+    }
+}
+
+fn level(friction: &Friction<f64>) -> f64 {
+    match friction {
+        Friction::Coulomb(law) => law.coulomb()[0].max(law.coulomb()[1]),
+        Friction::Stribeck(curve) => curve.largest_static_level(),
+        Friction::LuGre(law) => law.curve().largest_static_level(),
+    }
+}
+
+/// Settings out of range, also those that are no number: not valid, no force.
+#[test]
+fn bad_settings_give_no_force() {
+    let library = library(&model(laws().remove(0).1));
+    for (setting, values) in [
+        ("gain", [1.1, -0.1, f64::NAN]),
+        ("largest_force", [0.0, -1.0, f64::NAN]),
+        ("ramp", [-1.0, 1e300, f64::NAN]),
+        ("sigma0", [0.0, f64::INFINITY, f64::NAN]),
+        ("static_pos", [1.0, f64::INFINITY, f64::NAN]),
+    ] {
+        for value in values {
+            let mut block = library.instance("FB_x_axis_Friction");
+            let [velocity, enable, changed] =
+                ["reference_velocity", "enable", setting].map(|n| block.slot(n));
+            block.set(velocity, 0.1);
+            block.set(enable, 1.0);
+            block.set(changed, value);
+            block.call();
+            assert_eq!(block.get(block.slot("valid")), 0.0, "{setting} {value}");
+            assert_eq!(block.get(block.slot("force")), 0.0);
+        }
+    }
+}
+
+/// A second parser, made for TwinCAT's files, takes the text and the objects.
+#[test]
+fn blark_reads_it() {
+    let local = stiction_testkit::workspace().join(".venv/bin/python");
+    let python = std::env::var_os("STICTION_PYTHON").map_or(local, PathBuf::from);
+    let dir = tempfile::tempdir().unwrap();
+    let mut names = Vec::new();
+    for (name, law) in laws()
+        .into_iter()
+        .filter(|(name, _)| ["power", "coulomb"].contains(name))
+    {
+        for target in [Target::St, Target::TcPou] {
+            for file in export(&model(law), target).unwrap() {
+                let name = format!("{name}_{}", file.path);
+                std::fs::write(dir.path().join(&name), &file.bytes).unwrap();
+                names.push(name);
+            }
+        }
+    }
+    let output = Command::new(&python)
+        .args(["-c", BLARK])
+        .args(&names)
+        .current_dir(dir.path())
+        .output()
+        .unwrap_or_else(|e| panic!("{}: {e}; install with: cargo xtask setup", python.display()));
+    let said = String::from_utf8_lossy(&output.stdout);
+    let parsed = format!("{} parsed", names.len());
+    assert!(
+        output.status.success() && said.contains(&parsed),
+        "{said}{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+}
+
+/// Parses every file named; a file in which nothing is found counts as a failure.
+const BLARK: &str = r#"
+import sys
+from blark.parse import parse
+count = 0
+for name in sys.argv[1:]:
+    results = list(parse(name))
+    for result in results:
+        if result.exception is not None:
+            raise SystemExit(f"{name}: {result.exception}")
+    count += bool(results)
+print(count, "parsed")
+"#;
+
+/// The objects and the XML carry the text itself.
+#[test]
+fn wrapped_text_is_the_text() {
+    let model = model(Friction::LuGre(
+        common::lugre(Shape::Gaussian)
+            .with_damping(Damping::Capped(0.0))
+            .unwrap(),
+    ));
+    let plain = export(&model, Target::St).unwrap();
+    let squeeze = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    for file in export(&model, Target::TcPou).unwrap() {
+        let xml = String::from_utf8(file.bytes).unwrap();
+        let document = roxmltree::Document::parse(&xml).unwrap();
+        let name = file.path.trim_end_matches(".TcPOU");
+        let whole: String = ["Declaration", "ST"]
+            .iter()
+            .map(|tag| {
+                document
+                    .descendants()
+                    .find(|n| n.has_tag_name(*tag))
+                    .and_then(|n| n.text())
+                    .unwrap()
+            })
+            .collect();
+        let pou = document
+            .descendants()
+            .find(|n| n.has_tag_name("POU"))
+            .unwrap();
+        assert_eq!(pou.attribute("Name"), Some(name));
+        assert_eq!(pou.attribute("Id").unwrap().len(), 38);
+        assert!(squeeze(&text(&plain, &format!("{name}.st"))).starts_with(&squeeze(&whole)));
+    }
+    let xml = text(
+        &export(&model, Target::PlcOpen).unwrap(),
+        "x_axis_friction.xml",
+    );
+    let document = roxmltree::Document::parse(&xml).unwrap();
+    let pous: Vec<_> = document
+        .descendants()
+        .filter(|n| n.has_tag_name("pou") || n.tag_name().name() == "pou")
+        .collect();
+    assert_eq!(pous.len(), plain.len());
+    for pou in pous {
+        let name = pou.attribute("name").unwrap();
+        let source = text(&plain, &format!("{name}.st"));
+        let st = pou
+            .descendants()
+            .find(|n| n.tag_name().name() == "ST")
+            .unwrap();
+        let body: String = st
+            .descendants()
+            .filter(|n| n.is_text())
+            .filter_map(|n| n.text())
+            .collect();
+        let body = body.trim().split_once("*)").unwrap().1;
+        assert!(squeeze(&source).contains(&squeeze(body)), "{name}");
+        // Every variable is declared, with the initial value of the text.
+        let variables: Vec<_> = pou
+            .descendants()
+            .filter(|n| n.tag_name().name() == "variable")
+            .collect();
+        assert_eq!(
+            variables.len(),
+            source
+                .lines()
+                .filter(|l| l.starts_with("    ") && l.contains(" : "))
+                .count()
+        );
+        for variable in variables {
+            let name = variable.attribute("name").unwrap();
+            let value = variable
+                .descendants()
+                .find(|n| n.tag_name().name() == "simpleValue");
+            let value = value.map(|n| n.attribute("value").unwrap());
+            let line = source
+                .lines()
+                .find(|l| l.trim().starts_with(&format!("{name} : ")))
+                .unwrap();
+            assert_eq!(value.is_some(), line.contains(":="), "{line}");
+            assert!(
+                value.is_none_or(|v| line.contains(&format!(":= {v};"))),
+                "{line}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_example_runs() {
+    let mut library = library(&model(laws().remove(0).1));
+    let example = stiction_testkit::workspace().join("examples/export/st/PRG_Axis.st");
+    library
+        .add(&std::fs::read_to_string(example).unwrap())
+        .unwrap();
+    let mut program = library.instance("PRG_Axis");
+    let torque = program.slot("additive_torque");
+    for (sign, cycles) in [(1.0, 1000), (-1.0, 1000)] {
+        (0..cycles).for_each(|_| program.call());
+        // A half of Fc + (Fs - Fc) exp(-(v/vs)^2) + sigma2 v, in per mille of 200 N.
+        let force = 12.0 + 6.0 * (-(10.0_f64 / 3.0).powi(2)).exp() + 0.3;
+        let due = sign * 0.5 * force / 200.0 * 1000.0;
+        assert!((program.get(torque) - due).abs() < 1e-9);
+    }
+}

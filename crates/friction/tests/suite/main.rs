@@ -1,0 +1,13 @@
+//! The integration tests of `stiction-friction` in one program, which is linked once: a new file is a module here.
+
+mod bound;
+mod c95;
+mod common;
+mod compensator;
+mod elasto_plastic;
+mod gms;
+mod order;
+mod parameters;
+mod passivity;
+mod sweep;
+mod symmetry;

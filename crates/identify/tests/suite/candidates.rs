@@ -1,0 +1,287 @@
+//! The costs that searches see, against the friction crate, the separable method and differences.
+
+use crate::common::{MACHINE, Noise, force_along, record};
+use proptest::prelude::*;
+use std::f64::consts::TAU;
+use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
+use stiction_identify::candidates::{
+    Candidates, Curve, Nonlinear, Scheme, SixParameters, box_of_six, thinned,
+};
+use stiction_identify::{
+    Conditioning, Cutoff, Law, LawKind, Mass, Record, Samples, SearchBox, Settings, Silent, Terms,
+    condition, identify, identify_from,
+};
+use stiction_search::{Bounds, Derivatives, Fidelity, Limits, Plan, Points, Problem, Run};
+
+const SIX: [f64; 6] = [1.2e5, 600.0, 60.0, 20.0, 30.0, 5e-3];
+const SAMPLES: usize = 3001;
+const STEP: f64 = 1e-3;
+
+fn velocity(t: f64) -> f64 {
+    0.05 * (TAU * t).sin()
+}
+
+fn acceleration(t: f64) -> f64 {
+    0.05 * TAU * (TAU * t).cos()
+}
+
+/// Force of the axis `machine` with a mass and an offset, and noise.
+fn samples(mass: f64, offset: f64) -> Samples {
+    let (v, mut u) = force_along(&MACHINE.law(), SAMPLES, STEP, 20, velocity);
+    let mut noise = Noise::new(3);
+    for (i, u) in u.iter_mut().enumerate() {
+        *u += mass * acceleration(i as f64 * STEP) + offset + 0.3 * noise.normal();
+    }
+    Samples {
+        time: (0..SAMPLES).map(|i| i as f64 * STEP).collect(),
+        velocity: Some(v),
+        force: u,
+        ..Samples::default()
+    }
+}
+
+fn plain() -> Record {
+    let Samples {
+        velocity, force, ..
+    } = samples(0.0, 0.0);
+    record(STEP, velocity.unwrap(), force)
+}
+
+fn bare() -> Terms {
+    Terms {
+        mass: Mass::Absent,
+        offset: false,
+        ..Terms::default()
+    }
+}
+
+fn lugre() -> Law {
+    Law::new(LawKind::LuGre)
+}
+
+/// A box of two decades to each side.
+fn about(six: &[f64; 6]) -> Bounds {
+    let [s0, s1, s2, fc, fs, vs] = *six;
+    let x = [s0, s1, s2, fc, fs - fc, vs].map(f64::ln);
+    Bounds::new(x.map(|x| x - 4.6).into(), x.map(|x| x + 4.6).into()).unwrap()
+}
+
+fn genome(six: &[f64; 6]) -> Vec<f64> {
+    let bounds = about(six);
+    bounds.at(&[0.5; 6])
+}
+
+fn cost(problem: &impl Problem, x: &[f64]) -> f64 {
+    let mut points = Points::new(x.len());
+    points.push(x);
+    let mut out = [f64::NAN];
+    problem.costs(&points, Fidelity::Full, &mut out);
+    out[0]
+}
+
+fn derivatives(problem: &impl Problem, x: &[f64]) -> Derivatives {
+    let mut points = Points::new(x.len());
+    points.push(x);
+    let mut out = [Derivatives::zeros(x.len())];
+    problem
+        .derivatives(&points, Fidelity::Full, &mut out)
+        .unwrap();
+    let [out] = out;
+    out
+}
+
+/// Twice the gradient against central differences of the cost; the cost of both ways is one.
+fn check_gradient(problem: &impl Problem, x: &[f64], tolerance: f64) {
+    let at = derivatives(problem, x);
+    let here = cost(problem, x);
+    assert!(
+        (at.cost - here).abs() < 1e-10 * here.max(1e-3),
+        "{} {here}",
+        at.cost
+    );
+    let steepest = at.gradient.iter().fold(here, |m, g| m.max(2.0 * g.abs()));
+    for i in 0..x.len() {
+        let moved = |d: f64| {
+            let mut y = x.to_vec();
+            y[i] += d;
+            cost(problem, &y)
+        };
+        let slope = (moved(1e-4) - moved(-1e-4)) / 2e-4;
+        let error = (2.0 * at.gradient[i] - slope).abs();
+        assert!(
+            error < tolerance * steepest,
+            "gene {i}: {} {slope}",
+            2.0 * at.gradient[i]
+        );
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// The cost of any candidate is that of the law of the friction crate, sample by sample.
+    #[test]
+    fn six_parameters_are_the_law(unit in prop::collection::vec(0.05_f64..0.95, 6)) {
+        let record = plain();
+        let problem =
+            SixParameters::new(&record, lugre(), &bare(), about(&SIX), Scheme::Explin).unwrap();
+        let x = about(&SIX).at(&unit);
+        let value = |i: usize| problem.parameters(&x)[i].1;
+        let side = Direction {
+            viscous: value(2),
+            coulomb: value(3),
+            static_friction: value(4),
+            stribeck_velocity: value(5),
+        };
+        let curve = Stribeck::symmetric(Shape::Gaussian, side, 0.0).unwrap();
+        let law = LuGre::new(value(0), Damping::Constant(value(1)), curve).unwrap();
+        let (_, model) = force_along(&law, SAMPLES, STEP, 1, velocity);
+        let u = &record.segments[0].force;
+        let sum: f64 = u.iter().zip(&model).map(|(u, y)| (u - y) * (u - y)).sum();
+        let energy: f64 = u.iter().map(|u| u * u).sum();
+        let found = cost(&problem, &x);
+        prop_assert!((found / (sum / energy) - 1.0).abs() < 1e-8, "{found} {}", sum / energy);
+    }
+}
+
+#[test]
+fn gradients_are_slopes_whatever_stands_beside_the_law() {
+    let off: Vec<f64> = (0..6)
+        .map(|i| genome(&SIX)[i] + [0.2, -0.3, 0.1, -0.1, 0.2, 0.15][i])
+        .collect();
+    let record = plain();
+    let problem =
+        SixParameters::new(&record, lugre(), &bare(), about(&SIX), Scheme::Explin).unwrap();
+    check_gradient(&problem, &off, 1e-6);
+    let log = [samples(7.0, 1.5)];
+    let none = Conditioning {
+        source_cutoff: Cutoff::Off,
+        common_cutoff: Cutoff::Off,
+        ..Conditioning::default()
+    };
+    let filtered = Conditioning {
+        common_cutoff: Cutoff::Hz(100.0),
+        ..none
+    };
+    for conditioning in [none, filtered] {
+        let record = condition(&log, &conditioning).unwrap();
+        let terms = Terms::default();
+        let problem =
+            SixParameters::new(&record, lugre(), &terms, about(&SIX), Scheme::Explin).unwrap();
+        check_gradient(&problem, &off, 1e-6);
+        let three = SixParameters::nonlinear(&off);
+        let inner = SearchBox::around(&three, 1.0);
+        let least = Nonlinear::new(&record, None, lugre(), &terms, &inner).unwrap();
+        check_gradient(&least, &three, 1e-4);
+        // With Fc, sigma1 and sigma2 solved too, the cost can only be less.
+        assert!(cost(&least, &three) < cost(&problem, &off));
+    }
+}
+
+/// At the optimum of the separable method both costs are its cost, and every search that descends ends
+/// there.
+#[test]
+fn searches_end_where_the_separable_method_does() {
+    let record = plain();
+    let (terms, settings) = (bare(), Settings::default());
+    let (best, optimum) = identify(&record, lugre(), &terms, 0.0, &settings, &mut Silent).unwrap();
+    let energy: f64 = record.segments[0].force.iter().map(|u| u * u).sum();
+    let least = optimum.evaluation.cost / energy;
+    let bounds = box_of_six(&record).unwrap();
+    let six = SixParameters::new(&record, lugre(), &terms, bounds, Scheme::Explin).unwrap();
+    let thin = thinned(&record);
+    let inner = SearchBox::from_record(&record, &lugre()).unwrap();
+    let three = Nonlinear::new(&record, thin.as_ref(), lugre(), &terms, &inner).unwrap();
+    let (point, found) = searched(&six);
+    assert!((found / least - 1.0).abs() < 1e-6, "{found} {least}");
+    let (p, found) = searched(&three);
+    assert!((found / least - 1.0).abs() < 1e-6, "{found} {least}");
+    for start in [SixParameters::nonlinear(&point), p] {
+        let (estimate, _) = identify_from(
+            &start,
+            &record,
+            lugre(),
+            &terms,
+            0.0,
+            &settings,
+            &mut Silent,
+        )
+        .unwrap();
+        for p in &best.parameters {
+            let again = estimate.value(&p.name).unwrap();
+            assert!(
+                (again / p.value - 1.0).abs() < 1e-4,
+                "{}: {again} {}",
+                p.name,
+                p.value
+            );
+        }
+    }
+}
+
+fn searched(problem: &impl Problem) -> (Vec<f64>, f64) {
+    let plan = Plan::named("niched-ga").unwrap();
+    let search = plan.start(problem.bounds().dimensions(), 5).unwrap();
+    let mut run = Run::new(search, problem);
+    run.advance(problem, &Limits::default(), &mut stiction_search::Silent)
+        .unwrap();
+    let best = run.best().unwrap();
+    (best.point.clone(), best.cost)
+}
+
+#[test]
+fn a_curve_has_the_slopes_of_its_cost_and_names_for_each_direction() {
+    let speeds: Vec<f64> = (-20..=20).map(|i| 0.05 * f64::from(i)).collect();
+    let truth = [0.02_f64, 0.28, 0.06, 0.2, 0.03, 0.29, 0.04, 0.3].map(f64::ln);
+    let force = |v: &f64| {
+        let p = if *v < 0.0 { &truth[4..] } else { &truth[..4] };
+        let [s2, fc, e, vs] = std::array::from_fn(|i| p[i].exp());
+        (fc + e * (-(v / vs).powi(2)).exp()) * v.signum() + s2 * v
+    };
+    let u: Vec<f64> = speeds.iter().map(force).collect();
+    let bounds = Bounds::new(truth.map(|x| x - 1.0).into(), truth.map(|x| x + 1.0).into());
+    let curve = Curve::new(speeds, u, bounds.unwrap()).unwrap();
+    assert!(cost(&curve, &truth) < 1e-28);
+    let off: Vec<f64> = truth
+        .iter()
+        .enumerate()
+        .map(|(i, x)| x + 0.1 * (i as f64 - 3.0))
+        .collect();
+    check_gradient(&curve, &off, 1e-5);
+    assert_eq!(curve.parameters(&off)[6].0, "static_neg");
+}
+
+#[test]
+fn what_cannot_be_searched_is_refused_by_name() {
+    let record = plain();
+    let refused = |law: Law, terms: &Terms, scheme| {
+        let problem = SixParameters::new(&record, law, terms, about(&SIX), scheme);
+        problem.err().expect("refused").to_string()
+    };
+    let both = refused(lugre().asymmetric(), &bare(), Scheme::Explin);
+    assert!(
+        both.starts_with("nonlinear unknowns = 6: the symmetric LuGre law"),
+        "{both}"
+    );
+    let euler = refused(lugre(), &Terms::default(), Scheme::Euler);
+    assert!(
+        euler.starts_with("further terms or filters = 2: none beside"),
+        "{euler}"
+    );
+    let inner = SearchBox::from_record(&record, &lugre()).unwrap();
+    let viscous = Law::new(LawKind::CoulombViscous);
+    assert!(Nonlinear::new(&record, None, viscous, &bare(), &inner).is_err());
+    let wide = Bounds::new(vec![-100.0; 6], vec![100.0; 6]).unwrap();
+    assert!(SixParameters::new(&record, lugre(), &bare(), wide, Scheme::Explin).is_err());
+    let settings = Settings::default();
+    let start = identify_from(
+        &[0.0],
+        &record,
+        lugre(),
+        &bare(),
+        0.0,
+        &settings,
+        &mut Silent,
+    );
+    assert!(start.is_err());
+}

@@ -1,0 +1,64 @@
+//! The bits do not depend on instruction set, company or threads.
+
+use crate::common::{candidate, force, motion, sine, spread, track};
+use proptest::prelude::*;
+use stiction_lanes::{Candidate, InstructionSet, Scheme, Track, costs};
+
+fn bits(track: &Track, all: &[Candidate], scheme: Scheme, set: InstructionSet) -> Vec<u64> {
+    let found = costs(track, all, scheme, set).unwrap();
+    found.iter().map(|x| x.to_bits()).collect()
+}
+
+const SCHEMES: [Scheme; 3] = [Scheme::Explin, Scheme::Euler, Scheme::RungeKutta];
+
+#[test]
+fn costs_have_the_same_bits_in_any_company_and_instruction_set() {
+    let velocity = sine(700, 1e-3, 0.05, 7.0);
+    let track = track(1e-3, &velocity, &force(&velocity));
+    for exponents in [false, true] {
+        let all = spread(33, exponents);
+        for scheme in SCHEMES {
+            let right: Vec<u64> = all
+                .iter()
+                .flat_map(|c| bits(&track, &[*c], scheme, InstructionSet::best()))
+                .collect();
+            for set in InstructionSet::all() {
+                for count in [1, 3, 7, 8, 9, 17, 33] {
+                    let found = bits(&track, &all[33 - count..], scheme, set);
+                    assert_eq!(found, right[33 - count..], "{set} {count} {scheme:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn costs_have_the_same_bits_with_any_number_of_threads() {
+    let velocity = sine(700, 1e-3, 0.05, 7.0);
+    let track = track(1e-3, &velocity, &force(&velocity));
+    let all = spread(33, true);
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let run = || bits(&track, &all, Scheme::Explin, InstructionSet::best());
+        pool.build().unwrap().install(run)
+    };
+    assert_eq!(with(1), with(2));
+    assert_eq!(with(1), with(5));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+    #[test]
+    fn any_cost_has_the_same_bits_everywhere(
+        all in prop::collection::vec(candidate(), 1..20),
+        velocity in motion(),
+        h in 1e-5..0.1,
+    ) {
+        let track = track(h, &velocity, &force(&velocity));
+        let one = |c: &Candidate| bits(&track, &[*c], Scheme::Explin, InstructionSet::best());
+        let right: Vec<u64> = all.iter().flat_map(one).collect();
+        for set in InstructionSet::all() {
+            prop_assert_eq!(&bits(&track, &all, Scheme::Explin, set), &right);
+        }
+    }
+}

@@ -1,0 +1,390 @@
+//! Which columns are recognised, what is assumed, and what is refused with the choices.
+
+use crate::mapping_common::{axis, codes, column, message, table, told};
+use stiction_log::{Channel, Kind, Log, Mapping, Motion, Selector, Table, Unit, Value};
+
+/// A table with these headers; samples that move, each column its own.
+fn headed(headers: &[&str]) -> Table {
+    let columns = headers.iter().enumerate().map(|(k, header)| {
+        let value = |i: usize| {
+            let t = i as f64 / 500.0;
+            if k == 0 {
+                t
+            } else {
+                (3.0 * t + k as f64).sin() * (1.0 + k as f64)
+            }
+        };
+        column(header, (0..1000).map(value).collect())
+    });
+    table(columns.collect())
+}
+
+fn picked(headers: &[&str]) -> String {
+    match Mapping::detect(&headed(headers)) {
+        Err(error) => format!("{:?}: {error}", error.kind),
+        Ok(detected) => {
+            let notes = detected
+                .findings
+                .iter()
+                .map(|f| format!("{}: {}", f.code, f.message));
+            detected
+                .phrases
+                .into_iter()
+                .chain(notes)
+                .collect::<Vec<_>>()
+                .join("\n")
+        }
+    }
+}
+
+/// What is said of each row of headers, one block a row.
+fn pick_each(rows: &[&[&str]]) -> String {
+    let blocks: Vec<_> = rows
+        .iter()
+        .map(|row| format!("{}\n{}", row.join(" | "), picked(row)))
+        .collect();
+    blocks.join("\n\n")
+}
+
+#[test]
+fn what_is_recognised() {
+    insta::assert_snapshot!(pick_each(&[
+        &["Time [s]", "Position [mm]", "Friction [uN]", "Normal [uN]"],
+        &["t", "q", "dq", "tau"],
+        &[
+            "time [ms]",
+            "act_pos [deg]",
+            "act_vel [rpm]",
+            "current [Arms]"
+        ],
+        &[
+            "Time [s]",
+            "MAIN.fSetPos [mm]",
+            "MAIN.fActPos [mm]",
+            "MAIN.fActVelo [mm/s]",
+            "MAIN.fActTorque [Nm]",
+            "MAIN.fPosError [mm]",
+            "MotorTemp [degC]",
+        ],
+        &[
+            "time",
+            "position",
+            "velocity",
+            "torque_feedback",
+            "command",
+            "position_cmd",
+            "velocity_cmd",
+            "acceleration_cmd",
+            "state",
+            "mos_temperature",
+        ],
+        &["t [s]", "Axis 1 [mm]", "Load cell [kN]"],
+        &["t [s]", "position [m]", "desired_force [N]"],
+        &["t [s]", "position [m]", "noise [V/s]"],
+    ]));
+}
+
+#[test]
+fn what_is_refused_with_the_choices() {
+    insta::assert_snapshot!(pick_each(&[
+        &["t [s]", "x [m]", "current [A]", "torque [N m]"],
+        &["t [s]", "position [m]", "force"],
+        &["t [s]", "position [counts]", "force [N]"],
+        &["t", "position", "velocity", "current"],
+        &["", "", "", ""],
+        &[
+            "t [s]",
+            "motor_position [rad]",
+            "load_position [rad]",
+            "torque [Nm]"
+        ],
+        &["t [s]", "position [parsec]", "force [N]"],
+        &[
+            "time of fActPos [ms]",
+            "fActPos [mm]",
+            "time of fActTorque [ms]",
+            "fActTorque [Nm]",
+        ],
+        &["t [s]", "force [N]"],
+        &["position [m]", "force [N]"],
+        &[],
+    ]));
+}
+
+#[test]
+fn a_time_without_unit_is_seconds_only_where_that_is_plausible() {
+    let milli: Vec<f64> = (0..1000).map(f64::from).collect();
+    let mut table = headed(&["t", "x [m]", "F [N]"]);
+    table.columns[0].values.clone_from(&milli);
+    let error = Mapping::detect(&table).unwrap_err();
+    insta::assert_snapshot!(error.to_string());
+    let mapping = Mapping {
+        time: Some(Channel::named("t").unit(Unit::parse("ms").unwrap())),
+        ..Mapping::default()
+    };
+    let log = Log::from_table(&table, &mapping).unwrap();
+    assert_eq!(log.rate_hz, 1000.0);
+    assert_eq!(log.time[999], 0.999);
+}
+
+#[test]
+fn equal_columns_are_one_column() {
+    // The same channel in three charts comes three times.
+    let mut table = headed(&["t [s]", "x [m]", "x [m]", "F [N]"]);
+    table.columns[2].values = table.columns[1].values.clone();
+    let detected = Mapping::detect(&table).unwrap();
+    assert_eq!(
+        detected.mapping.position.unwrap().column,
+        Selector::Index(2)
+    );
+}
+
+#[test]
+fn selectors_by_name_number_and_header() {
+    let table = headed(&["t [s]", "Pos A [mm]", "F [N]", "F [kN]"]);
+    let log = |column: Selector| {
+        let position = Channel {
+            column,
+            ..Channel::index(1)
+        };
+        let force = Some(Channel::index(3));
+        let mapping = Mapping {
+            position: Some(position),
+            force,
+            ..Mapping::default()
+        };
+        match Log::from_table(&table, &mapping) {
+            Ok(log) => Ok(log.position.unwrap()[10]),
+            Err(error) => Err(error.to_string()),
+        }
+    };
+    let expected = table.columns[1].values[10] / 1000.0;
+    for name in ["Pos A", "Pos A [mm]", "pos a", " Pos A "] {
+        assert_eq!(log(Selector::Name(name.into())).unwrap(), expected);
+    }
+    assert_eq!(log(Selector::Index(2)).unwrap(), expected);
+    let mut lines = Vec::new();
+    for name in ["Pos B", "zzz"] {
+        lines.push(log(Selector::Name(name.into())).unwrap_err());
+    }
+    for number in [0, 5] {
+        lines.push(log(Selector::Index(number)).unwrap_err());
+    }
+    let mapping = Mapping {
+        force: Some(Channel::named("F")),
+        ..Mapping::default()
+    };
+    lines.push(Log::from_table(&table, &mapping).unwrap_err().to_string());
+    insta::assert_snapshot!(lines.join("\n"));
+}
+
+#[test]
+fn scale_sign_and_unit_give_si() {
+    let table = headed(&["t [s]", "x [mm]", "u"]);
+    let channel = Channel::named("u")
+        .unit(Unit::parse("mV").unwrap())
+        .scale(Value::parse("2 N/V").unwrap())
+        .inverted();
+    let mapping = Mapping {
+        force: Some(channel),
+        ..Mapping::default()
+    };
+    let log = Log::from_table(&table, &mapping).unwrap();
+    assert_eq!(log.motion, Motion::Linear);
+    assert_eq!(log.force_unit, "N");
+    for (si, raw) in log
+        .force
+        .as_ref()
+        .unwrap()
+        .iter()
+        .zip(&table.columns[2].values)
+    {
+        assert!((si + 2.0 * raw / 1000.0).abs() < 1e-15);
+    }
+    // The same with the position in counts, and the count implied by the scale.
+    let mut table = table;
+    table.columns[1].unit = None;
+    let mapping = Mapping {
+        position: Some(Channel::named("x").scale(Value::parse("3 um/count").unwrap())),
+        ..mapping
+    };
+    let log = Log::from_table(&table, &mapping).unwrap();
+    let (si, raw) = (log.position.unwrap()[7], table.columns[1].values[7]);
+    assert!((si - 3e-6 * raw).abs() < 1e-20);
+}
+
+#[test]
+fn wrong_dimensions_are_refused() {
+    let table = headed(&["t [s]", "x [mm]", "F [N]"]);
+    let unit = |text| Unit::parse(text).unwrap();
+    let scale = |text| Value::parse(text).unwrap();
+    let base = Mapping {
+        motion: Some(Motion::Linear),
+        ..Mapping::default()
+    };
+    let wrong = [
+        Mapping {
+            position: Some(Channel::named("x").unit(unit("deg"))),
+            ..base.clone()
+        },
+        Mapping {
+            force: Some(Channel::named("F").scale(scale("3 N/V"))),
+            ..base.clone()
+        },
+        Mapping {
+            time: Some(Channel::named("t").unit(unit("mm"))),
+            ..base.clone()
+        },
+        Mapping {
+            velocity: Some(Channel::named("x").unit(unit("1/s"))),
+            ..base.clone()
+        },
+        Mapping {
+            force: Some(Channel::named("F").scale(scale("0"))),
+            ..base.clone()
+        },
+        Mapping {
+            motion: Some(Motion::Rotary),
+            ..base.clone()
+        },
+        Mapping {
+            crop: Some((2.0, 1.0)),
+            ..base.clone()
+        },
+        Mapping {
+            rate_hz: Some(f64::NAN),
+            ..base.clone()
+        },
+        Mapping {
+            resolution: Some(-1.0),
+            ..base.clone()
+        },
+        Mapping {
+            rate_hz: Some(1.0),
+            time: Some(Channel::named("t")),
+            ..base.clone()
+        },
+        Mapping {
+            crop: Some((5.0, 6.0)),
+            ..base
+        },
+    ];
+    let lines: Vec<_> = wrong
+        .iter()
+        .map(|mapping| Log::from_table(&table, mapping).unwrap_err().to_string())
+        .collect();
+    insta::assert_snapshot!(lines.join("\n"));
+}
+
+#[test]
+fn forces_that_are_none_are_said() {
+    let torque = headed(&["t [s]", "x [mm]", "torque [N m]"]);
+    let log = Log::from_table(&torque, &Mapping::default()).unwrap();
+    let mixed = message(&log, "force-unit").to_string();
+    let current = headed(&["t [s]", "x [mm]", "current [mA]"]);
+    let log = Log::from_table(&current, &Mapping::default()).unwrap();
+    insta::assert_snapshot!([&mixed, message(&log, "force-not-calibrated")].join("\n"));
+    assert_eq!(log.force_unit, "A");
+    assert_eq!(log.force.unwrap()[3], current.columns[2].values[3] / 1000.0);
+}
+
+#[test]
+fn a_unit_in_the_mapping_goes_before_the_file() {
+    let table = headed(&["t [s]", "x [mm]", "F [N]"]);
+    let position = Some(Channel::named("x").unit(Unit::parse("um").unwrap()));
+    let log = Log::from_table(
+        &table,
+        &Mapping {
+            position,
+            ..Mapping::default()
+        },
+    )
+    .unwrap();
+    assert_eq!(
+        log.position.as_ref().unwrap()[5],
+        table.columns[1].values[5] / 1e6
+    );
+    insta::assert_snapshot!(message(&log, "unit-override"));
+}
+
+#[test]
+fn a_complete_mapping_changes_nothing() {
+    let table = headed(&["t", "q", "dq", "tau"]);
+    let once = Mapping::detect(&table).unwrap();
+    let twice = once.mapping.complete(&table).unwrap();
+    assert_eq!(once.mapping, twice.mapping);
+    let (a, b) = (
+        Log::from_table(&table, &Mapping::default()),
+        Log::from_table(&table, &once.mapping),
+    );
+    let (a, b) = (a.unwrap(), b.unwrap());
+    assert_eq!(a.position, b.position);
+    assert!(codes(&a).contains(&"unit-assumed") && !codes(&b).contains(&"unit-assumed"));
+}
+
+#[test]
+fn columns_in_play_have_one_length() {
+    let mut table = headed(&["t [s]", "x [m]", "F [N]"]);
+    table.columns[2].values.truncate(995);
+    let log = Log::from_table(&table, &Mapping::default()).unwrap();
+    assert_eq!(log.time.len(), 995);
+    let cut = told(&log);
+    table.columns[2].values.truncate(500);
+    let error = Log::from_table(&table, &Mapping::default()).unwrap_err();
+    assert_eq!(error.kind, Kind::Value);
+    insta::assert_snapshot!(format!("{cut}\n\n{error}"));
+}
+
+#[test]
+fn the_rate_stands_in_for_time() {
+    let mut table = headed(&["", "x [m]", "F [N]"]);
+    table.sample_time = Some(0.002);
+    let log = Log::from_table(&table, &Mapping::default()).unwrap();
+    assert_eq!(log.rate_hz, 500.0);
+    let mapping = Mapping {
+        rate_hz: Some(4000.0),
+        crop: Some((0.05, 0.2)),
+        ..Mapping::default()
+    };
+    let log = Log::from_table(&table, &mapping).unwrap();
+    assert_eq!(
+        (log.rate_hz, log.start, log.time.len()),
+        (4000.0, 0.05, 601)
+    );
+    assert_eq!(log.position.unwrap()[0], table.columns[1].values[200]);
+}
+
+#[test]
+fn a_rate_that_contradicts_the_time_stamps_is_refused() {
+    let stamped = |unit: &str, step: f64| {
+        let axis = axis(2000);
+        let time = (0..2000).map(|i| (i as f64 * step).floor()).collect();
+        let mut table = axis.table();
+        table.columns[0] = column(&format!("time{unit}"), time);
+        table
+    };
+    let rate = |hertz: f64| Mapping {
+        rate_hz: Some(hertz),
+        ..Mapping::default()
+    };
+    // Stamps in whole milliseconds of samples at 4 kHz: the rate is what makes them good.
+    for (table, hertz) in [
+        (stamped(" [ms]", 1.0), 1000.0),
+        (stamped(" [ms]", 0.25), 4000.0),
+        // Nothing tells what these count.
+        (stamped("", 1.0), 4000.0),
+    ] {
+        let log = Log::from_table(&table, &rate(hertz)).unwrap();
+        assert_eq!(log.rate_hz, hertz);
+    }
+    for (table, hertz) in [
+        (stamped(" [ms]", 1.0), 500.0),
+        (stamped(" [ms]", 0.25), 4100.0),
+        (stamped(" [us]", 1.0), 1000.0),
+    ] {
+        let error = Log::from_table(&table, &rate(hertz)).unwrap_err();
+        assert_eq!(error.kind, Kind::Ambiguous, "{error}");
+    }
+    let error = Log::from_table(&axis(2000).table(), &rate(500.0)).unwrap_err();
+    insta::assert_snapshot!(error.to_string());
+}

@@ -1,0 +1,553 @@
+//! From a table to a log: closed forms, and each finding on a recording made to have it.
+
+use crate::mapping_common;
+use crate::mapping_common::{axis, codes, column, message, noise, table, told, warnings};
+use std::f64::consts::PI;
+use stiction_log::{Channel, Kind, Log, Mapping, Table, Unit, Wrap};
+
+fn read(table: &Table) -> Log {
+    Log::from_table(table, &Mapping::default()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+#[test]
+fn a_clean_log_has_no_warning_and_is_kept_as_it_is() {
+    let table = axis(5000).table();
+    let log = read(&table);
+    assert_eq!(warnings(&log), [""; 0]);
+    assert_eq!(log.time, table.columns[0].values);
+    assert_eq!(log.position.as_ref().unwrap(), &table.columns[1].values);
+    assert_eq!(log.velocity.as_ref().unwrap(), &table.columns[2].values);
+    assert_eq!(log.force.as_ref().unwrap(), &table.columns[3].values);
+    assert_eq!((log.rate_hz, log.start), (1000.0, 0.0));
+    assert_eq!(log.segments, vec![0..5000]);
+    assert!(log.valid().iter().all(|v| *v));
+}
+
+#[test]
+fn large_time_offsets_are_taken_off_before_rounding() {
+    // FILETIME: 100 ns ticks since 1601, near 1.3e17, where neighbouring doubles are 16 apart.
+    let origin = 133_000_000_000_000_000.0;
+    let mut axis = axis(2000);
+    axis.time = (0..2000)
+        .map(|i| origin + 16_000.0 * f64::from(i))
+        .collect();
+    let mut table = axis.table();
+    table.columns[0].unit = Some("us".into());
+    let time = Some(
+        Channel::index(1)
+            .unit(Unit::parse("us").unwrap())
+            .scale("0.1".parse().unwrap()),
+    );
+    let log = Log::from_table(
+        &table,
+        &Mapping {
+            time,
+            ..Mapping::default()
+        },
+    )
+    .unwrap();
+    for (i, t) in log.time.iter().enumerate() {
+        let exact = 16_000.0 * i as f64 / 1e7;
+        assert!(
+            (t - exact).abs() <= 2.0 * f64::EPSILON * exact,
+            "{t} {exact}"
+        );
+    }
+    assert_eq!(log.rate_hz, 625.0);
+    assert_eq!(log.start, origin / 1e7);
+}
+
+#[test]
+fn gaps_are_counted_and_long_ones_split() {
+    let mut table = axis(4000).table();
+    // 1 missing after row 99, 3 after 999, 700 after 1999.
+    for column in &mut table.columns {
+        let keep = |i: usize| i != 100 && !(1001..1004).contains(&i) && !(2003..2703).contains(&i);
+        let values = column
+            .values
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| keep(*i))
+            .map(|(_, x)| *x);
+        column.values = values.collect();
+    }
+    let log = read(&table);
+    let gaps: Vec<_> = log
+        .gaps
+        .iter()
+        .map(|g| (g.start_index, g.missing_samples))
+        .collect();
+    assert_eq!(gaps, [(99, 1), (999, 3), (1998, 700)]);
+    assert!((log.gaps[2].seconds - 0.701).abs() < 1e-12);
+    assert_eq!(log.segments, vec![0..1999, 1999..3296]);
+    assert_eq!(warnings(&log), ["gap"]);
+    insta::assert_snapshot!(message(&log, "gap"));
+}
+
+#[test]
+fn the_first_of_equal_time_stamps_is_kept() {
+    let mut table = axis(2000).table();
+    for row in [10, 500, 501] {
+        table.columns[0].values[row] = table.columns[0].values[row - 1];
+    }
+    let log = read(&table);
+    assert_eq!(log.time.len(), 1997);
+    assert_eq!(
+        log.position.as_ref().unwrap()[10],
+        table.columns[1].values[11]
+    );
+    let few = message(&log, "duplicate-time").to_string();
+    // Milliseconds at 4 kHz: three of four stamps repeat.
+    for (i, t) in table.columns[0].values.iter_mut().enumerate() {
+        *t = (i / 4) as f64 / 1000.0;
+    }
+    let error = Log::from_table(&table, &Mapping::default()).unwrap_err();
+    assert_eq!(error.kind, Kind::Time);
+    insta::assert_snapshot!(format!("{few}\n{error}"));
+}
+
+#[test]
+fn backward_time_is_refused_unless_cropped_away() {
+    let mut table = axis(2000).table();
+    for t in &mut table.columns[0].values[1500..] {
+        *t -= 1.2;
+    }
+    let error = Log::from_table(&table, &Mapping::default()).unwrap_err();
+    assert_eq!((error.kind, error.place.row), (Kind::Time, Some(1501)));
+    insta::assert_snapshot!(error.to_string());
+    let mapping = Mapping {
+        crop: Some((0.1, 1.4)),
+        ..Mapping::default()
+    };
+    assert_eq!(Log::from_table(&table, &mapping).unwrap().time.len(), 1301);
+}
+
+#[test]
+fn a_counter_that_overflows_is_counted_on() {
+    for size in [65_536.0, 2_147_483_648.0, 4_294_967_296.0_f64] {
+        let mut axis = axis(3000);
+        axis.time = (0..3000)
+            .map(|i| (size - 1000.0 * 7.0 + 7.0 * f64::from(i)) % size)
+            .collect();
+        let mut table = axis.table();
+        table.columns[0].unit = Some("us".into());
+        let log = read(&table);
+        assert_eq!(warnings(&log), ["velocity-mismatch"]);
+        assert!(codes(&log).contains(&"time-wrap"));
+        assert!((log.time[2999] - 7e-6 * 2999.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn rows_without_time_are_dropped() {
+    let mut table = axis(1000).table();
+    table.columns[0].values[400] = f64::NAN;
+    let log = read(&table);
+    assert_eq!(log.time.len(), 999);
+    assert_eq!(log.gaps.len(), 1);
+    insta::assert_snapshot!(message(&log, "time-missing"));
+    table.columns[0].values.fill(f64::NAN);
+    assert_eq!(
+        Log::from_table(&table, &Mapping::default())
+            .unwrap_err()
+            .kind,
+        Kind::Time
+    );
+}
+
+#[test]
+fn jitter_is_measured() {
+    let mut axis = axis(4000);
+    for (i, t) in axis.time.iter_mut().enumerate() {
+        *t += 1e-4 * noise(i);
+    }
+    let log = read(&axis.table());
+    // Uniform in +-0.1 ms: a difference of two has an rms of 0.1 ms * sqrt(2/3) = 8.16 % of a step.
+    let expected = 100.0 * 0.1 * (2.0_f64 / 3.0).sqrt();
+    let text = message(&log, "jitter");
+    let percent: f64 = text
+        .split(['(', ')'])
+        .nth(1)
+        .unwrap()
+        .trim_end_matches(" %")
+        .parse()
+        .unwrap();
+    assert!(
+        (percent - expected).abs() < 0.03 * expected,
+        "{percent} {expected}"
+    );
+    assert_eq!(warnings(&log), ["jitter"]);
+}
+
+#[test]
+fn short_holes_are_bridged_and_long_ones_split() {
+    let mut table = axis(3000).table();
+    table.columns[1].values[100..103].fill(f64::NAN);
+    table.columns[3].values[1000..1050].fill(f64::INFINITY);
+    table.columns[3].values[2000] = f64::NAN;
+    let log = read(&table);
+    assert_eq!(log.time.len(), 2950);
+    let x = log.position.as_ref().unwrap();
+    // A straight line between the neighbours.
+    let third = (x[103] - x[99]) / 4.0;
+    for k in 1..4 {
+        assert!((x[99 + k] - x[99] - k as f64 * third).abs() < 1e-15);
+    }
+    let valid = log.valid();
+    let invalid: Vec<_> = (0..2950).filter(|i| !valid[*i]).collect();
+    assert_eq!(invalid, [100, 101, 102, 1950]);
+    assert_eq!(log.segments, vec![0..1000, 1000..2950]);
+    let mended = told(&log);
+    table.columns[3].values[..1600].fill(f64::NAN);
+    let error = Log::from_table(&table, &Mapping::default()).unwrap_err();
+    insta::assert_snapshot!(format!("{mended}\n\n{error}"));
+}
+
+#[test]
+fn a_slow_temperature_is_filled_in() {
+    let mut table = axis(1000).table();
+    let slow = (0..1000).map(|i| {
+        if i % 100 == 50 {
+            20.0 + f64::from(i) / 100.0
+        } else {
+            f64::NAN
+        }
+    });
+    table
+        .columns
+        .push(column("temperature [degC]", slow.collect()));
+    let log = read(&table);
+    assert_eq!(warnings(&log), [""; 0]);
+    let kelvin = log.temperature.as_ref().unwrap();
+    assert_eq!((kelvin[0], kelvin[999]), (293.65, 302.65));
+    assert!((kelvin[300] - 296.15).abs() < 1e-9);
+    assert!(log.excluded.is_empty());
+}
+
+#[test]
+fn a_wrapping_position_is_put_together() {
+    let mut axis = axis(4000);
+    // +-0.05 m folded into +-0.02 m.
+    let whole = axis.position.clone();
+    for x in &mut axis.position {
+        *x -= 0.04 * (*x / 0.04).round();
+    }
+    let table = axis.table();
+    let wrap = Some(Wrap::at(0.02));
+    let log = Log::from_table(
+        &table,
+        &Mapping {
+            wrap,
+            ..Mapping::default()
+        },
+    )
+    .unwrap();
+    for (a, b) in log.position.as_ref().unwrap().iter().zip(&whole) {
+        assert!((a - b).abs() < 1e-12);
+    }
+    assert_eq!(warnings(&log), [""; 0]);
+    let stated = message(&log, "position-wrap").to_string();
+    // Not stated, it is seen as jumps and the record is split at them.
+    let log = read(&table);
+    assert!(warnings(&log).contains(&"position-jump"), "{}", told(&log));
+    let jumps = table.columns[1]
+        .values
+        .windows(2)
+        .filter(|w| (w[1] - w[0]).abs() > 0.03)
+        .count();
+    assert_eq!(log.segments.len(), jumps + 1);
+    insta::assert_snapshot!([&stated, message(&log, "position-jump")].join("\n"));
+}
+
+#[test]
+fn encoder_steps_are_estimated() {
+    for (step, rounding) in [
+        (1e-6, 0.0),
+        (5e-8, 0.0),
+        (6.2832e-4, 1e-6),
+        (360.0 / 4096.0, 0.0),
+    ] {
+        let mut axis = axis(4000);
+        for (i, x) in axis.position.iter_mut().enumerate() {
+            // A slow stretch, where single steps show, as every recording with reversals has.
+            let slow = if i < 2000 {
+                0.0
+            } else {
+                400.0 * step * (i as f64 / 150.0).sin()
+            };
+            *x = ((if i < 2000 { *x } else { slow }) / step).round() * step;
+            if rounding > 0.0 {
+                *x = (*x / rounding).round() * rounding;
+            }
+        }
+        let log = read(&axis.table());
+        let quantum = log.quantum.unwrap_or_else(|| panic!("no step at {step}"));
+        assert!(
+            (quantum / step - 1.0).abs() < 1e-3,
+            "{quantum} against {step}"
+        );
+    }
+    assert_eq!(read(&axis(4000).table()).quantum, None);
+}
+
+#[test]
+fn a_cut_off_force_is_excluded() {
+    let mut axis = axis(4000);
+    let limit = 60.0;
+    let cut: Vec<usize> = (0..4000)
+        .filter(|i| axis.force[*i].abs() >= limit)
+        .collect();
+    assert!(cut.len() > 500);
+    for f in &mut axis.force {
+        *f = f.clamp(-limit, limit);
+    }
+    let table = axis.table();
+    let log = read(&table);
+    let valid = log.valid();
+    let excluded: Vec<usize> = (0..4000).filter(|i| !valid[*i]).collect();
+    // Stretches shorter than five samples at the edges, where noise dips below, are left.
+    assert!(excluded.iter().all(|i| cut.binary_search(i).is_ok()));
+    assert!(excluded.len() as f64 > 0.95 * cut.len() as f64);
+    insta::assert_snapshot!(message(&log, "saturation"));
+    let mapping = Mapping {
+        force_limit: Some(limit),
+        ..Mapping::default()
+    };
+    let log = Log::from_table(&table, &mapping).unwrap();
+    let valid = log.valid();
+    assert!(cut.iter().all(|i| !valid[*i]));
+    let excluded = valid.iter().filter(|v| !**v).count();
+    assert!(excluded <= cut.len() + cut.len() / 100);
+}
+
+#[test]
+fn crests_and_staircases_are_not_cut_off() {
+    let slow = |i: usize| 2.0 * PI * 0.25 * i as f64 / 1000.0;
+    // Coarse current, smooth, no noise: its crests are flat for tens of samples.
+    let mut crest = axis(8000);
+    crest.force = (0..8000)
+        .map(|i| (500.0 * slow(i).sin()).round() / 10.0)
+        .collect();
+    assert!(!codes(&read(&crest.table())).contains(&"saturation"));
+    // A commanded staircase rests on every level alike.
+    let mut stairs = axis(8000);
+    stairs.force = (0..8000)
+        .map(|i| 10.0 * ((i / 250) as f64 - 16.0).abs())
+        .collect();
+    assert!(!codes(&read(&stairs.table())).contains(&"saturation"));
+    // So does a triangular command in steps of the converter.
+    let mut triangle = axis(8000);
+    let up_down = |i: usize| 20.0 * ((i % 2000) as f64 / 1000.0 - 1.0).abs() - 10.0;
+    triangle.force = (0..8000)
+        .map(|i| (up_down(i) / 0.25).round() * 0.25)
+        .collect();
+    assert!(!codes(&read(&triangle.table())).contains(&"saturation"));
+}
+
+#[test]
+fn a_frozen_encoder_is_told_from_rest() {
+    // Told by the velocity.
+    let mut frozen = axis(6000);
+    let held = frozen.position[3000];
+    frozen.position[3000..3200].fill(held);
+    let log = read(&frozen.table());
+    assert!(warnings(&log).contains(&"stuck-encoder"), "{}", told(&log));
+    assert!(
+        log.excluded
+            .iter()
+            .any(|e| e.samples.start == 3000 && e.samples.len() == 200)
+    );
+    insta::assert_snapshot!(message(&log, "stuck-encoder"));
+    // Told by the jump that follows.
+    let mut frozen = axis(6000);
+    frozen.position[3000..3200].fill(held);
+    let mut table = frozen.table();
+    table.columns.remove(2);
+    let log = read(&table);
+    assert!(warnings(&log).contains(&"stuck-encoder"));
+    // Told by the reference, to the end.
+    let mut frozen = axis(6000);
+    let reference = frozen.position.clone();
+    let held = frozen.position[4000];
+    frozen.position[4000..].fill(held);
+    let mut table = frozen.table();
+    table.columns.remove(2);
+    table.columns.push(column("reference [m]", reference));
+    let log = read(&table);
+    assert!(warnings(&log).contains(&"stuck-encoder"));
+
+    // Rest with a noisy velocity, and stiction under a rising force, are not frozen.
+    let mut rest = axis(6000);
+    let smooth = |i: usize| (1.0 - (PI * i as f64 / 1000.0).cos()) * 0.01;
+    for i in 0..6000 {
+        let phase = i % 2000;
+        let moves = phase < 1000;
+        let base = 0.02 * (i / 2000) as f64;
+        rest.position[i] = base + if moves { smooth(phase) } else { 0.02 };
+        let v = if moves {
+            10.0 * PI * (PI * phase as f64 / 1000.0).sin() / 1000.0
+        } else {
+            0.0
+        };
+        rest.velocity[i] = v + 1e-3 * noise(i);
+        rest.force[i] = phase as f64 / 100.0 + 0.1 * noise(i + 77);
+    }
+    let log = read(&rest.table());
+    assert!(!codes(&log).contains(&"stuck-encoder"), "{}", told(&log));
+}
+
+#[test]
+fn velocity_that_is_not_the_derivative() {
+    let told_by = |factor: f64| {
+        let mut axis = axis(4000);
+        for v in &mut axis.velocity {
+            *v *= factor;
+        }
+        message(&read(&axis.table()), "velocity-mismatch").to_string()
+    };
+    let mut lines = [1000.0, 180.0 / PI, -1.0, 1.25].map(told_by).to_vec();
+    let mut other = axis(4000);
+    other.velocity = (0..4000).map(|i| (i as f64 / 37.0).sin()).collect();
+    lines.push(message(&read(&other.table()), "velocity-mismatch").to_string());
+    insta::assert_snapshot!(lines.join("\n"));
+}
+
+#[test]
+fn a_force_that_opposes_motion() {
+    let mut axis = axis(4000);
+    for f in &mut axis.force {
+        *f = -*f;
+    }
+    let log = read(&axis.table());
+    insta::assert_snapshot!(message(&log, "force-sign"));
+    assert_eq!(warnings(&log), ["force-sign"]);
+    let mapping = Mapping {
+        force: Some(Channel::named("force").inverted()),
+        ..Mapping::default()
+    };
+    let table = mapping_common::axis(4000).table();
+    assert!(codes(&Log::from_table(&table, &mapping).unwrap()).contains(&"force-sign"));
+}
+
+#[test]
+fn motion_that_tells_little() {
+    let with = |position: &dyn Fn(usize) -> f64, n: usize| {
+        let mut axis = axis(n);
+        axis.position = (0..n).map(position).collect();
+        let mut table = axis.table();
+        table.columns.remove(2);
+        read(&table)
+    };
+    let mut lines = Vec::new();
+    for (code, log) in [
+        ("no-motion", with(&|_| 0.125, 1000)),
+        (
+            "no-motion",
+            with(&|i| 1e-6 * f64::from(noise(i) > 0.5), 1000),
+        ),
+        ("noise-only", with(&noise, 1000)),
+        (
+            "one-direction",
+            with(&|i| (i as f64 / 1000.0).powi(2), 1000),
+        ),
+        (
+            "constant-velocity",
+            with(&|i| 0.2 * i as f64 / 1000.0 + 1e-5 * noise(i), 1000),
+        ),
+        ("few-samples", with(&|i| (i as f64 / 3.0).sin(), 20)),
+    ] {
+        assert!(warnings(&log).contains(&code), "{code}: {}", told(&log));
+        lines.push(message(&log, code).to_string());
+    }
+    insta::assert_snapshot!(lines.join("\n"));
+    let flat = table(vec![
+        column("t [s]", axis(1000).time),
+        column("velocity [m/s]", vec![0.5; 1000]),
+        column("force [N]", vec![3.0; 1000]),
+    ]);
+    let log = read(&flat);
+    for code in ["constant-velocity", "one-direction", "constant-column"] {
+        assert!(warnings(&log).contains(&code), "{code}: {}", told(&log));
+    }
+}
+
+#[test]
+fn too_little_is_refused() {
+    for rows in 0..3 {
+        let error = Log::from_table(&axis(rows).table(), &Mapping::default()).unwrap_err();
+        assert!(
+            [Kind::Value, Kind::Time].contains(&error.kind),
+            "{rows}: {error}"
+        );
+    }
+    assert_eq!(read(&axis(3).table()).time.len(), 3);
+}
+
+#[test]
+fn many_faults_take_linear_time() {
+    let n = 2_000_000;
+    let mut axis = axis(n);
+    let mut clock = 0.0;
+    for i in 0..n {
+        // Every fifth step misses ten samples, the position is held for runs, wraps, and has holes.
+        clock += if i % 5 == 0 { 0.011 } else { 0.001 };
+        axis.time[i] = clock;
+        axis.position[i] = ((i / 12) as f64 / 40.0).rem_euclid(1.0);
+        if i % 31 == 0 {
+            axis.force[i] = f64::NAN;
+        }
+        if i % 29 < 8 {
+            axis.force[i] = 100.0;
+        }
+    }
+    let begin = std::time::Instant::now();
+    let wrap = Some(Wrap { period: 1.0 });
+    let log = Log::from_table(
+        &axis.table(),
+        &Mapping {
+            wrap,
+            ..Mapping::default()
+        },
+    )
+    .unwrap();
+    assert!(log.segments.len() > n / 6);
+    // Anything quadratic in 400 000 gaps or 60 000 runs takes many minutes.
+    assert!(begin.elapsed().as_secs() < 30, "{:?}", begin.elapsed());
+}
+
+#[test]
+fn numbers_too_large_for_a_measurement_are_named() {
+    let mut said = String::new();
+    for (unit, number) in [("N", 3e100), ("MN", -1e300), ("kN", f64::MAX)] {
+        let mut table = axis(300).table();
+        table.columns[3].unit = Some(unit.into());
+        table.columns[3].values[7..].fill(number);
+        let error = Log::from_table(&table, &Mapping::default()).unwrap_err();
+        assert_eq!(error.place.row, Some(8));
+        said.push_str(&format!("{error}\n"));
+    }
+    // Empty cells are another matter.
+    let mut table = axis(300).table();
+    table.columns[3].values[7..].fill(f64::NAN);
+    table.columns[3].values[9] = 3e100;
+    let error = Log::from_table(&table, &Mapping::default()).unwrap_err();
+    said.push_str(&format!("{error}\n"));
+    insta::assert_snapshot!(said);
+}
+
+/// Numbers of three hundred digits are written with a power of ten.
+#[test]
+fn numbers_of_any_size_stay_short() {
+    for size in [5e-324, 1e300] {
+        let mapping = Mapping {
+            resolution: Some(size),
+            ..Mapping::default()
+        };
+        let error = Log::from_table(&axis(300).table(), &mapping).unwrap_err();
+        assert!(error.found.ends_with(&format!("is {size:e}")), "{error}");
+    }
+    let mut table = axis(300).table();
+    table.columns[0].values[200] = 5e-324;
+    let error = Log::from_table(&table, &Mapping::default()).unwrap_err();
+    assert!(error.found.contains("0.199 to 5e-324"), "{error}");
+}

@@ -1,0 +1,18 @@
+//! The integration tests of `stiction-servo` in one program, which is linked once: a new file is a module here.
+
+mod any_law;
+mod c95;
+mod closed_loop;
+mod compensation;
+mod drive;
+mod integrators;
+mod load;
+mod metrics;
+mod mid;
+mod motion;
+mod mujoco;
+mod noise;
+mod passivity;
+mod path;
+mod pid;
+mod plane;
