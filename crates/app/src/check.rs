@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 use stiction_identify::{LawKind, Observer};
 use stiction_log::{Mapping, Severity};
+use stiction_number::four_digits as short;
 
 /// What a check found, log by log.
 #[derive(Clone, Debug, Serialize)]
@@ -188,19 +189,6 @@ fn ranges(source: &source::Source) -> Vec<String> {
             Some(format!("{name} {} .. {} {unit}", short(low), short(high)))
         })
         .collect()
-}
-
-/// Four digits, plain where that is short.
-pub(crate) fn short(x: f64) -> String {
-    let size = x.abs();
-    if x == 0.0 {
-        "0".into()
-    } else if (1e-3..1e5).contains(&size) {
-        let digits = (3 - libm::log10(size).floor() as i32).clamp(0, 7) as usize;
-        format!("{x:.digits$}")
-    } else {
-        format!("{x:.3e}")
-    }
 }
 
 /// An axis file for a log, with what was detected filled in and the rest to fill in.

@@ -17,6 +17,7 @@ pub(crate) use comparison::comparison;
 
 use crate::identify::Outcome;
 pub(crate) use reproduction::reproduction;
+use stiction_number::Percent;
 use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
 pub(crate) use study::{judged, less, quantity, scheme, study};
 
@@ -192,8 +193,8 @@ fn key_figures(outcome: &Outcome) -> Vec<KeyFigure> {
     let mut out = vec![
         KeyFigure::new(
             "Relative error",
-            number::sig(fit.relative_error_percent, 3),
-            "%",
+            Percent::error(fit.relative_error_percent).digits(3),
+            "",
         )
         .note("100 rms(residual) / rms(measured)"),
         KeyFigure::new("Residual", number::sig(fit.rmse, 3), fit.unit.as_str()).note(format!(
@@ -223,8 +224,8 @@ fn key_figures(outcome: &Outcome) -> Vec<KeyFigure> {
                 fit.unit.as_str(),
             )
             .note(format!(
-                "rms, {} %",
-                number::sig(v.fit.relative_error_percent, 3)
+                "rms, {}",
+                Percent::error(v.fit.relative_error_percent).digits(3)
             )),
         );
     }

@@ -6,7 +6,7 @@ mod procedure;
 mod reproduction;
 mod study;
 
-use crate::check::{Check, LogCheck, short};
+use crate::check::{Check, LogCheck};
 use crate::identify::Outcome;
 use crate::result::{LawEntry, SearchedEntry, SearchedPoint};
 use crate::symbols;
@@ -16,6 +16,7 @@ pub use procedure::procedure_commands;
 pub use reproduction::reproduction;
 use std::fmt::Write;
 use stiction_identify::IDENTIFIABLE;
+use stiction_number::{Percent, four_digits as short};
 pub use study::study;
 
 /// A table with aligned columns; the first row is the header.
@@ -54,7 +55,7 @@ fn table(rows: &[Vec<String>], right: &[bool]) -> String {
 /// A search, and how far it came before the last least squares.
 fn searched(method: &str, entry: &SearchedEntry) -> String {
     let error = |point: &Option<SearchedPoint>| match point {
-        Some(point) => format!("{} %", percent(100.0 * point.cost.sqrt())),
+        Some(point) => Percent::error(100.0 * point.cost.sqrt()).fine(),
         None => "nothing".into(),
     };
     format!(
@@ -99,7 +100,9 @@ pub fn outcome(outcome: &Outcome) -> String {
             Some(std) if p.identifiable && std > IDENTIFIABLE * p.value.abs() => {
                 format!("{} {}", short(std), p.unit)
             }
-            Some(std) if p.value != 0.0 => format!("{:.2} %", 100.0 * std / p.value.abs()),
+            Some(std) if p.value != 0.0 => {
+                Percent::deviation(100.0 * std / p.value.abs()).decimals(2)
+            }
             _ => "-".into(),
         };
         let interval = match p.range() {
@@ -130,8 +133,8 @@ pub fn outcome(outcome: &Outcome) -> String {
     let fit = &result.fit;
     let _ = writeln!(
         out,
-        "\nfit         {} % relative error, {} {} rms, R2 {}",
-        percent(fit.relative_error_percent),
+        "\nfit         {} relative error, {} {} rms, R2 {}",
+        Percent::error(fit.relative_error_percent).fine(),
         short(fit.rmse),
         fit.unit,
         fit.r2.map_or("-".into(), |r2| format!("{r2:.5}"))
@@ -155,8 +158,8 @@ pub fn outcome(outcome: &Outcome) -> String {
     for v in &result.validation {
         let _ = writeln!(
             out,
-            "validation  {} % relative error, {} {} rms on {}",
-            percent(v.fit.relative_error_percent),
+            "validation  {} relative error, {} {} rms on {}",
+            Percent::error(v.fit.relative_error_percent).fine(),
             short(v.fit.rmse),
             v.fit.unit,
             v.path
@@ -188,11 +191,6 @@ pub fn outcome(outcome: &Outcome) -> String {
     out
 }
 
-/// Percent with three decimals, and more where a position leaves so little.
-fn percent(x: f64) -> String {
-    if x < 0.1 { short(x) } else { format!("{x:.3}") }
-}
-
 /// What was simulated, and how far off its force and the encoder's steps are.
 fn simulated(entry: &crate::result::SimulationEntry) -> String {
     let runs = match entry.runs {
@@ -203,9 +201,9 @@ fn simulated(entry: &crate::result::SimulationEntry) -> String {
     if let Some(force) = &entry.force {
         let _ = write!(
             out,
-            "; {} {:.3} % relative error, {} {} rms",
+            "; {} {} relative error, {} {} rms",
             force.signal,
-            force.relative_error_percent,
+            Percent::error(force.relative_error_percent).fine(),
             short(force.rmse),
             force.unit
         );
@@ -241,7 +239,7 @@ fn truth(outcome: &Outcome) -> String {
             if *truth == 0.0 {
                 format!("{} {}", short(p.value), p.unit)
             } else {
-                format!("{:+.2} %", 100.0 * (p.value / truth - 1.0))
+                Percent::error(100.0 * (p.value / truth - 1.0)).signed(2)
             },
             if inside {
                 String::new()
@@ -268,7 +266,7 @@ fn laws(outcome: &Outcome) -> String {
         .map(String::from)
         .to_vec(),
     ];
-    let percent = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.2} %"));
+    let percent = |x: Option<f64>| x.map_or("-".into(), |x| Percent::error(x).decimals(2));
     let above = |x: Option<f64>| x.map_or("-".into(), |x| format!("+{x:.0}"));
     for l in &outcome.result.laws {
         rows.push(vec![
@@ -294,7 +292,7 @@ fn elements(outcome: &Outcome) -> String {
             .map(String::from)
             .to_vec(),
     ];
-    let percent = |x: f64| format!("{x:.2} %");
+    let percent = |x: f64| Percent::error(x).decimals(2);
     for score in &outcome.result.elements {
         rows.push(vec![
             score.elements.to_string(),

@@ -4,6 +4,7 @@ use crate::interrupt;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use stiction_app::{Control, Observer, Progress, Stage};
+use stiction_number::Percent;
 
 /// Shows a bar with the best cost so far, and passes the user's interrupt on.
 pub struct Bar {
@@ -86,8 +87,10 @@ impl Observer for Bar {
         }
         self.bar.set_position((1000.0 * progress.fraction) as u64);
         if progress.best.is_finite() {
-            self.bar
-                .set_message(format!("error {:.3} %", 100.0 * progress.best));
+            self.bar.set_message(format!(
+                "error {}",
+                Percent::error(100.0 * progress.best).decimals(3)
+            ));
         }
         if interrupt::asked() {
             Control::Stop

@@ -32,6 +32,7 @@ mod velocity;
 
 use crate::log::Log;
 use crate::mapping::Mapping;
+pub(crate) use stiction_number::{counted as count, full, short};
 
 /// How much a finding matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -175,62 +176,6 @@ pub(crate) fn extremes(values: &[f64]) -> Option<(f64, f64)> {
             .iter()
             .fold((first, first), |(low, high), &x| (low.min(x), high.max(x))),
     )
-}
-
-/// A number in at most four digits, for messages.
-pub(crate) fn short(x: f64) -> String {
-    let size = x.abs();
-    if x == 0.0 || !x.is_finite() {
-        return format!("{x}");
-    }
-    if !(1e-3..1e6).contains(&size) {
-        let text = format!("{x:.3e}");
-        let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
-        return format!("{}e{power}", trimmed(digits));
-    }
-    if size >= 1000.0 {
-        return format!("{x:.0}");
-    }
-    let decimals = if size >= 100.0 {
-        1
-    } else if size >= 10.0 {
-        2
-    } else if size >= 1.0 {
-        3
-    } else if size >= 0.1 {
-        4
-    } else if size >= 0.01 {
-        5
-    } else {
-        6
-    };
-    trimmed(&format!("{x:.decimals$}")).to_string()
-}
-
-/// A number in all its digits, for messages; very large and small ones with a power of ten.
-pub(crate) fn full(x: f64) -> String {
-    if x == 0.0 || (1e-9..1e16).contains(&x.abs()) {
-        format!("{x}")
-    } else {
-        format!("{x:e}")
-    }
-}
-
-fn trimmed(digits: &str) -> &str {
-    if digits.contains('.') {
-        digits.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        digits
-    }
-}
-
-/// `1 sample`, `3 samples`.
-pub(crate) fn count(number: usize, noun: &str) -> String {
-    if number == 1 {
-        format!("1 {noun}")
-    } else {
-        format!("{number} {noun}s")
-    }
 }
 
 /// `sample 12 (0.012 s)`.

@@ -30,7 +30,7 @@ mod escape;
 mod figure;
 mod heatmap;
 pub mod math;
-pub mod number;
+pub use stiction_number as number;
 mod text;
 
 pub use color::Color;

@@ -38,7 +38,7 @@ pub fn id(name: impl Into<String>) -> Math {
     Math::Id(name.into())
 }
 
-/// A number as it should appear, such as one made by [`crate::number`].
+/// A number as it should appear, such as one made by [`stiction_number`].
 pub fn num(number: impl Into<String>) -> Math {
     Math::Num(number.into())
 }

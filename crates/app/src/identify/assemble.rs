@@ -162,9 +162,9 @@ pub(super) fn correction_note(estimate: &Estimate) -> Option<String> {
         .max_by(|a, b| relative(a).total_cmp(&relative(b)))?;
     Some(format!(
         "bias of filters, encoder steps and noise measured on simulated logs of the fitted axis and \
-         taken out: {} changed most, by {:+.2} %",
+         taken out: {} changed most, by {}",
         most.name,
-        100.0 * correction(most) / most.value
+        stiction_number::Percent::error(100.0 * correction(most) / most.value).signed(2)
     ))
 }
 

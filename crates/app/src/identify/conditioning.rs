@@ -103,9 +103,9 @@ fn note(tuned: &Tuned) -> Option<String> {
     let lowest = lowest.fold(f64::INFINITY, f64::min);
     Some(format!(
         "cut-offs chosen among {} pairs, {lowest:.0} to {highest:.0} Hz on the position, on simulated logs of the \
-         fitted axis with this encoder and noise: parameters off by {:.2} % (rms) there",
+         fitted axis with this encoder and noise: parameters off by {} (rms) there",
         tuned.trials.len(),
-        100.0 * used.error
+        stiction_number::Percent::error(100.0 * used.error).decimals(2)
     ))
 }
 

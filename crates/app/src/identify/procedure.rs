@@ -240,7 +240,7 @@ fn path_of(sources: &[Source], log: usize) -> String {
 fn speed(value: f64, motion: Motion) -> String {
     format!(
         "{} {}",
-        crate::check::short(value),
+        stiction_number::four_digits(value),
         crate::symbols::speed_unit(motion)
     )
 }

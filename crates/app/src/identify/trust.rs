@@ -6,6 +6,7 @@ use crate::source::Source;
 use crate::symbols;
 use stiction_identify::{Estimate, SimulationFit, Status};
 use stiction_log::Motion;
+use stiction_number::Percent;
 
 /// Part of the variance that a fit must explain.
 const LEAST_R2: f64 = 0.5;
@@ -173,8 +174,8 @@ fn another_wins(
     let errors = format!(
         "on held-out samples --law {}{side} leaves {}, this law {}",
         best.law,
-        left(least),
-        left(mine)
+        Percent::error(least).decimals(2),
+        Percent::error(mine).decimals(2)
     );
     if best.parameters < chosen.parameters && mine > WORSE * least {
         warnings.push(Warning::new(
@@ -192,15 +193,6 @@ fn another_wins(
     }
 }
 
-/// A held-out error; above the force itself its size means nothing.
-fn left(percent: f64) -> String {
-    if percent < 1000.0 {
-        format!("{percent:.2} %")
-    } else {
-        "many times the force".into()
-    }
-}
-
 /// Names the parameters that encoder, filters and noise shift far.
 fn shifted(estimate: &Estimate, warnings: &mut Vec<Warning>) {
     let far = |p: &&stiction_identify::Parameter| {
@@ -212,11 +204,8 @@ fn shifted(estimate: &Estimate, warnings: &mut Vec<Warning>) {
         .iter()
         .filter(far)
         .map(|p| {
-            format!(
-                "{} {:+.0} %",
-                p.name,
-                100.0 * p.bias.unwrap_or(0.0) / p.value
-            )
+            let part = Percent::error(100.0 * p.bias.unwrap_or(0.0) / p.value);
+            format!("{} {}", p.name, part.signed(0))
         })
         .collect();
     if !names.is_empty() {

@@ -1,8 +1,8 @@
 //! What cannot be of the covariance of a model.
 
 use super::ModelFile;
-use crate::check::short;
 use crate::result::CovarianceEntry;
+use stiction_number::four_digits as short;
 
 /// How far apart the two halves of a matrix may be, of the product of the standard deviations: rounding.
 const ROUNDING: f64 = 1e-9;

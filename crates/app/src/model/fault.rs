@@ -226,7 +226,7 @@ fn parameter(
     i: usize,
 ) -> Option<(String, String)> {
     let p = &model.parameter[i];
-    let (name, value) = (&p.name, crate::check::short(p.value));
+    let (name, value) = (&p.name, stiction_number::four_digits(p.value));
     if model.parameter[..i].iter().any(|other| other.name == *name) {
         return Some((format!("{name} twice"), "each once".into()));
     }

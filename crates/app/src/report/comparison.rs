@@ -4,6 +4,7 @@ mod figures;
 
 use crate::compare_file::{CompareFile, MethodEntry, Quartiles, RunEntry, Stage};
 use figures::{beside, overlay, population, rates, single};
+use stiction_number::Percent;
 use stiction_report::{
     Align, Axis, Block, Callout, Document, KeyFigure, Severity, Table, Text, number,
 };
@@ -279,7 +280,7 @@ fn errors(file: &CompareFile, title: &str, stage: &dyn Fn(&MethodEntry) -> &Stag
     for m in &file.methods {
         let cells = stage(m).errors.iter().map(|e| {
             let percent = e.relative.map(|v| 100.0 * v[1]);
-            percent.map_or("–".into(), |x| format!("{} %", number::sig(x, 2)))
+            percent.map_or("–".into(), |x| Percent::error(x).digits(2))
         });
         let name = m.name.replace('-', "\u{2011}");
         table = table.row(std::iter::once(name).chain(cells));

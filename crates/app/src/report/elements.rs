@@ -2,7 +2,8 @@
 
 use crate::identify::Outcome;
 use crate::symbols;
-use stiction_report::{Align, Axis, Color, Figure, Layer, Panel, Severity, Table, number};
+use stiction_number::Percent;
+use stiction_report::{Align, Axis, Color, Figure, Layer, Panel, Severity, Table};
 
 /// Stiffness and yield deflection of each element, in the order of the yield deflections.
 fn elements(outcome: &Outcome) -> Vec<(f64, f64)> {
@@ -56,7 +57,7 @@ pub(super) fn tried(outcome: &Outcome) -> Table {
          fewest elements within 1 % of the least held-out error. Elements to which the data give no \
          stiffness are dropped, so large numbers may be missing.",
     );
-    let percent = |x: f64| format!("{} %", number::sig(x, 3));
+    let percent = |x: f64| Percent::error(x).digits(3);
     for score in &outcome.result.elements {
         let cells = [
             score.elements.to_string(),

@@ -4,6 +4,7 @@ use super::figures;
 use crate::identify::Outcome;
 use crate::result::{BreakAwayEntry, PreslidingStepEntry, StaticMapEntry, TwoStepEntry};
 use crate::symbols;
+use stiction_number::Percent;
 use stiction_report::{Align, Axis, Block, Color, Dash, Figure, Layer, Panel, Table, Text, number};
 
 /// Headings, tables and figures of every procedure that was used.
@@ -192,7 +193,7 @@ fn step_table(outcome: &Outcome, entry: &PreslidingStepEntry) -> Table {
          bristles were linear. They slip well below break-away, so it gives too soft a σ₀ and too \
          high a σ₁. The result of this report is the fit by simulation.",
     );
-    let percent = |x: Option<f64>| x.map_or("–".into(), |x| format!("{} %", number::sig(x, 3)));
+    let percent = |x: Option<f64>| x.map_or("–".into(), |x| Percent::error(x).digits(3));
     let plain = |x: Option<f64>| x.map_or("–".into(), |x| number::sig(x, 4));
     for p in &entry.published {
         table = table.row([

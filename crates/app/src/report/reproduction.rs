@@ -4,6 +4,7 @@ mod paper;
 
 use crate::reproduce::{Body, CheckEntry, ReproduceFile, Reproduction};
 use crate::symbols;
+use stiction_number::Percent;
 use stiction_report::{
     Align, Axis, Callout, Color, Document, Figure, Layer, Panel, Severity, Table, Text, number,
 };
@@ -75,7 +76,7 @@ fn table<'c>(checks: impl Iterator<Item = &'c CheckEntry>) -> Table {
     checks.fold(table, |table, check| {
         let share = |x: f64| match check.reference {
             0.0 => format!("{} {}", number::sig(x, 2), check.unit),
-            reference => format!("{} %", number::sig(100.0 * x / reference.abs(), 2)),
+            reference => Percent::error(100.0 * x / reference.abs()).digits(2),
         };
         let cells = [
             symbols::symbol(&check.name),

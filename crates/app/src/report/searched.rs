@@ -3,6 +3,7 @@
 use crate::identify::Outcome;
 use crate::result::{SearchedEntry, SearchedPoint};
 use crate::symbols;
+use stiction_number::Percent;
 use stiction_report::{Align, Axis, Block, Color, Figure, Layer, Panel, Table, Text, number};
 
 pub(super) fn sections(outcome: &Outcome) -> Vec<Block> {
@@ -46,11 +47,11 @@ fn stages(outcome: &Outcome, entry: &SearchedEntry) -> Table {
     };
     let [a, b] = points.map(|p| {
         cell(p, &|p| {
-            Some(format!("{} %", number::sig(100.0 * p.cost.sqrt(), 5)))
+            Some(Percent::error(100.0 * p.cost.sqrt()).digits(5))
         })
     });
     let last = outcome.result.fit.relative_error_percent;
-    let last = format!("{} %", number::sig(last, 5));
+    let last = Percent::error(last).digits(5);
     table = table.row([
         Text::from("Relative error"),
         a.into(),

@@ -5,6 +5,7 @@ use crate::identify::{Outcome, Simulated};
 use crate::symbols;
 use stiction_identify::{Series, Signals};
 use stiction_log::Motion;
+use stiction_number::Percent;
 use stiction_report::{Axis, Color, Document, Figure, Layer, Panel, number};
 
 /// Errors, friction over velocity, position and force in time, validation.
@@ -43,10 +44,10 @@ fn errors(outcome: &Outcome) -> String {
     };
     let x = &entry.position;
     let mut out = format!(
-        "Position error {} {} rms, {} % of the measured position",
+        "Position error {} {} rms, {} of the measured position",
         number::sig(x.rmse, 3),
         x.unit,
-        number::sig(x.relative_error_percent, 3)
+        Percent::error(x.relative_error_percent).digits(3)
     );
     if let Some(floor) = entry.quantisation_floor {
         out.push_str(&format!(
@@ -59,11 +60,11 @@ fn errors(outcome: &Outcome) -> String {
     match &entry.force {
         Some(f) => out.push_str(&format!(
             "Closed loop: the controller runs on the recorded reference and the simulated position; \
-             its {} is off by {} {} rms, {} % of the measured one.",
+             its {} is off by {} {} rms, {} of the measured one.",
             f.signal,
             number::sig(f.rmse, 3),
             f.unit,
-            number::sig(f.relative_error_percent, 3)
+            Percent::error(f.relative_error_percent).digits(3)
         )),
         None => out.push_str("Open loop: the logged force drives the simulated axis."),
     }

@@ -10,6 +10,7 @@ use crate::study::result::{MetricEntry, ResultRow, SimulatedAxis, StudyFile};
 use crate::study::{Course, Trace};
 use crate::symbols;
 use stiction_log::Motion;
+use stiction_number::Percent;
 use stiction_report::{
     Align, Axis, Block, Callout, Color, Document, Figure, KeyFigure, Layer, Panel, Severity, Table,
     Text, number,
@@ -254,7 +255,7 @@ fn believed(row: &ResultRow) -> String {
 /// A reduction with one decimal: more would not be worth the axis it was simulated on. What is not quite all of it is not
 /// said to be.
 pub(crate) fn less(x: f64) -> String {
-    match format!("{x:.1} %") {
+    match Percent::error(x).decimals(1) {
         all if all == "100.0 %" && x < 100.0 => "> 99.9 %".into(),
         text => text.replace('-', "−"),
     }

@@ -5,6 +5,7 @@ use crate::identify::Outcome;
 use crate::result::{Input, LawEntry};
 use crate::symbols;
 use stiction_identify::IDENTIFIABLE;
+use stiction_number::Percent;
 use stiction_report::{Align, Block, Severity, Table, Text, number};
 
 /// Parameters with value, unit, deviation, interval and flag.
@@ -30,7 +31,7 @@ pub(super) fn parameters(outcome: &Outcome) -> Table {
                 format!("{} {}", number::sig(std, 2), p.unit)
             }
             Some(std) if p.value != 0.0 => {
-                format!("{} %", number::sig(100.0 * std / p.value.abs(), 2))
+                Percent::deviation(100.0 * std / p.value.abs()).digits(2)
             }
             _ => "–".into(),
         };
@@ -91,7 +92,7 @@ pub(super) fn truth(outcome: &Outcome) -> Table {
         let error = if *truth == 0.0 {
             number::sig(p.value, 2)
         } else {
-            format!("{} %", number::sig(100.0 * (p.value / truth - 1.0), 2))
+            Percent::error(100.0 * (p.value / truth - 1.0)).digits(2)
         };
         let cells = [
             symbols::meaning(name, outcome.motion),
@@ -131,7 +132,7 @@ pub(super) fn validation(outcome: &Outcome) -> Table {
             v.path.clone(),
             number::count(v.fit.samples as u64),
             number::sig(v.fit.rmse, 3),
-            format!("{} %", number::sig(v.fit.relative_error_percent, 3)),
+            Percent::error(v.fit.relative_error_percent).digits(3),
             v.low_speed
                 .as_ref()
                 .map_or("–".into(), |l| number::sig(l.fit.rmse, 3)),
@@ -167,7 +168,7 @@ pub(super) fn laws(outcome: &Outcome) -> Table {
         _ => "–".into(),
     };
     let criterion = |x: Option<f64>| x.map_or("–".into(), |x| number::sig(x, 3));
-    let percent = |x: Option<f64>| x.map_or("–".into(), |x| format!("{} %", number::sig(x, 3)));
+    let percent = |x: Option<f64>| x.map_or("–".into(), |x| Percent::error(x).digits(3));
     for l in &outcome.result.laws {
         let cells = [
             law_name(&l.law, l.asymmetric),

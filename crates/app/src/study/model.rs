@@ -161,7 +161,7 @@ impl Model {
         };
         // What the parameters of a file do not allow is said of that file.
         law(&|name| model.value(name)).map_err(|e| {
-            let found = format!("{} = {}", e.name, crate::check::short(e.value));
+            let found = format!("{} = {}", e.name, stiction_number::four_digits(e.value));
             refuse("parameter: ", found, e.allowed)
         })?;
         Ok(model)

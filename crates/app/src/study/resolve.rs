@@ -11,11 +11,11 @@ use super::raw::{Source, Table};
 use super::result::StudyInput;
 use super::wrong::{Belief, Family};
 use super::{Machine, Named, Study};
-use crate::check::short;
 use crate::error::{Error, Warning};
 use crate::source::sha256;
 use std::path::Path;
 use stiction_log::{Dimension, Motion};
+use stiction_number::four_digits as short;
 use stiction_servo::run::sample_count;
 
 /// Most entries of a list.

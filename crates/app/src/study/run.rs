@@ -281,7 +281,7 @@ impl Study {
                 self.controllers[job.controller].name,
                 self.compensators[job.compensator].name,
                 e.name,
-                crate::check::short(e.value),
+                stiction_number::four_digits(e.value),
                 e.allowed
             ),
         )

@@ -1,9 +1,9 @@
 //! Wrong parameters: what a compensator is given instead of those of the axis.
 
 use super::model::{Model, law};
-use crate::check::short;
 use crate::result::CovarianceEntry;
 use stiction_friction::LuGre;
+use stiction_number::four_digits as short;
 use stiction_servo::known;
 use stiction_servo::noise::Noise;
 

@@ -1,9 +1,9 @@
 //! A comparison as a terminal shows it.
 
 use super::table;
-use crate::check::short;
 use crate::compare_file::{CompareFile, MethodEntry, Quartiles};
 use std::fmt::Write;
+use stiction_number::four_digits as short;
 
 fn median(values: &Quartiles) -> String {
     values.map_or("-".into(), |[_, median, _]| short(median))

@@ -1,9 +1,9 @@
 //! What is said after an export.
 
-use crate::check::short;
 use crate::export::Exported;
 use std::fmt::Write;
 use std::path::Path;
+use stiction_number::four_digits as short;
 
 /// The files of an export, what it assumed, and what to know before it runs.
 pub fn exported(exported: &Exported, dir: &Path) -> String {

@@ -1,13 +1,13 @@
 //! What the procedures found, for a terminal.
 
 use super::table;
-use crate::check::short;
 use crate::result::{
     BreakAwayEntry, PreslidingStepEntry, ResultFile, StaticMapEntry, TwoStepEntry,
 };
 use crate::symbols;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use stiction_number::{Percent, four_digits as short};
 
 /// A section for each procedure that was used.
 pub(super) fn sections(result: &ResultFile) -> String {
@@ -111,13 +111,13 @@ fn presliding_step(entry: &PreslidingStepEntry, result: &ResultFile) -> String {
         "sigma1",
         "",
     ])];
-    let percent = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:+.1} %"));
+    let percent = |x: Option<f64>| x.map_or(String::new(), |x| Percent::error(x).signed(1));
     for p in &entry.published {
         rows.push(vec![
             format!("inverted, {}", p.path),
             format!("{} {}", short(p.height), entry.force_unit),
             p.overshoot
-                .map_or("none".into(), |x| format!("{:.1} %", 100.0 * x)),
+                .map_or("none".into(), |x| Percent::error(100.0 * x).decimals(1)),
             p.damping_ratio.map_or("-".into(), short),
             short(p.sigma0),
             percent(Some(p.sigma0_off_percent)),

@@ -1,9 +1,9 @@
 //! Published experiments on the terminal.
 
 use super::table;
-use crate::check::short;
 use crate::report::quantity;
 use crate::reproduce::{ClaimEntry, ReproduceFile};
+use stiction_number::{Percent, four_digits as short};
 
 /// Every number beside its reference.
 pub fn reproduction(file: &ReproduceFile) -> String {
@@ -64,7 +64,7 @@ fn claims(claims: &[ClaimEntry]) -> String {
             claim.compensation.clone(),
             quantity(claim.without, &claim.unit),
             quantity(claim.with, &claim.unit),
-            format!("{:.1} %", claim.reduction_percent),
+            Percent::error(claim.reduction_percent).decimals(1),
             claim.published.clone(),
         ]
     }));

@@ -2,6 +2,7 @@
 
 use crate::law::physical::{Dimension, Physical};
 use crate::separable::Optimum;
+use stiction_number::{LARGEST_PERCENT, Percent};
 
 /// Relative standard deviation above which a parameter counts as not determined by the data.
 pub const IDENTIFIABLE: f64 = 0.10;
@@ -24,6 +25,16 @@ impl IntervalKind {
             IntervalKind::Linear => "linear",
             IntervalKind::Profile => "profile",
         }
+    }
+}
+
+/// Why a parameter is not determined, from its deviation relative to its size; `of` says what that size is.
+pub(crate) fn too_uncertain(relative: f64, of: &str) -> String {
+    let percent = Percent::deviation(100.0 * relative);
+    if percent.is_bounded() {
+        format!("standard deviation {} of {of}", percent.decimals(0))
+    } else {
+        format!("its standard deviation is not bounded (over {LARGEST_PERCENT} % of {of})")
     }
 }
 
@@ -131,11 +142,11 @@ impl Parameter {
         if let Some(std) = std {
             let relative = std / size;
             if relative > IDENTIFIABLE || relative.is_nan() {
-                reason = format!("standard deviation {:.0} % of {of}", 100.0 * relative);
+                reason = too_uncertain(relative, of);
             } else if !corrected {
                 reason = format!(
-                    "encoder steps and filters shift it by about {:.0} % of {of}",
-                    100.0 * shift.abs() / size
+                    "encoder steps and filters shift it by about {} of {of}",
+                    Percent::error(100.0 * shift.abs() / size).decimals(0)
                 );
             }
         }

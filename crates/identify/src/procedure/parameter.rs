@@ -1,6 +1,6 @@
 //! A value and its variance as a parameter with interval and flag.
 
-use crate::estimate::parameter::{IDENTIFIABLE, Parameter};
+use crate::estimate::parameter::{IDENTIFIABLE, Parameter, too_uncertain};
 use crate::law::physical::Dimension;
 
 /// Two-sided 95 % quantile of Student's t for `free` degrees of freedom, by the expansion of
@@ -43,7 +43,7 @@ impl Found {
             match std.map(|s| s / size) {
                 Some(r) if r <= IDENTIFIABLE => {}
                 Some(r) if r < 1e3 => {
-                    reason = format!("standard deviation {:.0} % of its value", 100.0 * r);
+                    reason = too_uncertain(r, "its value");
                 }
                 _ => reason = "the data say nothing of it".into(),
             }

@@ -2,6 +2,7 @@
 
 use super::{Finding, Severity, count, median, place, short};
 use crate::log::{Gap, Log};
+use stiction_number::Percent;
 
 /// A step above this many median steps misses a sample.
 const GAP_STEPS: f64 = 1.5;
@@ -102,10 +103,10 @@ pub(super) fn jitter(log: &mut Log) {
         Severity::Note
     };
     let message = format!(
-        "time steps are off their median of {} s by {} s rms ({} %), at most {} s at {}",
+        "time steps are off their median of {} s by {} s rms ({}), at most {} s at {}",
         short(step),
         short(rms),
-        short(100.0 * rms / step),
+        Percent::error(100.0 * rms / step).short(),
         short(worst),
         place(log, at)
     );

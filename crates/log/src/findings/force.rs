@@ -4,6 +4,7 @@ use super::{Finding, Severity, count, extremes, place, short};
 use crate::log::Log;
 use crate::mapping::Mapping;
 use std::ops::Range;
+use stiction_number::Percent;
 
 /// Shortest stretch at an extreme that can be saturation, in samples.
 const MIN_FLAT: usize = 5;
@@ -151,9 +152,9 @@ pub(super) fn sign(log: &mut Log) {
             "if it is the friction rather than the drive force, set invert = true"
         };
         let message = format!(
-            "the force takes {} % of the work it does out of the motion, as a force that opposes \
+            "the force takes {} of the work it does out of the motion, as a force that opposes \
              motion does; {cure}",
-            short(-100.0 * net / gross)
+            Percent::error(-100.0 * net / gross).short()
         );
         log.findings
             .push(Finding::new("force-sign", Severity::Warning, message));

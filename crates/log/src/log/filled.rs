@@ -13,6 +13,7 @@ use crate::findings::{Finding, Severity, count, short};
 use crate::mapping::Role;
 use crate::{Error, Kind};
 use std::ops::Range;
+use stiction_number::Percent;
 
 /// Samples that are looked at on either side of a zero.
 const BESIDE: usize = 3;
@@ -45,10 +46,10 @@ pub(super) fn clear(columns: &mut Columns, findings: &mut Vec<Finding>) -> Resul
             format!("0 or as good as 0 (at most {})", short(largest))
         };
         let found = format!(
-            "{role} is {value} in {cells} of {} ({} %), first in row {} of the kept part, between \
+            "{role} is {value} in {cells} of {} ({}), first in row {} of the kept part, between \
              samples far from 0",
             count(rows, "sample"),
-            short(100.0 * cells as f64 / rows as f64),
+            Percent::error(100.0 * cells as f64 / rows as f64).short(),
             first + 1
         );
         if cells as f64 > MISSING * rows as f64 {

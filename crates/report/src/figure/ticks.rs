@@ -1,8 +1,8 @@
 //! Where the ticks of an axis stand and what they say.
 
 use super::axis::{Axis, Map, Scale};
-use crate::number::{exponent, plain, prefixed, superscript, ten, times_ten};
 use crate::text::Text;
+use stiction_number::{exponent, plain, prefixed, superscript, ten, times_ten};
 
 /// The ticks of one axis.
 #[derive(Debug, Clone, PartialEq)]

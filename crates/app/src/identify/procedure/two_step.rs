@@ -130,8 +130,8 @@ impl TwoSteps {
             "On this record the two steps leave {} {unit} rms and the joint fit {} {unit}: the joint \
              fit may move every parameter and so always leaves the least; what is between the two is \
              the price of static parameters that were not made for this motion.",
-            crate::check::short(two),
-            crate::check::short(one)
+            stiction_number::four_digits(two),
+            stiction_number::four_digits(one)
         ));
         let apart: Vec<&TwoStepParameter> = parameters
             .iter()

@@ -6,7 +6,8 @@ mod simulated;
 use super::{table, verdict};
 use crate::report::quantity;
 use crate::reproduce::{ClaimEntry, Paper, ReproduceFile};
-use stiction_report::{Align, Block, Callout, Document, Severity, Table, Text, number};
+use stiction_number::Percent;
+use stiction_report::{Align, Block, Callout, Document, Severity, Table, Text};
 
 pub(super) fn report(file: &ReproduceFile, paper: &Paper) -> Document {
     let mut document = Document::new("The experiments of Zhang et al. 2025")
@@ -75,7 +76,7 @@ fn claims(claims: &[ClaimEntry]) -> Table {
             quantity(claim.without, &claim.unit),
             claim.compensation.clone(),
             quantity(claim.with, &claim.unit),
-            format!("{} %", number::sig(claim.reduction_percent, 4)),
+            Percent::error(claim.reduction_percent).digits(4),
             match claim.published.as_str() {
                 "" => "–".into(),
                 words => words.to_string(),

@@ -5,6 +5,7 @@ use crate::reproduce::{Dynamics, PARAMETERS, Paper, Presliding, ReproduceFile, S
 use crate::symbols;
 use stiction_friction::LuGre;
 use stiction_log::Motion;
+use stiction_number::Percent;
 use stiction_report::{Align, Axis, Color, Dash, Document, Figure, Layer, Panel, Table, number};
 
 /// Methods by name with the colour of their lines.
@@ -203,10 +204,10 @@ fn values(paper: &Paper, statics: &Statics, dynamics: &Dynamics) -> Table {
 fn inversion(paper: &Paper, step: &Presliding) -> String {
     let off = |found: f64, name: &str| {
         let true_value = paper.true_value(name);
-        format!("{:+.1} %", 100.0 * (found / true_value - 1.0))
+        Percent::error(100.0 * (found / true_value - 1.0)).signed(1)
     };
     let overshoot = step.overshoot.map_or(String::new(), |part| {
-        format!(", {} % overshoot", number::sig(100.0 * part, 3))
+        format!(", {} overshoot", Percent::error(100.0 * part).digits(3))
     });
     let damping = match step.inverted.sigma1 {
         Some(s1) => format!(

@@ -99,7 +99,7 @@ pub fn si(value: f64, unit: &str, digits: usize) -> String {
 }
 
 /// `unit` with the prefix for 10^`power`, where there is one and the unit takes prefixes.
-pub(crate) fn prefixed(unit: &str, power: i32) -> Option<String> {
+pub fn prefixed(unit: &str, power: i32) -> Option<String> {
     const TAKES_PREFIX: [&str; 16] = [
         "m", "s", "N", "A", "V", "W", "J", "Hz", "rad", "Pa", "Nm", "Ω", "H", "F", "T", "C",
     ];
@@ -123,12 +123,12 @@ pub(crate) fn prefixed(unit: &str, power: i32) -> Option<String> {
 }
 
 /// `×10ⁿ`.
-pub(crate) fn times_ten(exponent: i32) -> String {
+pub fn times_ten(exponent: i32) -> String {
     format!("×10{}", superscript(exponent))
 }
 
 /// An integer in superscript characters.
-pub(crate) fn superscript(value: i32) -> String {
+pub fn superscript(value: i32) -> String {
     value
         .to_string()
         .chars()
@@ -143,12 +143,12 @@ pub(crate) fn superscript(value: i32) -> String {
 }
 
 /// 10^`exponent`, correctly rounded: 0 below the range of f64, infinite above.
-pub(crate) fn ten(exponent: i32) -> f64 {
+pub fn ten(exponent: i32) -> f64 {
     format!("1e{exponent}").parse().unwrap_or(f64::NAN)
 }
 
 /// The decimal exponent of a finite, non-zero value: 3 for 1000 and 9999.9.
-pub(crate) fn exponent(value: f64) -> i32 {
+pub fn exponent(value: f64) -> i32 {
     let text = format!("{value:e}");
     text.split_once('e')
         .and_then(|(_, e)| e.parse().ok())
@@ -157,7 +157,7 @@ pub(crate) fn exponent(value: f64) -> i32 {
 
 /// The integer with the given digits times 10^`power`, without an exponent: ("1234", -2) = 12.34.
 /// Trailing zeros stand for the digits left of a positive power.
-pub(crate) fn plain(figures: &str, power: i32) -> String {
+pub fn plain(figures: &str, power: i32) -> String {
     if power >= 0 {
         return format!("{figures}{}", "0".repeat(power as usize));
     }

@@ -1,0 +1,27 @@
+//! Numbers written for people to read: the one place where stiction turns a computed number into characters.
+//!
+//! | where | function |
+//! |---|---|
+//! | messages and terminal text (ASCII) | [`short`], [`four_digits`], [`full`], [`counted`] |
+//! | reports (typeset: `×10⁶`, a true minus sign) | [`sig`], [`count`], [`concise`], [`plus_minus`], [`interval`], [`si`] |
+//! | every percentage of something that was measured or fitted | [`Percent`] |
+//!
+//! ```
+//! use stiction_number::{Percent, short, sig};
+//! assert_eq!(short(7_410_000.0), "7.41e6");
+//! assert_eq!(sig(7_410_000.0, 3), "7.41×10⁶");
+//! assert_eq!(Percent::deviation(4.217).decimals(2), "4.22 %");
+//! // Nobody can use a deviation of 10^24 %.
+//! assert_eq!(Percent::deviation(2.97e24).decimals(2), "not bounded");
+//! ```
+
+mod message;
+mod percent;
+mod typeset;
+
+pub use message::{counted, four_digits, full, short};
+pub use percent::{LARGEST_PERCENT, Percent};
+pub use typeset::{
+    concise, count, exponent, interval, plain, plus_minus, prefixed, si, sig, superscript, ten,
+    times_ten,
+};

@@ -1,0 +1,99 @@
+//! Numbers in messages and terminal text: ASCII, the same width rules everywhere.
+
+use crate::typeset::exponent;
+
+/// At most four digits, without zeros at the end: `7.41`, `12346`, `7.41e6`.
+pub fn short(x: f64) -> String {
+    let size = x.abs();
+    if x == 0.0 || !x.is_finite() {
+        return format!("{x}");
+    }
+    if !(1e-3..1e6).contains(&size) {
+        let text = format!("{x:.3e}");
+        let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
+        return format!("{}e{power}", trimmed(digits));
+    }
+    if size >= 1000.0 {
+        return format!("{x:.0}");
+    }
+    let decimals = if size >= 100.0 {
+        1
+    } else if size >= 10.0 {
+        2
+    } else if size >= 1.0 {
+        3
+    } else if size >= 0.1 {
+        4
+    } else if size >= 0.01 {
+        5
+    } else {
+        6
+    };
+    trimmed(&format!("{x:.decimals$}")).to_string()
+}
+
+/// Four digits, zeros at the end included, so that a column lines up: `7.410`, `0.01200`, `7.410e6`.
+pub fn four_digits(x: f64) -> String {
+    if x == 0.0 {
+        "0".into()
+    } else if (1e-3..1e5).contains(&x.abs()) {
+        let decimals = (3 - exponent(x)).clamp(0, 7) as usize;
+        format!("{x:.decimals$}")
+    } else {
+        format!("{x:.3e}")
+    }
+}
+
+/// All digits; very large and small numbers with a power of ten.
+pub fn full(x: f64) -> String {
+    if x == 0.0 || (1e-9..1e16).contains(&x.abs()) {
+        format!("{x}")
+    } else {
+        format!("{x:e}")
+    }
+}
+
+/// `1 sample`, `3 samples`.
+pub fn counted(number: usize, noun: &str) -> String {
+    if number == 1 {
+        format!("1 {noun}")
+    } else {
+        format!("{number} {noun}s")
+    }
+}
+
+fn trimmed(digits: &str) -> &str {
+    if digits.contains('.') {
+        digits.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        digits
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_have_few_digits() {
+        for (x, trimmed, aligned) in [
+            (0.0, "0", "0"),
+            (7.41, "7.41", "7.410"),
+            (-0.012, "-0.012", "-0.01200"),
+            (9.99961, "10", "10.000"),
+            (1000.0, "1000", "1000"),
+            (12345.6, "12346", "12346"),
+            (7.41e6, "7.41e6", "7.410e6"),
+            (1e-4, "1e-4", "1.000e-4"),
+            (f64::INFINITY, "inf", "inf"),
+            (f64::NAN, "NaN", "NaN"),
+        ] {
+            assert_eq!(short(x), trimmed);
+            assert_eq!(four_digits(x), aligned);
+        }
+        assert_eq!(full(0.1), "0.1");
+        assert_eq!(full(1e300), "1e300");
+        assert_eq!(counted(1, "sample"), "1 sample");
+        assert_eq!(counted(3, "sample"), "3 samples");
+    }
+}
