@@ -213,10 +213,7 @@ fn substeps(plant: &Plant, h: f64) -> u32 {
 /// The plant of an estimate, friction as the friction crate defines it.
 fn plant(fitted: &Estimate) -> Option<Plant> {
     let Law {
-        kind,
-        asymmetric,
-        exponent,
-        ..
+        kind, asymmetric, ..
     } = fitted.law;
     if !matches!(kind, LawKind::Dahl | LawKind::LuGre) {
         return None;
@@ -233,10 +230,10 @@ fn plant(fitted: &Estimate) -> Option<Plant> {
             viscous: read("sigma2")?,
         })
     };
-    let shape = if exponent == 2.0 {
-        Shape::Gaussian
-    } else {
-        Shape::Power(exponent)
+    // The exponent of the estimate: where it was fitted, that of the law is not used.
+    let shape = match value("stribeck_exponent") {
+        Some(exponent) if exponent != 2.0 => Shape::Power(exponent),
+        _ => Shape::Gaussian,
     };
     let curve = Stribeck::new(shape, side("_pos")?, side("_neg")?, 0.0).ok()?;
     let damping = Damping::Constant(value("sigma1").unwrap_or(0.0));

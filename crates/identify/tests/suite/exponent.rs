@@ -1,11 +1,11 @@
 //! The Stribeck exponent as an unknown, against the friction crate.
 
 use crate::common::record;
-use crate::common::trials::{motion, stepped};
+use crate::common::trials::{motion, quantised_law, stepped};
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_identify::{
-    Estimate, Law, LawKind, Mass, Objective, Record, Settings, Silent, Status, Terms, estimate,
-    separable,
+    Conditioning, Cutoff, Estimate, Law, LawKind, Mass, Objective, Record, Settings, Silent,
+    Status, Terms, estimate, intervals, separable,
 };
 
 const STEP: f64 = 5e-4;
@@ -121,5 +121,45 @@ fn the_gradient_matches_finite_differences() {
                 slope[i]
             );
         }
+    }
+}
+
+/// With an encoder and a mass the intervals come from simulated logs of the fitted axis. They have the
+/// exponent that was fitted: with another one their fits end elsewhere, and all of the difference would
+/// count as what encoder and filters shift (.19 to 5.3 of a true exponent of 1, simulated with 2).
+#[test]
+fn replicas_have_the_fitted_exponent() {
+    const TRUTH: f64 = 1.0;
+    let filters = Conditioning {
+        source_cutoff: Cutoff::Hz(400.0),
+        common_cutoff: Cutoff::Hz(200.0),
+        ..Conditioning::default()
+    };
+    let lugre = LuGre::new(1.2e5, Damping::Constant(600.0), curve(TRUTH, false)).unwrap();
+    let law = Law::new(LawKind::LuGre).with_fitted_exponent();
+    for run in 0..3 {
+        let trial = quantised_law(lugre, 1e-6, 0.05, &filters, run);
+        let (record, terms) = (&trial.record, &trial.terms);
+        let settings = Settings::default();
+        let found = separable(record, law, terms, &settings, &mut Silent).unwrap();
+        let mut fitted = estimate(record, law, terms, &found, 1e-3);
+        intervals(record, &found, &mut fitted, &mut Silent);
+        for (name, truth) in trial
+            .truth
+            .into_iter()
+            .chain([("stribeck_exponent", TRUTH)])
+        {
+            let p = fitted.parameter(name).unwrap();
+            println!(
+                "{run} {name} {} {:?} {:?} {:?}",
+                p.value, p.std, p.bias, p.ci95
+            );
+            assert!(p.bias.is_some(), "{name}: no replica was made");
+            assert!(name == "offset" || p.identifiable, "{name}: {}", p.reason);
+            let off = (p.value - truth).abs() / p.std.unwrap();
+            assert!(off < 5.0, "{name} is off by {off:.1} deviations");
+        }
+        let (low, high) = fitted.parameter("stribeck_exponent").unwrap().ci95.unwrap();
+        assert!(low > 0.8 && high < 1.25, "exponent {low} to {high}");
     }
 }

@@ -83,6 +83,17 @@ pub fn autoregressive(rho: f64, run: u64) -> Trial {
 /// Speeds and frequencies of the three segments differ a little from run to run, and so does the place
 /// of the encoder's steps.
 pub fn quantised(count: f64, force: f64, conditioning: &Conditioning, run: u64) -> Trial {
+    quantised_law(MACHINE.law(), count, force, conditioning, run)
+}
+
+/// The same of an axis with another law; the truth is that of [`MACHINE`].
+pub fn quantised_law(
+    law: LuGre<f64>,
+    count: f64,
+    force: f64,
+    conditioning: &Conditioning,
+    run: u64,
+) -> Trial {
     let mut noise = Noise::new(7000 + run);
     let mut near = |x: f64| x * (0.95 + 0.1 * noise.uniform());
     let path = Path::new(vec![
@@ -92,7 +103,7 @@ pub fn quantised(count: f64, force: f64, conditioning: &Conditioning, run: u64) 
     ]);
     // Where the counts stand is as good as random on any axis.
     let log = ClosedLoop {
-        plant: Plant::new(MASS, MACHINE.law()).unwrap(),
+        plant: Plant::new(MASS, law).unwrap(),
         controller: Cascade::tuned(MASS, 60.0, 500.0).unwrap(),
         path: path.unwrap(),
         encoder: Encoder::new(count)
