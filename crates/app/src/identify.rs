@@ -26,7 +26,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 use stiction_identify as engine;
 use stiction_identify::{
-    Delay, Estimate, Law, LawKind, Observer, Record, Series, Settings, Status, Terms,
+    Delay, FittedLaw, Law, LawKind, Observer, Record, Series, Settings, Status, Terms,
 };
 use stiction_log::{Motion, Severity};
 
@@ -64,7 +64,7 @@ pub struct Outcome {
     /// What goes into `result.json`.
     pub result: ResultFile,
     /// The fitted law with its signals.
-    pub estimate: Estimate,
+    pub estimate: FittedLaw,
     /// Signals of each validation, with its name.
     pub validation: Vec<(String, Series)>,
     /// The simulated axis, where the method simulates one.
@@ -333,7 +333,7 @@ pub(crate) fn fit(
     }
     Ok(Outcome {
         result,
-        estimate,
+        estimate: estimate.into(),
         validation,
         simulation: None,
         sources,

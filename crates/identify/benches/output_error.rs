@@ -80,7 +80,7 @@ fn fit(log: &[Recording]) -> SimulationFit {
 #[divan::bench(sample_count = 3)]
 fn whole_fit_from_nothing(bencher: Bencher) {
     let log = [log()];
-    let evaluations = fit(&log).estimate.counts.total();
+    let evaluations = fit(&log).fitted.counts.total();
     bencher
         .counter(ItemsCount::new(SAMPLES * evaluations))
         .bench(|| fit(&log));

@@ -4,6 +4,7 @@ pub(crate) mod advice;
 mod autoregression;
 mod conditioned;
 mod curve;
+pub(crate) mod fitted;
 pub(crate) mod intervals;
 pub(crate) mod parameter;
 mod profile;
@@ -11,10 +12,10 @@ mod sliding;
 pub(crate) mod uncertainty;
 
 use crate::conditioning::record::Record;
+use crate::estimate::fitted::FittedLaw;
 use crate::estimate::parameter::Parameter;
 use crate::estimate::uncertainty::{Covariance, Unknowns};
 use crate::fit::Fit;
-use crate::gms::choose::ElementsScore;
 use crate::law::Law;
 use crate::law::dependence::Dependence;
 use crate::law::physical::{self, Dimension, Physical};
@@ -23,6 +24,7 @@ use crate::observe::Counts;
 use crate::separable::Optimum;
 use crate::separable::levenberg::Status;
 use crate::separable::objective::{Column, Objective};
+use std::ops::Deref;
 
 /// Signals at the samples of the fit.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -54,35 +56,11 @@ impl Series {
     }
 }
 
-/// A fitted law: enough to predict another record.
+/// A law fitted to the force of a record: what any fit states, and what it takes to predict the force of
+/// another record ([`predict`]).
 #[derive(Clone, Debug)]
 pub struct Estimate {
-    /// The law.
-    pub law: Law,
-    /// The linear terms beside it.
-    pub terms: Terms,
-    /// Its parameters, in the order of tables.
-    pub parameters: Vec<Parameter>,
-    /// Covariance of the identified parameters.
-    pub covariance: Covariance,
-    /// Fit over all kept samples.
-    pub fit: Fit,
-    /// Fit over the kept samples slower than `low_speed_bound`.
-    pub low_speed: Option<Fit>,
-    /// That bound, m/s or rad/s.
-    pub low_speed_bound: f64,
-    /// Signals at the kept samples.
-    pub series: Series,
-    /// How the search ended.
-    pub status: Status,
-    /// Evaluations by kind.
-    pub counts: Counts,
-    /// Steps of all descents.
-    pub iterations: usize,
-    /// Evaluations and relative residual over the last descent.
-    pub history: Vec<(usize, f64)>,
-    /// The numbers of elements that were tried for a Maxwell-slip law; empty where it was given.
-    pub elements: Vec<ElementsScore>,
+    pub(crate) fitted: FittedLaw,
     /// Sample time of the record, s.
     pub(crate) step: f64,
     pub(crate) p: Vec<f64>,
@@ -90,15 +68,31 @@ pub struct Estimate {
     pub(crate) unknowns: Unknowns,
 }
 
+impl Deref for Estimate {
+    type Target = FittedLaw;
+
+    fn deref(&self) -> &FittedLaw {
+        &self.fitted
+    }
+}
+
+impl From<Estimate> for FittedLaw {
+    fn from(estimate: Estimate) -> Self {
+        estimate.fitted
+    }
+}
+
 impl Estimate {
-    /// The parameter of this name.
-    pub fn parameter(&self, name: &str) -> Option<&Parameter> {
-        self.parameters.iter().find(|p| p.name == name)
+    /// The same, said to have been stopped before its search was over.
+    #[must_use]
+    pub fn interrupted(mut self) -> Self {
+        self.fitted.status = Status::Interrupted;
+        self
     }
 
-    /// The value of this name.
-    pub fn value(&self, name: &str) -> Option<f64> {
-        self.parameter(name).map(|p| p.value)
+    /// Adds evaluations that led to it.
+    pub fn count(&mut self, more: &Counts) {
+        self.fitted.counts.add(more);
     }
 
     /// How many unknowns were fitted; some laws have parameters that follow from others.
@@ -202,19 +196,21 @@ pub fn estimate(
         low_speed_bound,
     );
     Estimate {
-        law,
-        terms: terms.clone(),
-        parameters,
-        covariance,
-        fit,
-        low_speed,
-        low_speed_bound,
-        series,
-        status: optimum.status,
-        counts: optimum.counts,
-        iterations: optimum.iterations,
-        history: optimum.history.clone(),
-        elements: optimum.elements.clone(),
+        fitted: FittedLaw {
+            law,
+            terms: terms.clone(),
+            parameters,
+            covariance,
+            fit,
+            low_speed,
+            low_speed_bound,
+            series,
+            status: optimum.status,
+            counts: optimum.counts,
+            iterations: optimum.iterations,
+            history: optimum.history.clone(),
+            elements: optimum.elements.clone(),
+        },
         step: record.step(),
         p: optimum.p.clone(),
         coefficients: c.clone(),
@@ -222,7 +218,19 @@ pub fn estimate(
     }
 }
 
-/// Signals of another record under a fitted law, nothing fitted again.
+/// Signals of another record under a law that was fitted to the force of one, nothing fitted again. A
+/// channel that the law depends on and that the other record does not have counts as at its reference.
+///
+/// A fit of the position ([`SimulationFit`](crate::SimulationFit)) has no linear terms to predict a force
+/// from; [`simulate_unseen`](crate::simulate_unseen) simulates another recording with it:
+///
+/// ```compile_fail,E0308
+/// use stiction_identify::{Record, SimulationFit, predict};
+///
+/// fn force(record: &Record, simulated: &SimulationFit) {
+///     predict(record, &simulated.fitted);
+/// }
+/// ```
 pub fn predict(record: &Record, fitted: &Estimate) -> Series {
     let objective = Objective::new(record, fitted.law, &fitted.terms);
     let columns = objective.columns_at(&fitted.p);
@@ -288,52 +296,5 @@ fn series(objective: &Objective, p: &[f64], coefficients: &[f64], columns: &[Col
         measured: objective.force().to_vec(),
         model,
         other,
-    }
-}
-
-/// What a procedure other than the joint fit has found, as an estimate.
-pub(crate) struct Assembled {
-    pub law: Law,
-    pub terms: Terms,
-    pub parameters: Vec<Parameter>,
-    pub covariance: Covariance,
-    pub series: Series,
-    pub status: Status,
-    pub counts: Counts,
-    /// Nonlinear unknowns and coefficients, in the order of the law.
-    pub unknowns: (Vec<f64>, Vec<f64>),
-}
-
-impl Assembled {
-    /// The estimate; the fit is that of the series.
-    pub fn estimate(mut self) -> Estimate {
-        self.parameters.sort_by_key(|p| physical::rank(&p.name));
-        let residual = self.series.residual();
-        let fit = Fit::new(&self.series.measured, &residual).unwrap_or(Fit {
-            rmse: f64::MAX,
-            relative_error_percent: f64::MAX,
-            r2: f64::NAN,
-            samples: residual.len(),
-            effective_samples: 1.0,
-        });
-        Estimate {
-            law: self.law,
-            terms: self.terms,
-            parameters: self.parameters,
-            covariance: self.covariance,
-            fit,
-            low_speed: None,
-            low_speed_bound: 0.0,
-            series: self.series,
-            status: self.status,
-            counts: self.counts,
-            iterations: self.counts.total(),
-            history: Vec::new(),
-            elements: Vec::new(),
-            step: 0.0,
-            unknowns: Unknowns::none(),
-            p: self.unknowns.0,
-            coefficients: self.unknowns.1,
-        }
     }
 }

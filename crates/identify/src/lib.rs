@@ -54,6 +54,7 @@ pub use conditioning::record::{Record, Samples, Segment};
 pub use conditioning::{Conditioning, Cutoff, Source, condition};
 pub use crossval::{LawScore, cross_validate};
 pub use error::Error;
+pub use estimate::fitted::FittedLaw;
 pub use estimate::intervals::intervals;
 pub use estimate::parameter::{IDENTIFIABLE, IntervalKind, Parameter};
 pub use estimate::uncertainty::Covariance;

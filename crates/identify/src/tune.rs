@@ -9,6 +9,7 @@
 use crate::conditioning::record::{Record, Samples};
 use crate::conditioning::{Conditioning, Cutoff, Source, condition};
 use crate::error::Error;
+use crate::estimate::fitted::FittedLaw;
 use crate::estimate::{Estimate, estimate};
 use crate::law::Law;
 use crate::law::physical::physical;
@@ -249,7 +250,7 @@ impl Walk<'_> {
 
     /// Mean square of the relative errors of the parameters that the log determines.
     fn distance(&self, replica: &Replica, p: &[f64], c: &[f64]) -> f64 {
-        let Estimate { law, terms, .. } = self.fitted;
+        let FittedLaw { law, terms, .. } = &self.fitted.fitted;
         let linear = terms.columns(law);
         let truth = physical(law, &linear, 1.0, &replica.p, self.fitted.coefficients());
         let found = physical(law, &linear, 1.0, p, c);

@@ -10,7 +10,7 @@ use crate::result::{
 use crate::source::Source;
 use crate::symbols;
 use std::fmt::Write;
-use stiction_identify::{Delay, Estimate, Fit, Parameter, Series};
+use stiction_identify::{Delay, Fit, FittedLaw, Parameter, Series};
 use stiction_log::Motion;
 
 pub(super) struct Parts<'a> {
@@ -19,7 +19,7 @@ pub(super) struct Parts<'a> {
     pub axis: ResolvedAxis,
     pub motion: Motion,
     pub force_unit: &'a str,
-    pub estimate: &'a Estimate,
+    pub estimate: &'a FittedLaw,
     pub validation: &'a [(String, Series)],
     pub laws: Vec<LawEntry>,
     pub law_chosen_by: &'static str,
@@ -105,13 +105,13 @@ pub(super) fn result(parts: Parts) -> ResultFile {
     }
 }
 
-fn top_speed(estimate: &Estimate) -> Option<f64> {
+fn top_speed(estimate: &FittedLaw) -> Option<f64> {
     let speeds = estimate.series.velocity.iter().map(|v| v.abs());
     let top = speeds.fold(0.0, f64::max);
     (top > 0.0 && top.is_finite()).then_some(top)
 }
 
-fn elements(estimate: &Estimate) -> Vec<ElementsEntry> {
+fn elements(estimate: &FittedLaw) -> Vec<ElementsEntry> {
     let tried = estimate.elements.iter();
     tried
         .map(|score| ElementsEntry {
@@ -151,7 +151,7 @@ fn parameter(p: &Parameter, motion: Motion, force_unit: &str, load_unit: &str) -
 }
 
 /// What the correction of the bias did to the parameters; nothing where there was none.
-pub(super) fn correction_note(estimate: &Estimate) -> Option<String> {
+pub(super) fn correction_note(estimate: &FittedLaw) -> Option<String> {
     let correction = |p: &Parameter| -p.bias.unwrap_or(0.0);
     let relative = |p: &&Parameter| (correction(p) / p.value).abs();
     let most = estimate
@@ -169,7 +169,7 @@ pub(super) fn correction_note(estimate: &Estimate) -> Option<String> {
 }
 
 /// Says of a law that is fitted without a delay that it is.
-pub(super) fn delay_note(estimate: &Estimate) -> Option<String> {
+pub(super) fn delay_note(estimate: &FittedLaw) -> Option<String> {
     let without = estimate.law.kind.has_elements() && estimate.terms.delay == Delay::Fitted;
     without.then(|| {
         "delay between force and motion: not fitted beside a Maxwell-slip law; state it, such as the \
@@ -179,7 +179,7 @@ pub(super) fn delay_note(estimate: &Estimate) -> Option<String> {
 }
 
 /// Names of the linear terms that stand beside the law.
-pub(super) fn term_names(estimate: &Estimate, motion: Motion) -> Vec<String> {
+pub(super) fn term_names(estimate: &FittedLaw, motion: Motion) -> Vec<String> {
     const LAW: [&str; 10] = [
         "sigma0",
         "sigma1",

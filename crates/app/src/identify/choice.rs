@@ -99,7 +99,7 @@ pub(super) fn auto(
     let mut estimate = stated(ladder, &optimum, estimate, observer);
     if stopped {
         // Not all laws were tried, so even a converged one is only the best so far.
-        estimate.status = Status::Interrupted;
+        estimate = estimate.interrupted();
     }
     Ok(Choice {
         estimate,

@@ -181,11 +181,13 @@ pub(super) fn search(task: Task, observer: &mut dyn Observer) -> Result<Found, E
     )
     .map_err(refused)?;
     let spent = &searched.entry.evaluations;
-    estimate.counts.cost += (spent.costs + spent.coarse_costs) as usize;
-    estimate.counts.sensitivities += (spent.derivatives + spent.coarse_derivatives) as usize;
-    estimate.counts.thinned += (spent.coarse_costs + spent.coarse_derivatives) as usize;
+    estimate.count(&engine::Counts {
+        cost: (spent.costs + spent.coarse_costs) as usize,
+        sensitivities: (spent.derivatives + spent.coarse_derivatives) as usize,
+        thinned: (spent.coarse_costs + spent.coarse_derivatives) as usize,
+    });
     if searched.ended == Ended::Interrupted {
-        estimate.status = Status::Interrupted;
+        estimate = estimate.interrupted();
         optimum.status = Status::Interrupted;
     }
     Ok(Found {

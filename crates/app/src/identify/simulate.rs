@@ -122,7 +122,7 @@ pub(super) fn fit(
     let mut warnings = log_warnings(&sources);
     let both_ways = moves_both_ways(&found.signals);
     let mut trust = trust::judge(
-        &found.estimate,
+        &found.fitted,
         both_ways,
         &sources,
         &[],
@@ -137,7 +137,7 @@ pub(super) fn fit(
         force_unit: force_unit.clone(),
         columns: sources[0].log.detected.clone(),
         conditioning: notes(&found, axis, started),
-        terms: assemble::term_names(&found.estimate, motion),
+        terms: assemble::term_names(&found.fitted, motion),
     };
     let mut result = assemble::result(assemble::Parts {
         options,
@@ -146,7 +146,7 @@ pub(super) fn fit(
         axis: resolved,
         motion,
         force_unit: &force_unit,
-        estimate: &found.estimate,
+        estimate: &found.fitted,
         validation: &[],
         laws: Vec::new(),
         trust,
@@ -195,7 +195,7 @@ pub(super) fn fit(
         .collect();
     Ok(Outcome {
         result,
-        estimate: found.estimate.clone(),
+        estimate: found.fitted.clone(),
         validation,
         simulation: Some(Simulated { fit: found, unseen }),
         sources,

@@ -4,7 +4,7 @@ use crate::error::Warning;
 use crate::result::{LawEntry, Trust};
 use crate::source::Source;
 use crate::symbols;
-use stiction_identify::{Estimate, SimulationFit, Status};
+use stiction_identify::{FittedLaw, SimulationFit, Status};
 use stiction_log::Motion;
 use stiction_number::Percent;
 
@@ -32,7 +32,7 @@ const AT_REST: f64 = 0.05;
 
 /// Adds warnings about the fit and says whether its numbers may be used.
 pub(super) fn judge(
-    estimate: &Estimate,
+    estimate: &FittedLaw,
     moves_both_ways: bool,
     sources: &[Source],
     laws: &[LawEntry],
@@ -105,7 +105,7 @@ pub(super) fn saturation(sources: &[Source], reasons: &mut Vec<String>) {
 
 /// Names each parameter that the data do not determine, what it is confused with, and the cure.
 pub(super) fn unidentifiable(
-    estimate: &Estimate,
+    estimate: &FittedLaw,
     motion: Motion,
     warnings: &mut Vec<Warning>,
     reasons: &mut Vec<String>,
@@ -154,7 +154,7 @@ pub(super) fn unidentifiable(
 }
 
 fn another_wins(
-    estimate: &Estimate,
+    estimate: &FittedLaw,
     laws: &[LawEntry],
     warnings: &mut Vec<Warning>,
     reasons: &mut Vec<String>,
@@ -194,7 +194,7 @@ fn another_wins(
 }
 
 /// Names the parameters that encoder, filters and noise shift far.
-fn shifted(estimate: &Estimate, warnings: &mut Vec<Warning>) {
+fn shifted(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
     let far = |p: &&stiction_identify::Parameter| {
         let part = p.bias.map_or(0.0, |bias| (bias / p.value).abs());
         p.identifiable && p.name != "offset" && p.name != "delay" && part > FAR
@@ -221,7 +221,7 @@ fn shifted(estimate: &Estimate, warnings: &mut Vec<Warning>) {
 }
 
 /// A residual that resembles itself over many samples is not noise.
-fn systematic(estimate: &Estimate, warnings: &mut Vec<Warning>) {
+fn systematic(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
     let fit = &estimate.fit;
     if fit.effective_samples < SYSTEMATIC * fit.samples as f64 {
         warnings.push(Warning::new(
@@ -241,7 +241,7 @@ fn systematic(estimate: &Estimate, warnings: &mut Vec<Warning>) {
 pub(super) fn open_loop(found: &SimulationFit, trust: &mut Trust, warnings: &mut Vec<Warning>) {
     let fit = &found.position;
     let encoder_only = found.floor.is_some_and(|floor| fit.rmse < ENCODER * floor);
-    let shared = found.estimate.parameters.iter().filter(|p| p.identified);
+    let shared = found.fitted.parameters.iter().filter(|p| p.identified);
     let unknowns = shared.count() + found.starts();
     if found.is_closed_loop() || encoder_only || fit.effective_samples >= FOR_EACH * unknowns as f64
     {
@@ -269,7 +269,7 @@ pub(super) fn open_loop(found: &SimulationFit, trust: &mut Trust, warnings: &mut
 }
 
 /// A static law says nothing of an axis at rest or in presliding.
-fn static_at_rest(estimate: &Estimate, motion: Motion, warnings: &mut Vec<Warning>) {
+fn static_at_rest(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warning>) {
     let Some(slow) = estimate
         .low_speed
         .filter(|_| !estimate.law.kind.has_bristle())

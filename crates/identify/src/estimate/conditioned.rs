@@ -154,9 +154,14 @@ impl Found {
         let mut out = fitted.clone();
         out.p.clone_from(&self.refit.p);
         out.coefficients.clone_from(&self.refit.c);
-        out.terms = replica.terms.clone();
+        out.fitted.terms = replica.terms.clone();
         for p in &self.parameters {
-            if let Some(own) = out.parameters.iter_mut().find(|own| own.name == p.name) {
+            if let Some(own) = out
+                .fitted
+                .parameters
+                .iter_mut()
+                .find(|own| own.name == p.name)
+            {
                 own.value = p.value;
             }
         }

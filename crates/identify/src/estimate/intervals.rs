@@ -48,10 +48,11 @@ pub fn intervals(
             profiled(&objective, optimum, p, estimate, &mut counts);
         }
     }
-    estimate.counts.add(&counts);
-    stays_within(&estimate.law, optimum, &mut estimate.parameters);
-    stays_in_presliding(record.stroke(), &mut estimate.parameters);
-    advice::explain(&mut estimate.parameters, &estimate.covariance);
+    estimate.fitted.counts.add(&counts);
+    let fitted = &mut estimate.fitted;
+    stays_within(&fitted.law, optimum, &mut fitted.parameters);
+    stays_in_presliding(record.stroke(), &mut fitted.parameters);
+    advice::explain(&mut fitted.parameters, &fitted.covariance);
 }
 
 /// Counts what the conditioning shifts.
@@ -64,10 +65,10 @@ fn conditioned(
 ) {
     let mut counts = Counts::default();
     let found = shift(objective.record(), estimate, raw, &mut counts, observer);
-    estimate.counts.add(&counts);
+    estimate.fitted.counts.add(&counts);
     let Some(shift) = found else { return };
     let levels = levels(objective, raw);
-    let matrix = &mut estimate.covariance.matrix;
+    let matrix = &mut estimate.fitted.covariance.matrix;
     let n = raw.len();
     let widen: Vec<f64> = (0..n)
         .map(|i| {
@@ -110,7 +111,8 @@ fn without_curve(estimate: &mut Estimate, name: &str) {
 }
 
 fn find<'a>(estimate: &'a mut Estimate, name: &str) -> Option<&'a mut Parameter> {
-    estimate.parameters.iter_mut().find(|p| p.name == name)
+    let parameters = &mut estimate.fitted.parameters;
+    parameters.iter_mut().find(|p| p.name == name)
 }
 
 /// Replaces the interval of a parameter by that of its profile, where that can matter.

@@ -61,16 +61,6 @@ pub(crate) struct Unknowns {
     pub bread: Vec<f64>,
 }
 
-impl Unknowns {
-    /// No unknowns, for an estimate whose parameters were found otherwise.
-    pub fn none() -> Self {
-        Self {
-            covariance: DMatrix::zeros(0, 0),
-            bread: Vec::new(),
-        }
-    }
-}
-
 /// A nonlinear unknown at the bound of its search range counts as free here: the bound is ours, not
 /// nature's, and holding it would make the others look surer than the data allow.
 pub(crate) fn unknowns(objective: &Objective, at: &Evaluation) -> Unknowns {

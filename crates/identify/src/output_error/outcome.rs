@@ -1,10 +1,11 @@
 //! What a fit by simulation gives: parameters with their intervals, signals, and how far off it is.
 
 use crate::error::Error;
+use crate::estimate::Series;
 use crate::estimate::advice;
+use crate::estimate::fitted::FittedLaw;
 use crate::estimate::parameter::Parameter;
-use crate::estimate::uncertainty::{self, Covariance, Unknowns};
-use crate::estimate::{Estimate, Series};
+use crate::estimate::uncertainty::{self, Covariance};
 use crate::fit::Fit;
 use crate::law::Law;
 use crate::law::physical::{self, Dimension, Physical};
@@ -65,8 +66,8 @@ fn less(a: &[f64], b: &[f64]) -> Vec<f64> {
 /// A law fitted by simulation.
 #[derive(Clone, Debug)]
 pub struct SimulationFit {
-    /// Parameters, covariance and search; its signal is the position.
-    pub estimate: Estimate,
+    /// Parameters, covariance and search; what it was fitted to is the position.
+    pub fitted: FittedLaw,
     /// Position, velocity and force, measured and simulated.
     pub signals: Signals,
     /// Position error.
@@ -242,7 +243,7 @@ pub(crate) fn describe(
     };
     advice::explain(&mut parameters, &covariance);
     let top = signals.velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    let estimate = Estimate {
+    let fitted = FittedLaw {
         law,
         terms: terms.clone(),
         parameters,
@@ -264,13 +265,9 @@ pub(crate) fn describe(
         iterations,
         history,
         elements: Vec::new(),
-        step: 0.0,
-        unknowns: Unknowns::none(),
-        p: Vec::new(),
-        coefficients: Vec::new(),
     };
     SimulationFit {
-        estimate,
+        fitted,
         position,
         force: signals.force_fit(),
         signals,

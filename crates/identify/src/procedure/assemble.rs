@@ -1,35 +1,57 @@
-//! A static map and a step fit as estimates, so that what reads one reads all.
+//! A static map and a step fit in the form of any fitted law, so that what reads one reads all.
 
 use super::static_map::StaticMap;
-use super::statics::Statics;
 use super::step_fit::{StepFit, StepSettings};
+use crate::estimate::Series;
+use crate::estimate::fitted::FittedLaw;
 use crate::estimate::parameter::Parameter;
-use crate::estimate::{Assembled, Estimate, Series};
-use crate::law::physical::Dimension;
+use crate::estimate::uncertainty::Covariance;
+use crate::fit::Fit;
+use crate::law::physical::{self, Dimension};
 use crate::law::terms::{Mass, Terms};
 use crate::law::{Law, LawKind};
 use crate::observe::Counts;
 use crate::separable::levenberg::Status;
 use stiction_friction::Direction;
 
-/// Coefficients of a law by their names; what is not found is zero.
-fn coefficients(law: &Law, terms: &Terms, parameters: &[Parameter]) -> Vec<f64> {
-    let value = |name: &str| parameters.iter().find(|p| p.name == name).map(|p| p.value);
-    terms
-        .columns(law)
-        .iter()
-        .map(|term| {
-            let own = value(&term.name);
-            own.or_else(|| value(&format!("{}_pos", term.name)))
-                .unwrap_or(0.0)
-        })
-        .collect()
+/// The fit is that of the series; parameters come in the order of tables.
+fn fitted_law(
+    law: Law,
+    terms: Terms,
+    mut parameters: Vec<Parameter>,
+    covariance: &Covariance,
+    series: Series,
+    (status, counts): (Status, Counts),
+) -> FittedLaw {
+    parameters.sort_by_key(|p| physical::rank(&p.name));
+    let residual = series.residual();
+    let fit = Fit::new(&series.measured, &residual).unwrap_or(Fit {
+        rmse: f64::MAX,
+        relative_error_percent: f64::MAX,
+        r2: f64::NAN,
+        samples: residual.len(),
+        effective_samples: 1.0,
+    });
+    FittedLaw {
+        law,
+        terms,
+        parameters,
+        covariance: covariance.clone(),
+        fit,
+        low_speed: None,
+        low_speed_bound: 0.0,
+        series,
+        status,
+        counts,
+        iterations: counts.total(),
+        history: Vec::new(),
+        elements: Vec::new(),
+    }
 }
 
 impl StaticMap {
-    /// The map as an estimate of a law without memory; its samples are the points, in order of
-    /// velocity.
-    pub fn estimate(&self) -> Estimate {
+    /// The map as a law without memory; its samples are the points, in order of velocity.
+    pub fn fitted_law(&self) -> FittedLaw {
         let law = Law {
             kind: if self.settings.stribeck {
                 LawKind::Stribeck
@@ -46,39 +68,26 @@ impl StaticMap {
             offset: self.settings.offset && !self.settings.asymmetric,
             ..Terms::default()
         };
-        let linear = terms.columns(&law);
-        // A map without friction is no curve, and then no record is predicted from it.
-        let p = Statics::from_map(self).map_or(vec![0.0; law.nonlinear()], |statics| {
-            statics.unknowns(&law, &linear).0
-        });
-        let c = coefficients(&law, &terms, &self.parameters);
         let of = |f: &dyn Fn(usize) -> f64| (0..self.points.len()).map(f).collect();
         let offset = self.value("offset").unwrap_or(0.0);
-        Assembled {
-            series: Series {
-                log: self.points.iter().map(|p| p.log).collect(),
-                time: of(&|i| 0.5 * (self.points[i].time.0 + self.points[i].time.1)),
-                position: of(&|i| self.points[i].position),
-                velocity: of(&|i| self.points[i].velocity),
-                measured: of(&|i| self.points[i].force),
-                model: self.model.clone(),
-                other: vec![offset; self.points.len()],
-            },
-            law,
-            terms,
-            parameters: self.parameters.clone(),
-            covariance: self.covariance.clone(),
-            status: Status::Converged,
-            counts: Counts::default(),
-            unknowns: (p, c),
-        }
-        .estimate()
+        let series = Series {
+            log: self.points.iter().map(|p| p.log).collect(),
+            time: of(&|i| 0.5 * (self.points[i].time.0 + self.points[i].time.1)),
+            position: of(&|i| self.points[i].position),
+            velocity: of(&|i| self.points[i].velocity),
+            measured: of(&|i| self.points[i].force),
+            model: self.model.clone(),
+            other: vec![offset; self.points.len()],
+        };
+        let ended = (Status::Converged, Counts::default());
+        let parameters = self.parameters.clone();
+        fitted_law(law, terms, parameters, &self.covariance, series, ended)
     }
 }
 
 impl StepFit {
-    /// The fit as an estimate of LuGre; its samples are displacements, not forces.
-    pub fn estimate(&self, settings: &StepSettings) -> Estimate {
+    /// The fit as a LuGre law; its samples are displacements, not forces.
+    pub fn fitted_law(&self, settings: &StepSettings) -> FittedLaw {
         let law = Law {
             exponent: settings.exponent,
             ..Law::new(LawKind::LuGre)
@@ -122,14 +131,6 @@ impl StepFit {
         if let Some(mass) = settings.mass {
             parameters.push(Parameter::given("mass", Dimension::Inertia, mass));
         }
-        let kappa = self.value("sigma0").unwrap_or(1.0) / curve.coulomb;
-        let rise = (curve.static_friction / curve.coulomb - 1.0).max(1e-9);
-        let p = vec![
-            libm::log(kappa),
-            libm::log(rise),
-            libm::log(curve.stribeck_velocity),
-        ];
-        let c = coefficients(&law, &terms, &parameters);
         let mut series = Series::default();
         for (log, response) in self.series.iter().enumerate() {
             let n = response.time.len();
@@ -141,16 +142,7 @@ impl StepFit {
             series.model.extend(&response.model);
             series.other.extend(std::iter::repeat_n(0.0, n));
         }
-        Assembled {
-            law,
-            terms,
-            parameters,
-            covariance: self.covariance.clone(),
-            series,
-            status: self.status,
-            counts: self.counts,
-            unknowns: (p, c),
-        }
-        .estimate()
+        let ended = (self.status, self.counts);
+        fitted_law(law, terms, parameters, &self.covariance, series, ended)
     }
 }

@@ -11,6 +11,7 @@ use super::profile::golden;
 use super::statics::Statics;
 use crate::conditioning::record::Record;
 use crate::error::Error;
+use crate::estimate::fitted::FittedLaw;
 use crate::estimate::{Estimate, estimate, uncertainty};
 use crate::law::physical::{physical, propagate};
 use crate::law::terms::Terms;
@@ -98,7 +99,7 @@ pub fn dynamic(
         evaluation,
     };
     let mut out = estimate(record, law, terms, &optimum, low_speed);
-    held.describe(&p, &c, &solved, &optimum.bounds, &mut out);
+    held.describe(&p, &c, &solved, &optimum.bounds, &mut out.fitted);
     Ok(out)
 }
 
@@ -238,7 +239,7 @@ impl Held<'_> {
         c: &[f64],
         solved: &Solution,
         bounds: &SearchBox,
-        out: &mut Estimate,
+        out: &mut FittedLaw,
     ) {
         let linear = self.objective.linear();
         let raw = physical(&self.law, linear, self.objective.record().step(), p, c);

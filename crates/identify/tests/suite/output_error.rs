@@ -141,7 +141,7 @@ fn off(found: &SimulationFit) -> Vec<(&'static str, f64)> {
     TRUTH
         .iter()
         .map(|(name, truth)| {
-            let value = found.estimate.value(name).unwrap();
+            let value = found.fitted.value(name).unwrap();
             (*name, 100.0 * (value / truth - 1.0).abs())
         })
         .collect()
@@ -151,7 +151,7 @@ fn covered(found: &SimulationFit) -> (usize, f64) {
     let mut inside = 0;
     let mut worst = 0.0_f64;
     for (name, truth) in TRUTH {
-        let p = found.estimate.parameter(name).unwrap();
+        let p = found.fitted.parameter(name).unwrap();
         let (low, high) = p.ci95.unwrap();
         inside += usize::from(low <= truth && truth <= high);
         worst = worst.max((p.value - truth).abs() / p.std.unwrap());
@@ -175,11 +175,11 @@ fn a_closed_loop_without_noise_gives_the_truth() {
         let found = fit(&[log], &simulation);
         println!(
             "{:?} {:?} {:?}",
-            found.estimate.status,
-            found.estimate.counts,
+            found.fitted.status,
+            found.fitted.counts,
             off(&found)
         );
-        assert_eq!(found.estimate.status, Status::Converged);
+        assert_eq!(found.fitted.status, Status::Converged);
         for (name, off) in off(&found) {
             assert!(off <= 0.1, "{name} off by {off} %");
         }
@@ -190,8 +190,8 @@ fn a_closed_loop_without_noise_gives_the_truth() {
 fn an_open_loop_without_noise_gives_the_truth() {
     let log = open(4.0, 0.0, 0.0, 0.0, 1);
     let whole = fit(std::slice::from_ref(&log), &Simulation::default());
-    println!("{:?} {:?}", whole.estimate.counts, off(&whole));
-    assert_eq!(whole.estimate.status, Status::Converged);
+    println!("{:?} {:?}", whole.fitted.counts, off(&whole));
+    assert_eq!(whole.fitted.status, Status::Converged);
     for (name, off) in off(&whole) {
         assert!(off <= 0.1, "{name} off by {off} %");
     }
@@ -200,7 +200,7 @@ fn an_open_loop_without_noise_gives_the_truth() {
         ..Simulation::default()
     };
     let short = fit(&[log], &short);
-    println!("{:?} {:?}", short.estimate.counts, off(&short));
+    println!("{:?} {:?}", short.fitted.counts, off(&short));
     assert_eq!(short.runs, 8);
     for (name, off) in off(&short) {
         assert!(off <= 0.1, "{name} off by {off} %");
@@ -254,7 +254,7 @@ fn an_unseen_run_is_predicted_to_a_count() {
 #[test]
 fn two_fits_give_the_same_bits() {
     let log = [open(1.0, 0.0, 1e-6, 0.0, 1)];
-    let [a, b] = [0, 1].map(|_| fit(&log, &Simulation::default()).estimate.parameters);
+    let [a, b] = [0, 1].map(|_| fit(&log, &Simulation::default()).fitted.parameters);
     assert_eq!(a, b);
 }
 
@@ -270,7 +270,7 @@ fn simpler_laws_are_simulated_too() {
             &mut Silent,
         )
         .unwrap();
-        let mass = found.estimate.value("mass").unwrap();
+        let mass = found.fitted.value("mass").unwrap();
         println!("{kind}: {mass} {:?}", found.position);
         assert!((mass / MASS - 1.0).abs() < 0.2, "{kind}: {mass}");
         assert!(found.position.r2 > 0.9, "{kind}: {:?}", found.position);
@@ -381,7 +381,7 @@ fn hostile_numbers_are_survived() {
                 let found =
                     output_error(&[log], law, &Terms::default(), &simulation, &mut Short(40));
                 match found {
-                    Ok(found) => assert!(!found.estimate.parameters.is_empty()),
+                    Ok(found) => assert!(!found.fitted.parameters.is_empty()),
                     Err(_) => refused += 1,
                 }
             }
@@ -437,8 +437,8 @@ fn a_search_that_is_stopped_keeps_what_it_has() {
         &mut Short(1),
     )
     .unwrap();
-    assert_eq!(found.estimate.status, Status::Interrupted);
-    assert!(found.estimate.counts.total() < 20);
+    assert_eq!(found.fitted.status, Status::Interrupted);
+    assert!(found.fitted.counts.total() < 20);
 }
 
 /// From nothing but the logs: every search ends at the noise, and the intervals hold the truth.

@@ -3,7 +3,7 @@
 use super::{Beside, curve, refused, samples};
 use crate::error::Error;
 use crate::result::BreakAwayEntry;
-use stiction_identify::Estimate;
+use stiction_identify::FittedLaw;
 use stiction_identify::procedure::{Run, break_away as find, predict_break_away};
 use stiction_log::Motion;
 
@@ -13,7 +13,7 @@ const SHARE: f64 = 1.0 / 3.0;
 /// The break-aways of the runs given, in their order.
 pub(in crate::identify) fn break_away(
     beside: &Beside,
-    estimate: &Estimate,
+    estimate: &FittedLaw,
     _motion: Motion,
 ) -> Result<Vec<BreakAwayEntry>, Error> {
     let sources = &beside.break_away;

@@ -71,7 +71,7 @@ pub(super) fn run(
     let motion = sources[0].log.motion;
     let force_unit = sources[0].log.force_unit.clone();
     let mut found = map(options, axis, &sources)?;
-    let estimate = found.map.estimate();
+    let estimate = found.map.fitted_law();
     let mut warnings = log_warnings(&sources);
     // A log of constant velocities moves at few speeds on purpose.
     warnings.retain(|w| w.code != "constant-velocity");

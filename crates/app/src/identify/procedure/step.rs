@@ -47,7 +47,7 @@ pub(super) fn run(
     warnings.retain(|w| !ON_PURPOSE.contains(&w.code.as_str()));
     let (settings, map) = settings(options, axis, &sources, beside, &runs, &mut warnings)?;
     let fit = fit_steps(&runs, &settings, observer).map_err(|e| refused(&sources, e))?;
-    let estimate = fit.estimate(&settings);
+    let estimate = fit.fitted_law(&settings);
     let mut reasons = Vec::new();
     trust::unidentifiable(&estimate, motion, &mut warnings, &mut reasons);
     judge(&fit, &mut warnings, &mut reasons);
