@@ -8,6 +8,7 @@ use crate::source;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use stiction_codes::Code;
 use stiction_identify::{LawKind, Observer};
 use stiction_log::{Mapping, Severity};
 use stiction_number::four_digits as short;
@@ -45,8 +46,8 @@ pub struct LogCheck {
 /// A finding about a log.
 #[derive(Clone, Debug, Serialize)]
 pub struct Finding {
-    /// Stable code.
-    pub code: String,
+    /// What it is; each code has a page in `docs/codes/`.
+    pub code: Code,
     /// `note` or `warning`.
     pub severity: String,
     /// What was found.
@@ -107,7 +108,7 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
             .findings
             .iter()
             .map(|f| Finding {
-                code: f.code.into(),
+                code: f.code,
                 severity: match f.severity {
                     Severity::Note => "note".into(),
                     Severity::Warning => "warning".into(),
@@ -138,7 +139,7 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
             out.conditioning = outcome.result.axis.conditioning;
         }
         // What the log cannot give is a verdict on the log; a bad axis file is an error of its own.
-        Err(e @ Error::Identify { .. }) if e.code() != "bad-setting" => {
+        Err(e @ Error::Identify { .. }) if e.code() != Code::BadSetting => {
             out.refused = Some(format!("{}: {e}", e.code()));
         }
         Err(Error::Log(e)) => out.refused = Some(format!("{}: {e}", e.kind.code())),

@@ -1,6 +1,7 @@
 //! What goes wrong in a workflow, with a stable code and an exit class.
 
 use std::path::{Path, PathBuf};
+use stiction_codes::Code;
 
 /// A workflow that could not be carried out.
 #[derive(Debug, thiserror::Error)]
@@ -69,30 +70,30 @@ pub enum Error {
 
 impl Error {
     /// Stable code, the name of a page in `docs/codes/`.
-    pub fn code(&self) -> &'static str {
+    pub fn code(&self) -> Code {
         use stiction_identify::Error as Fit;
         match self {
             Error::Log(e) => e.kind.code(),
             Error::Identify { source, .. } => match source {
-                Fit::TooFewSamples { .. } => "too-few-samples",
-                Fit::NoMotion { .. } => "no-motion",
-                Fit::NoForce { .. } => "no-force",
-                Fit::TooFewSpeeds { .. } => "too-few-speeds",
-                Fit::NoStep { .. } => "no-step",
-                Fit::NoBreakAway { .. } => "no-break-away",
-                Fit::Setting { .. } | Fit::Filter { .. } => "bad-setting",
-                Fit::NotSimulated { .. } => "not-simulated",
+                Fit::TooFewSamples { .. } => Code::TooFewSamples,
+                Fit::NoMotion { .. } => Code::NoMotion,
+                Fit::NoForce { .. } => Code::NoForce,
+                Fit::TooFewSpeeds { .. } => Code::TooFewSpeeds,
+                Fit::NoStep { .. } => Code::NoStep,
+                Fit::NoBreakAway { .. } => Code::NoBreakAway,
+                Fit::Setting { .. } | Fit::Filter { .. } => Code::BadSetting,
+                Fit::NotSimulated { .. } => Code::NotSimulated,
                 Fit::NoMotionChannel { .. }
                 | Fit::MissingChannel { .. }
                 | Fit::Length { .. }
                 | Fit::NotFinite { .. }
-                | Fit::Time { .. } => "bad-record",
+                | Fit::Time { .. } => Code::BadRecord,
             },
-            Error::Config { .. } => "bad-config",
-            Error::Checkpoint { .. } => "bad-checkpoint",
-            Error::Export(_) | Error::ExportModel { .. } => "not-exported",
-            Error::Usage { .. } => "usage",
-            Error::Output { .. } => "output",
+            Error::Config { .. } => Code::BadConfig,
+            Error::Checkpoint { .. } => Code::BadCheckpoint,
+            Error::Export(_) | Error::ExportModel { .. } => Code::NotExported,
+            Error::Usage { .. } => Code::Usage,
+            Error::Output { .. } => Code::Output,
         }
     }
 
@@ -114,16 +115,16 @@ impl Error {
 /// Something a user should know although the work went on.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Warning {
-    /// Stable code, the name of a page in `docs/codes/`.
-    pub code: String,
+    /// What it is; each code has a page in `docs/codes/`.
+    pub code: Code,
     /// What was seen, with numbers.
     pub message: String,
 }
 
 impl Warning {
-    pub(crate) fn new(code: &str, message: impl Into<String>) -> Self {
+    pub(crate) fn new(code: Code, message: impl Into<String>) -> Self {
         Self {
-            code: code.to_string(),
+            code,
             message: message.into(),
         }
     }

@@ -7,6 +7,7 @@ use crate::model::ModelFile;
 use crate::output::write_folder;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
+use stiction_codes::Code;
 use stiction_export::{Model, Parameter, Provenance};
 use stiction_friction::compensator::{Friction, Settings};
 use stiction_friction::{CoulombViscous, Damping, Direction, LuGre, ParamError, Shape, Stribeck};
@@ -99,7 +100,7 @@ pub fn export(options: &ExportOptions, dir: &Path) -> Result<Exported, Error> {
             .map_err(|e| place(e, options))?;
             if !whole {
                 warnings.push(Warning::new(
-                    "export-source",
+                    Code::ExportSource,
                     "gcc for x86-64 Linux was not found or failed: the FMUs hold their C source and no binary; a tool that runs them has to compile it, \
                      or install gcc and export again",
                 ));
@@ -120,7 +121,7 @@ pub fn export(options: &ExportOptions, dir: &Path) -> Result<Exported, Error> {
         limit: model.settings.limit,
         force_unit: model.force_unit,
         written: files.into_iter().map(|f| f.path).collect(),
-        trustworthy: !warnings.iter().any(|w| w.code == "export-untrusted"),
+        trustworthy: !warnings.iter().any(|w| w.code == Code::ExportUntrusted),
         warnings,
     })
 }
@@ -166,7 +167,7 @@ fn resolve(
     let mut warnings = doubts(file);
     if options.name.is_none() && !stiction_export::is_whole(&title) {
         warnings.push(Warning::new(
-            "export-name",
+            Code::ExportName,
             format!(
                 "the names in the code begin with {identifier}, which is not all of the axis' name '{title}': another axis may get the same; give one with --name"
             ),
@@ -238,7 +239,7 @@ fn doubts(file: &ModelFile) -> Vec<Warning> {
     let mut found = Vec::new();
     if !file.trustworthy {
         found.push(Warning::new(
-            "export-untrusted",
+            Code::ExportUntrusted,
             "the identification did not stand by its numbers; a compensation with them may be too strong",
         ));
     }
@@ -250,7 +251,7 @@ fn doubts(file: &ModelFile) -> Vec<Warning> {
     let loose = names(&|p| !p.identifiable && p.origin != "given" && !beside(&p.name));
     if !loose.is_empty() {
         found.push(Warning::new(
-            "export-untrusted",
+            Code::ExportUntrusted,
             format!(
                 "the data do not determine {}; the compensation rests on a guess there",
                 loose.join(", ")
@@ -260,7 +261,7 @@ fn doubts(file: &ModelFile) -> Vec<Warning> {
     let left = names(&|p| beside(&p.name) && p.name != "delay");
     if !left.is_empty() {
         found.push(Warning::new(
-            "export-terms",
+            Code::ExportTerms,
             format!(
                 "{} is no friction and is not in the compensator; feed it forward apart",
                 left.join(", ")

@@ -24,6 +24,7 @@ use ladder::Ladder;
 pub use simulate::Simulated;
 use std::path::PathBuf;
 use std::time::Instant;
+use stiction_codes::Code;
 use stiction_identify as engine;
 use stiction_identify::{
     Delay, FittedLaw, Law, LawKind, Observer, Record, Series, Settings, Status, Terms,
@@ -272,15 +273,15 @@ pub(crate) fn fit(
     if axis.terms.delay == Delay::Fitted && estimate.terms.delay == Delay::NONE {
         let text = "the delay between force and motion would be more than four samples, which is \
                     something else that the law does not explain; it is taken as none";
-        warnings.push(Warning::new("delay-out-of-range", text));
+        warnings.push(Warning::new(Code::DelayOutOfRange, text));
     }
     if let Some(error) = lost {
         let text = format!("the state of the search could not be kept: {error}");
-        warnings.push(Warning::new("bad-checkpoint", text));
+        warnings.push(Warning::new(Code::BadCheckpoint, text));
     }
     if laws.is_empty() && compare_laws && estimate.status != Status::Interrupted {
         let text = "the comparison of laws was interrupted and is left out; the fit is complete";
-        warnings.push(Warning::new("interrupted", text));
+        warnings.push(Warning::new(Code::Interrupted, text));
     }
     let mut trust = trust::judge(
         &estimate,
@@ -442,7 +443,7 @@ fn refuse_rest(record: &Record, sources: &[Source], motion: Motion) -> Result<()
     let top = record.top_speed();
     let still = sources
         .iter()
-        .all(|s| s.log.findings.iter().any(|f| f.code == "no-motion"));
+        .all(|s| s.log.findings.iter().any(|f| f.code == Code::NoMotion));
     if top > 0.0 && !still {
         return Ok(());
     }

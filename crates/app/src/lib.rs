@@ -5,7 +5,6 @@
 
 pub mod axis;
 pub mod check;
-pub mod codes;
 mod compare;
 pub mod compare_file;
 pub mod demo;

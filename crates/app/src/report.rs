@@ -55,7 +55,7 @@ pub(crate) fn identification(outcome: &Outcome) -> Document {
         for warning in &result.warnings {
             document = document.block(Callout {
                 severity: Severity::Warning,
-                code: warning.code.clone(),
+                code: warning.code.to_string(),
                 text: Text::from(warning.message.as_str()),
                 link: String::new(),
             });

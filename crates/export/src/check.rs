@@ -2,6 +2,7 @@
 
 use crate::number::short;
 use crate::{Error, Model, Target, check_identifier, hal, tf5200};
+use stiction_codes::Code;
 use stiction_friction::compensator::Friction;
 use stiction_friction::{Damping, LuGre};
 
@@ -12,7 +13,7 @@ pub(crate) const CYCLE_TIMES: (f64, f64) = (1e-6, 0.1);
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Advice {
     /// Stable code.
-    pub code: &'static str,
+    pub code: Code,
     /// What would happen, with figures.
     pub message: String,
 }
@@ -50,7 +51,7 @@ pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
     let short = hal::component(model);
     if target == Target::Hal && !short.starts_with(&model.identifier.to_ascii_lowercase()) {
         found.push(Advice {
-            code: "export-name",
+            code: Code::ExportName,
             message: format!(
                 "names in LinuxCNC's HAL hold 47 characters with those of the pins: the component is called {short}"
             ),
@@ -109,7 +110,7 @@ fn limited(model: &Model, gain: f64, force: &dyn Fn(f64) -> f64) -> Option<Advic
         }
     };
     Some(Advice {
-        code: "export-limit",
+        code: Code::ExportLimit,
         message,
     })
 }
@@ -124,7 +125,7 @@ fn rated(model: &Model) -> Option<Advice> {
         format!("up to the log's top speed of {top} {} ", model.speed_unit())
     });
     (most > rated).then(|| Advice {
-        code: "export-rated-force",
+        code: Code::ExportRatedForce,
         message: format!(
             "{at}the table goes to {} {unit}, {:.0} percent of the rated force of {rated} {unit}: see that this is in {unit}, and the motor's",
             short(most),
@@ -170,7 +171,7 @@ fn released(model: &Model, law: &LuGre<f64>, target: Target) -> Option<Advice> {
         None => "a hundred Stribeck velocities",
     };
     Some(Advice {
-        code: "export-damping",
+        code: Code::ExportDamping,
         message: format!(
             "sigma1 = {} {unit} as a constant would release energy: from {} {speed} on only less is passive, at {} {speed} ({whose}) no more than {} {unit}. {outcome}",
             short(sigma1),
@@ -202,7 +203,7 @@ fn unresolved(model: &Model, law: &LuGre<f64>, target: Target) -> Option<Advice>
         )
     };
     (path > length).then(|| Advice {
-        code: "export-cycle-time",
+        code: Code::ExportCycleTime,
         message: format!(
             "at the Stribeck velocity of {} {} a {cycle} of {} s moves {path:.3e} {unit}, more than the whole presliding length of {length:.3e} {unit}: \
              the force stays bounded and follows the steady curve, but a reversal is not resolved; {remedy}",

@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::path::{Path, PathBuf};
+use stiction_codes::Code;
 
 /// The sort of problem; each has a stable code and a page in `docs/codes/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,16 +27,16 @@ pub enum Kind {
 
 impl Kind {
     /// Stable code of this kind, the name of its page in `docs/codes/`.
-    pub fn code(self) -> &'static str {
+    pub fn code(self) -> Code {
         match self {
-            Kind::Io => "log-io",
-            Kind::Format => "log-format",
-            Kind::Limit => "log-limit",
-            Kind::Ambiguous => "log-ambiguous",
-            Kind::Missing => "log-missing",
-            Kind::Unit => "log-unit",
-            Kind::Time => "log-time",
-            Kind::Value => "log-value",
+            Kind::Io => Code::LogIo,
+            Kind::Format => Code::LogFormat,
+            Kind::Limit => Code::LogLimit,
+            Kind::Ambiguous => Code::LogAmbiguous,
+            Kind::Missing => Code::LogMissing,
+            Kind::Unit => Code::LogUnit,
+            Kind::Time => Code::LogTime,
+            Kind::Value => Code::LogValue,
         }
     }
 }

@@ -32,6 +32,7 @@ mod velocity;
 
 use crate::log::Log;
 use crate::mapping::Mapping;
+use stiction_codes::Code;
 pub(crate) use stiction_number::{counted as count, full, short};
 
 /// How much a finding matters.
@@ -46,8 +47,8 @@ pub enum Severity {
 /// One thing found about a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// Stable code, the name of its page in `docs/codes/`; one of [`CODES`].
-    pub code: &'static str,
+    /// What it is; each code has a page in `docs/codes/`.
+    pub code: Code,
     /// How much it matters.
     pub severity: Severity,
     /// What was found, with counts and the first place, for people.
@@ -57,11 +58,7 @@ pub struct Finding {
 }
 
 impl Finding {
-    pub(crate) fn new(code: &'static str, severity: Severity, message: String) -> Self {
-        debug_assert!(
-            CODES.iter().any(|(known, _)| *known == code),
-            "{code} is not in CODES"
-        );
+    pub(crate) fn new(code: Code, severity: Severity, message: String) -> Self {
         Self {
             code,
             severity,
@@ -75,74 +72,6 @@ impl Finding {
         self
     }
 }
-
-/// Every code of a finding, with its meaning in a line.
-pub const CODES: &[(&str, &str)] = &[
-    ("gap", "samples are missing between two time stamps"),
-    (
-        "duplicate-time",
-        "several samples carry the same time stamp",
-    ),
-    ("time-missing", "a row has no time stamp"),
-    ("time-wrap", "the time counter overflowed and started again"),
-    ("jitter", "samples are not equally spaced"),
-    ("missing-cells", "cells are empty or no numbers"),
-    ("zero-filled", "missing samples were written as 0"),
-    ("short-column", "a column ends before the others"),
-    (
-        "unit-assumed",
-        "a unit is not written anywhere and was assumed",
-    ),
-    (
-        "unit-override",
-        "the axis file gives another unit than the recording",
-    ),
-    (
-        "unit-convention",
-        "the unit is used with several conventions",
-    ),
-    (
-        "force-unit",
-        "the force does not belong to this kind of motion",
-    ),
-    (
-        "force-not-calibrated",
-        "the force is a current, a voltage or a share, not newtons",
-    ),
-    ("no-force", "no column is a force, torque or current"),
-    (
-        "force-sign",
-        "the force does negative work: its sign is probably turned round",
-    ),
-    ("saturation", "the force is cut off at a limit"),
-    (
-        "position-wrap",
-        "the position started again and was put together",
-    ),
-    (
-        "position-jump",
-        "the position jumps further than any motion explains",
-    ),
-    (
-        "stuck-encoder",
-        "the position is frozen while something else moves",
-    ),
-    ("quantisation", "the position moves in steps"),
-    (
-        "coarse-position",
-        "the whole travel is only a few steps of the position",
-    ),
-    (
-        "velocity-mismatch",
-        "the velocity is not the derivative of the position",
-    ),
-    ("no-motion", "the axis does not move"),
-    ("noise-only", "motion cannot be told from noise"),
-    ("one-direction", "the axis moves in one direction only"),
-    ("constant-velocity", "the axis moves at one speed only"),
-    ("constant-column", "a column never changes"),
-    ("few-samples", "the record is short"),
-];
 
 /// Inspects a log whose columns are complete, adds what it finds, and excludes what it must.
 pub(crate) fn inspect(log: &mut Log, mapping: &Mapping) {

@@ -33,9 +33,10 @@ pub mod text;
 pub mod unit;
 
 pub use error::{Error, Kind, Place};
-pub use findings::{CODES, Finding, Severity};
+pub use findings::{Finding, Severity};
 pub use log::{Excluded, Gap, Log};
 pub use mapping::{Channel, Detected, Mapping, Motion, Role, Selector, Wrap};
 pub use open::{Limits, ReadOptions, read_table};
+pub use stiction_codes::Code;
 pub use table::{Column, Scalar, Table};
 pub use unit::{Dimension, Unit, Value};

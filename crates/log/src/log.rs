@@ -28,6 +28,7 @@ use crate::findings::{self, Finding, Severity};
 use crate::mapping::{Mapping, Motion, Role, Source};
 use crate::{Error, Kind, Table};
 use std::ops::Range;
+use stiction_codes::Code;
 
 /// Samples missing between two time stamps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +47,7 @@ pub struct Excluded {
     /// The samples, counted from 0.
     pub samples: Range<usize>,
     /// Code of the finding that says why.
-    pub code: &'static str,
+    pub code: Code,
 }
 
 /// A recording in SI; every column has one finite number a sample.
@@ -222,7 +223,7 @@ impl Log {
     }
 
     /// Marks samples as not to be fitted to.
-    pub(crate) fn exclude(&mut self, samples: Range<usize>, code: &'static str) {
+    pub(crate) fn exclude(&mut self, samples: Range<usize>, code: Code) {
         self.excluded.push(Excluded { samples, code });
     }
 }
@@ -261,7 +262,7 @@ fn common_length(
     }
     let message = format!("{found}; the record is cut to {shortest}");
     findings.push(
-        Finding::new("short-column", Severity::Warning, message).at(shortest.saturating_sub(1)),
+        Finding::new(Code::ShortColumn, Severity::Warning, message).at(shortest.saturating_sub(1)),
     );
     Ok(shortest)
 }

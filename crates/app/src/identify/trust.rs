@@ -4,6 +4,7 @@ use crate::error::Warning;
 use crate::result::{LawEntry, Trust};
 use crate::source::Source;
 use crate::symbols;
+use stiction_codes::Code;
 use stiction_identify::{FittedLaw, SimulationFit, Status};
 use stiction_log::Motion;
 use stiction_number::Percent;
@@ -44,7 +45,7 @@ pub(super) fn judge(
         Status::Converged => {}
         Status::Interrupted => {
             let text = "the search was interrupted; the best found so far is given";
-            warnings.push(Warning::new("interrupted", text));
+            warnings.push(Warning::new(Code::Interrupted, text));
             reasons.push(text.to_string());
         }
         Status::Budget | Status::Stalled => {
@@ -52,7 +53,7 @@ pub(super) fn judge(
                 "the search did not converge (status {})",
                 estimate.status.name()
             );
-            warnings.push(Warning::new("not-converged", text.clone()));
+            warnings.push(Warning::new(Code::NotConverged, text.clone()));
             reasons.push(text);
         }
     }
@@ -63,14 +64,14 @@ pub(super) fn judge(
             100.0 * estimate.fit.r2.max(0.0),
             100.0 * LEAST_R2
         );
-        warnings.push(Warning::new("poor-fit", text.clone()));
+        warnings.push(Warning::new(Code::PoorFit, text.clone()));
         reasons.push(text);
     }
     if !moves_both_ways {
         let text = "the axis moves in one direction only: friction cannot be told from a constant \
                     force";
-        if !warnings.iter().any(|w| w.code == "one-direction") {
-            warnings.push(Warning::new("one-direction", text));
+        if !warnings.iter().any(|w| w.code == Code::OneDirection) {
+            warnings.push(Warning::new(Code::OneDirection, text));
         }
         reasons.push(text.to_string());
     }
@@ -90,7 +91,7 @@ pub(super) fn saturation(sources: &[Source], reasons: &mut Vec<String>) {
     let total: usize = sources.iter().map(|s| s.log.time.len()).sum();
     let saturated: usize = sources
         .iter()
-        .flat_map(|s| s.log.excluded.iter().filter(|e| e.code == "saturation"))
+        .flat_map(|s| s.log.excluded.iter().filter(|e| e.code == Code::Saturation))
         .map(|e| e.samples.len())
         .sum();
     let part = saturated as f64 / total.max(1) as f64;
@@ -129,7 +130,7 @@ pub(super) fn unidentifiable(
         if !parameter.advice.is_empty() {
             text.push_str(&format!(". {}", parameter.advice));
         }
-        warnings.push(Warning::new("not-identifiable", text));
+        warnings.push(Warning::new(Code::NotIdentifiable, text));
         if matches!(
             parameter.name.as_str(),
             "coulomb" | "coulomb_pos" | "coulomb_neg"
@@ -143,7 +144,7 @@ pub(super) fn unidentifiable(
     }
     if !elements.is_empty() {
         warnings.push(Warning::new(
-            "not-identifiable",
+            Code::NotIdentifiable,
             format!(
                 "{}: the data determine what the elements do together, not each of them. Record slow \
                  reversals of several depths, or ask for fewer elements ([terms] gms_elements)",
@@ -179,12 +180,12 @@ fn another_wins(
     );
     if best.parameters < chosen.parameters && mine > WORSE * least {
         warnings.push(Warning::new(
-            "simpler-law-holds-better",
+            Code::SimplerLawHoldsBetter,
             format!("{errors}: the richer law is not supported by this log"),
         ));
     } else if best.parameters > chosen.parameters && least < BETTER * mine {
         warnings.push(Warning::new(
-            "richer-law-holds-better",
+            Code::RicherLawHoldsBetter,
             format!("{errors}: this law is too simple for the axis, its parameters are biased"),
         ));
     }
@@ -210,7 +211,7 @@ fn shifted(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
         .collect();
     if !names.is_empty() {
         warnings.push(Warning::new(
-            "large-shift",
+            Code::LargeShift,
             format!(
                 "encoder steps, filters and noise shift {}: taken off, but a shift of this size is known \
                  in size only",
@@ -225,7 +226,7 @@ fn systematic(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
     let fit = &estimate.fit;
     if fit.effective_samples < SYSTEMATIC * fit.samples as f64 {
         warnings.push(Warning::new(
-            "correlated-residual",
+            Code::CorrelatedResidual,
             format!(
                 "the residual is worth {:.0} independent samples of {}: something systematic is left \
                  (another law, cogging, gravity, force and position logged at different instants); it \
@@ -252,9 +253,9 @@ pub(super) fn open_loop(found: &SimulationFit, trust: &mut Trust, warnings: &mut
          included",
         fit.effective_samples
     );
-    warnings.retain(|w| w.code != "correlated-residual");
+    warnings.retain(|w| w.code != Code::CorrelatedResidual);
     warnings.push(Warning::new(
-        "correlated-residual",
+        Code::CorrelatedResidual,
         format!(
             "{worth}: the logged force drives the simulated axis, so its noise, and any force that is \
              not in it, adds up to a slow error of the position and shifts the parameters by more than \
@@ -279,7 +280,7 @@ fn static_at_rest(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warni
     let part = slow.samples as f64 / estimate.fit.samples as f64;
     if part > AT_REST && slow.rmse > 1.5 * estimate.fit.rmse {
         warnings.push(Warning::new(
-            "static-law-at-rest",
+            Code::StaticLawAtRest,
             format!(
                 "{:.0} % of the samples are slower than {:.3e} {}, where a static law says nothing and \
                  most of the residual is: leave them out with [conditioning] min_speed in the axis \

@@ -4,6 +4,7 @@ mod figures;
 
 use crate::compare_file::{CompareFile, MethodEntry, Quartiles, RunEntry, Stage};
 use figures::{beside, overlay, population, rates, single};
+use stiction_codes::Code;
 use stiction_number::Percent;
 use stiction_report::{
     Align, Axis, Block, Callout, Document, KeyFigure, Severity, Table, Text, number,
@@ -98,17 +99,17 @@ pub(crate) fn comparison(file: &CompareFile) -> Document {
 
 fn callouts(file: &CompareFile) -> Vec<Callout> {
     let mut out = Vec::new();
-    let mut say = |severity, code: &str, text: String| {
+    let mut say = |severity, code: Option<Code>, text: String| {
         out.push(Callout {
             severity,
-            code: code.into(),
+            code: code.map_or("", Code::as_str).into(),
             text: Text::from(text),
             link: String::new(),
         });
     };
     if file.status == "interrupted" {
         let text = "Runs that were not complete are left out.";
-        say(Severity::Warning, "interrupted", text.into());
+        say(Severity::Warning, Some(Code::Interrupted), text.into());
     }
     if file.reference.beaten {
         let before = file
@@ -117,7 +118,7 @@ fn callouts(file: &CompareFile) -> Vec<Callout> {
             .map_or("no finite cost".into(), |x| number::sig(x, 7));
         say(
             Severity::Info,
-            "",
+            None,
             format!(
                 "{} found a lower cost ({}) than the reference search ({before}); all is measured by it.",
                 file.reference.by,

@@ -39,7 +39,7 @@ pub(crate) fn study(outcome: &StudyOutcome) -> Document {
     for warning in &file.warnings {
         document = document.block(Callout {
             severity: Severity::Warning,
-            code: warning.code.clone(),
+            code: warning.code.to_string(),
             text: Text::from(warning.message.as_str()),
             link: String::new(),
         });
@@ -143,11 +143,7 @@ fn verdict(file: &StudyFile) -> Callout {
             number::count(runs as u64)
         );
         (Severity::Warning, text)
-    } else if file
-        .warnings
-        .iter()
-        .any(|w| CODES.contains(&w.code.as_str()))
-    {
+    } else if file.warnings.iter().any(|w| CODES.contains(&w.code)) {
         let text = format!(
             "{} runs. No compensator made the error that counts larger, but not every figure is what it seems: \
              see the warnings.",

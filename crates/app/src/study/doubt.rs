@@ -5,6 +5,7 @@ use super::result::ResultRow;
 use super::{Scheme, Study};
 use crate::error::Warning;
 use crate::report::quantity;
+use stiction_codes::Code;
 use stiction_servo::axis::Sample;
 
 /// Share of the samples at the limit of the force from which on a run is warned of.
@@ -14,7 +15,11 @@ const MUCH: f64 = 0.01;
 const SHAKES: f64 = 0.1;
 
 /// Codes of the warnings that are made here.
-pub(crate) const CODES: [&str; 3] = ["still-learning", "at-force-limit", "unsteady-command"];
+pub(crate) const CODES: [Code; 3] = [
+    Code::StillLearning,
+    Code::AtForceLimit,
+    Code::UnsteadyCommand,
+];
 
 impl Scheme {
     /// When a watchdog has learnt what is normal and the force has come in, s; infinite where the motion is too short,
@@ -76,7 +81,7 @@ fn still_learning(study: &Study, row: &ResultRow) -> Option<Warning> {
     let window = model.watchdog.as_ref()?.window;
     let (duration, skip) = study.span(&row.path)?;
     Some(Warning::new(
-        "still-learning",
+        Code::StillLearning,
         format!(
             "{}, {}: the watchdog lets no force through until it has learnt the error without, from the first turn of \
              the motion over {} and two strokes at least; of {} what counts begins at {}. Give a longer run and a \
@@ -109,7 +114,7 @@ fn at_limit(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
     let (row, share) = worst(rows, "saturation", &|_| 1.0)?;
     (share > MUCH).then(|| {
         Warning::new(
-            "at-force-limit",
+            Code::AtForceLimit,
             format!(
                 "{}, {}: with {} the command is at its limit of {} in {:.0} % of the samples: what counts is then the \
                  limit, neither the controller nor the compensation",
@@ -128,7 +133,7 @@ fn shaking(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
     let (row, share) = worst(rows, "command_change", &|axis| limits[axis])?;
     (share > SHAKES).then(|| {
         Warning::new(
-            "unsteady-command",
+            Code::UnsteadyCommand,
             format!(
                 "{}, {}: with {} the command changes by {:.0} % of the largest force from sample to sample (rms): the \
                  loop is not stable, or its gains are too high for the encoder and the noise",

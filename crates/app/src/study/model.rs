@@ -5,6 +5,7 @@ use crate::model::ModelFile;
 use crate::result::CovarianceEntry;
 use crate::symbols;
 use std::path::Path;
+use stiction_codes::Code;
 use stiction_friction::{Damping, Direction, LuGre, ParamError, Shape, Stribeck};
 use stiction_log::Motion;
 use stiction_servo::known::{self, Kind};
@@ -117,7 +118,7 @@ impl Model {
         let mut warnings = Vec::new();
         if !model.trustworthy {
             warnings.push(Warning::new(
-                "model-in-doubt",
+                Code::ModelInDoubt,
                 "the identification did not stand by this model: see its report",
             ));
         }
@@ -131,7 +132,7 @@ impl Model {
         let unknown = listed(&|p| !p.identifiable);
         if !unknown.is_empty() {
             warnings.push(Warning::new(
-                "model-in-doubt",
+                Code::ModelInDoubt,
                 format!("the log did not determine {unknown}: what depends on it is a guess"),
             ));
         }
@@ -142,7 +143,7 @@ impl Model {
         let left_out = listed(&|p| !SIMULATED.contains(&stem(&p.name).as_str()));
         if !left_out.is_empty() {
             warnings.push(Warning::new(
-                "not-in-study",
+                Code::NotInStudy,
                 format!("the model has {left_out}, which a study does not simulate"),
             ));
         }

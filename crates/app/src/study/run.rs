@@ -9,6 +9,7 @@ use super::{course, doubt, path};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
+use stiction_codes::Code;
 use stiction_friction::ParamError;
 use stiction_identify::Control;
 use stiction_servo::sampled::Sampled;
@@ -274,7 +275,7 @@ impl Study {
 
     fn not_run(&self, job: Job, e: &ParamError) -> crate::error::Warning {
         crate::error::Warning::new(
-            "not-run",
+            Code::NotRun,
             format!(
                 "{}, {}, {} was not run: {} = {}; allowed: {}",
                 self.path_name(job),

@@ -199,7 +199,7 @@ fn an_interrupted_choice_is_not_trusted() {
                 .result
                 .warnings
                 .iter()
-                .any(|w| w.code == "interrupted")
+                .any(|w| w.code.as_str() == "interrupted")
         );
     }
 }
@@ -232,7 +232,7 @@ fn validation_data_choose() {
     );
     options.asymmetric = true;
     let refused = stiction_app::identify(&options, &mut Silent).unwrap_err();
-    assert_eq!(refused.code(), "usage");
+    assert_eq!(refused.code().as_str(), "usage");
 }
 
 /// Viscous friction that bends over is fitted best by a Stribeck curve as wide as the whole range of

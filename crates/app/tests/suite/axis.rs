@@ -303,7 +303,7 @@ fn refusals() {
     let mut out = String::new();
     for (what, text) in cases {
         let error = parse(text).expect_err(what);
-        assert_eq!(error.code(), "bad-config", "{what}");
+        assert_eq!(error.code().as_str(), "bad-config", "{what}");
         let message = error.to_string();
         assert!(message.starts_with("axis.toml: "), "{message}");
         assert!(!message.contains('\n'), "{message}");

@@ -195,7 +195,7 @@ fn what_cannot_be_compared_is_refused_in_words() {
         let mut options = options("machine", &["de"]);
         change(&mut options);
         let e = compare(&options, &mut Silent).expect_err("refused");
-        assert_eq!(e.code(), "usage");
+        assert_eq!(e.code().as_str(), "usage");
         e.to_string()
     };
     let texts = [

@@ -313,7 +313,7 @@ fn what_is_refused_of_two_axes() {
         let Err(error) = read(&good.replacen(from, to, 1)) else {
             panic!("not refused: {to}");
         };
-        assert_eq!(error.code(), "bad-config");
+        assert_eq!(error.code().as_str(), "bad-config");
         let text = error.to_string();
         out += text
             .split_once("study.toml: ")

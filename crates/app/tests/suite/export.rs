@@ -129,7 +129,7 @@ fn a_folder_that_holds_something_is_left_alone() {
     std::fs::write(bench.path("out/mine.txt"), "mine").unwrap();
     let before = contents(&bench.path("out"));
     let error = bench.export(&text("lugre", &LUGRE)).unwrap_err();
-    assert_eq!(error.code(), "output");
+    assert_eq!(error.code().as_str(), "output");
     assert_eq!(contents(&bench.path("out")), before);
     std::fs::remove_file(bench.path("out/mine.txt")).unwrap();
     assert_eq!(
@@ -181,7 +181,7 @@ fn the_limit_is_said_where_the_log_reached_it() {
                 let limits = exported
                     .warnings
                     .into_iter()
-                    .filter(|w| w.code == "export-limit");
+                    .filter(|w| w.code.as_str() == "export-limit");
                 limits.map(|w| w.message).collect()
             }
             Err(e) => e.to_string(),
@@ -259,7 +259,7 @@ fn bad_models_are_refused() {
     for (name, model, code, says) in cases {
         let bench = Bench::new();
         let error = bench.export(&model).unwrap_err();
-        assert_eq!(error.code(), code, "{name}: {error}");
+        assert_eq!(error.code().as_str(), code, "{name}: {error}");
         assert!(error.to_string().contains(says), "{name}: {error}");
         assert_eq!(contents(bench.0.path()).len(), 1, "{name}");
     }
@@ -291,7 +291,7 @@ fn bad_models_are_refused() {
             ..bench.options(&text("lugre", &LUGRE))
         };
         let error = export(&options, &bench.path("out")).unwrap_err();
-        assert_eq!(error.code(), "not-exported", "{error}");
+        assert_eq!(error.code().as_str(), "not-exported", "{error}");
         assert!(error.to_string().contains(says), "{error}");
         assert_eq!(contents(bench.0.path()).len(), 1);
     }
@@ -393,7 +393,10 @@ fn names_are_not_lost_without_a_word() {
         let bench = Bench::new();
         let model = text("lugre", &LUGRE).replace("X axis */ (left)", title);
         let exported = bench.export(&model).unwrap();
-        let said = exported.warnings.iter().any(|w| w.code == "export-name");
+        let said = exported
+            .warnings
+            .iter()
+            .any(|w| w.code.as_str() == "export-name");
         let text = String::from_utf8(contents(&bench.path("out")).swap_remove(0).1).unwrap();
         assert_eq!(
             text.contains("NOTE: the names in the code begin with"),

@@ -158,7 +158,7 @@ fn what_is_refused_of_an_edited_model() {
     let mut said = String::new();
     let mut refused = |what: &str, model: &ModelFile| {
         let error = read(model).expect_err(what);
-        assert_eq!(error.code(), "bad-config");
+        assert_eq!(error.code().as_str(), "bad-config");
         said.push_str(&format!("{what}: {error}\n"));
     };
     for (name, value) in [

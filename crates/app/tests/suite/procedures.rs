@@ -160,7 +160,7 @@ fn what_cannot_be_is_refused() {
         let error = run(options)
             .err()
             .unwrap_or_else(|| panic!("{code}: accepted"));
-        assert_eq!(error.code(), code, "{error}");
+        assert_eq!(error.code().as_str(), code, "{error}");
         let page = stiction_testkit::workspace().join(format!("docs/codes/{code}.md"));
         assert!(page.is_file(), "{code}");
         bench.plain(&error.to_string())

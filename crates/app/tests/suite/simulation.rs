@@ -208,6 +208,6 @@ fn what_cannot_be_simulated_is_told() {
             o.split = split;
         });
         let e = run(&options).unwrap_err();
-        assert_eq!(e.code(), code, "{e}");
+        assert_eq!(e.code().as_str(), code, "{e}");
     }
 }

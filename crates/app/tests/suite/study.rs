@@ -32,7 +32,7 @@ impl Desk {
         let Err(error) = self.study(text) else {
             panic!("not refused: {text}");
         };
-        assert_eq!(error.code(), "bad-config");
+        assert_eq!(error.code().as_str(), "bad-config");
         let folder = format!("{}/", self.0.path().display());
         error.to_string().replace(&folder, "")
     }

@@ -168,7 +168,7 @@ fn a_missing_column_is_named() {
         validated.validate = vec![bare.clone()];
         for options in [alone, validated] {
             let error = stiction_app::identify(&options, &mut Silent).unwrap_err();
-            assert_eq!(error.code(), "log-missing");
+            assert_eq!(error.code().as_str(), "log-missing");
             let message = error.to_string();
             let channel = key.rsplit_once('_').unwrap().1;
             for part in ["bare.csv", key, &format!("[columns] {channel} =")] {
@@ -183,7 +183,7 @@ fn a_missing_column_is_named() {
         LawKind::CoulombViscous,
     );
     let error = stiction_app::identify(&axis, &mut Silent).unwrap_err();
-    assert_eq!(error.code(), "bad-config");
+    assert_eq!(error.code().as_str(), "bad-config");
     assert!(error.to_string().contains("terms.coulomb_pitch"), "{error}");
 }
 

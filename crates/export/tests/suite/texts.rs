@@ -72,7 +72,7 @@ fn every_file_says_where_it_came_from() {
 fn codes(model: &Model) -> Vec<&'static str> {
     advice(model, Target::C)
         .iter()
-        .map(|a: &Advice| a.code)
+        .map(|a: &Advice| a.code.as_str())
         .collect()
 }
 
@@ -199,7 +199,7 @@ fn advice_is_given_where_it_applies() {
         ..small.clone()
     };
     assert_eq!(codes(&long), [""; 0]);
-    assert_eq!(advice(&long, Target::Hal)[0].code, "export-name");
+    assert_eq!(advice(&long, Target::Hal)[0].code.as_str(), "export-name");
     assert_eq!(advice(&small, Target::Hal), []);
     insta::assert_snapshot!(
         "advice",

@@ -140,7 +140,7 @@ fn a_rated_force_is_needed() {
         export(&model, Target::Tf5200).unwrap();
         let found = advice(&model, Target::Tf5200);
         assert_eq!(
-            found.iter().map(|a| a.code).collect::<Vec<_>>(),
+            found.iter().map(|a| a.code.as_str()).collect::<Vec<_>>(),
             codes,
             "{rated}"
         );

@@ -2,6 +2,7 @@
 
 use super::{Finding, Severity, count, median, place, short};
 use crate::log::{Gap, Log};
+use stiction_codes::Code;
 use stiction_number::Percent;
 
 /// A step above this many median steps misses a sample.
@@ -71,7 +72,7 @@ pub(super) fn gaps(log: &mut Log) {
         ));
     }
     log.findings
-        .push(Finding::new("gap", severity, message).at(first));
+        .push(Finding::new(Code::Gap, severity, message).at(first));
 }
 
 /// How far steps other than gaps are from the median.
@@ -111,5 +112,5 @@ pub(super) fn jitter(log: &mut Log) {
         place(log, at)
     );
     log.findings
-        .push(Finding::new("jitter", severity, message).at(at));
+        .push(Finding::new(Code::Jitter, severity, message).at(at));
 }

@@ -3,6 +3,7 @@
 use super::{Finding, Severity, count, extremes, place, short};
 use crate::log::Log;
 use crate::mapping::Mapping;
+use stiction_codes::Code;
 
 /// A travel of fewer steps than this says little about presliding.
 const COARSE_STEPS: f64 = 50.0;
@@ -77,14 +78,17 @@ pub(super) fn steps(log: &mut Log, mapping: &Mapping) {
         short((range / step).round())
     );
     log.findings
-        .push(Finding::new("quantisation", Severity::Note, message));
+        .push(Finding::new(Code::Quantisation, Severity::Note, message));
     if range > 0.0 && range / step < COARSE_STEPS {
         let message = format!(
             "the whole travel is {} steps of the position; presliding is hardly visible",
             short((range / step).round())
         );
-        log.findings
-            .push(Finding::new("coarse-position", Severity::Warning, message));
+        log.findings.push(Finding::new(
+            Code::CoarsePosition,
+            Severity::Warning,
+            message,
+        ));
     }
 }
 
@@ -131,6 +135,6 @@ pub(super) fn jumps(log: &mut Log) {
         place(log, first)
     );
     log.findings
-        .push(Finding::new("position-jump", Severity::Warning, message).at(first));
+        .push(Finding::new(Code::PositionJump, Severity::Warning, message).at(first));
     log.split(&jumps.iter().map(|jump| jump + 1).collect::<Vec<_>>());
 }

@@ -4,6 +4,7 @@ use super::{Finding, Severity, count, extremes, place, short};
 use crate::log::Log;
 use crate::mapping::Mapping;
 use std::ops::Range;
+use stiction_codes::Code;
 use stiction_number::Percent;
 
 /// Shortest stretch at an extreme that can be saturation, in samples.
@@ -43,9 +44,9 @@ pub(super) fn saturation(log: &mut Log, mapping: &Mapping) {
         place(log, first.start)
     );
     log.findings
-        .push(Finding::new("saturation", Severity::Warning, message).at(first.start));
+        .push(Finding::new(Code::Saturation, Severity::Warning, message).at(first.start));
     for run in runs {
-        log.exclude(run, "saturation");
+        log.exclude(run, Code::Saturation);
     }
 }
 
@@ -157,6 +158,6 @@ pub(super) fn sign(log: &mut Log) {
             Percent::error(-100.0 * net / gross).short()
         );
         log.findings
-            .push(Finding::new("force-sign", Severity::Warning, message));
+            .push(Finding::new(Code::ForceSign, Severity::Warning, message));
     }
 }

@@ -3,6 +3,7 @@
 use super::{Finding, Severity, count, extremes, short};
 use crate::log::Log;
 use std::borrow::Cow;
+use stiction_codes::Code;
 
 /// Fewer samples than this cannot support an interval.
 const FEW: usize = 100;
@@ -25,7 +26,7 @@ pub(super) fn few_samples(log: &mut Log) {
             count(samples, "sample")
         );
         log.findings
-            .push(Finding::new("few-samples", Severity::Warning, message));
+            .push(Finding::new(Code::FewSamples, Severity::Warning, message));
     }
 }
 
@@ -53,13 +54,13 @@ fn judge(log: &Log) -> Vec<Finding> {
             "the axis does not move: {what} covers {} {unit}",
             short(range)
         );
-        return vec![warning("no-motion", message)];
+        return vec![warning(Code::NoMotion, message)];
     }
     let judged = log.position.as_ref().or(log.velocity.as_ref());
     if judged.is_some_and(|values| values.len() >= FEW / 2 && likeness(values) < SMOOTH) {
         let message =
             format!("{what} looks like noise: neighbouring samples have little in common");
-        return vec![warning("noise-only", message)];
+        return vec![warning(Code::NoiseOnly, message)];
     }
     let mut found = Vec::new();
     if !turns_back(&x, (BACK_OF_RANGE * range).max(BACK_STEPS * step)) {
@@ -68,7 +69,7 @@ fn judge(log: &Log) -> Vec<Finding> {
              direction, and an offset of the force, cannot be told",
             short(range)
         );
-        found.push(warning("one-direction", message));
+        found.push(warning(Code::OneDirection, message));
     }
     if let Some(speed) = one_speed(&log.time, &x) {
         let unit = log.motion.velocity().si_text();
@@ -77,7 +78,7 @@ fn judge(log: &Log) -> Vec<Finding> {
              cannot be told",
             short(speed)
         );
-        found.push(warning("constant-velocity", message));
+        found.push(warning(Code::ConstantVelocity, message));
     }
     found
 }
@@ -156,7 +157,7 @@ pub(super) fn constant_columns(log: &mut Log) {
                 Severity::Warning
             };
             let message = format!("{name} is {} throughout", short(low));
-            found.push(Finding::new("constant-column", severity, message));
+            found.push(Finding::new(Code::ConstantColumn, severity, message));
         }
     }
     log.findings.extend(found);

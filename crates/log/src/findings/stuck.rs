@@ -14,6 +14,7 @@
 use super::{Finding, Severity, count, extremes, place, short};
 use crate::log::Log;
 use std::ops::Range;
+use stiction_codes::Code;
 
 /// Shortest stretch of equal positions that is looked at, in samples.
 const MIN_FLAT: usize = 10;
@@ -29,10 +30,10 @@ pub(super) fn stuck(log: &mut Log) {
         first.1,
         place(log, first.0.start)
     );
-    let finding = Finding::new("stuck-encoder", Severity::Warning, message).at(first.0.start);
+    let finding = Finding::new(Code::StuckEncoder, Severity::Warning, message).at(first.0.start);
     log.findings.push(finding);
     for (run, _) in found {
-        log.exclude(run, "stuck-encoder");
+        log.exclude(run, Code::StuckEncoder);
     }
 }
 

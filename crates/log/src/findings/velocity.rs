@@ -2,6 +2,7 @@
 
 use super::{Finding, Severity, short};
 use crate::log::Log;
+use stiction_codes::Code;
 
 /// Travel is compared over windows of so many samples, where noise and delay matter little.
 const WINDOW: usize = 32;
@@ -84,7 +85,7 @@ pub(super) fn consistency(log: &mut Log) {
         return;
     };
     log.findings.push(Finding::new(
-        "velocity-mismatch",
+        Code::VelocityMismatch,
         Severity::Warning,
         message,
     ));

@@ -6,6 +6,7 @@ use crate::findings::{Finding, Severity, count, short};
 use crate::mapping::{LARGEST, Role, Source};
 use crate::{Error, Kind, Table};
 use std::ops::Range;
+use stiction_codes::Code;
 
 /// Missing cells in a row that a straight line may bridge.
 pub(super) const BRIDGED: usize = 5;
@@ -100,7 +101,7 @@ impl Columns {
             if cells == rows {
                 values.clear();
                 let message = format!("{role} has no number at all and is left out");
-                findings.push(Finding::new("missing-cells", Severity::Warning, message));
+                findings.push(Finding::new(Code::MissingCells, Severity::Warning, message));
                 continue;
             }
             let (mut short, mut long) = (0, 0);
@@ -136,7 +137,7 @@ impl Columns {
             } else {
                 Severity::Note
             };
-            findings.push(Finding::new("missing-cells", severity, message).at(first.start));
+            findings.push(Finding::new(Code::MissingCells, severity, message).at(first.start));
         }
         if drop.contains(&true) {
             retain(time, &drop);
@@ -147,7 +148,7 @@ impl Columns {
         }
         let excluded = |samples| Excluded {
             samples,
-            code: "missing-cells",
+            code: Code::MissingCells,
         };
         Ok(Mended {
             bridged: runs(&bridged, |b| *b).into_iter().map(excluded).collect(),

@@ -4,6 +4,7 @@ use crate::findings::{Finding, Severity, count, full, median, short};
 use crate::mapping::{LARGEST, Mapping, Role, Source};
 use crate::{Error, Kind, Table};
 use std::ops::Range;
+use stiction_codes::Code;
 
 /// Dropping more than this share of the rows is no repair.
 const DROPPED: f64 = 0.05;
@@ -118,7 +119,7 @@ fn stamped(
             return Err(Error::new(Kind::Time, found, allowed).at_row(first as u64 + 1));
         }
         let message = format!("{found}, first data row {}; dropped", first + 1);
-        findings.push(Finding::new("time-missing", Severity::Warning, message));
+        findings.push(Finding::new(Code::TimeMissing, Severity::Warning, message));
     }
     if let Some(&first) = repeated.first() {
         let found = format!(
@@ -135,7 +136,11 @@ fn stamped(
             first + 1,
             short(since(first, origin))
         );
-        findings.push(Finding::new("duplicate-time", Severity::Warning, message));
+        findings.push(Finding::new(
+            Code::DuplicateTime,
+            Severity::Warning,
+            message,
+        ));
     }
     if let Some(&(row, size)) = lifts.iter().find(|(row, _)| range.contains(row)) {
         let times = lifts.iter().filter(|(row, _)| range.contains(row)).count();
@@ -144,7 +149,7 @@ fn stamped(
             count(times, "time"),
             row + 1
         );
-        findings.push(Finding::new("time-wrap", Severity::Note, message));
+        findings.push(Finding::new(Code::TimeWrap, Severity::Note, message));
     }
     if time.last().is_some_and(|t| *t > LONGEST) {
         let found = format!("the record lasts {} s", short(*time.last().unwrap_or(&0.0)));

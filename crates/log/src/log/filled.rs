@@ -13,6 +13,7 @@ use crate::findings::{Finding, Severity, count, short};
 use crate::mapping::Role;
 use crate::{Error, Kind};
 use std::ops::Range;
+use stiction_codes::Code;
 use stiction_number::Percent;
 
 /// Samples that are looked at on either side of a zero.
@@ -58,7 +59,7 @@ pub(super) fn clear(columns: &mut Columns, findings: &mut Vec<Finding>) -> Resul
             return Err(Error::new(Kind::Value, found, allowed).in_column(role.name()));
         }
         let message = format!("{found}: missing samples that were filled in, not fitted to");
-        findings.push(Finding::new("zero-filled", Severity::Warning, message).at(first));
+        findings.push(Finding::new(Code::ZeroFilled, Severity::Warning, message).at(first));
         for run in filled {
             values[run].fill(f64::NAN);
         }

@@ -1,6 +1,7 @@
 //! Putting a wrapping position together.
 
 use crate::findings::{Finding, Severity, count, short};
+use stiction_codes::Code;
 
 /// Adds whole periods so that no step is longer than half a period; missing samples are passed
 /// over. Turns made within a gap cannot be known.
@@ -33,6 +34,6 @@ pub(super) fn unwrap(position: &mut [f64], period: f64, unit: &str) -> Option<Fi
             count(wraps, "time"),
             short(period)
         );
-        Finding::new("position-wrap", Severity::Note, message).at(first)
+        Finding::new(Code::PositionWrap, Severity::Note, message).at(first)
     })
 }

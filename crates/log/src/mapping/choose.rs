@@ -6,6 +6,7 @@ use super::select::{distinct, select};
 use super::{Channel, Detected, Role, Selector, describe};
 use crate::findings::{Finding, Severity, median, short};
 use crate::{Dimension, Error, Kind, Table, Unit};
+use stiction_codes::Code;
 
 /// A stated rate and that of the time stamps may differ by this share.
 const RATE_OFF: f64 = 0.01;
@@ -129,7 +130,7 @@ fn no_force(table: &Table) -> Finding {
         describe::columns(table),
         table.columns.len()
     );
-    Finding::new("no-force", Severity::Warning, message)
+    Finding::new(Code::NoForce, Severity::Warning, message)
 }
 
 impl Scan<'_> {

@@ -5,6 +5,7 @@ use super::select::select;
 use super::{Channel, Detected, Mapping, Motion, Role, choose, describe, motion, names};
 use crate::findings::{Finding, Severity};
 use crate::{Dimension, Error, Kind, Table, Unit};
+use stiction_codes::Code;
 
 /// Median spacings that a time column without a unit may have to be taken as seconds.
 const PLAUSIBLE_SPACING: std::ops::RangeInclusive<f64> = 1e-6..=0.2;
@@ -84,7 +85,7 @@ fn written_unit(
         }) {
             let message =
                 format!("{role}: the file says {other}, the axis file {unit}, which counts");
-            findings.push(Finding::new("unit-override", Severity::Note, message));
+            findings.push(Finding::new(Code::UnitOverride, Severity::Note, message));
         }
         return Ok(Some(unit.clone()));
     }
@@ -201,7 +202,7 @@ fn assume_units(
             "no unit is written for some columns; taken as {}",
             told.join(", ")
         );
-        findings.push(Finding::new("unit-assumed", Severity::Note, message));
+        findings.push(Finding::new(Code::UnitAssumed, Severity::Note, message));
     }
     Ok(())
 }
@@ -249,7 +250,7 @@ fn phrase(table: &Table, part: &Part, unit: &Unit) -> String {
 fn judge(findings: &mut Vec<Finding>, part: &Part, unit: &Unit, source: &Source, kind: Motion) {
     if let Some(note) = unit.note() {
         let message = format!("{}: {unit} is {note}", part.role);
-        findings.push(Finding::new("unit-convention", Severity::Note, message));
+        findings.push(Finding::new(Code::UnitConvention, Severity::Note, message));
     }
     if part.role != Role::Force || !is_force(source.dimension) || source.dimension == kind.force() {
         return;
@@ -262,13 +263,13 @@ fn judge(findings: &mut Vec<Finding>, part: &Part, unit: &Unit, source: &Source,
             "the force is in {is} on a {kind} axis, where {wanted} times velocity is power; a scale \
              for the lead or radius is missing, or the kind is wrong"
         );
-        Finding::new("force-unit", Severity::Warning, message)
+        Finding::new(Code::ForceUnit, Severity::Warning, message)
     } else {
         let message = format!(
             "the force is in {is}; parameters come out in {is} too, unless a scale in {wanted}/{} is \
              given",
             unit.text()
         );
-        Finding::new("force-not-calibrated", Severity::Note, message)
+        Finding::new(Code::ForceNotCalibrated, Severity::Note, message)
     });
 }

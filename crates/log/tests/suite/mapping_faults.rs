@@ -3,7 +3,7 @@
 
 use crate::mapping_common::{codes, column, noise, table, told, warnings};
 use proptest::prelude::*;
-use stiction_log::{CODES, Channel, Column, Kind, Log, Mapping, Motion, Selector, Table, Wrap};
+use stiction_log::{Channel, Code, Column, Kind, Log, Mapping, Motion, Selector, Table, Wrap};
 
 /// An axis that follows two sines; force from mass, Coulomb and viscous friction, with noise.
 #[derive(Clone, Debug)]
@@ -150,7 +150,7 @@ proptest! {
             prop_assert_eq!(log.time.len(), clean.samples - gone);
         }
         for finding in &log.findings {
-            prop_assert!(CODES.iter().any(|(code, _)| *code == finding.code));
+            prop_assert!(Code::ALL.contains(&finding.code));
             prop_assert!(finding.at.is_none_or(|at| at < clean.samples));
         }
         check(&log)?;
@@ -188,7 +188,7 @@ fn warnings_of(findings: &[stiction_log::Finding]) -> Vec<&'static str> {
     let warned = findings
         .iter()
         .filter(|f| f.severity == stiction_log::Severity::Warning);
-    warned.map(|f| f.code).collect()
+    warned.map(|f| f.code.as_str()).collect()
 }
 
 /// What holds of every log.

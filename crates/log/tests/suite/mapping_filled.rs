@@ -46,7 +46,7 @@ fn what_is_said_of_them() {
     let said: Vec<_> = log
         .findings
         .iter()
-        .filter(|f| ["zero-filled", "missing-cells"].contains(&f.code))
+        .filter(|f| ["zero-filled", "missing-cells"].contains(&f.code.as_str()))
         .map(|f| format!("{:?} {}: {}", f.severity, f.code, f.message))
         .collect();
     insta::assert_snapshot!(said.join("\n"));

@@ -196,7 +196,7 @@ fn damiao_wraps_and_one_motor_misses_five_seconds() {
         let wraps = log
             .findings
             .iter()
-            .find(|f| f.code == "position-wrap")
+            .find(|f| f.code.as_str() == "position-wrap")
             .unwrap();
         assert!(wraps.message.contains("6 times"), "{}", wraps.message);
         let longest = log.gaps.iter().map(|g| g.seconds).fold(0.0, f64::max);

@@ -8,6 +8,7 @@ use crate::result::{RejectedEntry, ResolvedAxis, StaticMapEntry, StaticPointEntr
 use crate::source::Source;
 use crate::symbols;
 use std::time::Instant;
+use stiction_codes::Code;
 use stiction_identify::LawKind;
 use stiction_identify::procedure::{
     Exponent, Run, StaticMap, StaticSettings, Stretches, static_map, stretches,
@@ -74,14 +75,14 @@ pub(super) fn run(
     let estimate = found.map.fitted_law();
     let mut warnings = log_warnings(&sources);
     // A log of constant velocities moves at few speeds on purpose.
-    warnings.retain(|w| w.code != "constant-velocity");
+    warnings.retain(|w| w.code != Code::ConstantVelocity);
     warnings.append(&mut found.warnings);
     let mut reasons = Vec::new();
     trust::saturation(&sources, &mut reasons);
     trust::unidentifiable(&estimate, motion, &mut warnings, &mut reasons);
     if estimate.fit.r2.is_nan() || estimate.fit.r2 < 0.5 {
         let text = "the curve explains less than half of the variance of the forces";
-        warnings.push(Warning::new("poor-fit", text));
+        warnings.push(Warning::new(Code::PoorFit, text));
         reasons.push(text.into());
     }
     let break_away = super::break_away(beside, &estimate, motion)?;
@@ -168,7 +169,7 @@ fn warnings(
     let (pos, neg) = (distinct(1.0), distinct(-1.0));
     if pos.min(neg) < ADVISED {
         out.push(Warning::new(
-            "few-speeds",
+            Code::FewSpeeds,
             format!(
                 "{pos} different speeds in the positive direction and {neg} in the negative one; a \
                  static map should have {ADVISED} each way, evenly spaced in their logarithm, from \
@@ -199,7 +200,7 @@ fn warnings(
             String::new()
         };
         out.push(Warning::new(
-            "unsteady-stretches",
+            Code::UnsteadyStretches,
             format!(
                 "{} left out: {}{more}",
                 plural(found.rejected.len(), "stretch", "stretches"),
@@ -216,7 +217,7 @@ fn warnings(
         .collect();
     if !outlying.is_empty() {
         out.push(Warning::new(
-            "outlying-points",
+            Code::OutlyingPoints,
             format!(
                 "{} far off the curve of the others and hardly counted: {}",
                 plural(outlying.len(), "point lies", "points lie"),

@@ -10,17 +10,18 @@ use crate::result::{
 use crate::source::Source;
 use crate::symbols;
 use std::time::Instant;
+use stiction_codes::Code;
 use stiction_friction::Direction;
 use stiction_identify::procedure::{Run, Statics, StepFit, StepResponse, StepSettings, fit_steps};
 use stiction_identify::{LawKind, Mass, Observer, Status};
 
 /// Findings about a log that hardly moves, which a step below break-away does on purpose.
-const ON_PURPOSE: [&str; 5] = [
-    "no-motion",
-    "noise-only",
-    "coarse-position",
-    "one-direction",
-    "constant-velocity",
+const ON_PURPOSE: [Code; 5] = [
+    Code::NoMotion,
+    Code::NoiseOnly,
+    Code::CoarsePosition,
+    Code::OneDirection,
+    Code::ConstantVelocity,
 ];
 
 /// The whole workflow.
@@ -44,7 +45,7 @@ pub(super) fn run(
         runs.push((run, step));
     }
     let mut warnings = log_warnings(&sources);
-    warnings.retain(|w| !ON_PURPOSE.contains(&w.code.as_str()));
+    warnings.retain(|w| !ON_PURPOSE.contains(&w.code));
     let (settings, map) = settings(options, axis, &sources, beside, &runs, &mut warnings)?;
     let fit = fit_steps(&runs, &settings, observer).map_err(|e| refused(&sources, e))?;
     let estimate = fit.fitted_law(&settings);
@@ -128,7 +129,7 @@ fn settings(
     };
     if beside.model.is_none() && beside.statics.is_empty() {
         warnings.push(Warning::new(
-            "statics-assumed",
+            Code::StaticsAssumed,
             "neither --model nor --static gives the steady curve: its level is taken as constant and \
              fitted, sigma2 as zero. sigma1 then stands for sigma1 + sigma2, and where the axis gets \
              near the Stribeck velocity all parameters are off by more than their intervals",
@@ -190,9 +191,9 @@ fn given(statics: &Statics, positive: bool) -> [[f64; 5]; 5] {
 fn judge(fit: &StepFit, warnings: &mut Vec<Warning>, reasons: &mut Vec<String>) {
     if fit.status != Status::Converged {
         let code = if fit.status == Status::Interrupted {
-            "interrupted"
+            Code::Interrupted
         } else {
-            "not-converged"
+            Code::NotConverged
         };
         let text = format!("the search did not converge (status {})", fit.status.name());
         warnings.push(Warning::new(code, text.clone()));
@@ -226,7 +227,7 @@ fn entry(
             let inverted = step.invert(mass, viscous);
             if inverted.sigma1.is_none() {
                 warnings.push(Warning::new(
-                    "no-overshoot",
+                    Code::NoOvershoot,
                     format!(
                         "{}: the published inversion has no sigma1, since the axis does not overshoot; \
                          the fit by simulation needs no overshoot",

@@ -4,6 +4,7 @@ use super::MOST_SAMPLES;
 use crate::error::{Error, Warning};
 use crate::study::raw::Table;
 use std::path::{Path, PathBuf};
+use stiction_codes::Code;
 use stiction_log::{Column, Dimension, Limits, ReadOptions, Unit, read_table};
 
 /// Largest file, bytes.
@@ -114,7 +115,7 @@ pub(super) fn points<const AXES: usize>(
             file.display(),
             length.si_text()
         );
-        Warning::new("unit-assumed", message)
+        Warning::new(Code::UnitAssumed, message)
     });
     Ok(Points {
         times,

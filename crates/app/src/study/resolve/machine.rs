@@ -6,6 +6,7 @@ use crate::study::Machine;
 use crate::study::model::{Model, law};
 use crate::study::raw::Table;
 use std::path::Path;
+use stiction_codes::Code;
 use stiction_friction::Damping;
 use stiction_log::Dimension;
 use stiction_servo::disturbance::Cogging;
@@ -67,7 +68,7 @@ pub(super) fn machine(
     let long = swing / (rate * substeps);
     if long > SHORT {
         model.warnings.push(Warning::new(
-            "long-steps",
+            Code::LongSteps,
             format!(
                 "the bristles are too stiff for a plant step of {:.3e} s: h sqrt(sigma0/M) = {long:.1}, above {SHORT}; \
                  what happens before break-away is not to be relied on; a higher rate makes the steps shorter",

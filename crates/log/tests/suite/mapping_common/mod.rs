@@ -74,19 +74,19 @@ impl Axis {
 }
 
 pub fn codes(log: &Log) -> Vec<&'static str> {
-    log.findings.iter().map(|f| f.code).collect()
+    log.findings.iter().map(|f| f.code.as_str()).collect()
 }
 
 pub fn warnings(log: &Log) -> Vec<&'static str> {
     log.findings
         .iter()
         .filter(|f| f.severity == Severity::Warning)
-        .map(|f| f.code)
+        .map(|f| f.code.as_str())
         .collect()
 }
 
 pub fn message<'a>(log: &'a Log, code: &str) -> &'a str {
-    let hit = log.findings.iter().find(|f| f.code == code);
+    let hit = log.findings.iter().find(|f| f.code.as_str() == code);
     &hit.unwrap_or_else(|| panic!("no {code} in {:#?}", log.findings))
         .message
 }

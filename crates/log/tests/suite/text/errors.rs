@@ -172,7 +172,7 @@ fn every_message_names_place_finding_and_remedy() {
 fn a_file_is_named_in_its_errors() {
     let path = std::env::temp_dir().join("stiction-no-such-log.csv");
     let error = stiction_log::text::read_file(&path, &TextOptions::default()).unwrap_err();
-    assert_eq!(error.kind.code(), "log-io");
+    assert_eq!(error.kind.code().as_str(), "log-io");
     assert!(
         error.to_string().starts_with(&path.display().to_string()),
         "{error}"

@@ -1,0 +1,158 @@
+//! Every code of a warning, note or error that a user can see: one table.
+//!
+//! A code never changes once it was released. Each has a page `docs/codes/<code>.md`: what it means, what stiction did,
+//! how to fix it, an example; a test holds that no page is missing and none is left over. Warnings and errors are made from
+//! [`Code`], so that no code can be misspelt; in JSON and on the terminal a code is its text.
+//!
+//! ```
+//! use stiction_codes::Code;
+//! assert_eq!(Code::ForceSign.as_str(), "force-sign");
+//! assert_eq!(Code::from_name("force-sign"), Some(Code::ForceSign));
+//! assert!(Code::ALL.contains(&Code::LongSteps));
+//! ```
+
+use std::fmt;
+
+macro_rules! codes {
+    ($($name:ident = $text:literal: $meaning:literal,)*) => {
+        /// The code of a warning, note or error.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
+        pub enum Code {
+            $(#[doc = concat!("`", $text, "`: ", $meaning, ".")] $name,)*
+        }
+
+        impl Code {
+            /// Every code.
+            pub const ALL: &'static [Code] = &[$(Code::$name,)*];
+
+            /// The code as text, the name of its page.
+            pub const fn as_str(self) -> &'static str {
+                match self {
+                    $(Code::$name => $text,)*
+                }
+            }
+
+            /// What it means, in a line.
+            pub const fn meaning(self) -> &'static str {
+                match self {
+                    $(Code::$name => $meaning,)*
+                }
+            }
+        }
+    };
+}
+
+codes! {
+    // What was found in a recording.
+    Gap = "gap": "samples are missing between two time stamps",
+    DuplicateTime = "duplicate-time": "several samples carry the same time stamp",
+    TimeMissing = "time-missing": "a row has no time stamp",
+    TimeWrap = "time-wrap": "the time counter overflowed and started again",
+    Jitter = "jitter": "samples are not equally spaced",
+    MissingCells = "missing-cells": "cells are empty or no numbers",
+    ZeroFilled = "zero-filled": "missing samples were written as 0",
+    ShortColumn = "short-column": "a column ends before the others",
+    UnitAssumed = "unit-assumed": "a unit is not written anywhere and was assumed",
+    UnitOverride = "unit-override": "the axis file gives another unit than the recording",
+    UnitConvention = "unit-convention": "the unit is used with several conventions",
+    ForceUnit = "force-unit": "the force does not belong to this kind of motion",
+    ForceNotCalibrated = "force-not-calibrated": "the force is a current, a voltage or a share, not newtons",
+    NoForce = "no-force": "no column is a force, torque or current",
+    ForceSign = "force-sign": "the force does negative work: its sign is probably turned round",
+    Saturation = "saturation": "the force is cut off at a limit",
+    PositionWrap = "position-wrap": "the position started again and was put together",
+    PositionJump = "position-jump": "the position jumps further than any motion explains",
+    StuckEncoder = "stuck-encoder": "the position is frozen while something else moves",
+    Quantisation = "quantisation": "the position moves in steps",
+    CoarsePosition = "coarse-position": "the whole travel is only a few steps of the position",
+    VelocityMismatch = "velocity-mismatch": "the velocity is not the derivative of the position",
+    NoMotion = "no-motion": "the axis does not move",
+    NoiseOnly = "noise-only": "motion cannot be told from noise",
+    OneDirection = "one-direction": "the axis moves in one direction only",
+    ConstantVelocity = "constant-velocity": "the axis moves at one speed only",
+    ConstantColumn = "constant-column": "a column never changes",
+    FewSamples = "few-samples": "the record is short",
+
+    // Why a recording was refused.
+    LogIo = "log-io": "a recording cannot be opened or read",
+    LogFormat = "log-format": "a file does not follow the format it claims",
+    LogLimit = "log-limit": "a file asks for more than is allowed",
+    LogAmbiguous = "log-ambiguous": "a recording can be read in more than one way",
+    LogMissing = "log-missing": "something that is needed is not in the recording",
+    LogUnit = "log-unit": "a unit is unknown or does not fit",
+    LogTime = "log-time": "time stamps that no rule can mend",
+    LogValue = "log-value": "a number outside what is allowed",
+
+    // What came up after the recording was read.
+    NotIdentifiable = "not-identifiable": "the data do not determine a parameter",
+    NotConverged = "not-converged": "the search ended without converging",
+    Interrupted = "interrupted": "the search was stopped; the best found so far is given",
+    PoorFit = "poor-fit": "the law explains too little of the force",
+    RicherLawHoldsBetter = "richer-law-holds-better": "a law with more parameters predicts unseen samples much better",
+    CorrelatedResidual = "correlated-residual": "the residual is not noise: something systematic is left",
+    DelayOutOfRange = "delay-out-of-range": "the fitted delay between force and motion is too long to be one",
+    StaticLawAtRest = "static-law-at-rest": "a static law is fitted to an axis at rest or in presliding",
+    SimplerLawHoldsBetter = "simpler-law-holds-better": "a law with fewer parameters predicts unseen samples better",
+    TooFewSamples = "too-few-samples": "too few usable samples are left after conditioning",
+    BadSetting = "bad-setting": "a setting of the conditioning is out of range for this log",
+    TooFewSpeeds = "too-few-speeds": "too few constant-velocity stretches for a static map",
+    StillLearning = "still-learning": "a watchdog lets no force through while a run counts",
+    AtForceLimit = "at-force-limit": "a simulated command is at its limit",
+    UnsteadyCommand = "unsteady-command": "a simulated command shakes",
+    FewSpeeds = "few-speeds": "fewer speeds than a static map should have",
+    LargeShift = "large-shift": "encoder, filters and noise shift a parameter far",
+    UnsteadyStretches = "unsteady-stretches": "stretches of nearly constant velocity were left out",
+    OutlyingPoints = "outlying-points": "points of the static map lie far off its curve",
+    NoStep = "no-step": "the force does not step as the procedure needs it",
+    NoOvershoot = "no-overshoot": "a step response without overshoot cannot be inverted",
+    StaticsAssumed = "statics-assumed": "the steady curve is not known and was simplified",
+    NoBreakAway = "no-break-away": "the force does not ramp up to break-away",
+    NotSimulated = "not-simulated": "a log that cannot be simulated: position, reference or mass is missing",
+    BadRecord = "bad-record": "the channels of a log do not fit together",
+    BadConfig = "bad-config": "an axis, study or model file was refused",
+    BadCheckpoint = "bad-checkpoint": "a checkpoint is damaged or belongs to another search",
+    Usage = "usage": "the command as typed cannot be carried out",
+    Output = "output": "the output folder or file cannot be used",
+    ModelInDoubt = "model-in-doubt": "the model of a study is not one to rely on",
+    NotInStudy = "not-in-study": "the model has terms that a study does not simulate",
+    NotRun = "not-run": "a combination of a study could not be run",
+    NotExported = "not-exported": "a model that the target cannot express",
+    ExportUntrusted = "export-untrusted": "a compensator with numbers that the identification did not stand by",
+    ExportDamping = "export-damping": "micro-damping is limited so that the compensator releases no energy",
+    ExportCycleTime = "export-cycle-time": "the cycle time is too long to resolve a reversal",
+    ExportLimit = "export-limit": "the force limit is below the friction to compensate, or reached at speed",
+    ExportName = "export-name": "a name in the code is not all of the axis' name",
+    ExportRatedForce = "export-rated-force": "the friction table goes beyond the rated force",
+    ExportTerms = "export-terms": "terms beside friction are not in the compensator",
+    ExportSource = "export-source": "FMUs were written without a binary",
+    LongSteps = "long-steps": "the bristles are too stiff for the steps of the simulation",
+}
+
+impl Code {
+    /// The code of this text.
+    pub fn from_name(text: &str) -> Option<Code> {
+        Code::ALL.iter().copied().find(|code| code.as_str() == text)
+    }
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.as_str())
+    }
+}
+
+impl serde::Serialize for Code {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.as_str())
+    }
+}
+
+impl<'de> serde::Deserialize<'de> for Code {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = <std::borrow::Cow<'de, str>>::deserialize(deserializer)?;
+        Code::from_name(&text).ok_or_else(|| {
+            serde::de::Error::custom(format!("{text:?} is not a code of this version"))
+        })
+    }
+}
