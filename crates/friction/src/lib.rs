@@ -136,5 +136,5 @@ pub use real::Real;
 pub use realtime::State;
 pub use shape::Shape;
 pub use statics::{CoulombViscous, TanhRegularised};
-pub use stribeck::{Direction, Stribeck};
+pub use stribeck::{Direction, LevelGradient, Stribeck};
 pub use sweep::{Sweep, Sweeps};

@@ -59,6 +59,8 @@ pub trait Real:
     fn exp(self) -> Self;
     /// `exp(self) - 1` without loss of digits near 0.
     fn expm1(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
     /// Sine of an angle in rad.
     fn sin(self) -> Self;
     /// Hyperbolic tangent.
@@ -68,7 +70,7 @@ pub trait Real:
 }
 
 macro_rules! real {
-    ($t:ident, $series_below:literal, $sqrt:ident, $exp:path, $expm1:path, $sin:ident, $tanh:ident, $pow:ident) => {
+    ($t:ident, $series_below:literal, $sqrt:ident, $exp:path, $expm1:path, $ln:ident, $sin:ident, $tanh:ident, $pow:ident) => {
         impl Real for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -112,6 +114,10 @@ macro_rules! real {
                 $expm1(self)
             }
             #[inline]
+            fn ln(self) -> Self {
+                libm::$ln(self)
+            }
+            #[inline]
             fn sin(self) -> Self {
                 libm::$sin(self)
             }
@@ -127,5 +133,15 @@ macro_rules! real {
     };
 }
 
-real!(f32, 0.2, sqrtf, libm::expf, libm::expm1f, sinf, tanhf, powf);
-real!(f64, 0.01, sqrt, exp, expm1, sin, tanh, pow);
+real!(
+    f32,
+    0.2,
+    sqrtf,
+    libm::expf,
+    libm::expm1f,
+    logf,
+    sinf,
+    tanhf,
+    powf
+);
+real!(f64, 0.01, sqrt, exp, expm1, log, sin, tanh, pow);

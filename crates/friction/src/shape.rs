@@ -20,6 +20,44 @@ pub enum Shape<T> {
 }
 
 impl<T: Real> Shape<T> {
+    /// `exp(-x^delta)` in its plainest form: Gaussian for an exponent of 2, exponential for 1, else the power. The same
+    /// curve, and where the two can differ the plainer form is exact: the power has no slope at rest.
+    pub fn with_exponent(delta: T) -> Self {
+        if delta == T::from_f64(2.0) {
+            Shape::Gaussian
+        } else if delta == T::ONE {
+            Shape::Exponential
+        } else {
+            Shape::Power(delta)
+        }
+    }
+
+    /// The exponent delta of `exp(-x^delta)`, dimensionless; `None` for another form.
+    pub fn exponent(self) -> Option<T> {
+        match self {
+            Shape::Gaussian => Some(T::from_f64(2.0)),
+            Shape::Exponential => Some(T::ONE),
+            Shape::Power(delta) => Some(delta),
+            Shape::Lorentzian => None,
+        }
+    }
+
+    /// Derivative of the weight with respect to the exponent delta, `-x^delta ln(x) w`; 0 for a form without exponent, and
+    /// at rest and far from it, where the weight does not depend on the exponent.
+    pub fn weight_by_exponent(self, x: T) -> T {
+        let w = self.weight(x);
+        if w == T::ZERO || x == T::ZERO {
+            return T::ZERO;
+        }
+        let power = match self {
+            Shape::Gaussian => x * x,
+            Shape::Exponential => x,
+            Shape::Power(delta) => x.powf(delta),
+            Shape::Lorentzian => return T::ZERO,
+        };
+        -power * x.ln() * w
+    }
+
     /// The weight at `x = |v|/vs >= 0`, in 0..=1, for any `x` up to infinity.
     #[inline(always)]
     pub fn weight(self, x: T) -> T {

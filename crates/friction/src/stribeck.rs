@@ -16,7 +16,45 @@ pub struct Direction<T> {
     pub viscous: T,
 }
 
+/// How the level of one direction depends on the numbers of its curve: derivatives, each in N (N m) per unit of its
+/// parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LevelGradient<T> {
+    /// With respect to Fc, dimensionless.
+    pub coulomb: T,
+    /// With respect to Fs, dimensionless.
+    pub static_friction: T,
+    /// With respect to vs, N s/m (N m s/rad).
+    pub stribeck_velocity: T,
+    /// With respect to the exponent of the shape, N (N m).
+    pub stribeck_exponent: T,
+}
+
 impl<T: Real> Direction<T> {
+    /// Level `Fc + (Fs - Fc) w(speed/vs)`, N (N m), at a speed >= 0 in m/s (rad/s), of any numbers, valid or not.
+    #[inline(always)]
+    pub fn level(&self, shape: Shape<T>, speed: T) -> T {
+        let w = shape.weight(speed / self.stribeck_velocity);
+        self.coulomb + (self.static_friction - self.coulomb) * w
+    }
+
+    /// Derivatives of [`level`](Self::level) with respect to the numbers of the curve.
+    pub fn level_gradient(&self, shape: Shape<T>, speed: T) -> LevelGradient<T> {
+        let x = speed / self.stribeck_velocity;
+        let (w, slope) = shape.weight_and_slope(x);
+        let drop = self.static_friction - self.coulomb;
+        LevelGradient {
+            coulomb: T::ONE - w,
+            static_friction: w,
+            stribeck_velocity: if slope == T::ZERO {
+                T::ZERO
+            } else {
+                -drop * slope * x / self.stribeck_velocity
+            },
+            stribeck_exponent: drop * shape.weight_by_exponent(x),
+        }
+    }
+
     fn validate(&self, names: &[&'static str; 4]) -> Result<(), ParamError> {
         ParamError::positive(names[0], self.coulomb)?;
         require(
@@ -179,8 +217,6 @@ impl<T: Real> Stribeck<T> {
 
     #[inline(always)]
     pub(crate) fn level_on(&self, positive: bool, speed: T) -> T {
-        let d = self.side(positive);
-        let w = self.shape.weight(speed / d.stribeck_velocity);
-        d.coulomb + (d.static_friction - d.coulomb) * w
+        self.side(positive).level(self.shape, speed)
     }
 }

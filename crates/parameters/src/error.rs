@@ -1,0 +1,25 @@
+//! Why values make no law, or a text is no name.
+
+use crate::{LawKind, Name};
+use stiction_friction::ParamError;
+
+/// Why a set of parameters makes no law.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum LawError {
+    /// A parameter of the law has no value.
+    #[error("the law {kind} needs {name}")]
+    Missing {
+        /// The law.
+        kind: LawKind,
+        /// The parameter; with a direction where the other direction has a value.
+        name: Name,
+    },
+    /// A value that the law cannot have.
+    #[error(transparent)]
+    Value(#[from] ParamError),
+}
+
+/// A text that names no parameter.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0:?} is no parameter of any law")]
+pub struct UnknownName(pub String);
