@@ -1,6 +1,8 @@
 //! Debian packages that tests need.
 
 use crate::shell::{self, Outcome};
+use std::thread;
+use std::time::{Duration, Instant};
 
 /// A package, needed unless the program it brings is already on the PATH from elsewhere.
 struct Package {
@@ -77,10 +79,31 @@ fn is_root() -> bool {
     shell::output(shell::command("id", &["-u"])).is_ok_and(|id| id.trim() == "0")
 }
 
+/// Longest wait for another program that is installing: an unattended upgrade takes minutes.
+const LOCK_TIMEOUT: Duration = Duration::from_secs(600);
+/// Between two tries.
+const LOCK_RETRY: Duration = Duration::from_secs(5);
+
+/// Runs apt-get, as soon as no other program holds its locks.
 fn apt_get(arguments: &[&str]) -> Outcome {
-    let mut command = shell::command("apt-get", arguments);
-    command.env("DEBIAN_FRONTEND", "noninteractive");
-    shell::run(command)
+    let start = Instant::now();
+    // For the lock of dpkg apt-get waits itself; held locks of lists and archives end it at once.
+    let wait = format!("DPkg::Lock::Timeout={}", LOCK_TIMEOUT.as_secs());
+    let arguments = [&["-o", &wait], arguments].concat();
+    loop {
+        let mut command = shell::command("apt-get", &arguments);
+        command
+            .env("DEBIAN_FRONTEND", "noninteractive")
+            .env("LC_ALL", "C");
+        let Err(error) = shell::run_keeping_errors(command) else {
+            return Ok(());
+        };
+        if !error.contains("Could not get lock") || start.elapsed() > LOCK_TIMEOUT {
+            return Err(error);
+        }
+        println!("    waits for the lock of another package manager");
+        thread::sleep(LOCK_RETRY);
+    }
 }
 
 /// Installs `python3-venv`, which Debian splits off from Python.

@@ -7,8 +7,8 @@ mod licences;
 mod peers;
 mod python;
 mod shell;
-mod spdx;
 mod test;
+mod tools;
 
 use std::process::ExitCode;
 
@@ -22,7 +22,7 @@ struct Task {
 const TASKS: &[Task] = &[
     Task {
         name: "setup",
-        help: "install what the tests need: Debian packages, Python packages in .venv",
+        help: "install what the tests need: Debian packages, Python packages and tools in .venv",
         run: setup,
     },
     Task {
@@ -57,14 +57,15 @@ const TASKS: &[Task] = &[
     },
     Task {
         name: "licences",
-        help: "refuse a dependency whose licence is not permissive",
+        help: "check licences, versions and sources of dependencies against deny.toml",
         run: licences::run,
     },
 ];
 
 fn setup() -> shell::Outcome {
     debian::install()?;
-    python::install()
+    python::install()?;
+    tools::install()
 }
 
 fn validation() -> shell::Outcome {

@@ -26,7 +26,12 @@ const TESTS: Environment = Environment {
 
 /// Makes `.venv`.
 pub fn install() -> Outcome {
-    make(&TESTS).map(drop)
+    tests().map(drop)
+}
+
+/// The Python of `.venv`, made if it is not there.
+pub fn tests() -> Result<String, String> {
+    make(&TESTS)
 }
 
 /// Makes an environment afresh unless it was made from the requirements as they are now, and gives its Python.

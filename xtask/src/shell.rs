@@ -50,6 +50,29 @@ pub fn run(mut command: Command) -> Outcome {
     }
 }
 
+/// As [`run`], but what the command writes to standard error is shown at its end, and stands in the error.
+pub fn run_keeping_errors(mut command: Command) -> Outcome {
+    let line = describe(&command);
+    println!("==> {line}");
+    let start = Instant::now();
+    let output = command
+        .stdout(Stdio::inherit())
+        .stderr(Stdio::piped())
+        .output()
+        .map_err(|error| format!("cannot start `{line}`: {error}"))?;
+    let said = String::from_utf8_lossy(&output.stderr);
+    eprint!("{said}");
+    println!("    {:.1} s", start.elapsed().as_secs_f64());
+    if output.status.success() {
+        return Ok(());
+    }
+    Err(format!(
+        "`{line}` failed ({}): {}",
+        output.status,
+        said.trim()
+    ))
+}
+
 /// Standard output of a command that must succeed.
 pub fn output(mut command: Command) -> Result<String, String> {
     let line = describe(&command);

@@ -1,23 +1,26 @@
 //! Everything CI checks, the quick refusals first.
 
 use crate::shell::{self, Outcome, cargo};
-use crate::{instructions, licences, setup};
+use crate::{instructions, licences, setup, tools};
+use std::thread;
 
 /// Runs all checks and stops at the first that fails.
 pub fn run() -> Outcome {
-    setup()?;
     shell::run(cargo("fmt --all --check"))?;
+    // Installing waits for the network, the lints for the processor.
+    let installing = thread::spawn(setup);
+    let lints = shell::run(cargo("clippy --workspace --all-targets -- -D warnings"));
+    installing
+        .join()
+        .unwrap_or_else(|_| Err("the set-up panicked".into()))?;
+    lints?;
     licences::run()?;
-    shell::run(cargo("clippy --workspace --all-targets -- -D warnings"))?;
     let mut doc = cargo("doc --workspace --no-deps");
     doc.env("RUSTDOCFLAGS", "-D warnings");
     shell::run(doc)?;
     instructions::compare()?;
-    // nextest runs no doctests; where it is missing, `cargo test` runs everything.
-    if shell::on_path("cargo-nextest") {
-        shell::run(cargo("test --quiet --workspace --doc"))?;
-        shell::run(cargo("nextest run --workspace --no-fail-fast"))
-    } else {
-        shell::run(cargo("test --workspace --no-fail-fast"))
-    }
+    let tests = "nextest run --workspace --no-fail-fast";
+    shell::run(tools::command(&tools::NEXTEST, tests)?)?;
+    // nextest runs no doctests.
+    shell::run(cargo("test --quiet --workspace --doc"))
 }

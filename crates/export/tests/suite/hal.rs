@@ -15,16 +15,32 @@ struct Installed(PathBuf);
 impl Installed {
     fn new(component: &str, dir: &Path) -> Self {
         let source = format!("{component}.comp");
-        // As the page of the target has it; where the test runs as root, sudo need not be there.
-        let probe = Path::new(MODULES).join(format!(".{component}"));
-        if std::fs::write(&probe, "").is_ok() {
-            std::fs::remove_file(probe).unwrap();
+        if may_write() {
             run("halcompile", &["--install", &source], dir);
         } else {
             run("sudo", &["-n", "halcompile", "--install", &source], dir);
         }
         Self(Path::new(MODULES).join(format!("{component}.so")))
     }
+}
+
+/// Whether the user who runs the test may put components where LinuxCNC looks.
+fn may_write() -> bool {
+    let probe = Path::new(MODULES).join(format!(".stiction-{}", std::process::id()));
+    std::fs::write(&probe, "").is_ok() && std::fs::remove_file(probe).is_ok()
+}
+
+/// Whether components may be installed; where not, the test says so and passes over. It takes root's rights from nobody
+/// who has not given them: `STICTION_SUDO=1` lets it ask sudo.
+fn may_install() -> bool {
+    if may_write() || std::env::var("STICTION_SUDO").as_deref() == Ok("1") {
+        return true;
+    }
+    let message =
+        format!("{MODULES} is not ours to write: STICTION_SUDO=1 lets this test use sudo");
+    assert!(std::env::var("CI").as_deref() != Ok("true"), "{message}");
+    eprintln!("SKIPPED: {message}");
+    false
 }
 
 impl Drop for Installed {
@@ -53,6 +69,9 @@ fn alone() -> File {
 #[test]
 fn linuxcnc_gives_the_forces_that_are_due() {
     let _alone = alone();
+    if !may_install() {
+        return;
+    }
     for (name, law) in laws()
         .into_iter()
         .filter(|(name, _)| ["lugre", "power", "coulomb"].contains(name))
@@ -78,6 +97,9 @@ fn linuxcnc_gives_the_forces_that_are_due() {
 #[test]
 fn the_example_runs() {
     let _alone = alone();
+    if !may_install() {
+        return;
+    }
     let dir = tempfile::tempdir().unwrap();
     let mut model = model(laws().remove(0).1);
     model.identifier = "stiction_example".into();

