@@ -21,7 +21,7 @@ BINARY = machine.ROOT / "target/release/stiction"
 
 
 def build():
-    for what in (["-p", "stiction-cli"], ["-p", "stiction-app", "--example", "known_log"]):
+    for what in (["-p", "stiction-cli"], ["-p", "stiction", "--example", "known_log"]):
         subprocess.check_call(["cargo", "build", "--quiet", "--release", *what], cwd=machine.ROOT)
 
 

@@ -70,13 +70,13 @@ fn setup() -> shell::Outcome {
 
 fn validation() -> shell::Outcome {
     shell::run(shell::cargo(
-        "run --release --quiet --package stiction-app --example validation",
+        "run --release --quiet --package stiction --example validation",
     ))
 }
 
 fn searches() -> shell::Outcome {
     shell::run(shell::cargo(
-        "run --release --quiet --package stiction-app --example searches",
+        "run --release --quiet --package stiction --example searches",
     ))
 }
 

@@ -8,17 +8,17 @@ use crate::progress::{Bar, Counter};
 use clap::ValueEnum;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use stiction_app::{
-    CompareOptions, Cost, CostKind, Error, Excitation, ExportOptions, Input, LawKind, Method,
-    Options, Outcome, Procedures, Scheme, Searching, Study, Target, check_folder, check_folder_of,
-    check_inputs, compare_bundle, write_atomic,
+use stiction::{
+    CompareOptions, Cost, CostKind, Error, Excitation, ExportOptions, FileError, Input, LawKind,
+    Method, Options, Outcome, Procedures, Scheme, Searching, Study, Target, bundle, check_folder,
+    check_folder_of, check_inputs, write_atomic,
 };
 
 /// Runs a command; every error is printed here, once.
 pub fn run(arguments: &Arguments) -> Exit {
     interrupt::listen();
     if let Some(threads) = arguments.common.threads {
-        stiction_app::set_threads(usize::from(threads));
+        stiction::set_threads(usize::from(threads));
     }
     let common = &arguments.common;
     let result = match &arguments.command {
@@ -49,18 +49,22 @@ fn demo(demo: &arguments::Demo, common: &Common) -> Result<Exit, Error> {
         return procedure_logs(demo, common);
     }
     let mut bar = Bar::new(common.json || common.quiet);
-    let outcome = stiction_app::demo::demo(&demo.out, demo.seed, &mut bar);
+    let outcome = stiction::demo::demo(&demo.out, demo.seed, &mut bar);
     bar.finish();
     finish(&outcome?, &demo.out, common)
 }
 
 fn procedure_logs(demo: &arguments::Demo, common: &Common) -> Result<Exit, Error> {
-    let written = stiction_app::demo::procedures(&demo.out, demo.seed)?;
+    let written = stiction::demo::procedures(&demo.out, demo.seed)?;
     if common.json {
         let paths: Vec<_> = written.iter().map(|p| p.to_string_lossy()).collect();
         output::json(&serde_json::json!({ "written": paths }))?;
     } else if !common.quiet {
-        output::print(&stiction_app::text::procedure_commands(&demo.out, &written))?;
+        output::print(&stiction::text::procedure_commands(
+            &demo.out,
+            &written,
+            &stiction::demo::truth_of_demo(),
+        ))?;
     }
     Ok(Exit::Done)
 }
@@ -70,13 +74,13 @@ fn check(check: &arguments::Check, common: &Common) -> Result<Exit, Error> {
         return init(check, file, common);
     }
     let mut bar = Bar::new(common.json || common.quiet);
-    let found = stiction_app::check::check(&check.logs, check.axis.as_deref(), &mut bar);
+    let found = stiction::check::check(&check.logs, check.axis.as_deref(), &mut bar);
     bar.finish();
     let found = found?;
     if common.json {
         output::json(&found)?;
     } else if !common.quiet {
-        output::print(&stiction_app::text::check(&found))?;
+        output::print(&stiction::text::check(&found))?;
     }
     if interrupt::asked() {
         return Ok(Exit::Interrupted);
@@ -92,12 +96,10 @@ fn check(check: &arguments::Check, common: &Common) -> Result<Exit, Error> {
 fn init(check: &arguments::Check, file: &Path, common: &Common) -> Result<Exit, Error> {
     // A dangling link is something too, and renaming onto it would replace it.
     if file.symlink_metadata().is_ok() {
-        return Err(Error::Output {
-            path: file.to_path_buf(),
-            reason: "exists already and is kept; name another file: --init OTHER.toml".into(),
-        });
+        let reason = "exists already and is kept; name another file: --init OTHER.toml";
+        return Err(FileError::output(file, reason).into());
     }
-    let text = stiction_app::check::init(&check.logs[0])?;
+    let text = stiction::check::init(&check.logs[0])?;
     write_atomic(file, text.as_bytes())?;
     if common.json {
         output::json(&serde_json::json!({ "written": file.to_string_lossy() }))?;
@@ -156,7 +158,7 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
         searching: searching(&identify.searching),
     };
     let mut bar = Bar::new(common.json || common.quiet);
-    let outcome = stiction_app::identify(&options, &mut bar);
+    let outcome = stiction::identify(&options, &mut bar);
     bar.finish();
     finish(&outcome?, &identify.out, common)
 }
@@ -197,16 +199,16 @@ fn compare(compare: &arguments::Compare, common: &Common) -> Result<Exit, Error>
         }),
     };
     let mut bar = Bar::new(common.json || common.quiet);
-    let found = stiction_app::compare(&options, &mut bar);
+    let found = stiction::compare(&options, &mut bar);
     bar.finish();
     let found = found?;
-    compare_bundle(&found).write(&compare.out)?;
+    bundle::comparison(&found).write(&compare.out)?;
     if common.json {
         output::json(&found)?;
     } else if !common.quiet {
         output::print(&format!(
             "{}\nwritten to {}: report.html, compare.json\n",
-            stiction_app::text::comparison(&found),
+            stiction::text::comparison(&found),
             compare.out.display()
         ))?;
     }
@@ -238,11 +240,11 @@ fn searching(typed: &arguments::Searching) -> Searching {
 
 /// Writes the files, says what was found, and what it is worth.
 fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error> {
-    let written = outcome.bundle().write(dir)?;
+    let written = bundle::identification(outcome).write(dir)?;
     if common.json {
         output::json(&outcome.result)?;
     } else if !common.quiet {
-        let text = stiction_app::text::outcome(outcome);
+        let text = stiction::text::outcome(outcome);
         output::print(&format!("{text}\n{}", written_to(dir, &written)))?;
     }
     // An interrupt may also have come while laws were compared, after the search had converged.
@@ -258,18 +260,18 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
 
 fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Error> {
     let dir = &simulate.out;
-    check_folder_of(dir, stiction_app::study::result::SCHEMA, simulate.force)?;
+    check_folder_of(dir, stiction::study::result::SCHEMA, simulate.force)?;
     let study = Study::read(&simulate.study)?;
     let inputs: Vec<PathBuf> = study.inputs().map(PathBuf::from).collect();
     check_inputs(dir, &inputs)?;
     let counter = Counter::new("simulating", common.json || common.quiet);
-    let outcome = study.run(&mut |done, all| counter.at(done, all));
+    let outcome = stiction::simulate(&study, &mut |done, all| counter.at(done, all));
     counter.finish();
-    let written = outcome.bundle().write(dir)?;
+    let written = bundle::study(&outcome).write(dir)?;
     if common.json {
         output::json(&outcome.file)?;
     } else if !common.quiet {
-        let text = stiction_app::text::study(&outcome);
+        let text = stiction::text::study(&outcome);
         output::print(&format!("{text}\n{}", written_to(dir, &written)))?;
     }
     Ok(if outcome.file.status == "interrupted" {
@@ -298,11 +300,11 @@ fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
         limit: export.limit,
         rated_force: export.rated_force,
     };
-    let exported = stiction_app::export(&options, &export.out)?;
+    let exported = stiction::export(&options, &export.out)?;
     if common.json {
         output::json(&exported)?;
     } else if !common.quiet {
-        output::print(&stiction_app::text::exported(&exported, &export.out))?;
+        output::print(&stiction::text::exported(&exported, &export.out))?;
     }
     Ok(if exported.trustworthy {
         Exit::Done
@@ -313,22 +315,22 @@ fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
 
 fn reproduce(reproduce: &arguments::Reproduce, common: &Common) -> Result<Exit, Error> {
     let dir = &reproduce.out;
-    check_folder_of(dir, stiction_app::reproduce::SCHEMA, reproduce.force)?;
+    check_folder_of(dir, stiction::reproduce_file::SCHEMA, reproduce.force)?;
     let counter = Counter::new("reproducing", common.json || common.quiet);
     let mut watch = |done, all| counter.at(done, all);
     let outcome = match reproduce.publication {
-        arguments::Publication::Canudas1995 => stiction_app::reproduce::canudas_1995(&mut watch),
+        arguments::Publication::Canudas1995 => stiction::reproduce::canudas_1995(&mut watch),
         arguments::Publication::Zhang2025 => {
-            let budget = stiction_app::reproduce::Budget::default();
-            stiction_app::reproduce::zhang_2025(budget, &mut watch)
+            let budget = stiction::reproduce::Budget::default();
+            stiction::reproduce::zhang_2025(budget, &mut watch)
         }
     };
     counter.finish();
-    let written = outcome.bundle().write(dir)?;
+    let written = bundle::reproduction(&outcome).write(dir)?;
     if common.json {
         output::json(&outcome.file)?;
     } else if !common.quiet {
-        let text = stiction_app::text::reproduction(&outcome.file);
+        let text = stiction::text::reproduction(&outcome.file);
         output::print(&format!("{text}{}", written_to(dir, &written)))?;
     }
     Ok(if outcome.file.status == "interrupted" {

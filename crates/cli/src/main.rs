@@ -1,4 +1,4 @@
-//! The `stiction` command line: arguments, progress, exit codes. All work is done by the app crate.
+//! The `stiction` command line: arguments, progress, exit codes. All work is done by the library of the same name.
 
 mod arguments;
 mod commands;

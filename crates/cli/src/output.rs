@@ -1,7 +1,8 @@
 //! Standard output that may be closed at any time: `stiction .. | head` is no fault of anyone.
 
 use std::io::{ErrorKind, Write};
-use stiction_app::Error;
+use std::path::Path;
+use stiction::{Error, FileError};
 
 /// Prints a text as it is; a reader that has gone away has seen enough.
 ///
@@ -10,10 +11,9 @@ use stiction_app::Error;
 pub fn print(text: &str) -> Result<(), Error> {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Error::Output {
-            path: "standard output".into(),
-            reason: e.to_string(),
-        }),
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => {
+            Err(FileError::output(Path::new("standard output"), e.to_string()).into())
+        }
         _ => Ok(()),
     }
 }

@@ -3,8 +3,8 @@
 use crate::interrupt;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
-use stiction_app::{Control, Observer, Progress, Stage};
-use stiction_number::Percent;
+use stiction::number::Percent;
+use stiction::{Control, Observer, Progress, Stage};
 
 /// Shows a bar with the best cost so far, and passes the user's interrupt on.
 pub struct Bar {

@@ -1,7 +1,7 @@
 //! Why a model is not exported.
 
-use crate::number::shortest;
 use stiction_friction::ParamError;
+use stiction_number::shortest;
 
 /// A model that cannot be exported to a target.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

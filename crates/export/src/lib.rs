@@ -54,6 +54,5 @@ pub use error::Error;
 pub use fmu::{GCC, fmu};
 pub use identifier::{IDENTIFIER_LENGTH, check_identifier, identifier, is_whole};
 pub use model::{Model, Parameter, Provenance};
-pub use number::shortest;
 pub use target::{File, Target, export};
 pub use tf5200::largest_force as largest_force_in_table;

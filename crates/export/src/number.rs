@@ -33,19 +33,6 @@ pub(crate) fn short(x: f64) -> f64 {
     format!("{x:.3e}").parse().unwrap_or(x)
 }
 
-/// A number in as few digits as read back the same, as it would be typed: `20`, `1e-40`.
-pub fn shortest(x: f64) -> String {
-    let plain = format!("{x:?}");
-    let plain = plain.strip_suffix(".0").unwrap_or(&plain);
-    let powers = format!("{x:e}");
-    // Few read how many zeros there are.
-    if x.abs() >= 1e7 && powers.len() < plain.len() {
-        powers
-    } else {
-        plain.into()
-    }
-}
-
 fn iec(text: String) -> String {
     match text.split_once('e') {
         None => text,
@@ -56,25 +43,7 @@ fn iec(text: String) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Literal, shortest};
-
-    #[test]
-    fn numbers_are_as_typed() {
-        let typed = [
-            "20",
-            "1000000",
-            "2e7",
-            "123456789",
-            "1e-40",
-            "0.0035",
-            "-3",
-            "1e300",
-            "inf",
-        ];
-        for text in typed {
-            assert_eq!(shortest(text.parse().unwrap()), text);
-        }
-    }
+    use super::Literal;
 
     #[test]
     fn literals_have_a_point_or_an_exponent() {

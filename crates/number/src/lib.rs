@@ -2,8 +2,8 @@
 //!
 //! | where | function |
 //! |---|---|
-//! | messages and terminal text (ASCII) | [`short`], [`four_digits`], [`full`], [`counted`] |
-//! | reports (typeset: `×10⁶`, a true minus sign) | [`sig`], [`count`], [`concise`], [`plus_minus`], [`interval`], [`si`] |
+//! | messages and terminal text (ASCII) | [`short`], [`four_digits`], [`full`], [`shortest`], [`counted`] |
+//! | reports (typeset: `×10⁶`, a true minus sign) | [`sig`], [`count`], [`concise`], [`plus_minus`], [`interval`], [`si`], [`quantity`] |
 //! | every percentage of something that was measured or fitted | [`Percent`] |
 //!
 //! ```
@@ -19,9 +19,9 @@ mod message;
 mod percent;
 mod typeset;
 
-pub use message::{counted, four_digits, full, short};
+pub use message::{counted, four_digits, full, short, shortest};
 pub use percent::{LARGEST_PERCENT, Percent};
 pub use typeset::{
-    concise, count, exponent, interval, plain, plus_minus, prefixed, si, sig, superscript, ten,
-    times_ten,
+    concise, count, exponent, interval, plain, plus_minus, prefixed, quantity, si, sig,
+    superscript, ten, times_ten,
 };

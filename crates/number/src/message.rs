@@ -53,6 +53,19 @@ pub fn full(x: f64) -> String {
     }
 }
 
+/// A number in as few digits as read back the same, as it would be typed: `20`, `1e-40`.
+pub fn shortest(x: f64) -> String {
+    let plain = format!("{x:?}");
+    let plain = plain.strip_suffix(".0").unwrap_or(&plain);
+    let powers = format!("{x:e}");
+    // Few read how many zeros there are.
+    if x.abs() >= 1e7 && powers.len() < plain.len() {
+        powers
+    } else {
+        plain.into()
+    }
+}
+
 /// `1 sample`, `3 samples`.
 pub fn counted(number: usize, noun: &str) -> String {
     if number == 1 {
@@ -95,5 +108,23 @@ mod tests {
         assert_eq!(full(1e300), "1e300");
         assert_eq!(counted(1, "sample"), "1 sample");
         assert_eq!(counted(3, "sample"), "3 samples");
+    }
+
+    #[test]
+    fn numbers_are_as_typed() {
+        let typed = [
+            "20",
+            "1000000",
+            "2e7",
+            "123456789",
+            "1e-40",
+            "0.0035",
+            "-3",
+            "1e300",
+            "inf",
+        ];
+        for text in typed {
+            assert_eq!(shortest(text.parse().unwrap()), text);
+        }
     }
 }

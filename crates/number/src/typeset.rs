@@ -98,6 +98,24 @@ pub fn si(value: f64, unit: &str, digits: usize) -> String {
     with_unit(sig(value, digits), unit)
 }
 
+/// A value with its unit under an SI prefix.
+pub fn quantity(x: f64, unit: &str) -> String {
+    let (factor, prefix) = match (x.abs(), unit) {
+        _ if x == 0.0 => (1.0, ""),
+        (a, "m" | "rad" | "s") if a < 0.9995e-6 => (1e9, "n"),
+        (a, "m" | "rad" | "s") if a < 0.9995e-3 => (1e6, "µ"),
+        (a, "m" | "rad" | "s") if a < 0.9995 => (1e3, "m"),
+        (a, "m/s" | "rad/s") if a < 0.9995e-3 => (1e6, "µ"),
+        (a, "m/s" | "rad/s") if a < 0.9995 => (1e3, "m"),
+        _ => (1.0, ""),
+    };
+    format!(
+        "{} {prefix}{}",
+        sig(factor * x, 3),
+        unit.replace("N*m", "N m")
+    )
+}
+
 /// `unit` with the prefix for 10^`power`, where there is one and the unit takes prefixes.
 pub fn prefixed(unit: &str, power: i32) -> Option<String> {
     const TAKES_PREFIX: [&str; 16] = [

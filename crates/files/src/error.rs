@@ -1,0 +1,70 @@
+//! What goes wrong with a file, with a stable code; and what a user should know although the work goes on.
+
+use std::path::{Path, PathBuf};
+use stiction_codes::Code;
+
+/// A file that cannot be read, understood or written.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A recording was refused.
+    #[error("{0}")]
+    Log(#[from] stiction_log::Error),
+    /// A file of our own form was refused.
+    #[error("{}: {place}{found}; {allowed}", .file.display())]
+    Config {
+        /// The file.
+        file: PathBuf,
+        /// Line and key, ending in `: `, or empty.
+        place: String,
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// The output folder cannot be used.
+    #[error("{}: {reason}", .path.display())]
+    Output {
+        /// The folder or file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+}
+
+impl Error {
+    /// Stable code, the name of a page in `docs/codes/`.
+    pub fn code(&self) -> Code {
+        match self {
+            Error::Log(e) => e.kind.code(),
+            Error::Config { .. } => Code::BadConfig,
+            Error::Output { .. } => Code::Output,
+        }
+    }
+
+    /// A folder or file that cannot be written, and why.
+    pub fn output(path: &Path, reason: impl Into<String>) -> Self {
+        Error::Output {
+            path: path.to_path_buf(),
+            reason: reason.into(),
+        }
+    }
+}
+
+/// Something a user should know although the work went on.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Warning {
+    /// What it is; each code has a page in `docs/codes/`.
+    pub code: Code,
+    /// What was seen, with numbers.
+    pub message: String,
+}
+
+impl Warning {
+    /// A warning with its code.
+    pub fn new(code: Code, message: impl Into<String>) -> Self {
+        Self {
+            code,
+            message: message.into(),
+        }
+    }
+}

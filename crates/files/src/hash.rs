@@ -1,0 +1,37 @@
+//! SHA-256 of inputs, so that a result tells which file it is of.
+
+use crate::error::Error;
+use sha2::{Digest, Sha256};
+use std::io::Read;
+use std::path::Path;
+
+/// SHA-256 of a file, hexadecimal.
+///
+/// # Errors
+/// Where it cannot be read.
+pub fn sha256(path: &Path) -> Result<String, Error> {
+    let fail = |e: std::io::Error| {
+        let kind = stiction_log::Kind::Io;
+        Error::Log(stiction_log::Error::new(kind, e.to_string(), "").in_file(path))
+    };
+    let mut file = std::fs::File::open(path).map_err(fail)?;
+    let mut hash = Sha256::new();
+    let mut buffer = vec![0; 1 << 16];
+    loop {
+        let n = file.read(&mut buffer).map_err(fail)?;
+        if n == 0 {
+            break;
+        }
+        hash.update(&buffer[..n]);
+    }
+    Ok(hexadecimal(&hash.finalize()))
+}
+
+/// SHA-256 of bytes, hexadecimal.
+pub fn sha256_of(bytes: &[u8]) -> String {
+    hexadecimal(&Sha256::digest(bytes))
+}
+
+fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}

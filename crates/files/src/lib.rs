@@ -1,0 +1,42 @@
+//! The files that users keep, as forms: what may stand in them, how it is checked, how it is written.
+//!
+//! - [`Axis`]: `axis.toml`, what is known of a machine and its log, resolved to the types of the log and the engine.
+//! - [`ModelFile`]: `model.toml`, an identified law with its intervals and covariance.
+//! - [`ResultFile`](result::ResultFile): `result.json`, everything an identification found.
+//! - [`Study`](study::Study): `study.toml`, resolved to the types of the simulation; [`study::result`]: `study.json`.
+//! - [`CompareFile`](compare_file::CompareFile): `compare.json`. [`ReproduceFile`](reproduce_file::ReproduceFile):
+//!   `reproduce.json`.
+//! - [`Bundle`]: files that are written together, whole or not at all.
+//!
+//! Begin with [`Axis::read`] or [`ModelFile::read`]. An error names file, line, key, what was found and what is allowed:
+//!
+//! ```
+//! use std::path::Path;
+//! use stiction_files::Axis;
+//! let axis = Axis::parse("kind = \"linear\"\nmass = \"4.6 kg\"\n", Path::new("axis.toml")).unwrap();
+//! assert_eq!(axis.name, None);
+//! let refused = Axis::parse("kind = \"round\"\n", Path::new("axis.toml")).unwrap_err();
+//! assert!(refused.to_string().starts_with("axis.toml: line 1, kind: "));
+//! ```
+//!
+//! Nothing here runs a workflow, and nothing prints.
+
+pub mod axis;
+pub mod compare_file;
+mod error;
+mod hash;
+pub mod model;
+mod output;
+pub mod reproduce_file;
+pub mod result;
+pub mod study;
+pub mod symbols;
+mod typed;
+
+pub use axis::Axis;
+pub use error::{Error, Warning};
+pub use hash::{sha256, sha256_of};
+pub use model::ModelFile;
+pub use output::{
+    Bundle, check_folder, check_folder_of, check_inputs, check_writable, write_atomic, write_folder,
+};

@@ -1,0 +1,328 @@
+//! `result.json`: everything an identification found. Schema `stiction.result/1`, only ever extended.
+
+mod procedure;
+mod searched;
+
+use crate::error::Warning;
+pub use procedure::{
+    BreakAwayEntry, InversionEntry, PreslidingStepEntry, RejectedEntry, StaticMapEntry,
+    StaticPointEntry, TwoStepEntry, TwoStepParameter,
+};
+pub use searched::{Evaluations, SearchedEntry, SearchedParameter, SearchedPoint};
+use serde::{Deserialize, Serialize};
+
+/// Name of the schema.
+pub const SCHEMA: &str = "stiction.result/1";
+
+/// The whole file; described key by key in `docs/result.md`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ResultFile {
+    /// `stiction.result/1`.
+    pub schema: String,
+    /// Version of stiction.
+    pub version: String,
+    /// Seed of the search.
+    pub seed: u64,
+    /// The logs that were fitted.
+    pub inputs: Vec<Input>,
+    /// The axis, resolved.
+    pub axis: ResolvedAxis,
+    /// Family of the law.
+    pub law: String,
+    /// Whether each direction has parameters of its own.
+    pub asymmetric: bool,
+    /// Who chose the law: `user`, or by what the data did: `cross-validation`, `validation`, `bic`.
+    #[serde(default = "by_user")]
+    pub law_chosen_by: String,
+    /// Search method.
+    pub method: String,
+    /// Whether the numbers may be used, and if not, why.
+    pub trust: Trust,
+    /// Parameters of the law.
+    pub parameters: Vec<ParameterEntry>,
+    /// Covariance of the identified parameters.
+    pub covariance: CovarianceEntry,
+    /// Fit on the logs it was fitted to.
+    pub fit: FitEntry,
+    /// The same near zero speed; absent where no sample is slow.
+    pub low_speed: Option<LowSpeedEntry>,
+    /// Fit on logs (or parts of them) that were not fitted.
+    pub validation: Vec<ValidationEntry>,
+    /// What was simulated, where the method simulates the axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub simulation: Option<SimulationEntry>,
+    /// Laws side by side on held-out samples.
+    pub laws: Vec<LawEntry>,
+    /// Forces at constant velocities, where the method uses them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub static_map: Option<StaticMapEntry>,
+    /// Static parameters first against all at once, where that is the method.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub static_then_dynamic: Option<TwoStepEntry>,
+    /// Force steps, where that is the method.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub presliding_step: Option<PreslidingStepEntry>,
+    /// Break-away runs, where given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub break_away: Vec<BreakAwayEntry>,
+    /// Numbers of elements that were tried for a Maxwell-slip law; absent where there was no choice.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub elements: Vec<ElementsEntry>,
+    /// Largest speed of the samples that were fitted, m/s or rad/s; absent where nothing moved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub top_speed: Option<f64>,
+    /// How the search went.
+    pub search: Search,
+    /// What a search found before the least squares that end it; absent for other methods.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub searched: Option<SearchedEntry>,
+    /// What to beware of.
+    pub warnings: Vec<Warning>,
+}
+
+/// What results say that were written before the data could choose a law.
+fn by_user() -> String {
+    "user".into()
+}
+
+/// The resolved axis as it goes into `result.json`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ResolvedAxis {
+    /// Name of the axis.
+    pub name: Option<String>,
+    /// `linear` or `rotary`.
+    pub kind: String,
+    /// Unit of the force channel after scaling.
+    pub force_unit: String,
+    /// How each column was understood.
+    pub columns: Vec<String>,
+    /// How the record was conditioned.
+    pub conditioning: Vec<String>,
+    /// Linear terms beside the friction law.
+    pub terms: Vec<String>,
+}
+
+/// One log as it was read.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Input {
+    /// Path as given.
+    pub path: String,
+    /// SHA-256 of the file, hexadecimal.
+    pub sha256: String,
+    /// Samples read.
+    pub samples: usize,
+    /// Median sample rate, Hz.
+    pub rate_hz: f64,
+    /// What was detected.
+    pub detected: Vec<String>,
+}
+
+/// Whether the result may be used.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Trust {
+    /// False makes exit code 1.
+    pub trustworthy: bool,
+    /// Why not; empty if it is.
+    pub reasons: Vec<String>,
+}
+
+/// One parameter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ParameterEntry {
+    /// Name, such as `sigma0`.
+    pub name: String,
+    /// Symbol for people.
+    pub symbol: String,
+    /// Value in `unit`.
+    pub value: f64,
+    /// SI unit.
+    pub unit: String,
+    /// Standard deviation; `null` where the data say nothing.
+    pub std: Option<f64>,
+    /// What encoder steps and filters are estimated to have added; `null` where not estimated.
+    #[serde(default)]
+    pub bias: Option<f64>,
+    /// 95 % interval; `null` where the data bound it on no side, a `null` end where on one side only.
+    pub ci95: Option<[Option<f64>; 2]>,
+    /// `linear` or `profile`; `null` without an interval.
+    #[serde(default)]
+    pub interval: Option<String>,
+    /// Whether the data determine it.
+    pub identifiable: bool,
+    /// `identified` or `given`.
+    pub origin: String,
+    /// Why it is not identifiable; empty if it is.
+    pub reason: String,
+    /// What a parameter that is not identifiable moves together with.
+    #[serde(default)]
+    pub moves_with: Vec<PartnerEntry>,
+    /// What motion would determine it; empty if it is identifiable.
+    #[serde(default)]
+    pub advice: String,
+}
+
+impl ParameterEntry {
+    /// The 95 % interval, infinite where it is open; `None` where it is open to both sides.
+    pub fn range(&self) -> Option<(f64, f64)> {
+        self.ci95.map(|[low, high]| {
+            (
+                low.unwrap_or(f64::NEG_INFINITY),
+                high.unwrap_or(f64::INFINITY),
+            )
+        })
+    }
+}
+
+/// A parameter that another one moves together with.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PartnerEntry {
+    /// Name.
+    pub name: String,
+    /// Correlation of the two estimates, -1 to 1.
+    pub correlation: f64,
+}
+
+/// Covariance matrix with its names.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CovarianceEntry {
+    /// Names of rows and columns.
+    pub names: Vec<String>,
+    /// Row by row; zero rows for parameters that the data do not determine at all.
+    pub matrix: Vec<Vec<f64>>,
+}
+
+/// How well a model explains a force.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FitEntry {
+    /// What was fitted.
+    pub signal: String,
+    /// Its unit.
+    pub unit: String,
+    /// Root mean square of the residual.
+    pub rmse: f64,
+    /// `100 rms(residual) / rms(measured)`.
+    pub relative_error_percent: f64,
+    /// Part of the variance that is explained; `null` for a force that does not vary.
+    pub r2: Option<f64>,
+    /// Samples that count.
+    pub samples: usize,
+    /// Independent samples that the residual is worth.
+    pub effective_samples: f64,
+}
+
+/// A fit near zero speed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LowSpeedEntry {
+    /// Samples slower than this count.
+    pub bound: f64,
+    /// Unit of the bound.
+    pub bound_unit: String,
+    /// The fit.
+    #[serde(flatten)]
+    pub fit: FitEntry,
+}
+
+/// A fit on a log that was not fitted.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ValidationEntry {
+    /// Path as given, or which part of the log.
+    pub path: String,
+    /// The fit.
+    #[serde(flatten)]
+    pub fit: FitEntry,
+    /// The same near zero speed.
+    pub low_speed: Option<LowSpeedEntry>,
+}
+
+/// The simulated axis of an output-error fit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SimulationEntry {
+    /// `open`: the logged force drives the axis; `closed`: the controller of the axis file does.
+    #[serde(rename = "loop")]
+    pub kind: String,
+    /// `held` or `centred`.
+    pub force_is: String,
+    /// Stretches that were simulated, each from a start of its own.
+    pub runs: usize,
+    /// Plant steps in one control period (in open loop: in one sample).
+    pub substeps: usize,
+    /// Where the search started: `separable` or `runs`.
+    pub start: String,
+    /// Position error.
+    pub position: FitEntry,
+    /// Rms that one encoder count alone would leave, in the unit of the position; `null` where the
+    /// count is not known.
+    pub quantisation_floor: Option<f64>,
+    /// Force error in closed loop; `null` in open loop, where the force is given.
+    pub force: Option<FitEntry>,
+    /// Force errors of the validation in closed loop, in the order of `validation`.
+    pub validation_force: Vec<FitEntry>,
+}
+
+/// One law in the comparison.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LawEntry {
+    /// Family.
+    pub law: String,
+    /// Whether each direction has parameters of its own.
+    pub asymmetric: bool,
+    /// Elements of a Maxwell-slip law; absent for other laws.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elements: Option<usize>,
+    /// Fitted parameters.
+    pub parameters: usize,
+    /// Relative error on the samples it was fitted to, percent.
+    pub fitted_error_percent: f64,
+    /// Relative error on held-out samples, percent; `null` where it could not be had.
+    pub held_out_error_percent: Option<f64>,
+    /// The same near zero speed.
+    pub held_out_low_speed_error_percent: Option<f64>,
+    /// Held-out error above the least of all laws, percent of it; `null` without a held-out error.
+    #[serde(default)]
+    pub held_out_excess_percent: Option<f64>,
+    /// Standard error of that difference, percent of the same.
+    #[serde(default)]
+    pub held_out_excess_std_percent: Option<f64>,
+    /// Akaike's criterion above the least of all laws, on effective samples.
+    #[serde(default)]
+    pub aic_difference: Option<f64>,
+    /// Bayesian criterion (Schwarz) above the least of all laws.
+    #[serde(default)]
+    pub bic_difference: Option<f64>,
+    /// Whether the log determines its Coulomb level; without that no law is trusted.
+    #[serde(default)]
+    pub determined: bool,
+    /// Whether this is the simplest law whose held-out error is within its noise, or 1 %, of the
+    /// least.
+    pub best: bool,
+}
+
+/// One number of elements of a Maxwell-slip law.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ElementsEntry {
+    /// How many elements.
+    pub elements: usize,
+    /// Relative error where it was fitted, percent.
+    pub fitted_error_percent: f64,
+    /// Relative error over blocks left out in turn, percent; `null` where it could not be had.
+    pub held_out_error_percent: Option<f64>,
+    /// Whether it was chosen.
+    pub chosen: bool,
+}
+
+/// How the search went.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Search {
+    /// `converged`, `budget`, `stalled` or `interrupted`.
+    pub status: String,
+    /// Evaluations of the model in all.
+    pub evaluations: usize,
+    /// Of those, with sensitivities.
+    pub with_sensitivities: usize,
+    /// Of all, on a thinned record.
+    pub thinned: usize,
+    /// Steps of all descents.
+    pub iterations: usize,
+    /// Time of the whole identification, s.
+    pub wall_s: f64,
+}

@@ -1,0 +1,62 @@
+//! What a search found by itself, and the least squares after it.
+
+use serde::{Deserialize, Serialize};
+
+/// A search as it goes into `result.json`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SearchedEntry {
+    /// `six` or `separable`.
+    pub cost: String,
+    /// `converged`, `exhausted`, `stalled`, `target`, `budget`, `time` or `interrupted`.
+    pub status: String,
+    /// Names of the unknowns, whose natural logarithms are searched.
+    pub unknowns: Vec<String>,
+    /// Ends of the box for each, in the unit of the unknown.
+    pub bounds: Vec<[f64; 2]>,
+    /// Evaluations in all.
+    pub evaluations: Evaluations,
+    /// The best of the search itself; `null` where it evaluated nothing.
+    pub own: Option<SearchedPoint>,
+    /// The best after its least squares, where it has any; else the same.
+    pub after_least_squares: Option<SearchedPoint>,
+    /// Evaluations of the full record, and the best cost until then.
+    pub history: Vec<(f64, f64)>,
+    /// After some generations: evaluations, then least cost, quartiles and greatest cost of the
+    /// population; `null` for a cost that is not finite.
+    pub generations: Vec<(f64, Vec<Option<f64>>)>,
+}
+
+/// Evaluations by kind.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Evaluations {
+    /// Costs on the full record.
+    pub costs: u64,
+    /// Costs with derivatives on the full record.
+    pub derivatives: u64,
+    /// Costs on the coarse record.
+    pub coarse_costs: u64,
+    /// Costs with derivatives on the coarse record.
+    pub coarse_derivatives: u64,
+    /// All of them in evaluations of the full record.
+    pub full_records: f64,
+}
+
+/// A point that a search found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SearchedPoint {
+    /// Sum of squares of the residual over that of the force.
+    pub cost: f64,
+    /// Evaluations of the full record until it was found.
+    pub evaluations: f64,
+    /// Its parameters.
+    pub parameters: Vec<SearchedParameter>,
+}
+
+/// A parameter of such a point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SearchedParameter {
+    /// Name, such as `sigma0`.
+    pub name: String,
+    /// SI.
+    pub value: f64,
+}

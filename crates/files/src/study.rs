@@ -1,0 +1,18 @@
+//! `study.toml`: paths, controllers and compensators on one simulated axis, with parameters right and wrong.
+//!
+//! Raw as typed, then resolved to SI and the types of the simulation.
+
+mod belief;
+mod grid;
+mod model;
+mod plan;
+mod raw;
+mod resolve;
+pub mod result;
+
+pub use belief::{Belief, Family};
+pub use grid::Job;
+pub use model::{Model, Parameter};
+pub use plan::{
+    ContourPlan, Machine, ModelKind, ModelScheme, Named, PathPlan, Scheme, Second, Study,
+};

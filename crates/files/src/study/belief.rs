@@ -1,0 +1,213 @@
+//! Wrong parameters: what a compensator is given instead of those of the axis.
+
+use super::model::{Model, law};
+use crate::result::CovarianceEntry;
+use stiction_friction::LuGre;
+use stiction_number::four_digits as short;
+use stiction_servo::known;
+use stiction_servo::noise::Noise;
+
+/// What is believed of the axis.
+#[derive(Clone, Copy, PartialEq)]
+pub struct Belief {
+    /// Its friction.
+    pub law: LuGre<f64>,
+    /// Its mass, kg (kg m^2).
+    pub mass: f64,
+}
+
+/// Beliefs of one kind.
+pub struct Family {
+    /// `exact`, `corners` or `covariance`.
+    pub kind: &'static str,
+    /// For tables: `exact`, `±10 %`, `95 % of 200 draws`.
+    pub name: String,
+    /// The members, one run each.
+    pub beliefs: Vec<Belief>,
+}
+
+/// Draws that fit no law are drawn again, up to so many times for each one asked for.
+const MOST_TRIES: u64 = 1000;
+
+/// Largest standard deviation of what is drawn, of its value.
+const MOST_SPREAD: f64 = 1e6;
+
+impl Family {
+    /// The parameters of the axis itself.
+    pub fn exact(truth: Belief) -> Self {
+        Family {
+            kind: "exact",
+            name: "exact".into(),
+            beliefs: vec![truth],
+        }
+    }
+
+    /// All 64 sets in which each of sigma0, sigma1, sigma2, Fc, Fs, vs is too small or too large by the part `by`.
+    pub fn corners(truth: Belief, by: f64) -> Self {
+        let beliefs = known::corners(&truth.law, by).map(|law| Belief { law, ..truth });
+        Family {
+            kind: "corners",
+            name: format!("±{} %", 100.0 * by),
+            beliefs: beliefs.collect(),
+        }
+    }
+
+    /// Parameters drawn from the normal distribution of the estimate, cut to what a law can have. `mass` is the one to
+    /// believe where the covariance knows none.
+    ///
+    /// `Err` says in words why nothing can be drawn.
+    pub fn draws(model: &Model, mass: Option<f64>, count: u64, seed: u64) -> Result<Self, String> {
+        let Some(covariance) = &model.covariance else {
+            return Err("a known axis has no covariance".into());
+        };
+        determined(model, covariance)?;
+        let spread = Spread::of(covariance)?;
+        let mut noise = Noise::new(seed);
+        let mut beliefs = Vec::new();
+        let mut tries = 0;
+        while (beliefs.len() as u64) < count {
+            if tries == MOST_TRIES * count {
+                return Err("hardly a draw from the covariance is a law".into());
+            }
+            tries += 1;
+            let off = spread.draw(&mut noise);
+            let value = |name: &str| {
+                let i = covariance.names.iter().position(|n| n == name);
+                model.value(name).map(|x| x + i.map_or(0.0, |i| off[i]))
+            };
+            let Ok(law) = law(&value) else { continue };
+            let Some(mass) = mass.or_else(|| value("mass")) else {
+                return Err("the model has no mass".into());
+            };
+            if mass > 0.0 {
+                beliefs.push(Belief { law, mass });
+            }
+        }
+        Ok(Family {
+            kind: "covariance",
+            name: format!("{count} draws"),
+            beliefs,
+        })
+    }
+}
+
+/// Refuses a variance that makes nearly every draw absurd, as of a parameter that the data did not determine. What may
+/// be 0 is measured by the Coulomb friction, and that at the Stribeck velocity.
+fn determined(model: &Model, covariance: &CovarianceEntry) -> Result<(), String> {
+    let of = |name: &str| {
+        let value = |suffix: &str| model.value(&format!("{name}{suffix}"));
+        value("").or_else(|| value("_pos")).map_or(0.0, f64::abs)
+    };
+    let damping = match of("stribeck_velocity") {
+        0.0 => f64::INFINITY,
+        speed => of("coulomb") / speed,
+    };
+    for (i, name) in covariance.names.iter().enumerate() {
+        let value = model.value(name).map_or(0.0, f64::abs);
+        let stem = name.strip_suffix("_pos").or(name.strip_suffix("_neg"));
+        let size = match stem.unwrap_or(name) {
+            "sigma0" | "coulomb" | "static" | "stribeck_velocity" | "stribeck_exponent"
+            | "mass" => value,
+            "sigma1" | "sigma2" => value.max(damping),
+            "offset" => value.max(of("coulomb")),
+            // Not simulated.
+            _ => continue,
+        };
+        let std = libm::sqrt(covariance.matrix[i][i]);
+        if std > MOST_SPREAD * size {
+            let (value, std) = (short(value), short(std));
+            return Err(format!(
+                "{name} = {value} has a standard deviation of {std}: the data did not determine it"
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// A square root of a covariance.
+struct Spread {
+    lower: Vec<Vec<f64>>,
+}
+
+impl Spread {
+    /// Cholesky on the correlations, so that units do not count. A parameter that hangs on those before it, or that the
+    /// data do not determine, has no part of its own.
+    fn of(covariance: &CovarianceEntry) -> Result<Self, String> {
+        let matrix = &covariance.matrix;
+        let n = matrix.len();
+        let size: Vec<f64> = (0..n).map(|i| libm::sqrt(matrix[i][i])).collect();
+        let mut lower = vec![vec![0.0; n]; n];
+        for i in 0..n {
+            for j in 0..=i {
+                let scale = size[i] * size[j];
+                if scale == 0.0 {
+                    continue;
+                }
+                let sum: f64 = (0..j).map(|k| lower[i][k] * lower[j][k]).sum();
+                let left = matrix[i][j] / scale - sum;
+                if !left.is_finite() || (i == j && left < -1e-6) {
+                    let name = &covariance.names[i];
+                    return Err(format!("the matrix is no covariance, seen at {name}"));
+                }
+                lower[i][j] = if i == j {
+                    libm::sqrt(left.max(0.0))
+                } else if lower[j][j] > 1e-6 {
+                    left / lower[j][j]
+                } else {
+                    0.0
+                };
+            }
+        }
+        for (row, size) in lower.iter_mut().zip(&size) {
+            row.iter_mut().for_each(|x| *x *= size);
+        }
+        Ok(Spread { lower })
+    }
+
+    fn draw(&self, noise: &mut Noise) -> Vec<f64> {
+        let normal: Vec<f64> = self.lower.iter().map(|_| noise.normal()).collect();
+        let row = |row: &Vec<f64>| row.iter().zip(&normal).map(|(a, b)| a * b).sum();
+        self.lower.iter().map(row).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The draws have the covariance that was asked for, a parameter tied to another stays tied, and one without
+    /// variance stays where it is.
+    #[test]
+    fn draws_have_the_covariance() {
+        let matrix = vec![
+            vec![4.0, 1.0, 0.0, 8.0],
+            vec![1.0, 9.0, 0.0, 2.0],
+            vec![0.0, 0.0, 0.0, 0.0],
+            vec![8.0, 2.0, 0.0, 16.0],
+        ];
+        let covariance = CovarianceEntry {
+            names: ["a", "b", "c", "d"].map(String::from).to_vec(),
+            matrix: matrix.clone(),
+        };
+        let spread = Spread::of(&covariance).unwrap();
+        let mut noise = Noise::new(1);
+        let n = 40_000;
+        let all: Vec<Vec<f64>> = (0..n).map(|_| spread.draw(&mut noise)).collect();
+        for i in 0..4 {
+            for j in 0..4 {
+                let found = all.iter().map(|x| x[i] * x[j]).sum::<f64>() / f64::from(n);
+                // Five standard errors of a covariance.
+                let allowed = 5.0
+                    * ((matrix[i][i] * matrix[j][j] + matrix[i][j] * matrix[i][j]) / f64::from(n))
+                        .sqrt();
+                assert!((found - matrix[i][j]).abs() <= allowed, "{i} {j}: {found}");
+            }
+        }
+        assert!(all.iter().all(|x| (x[3] - 2.0 * x[0]).abs() < 1e-12));
+        let wrong = CovarianceEntry {
+            names: ["a", "b"].map(String::from).to_vec(),
+            matrix: vec![vec![1.0, 2.0], vec![2.0, 1.0]],
+        };
+        assert!(Spread::of(&wrong).is_err());
+    }
+}

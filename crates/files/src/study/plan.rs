@@ -1,0 +1,172 @@
+//! A study, resolved: everything that a run of it needs, in SI units and the types of the simulation.
+
+use super::belief::{Belief, Family};
+use super::model::Model;
+use super::result::StudyInput;
+use crate::error::Warning;
+use stiction_friction::LuGre;
+use stiction_friction::compensator::{Adaptation, Source, Watchdog};
+use stiction_log::Motion;
+use stiction_servo::controller::Controller;
+use stiction_servo::cross_coupling::CrossCoupling;
+use stiction_servo::disturbance::Cogging;
+use stiction_servo::drive::Drive;
+use stiction_servo::encoder::Encoder;
+use stiction_servo::learning::Learning;
+use stiction_servo::plane::PlaneMotion;
+use stiction_servo::plant::Plant;
+use stiction_servo::trajectory::Trajectory;
+
+/// A study, resolved: ready to run.
+pub struct Study {
+    /// Name for the report.
+    pub name: String,
+    /// Seed of the noise and of drawn parameters.
+    pub seed: u64,
+    /// The simulated axis.
+    pub machine: Machine,
+    /// Reference motions of one axis.
+    pub paths: Vec<PathPlan>,
+    /// The second axis, where there is one.
+    pub second: Option<Second>,
+    /// Reference motions of both axes.
+    pub contours: Vec<ContourPlan>,
+    /// Controllers of the first axis.
+    pub controllers: Vec<Named<Controller>>,
+    /// What compensates friction; the first is none.
+    pub compensators: Vec<Named<Scheme>>,
+    /// What is believed of the first axis; the first family is the exact parameters.
+    pub families: Vec<Family>,
+    /// Files that were read, the study itself first.
+    pub inputs: Vec<StudyInput>,
+    /// What to beware of before anything runs.
+    pub warnings: Vec<Warning>,
+}
+
+impl Study {
+    /// Files that the study reads, itself first.
+    pub fn inputs(&self) -> impl Iterator<Item = &str> {
+        self.inputs.iter().map(|i| i.path.as_str())
+    }
+}
+
+/// Something with the name under which it stands in tables.
+pub struct Named<T> {
+    /// The name, which no other entry of its kind has.
+    pub name: String,
+    /// What it names.
+    pub value: T,
+}
+
+/// The simulated axis but for controller and compensator.
+pub struct Machine {
+    /// Linear or rotary.
+    pub motion: Motion,
+    /// Its parameters, and where they come from.
+    pub model: Model,
+    /// The law of the axis, with sigma1 capped unless the file says otherwise.
+    pub law: LuGre<f64>,
+    /// kg (kg m^2)
+    pub mass: f64,
+    /// Both together.
+    pub plant: Plant,
+    /// Whether the study gives the mass, rather than the model.
+    pub given_mass: bool,
+    /// Control rate, Hz.
+    pub rate: f64,
+    /// Plant steps in one control period.
+    pub substeps: u32,
+    /// Delay, current loop and limits.
+    pub drive: Drive,
+    /// Steps of the measured position.
+    pub encoder: Encoder,
+    /// Noise of the measured position before the encoder's steps, rms, m (rad).
+    pub position_noise: f64,
+    /// Cogging of the motor.
+    pub cogging: Option<Cogging>,
+}
+
+/// A reference motion of one axis and from when on it counts.
+pub struct PathPlan {
+    /// Its name.
+    pub name: String,
+    /// `sine`, `move`, `file` and others.
+    pub kind: &'static str,
+    /// The motion.
+    pub trajectory: Box<dyn Trajectory + Send + Sync>,
+    /// From when on samples count, s.
+    pub skip: f64,
+}
+
+/// What compensates friction.
+pub enum Scheme {
+    /// Nothing: what all others are compared with.
+    None,
+    /// A force from a law.
+    Model(ModelScheme),
+    /// A disturbance observer alone, with its bandwidth, Hz.
+    Observer(f64),
+    /// Learning from pass to pass; of so many passes the last counts.
+    Learning(Learning, u64),
+}
+
+/// A force from the law.
+pub struct ModelScheme {
+    /// How much of the law.
+    pub kind: ModelKind,
+    /// The velocity that drives the law.
+    pub source: Source<f64>,
+    /// Part of the force that is let through, 0 to 1.
+    pub gain: f64,
+    /// Speed below which the force stays as it is, m/s (rad/s).
+    pub dead_zone: f64,
+    /// Largest force, N (N m); `None`: that of the controller.
+    pub limit: Option<f64>,
+    /// Largest change of the force, N/s (N m/s).
+    pub slew: Option<f64>,
+    /// Time in which the force comes in, s.
+    pub ramp: f64,
+    /// Adaptation of the level.
+    pub adaptation: Option<Adaptation<f64>>,
+    /// What switches the force off where it makes the error larger.
+    pub watchdog: Option<Watchdog<f64>>,
+    /// How far ahead the reference is read, samples; `None`: what the drive needs, for the reference velocity.
+    pub preview: Option<f64>,
+    /// Bandwidth of a disturbance observer beside it, Hz.
+    pub observer: Option<f64>,
+}
+
+/// How much of the law.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum ModelKind {
+    /// Coulomb and viscous friction.
+    Coulomb,
+    /// The steady curve.
+    Stribeck,
+    /// The whole law with its bristles.
+    LuGre,
+}
+
+/// The second axis of a study and what is above both.
+pub struct Second {
+    /// The axis.
+    pub machine: Machine,
+    /// One for each controller of the first axis, in its order.
+    pub controllers: Vec<Controller>,
+    /// What is believed of this axis: one for each belief of each family.
+    pub families: Vec<Vec<Belief>>,
+    /// Control of the contour error, where there is any.
+    pub coupling: Option<CrossCoupling>,
+}
+
+/// A contour and from when on it counts.
+pub struct ContourPlan {
+    /// Its name.
+    pub name: String,
+    /// `circle`, `corner`, `square`, `figure-eight` or `file`.
+    pub kind: &'static str,
+    /// The motion of both axes.
+    pub motion: Box<dyn PlaneMotion + Send + Sync>,
+    /// From when on samples count, s.
+    pub skip: f64,
+}

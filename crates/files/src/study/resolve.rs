@@ -1,0 +1,194 @@
+//! From the study file as typed to the types of the simulation.
+
+mod compensators;
+mod contours;
+mod controllers;
+mod dimensions;
+mod entry;
+mod file;
+mod inputs;
+mod machine;
+mod paths;
+
+use super::belief::{Belief, Family};
+use super::plan::{Machine, Named, Study};
+use super::raw::{Source, Table};
+use crate::error::Error;
+use entry::{few, once};
+use inputs::input;
+use std::path::Path;
+use stiction_log::Dimension;
+
+/// Most entries of a list.
+const MOST: usize = 32;
+/// Most runs of the whole grid.
+const MOST_RUNS: usize = 100_000;
+impl Study {
+    /// Reads and checks a study file, and the models that it names.
+    ///
+    /// # Errors
+    /// With file, line, key, what was found and what is allowed.
+    pub fn read(file: &Path) -> Result<Self, Error> {
+        let text = crate::typed::read(file, "a study file")?;
+        resolve(&text, file)
+    }
+}
+
+/// Checks a study file; `file` is named in messages and paths in it start from its folder.
+fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
+    let source = Source { file, text };
+    let entries = source.parse()?;
+    let root = Table::root(source, &entries);
+    let name = match root.text("name")?.map(str::trim) {
+        None | Some("") => file
+            .file_stem()
+            .map_or_else(String::new, |s| s.to_string_lossy().into_owned()),
+        Some(name) => name.to_string(),
+    };
+    let seed = root.count("seed", 0, i64::MAX as u64)?.unwrap_or(0);
+    let axis = root.table("axis")?;
+    let axis = root.required("axis", axis, "a table [axis] with model = \"model.toml\"")?;
+    let folder = file.parent().unwrap_or(Path::new(""));
+    let machine = machine::machine(&axis, folder, None)?;
+    let other = root.table("second_axis")?;
+    let second = match &other {
+        Some(table) => Some(contours::second(&root, table, folder, &machine)?),
+        None => None,
+    };
+    let mut inputs = vec![file.to_path_buf()];
+    for table in [Some(axis), other].iter().flatten() {
+        if let Some(model) = table.text("model")? {
+            inputs.push(folder.join(model));
+        }
+    }
+    let inputs = inputs.iter().map(|path| input(path));
+    let mut study = Study {
+        name,
+        seed,
+        inputs: inputs.collect::<Result<_, Error>>()?,
+        warnings: Vec::new(),
+        paths: Vec::new(),
+        second,
+        contours: Vec::new(),
+        controllers: Vec::new(),
+        compensators: Vec::new(),
+        families: Vec::new(),
+        machine,
+    };
+    for table in root.tables("path", MOST)? {
+        let path = paths::path(&table, folder, &mut study)?;
+        few(&table, path.trajectory.duration(), study.machine.rate)?;
+        once(&table, study.paths.iter().map(|p| &p.name), &path.name)?;
+        study.paths.push(path);
+    }
+    for table in root.tables("contour", MOST)? {
+        let contour = contours::contour(&table, folder, &mut study)?;
+        few(&table, contour.motion.duration(), study.machine.rate)?;
+        let paths = study.paths.iter().map(|p| &p.name);
+        let taken = paths.chain(study.contours.iter().map(|c| &c.name));
+        once(&table, taken, &contour.name)?;
+        study.contours.push(contour);
+    }
+    for table in root.tables("controller", MOST)? {
+        contours::controller(&table, &mut study)?;
+        let controller = controllers::controller(&table, &study.machine)?;
+        once(&table, names(&study.controllers), &controller.name)?;
+        study.controllers.push(controller);
+    }
+    study.compensators.push(compensators::none());
+    for table in root.tables("compensator", MOST)? {
+        let compensator = compensators::compensator(&table, &study)?;
+        once(&table, names(&study.compensators), &compensator.name)?;
+        study.compensators.push(compensator);
+    }
+    for (key, none) in [
+        ("path", study.paths.is_empty() && study.contours.is_empty()),
+        ("controller", study.controllers.is_empty()),
+    ] {
+        if none {
+            let allowed = format!("give at least one [[{key}]]");
+            return Err(root.refuse(key, "is missing".into(), &allowed));
+        }
+    }
+    families(&root, &mut study)?;
+    root.end()?;
+    let runs = study.jobs().len();
+    if runs > MOST_RUNS {
+        let found = format!("{runs} runs");
+        return Err(root.refuse("path", found, &format!("at most {MOST_RUNS} in all")));
+    }
+    study.warnings.append(&mut study.machine.model.warnings);
+    if let Some(second) = &mut study.second {
+        study.warnings.append(&mut second.machine.model.warnings);
+    }
+    Ok(study)
+}
+
+/// `[[parameter_error]]`: the exact parameters are always there.
+fn families(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
+    let mut families = vec![Family::exact(study.machine.truth())];
+    let mut others = Vec::new();
+    if let Some(second) = &study.second {
+        others.push(Family::exact(second.machine.truth()).beliefs);
+    }
+    for table in root.tables("parameter_error", MOST)? {
+        let kind = table.choice("kind", &["corners", "covariance"])?;
+        let family = match table.required("kind", kind, "\"corners\" or \"covariance\"")? {
+            "corners" => {
+                let by = table.value("by", Dimension::ONE)?;
+                let by = table.required("by", by, "a part such as \"10 %\"")?;
+                if !(by > 0.0 && by < 1.0) {
+                    let allowed = "above 0 and below 100 %";
+                    return Err(table.refuse("by", by.to_string(), allowed));
+                }
+                let of = |machine: &Machine| Family::corners(machine.truth(), by);
+                others.extend(study.second.as_ref().map(|s| of(&s.machine).beliefs));
+                of(&study.machine)
+            }
+            _ => {
+                let draws = table.count("draws", 2, 10_000)?.unwrap_or(100);
+                let refused = |found| {
+                    table.refuse("kind", found, "a model with a covariance, or \"corners\"")
+                };
+                if let Some(second) = &study.second {
+                    // Draws of its own; a known axis has no covariance and is believed as it is.
+                    let seed = study.seed.wrapping_add(1);
+                    let machine = &second.machine;
+                    others.push(match machine.model.covariance {
+                        None => vec![machine.truth(); draws as usize],
+                        Some(_) => machine.draws(draws, seed).map_err(refused)?.beliefs,
+                    });
+                }
+                study.machine.draws(draws, study.seed).map_err(refused)?
+            }
+        };
+        table.end()?;
+        once(&table, families.iter().map(|f| &f.name), &family.name)?;
+        families.push(family);
+    }
+    study.families = families;
+    if let Some(second) = &mut study.second {
+        second.families = others;
+    }
+    Ok(())
+}
+
+impl Machine {
+    /// What an axis is.
+    fn truth(&self) -> Belief {
+        Belief {
+            law: self.law,
+            mass: self.mass,
+        }
+    }
+
+    /// Draws from the covariance of the model. A mass that the study gives is known.
+    fn draws(&self, count: u64, seed: u64) -> Result<Family, String> {
+        let given = self.given_mass.then_some(self.mass);
+        Family::draws(&self.model, given, count, seed)
+    }
+}
+
+fn names<T>(all: &[Named<T>]) -> impl Iterator<Item = &String> {
+    all.iter().map(|n| &n.name)
+}

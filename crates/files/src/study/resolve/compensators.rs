@@ -1,0 +1,149 @@
+//! `[[compensator]]`
+
+use super::dimensions::Dimensions;
+use super::entry::name;
+use crate::error::Error;
+use crate::study::plan::{ModelKind, ModelScheme, Named, Scheme, Study};
+use crate::study::raw::Table;
+use stiction_friction::compensator::{Adaptation, Settings, Source, Watchdog};
+use stiction_log::Dimension;
+use stiction_servo::learning::Learning;
+use stiction_servo::trajectory::FARTHEST;
+
+const KINDS: [&str; 5] = [
+    "coulomb",
+    "stribeck",
+    "lugre",
+    "disturbance-observer",
+    "learning",
+];
+
+/// What all others are compared with.
+pub(super) fn none() -> Named<Scheme> {
+    Named {
+        name: "none".into(),
+        value: Scheme::None,
+    }
+}
+
+pub(super) fn compensator(table: &Table<'_>, study: &Study) -> Result<Named<Scheme>, Error> {
+    let kind = table.choice("kind", &KINDS)?;
+    let kind = table.required("kind", kind, &format!("one of {}", KINDS.join(", ")))?;
+    let scheme = match kind {
+        "coulomb" => Scheme::Model(model(table, study, ModelKind::Coulomb)?),
+        "stribeck" => Scheme::Model(model(table, study, ModelKind::Stribeck)?),
+        "lugre" => Scheme::Model(model(table, study, ModelKind::LuGre)?),
+        "learning" => learning(table, study)?,
+        _ => {
+            let bandwidth = observer(table, "bandwidth", study)?;
+            Scheme::Observer(table.required("bandwidth", bandwidth, "one such as \"60 Hz\"")?)
+        }
+    };
+    let named = Named {
+        name: name(table, kind.into())?,
+        value: scheme,
+    };
+    table.end()?;
+    Ok(named)
+}
+
+fn observer(table: &Table<'_>, key: &'static str, study: &Study) -> Result<Option<f64>, Error> {
+    let bandwidth = table.positive(key, Dimension::FREQUENCY)?;
+    if let Some(f) = bandwidth.filter(|f| *f >= 0.5 * study.machine.rate) {
+        let allowed = "below half the control rate";
+        return Err(table.refuse(key, format!("{f} Hz"), allowed));
+    }
+    Ok(bandwidth)
+}
+
+fn learning(table: &Table<'_>, study: &Study) -> Result<Scheme, Error> {
+    let lead = table.not_negative("lead", Dimension::TIME)?;
+    let lead = table.required(
+        "lead",
+        lead,
+        "1/(2 pi) of the bandwidth, such as \"2.5 ms\"",
+    )?;
+    if lead > 1.0 {
+        return Err(table.refuse("lead", format!("{lead} s"), "at most 1 s"));
+    }
+    let cutoff = table.positive("cutoff", Dimension::FREQUENCY)?;
+    let learning = Learning {
+        gain: table.number("gain", 0.0, 1.0)?.unwrap_or(0.5),
+        lead: libm::round(lead * study.machine.rate) as usize,
+        cutoff: table.required("cutoff", cutoff, "one such as \"250 Hz\"")?,
+    };
+    let passes = table.count("passes", 2, 50)?.unwrap_or(6);
+    Ok(Scheme::Learning(learning, passes))
+}
+
+fn model(table: &Table<'_>, study: &Study, kind: ModelKind) -> Result<ModelScheme, Error> {
+    let is = Dimensions::of(study.machine.motion);
+    // The settings of a compensator to start with, where the file says nothing.
+    let usual = Settings::new(1.0 / study.machine.rate, 1.0);
+    let scheme = ModelScheme {
+        kind,
+        source: source(table, kind)?,
+        gain: table.number("gain", 0.0, 1.0)?.unwrap_or(usual.gain),
+        dead_zone: table
+            .not_negative("dead_zone", is.speed)?
+            .unwrap_or(usual.dead_zone),
+        limit: table.positive("limit", is.force)?,
+        slew: table.positive("slew", Dimensions::per(is.force, Dimension::TIME))?,
+        ramp: table
+            .not_negative("ramp", Dimension::TIME)?
+            .unwrap_or(usual.ramp),
+        adaptation: adaptation(table)?,
+        watchdog: match table.flag("watchdog")? {
+            Some(false) => None,
+            _ => Some(Watchdog {
+                window: table
+                    .positive("watchdog_window", Dimension::TIME)?
+                    .unwrap_or(Watchdog::default().window),
+                ..Watchdog::default()
+            }),
+        },
+        preview: table.number("preview", 0.0, FARTHEST)?,
+        observer: observer(table, "observer_bandwidth", study)?,
+    };
+    Ok(scheme)
+}
+
+fn source(table: &Table<'_>, kind: ModelKind) -> Result<Source<f64>, Error> {
+    let words = ["reference", "measured", "blend", "observer"];
+    match table.choice("source", &words)? {
+        None | Some("reference") => Ok(Source::Reference),
+        Some("measured") => Ok(Source::Measured),
+        Some("blend") => {
+            let share = table.number("measured_share", 0.0, 1.0)?;
+            let share = table.required("measured_share", share, "a number from 0 to 1")?;
+            Ok(Source::Blend(share))
+        }
+        Some(_) if kind != ModelKind::LuGre => {
+            let allowed = "with kind = \"lugre\" only: the others have no bristles to observe";
+            Err(table.refuse("source", "\"observer\"".into(), allowed))
+        }
+        Some(_) => {
+            let gain = table.not_negative("observer_gain", Dimension::FREQUENCY)?;
+            let gain = table.required("observer_gain", gain, "one such as \"10 1/s\"")?;
+            Ok(Source::Observer(gain))
+        }
+    }
+}
+
+fn adaptation(table: &Table<'_>) -> Result<Option<Adaptation<f64>>, Error> {
+    let Some(table) = table.table("adaptation")? else {
+        return Ok(None);
+    };
+    let rate = table.number("rate", 0.0, 1e12)?;
+    let adaptation = Adaptation {
+        rate: table.required("rate", rate, "a number in 1/(J s)")?,
+        range: table.number("range", 0.0, 1.0)?.unwrap_or(0.5),
+    };
+    table.end()?;
+    let usual = Settings {
+        adaptation: Some(adaptation),
+        ..Settings::new(1.0, 1.0)
+    };
+    usual.validate().map_err(|e| table.together(&e))?;
+    Ok(Some(adaptation))
+}

@@ -1,0 +1,60 @@
+//! What holds for every entry of a list in a study file: its name, and how long its motion is.
+
+use crate::error::Error;
+use crate::study::raw::Table;
+use stiction_number::four_digits as short;
+use stiction_servo::run::sample_count;
+
+/// Most samples of a run.
+pub(super) const MOST_SAMPLES: usize = 1_000_000;
+
+/// Least samples of a period, a move, a turn: fewer do not show what it is.
+pub(super) const LEAST_SAMPLES: f64 = 10.0;
+
+/// A path is not too long.
+pub(super) fn few(table: &Table<'_>, duration: f64, rate: f64) -> Result<(), Error> {
+    if sample_count(duration, rate).is_ok_and(|n| n <= MOST_SAMPLES) {
+        return Ok(());
+    }
+    let allowed = format!("at most {MOST_SAMPLES} samples, duration times rate");
+    Err(table.refuse("kind", format!("{} s", short(duration)), &allowed))
+}
+
+/// What a motion consists of, such as `a period` of some seconds, is not over within a few samples.
+pub(super) fn sampled(
+    table: &Table<'_>,
+    key: &str,
+    what: &str,
+    seconds: f64,
+    rate: f64,
+) -> Result<(), Error> {
+    let samples = seconds * rate;
+    if samples >= LEAST_SAMPLES {
+        return Ok(());
+    }
+    let found = format!("{what} of {} s, {} samples", short(seconds), short(samples));
+    let allowed = format!("at least {LEAST_SAMPLES} samples at {} Hz", short(rate));
+    Err(table.refuse(key, found, &allowed))
+}
+
+/// The name of an entry: given, or made of what it is.
+pub(super) fn name(table: &Table<'_>, default: String) -> Result<String, Error> {
+    match table.text("name")?.map(str::trim) {
+        None => Ok(default),
+        Some(name) if !name.is_empty() && name.chars().count() <= 60 => Ok(name.to_string()),
+        Some(name) => Err(table.refuse("name", format!("{name:?}"), "1 to 60 characters")),
+    }
+}
+
+/// Names tell the rows of the result apart.
+pub(super) fn once<'n>(
+    table: &Table<'_>,
+    mut taken: impl Iterator<Item = &'n String>,
+    name: &str,
+) -> Result<(), Error> {
+    if taken.any(|other| other == name) {
+        let allowed = "a name of its own for each: name = \"...\"";
+        return Err(table.refuse("name", format!("{name:?} twice"), allowed));
+    }
+    Ok(())
+}

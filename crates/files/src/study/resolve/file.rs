@@ -1,0 +1,134 @@
+//! Set points from a file: `kind = "file"` of a path or a contour.
+
+use super::entry::MOST_SAMPLES;
+use crate::error::{Error, Warning};
+use crate::study::raw::Table;
+use std::path::{Path, PathBuf};
+use stiction_codes::Code;
+use stiction_log::{Column, Dimension, Limits, ReadOptions, Unit, read_table};
+
+/// Largest file, bytes.
+const MOST_BYTES: u64 = 256 << 20;
+
+/// Times, s, and positions, m (rad), of the axes.
+pub(super) struct Points<const AXES: usize> {
+    pub times: Vec<f64>,
+    pub axes: [Vec<f64>; AXES],
+    pub file: PathBuf,
+    pub warning: Option<Warning>,
+}
+
+/// The first columns of the file that the key `file` names: time, then a position of each axis.
+pub(super) fn points<const AXES: usize>(
+    table: &Table<'_>,
+    folder: &Path,
+    length: Dimension,
+) -> Result<Points<AXES>, Error> {
+    let name = table.text("file")?;
+    let name = table.required("file", name, "a file with columns such as `t [s],x [mm]`")?;
+    let file = folder.join(name);
+    let mut options = ReadOptions::default();
+    options.limits = Limits {
+        file_bytes: MOST_BYTES,
+        ..options.limits
+    };
+    let read = read_table(&file, &options)?;
+    let refuse = |place: String, found: String, allowed: &str| Error::Config {
+        file: file.clone(),
+        place,
+        found,
+        allowed: allowed.into(),
+    };
+    if read.columns.len() < 1 + AXES {
+        let allowed = match AXES {
+            1 => "two: time and position",
+            _ => "three: time, x and y",
+        };
+        let found = format!("{} columns of numbers", read.columns.len());
+        return Err(refuse(String::new(), found, allowed));
+    }
+    if read.rows() > MOST_SAMPLES {
+        let found = format!("{} rows", read.rows());
+        return Err(refuse(
+            String::new(),
+            found,
+            &format!("at most {MOST_SAMPLES}"),
+        ));
+    }
+    let si = |i: usize, dimension: Dimension| -> Result<Vec<f64>, Error> {
+        let column = &read.columns[i];
+        let place = |row: usize| format!("data row {}, column {}: ", row + 1, named(column, i));
+        let unit = match &column.unit {
+            None => Unit::si(dimension),
+            Some(text) => Unit::parse(text)?,
+        };
+        if unit.dimension() != dimension {
+            let allowed = format!("a {} such as {}", dimension.name(), dimension.si_text());
+            let place = format!("column {}: ", named(column, i));
+            return Err(refuse(place, format!("unit {}", unit.text()), &allowed));
+        }
+        let values: Vec<f64> = column.values.iter().map(|x| unit.to_si(*x)).collect();
+        match values.iter().position(|x| !x.is_finite()) {
+            Some(row) => Err(refuse(
+                place(row),
+                "no number".into(),
+                "a number in every row",
+            )),
+            None if values.len() < read.rows() => Err(refuse(
+                place(values.len()),
+                "is missing".into(),
+                "a number in every row",
+            )),
+            None => Ok(values),
+        }
+    };
+    let times = si(0, Dimension::TIME)?;
+    if times.len() < 2 {
+        return Err(refuse(
+            String::new(),
+            format!("{} rows", times.len()),
+            "at least two",
+        ));
+    }
+    if let Some(row) = times.windows(2).position(|pair| pair[1] <= pair[0]) {
+        let place = format!(
+            "data row {}, column {}: ",
+            row + 2,
+            named(&read.columns[0], 0)
+        );
+        let found = format!("{} s", times[row + 1]);
+        return Err(refuse(place, found, "later than the row before"));
+    }
+    let mut axes = [const { Vec::new() }; AXES];
+    for (i, axis) in axes.iter_mut().enumerate() {
+        *axis = si(1 + i, length)?;
+    }
+    let bare = read.columns[..=AXES]
+        .iter()
+        .enumerate()
+        .filter(|(_, c)| c.unit.is_none());
+    let bare: Vec<String> = bare.map(|(i, column)| named(column, i)).collect();
+    let warning = (!bare.is_empty()).then(|| {
+        let columns = bare.join(", ");
+        let message = format!(
+            "{}: no unit at {columns}; taken as s and {}",
+            file.display(),
+            length.si_text()
+        );
+        Warning::new(Code::UnitAssumed, message)
+    });
+    Ok(Points {
+        times,
+        axes,
+        file,
+        warning,
+    })
+}
+
+/// A column by its name, or by its place where it has none.
+fn named(column: &Column, i: usize) -> String {
+    match column.name.trim() {
+        "" => (i + 1).to_string(),
+        name => format!("{name:?}"),
+    }
+}

@@ -1,0 +1,27 @@
+//! Files that a study reads.
+
+use crate::error::{Error, Warning};
+use crate::hash::sha256;
+use crate::study::plan::Study;
+use crate::study::result::StudyInput;
+use std::path::Path;
+
+/// A file with its hash.
+pub(super) fn input(path: &Path) -> Result<StudyInput, Error> {
+    Ok(StudyInput {
+        path: path.display().to_string(),
+        sha256: sha256(path)?,
+    })
+}
+
+impl Study {
+    /// Notes a file that was read, and what was said of it.
+    pub(super) fn reads(&mut self, file: &Path, warning: Option<Warning>) -> Result<(), Error> {
+        let input = input(file)?;
+        if !self.inputs.contains(&input) {
+            self.inputs.push(input);
+        }
+        self.warnings.extend(warning);
+        Ok(())
+    }
+}

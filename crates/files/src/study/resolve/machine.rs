@@ -1,0 +1,135 @@
+//! `[axis]` and `[second_axis]`
+
+use super::dimensions::Dimensions;
+use crate::error::{Error, Warning};
+use crate::study::model::{Model, law};
+use crate::study::plan::Machine;
+use crate::study::raw::Table;
+use std::path::Path;
+use stiction_codes::Code;
+use stiction_friction::Damping;
+use stiction_log::Dimension;
+use stiction_servo::disturbance::Cogging;
+use stiction_servo::drive::Drive;
+use stiction_servo::encoder::Encoder;
+use stiction_servo::known;
+use stiction_servo::plant::Plant;
+
+/// Least rate at which the plant is stepped, Hz.
+const PLANT_RATE: f64 = 1e4;
+/// Most plant steps of a control period.
+const MOST_SUBSTEPS: f64 = 100.0;
+/// `h sqrt(sigma0/M)` up to which a step shows how the axis swings on its bristles.
+const SHORT: f64 = 1.0;
+
+/// An axis; the control rate is that of the first axis where there is one.
+pub(super) fn machine(
+    table: &Table<'_>,
+    folder: &Path,
+    first: Option<f64>,
+) -> Result<Machine, Error> {
+    let mut model = match (table.text("model")?, table.text("known")?) {
+        (Some(file), None) => Model::read(&folder.join(file))?,
+        (None, Some(name)) => Model::known(name).ok_or_else(|| {
+            let names: Vec<_> = known::all().map(|axis| axis.name).collect();
+            table.refuse("known", format!("{name:?}"), &names.join(", "))
+        })?,
+        (None, None) => {
+            let allowed = "give a model file, or known = \"motor\" for a known axis";
+            return Err(table.refuse("model", "is missing".into(), allowed));
+        }
+        (Some(_), Some(_)) => {
+            let allowed = "either a model file or a known axis";
+            return Err(table.refuse("known", "stands beside model".into(), allowed));
+        }
+    };
+    let motion = model.motion;
+    let is = Dimensions::of(motion);
+    let law = law(&|name| model.value(name)).map_err(|e| table.together(&e))?;
+    let law = match table.choice("sigma1", &["capped", "constant"])? {
+        Some("constant") => law.with_damping(Damping::Constant(law.damping().at_rest())),
+        _ => Ok(law),
+    };
+    let law = law.map_err(|e| table.together(&e))?;
+    let given = table.positive("mass", is.mass)?;
+    let mass = given.or_else(|| model.value("mass").filter(|m| *m > 0.0));
+    let mass = table.required("mass", mass, "one such as \"4.6 kg\": the model has none")?;
+    let rate = match first {
+        None => table.positive("rate", Dimension::FREQUENCY)?,
+        rate => rate,
+    };
+    let rate = table.required("rate", rate, "the control rate, such as \"4 kHz\"")?;
+    if !(10.0..=1e6).contains(&rate) {
+        return Err(table.refuse("rate", format!("{rate} Hz"), "10 Hz to 1 MHz"));
+    }
+    let swing = (law.stiffness() / mass).sqrt();
+    let substeps = (PLANT_RATE.max(swing / SHORT) / rate).ceil();
+    let substeps = substeps.clamp(1.0, MOST_SUBSTEPS.max(PLANT_RATE / rate).ceil());
+    let long = swing / (rate * substeps);
+    if long > SHORT {
+        model.warnings.push(Warning::new(
+            Code::LongSteps,
+            format!(
+                "the bristles are too stiff for a plant step of {:.3e} s: h sqrt(sigma0/M) = {long:.1}, above {SHORT}; \
+                 what happens before break-away is not to be relied on; a higher rate makes the steps shorter",
+                1.0 / (rate * substeps)
+            ),
+        ));
+    }
+    let machine = Machine {
+        motion,
+        law,
+        mass,
+        plant: Plant::new(mass, law).map_err(|e| table.together(&e))?,
+        given_mass: given.is_some(),
+        rate,
+        substeps: substeps as u32,
+        drive: drive(table, &is, rate)?,
+        encoder: Encoder::new(table.not_negative("encoder", is.length)?.unwrap_or(0.0))
+            .map_err(|e| table.together(&e))?,
+        position_noise: table
+            .not_negative("position_noise", is.length)?
+            .unwrap_or(0.0),
+        cogging: cogging(table, &is)?,
+        model,
+    };
+    table.end()?;
+    Ok(machine)
+}
+
+fn drive(table: &Table<'_>, is: &Dimensions, rate: f64) -> Result<Drive, Error> {
+    let current_lag = match table.text("current_loop")? {
+        None | Some("none") => 0.0,
+        Some(_) => {
+            let bandwidth = table.positive("current_loop", Dimension::FREQUENCY)?;
+            bandwidth.map_or(0.0, |f| 1.0 / (2.0 * std::f64::consts::PI * f))
+        }
+    };
+    let drive = Drive {
+        peak_current: table
+            .positive("peak_force", is.force)?
+            .unwrap_or(f64::INFINITY),
+        current_lag,
+        delay: table
+            .not_negative("delay", Dimension::TIME)?
+            .unwrap_or(1.0 / rate),
+        ..Drive::ideal()
+    };
+    drive.validate(1.0 / rate).map_err(|e| table.together(&e))?;
+    Ok(drive)
+}
+
+fn cogging(table: &Table<'_>, is: &Dimensions) -> Result<Option<Cogging>, Error> {
+    let Some(table) = table.table("cogging")? else {
+        return Ok(None);
+    };
+    let amplitude = table.positive("amplitude", is.force)?;
+    let pitch = table.positive("pitch", is.length)?;
+    let cogging = Cogging {
+        amplitude: table.required("amplitude", amplitude, "a force such as \"2 N\"")?,
+        pitch: table.required("pitch", pitch, "a length such as \"24 mm\"")?,
+        phase: 0.0,
+    };
+    table.end()?;
+    Ok(Some(cogging))
+}

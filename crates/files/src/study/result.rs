@@ -1,0 +1,178 @@
+//! `study.json`: everything a study found. Schema `stiction.study/1`, only ever extended.
+
+use crate::error::Warning;
+use serde::{Deserialize, Serialize};
+
+/// Name of the schema.
+pub const SCHEMA: &str = "stiction.study/1";
+
+/// The whole file; described key by key in `docs/study.md`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StudyFile {
+    /// `stiction.study/1`.
+    pub schema: String,
+    /// Version of stiction.
+    pub version: String,
+    /// Name of the study.
+    pub name: String,
+    /// Seed of noise and draws.
+    pub seed: u64,
+    /// `complete` or `interrupted`.
+    pub status: String,
+    /// Files that were read.
+    pub inputs: Vec<StudyInput>,
+    /// The simulated axis.
+    pub axis: SimulatedAxis,
+    /// The second axis, where there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub second_axis: Option<SimulatedAxis>,
+    /// Reference motions, those of two axes last.
+    pub paths: Vec<PathEntry>,
+    /// One row for each path, controller, compensator and kind of parameters.
+    pub results: Vec<ResultRow>,
+    /// What to beware of.
+    pub warnings: Vec<Warning>,
+}
+
+/// A file that was read.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StudyInput {
+    /// Path, as it was opened.
+    pub path: String,
+    /// SHA-256 of the file, hexadecimal.
+    pub sha256: String,
+}
+
+/// The axis, resolved to SI.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SimulatedAxis {
+    /// `linear` or `rotary`.
+    pub kind: String,
+    /// Where its friction comes from.
+    pub origin: String,
+    /// Parameters of the law, and the mass.
+    pub parameters: Vec<AxisParameter>,
+    /// `capped` or `constant`.
+    pub sigma1: String,
+    /// Moving mass or inertia.
+    pub mass: f64,
+    /// Control rate, Hz.
+    pub rate_hz: f64,
+    /// Stretches of a control period in which the plant is stepped.
+    pub substeps: u32,
+    /// Transport delay, s.
+    pub delay_s: f64,
+    /// Time constant of the current loop, s.
+    pub current_lag_s: f64,
+    /// Largest force of the drive; `null` without a limit.
+    pub peak_force: Option<f64>,
+    /// One encoder step, m or rad.
+    pub encoder: f64,
+    /// Standard deviation of the noise on the position, m or rad.
+    pub position_noise: f64,
+}
+
+/// One parameter of the axis.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AxisParameter {
+    /// Name, such as `sigma0`.
+    pub name: String,
+    /// Value in `unit`.
+    pub value: f64,
+    /// SI unit.
+    pub unit: String,
+}
+
+/// A reference motion.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PathEntry {
+    /// Its name.
+    pub name: String,
+    /// Kind, as in the study file.
+    pub kind: String,
+    /// Length, s.
+    pub duration_s: f64,
+    /// From when on it counts, s.
+    pub skip_s: f64,
+}
+
+/// One cell of the grid.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ResultRow {
+    /// Name of the path.
+    pub path: String,
+    /// Name of the controller.
+    pub controller: String,
+    /// Name of the compensator.
+    pub compensator: String,
+    /// Whether the axes are controlled together.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub coupled: bool,
+    /// What it believed of the axis: `exact`, `±10 %`, `100 draws`.
+    pub parameters: String,
+    /// Runs that count here.
+    pub runs: usize,
+    /// Runs in which the watchdog switched the compensation off.
+    pub switched_off: usize,
+    /// Runs in which the watchdog still learnt, and let no force through, when the run began to count.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub still_learning: usize,
+    /// The metrics.
+    pub metrics: Vec<MetricEntry>,
+}
+
+fn is_zero(count: &usize) -> bool {
+    *count == 0
+}
+
+impl ResultRow {
+    /// What became of the compensation: `switched off`, `still learning`, each with how often in several runs.
+    pub fn remarks(&self) -> String {
+        let counts = [
+            (self.switched_off, "switched off"),
+            (self.still_learning, "still learning"),
+        ];
+        let remarks = counts.into_iter().filter(|(n, _)| *n > 0);
+        let words = remarks.map(|(n, what)| match n {
+            _ if n == self.runs => what.to_string(),
+            n => format!("{what} in {n} of {}", self.runs),
+        });
+        words.collect::<Vec<_>>().join(", ")
+    }
+
+    /// The compensator, and the coupling where there is one.
+    pub fn scheme(&self) -> String {
+        match (self.coupled, self.compensator.as_str()) {
+            (false, name) => name.into(),
+            (true, "none") => "coupling".into(),
+            (true, name) => format!("{name}, coupling"),
+        }
+    }
+
+    /// A metric by its name.
+    pub fn metric(&self, name: &str) -> Option<&MetricEntry> {
+        self.metrics.iter().find(|m| m.name == name)
+    }
+}
+
+/// One metric over the runs of a row.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MetricEntry {
+    /// Name, such as `reversal_peak`.
+    pub name: String,
+    /// SI unit.
+    pub unit: String,
+    /// Mean over the runs; the value where there is one run.
+    pub mean: f64,
+    /// Least of all runs.
+    pub least: f64,
+    /// Largest of all runs.
+    pub largest: f64,
+    /// What 95 % of the runs lie between, for draws from a covariance.
+    pub interval95: Option<[f64; 2]>,
+    /// By how much the mean is below that of the same path and controller without compensation, percent; negative where
+    /// it is above, `null` where that is zero or this is it.
+    pub reduction_percent: Option<f64>,
+    /// The same of the largest.
+    pub worst_reduction_percent: Option<f64>,
+}

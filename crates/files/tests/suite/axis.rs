@@ -1,0 +1,462 @@
+//! The axis file: every refusal names file, line, key, what was found and what is allowed; nothing
+//! that can be typed makes it fall over; what `check --init` writes can always be read again.
+
+use proptest::prelude::*;
+use std::fmt::Write;
+use std::path::Path;
+use stiction_files::axis::template;
+use stiction_files::{Axis, Error};
+use stiction_identify::{Cutoff, Hold, Source};
+use stiction_log::{Channel, Column, Log, Mapping, Motion, Role, Selector, Table, Unit, Value};
+
+/// Every key once.
+const WHOLE: &str = r#"name = "X axis"
+kind = "rotary"
+rate = "2 kHz"
+mass = "3 kg cm2"
+
+[columns]
+time = "t [ms]"
+position = { column = 2, unit = "deg" }
+velocity = 3
+force = { column = "Iq", unit = "A", scale = "0.5 N m/A", invert = true }
+reference = { column = "set", unit = "rev", scale = 2.5 }
+temperature = "temp"
+load = 9
+
+[log]
+crop = ["500 ms", "1 min"]
+wrap = "360 deg"
+force_limit = "4 N m"
+resolution = "0.1 mrad"
+
+[text]
+separator = "semicolon"
+decimal = "comma"
+header = true
+preamble = 3
+
+[conditioning]
+source = "velocity"
+source_cutoff = "off"
+common_cutoff = "50 Hz"
+decimate = 4
+min_speed = "60 rpm"
+
+[terms]
+offset = true
+gravity = true
+cogging = ["90 deg", "15 deg"]
+stribeck_exponent = 1.5
+gms_elements = 4
+
+[report]
+low_speed = "1 rad/s"
+
+[controller]
+kind = "p-pi"
+position_gain = "40 1/s"
+speed_gain = "0.6 N m s/rad"
+integral_gain = "20 A/rad"
+velocity_feedforward = 0.5
+mass_feedforward = "2 kg cm2"
+force_limit = "8 A"
+rate = "8 kHz"
+
+[simulation]
+force = "centred"
+segment = "500 ms"
+"#;
+
+fn parse(text: &str) -> Result<Axis, Error> {
+    Axis::parse(text, Path::new("axis.toml"))
+}
+
+#[test]
+fn every_key_is_understood() {
+    use std::f64::consts::PI;
+    let axis = parse(WHOLE).unwrap();
+    let near = |x: f64, y: f64| (x - y).abs() <= 1e-12 * y.abs();
+    assert_eq!(axis.name.as_deref(), Some("X axis"));
+    assert_eq!(axis.mapping.motion, Some(Motion::Rotary));
+    assert_eq!(axis.mapping.rate_hz, Some(2000.0));
+    assert_eq!(axis.mapping.crop, Some((0.5, 60.0)));
+    assert!(near(axis.mapping.wrap.unwrap().period, 2.0 * PI));
+    assert!(near(axis.mapping.resolution.unwrap(), 1e-4));
+    assert!(near(axis.mapping.force_limit.unwrap(), 4.0));
+    let force = axis.mapping.force.as_ref().unwrap();
+    assert_eq!(force.column, Selector::Name("Iq".into()));
+    assert!(force.invert);
+    assert_eq!(
+        axis.mapping.velocity.as_ref().unwrap().column,
+        Selector::Index(3)
+    );
+    assert_eq!(axis.text.header, Some(true));
+    assert_eq!(axis.text.preamble, Some(3));
+    assert_eq!(axis.conditioning.source, Some(Source::Velocity));
+    assert_eq!(axis.conditioning.source_cutoff, Cutoff::Off);
+    assert_eq!(axis.conditioning.common_cutoff, Cutoff::Hz(50.0));
+    assert_eq!(axis.conditioning.decimate, Some(4));
+    assert!(near(axis.conditioning.min_speed, 2.0 * PI));
+    assert!(axis.terms.gravity);
+    assert!(near(axis.terms.cogging[1], PI / 12.0));
+    assert_eq!(axis.stribeck_exponent, 1.5);
+    assert_eq!(axis.gms_elements, Some(4));
+    assert_eq!(axis.low_speed, Some(1.0));
+    assert_eq!(axis.hold, Hold::Centred);
+    assert_eq!(axis.segment, Some(0.5));
+}
+
+/// A log whose force is `unit`, after the scale of the axis file.
+fn log(axis: &Axis, names: [&str; 3]) -> Log {
+    let column = |name: &str, values: fn(usize) -> f64| Column {
+        name: name.into(),
+        unit: None,
+        values: (0..100).map(values).collect(),
+    };
+    let table = Table {
+        columns: vec![
+            column(names[0], |i| i as f64 * 1e-3),
+            column(names[1], |i| (i as f64 * 0.1).sin()),
+            column(names[2], |i| (i as f64 * 0.1).cos()),
+        ],
+        ..Table::default()
+    };
+    Log::from_table(&table, &axis.mapping).unwrap()
+}
+
+#[test]
+fn gains_come_in_the_unit_of_the_force_or_of_the_file() {
+    let text = |gains: &str| {
+        format!(
+            "kind = \"rotary\"\n[columns]\ntime = {{ column = \"t\", unit = \"s\" }}\n\
+             position = {{ column = \"q\", unit = \"rad\" }}\n\
+             force = {{ column = \"i\", unit = \"A\", scale = \"0.5 N m/A\" }}\n\
+             [controller]\nkind = \"p-pi\"\nposition_gain = \"40 1/s\"\n{gains}"
+        )
+    };
+    let both = [
+        "speed_gain = \"0.6 N m s/rad\"\nintegral_gain = \"10 N m/rad\"\n\
+         mass_feedforward = \"2 kg cm2\"\nforce_limit = \"4 N m\"",
+        "speed_gain = \"1.2 A s/rad\"\nintegral_gain = \"20 A/rad\"\n\
+         mass_feedforward = \"0.4 mA s2/rad\"\nforce_limit = \"8 A\"",
+    ];
+    for gains in both {
+        let axis = parse(&text(gains)).unwrap();
+        let log = log(&axis, ["t", "q", "i"]);
+        let c = axis.controller_for(&log).unwrap().unwrap();
+        let near = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-12, "{a} {b} {gains}");
+        near(c.position_gain, 40.0);
+        near(c.speed_gain, 0.6);
+        near(c.integral_gain, 10.0);
+        near(c.mass_feedforward, 2e-4);
+        near(c.force_limit, 4.0);
+        assert_eq!(c.rate, None);
+    }
+    let wrong = text("speed_gain = \"0.6 N s/m\"\nintegral_gain = \"10 N m/rad\"");
+    let axis = parse(&wrong).unwrap();
+    let e = axis
+        .controller_for(&log(&axis, ["t", "q", "i"]))
+        .unwrap_err();
+    insta::assert_snapshot!(
+        e.to_string(),
+        @r#"axis.toml: line 9, controller.speed_gain: "0.6 N s/m"; give it in N*m*s/rad, or in A/(rad/s), the unit of the log before scaling"#
+    );
+    assert!(
+        Axis::default()
+            .controller_for(&log(&axis, ["t", "q", "i"]))
+            .unwrap()
+            .is_none()
+    );
+}
+
+/// The examples of the documentation are axis files.
+#[test]
+fn documented_examples_are_accepted() {
+    let file = stiction_testkit::workspace().join("docs/axis.md");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let mut seen = 0;
+    for block in text.split("```toml\n").skip(1) {
+        let example = block.split("```").next().unwrap();
+        parse(example).unwrap_or_else(|e| panic!("{e}\n{example}"));
+        seen += 1;
+    }
+    assert!(seen > 0, "no example in {}", file.display());
+}
+
+#[test]
+fn refusals() {
+    let cases: &[(&str, &str)] = &[
+        ("unknown key", "nmae = \"X\""),
+        ("unknown table", "[colums]\ntime = 1"),
+        ("unknown key in a table", "[log]\n\nwarp = \"360 deg\""),
+        (
+            "unknown key of a column",
+            "[columns]\nforce = { column = 1, units = \"N\" }",
+        ),
+        ("number for a value with unit", "rate = 1000"),
+        ("text for a switch", "[terms]\ngravity = \"yes\""),
+        ("text for a number", "[terms]\nstribeck_exponent = \"2\""),
+        ("float for a column", "[columns]\nforce = 1.5"),
+        ("list for a column", "[columns]\nforce = [1, 2]"),
+        (
+            "table without column",
+            "[columns]\nforce = { unit = \"N\" }",
+        ),
+        ("column 0", "[columns]\ntime = 1\nforce = 0"),
+        ("column -1", "[columns]\nforce = { column = -1 }"),
+        ("unit of another dimension", "[log]\nwrap = \"360 N\""),
+        (
+            "unknown unit",
+            "[columns]\nforce = { column = 4, unit = \"Newtn\" }",
+        ),
+        (
+            "ambiguous unit",
+            "[columns]\nforce = { column = 4, unit = \"N/m s\" }",
+        ),
+        ("no unit", "[conditioning]\nsource_cutoff = \"100\""),
+        (
+            "scale 0",
+            "[columns]\nforce = { column = 4, unit = \"A\", scale = 0.0 }",
+        ),
+        (
+            "scale nan",
+            "[columns]\nforce = { column = 4, unit = \"A\", scale = nan }",
+        ),
+        (
+            "scale without number",
+            "[columns]\nforce = { column = 4, unit = \"A\", scale = \"N/A\" }",
+        ),
+        ("decimal comma", "mass = \"4,6 kg\""),
+        ("negative rate", "rate = \"-1 kHz\""),
+        ("negative mass", "mass = \"-4 kg\""),
+        ("huge mass", "mass = \"1e400 kg\""),
+        ("mass of another kind", "mass = \"4 N\""),
+        ("kind", "kind = \"Linear\""),
+        ("crop of one time", "[log]\ncrop = [\"1 s\"]"),
+        ("crop turned round", "[log]\ncrop = [\"20 s\", \"1 s\"]"),
+        ("crop in numbers", "[log]\ncrop = [1, 20]"),
+        ("crop in mm", "[log]\ncrop = [\"1 mm\", \"20 s\"]"),
+        ("wrap 0", "[log]\nwrap = \"0 deg\""),
+        ("separator", "[text]\nseparator = \"::\""),
+        ("decimal", "[text]\ndecimal = \"dot\""),
+        ("preamble -1", "[text]\npreamble = -1"),
+        ("source", "[conditioning]\nsource = \"both\""),
+        ("cut-off", "[conditioning]\ncommon_cutoff = \"on\""),
+        ("decimate 0", "[conditioning]\ndecimate = 0"),
+        (
+            "decimate huge",
+            "[conditioning]\ndecimate = 9223372036854775807",
+        ),
+        ("min speed in mm", "[conditioning]\nmin_speed = \"1 mm\""),
+        (
+            "five pitches",
+            "[terms]\ncogging = [\"1 mm\", \"2 mm\", \"3 mm\", \"4 mm\", \"5 mm\"]",
+        ),
+        ("pitch 0", "[terms]\ncogging = [\"0 mm\"]"),
+        ("exponent 0", "[terms]\nstribeck_exponent = 0.0"),
+        ("exponent nan", "[terms]\nstribeck_exponent = nan"),
+        (
+            "controller",
+            "[controller]\nkind = \"pid\"\nposition_gain = \"1 1/s\"\nspeed_gain = \"1 N s/m\"",
+        ),
+        (
+            "controller without its integral",
+            "[controller]\nkind = \"p-pi\"\nposition_gain = \"1 1/s\"\nspeed_gain = \"1 N s/m\"",
+        ),
+        (
+            "controller with an integral too many",
+            "[controller]\nkind = \"p-p\"\nposition_gain = \"1 1/s\"\nspeed_gain = \"1 N s/m\"\n\
+             integral_gain = \"1 N/m\"",
+        ),
+        (
+            "gain 0",
+            "[controller]\nkind = \"p-p\"\nposition_gain = \"1 1/s\"\nspeed_gain = \"0 N s/m\"",
+        ),
+        (
+            "gain of another kind",
+            "[controller]\nkind = \"p-p\"\nposition_gain = \"1 N\"\nspeed_gain = \"1 N s/m\"",
+        ),
+        ("controller without gains", "[controller]\nkind = \"p-p\""),
+        (
+            "feedforward 2",
+            "[controller]\nkind = \"p-p\"\nposition_gain = \"1 1/s\"\nspeed_gain = \"1 N s/m\"\n\
+             velocity_feedforward = 2.0",
+        ),
+        ("hold", "[simulation]\nforce = \"hold\""),
+        ("segment", "[simulation]\nsegment = \"0 s\""),
+        ("two elements", "[terms]\ngms_elements = 2"),
+        ("eleven elements", "[terms]\ngms_elements = 11"),
+        ("less than no elements", "[terms]\ngms_elements = -1"),
+        ("elements in words", "[terms]\ngms_elements = \"auto\""),
+        ("low speed", "[report]\nlow_speed = \"-1 mm/s\""),
+        ("the same key twice", "name = \"a\"\n\nname = \"b\""),
+        (
+            "the same column under two names",
+            "[columns]\nforce = 1\ntorque = 2",
+        ),
+        ("no TOML", "kind: linear\n"),
+        ("open text", "name = \"X"),
+        ("sub-table", "[columns.force]\ncolumn = 4\nunit = \"mm/\""),
+        ("dotted key", "columns.force = 0"),
+    ];
+    let mut out = String::new();
+    for (what, text) in cases {
+        let error = parse(text).expect_err(what);
+        assert_eq!(error.code().as_str(), "bad-config", "{what}");
+        let message = error.to_string();
+        assert!(message.starts_with("axis.toml: "), "{message}");
+        assert!(!message.contains('\n'), "{message}");
+        let _ = writeln!(out, "{what}\n    {message}");
+    }
+    insta::assert_snapshot!(out);
+}
+
+/// A table with one row and these names and units.
+fn table(names: &[(String, Option<String>)]) -> Table {
+    Table {
+        columns: names
+            .iter()
+            .map(|(name, unit)| Column {
+                name: name.clone(),
+                unit: unit.clone(),
+                values: vec![0.0],
+            })
+            .collect(),
+        ..Table::default()
+    }
+}
+
+/// Names as files may hold them: anything, and what would break out of a text or a comment.
+fn name() -> impl Strategy<Value = String> {
+    prop_oneof![
+        any::<String>(),
+        "[\"'\\\\\\]\\[={}#,\n\r\t\u{0}\u{b}\u{7f}\u{85}\u{2028}\u{feff} a]{0,12}",
+        Just("\"\"\"\n".to_string()),
+        Just("'''".to_string()),
+        Just("a\"\nkind = \"rotary\"\n".to_string()),
+        Just("\u{0}".to_string()),
+        Just(String::new()),
+    ]
+}
+
+/// Fragments that a confused person or a fuzzer may put together.
+fn toml_like() -> impl Strategy<Value = String> {
+    let piece = prop_oneof![
+        prop::sample::select(WHOLE.lines().collect::<Vec<_>>()).prop_map(str::to_string),
+        prop::sample::select(vec![
+            "=",
+            "[",
+            "]",
+            "{",
+            "}",
+            "[[",
+            "]]",
+            "\"",
+            "'",
+            "\"\"\"",
+            ".",
+            ",",
+            "\n",
+            "#",
+            "\\u0000",
+            "1e999",
+            "-0",
+            "nan",
+            "inf",
+            "0x",
+            "1979-05-27T07:32:00Z",
+            "columns",
+            "force",
+            "\u{feff}",
+            "column",
+            "N/A",
+            "1 N m/",
+            "µm",
+            "m^99999999999",
+            "((((",
+            "kg^-2147483648",
+        ])
+        .prop_map(str::to_string),
+        any::<String>(),
+    ];
+    prop::collection::vec(piece, 0..20).prop_map(|pieces| pieces.join(" "))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn arbitrary_text_is_read_or_refused(text in toml_like()) {
+        if let Err(e) = parse(&text) {
+            prop_assert!(e.to_string().starts_with("axis.toml: "));
+        }
+    }
+
+    #[test]
+    fn a_changed_axis_file_is_read_or_refused(
+        edits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0u8..3), 1..6)
+    ) {
+        let mut bytes = WHOLE.as_bytes().to_vec();
+        for (at, byte, how) in edits {
+            let at = at.index(bytes.len());
+            match how {
+                0 => bytes[at] = byte,
+                1 => { bytes.remove(at); }
+                _ => bytes.insert(at, byte),
+            }
+        }
+        let text = String::from_utf8_lossy(&bytes);
+        if let Err(e) = parse(&text) {
+            prop_assert!(e.to_string().starts_with("axis.toml: "));
+        }
+    }
+
+    /// Values of every key replaced by text of any kind.
+    #[test]
+    fn any_value_is_read_or_refused(line in 0usize..64, value in any::<String>()) {
+        let lines: Vec<&str> = WHOLE.lines().collect();
+        let mut text = String::new();
+        for (i, old) in lines.iter().enumerate() {
+            match old.split_once(" = ") {
+                Some((key, _)) if i == line % lines.len() => {
+                    let quoted = toml::Value::String(value.clone());
+                    let _ = writeln!(text, "{key} = {quoted}");
+                }
+                _ => { let _ = writeln!(text, "{old}"); }
+            }
+        }
+        let _ = parse(&text);
+    }
+
+    #[test]
+    fn a_template_is_an_axis_file(
+        names in prop::collection::vec((name(), prop::option::of(name())), 0..6),
+        position in name(),
+        force in name(),
+    ) {
+        let table = table(&names);
+        parse(&template(&table, Err("two columns\nfit"))).unwrap();
+        let mut mapping = Mapping::detect(&table).map(|d| d.mapping).unwrap_or_default();
+        parse(&template(&table, Ok(&mapping))).unwrap();
+        mapping.motion = Some(Motion::Rotary);
+        mapping.position = Some(Channel {
+            unit: Some(Unit::parse("deg").unwrap()),
+            ..Channel::named(position.clone())
+        });
+        mapping.force = Some(Channel {
+            scale: Some(Value::parse("35.15 N m/A").unwrap()),
+            unit: Some(Unit::parse("A").unwrap()),
+            invert: true,
+            ..Channel::named(force.clone())
+        });
+        let text = template(&table, Ok(&mapping));
+        let axis = parse(&text).unwrap();
+        // What was filled in comes back, and nothing else got in.
+        prop_assert_eq!(axis.mapping.motion, Some(Motion::Rotary));
+        for role in [Role::Position, Role::Force] {
+            prop_assert_eq!(axis.mapping.channel(role), mapping.channel(role));
+        }
+        prop_assert_eq!(axis.name, None);
+    }
+}

@@ -1,0 +1,306 @@
+//! `report.html`: an identification as a person reads it.
+
+mod comparison;
+mod dependences;
+mod elements;
+mod figures;
+mod formula;
+mod ladder;
+mod procedure;
+mod reproduction;
+mod searched;
+mod simulation;
+mod study;
+mod tables;
+
+pub use comparison::comparison;
+
+pub use reproduction::reproduction;
+use stiction_number::Percent;
+use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
+use stiction_workflows::identify::Outcome;
+pub use study::study;
+pub(crate) use study::{judged, less};
+
+/// The report of one identification.
+pub fn identification(outcome: &Outcome) -> Document {
+    let result = &outcome.result;
+    let name = result.axis.name.clone().unwrap_or_else(|| {
+        result
+            .inputs
+            .first()
+            .map_or_else(String::new, |i| file_name(&i.path))
+    });
+    let law = law_name(&result.law, result.asymmetric);
+    let mut document = Document::new(format!("Friction of {name}"))
+        .subtitle(format!(
+            "{law}{}, identified from {}",
+            chosen_by(&result.law_chosen_by),
+            logs(result.inputs.len())
+        ))
+        .footer(format!(
+            "stiction {} · method {} · seed {} · {} evaluations",
+            result.version, result.method, result.seed, result.search.evaluations
+        ));
+    document = document.block(verdict(outcome));
+    document = document.block(Block::KeyFigures(key_figures(outcome)));
+    document = document
+        .heading(2, "Parameters")
+        .block(tables::parameters(outcome));
+    if !outcome.truth.is_empty() {
+        document = document.block(tables::truth(outcome));
+    }
+    document = document.block(formula::with_numbers(outcome));
+    if !result.warnings.is_empty() {
+        document = document.heading(2, "Warnings");
+        for warning in &result.warnings {
+            document = document.block(Callout {
+                severity: Severity::Warning,
+                code: warning.code.to_string(),
+                text: Text::from(warning.message.as_str()),
+                link: String::new(),
+            });
+        }
+    }
+    for block in procedure::sections(outcome) {
+        document = document.block(block);
+    }
+    // Points of a map and displacements are no force sample by sample.
+    let sampled = matches!(result.method.as_str(), "separable" | "static-then-dynamic")
+        || result.searched.is_some();
+    document = match &outcome.simulation {
+        Some(simulated) => simulation::sections(document, outcome, simulated),
+        None if sampled => measured_force(document, outcome),
+        None => document,
+    };
+    if !result.laws.is_empty() {
+        document = document
+            .heading(2, "Which law")
+            .block(tables::laws(outcome))
+            .block(ladder::figure(outcome));
+    }
+    if !result.elements.is_empty() {
+        document = document
+            .heading(2, "How many elements")
+            .block(elements::tried(outcome));
+    }
+    if sampled {
+        document = how_sure(document, outcome);
+    } else {
+        document = document
+            .heading(2, "How sure")
+            .block(figures::correlation(outcome));
+    }
+    for block in searched::sections(outcome) {
+        document = document.block(block);
+    }
+    document = document.heading(2, "What was read, and how it was conditioned");
+    for input in &result.inputs {
+        document = document.block(tables::input(input));
+    }
+    document.block(Block::List(
+        result
+            .axis
+            .conditioning
+            .iter()
+            .map(|note| Text::from(note.as_str()))
+            .collect(),
+    ))
+}
+
+/// The figures of a fit of the force.
+fn measured_force(mut document: Document, outcome: &Outcome) -> Document {
+    document = document
+        .heading(2, "Friction and velocity")
+        .block(figures::velocity_map(outcome));
+    let close: Vec<Block> = [
+        figures::low_speed(outcome),
+        figures::presliding(outcome),
+        elements::virgin(outcome),
+    ]
+    .into_iter()
+    .flatten()
+    .map(Block::from)
+    .collect();
+    if !close.is_empty() {
+        document = document.block(Block::Columns(close));
+    }
+    document = document
+        .heading(2, "Force in time")
+        .block(figures::time(outcome));
+    if !outcome.validation.is_empty() {
+        document = document
+            .heading(2, "Validation")
+            .block(tables::validation(outcome));
+        for (path, series) in &outcome.validation {
+            document = document.block(figures::validation(outcome, path, series));
+        }
+    }
+    document
+}
+
+/// What the residual tells, and how the parameters hang together.
+fn how_sure(document: Document, outcome: &Outcome) -> Document {
+    document
+        .heading(2, "How sure")
+        .paragraph(sureness(outcome))
+        .block(Block::Columns(vec![
+            figures::autocorrelation(outcome).into(),
+            figures::convergence(outcome).into(),
+        ]))
+        .block(figures::correlation(outcome))
+}
+
+fn verdict(outcome: &Outcome) -> Callout {
+    let trust = &outcome.result.trust;
+    let flagged = outcome
+        .result
+        .parameters
+        .iter()
+        .filter(|p| !p.identifiable)
+        .count();
+    let (severity, text) = if !trust.trustworthy {
+        (
+            Severity::Error,
+            format!("Do not use these numbers: {}.", trust.reasons.join("; ")),
+        )
+    } else if flagged > 0 {
+        let what = if flagged == 1 {
+            "1 parameter is"
+        } else {
+            &format!("{flagged} parameters are")
+        };
+        (
+            Severity::Warning,
+            format!("The fit holds, but {what} not determined by this log; see the flags below."),
+        )
+    } else {
+        (
+            Severity::Good,
+            "Every parameter is determined by this log.".to_string(),
+        )
+    };
+    Callout {
+        severity,
+        code: String::new(),
+        text: Text::from(text),
+        link: String::new(),
+    }
+}
+
+fn key_figures(outcome: &Outcome) -> Vec<KeyFigure> {
+    let result = &outcome.result;
+    let fit = &result.fit;
+    let mut out = vec![
+        KeyFigure::new(
+            "Relative error",
+            Percent::error(fit.relative_error_percent).digits(3),
+            "",
+        )
+        .note("100 rms(residual) / rms(measured)"),
+        KeyFigure::new("Residual", number::sig(fit.rmse, 3), fit.unit.as_str()).note(format!(
+            "rms, R² {}",
+            number::sig(fit.r2.unwrap_or(f64::NAN), 5)
+        )),
+    ];
+    if let Some(low) = &result.low_speed {
+        out.push(
+            KeyFigure::new(
+                "Near zero speed",
+                number::sig(low.fit.rmse, 3),
+                fit.unit.as_str(),
+            )
+            .note(format!(
+                "rms below {} {}",
+                number::sig(low.bound, 3),
+                low.bound_unit
+            )),
+        );
+    }
+    if let Some(v) = result.validation.last() {
+        out.push(
+            KeyFigure::new(
+                "On unseen data",
+                number::sig(v.fit.rmse, 3),
+                fit.unit.as_str(),
+            )
+            .note(format!(
+                "rms, {}",
+                Percent::error(v.fit.relative_error_percent).digits(3)
+            )),
+        );
+    }
+    let total = result
+        .parameters
+        .iter()
+        .filter(|p| p.origin == "identified")
+        .count();
+    let known = result
+        .parameters
+        .iter()
+        .filter(|p| p.origin == "identified" && p.identifiable)
+        .count();
+    out.push(
+        KeyFigure::new("Identifiable", format!("{known} of {total}"), "")
+            .note("standard deviation at most 10 %"),
+    );
+    out
+}
+
+fn sureness(outcome: &Outcome) -> String {
+    let fit = &outcome.result.fit;
+    let worth = fit.effective_samples.max(0.0) as usize;
+    let resembles = match worth < fit.samples {
+        true => "neighbouring residuals resemble each other, and the intervals count that",
+        false => "neighbouring residuals do not resemble each other",
+    };
+    format!(
+        "The residual is worth about {} independent samples of {}: {resembles}. What is left outside the \
+         band in the autocorrelation is friction, cogging or dynamics that the law does not describe. \
+         The intervals do not cover the bias of a wrong law.",
+        number::count(worth as u64),
+        number::count(fit.samples as u64)
+    )
+}
+
+pub(crate) fn law_name(law: &str, asymmetric: bool) -> String {
+    let name = match law {
+        "coulomb-viscous" => "Coulomb + viscous",
+        "stribeck" => "Stribeck",
+        "dahl" => "Dahl",
+        "lugre" => "LuGre",
+        "elasto-plastic" => "Elasto-plastic",
+        "maxwell-slip" => "Maxwell slip",
+        "gms" => "Generalised Maxwell slip",
+        other => other,
+    };
+    if asymmetric {
+        format!("{name}, asymmetric")
+    } else {
+        name.to_string()
+    }
+}
+
+/// What stands after the name of a law that the data chose.
+pub(crate) fn chosen_by(who: &str) -> &'static str {
+    match who {
+        "cross-validation" => " (chosen by cross-validation)",
+        "validation" => " (chosen on the validation data)",
+        "bic" => " (chosen by the Bayesian criterion: too few samples to hold some out)",
+        _ => "",
+    }
+}
+
+fn logs(n: usize) -> String {
+    if n == 1 {
+        "one log".into()
+    } else {
+        format!("{n} logs")
+    }
+}
+
+fn file_name(path: &str) -> String {
+    std::path::Path::new(path)
+        .file_name()
+        .map_or_else(|| path.to_string(), |n| n.to_string_lossy().into_owned())
+}

@@ -1,0 +1,421 @@
+//! The figures of the report.
+
+use stiction_files::symbols;
+use stiction_identify::Series;
+use stiction_report::{Axis, Color, Dash, Figure, Heatmap, Layer, Panel, Text};
+use stiction_signal::autocorrelation as correlate;
+use stiction_workflows::identify::Outcome;
+
+/// Lags of the autocorrelation, at most.
+const LAGS: usize = 200;
+
+/// Fewer samples than this make no picture.
+const FEW: usize = 10;
+
+/// What drives the axis: force, torque, current. The signal of a fit may be the position.
+fn driver(outcome: &Outcome) -> &'static str {
+    symbols::driver(outcome.motion, &outcome.force_unit)
+}
+
+pub(super) fn force_axis(outcome: &Outcome) -> Axis {
+    let name = driver(outcome);
+    Axis::new(
+        format!("{}{}", name[..1].to_uppercase(), &name[1..]),
+        outcome.force_unit.as_str(),
+    )
+}
+
+pub(super) fn friction_axis(outcome: &Outcome) -> Axis {
+    Axis::new(
+        format!("Friction {}", driver(outcome)),
+        outcome.force_unit.as_str(),
+    )
+}
+
+pub(super) fn velocity_axis(outcome: &Outcome) -> Axis {
+    Axis::new("Velocity", symbols::speed_unit(outcome.motion))
+}
+
+/// Friction in the measured force: what is left after inertia and the other terms.
+fn friction(values: &[f64], series: &Series) -> Vec<f64> {
+    values
+        .iter()
+        .zip(&series.other)
+        .map(|(u, o)| u - o)
+        .collect()
+}
+
+/// Where a line must not be drawn on: samples were left out before this one, or a log begins.
+pub(super) fn breaks(series: &Series) -> Vec<bool> {
+    let n = series.time.len();
+    let mut steps: Vec<f64> = series.time.windows(2).map(|t| t[1] - t[0]).collect();
+    let usual = if steps.is_empty() {
+        0.0
+    } else {
+        let middle = steps.len() / 2;
+        *steps.select_nth_unstable_by(middle, f64::total_cmp).1
+    };
+    (0..n)
+        .map(|i| {
+            i > 0
+                && (series.log[i] != series.log[i - 1]
+                    || series.time[i] - series.time[i - 1] > 1.5 * usual)
+        })
+        .collect()
+}
+
+/// A channel with a hole before each break.
+pub(super) fn broken(values: &[f64], breaks: &[bool]) -> Vec<f64> {
+    let mut out = Vec::with_capacity(values.len() + 16);
+    for (x, &hole) in values.iter().zip(breaks) {
+        if hole {
+            out.push(f64::NAN);
+        }
+        out.push(*x);
+    }
+    out
+}
+
+/// Friction over velocity: measured cloud, model, the steady curve with its band.
+pub(super) fn velocity_map(outcome: &Outcome) -> Figure {
+    let series = &outcome.estimate.series;
+    let holes = breaks(series);
+    let [band, curve] = steady_layers(outcome, &series.velocity);
+    let panel = Panel::new(velocity_axis(outcome), friction_axis(outcome))
+        .layer(
+            Layer::points(series.velocity.clone(), friction(&series.measured, series))
+                .color(Color::Grey)
+                .label("Measured, inertia taken off"),
+        )
+        .layer(
+            Layer::line(
+                broken(&series.velocity, &holes),
+                broken(&friction(&series.model, series), &holes),
+            )
+            .color(Color::Blue)
+            .width(1.0)
+            .opacity(0.7)
+            .label("Model along the log"),
+        )
+        .layer(band)
+        .layer(curve)
+        .height(320.0);
+    Figure::new("Friction over velocity").panel(panel).caption(
+        "The steady curve is what the law gives at constant velocity; the model along the log also \
+         shows presliding and lag around reversals.",
+    )
+}
+
+/// The steady curve with its band, over the speeds of a log.
+pub(super) fn steady_layers(outcome: &Outcome, velocity: &[f64]) -> [Layer; 2] {
+    let top = velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let v: Vec<f64> = grid(top);
+    let curve: Vec<f64> = v.iter().map(|&v| steady(outcome, v)).collect();
+    let band: Vec<f64> = v.iter().map(|&v| 1.96 * steady_std(outcome, v)).collect();
+    let low: Vec<f64> = curve.iter().zip(&band).map(|(f, b)| f - b).collect();
+    let high: Vec<f64> = curve.iter().zip(&band).map(|(f, b)| f + b).collect();
+    [
+        Layer::band(v.clone(), low, high)
+            .color(Color::Vermilion)
+            .label("95 % band"),
+        Layer::line(v, curve)
+            .color(Color::Vermilion)
+            .width(2.0)
+            .label("Steady curve"),
+    ]
+}
+
+/// Points dense near zero speed, none at it.
+pub(super) fn grid(top: f64) -> Vec<f64> {
+    let half: Vec<f64> = (0..160)
+        .map(|i| top * (i as f64 / 159.0).powi(3))
+        .skip(1)
+        .collect();
+    half.iter()
+        .rev()
+        .map(|v| -v)
+        .chain(half.iter().copied())
+        .collect()
+}
+
+fn value(outcome: &Outcome, name: &str, v: f64) -> f64 {
+    let side = if v < 0.0 { "_neg" } else { "_pos" };
+    outcome
+        .estimate
+        .value(name)
+        .or_else(|| outcome.estimate.value(&format!("{name}{side}")))
+        .unwrap_or(0.0)
+}
+
+/// Stribeck exponent, given or fitted.
+fn exponent(outcome: &Outcome) -> f64 {
+    let estimate = &outcome.estimate;
+    estimate
+        .value("stribeck_exponent")
+        .unwrap_or(estimate.law.exponent)
+}
+
+/// Steady friction at one velocity, where load, temperature and position are at their references.
+pub(super) fn steady(outcome: &Outcome, v: f64) -> f64 {
+    let coulomb = value(outcome, "coulomb", v);
+    let fixed = match value(outcome, "static", v) {
+        0.0 => coulomb,
+        fixed => fixed,
+    };
+    let velocity = value(outcome, "stribeck_velocity", v);
+    let fall = if velocity > 0.0 {
+        libm::exp(-libm::pow(v.abs() / velocity, exponent(outcome)))
+    } else {
+        0.0
+    };
+    let square = value(outcome, "quadratic_viscous", v);
+    (coulomb + (fixed - coulomb) * fall) * v.signum()
+        + (value(outcome, "sigma2", v) + square * v.abs()) * v
+}
+
+/// Standard deviation of the steady curve, from the covariance of the parameters.
+pub(super) fn steady_std(outcome: &Outcome, v: f64) -> f64 {
+    let covariance = &outcome.estimate.covariance;
+    let coulomb = value(outcome, "coulomb", v);
+    let fixed = value(outcome, "static", v);
+    let velocity = value(outcome, "stribeck_velocity", v);
+    let exponent = exponent(outcome);
+    let x = if velocity > 0.0 {
+        v.abs() / velocity
+    } else {
+        f64::INFINITY
+    };
+    let power = libm::pow(x, exponent);
+    let fall = libm::exp(-power);
+    let side = if v < 0.0 { "_neg" } else { "_pos" };
+    let slopes: Vec<f64> = covariance
+        .names
+        .iter()
+        .map(|name| {
+            let stem = match name
+                .strip_suffix("_pos")
+                .or_else(|| name.strip_suffix("_neg"))
+            {
+                Some(_) if !name.ends_with(side) => return 0.0,
+                Some(stem) => stem,
+                None => name,
+            };
+            match stem {
+                "coulomb" => v.signum() * (1.0 - if fixed > 0.0 { fall } else { 0.0 }),
+                "static" => v.signum() * fall,
+                "stribeck_velocity" if velocity > 0.0 && fall > 0.0 => {
+                    v.signum() * (fixed - coulomb) * fall * exponent * power / velocity
+                }
+                "stribeck_exponent" if power > 0.0 && fall > 0.0 => {
+                    -v.signum() * (fixed - coulomb) * fall * power * libm::log(x)
+                }
+                "sigma2" => v,
+                "quadratic_viscous" => v * v.abs(),
+                _ => 0.0,
+            }
+        })
+        .collect();
+    let mut variance = 0.0;
+    for (row, a) in covariance.matrix.iter().zip(&slopes) {
+        for (c, b) in row.iter().zip(&slopes) {
+            if *a != 0.0 && *b != 0.0 {
+                variance += a * c * b;
+            }
+        }
+    }
+    variance.max(0.0).sqrt()
+}
+
+/// The map near zero speed.
+pub(super) fn low_speed(outcome: &Outcome) -> Option<Figure> {
+    let series = &outcome.estimate.series;
+    let bound = 2.0 * outcome.estimate.low_speed_bound;
+    let near: Vec<bool> = series.velocity.iter().map(|v| v.abs() <= bound).collect();
+    if near.iter().filter(|&&n| n).count() < FEW {
+        return None;
+    }
+    // A gap breaks the line, so that two passes are not joined.
+    let pick = |x: &[f64]| -> Vec<f64> {
+        x.iter()
+            .zip(&near)
+            .map(|(x, &n)| if n { *x } else { f64::NAN })
+            .collect()
+    };
+    let panel = Panel::new(
+        velocity_axis(outcome).range(-bound, bound),
+        friction_axis(outcome),
+    )
+    .layer(
+        Layer::points(
+            pick(&series.velocity),
+            pick(&friction(&series.measured, series)),
+        )
+        .color(Color::Grey)
+        .label("Measured"),
+    )
+    .layer(
+        Layer::line(
+            pick(&series.velocity),
+            pick(&friction(&series.model, series)),
+        )
+        .color(Color::Blue)
+        .label("Model"),
+    );
+    Some(Figure::new("Near zero speed").panel(panel).half())
+}
+
+/// Friction over position around the reversal where most is recorded.
+pub(super) fn presliding(outcome: &Outcome) -> Option<Figure> {
+    let series = &outcome.estimate.series;
+    let length = symbols::length_unit(outcome.motion);
+    let window = reversal(outcome, series);
+    if window.len() < FEW || !outcome.estimate.law.kind.has_bristle() {
+        return None;
+    }
+    let origin = series.position.get(window.start).copied().unwrap_or(0.0);
+    let x: Vec<f64> = series.position[window.clone()]
+        .iter()
+        .map(|x| x - origin)
+        .collect();
+    let measured = friction(&series.measured, series)[window.clone()].to_vec();
+    let model = friction(&series.model, series)[window].to_vec();
+    let panel = Panel::new(
+        Axis::new("Position from the reversal", length),
+        friction_axis(outcome),
+    )
+    .layer(
+        Layer::line(x.clone(), measured)
+            .color(Color::Grey)
+            .label("Measured"),
+    )
+    .layer(Layer::line(x, model).color(Color::Blue).label("Model"));
+    let figure = Figure::new("Presliding around a reversal");
+    Some(figure.panel(panel).half())
+}
+
+/// Samples around the slowest reversal: from it until the bristle has surely turned over.
+fn reversal(outcome: &Outcome, series: &Series) -> std::ops::Range<usize> {
+    let n = series.velocity.len();
+    let turns = (1..n).filter(|&i| series.velocity[i - 1] * series.velocity[i] < 0.0);
+    let length = match outcome.estimate.value("sigma0") {
+        Some(s) if s > 0.0 => 8.0 * value(outcome, "coulomb", 1.0) / s,
+        _ => 0.0,
+    };
+    let reach = |turn: usize| {
+        let origin = series.position[turn];
+        let mut end = turn;
+        while end + 1 < n
+            && end - turn < n / 10 + 20
+            && (series.position[end] - origin).abs() <= length
+        {
+            end += 1;
+        }
+        let mut start = turn;
+        while start > 0
+            && turn - start < n / 10 + 20
+            && (series.position[start] - origin).abs() <= length
+        {
+            start -= 1;
+        }
+        start..end + 1
+    };
+    turns
+        .map(reach)
+        .max_by_key(std::ops::Range::len)
+        .unwrap_or(0..0)
+}
+
+/// Measured, model and residual in time.
+pub(super) fn time(outcome: &Outcome) -> Figure {
+    in_time(outcome, &outcome.estimate.series, "Force in time")
+}
+
+/// The same on data that were not fitted.
+pub(super) fn validation(outcome: &Outcome, path: &str, series: &Series) -> Figure {
+    in_time(outcome, series, &format!("Validation: {path}"))
+}
+
+fn in_time(outcome: &Outcome, series: &Series, title: &str) -> Figure {
+    let holes = breaks(series);
+    let time = broken(&clock(series), &holes);
+    let line = |values: &[f64]| Layer::line(time.clone(), broken(values, &holes));
+    let axis = || Axis::new("Time", "s");
+    let top = Panel::new(axis(), force_axis(outcome))
+        .layer(line(&series.measured).color(Color::Grey).label("Measured"))
+        .layer(line(&series.model).color(Color::Blue).label("Model"));
+    let middle = Panel::new(axis(), Axis::new("Residual", outcome.force_unit.as_str()))
+        .layer(line(&series.residual()).color(Color::Vermilion))
+        .height(110.0);
+    let bottom = Panel::new(axis(), velocity_axis(outcome))
+        .layer(line(&series.velocity).color(Color::Green))
+        .height(90.0);
+    Figure::new(title)
+        .panel(top)
+        .panel(middle)
+        .panel(bottom)
+        .shared_x()
+}
+
+/// One time axis through all logs: each starts where the one before ended.
+pub(super) fn clock(series: &Series) -> Vec<f64> {
+    let mut shift = 0.0;
+    let mut out: Vec<f64> = Vec::with_capacity(series.time.len());
+    for i in 0..series.time.len() {
+        if i > 0 && series.log[i] != series.log[i - 1] {
+            shift = out[i - 1] - series.time[i];
+        }
+        out.push(series.time[i] + shift);
+    }
+    out
+}
+
+/// Autocorrelation of the residual with the band of white noise.
+pub(super) fn autocorrelation(outcome: &Outcome) -> Figure {
+    let residual = outcome.estimate.series.residual();
+    let lags = LAGS.min(residual.len().saturating_sub(1));
+    let acf = correlate(&residual, lags).unwrap_or_default();
+    let band = 1.96 / (residual.len().max(1) as f64).sqrt();
+    let x: Vec<f64> = (0..acf.len()).map(|i| i as f64).collect();
+    let panel = Panel::new(
+        Axis::new("Lag", "samples"),
+        Axis::new("Autocorrelation", ""),
+    )
+    .layer(Layer::hband(-band, band).label("White noise, 95 %"))
+    .layer(Layer::line(x, acf).color(Color::Blue));
+    Figure::new("Autocorrelation of the residual")
+        .panel(panel)
+        .half()
+}
+
+/// Relative residual over evaluations.
+pub(super) fn convergence(outcome: &Outcome) -> Figure {
+    let history = &outcome.estimate.history;
+    let x: Vec<f64> = history.iter().map(|(n, _)| *n as f64).collect();
+    let y: Vec<f64> = history.iter().map(|(_, r)| 100.0 * r).collect();
+    let panel = Panel::new(
+        Axis::new("Evaluations", ""),
+        Axis::new("Relative error", "%").log(),
+    )
+    .layer(
+        Layer::line(x.clone(), y.clone())
+            .color(Color::Blue)
+            .dash(Dash::Dotted),
+    )
+    .layer(Layer::points(x, y).color(Color::Blue));
+    Figure::new("Convergence on the full record")
+        .panel(panel)
+        .half()
+}
+
+/// Correlation of the parameters.
+pub(super) fn correlation(outcome: &Outcome) -> Heatmap {
+    let covariance = &outcome.estimate.covariance;
+    let names: Vec<Text> = covariance
+        .names
+        .iter()
+        .map(|n| Text::from(symbols::symbol(n)))
+        .collect();
+    let values: Vec<f64> = covariance.correlation().into_iter().flatten().collect();
+    Heatmap::square("Correlation of the parameters", names, values)
+        .caption("Pairs near ±1 move together: the log tells their combination, not each of them.")
+}

@@ -1,0 +1,253 @@
+//! What was identified: map, static and dynamic parameters, searches, step response.
+
+use super::numbers;
+use stiction_files::reproduce_file::ReproduceFile;
+use stiction_files::symbols;
+use stiction_friction::LuGre;
+use stiction_log::Motion;
+use stiction_number::Percent;
+use stiction_report::{Align, Axis, Color, Dash, Document, Figure, Layer, Panel, Table, number};
+use stiction_workflows::reproduce::{Dynamics, PARAMETERS, Paper, Presliding, Searched, Statics};
+
+/// Methods by name with the colour of their lines.
+const METHODS: [(&str, &str, Color); 3] = [
+    ("ga", "Genetic", Color::Grey),
+    ("adaptive-ga", "Adaptive", Color::Orange),
+    ("annealing-ga", "Annealing", Color::Blue),
+];
+
+pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Paper) -> Document {
+    let Some(statics) = &paper.statics else {
+        return document;
+    };
+    document = document
+        .heading(2, "Static parameters")
+        .block(numbers(file, "static"))
+        .block(map(paper, statics))
+        .block(stribeck(&paper.truth.law));
+    let Some(dynamics) = &paper.dynamics else {
+        return document;
+    };
+    document = document
+        .heading(2, "Dynamic parameters")
+        .block(numbers(file, "dynamic"))
+        .heading(2, "The searches")
+        .paragraph(
+            "J is the mean square of what the model leaves over that of the force. All six parameters at once \
+             are searched from the record of the dynamic test by each method. The paper names a module for the \
+             precision of the optimum after its annealing search and does not describe it; least squares from the \
+             best that the search found stand for it here, after that search only.",
+        )
+        .block(numbers(file, "six"))
+        .block(convergence(statics, dynamics))
+        .block(methods(dynamics))
+        .block(values(paper, statics, dynamics));
+    match &paper.presliding {
+        Some(step) => document
+            .heading(2, "Presliding")
+            .block(numbers(file, "step"))
+            .paragraph(inversion(paper, step))
+            .block(response(step)),
+        None => document,
+    }
+}
+
+/// Steady friction of a law over velocities, N.
+fn steady(law: &LuGre<f64>, speeds: &[f64]) -> Vec<f64> {
+    speeds.iter().map(|v| law.curve().force(*v)).collect()
+}
+
+/// Velocities from `low` to `high`, without standstill.
+fn speeds(low: f64, high: f64) -> Vec<f64> {
+    let at = |k: i32| low + (high - low) * f64::from(k) / 800.0;
+    (0..=800).map(at).filter(|v| *v != 0.0).collect()
+}
+
+fn map(paper: &Paper, statics: &Statics) -> Figure {
+    let panel = |title: &str, reach: f64| {
+        let v = speeds(-reach, reach);
+        let points = statics.speed.iter().zip(&statics.force);
+        let shown: (Vec<f64>, Vec<f64>) = points.filter(|(v, _)| v.abs() <= reach).unzip();
+        let mut panel = Panel::new(Axis::new("Velocity", "m/s"), Axis::new("Friction", "N"))
+            .title(title)
+            .layer(
+                Layer::line(v.clone(), steady(&paper.truth.law, &v))
+                    .color(Color::Grey)
+                    .label("True"),
+            );
+        if let Some(law) = &paper.law {
+            let line = Layer::line(v.clone(), steady(law, &v)).dash(Dash::Dashed);
+            panel = panel.layer(line.color(Color::Blue).label("Identified"));
+        }
+        panel.layer(
+            Layer::points(shown.0, shown.1)
+                .color(Color::Vermilion)
+                .width(6.0)
+                .opacity(1.0)
+                .label("Runs"),
+        )
+    };
+    Figure::new("Friction over velocity (FIG. 12)")
+        .panel(panel("", 0.1))
+        .panel(panel("Low speeds", 0.0105))
+        .caption("Mean control force of each run at constant velocity.")
+}
+
+fn stribeck(law: &LuGre<f64>) -> Figure {
+    let side = law.curve().positive();
+    let v = speeds(0.0, 0.03);
+    let viscous: Vec<f64> = v.iter().map(|v| side.viscous * v).collect();
+    let line = |y: Vec<f64>| Layer::line(v.clone(), y);
+    let panel = Panel::new(
+        Axis::new("Velocity", "m/s"),
+        Axis::new("Friction", "N").range(0.0, 20.0),
+    )
+    .layer(line(steady(law, &v)).color(Color::Blue).label("Whole"))
+    .layer(line(viscous).color(Color::Orange).label("Viscous"))
+    .layer(Layer::hline(side.coulomb).color(Color::Green).label("Fc"))
+    .layer(
+        Layer::hline(side.static_friction)
+            .color(Color::Vermilion)
+            .label("Fs"),
+    )
+    .layer(
+        Layer::vline(side.stribeck_velocity)
+            .color(Color::Purple)
+            .label("vs"),
+    );
+    Figure::new("The Stribeck curve of the axis (FIG. 1)").panel(panel)
+}
+
+/// A course as steps, and its end drawn on to `until`.
+fn course(search: &Searched, until: f64) -> Layer {
+    let (mut x, mut y): (Vec<f64>, Vec<f64>) = search.course.iter().copied().unzip();
+    if let Some(last) = y.last().copied() {
+        x.push(until);
+        y.push(last);
+    }
+    Layer::steps(x, y)
+}
+
+fn end(search: &Searched) -> f64 {
+    search.course.last().map_or(0.0, |(n, _)| *n)
+}
+
+fn convergence(statics: &Statics, dynamics: &Dynamics) -> Figure {
+    let searches = [
+        ("Static: Fc, Fs, vs, σ₂", Some(&statics.search)),
+        ("Dynamic: σ₀, σ₁", Some(&dynamics.two)),
+        ("All six", dynamics.first_of_six()),
+    ];
+    let figure = Figure::new("Convergence of J, annealing search alone (FIG. 4–6)");
+    searches
+        .into_iter()
+        .fold(figure, |figure, (title, search)| {
+            let Some(search) = search else { return figure };
+            figure.panel(
+                Panel::new(Axis::new("Evaluations", ""), Axis::new("J", "").log())
+                    .title(title)
+                    .height(150.0)
+                    .layer(course(search, end(search)).color(Color::Blue)),
+            )
+        })
+}
+
+fn methods(dynamics: &Dynamics) -> Figure {
+    let until = dynamics.six.iter().map(end).fold(0.0, f64::max);
+    let mut panel = Panel::new(Axis::new("Evaluations", ""), Axis::new("J", "").log());
+    for (method, label, color) in METHODS {
+        let own = dynamics.six.iter().filter(|s| s.method == method);
+        for (i, search) in own.enumerate() {
+            let layer = course(search, until).color(color).opacity(0.8);
+            panel = panel.layer(if i == 0 { layer.label(label) } else { layer });
+        }
+    }
+    Figure::new("Plain, adaptive and annealing search (FIG. 7)")
+        .panel(panel)
+        .caption("All six parameters, one line a seed, without the least squares that follow.")
+}
+
+fn values(paper: &Paper, statics: &Statics, dynamics: &Dynamics) -> Table {
+    let columns = [
+        ("Parameter", Align::Left),
+        ("True", Align::Right),
+        ("Static then dynamic", Align::Right),
+        ("with least squares", Align::Right),
+        ("Six at once", Align::Right),
+        ("with least squares", Align::Right),
+        ("Unit", Align::Left),
+    ];
+    let six = dynamics.first_of_six();
+    let text = |search: Option<&Searched>, own: bool, name: &str| {
+        let all = search.map(|s| if own { &s.own } else { &s.found });
+        let value = all.and_then(|all| all.iter().find(|(n, _)| n == name));
+        value.map_or("–".into(), |(_, x)| number::sig(*x, 5))
+    };
+    let table = Table::new(columns)
+        .caption("What the annealing search found by itself, and after least squares.");
+    PARAMETERS.iter().fold(table, |table, (name, unit)| {
+        let two = match *name {
+            "sigma0" | "sigma1" => &dynamics.two,
+            _ => &statics.search,
+        };
+        table.row([
+            symbols::symbol(name),
+            number::sig(paper.true_value(name), 5),
+            text(Some(two), true, name),
+            text(Some(two), false, name),
+            text(six, true, name),
+            text(six, false, name),
+            unit.replace('*', " "),
+        ])
+    })
+}
+
+fn inversion(paper: &Paper, step: &Presliding) -> String {
+    let off = |found: f64, name: &str| {
+        let true_value = paper.true_value(name);
+        Percent::error(100.0 * (found / true_value - 1.0)).signed(1)
+    };
+    let overshoot = step.overshoot.map_or(String::new(), |part| {
+        format!(", {} overshoot", Percent::error(100.0 * part).digits(3))
+    });
+    let damping = match step.inverted.sigma1 {
+        Some(s1) => format!(
+            " and {} {} N s/m ({})",
+            symbols::meaning("sigma1", Motion::Linear).to_lowercase(),
+            number::sig(s1, 4),
+            off(s1, "sigma1")
+        ),
+        None => String::new(),
+    };
+    format!(
+        "A step of {} N settles at {} µm{overshoot}. The paper takes the axis for a second-order system, which \
+         gives {} {} N/m ({}){damping}: the bristles slip long before break-away, which that leaves out. The \
+         numbers above are of a simulation of mass and law fitted to the response.",
+        number::sig(step.height, 3),
+        number::sig(1e6 * step.settled, 4),
+        symbols::meaning("sigma0", Motion::Linear).to_lowercase(),
+        number::sig(step.inverted.sigma0, 4),
+        off(step.inverted.sigma0, "sigma0"),
+    )
+}
+
+fn response(step: &Presliding) -> Figure {
+    let time: Vec<f64> = step.series.time.iter().map(|t| t - step.onset).collect();
+    let panel = Panel::new(
+        Axis::new("Time after the step", "s"),
+        Axis::new("Displacement", "m"),
+    )
+    .layer(
+        Layer::line(time.clone(), step.series.measured.clone())
+            .color(Color::Grey)
+            .width(3.0)
+            .label("Simulated axis"),
+    )
+    .layer(
+        Layer::line(time, step.series.model.clone())
+            .color(Color::Blue)
+            .dash(Dash::Dashed)
+            .label("Fitted"),
+    );
+    Figure::new("Response to a voltage step below break-away (FIG. 16)").panel(panel)
+}

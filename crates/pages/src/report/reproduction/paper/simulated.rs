@@ -1,0 +1,296 @@
+//! The axis in motion: tracking without and with compensation, corner, change of load.
+
+use super::numbers;
+use stiction_files::reproduce_file::ReproduceFile;
+use stiction_report::{Axis, Block, Color, Dash, Document, Figure, Layer, Panel};
+use stiction_servo::axis::Sample;
+use stiction_workflows::reproduce::{Cornered, Fed, LoadFound, Paper, Tracked};
+
+pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Paper) -> Document {
+    if let [without, ..] = &paper.tracked[..] {
+        document = document
+            .heading(2, "A sine without compensation")
+            .block(sine(without))
+            .block(friction(without))
+            .heading(2, "Compensation")
+            .paragraph(
+                "The law identified in the static and then the dynamic test, with least squares, is fed by the \
+                 reference velocity, which is a feedforward, and by the measured velocity, as the paper draws it, \
+                 which is a positive feedback of friction and is let through to 90 %. The measured velocity is the \
+                 difference of two readings of an encoder of 50 nm over a period of 0.1 ms, not the true one. Both \
+                 work beside the same fuzzy PID.",
+            )
+            .block(compensation(&paper.tracked))
+            .block(speed(&paper.tracked))
+            .block(position(&paper.tracked))
+            .block(control(&paper.tracked))
+            .block(loops(&paper.tracked));
+    }
+    if !paper.cornered.is_empty() {
+        document = document
+            .heading(2, "A corner of two axes")
+            .block(Block::Columns(vec![
+                corner(&paper.cornered).into(),
+                deviation(&paper.cornered).into(),
+            ]));
+    }
+    match &paper.load {
+        Some(load) => document
+            .heading(2, "A change of load")
+            .block(numbers(file, "load"))
+            .block(mass(load)),
+        None => document,
+    }
+}
+
+fn color(fed: Fed) -> Color {
+    match fed {
+        Fed::Nothing => Color::Grey,
+        Fed::Reference => Color::Blue,
+        Fed::Measured => Color::Orange,
+    }
+}
+
+fn label(fed: Fed) -> String {
+    match fed {
+        Fed::Nothing => "Without".into(),
+        _ => format!("Law fed by the {}", fed.name()),
+    }
+}
+
+fn column(samples: &[Sample], of: impl Fn(&Sample) -> f64) -> Vec<f64> {
+    samples.iter().map(of).collect()
+}
+
+/// One line for each run, over time.
+fn each(panel: Panel, runs: &[Tracked], of: impl Fn(&Sample) -> f64) -> Panel {
+    runs.iter().fold(panel, |panel, run| {
+        let line = Layer::line(column(&run.samples, |s| s.time), column(&run.samples, &of));
+        panel.layer(line.color(color(run.fed)).label(label(run.fed)))
+    })
+}
+
+fn over_time(name: &str, unit: &str) -> Panel {
+    Panel::new(Axis::new("Time", "s"), Axis::new(name, unit))
+}
+
+fn velocity_error(sample: &Sample) -> f64 {
+    sample.reference.velocity - sample.velocity
+}
+
+fn sine(run: &Tracked) -> Figure {
+    let time = column(&run.samples, |s| s.time);
+    let line = |of: fn(&Sample) -> f64, color| {
+        Layer::line(time.clone(), column(&run.samples, of)).color(color)
+    };
+    Figure::new("A tracked sine (FIG. 13)")
+        .panel(
+            over_time("Position", "m")
+                .height(130.0)
+                .layer(line(|s| s.reference.position, Color::Grey).label("Reference"))
+                .layer(
+                    line(|s| s.position, Color::Blue)
+                        .dash(Dash::Dashed)
+                        .label("Axis"),
+                ),
+        )
+        .panel(
+            over_time("Velocity", "m/s")
+                .height(130.0)
+                .layer(line(|s| s.velocity, Color::Blue)),
+        )
+        .panel(
+            over_time("Position error", "m")
+                .height(130.0)
+                .layer(line(Sample::error, Color::Vermilion)),
+        )
+        .shared_x()
+        .caption("Friction turns round with the velocity, and the error with it.")
+}
+
+fn friction(run: &Tracked) -> Figure {
+    let [true_force, found] = &run.friction;
+    let time = column(&run.samples, |s| s.time);
+    let velocity = column(&run.samples, |s| s.velocity);
+    let pair = |panel: Panel, x: &[f64]| {
+        panel
+            .layer(
+                Layer::line(x, true_force.clone())
+                    .color(Color::Grey)
+                    .width(3.0)
+                    .label("True"),
+            )
+            .layer(
+                Layer::line(x, found.clone())
+                    .color(Color::Blue)
+                    .dash(Dash::Dashed)
+                    .label("Identified"),
+            )
+    };
+    let over_velocity = Panel::new(Axis::new("Velocity", "m/s"), Axis::new("Friction", "N"));
+    Figure::new("Friction over time and velocity, true and identified (FIG. 17)")
+        .panel(pair(over_time("Friction", "N").height(180.0), &time))
+        .panel(pair(over_velocity, &velocity))
+        .caption("Both laws along the same motion.")
+}
+
+fn compensation(runs: &[Tracked]) -> Figure {
+    let mut force = over_time("Compensating force", "N").height(160.0);
+    if let [without, with @ ..] = runs {
+        let line = Layer::line(
+            column(&without.samples, |s| s.time),
+            without.friction[0].clone(),
+        );
+        force = each(
+            force.layer(
+                line.color(Color::Grey)
+                    .label("True friction without compensation"),
+            ),
+            with,
+            |s| s.compensation,
+        );
+    }
+    Figure::new("Compensation and what it leaves (FIG. 15)")
+        .panel(force)
+        .panel(each(over_time("Position error", "m"), runs, Sample::error))
+        .shared_x()
+}
+
+/// The part of a run about its reversal in the middle.
+fn about_reversal(samples: &[Sample]) -> std::ops::Range<f64> {
+    let middle = samples.get(samples.len() / 2).map_or(0.0, |s| s.time);
+    middle - 0.05..middle + 0.15
+}
+
+fn speed(runs: &[Tracked]) -> Figure {
+    let window = runs
+        .first()
+        .map_or(0.0..1.0, |r| about_reversal(&r.samples));
+    let mut reversal = Panel::new(
+        Axis::new("Time", "s").range(window.start, window.end),
+        Axis::new("Velocity", "m/s").range(-0.035, 0.015),
+    )
+    .title("About the reversal");
+    if let Some(first) = runs.first() {
+        let line = Layer::line(
+            column(&first.samples, |s| s.time),
+            column(&first.samples, |s| s.reference.velocity),
+        );
+        reversal = reversal.layer(
+            line.color(Color::Green)
+                .dash(Dash::Dotted)
+                .label("Reference"),
+        );
+    }
+    Figure::new("Velocity (FIG. 19)")
+        .panel(each(
+            over_time("Velocity error", "m/s"),
+            runs,
+            velocity_error,
+        ))
+        .panel(each(reversal, runs, |s| s.velocity))
+}
+
+fn position(runs: &[Tracked]) -> Figure {
+    let window = runs
+        .first()
+        .map_or(0.0..1.0, |r| about_reversal(&r.samples));
+    let reversal = Panel::new(
+        Axis::new("Time", "s").range(window.start, window.end),
+        Axis::new("Position error", "m"),
+    )
+    .title("About the reversal");
+    Figure::new("Position (FIG. 20)")
+        .panel(each(over_time("Position error", "m"), runs, Sample::error))
+        .panel(each(reversal, runs, Sample::error))
+}
+
+fn control(runs: &[Tracked]) -> Figure {
+    Figure::new("Control force (FIG. 21)")
+        .panel(each(over_time("Control force", "N"), runs, |s| s.command))
+}
+
+fn loops(runs: &[Tracked]) -> Figure {
+    let panel = Panel::new(Axis::new("Position", "m"), Axis::new("Friction", "N"));
+    let panel = runs.iter().take(2).fold(panel, |panel, run| {
+        let line = Layer::line(
+            column(&run.samples, |s| s.position),
+            run.friction[0].clone(),
+        );
+        panel.layer(line.color(color(run.fed)).label(label(run.fed)))
+    });
+    Figure::new("Friction over displacement (FIG. 22)").panel(panel)
+}
+
+/// Height of the pictures of the corner, px.
+const CORNER: f64 = 320.0;
+
+/// How far beyond the corner its picture reaches, m.
+const ABOUT_CORNER: f64 = 12e-6;
+
+fn corner(runs: &[Cornered]) -> Figure {
+    let at = runs
+        .first()
+        .and_then(|r| r.samples.last())
+        .map_or(0.0, |s| s.axes[0].reference.position);
+    let range = |low: f64, high: f64| (at + low * ABOUT_CORNER, at + high * ABOUT_CORNER);
+    let x = range(-1.0, 0.5);
+    // The second edge begins at y = 0.
+    let y = (-0.5 * ABOUT_CORNER, ABOUT_CORNER);
+    let panel = Panel::new(
+        Axis::new("x less the corner", "m").range(x.0 - at, x.1 - at),
+        Axis::new("y", "m").range(y.0, y.1),
+    )
+    .height(CORNER)
+    .layer(
+        Layer::line(vec![-1.0, 0.0, 0.0], vec![0.0, 0.0, 1.0])
+            .color(Color::Green)
+            .dash(Dash::Dotted)
+            .label("Reference"),
+    );
+    let panel = runs.iter().fold(panel, |panel, run| {
+        let along = |i: usize, from: f64| -> Vec<f64> {
+            run.samples
+                .iter()
+                .map(|s| s.axes[i].position - from)
+                .collect()
+        };
+        let line = Layer::line(along(0, at), along(1, 0.0));
+        panel.layer(line.color(color(run.fed)).label(label(run.fed)))
+    });
+    Figure::new("The corner").half().panel(panel)
+}
+
+fn deviation(runs: &[Cornered]) -> Figure {
+    let panel = over_time("Contour error", "m").height(CORNER);
+    let panel = runs.iter().fold(panel, |panel, run| {
+        let time: Vec<f64> = run.samples.iter().map(|s| s.axes[0].time).collect();
+        let error: Vec<f64> = run.samples.iter().map(|s| s.deviation).collect();
+        let line = Layer::line(time, error);
+        panel.layer(line.color(color(run.fed)).label(label(run.fed)))
+    });
+    Figure::new("Deviation from the contour")
+        .half()
+        .panel(panel)
+        .caption(
+            "Positive where the contour lies to the left of the axes. The whole run; the table below counts \
+             0.2 s to either side of the corner, without the start and the stop at the end.",
+        )
+}
+
+fn mass(load: &LoadFound) -> Figure {
+    let [true_mass, found] = &load.mass;
+    let line = |y: &[f64]| Layer::line(load.time.clone(), y);
+    Figure::new("Mass and level of friction found while running (FIG. 14)")
+        .panel(
+            over_time("Mass", "kg")
+                .layer(line(true_mass).color(Color::Grey).label("True"))
+                .layer(line(found).color(Color::Blue).label("Found")),
+        )
+        .panel(
+            over_time("Level of friction", "")
+                .height(110.0)
+                .layer(line(&load.level).color(Color::Blue)),
+        )
+        .shared_x()
+}

@@ -1,0 +1,467 @@
+//! The report of a study.
+
+mod contour;
+
+use stiction_files::study::result::{MetricEntry, ResultRow, SimulatedAxis, StudyFile};
+use stiction_files::symbols;
+use stiction_log::Motion;
+use stiction_number::Percent;
+use stiction_number::quantity;
+use stiction_report::{
+    Align, Axis, Block, Callout, Color, Document, Figure, KeyFigure, Layer, Panel, Severity, Table,
+    Text, number,
+};
+use stiction_workflows::study::StudyOutcome;
+use stiction_workflows::study::doubt::CODES;
+use stiction_workflows::study::{Course, Trace};
+
+/// Sections with figures; the rows of the others stand in their tables.
+const MOST_FIGURES: usize = 12;
+
+/// The report of a study.
+pub fn study(outcome: &StudyOutcome) -> Document {
+    let file = &outcome.file;
+    let mut document = Document::new(format!("Friction compensation: {}", file.name))
+        .subtitle(format!(
+            "{}, simulated at {} Hz; a {} axis of {} {}{}",
+            file.axis.origin,
+            number::sig(file.axis.rate_hz, 4),
+            file.axis.kind,
+            number::sig(file.axis.mass, 4),
+            mass_unit(&file.axis),
+            file.second_axis.as_ref().map_or(String::new(), |second| {
+                let mass = number::sig(second.mass, 4);
+                format!(" and one of {mass} {}", mass_unit(second))
+            })
+        ))
+        .footer(format!("stiction {} · seed {}", file.version, file.seed));
+    document = document.block(verdict(file));
+    for warning in &file.warnings {
+        document = document.block(Callout {
+            severity: Severity::Warning,
+            code: warning.code.to_string(),
+            text: Text::from(warning.message.as_str()),
+            link: String::new(),
+        });
+    }
+    let cells: Vec<&[ResultRow]> = file
+        .results
+        .chunk_by(|a, b| (&a.path, &a.controller) == (&b.path, &b.controller))
+        .collect();
+    document = document.block(Block::KeyFigures(
+        cells
+            .iter()
+            .take(MOST_FIGURES)
+            .filter_map(|c| best(c))
+            .collect(),
+    ));
+    for (i, rows) in cells.iter().enumerate() {
+        document = document
+            .heading(2, format!("{}, {}", rows[0].path, rows[0].controller))
+            .block(match contour::is_contour(rows) {
+                true => contour::table(rows),
+                false => table(rows),
+            });
+        if i < MOST_FIGURES && contour::is_contour(rows) {
+            let figures = contour::figures(outcome, rows);
+            document = figures.into_iter().fold(document, |d, f| d.block(f));
+            document = wrong(rows).into_iter().fold(document, |d, f| d.block(f));
+        } else if i < MOST_FIGURES {
+            let figures = in_time(outcome, rows).into_iter().chain(wrong(rows));
+            document = figures.fold(document, |d, f| d.block(f));
+        }
+    }
+    document = document
+        .heading(2, "The axis")
+        .block(axis(file, &file.axis))
+        .block(parameters(&file.axis));
+    if let Some(second) = &file.second_axis {
+        document = document
+            .heading(2, "The second axis")
+            .block(axis(file, second))
+            .block(parameters(second));
+    }
+    document
+        .heading(2, "What the numbers mean")
+        .block(Block::List(MEANING.map(Text::from).to_vec()))
+}
+
+const MEANING: [&str; 7] = [
+    "Errors are reference less true position. What the encoder does not see counts.",
+    "Reduction: by how much the largest error is below that without compensation, on the same path and \
+     under the same controller.",
+    "At reversals: the largest error within 20 ms of a change of direction, or a quarter of the way \
+     before and after in time if that is longer.",
+    "On a contour the error is the distance to it; coupling is control of that error above both axes. Circular: the least distance of two circles about one centre \
+     that hold the whole path between them.",
+    "Worst: the same for the worst set of parameters.",
+    "Δu: rms change of the commanded force from sample to sample. Still: longest standstill about a \
+     reversal.",
+    "Wrong parameters are those of the compensator; the axis keeps its own. A mass that is drawn \
+     with them is the one fed forward.",
+];
+
+fn motion(axis: &SimulatedAxis) -> Motion {
+    match axis.kind.as_str() {
+        "rotary" => Motion::Rotary,
+        _ => Motion::Linear,
+    }
+}
+
+fn mass_unit(axis: &SimulatedAxis) -> &'static str {
+    match motion(axis) {
+        Motion::Linear => "kg",
+        Motion::Rotary => "kg m²",
+    }
+}
+
+/// The metric by which compensators are compared.
+pub(crate) fn judged(row: &ResultRow) -> Option<&MetricEntry> {
+    row.metric("contour_peak")
+        .or_else(|| row.metric("peak_error"))
+}
+
+fn verdict(file: &StudyFile) -> Callout {
+    let runs: usize = file.results.iter().map(|r| r.runs).sum();
+    let worse = file
+        .results
+        .iter()
+        .filter(|r| judged(r).is_some_and(|m| m.worst_reduction_percent < Some(0.0)))
+        .filter(|r| r.compensator != "none" || r.coupled)
+        .count();
+    let (severity, text) = if file.status == "interrupted" {
+        let text = format!(
+            "Stopped early: {} runs are done.",
+            number::count(runs as u64)
+        );
+        (Severity::Warning, text)
+    } else if worse > 0 {
+        let rows = if worse == 1 { "row holds" } else { "rows hold" };
+        let text = format!(
+            "{} runs. {worse} {rows} a run that tracks worse with compensation than without: marked \
+             in the tables.",
+            number::count(runs as u64)
+        );
+        (Severity::Warning, text)
+    } else if file.warnings.iter().any(|w| CODES.contains(&w.code)) {
+        let text = format!(
+            "{} runs. No compensator made the error that counts larger, but not every figure is what it seems: \
+             see the warnings.",
+            number::count(runs as u64)
+        );
+        (Severity::Warning, text)
+    } else {
+        let text = format!(
+            "{} runs. No compensator made the error that counts larger.",
+            number::count(runs as u64)
+        );
+        (Severity::Good, text)
+    };
+    Callout {
+        severity,
+        code: String::new(),
+        text: Text::from(text),
+        link: String::new(),
+    }
+}
+
+/// The compensator that helps most, with the parameters of the axis.
+fn best(rows: &[ResultRow]) -> Option<KeyFigure> {
+    let exact = rows.iter().filter(|r| r.parameters == "exact");
+    let reduction = |r: &ResultRow| judged(r).and_then(|m| m.reduction_percent);
+    let (row, percent) = exact
+        .filter(|r| r.compensator != "none" || r.coupled)
+        .filter_map(|r| Some((r, reduction(r)?)))
+        .max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let error = match row.metric("contour_peak") {
+        Some(_) => "contour error",
+        None => "largest error",
+    };
+    // Which of them at which risk: the worst of all wrong parameters.
+    let same = |r: &&ResultRow| {
+        r.runs > 1 && (r.coupled, &r.compensator) == (row.coupled, &row.compensator)
+    };
+    let worst = rows.iter().filter(same).filter_map(|r| {
+        let metric = judged(r)?;
+        Some((r, metric.worst_reduction_percent?))
+    });
+    let worst = worst.min_by(|a, b| a.1.total_cmp(&b.1));
+    let risk = worst.map_or(String::new(), |(r, x)| {
+        format!("; {} at the worst of {}", less(x), r.parameters)
+    });
+    Some(
+        KeyFigure::new(
+            format!("{}, {}", row.path, row.controller),
+            less(percent).trim_end_matches(" %").to_string(),
+            "% less",
+        )
+        .note(format!("{error}, {}{risk}", row.scheme())),
+    )
+}
+
+fn table(rows: &[ResultRow]) -> Table {
+    let mut table = Table::new([
+        ("Compensator", Align::Left),
+        ("Parameters", Align::Left),
+        ("Rms", Align::Right),
+        ("Largest", Align::Right),
+        ("At reversals", Align::Right),
+        ("Reduction", Align::Right),
+        ("Worst", Align::Right),
+        ("Δu", Align::Right),
+        ("Still", Align::Right),
+    ])
+    .caption("Tracking error; means over the runs of a row, and the worst of them.");
+    for row in rows {
+        let value = |name: &str| {
+            let metric = row.metric(name);
+            Text::from(metric.map_or("–".into(), |m| quantity(m.mean, &m.unit)))
+        };
+        let percent = |x: Option<f64>| Text::from(x.map_or("–".into(), less));
+        let judged = judged(row).filter(|_| row.compensator != "none");
+        let worst = judged.and_then(|m| m.worst_reduction_percent);
+        let cells = [
+            Text::from(row.compensator.as_str()),
+            Text::from(believed(row)),
+            value("rms_error"),
+            value("peak_error"),
+            value("reversal_peak"),
+            percent(judged.and_then(|m| m.reduction_percent)),
+            percent(worst.filter(|_| row.runs > 1)),
+            value("command_change"),
+            value("stick_time"),
+        ];
+        table = if worst < Some(0.0) && judged.is_some() {
+            table.marked(Severity::Warning, cells)
+        } else {
+            table.row(cells)
+        };
+    }
+    table
+}
+
+/// The kind of parameters, and what became of the compensation.
+fn believed(row: &ResultRow) -> String {
+    match row.remarks() {
+        remarks if remarks.is_empty() => row.parameters.clone(),
+        remarks => format!("{}, {remarks}", row.parameters),
+    }
+}
+
+/// A reduction with one decimal: more would not be worth the axis it was simulated on. What is not quite all of it is not
+/// said to be.
+pub(crate) fn less(x: f64) -> String {
+    match Percent::error(x).decimals(1) {
+        all if all == "100.0 %" && x < 100.0 => "> 99.9 %".into(),
+        text => text.replace('-', "−"),
+    }
+}
+
+/// Rows that are drawn: those with exact parameters, of many the first, which is without compensation, and those that
+/// leave the least.
+fn drawn(rows: &[ResultRow]) -> (Vec<&ResultRow>, usize) {
+    let exact: Vec<&ResultRow> = rows.iter().filter(|r| r.parameters == "exact").collect();
+    let all = exact.len();
+    let left = |r: &ResultRow| judged(r).map_or(f64::INFINITY, |m| m.mean);
+    let mut order: Vec<usize> = (1..all).collect();
+    order.sort_by(|a, b| left(exact[*a]).total_cmp(&left(exact[*b])));
+    order.truncate(COLORS.len() - 1);
+    order.sort_unstable();
+    let chosen = std::iter::once(0).chain(order).filter_map(|i| exact.get(i));
+    (chosen.copied().collect(), all)
+}
+
+/// What is said of curves that are left out.
+fn left_out(drawn: usize, all: usize) -> String {
+    match all > drawn {
+        true => format!(" {drawn} of {all}: without compensation, and those that leave the least."),
+        false => String::new(),
+    }
+}
+
+/// Error and compensating force with the parameters of the axis: over all that counts, and about a reversal.
+fn in_time(outcome: &StudyOutcome, rows: &[ResultRow]) -> Vec<Figure> {
+    let (rows, all) = drawn(rows);
+    let traces: Vec<&Trace> = rows.iter().filter_map(|r| outcome.trace(r)).collect();
+    let motion = motion(&outcome.file.axis);
+    let caption = format!(
+        "The part of the run that counts, with the parameters of the axis itself.{}",
+        left_out(traces.len(), all)
+    );
+    let mut figures =
+        vec![courses("Tracking error", &traces, motion, &|t| &t.whole).caption(caption)];
+    if traces.iter().any(|t| !t.reversal.time.is_empty()) {
+        let title = "The same about a reversal";
+        figures.push(courses(title, &traces, motion, &|t| &t.reversal));
+    }
+    figures
+}
+
+fn courses(
+    title: &str,
+    traces: &[&Trace],
+    motion: Motion,
+    of: &dyn Fn(&Trace) -> &Course,
+) -> Figure {
+    let length = symbols::length_unit(motion);
+    let force = match motion {
+        Motion::Linear => "N",
+        Motion::Rotary => "N m",
+    };
+    let time = || Axis::new("Time", "s");
+    let mut reference = Panel::new(time(), Axis::new("Reference", length)).height(80.0);
+    let mut error = Panel::new(time(), Axis::new("Error", length)).height(220.0);
+    let mut added = Panel::new(time(), Axis::new("Compensating force", force)).height(130.0);
+    for (i, (trace, color)) in traces.iter().zip(COLORS).enumerate() {
+        let course = of(trace);
+        let line = |y: &[f64]| Layer::line(course.time.clone(), y);
+        if i == 0 {
+            reference = reference.layer(line(&course.reference).color(Color::Grey));
+        } else {
+            added = added.layer(line(&course.compensation).color(color).width(1.0));
+        }
+        let line = line(&course.error).color(color);
+        error = error.layer(line.label(trace.compensator.as_str()));
+    }
+    let figure = Figure::new(title).panel(reference).panel(error).shared_x();
+    match traces.len() {
+        0 | 1 => figure,
+        _ => figure.panel(added),
+    }
+}
+
+const COLORS: [Color; 7] = [
+    Color::Grey,
+    Color::Sky,
+    Color::Orange,
+    Color::Green,
+    Color::Purple,
+    Color::Vermilion,
+    Color::Blue,
+];
+
+/// What is left of the error with wrong parameters.
+fn wrong(rows: &[ResultRow]) -> Option<Figure> {
+    let without = rows.first().and_then(judged)?.mean;
+    let several: Vec<&ResultRow> = rows.iter().filter(|r| r.runs > 1).collect();
+    if several.is_empty() || without == 0.0 {
+        return None;
+    }
+    let share = |x: f64| 100.0 * x / without;
+    let of = |f: &dyn Fn(&MetricEntry) -> f64| -> Vec<f64> {
+        let metrics = several.iter().filter_map(|r| judged(r));
+        metrics.map(|m| share(f(m))).collect()
+    };
+    let place: Vec<f64> = (0..several.len()).map(|i| i as f64).collect();
+    let names = several
+        .iter()
+        .map(|r| format!("{}, {}", r.scheme(), r.parameters));
+    let height = (34.0 * several.len() as f64 + 20.0).max(90.0);
+    let panel = Panel::new(
+        Axis::new(
+            match contour::is_contour(rows) {
+                true => "Largest contour error, of that without compensation",
+                false => "Largest error, of that without compensation",
+            },
+            "%",
+        ),
+        Axis::names(names.collect::<Vec<_>>()),
+    )
+    .layer(
+        Layer::intervals(place.clone(), of(&|m| m.least), of(&|m| m.largest))
+            .color(Color::Blue)
+            .label("All sets"),
+    )
+    .layer(
+        Layer::points(of(&|m| m.mean), place)
+            .color(Color::Vermilion)
+            .width(8.0)
+            .opacity(1.0)
+            .label("Mean"),
+    )
+    .layer(Layer::vline(100.0))
+    .layer(Layer::vline(0.0))
+    .height(height);
+    Some(
+        Figure::new("What wrong parameters leave").panel(panel).caption(
+            "From the best to the worst set of parameters; beyond 100 % the axis tracks worse than \
+             without compensation.",
+        ),
+    )
+}
+
+fn axis(file: &StudyFile, axis: &SimulatedAxis) -> Block {
+    let length = symbols::length_unit(motion(axis));
+    let mut facts = vec![
+        ("Friction", axis.origin.clone()),
+        ("σ₁", axis.sigma1.clone()),
+        (
+            "Control rate",
+            format!(
+                "{} Hz, plant stepped {} times a period",
+                number::sig(axis.rate_hz, 4),
+                axis.substeps
+            ),
+        ),
+        ("Delay", quantity(axis.delay_s, "s")),
+        (
+            "Current loop",
+            match axis.current_lag_s {
+                0.0 => "at once".into(),
+                lag => format!("lag of {}", quantity(lag, "s")),
+            },
+        ),
+        ("Encoder step", quantity(axis.encoder, length)),
+    ];
+    if axis.position_noise > 0.0 {
+        let noise = quantity(axis.position_noise, length);
+        facts.push(("Position noise", format!("{noise} rms")));
+    }
+    for path in &file.paths {
+        let text = format!(
+            "{}, {} s, counted from {} s on",
+            path.kind,
+            number::sig(path.duration_s, 4),
+            number::sig(path.skip_s, 4)
+        );
+        facts.push((&path.name, text));
+    }
+    let text = |(name, value): (&str, String)| (Text::from(name), Text::from(value));
+    let mut facts: Vec<_> = facts.into_iter().map(text).collect();
+    for input in &file.inputs {
+        facts.push((
+            Text::new().code(input.path.as_str()),
+            Text::new().code(input.sha256.as_str()),
+        ));
+    }
+    Block::Facts(facts)
+}
+
+fn parameters(axis: &SimulatedAxis) -> Table {
+    let columns = [
+        ("Parameter", Align::Left),
+        ("", Align::Left),
+        ("Value", Align::Right),
+        ("Unit", Align::Left),
+    ];
+    let table = Table::new(columns).caption("Parameters of the simulated axis.");
+    axis.parameters.iter().fold(table, |table, p| {
+        table.row([
+            symbols::meaning(&p.name, motion(axis)),
+            symbols::symbol(&p.name),
+            number::sig(p.value, 4),
+            p.unit.clone(),
+        ])
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn what_is_nearly_all_is_not_all() {
+        assert_eq!(super::less(99.97), "> 99.9 %");
+        assert_eq!(super::less(99.94), "99.9 %");
+        assert_eq!(super::less(100.0), "100.0 %");
+        assert_eq!(super::less(-3.21), "−3.2 %");
+    }
+}

@@ -1,0 +1,178 @@
+//! Rows and pictures of two axes on a contour.
+
+use super::{COLORS, believed, drawn, left_out};
+use stiction_files::study::result::ResultRow;
+use stiction_files::symbols;
+use stiction_log::Motion;
+use stiction_number::quantity;
+use stiction_report::{
+    Align, Axis, Block, Color, Dash, Figure, Layer, Panel, Severity, Table, Text, number,
+};
+use stiction_workflows::study::{ContourTrace, StudyOutcome};
+
+/// Part of the contour's size that the largest deviation is drawn as.
+const SHOWN: f64 = 0.12;
+/// Height of the picture of the contour, and of the deviation beside it, px.
+const HEIGHT: f64 = 340.0;
+
+/// Whether rows are of a contour.
+pub(super) fn is_contour(rows: &[ResultRow]) -> bool {
+    rows[0].metric("contour_peak").is_some()
+}
+
+pub(super) fn table(rows: &[ResultRow]) -> Table {
+    let circular = rows[0].metric("circular_deviation").is_some();
+    let mut columns = vec![
+        ("Compensator", Align::Left),
+        ("Parameters", Align::Left),
+        ("Rms", Align::Right),
+        ("Largest", Align::Right),
+    ];
+    if circular {
+        columns.push(("Circular", Align::Right));
+    }
+    columns.extend([
+        ("x at reversals", Align::Right),
+        ("y at reversals", Align::Right),
+        ("Reduction", Align::Right),
+        ("Worst", Align::Right),
+    ]);
+    let mut table = Table::new(columns).caption(
+        "Deviation from the contour, tracking errors of both axes; means over the runs of a row.",
+    );
+    for row in rows {
+        let value = |name: &str| {
+            // Without reversals there is no error about one.
+            let metric = row.metric(name).filter(|m| m.largest > 0.0);
+            Text::from(metric.map_or("–".into(), |m| quantity(m.mean, &m.unit)))
+        };
+        let less = |x: Option<f64>| Text::from(x.map_or("–".into(), super::less));
+        let without = row.compensator == "none" && !row.coupled;
+        let judged = row.metric("contour_peak").filter(|_| !without);
+        let worst = judged.and_then(|m| m.worst_reduction_percent);
+        let mut cells = vec![
+            Text::from(row.scheme()),
+            Text::from(believed(row)),
+            value("contour_rms"),
+            value("contour_peak"),
+        ];
+        if circular {
+            cells.push(value("circular_deviation"));
+        }
+        cells.extend([
+            value("reversal_peak_x"),
+            value("reversal_peak_y"),
+            less(judged.and_then(|m| m.reduction_percent)),
+            less(worst.filter(|_| row.runs > 1)),
+        ]);
+        table = if worst < Some(0.0) && judged.is_some() {
+            table.marked(Severity::Warning, cells)
+        } else {
+            table.row(cells)
+        };
+    }
+    table
+}
+
+/// The contour with its deviations magnified, beside the deviations over time.
+pub(super) fn figures(outcome: &StudyOutcome, rows: &[ResultRow]) -> Option<Block> {
+    let (rows, all) = drawn(rows);
+    let traces: Vec<(String, &ContourTrace)> = rows
+        .iter()
+        .filter_map(|r| Some((r.scheme(), outcome.contour(r)?)))
+        .collect();
+    let (_, first) = traces.first()?;
+    let length = symbols::length_unit(match outcome.file.axis.kind.as_str() {
+        "rotary" => Motion::Rotary,
+        _ => Motion::Linear,
+    });
+    let largest = first.deviation.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
+    let frame = Frame::of(first)?;
+    let magnified = magnification(SHOWN * frame.size / largest);
+    let mut plane = Panel::new(frame.axis(0, length), frame.axis(1, length)).height(HEIGHT);
+    let side = |i: usize| first.reference.iter().map(|p| p[i]).collect::<Vec<_>>();
+    plane = plane.layer(
+        Layer::line(side(0), side(1))
+            .color(Color::Blue)
+            .dash(Dash::Dotted)
+            .label("Reference"),
+    );
+    let time = Axis::new("Time", "s");
+    let mut course = Panel::new(time, Axis::new("Contour error", length)).height(HEIGHT);
+    for ((name, trace), color) in traces.iter().zip(COLORS) {
+        let [x, y] = drawn_off(trace, magnified);
+        plane = plane.layer(Layer::line(x, y).color(color).label(name.as_str()));
+        let line = Layer::line(trace.time.clone(), trace.deviation.clone());
+        course = course.layer(line.color(color).label(name.as_str()));
+    }
+    let plane = Figure::new(format!("Deviations × {}", number::sig(magnified, 1)))
+        .half()
+        .panel(plane)
+        .caption("Drawn from the reference across the contour.");
+    let course = Figure::new("Contour error")
+        .half()
+        .panel(course)
+        .caption(format!(
+            "Positive where the contour lies to the left of the axes.{}",
+            left_out(traces.len(), all)
+        ));
+    Some(Block::Columns(vec![plane.into(), course.into()]))
+}
+
+/// Places as far from the reference as the axes were from the contour, times a factor; a gap where it stands.
+fn drawn_off(trace: &ContourTrace, by: f64) -> [Vec<f64>; 2] {
+    [0, 1].map(|i| {
+        let points = trace
+            .reference
+            .iter()
+            .zip(&trace.left)
+            .zip(&trace.deviation);
+        points
+            .map(|((at, left), off)| match left {
+                [0.0, 0.0] => f64::NAN,
+                _ => at[i] - by * off * left[i],
+            })
+            .collect()
+    })
+}
+
+/// One, two or five times a power of ten, not above what is wanted.
+fn magnification(most: f64) -> f64 {
+    if !(most.is_finite() && most > 0.0) {
+        return 1.0;
+    }
+    let decade = libm::pow(10.0, libm::floor(libm::log10(most)));
+    let steps = [5.0, 2.0, 1.0].map(|step| step * decade);
+    let step = steps.into_iter().find(|step| *step <= most);
+    step.unwrap_or(decade).max(1.0)
+}
+
+/// A square about the contour.
+struct Frame {
+    middle: [f64; 2],
+    size: f64,
+}
+
+impl Frame {
+    fn of(trace: &ContourTrace) -> Option<Self> {
+        let range = |i: usize| {
+            let values = trace.reference.iter().map(|p| p[i]);
+            let ends = (f64::INFINITY, f64::NEG_INFINITY);
+            values.fold(ends, |(low, high), x| (low.min(x), high.max(x)))
+        };
+        let ranges = [range(0), range(1)];
+        let size = ranges
+            .iter()
+            .fold(0.0_f64, |m, (low, high)| m.max(high - low));
+        (size > 0.0 && size.is_finite()).then(|| Frame {
+            middle: ranges.map(|(low, high)| 0.5 * (low + high)),
+            size,
+        })
+    }
+
+    fn axis(&self, i: usize, unit: &str) -> Axis {
+        let reach = 0.7 * self.size;
+        let middle = self.middle[i];
+        Axis::new(["x", "y"][i], unit).range(middle - reach, middle + reach)
+    }
+}

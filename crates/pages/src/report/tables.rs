@@ -1,0 +1,213 @@
+//! The tables of the report.
+
+use super::law_name;
+use stiction_files::result::{Input, LawEntry};
+use stiction_files::symbols;
+use stiction_identify::IDENTIFIABLE;
+use stiction_number::Percent;
+use stiction_report::{Align, Block, Severity, Table, Text, number};
+use stiction_workflows::identify::Outcome;
+
+/// Parameters with value, unit, deviation, interval and flag.
+pub(super) fn parameters(outcome: &Outcome) -> Table {
+    let mut table = Table::new([
+        ("Parameter", Align::Left),
+        ("", Align::Left),
+        ("Value", Align::Right),
+        ("Unit", Align::Left),
+        ("Std. dev.", Align::Right),
+        ("95 % interval", Align::Right),
+        ("", Align::Left),
+    ])
+    .caption("Identified parameters. The intervals count the correlation of the residuals.");
+    for p in &outcome.result.parameters {
+        let value = match p.std {
+            Some(std) if p.identifiable && std > 0.0 => digits(p.value, std),
+            _ => number::sig(p.value, 4),
+        };
+        let std = match p.std {
+            _ if p.origin == "given" => "given".to_string(),
+            Some(std) if p.identifiable && std > IDENTIFIABLE * p.value.abs() => {
+                format!("{} {}", number::sig(std, 2), p.unit)
+            }
+            Some(std) if p.value != 0.0 => {
+                Percent::deviation(100.0 * std / p.value.abs()).digits(2)
+            }
+            _ => "–".into(),
+        };
+        let interval = match (p.range(), p.origin.as_str()) {
+            (Some((f64::NEG_INFINITY, high)), _) => format!("at most {}", number::sig(high, 3)),
+            (Some((low, f64::INFINITY)), _) => format!("at least {}", number::sig(low, 3)),
+            (Some((low, high)), _) => number::interval(low, high),
+            (None, "given") => String::new(),
+            _ => "not bounded by the data".into(),
+        };
+        let flag = if p.identifiable {
+            String::new()
+        } else {
+            format!("not identifiable: {}", p.reason)
+        };
+        let cells = [
+            Text::from(symbols::meaning(&p.name, outcome.motion)),
+            Text::from(p.symbol.as_str()),
+            Text::from(value),
+            Text::from(p.unit.as_str()),
+            Text::from(std),
+            Text::from(interval),
+            Text::from(flag),
+        ];
+        table = if p.identifiable {
+            table.row(cells)
+        } else {
+            table.marked(Severity::Warning, cells)
+        };
+    }
+    table
+}
+
+/// A value with as many digits as its deviation allows, and two more to compute on.
+fn digits(value: f64, std: f64) -> String {
+    let decades = libm::log10(value.abs() / std);
+    // A value without deviation to speak of gives infinity, a deviation of zero never comes here.
+    number::sig(value, (decades.ceil().clamp(0.0, 9.0) as usize) + 2)
+}
+
+/// Identified against true values of a simulated axis.
+pub(super) fn truth(outcome: &Outcome) -> Table {
+    let mut table = Table::new([
+        ("Parameter", Align::Left),
+        ("True", Align::Right),
+        ("Identified", Align::Right),
+        ("Error", Align::Right),
+        ("In the 95 % interval", Align::Center),
+    ])
+    .caption("The axis is simulated, so the truth is known.");
+    for (name, truth) in &outcome.truth {
+        let Some(p) = outcome.result.parameters.iter().find(|p| p.name == *name) else {
+            continue;
+        };
+        let inside = p
+            .range()
+            .is_some_and(|(low, high)| low <= *truth && *truth <= high);
+        let error = if *truth == 0.0 {
+            number::sig(p.value, 2)
+        } else {
+            Percent::error(100.0 * (p.value / truth - 1.0)).digits(2)
+        };
+        let cells = [
+            symbols::meaning(name, outcome.motion),
+            number::sig(*truth, 5),
+            number::sig(p.value, 5),
+            error,
+            if inside { "yes" } else { "no" }.to_string(),
+        ];
+        table = if inside {
+            table.row(cells)
+        } else {
+            table.marked(Severity::Warning, cells)
+        };
+    }
+    table
+}
+
+/// Fits on data that were not fitted.
+pub(super) fn validation(outcome: &Outcome) -> Table {
+    let unit = &outcome.result.fit.unit;
+    let caption = match &outcome.simulation {
+        None => "The identified law on data it was not fitted to; nothing is fitted again.",
+        Some(_) => {
+            "The identified law on data it was not fitted to; only where each run starts is fitted."
+        }
+    };
+    let mut table = Table::new([
+        ("Data".to_string(), Align::Left),
+        ("Samples".into(), Align::Right),
+        (format!("Residual rms, {unit}"), Align::Right),
+        ("Relative error".into(), Align::Right),
+        ("Near zero speed".into(), Align::Right),
+    ])
+    .caption(caption);
+    for v in &outcome.result.validation {
+        table = table.row([
+            v.path.clone(),
+            number::count(v.fit.samples as u64),
+            number::sig(v.fit.rmse, 3),
+            Percent::error(v.fit.relative_error_percent).digits(3),
+            v.low_speed
+                .as_ref()
+                .map_or("–".into(), |l| number::sig(l.fit.rmse, 3)),
+        ]);
+    }
+    table
+}
+
+/// Laws side by side.
+pub(super) fn laws(outcome: &Outcome) -> Table {
+    let mut table = Table::new([
+        ("Law", Align::Left),
+        ("Parameters", Align::Right),
+        ("Fitted", Align::Right),
+        ("Held out", Align::Right),
+        ("Held out, near zero speed", Align::Right),
+        ("Above the least", Align::Right),
+        ("ΔAIC", Align::Right),
+        ("ΔBIC", Align::Right),
+    ])
+    .caption(
+        "Relative error where the law was fitted and on held-out samples (validation data where \
+         given, else four blocks left out in turn). Above the least: by how much the held-out error \
+         is above the least of all laws, with the standard error of that difference. \
+         ΔAIC and ΔBIC: information criteria of the fit on effective samples, above the least. \
+         Marked: the simplest law whose held-out error is within its noise, or 1 %, of the least.",
+    );
+    let above = |l: &LawEntry| match (l.held_out_excess_percent, l.held_out_excess_std_percent) {
+        (Some(0.0), _) => "least".into(),
+        (Some(mean), Some(std)) => {
+            format!("{} ± {} %", number::sig(mean, 2), number::sig(std, 2))
+        }
+        _ => "–".into(),
+    };
+    let criterion = |x: Option<f64>| x.map_or("–".into(), |x| number::sig(x, 3));
+    let percent = |x: Option<f64>| x.map_or("–".into(), |x| Percent::error(x).digits(3));
+    for l in &outcome.result.laws {
+        let cells = [
+            law_name(&l.law, l.asymmetric),
+            l.parameters.to_string(),
+            percent(Some(l.fitted_error_percent)),
+            percent(l.held_out_error_percent),
+            percent(l.held_out_low_speed_error_percent),
+            above(l),
+            criterion(l.aic_difference),
+            criterion(l.bic_difference),
+        ];
+        table = if l.best {
+            table.marked(Severity::Good, cells)
+        } else {
+            table.row(cells)
+        };
+    }
+    table
+}
+
+/// What a file was and how it was understood.
+pub(super) fn input(input: &Input) -> Block {
+    let mut facts = vec![
+        (Text::from("File"), Text::new().code(input.path.as_str())),
+        (
+            Text::from("SHA-256"),
+            Text::new().code(input.sha256.as_str()),
+        ),
+        (
+            Text::from("Samples"),
+            Text::from(format!(
+                "{} at {} Hz",
+                number::count(input.samples as u64),
+                number::sig(input.rate_hz, 5)
+            )),
+        ),
+    ];
+    for detected in &input.detected {
+        facts.push((Text::from("Detected"), Text::from(detected.as_str())));
+    }
+    Block::Facts(facts)
+}

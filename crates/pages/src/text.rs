@@ -1,0 +1,368 @@
+//! What a terminal shows: plain text tables, the same on every width.
+
+mod comparison;
+mod export;
+mod procedure;
+mod reproduction;
+mod study;
+
+pub use comparison::comparison;
+pub use export::exported;
+pub use procedure::procedure_commands;
+pub use reproduction::reproduction;
+use std::fmt::Write;
+use stiction_files::result::{LawEntry, SearchedEntry, SearchedPoint};
+use stiction_files::symbols;
+use stiction_identify::IDENTIFIABLE;
+use stiction_number::{Percent, four_digits as short};
+use stiction_workflows::check::{Check, LogCheck};
+use stiction_workflows::identify::Outcome;
+pub use study::study;
+
+/// A table with aligned columns; the first row is the header.
+fn table(rows: &[Vec<String>], right: &[bool]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |c: usize| {
+        rows.iter()
+            .filter_map(|r| r.get(c))
+            .map(|s| s.chars().count())
+            .max()
+            .unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let mut out = String::new();
+    for row in rows {
+        let mut line = String::new();
+        for (c, cell) in row.iter().enumerate() {
+            let pad = widths[c] - cell.chars().count();
+            if c > 0 {
+                line.push_str("  ");
+            }
+            if right.get(c).copied().unwrap_or(false) {
+                line.push_str(&" ".repeat(pad));
+                line.push_str(cell);
+            } else {
+                line.push_str(cell);
+                line.push_str(&" ".repeat(pad));
+            }
+        }
+        out.push_str(line.trim_end());
+        out.push('\n');
+    }
+    out
+}
+
+/// A search, and how far it came before the last least squares.
+fn searched(method: &str, entry: &SearchedEntry) -> String {
+    let error = |point: &Option<SearchedPoint>| match point {
+        Some(point) => Percent::error(100.0 * point.cost.sqrt()).fine(),
+        None => "nothing".into(),
+    };
+    format!(
+        "{method} ({} cost) {}: {} by itself, {} after its descents; {:.0} evaluations of the full \
+         record",
+        entry.cost,
+        entry.status,
+        error(&entry.own),
+        error(&entry.after_least_squares),
+        entry.evaluations.full_records
+    )
+}
+
+/// The outcome of an identification.
+pub fn outcome(outcome: &Outcome) -> String {
+    let result = &outcome.result;
+    let mut out = String::new();
+    for input in &result.inputs {
+        let _ = writeln!(
+            out,
+            "{}: {} samples at {} Hz",
+            input.path,
+            input.samples,
+            short(input.rate_hz)
+        );
+    }
+    let _ = writeln!(
+        out,
+        "\n{}{}",
+        crate::report::law_name(&result.law, result.asymmetric),
+        crate::report::chosen_by(&result.law_chosen_by)
+    );
+    let mut rows = vec![
+        ["parameter", "", "value", "unit", "std", "95 % interval", ""]
+            .map(String::from)
+            .to_vec(),
+    ];
+    for p in &result.parameters {
+        let std = match p.std {
+            _ if p.origin == "given" => "given".to_string(),
+            // Only a parameter that may be zero is identifiable with a large deviation.
+            Some(std) if p.identifiable && std > IDENTIFIABLE * p.value.abs() => {
+                format!("{} {}", short(std), p.unit)
+            }
+            Some(std) if p.value != 0.0 => {
+                Percent::deviation(100.0 * std / p.value.abs()).decimals(2)
+            }
+            _ => "-".into(),
+        };
+        let interval = match p.range() {
+            Some((f64::NEG_INFINITY, high)) => format!("at most {}", short(high)),
+            Some((low, f64::INFINITY)) => format!("at least {}", short(low)),
+            Some((low, high)) => format!("{} .. {}", short(low), short(high)),
+            None if p.origin == "given" => String::new(),
+            None => "not bounded".into(),
+        };
+        rows.push(vec![
+            p.name.clone(),
+            p.symbol.clone(),
+            short(p.value),
+            p.unit.clone(),
+            std,
+            interval,
+            if p.identifiable {
+                String::new()
+            } else {
+                "NOT IDENTIFIABLE".into()
+            },
+        ]);
+    }
+    out.push_str(&table(
+        &rows,
+        &[false, false, true, false, true, true, false],
+    ));
+    let fit = &result.fit;
+    let _ = writeln!(
+        out,
+        "\nfit         {} relative error, {} {} rms, R2 {}",
+        Percent::error(fit.relative_error_percent).fine(),
+        short(fit.rmse),
+        fit.unit,
+        fit.r2.map_or("-".into(), |r2| format!("{r2:.5}"))
+    );
+    if let Some(simulation) = &result.simulation {
+        let _ = writeln!(out, "simulation  {}", simulated(simulation));
+    }
+    if let Some(entry) = &result.searched {
+        let _ = writeln!(out, "search      {}", searched(&result.method, entry));
+    }
+    if let Some(low) = &result.low_speed {
+        let _ = writeln!(
+            out,
+            "low speed   {} {} rms below {} {}",
+            short(low.fit.rmse),
+            low.fit.unit,
+            short(low.bound),
+            low.bound_unit
+        );
+    }
+    for v in &result.validation {
+        let _ = writeln!(
+            out,
+            "validation  {} relative error, {} {} rms on {}",
+            Percent::error(v.fit.relative_error_percent).fine(),
+            short(v.fit.rmse),
+            v.fit.unit,
+            v.path
+        );
+    }
+    if !outcome.truth.is_empty() {
+        out.push_str("\nagainst the truth\n");
+        out.push_str(&truth(outcome));
+    }
+    out.push_str(&procedure::sections(result));
+    if !result.laws.is_empty() {
+        out.push_str("\nlaws on held-out samples\n");
+        out.push_str(&laws(outcome));
+    }
+    if !result.elements.is_empty() {
+        out.push_str("\nelements on blocks left out\n");
+        out.push_str(&elements(outcome));
+    }
+    for warning in &result.warnings {
+        let _ = writeln!(out, "\nwarning [{}] {}", warning.code, warning.message);
+    }
+    if !result.trust.trustworthy {
+        let _ = writeln!(
+            out,
+            "\nNOT TRUSTWORTHY: {}",
+            result.trust.reasons.join("; ")
+        );
+    }
+    out
+}
+
+/// What was simulated, and how far off its force and the encoder's steps are.
+fn simulated(entry: &stiction_files::result::SimulationEntry) -> String {
+    let runs = match entry.runs {
+        1 => "one run".to_string(),
+        n => format!("{n} runs"),
+    };
+    let mut out = format!("{} loop, {runs}", entry.kind);
+    if let Some(force) = &entry.force {
+        let _ = write!(
+            out,
+            "; {} {} relative error, {} {} rms",
+            force.signal,
+            Percent::error(force.relative_error_percent).fine(),
+            short(force.rmse),
+            force.unit
+        );
+    }
+    if let Some(floor) = entry.quantisation_floor {
+        let _ = write!(
+            out,
+            "; encoder steps alone {} {} rms",
+            short(floor),
+            entry.position.unit
+        );
+    }
+    out
+}
+
+fn truth(outcome: &Outcome) -> String {
+    let mut rows = vec![
+        ["parameter", "true", "identified", "error", ""]
+            .map(String::from)
+            .to_vec(),
+    ];
+    for (name, truth) in &outcome.truth {
+        let Some(p) = outcome.result.parameters.iter().find(|p| p.name == *name) else {
+            continue;
+        };
+        let inside = p
+            .range()
+            .is_some_and(|(low, high)| low <= *truth && *truth <= high);
+        rows.push(vec![
+            name.clone(),
+            short(*truth),
+            short(p.value),
+            if *truth == 0.0 {
+                format!("{} {}", short(p.value), p.unit)
+            } else {
+                Percent::error(100.0 * (p.value / truth - 1.0)).signed(2)
+            },
+            if inside {
+                String::new()
+            } else {
+                "outside its interval".into()
+            },
+        ]);
+    }
+    table(&rows, &[false, true, true, true, false])
+}
+
+fn laws(outcome: &Outcome) -> String {
+    let mut rows = vec![
+        [
+            "law",
+            "parameters",
+            "fitted",
+            "held out",
+            "near zero speed",
+            "ΔAIC",
+            "ΔBIC",
+            "",
+        ]
+        .map(String::from)
+        .to_vec(),
+    ];
+    let percent = |x: Option<f64>| x.map_or("-".into(), |x| Percent::error(x).decimals(2));
+    let above = |x: Option<f64>| x.map_or("-".into(), |x| format!("+{x:.0}"));
+    for l in &outcome.result.laws {
+        rows.push(vec![
+            crate::report::law_name(&l.law, l.asymmetric),
+            l.parameters.to_string(),
+            percent(Some(l.fitted_error_percent)),
+            percent(l.held_out_error_percent),
+            percent(l.held_out_low_speed_error_percent),
+            above(l.aic_difference),
+            above(l.bic_difference),
+            remark(
+                l,
+                l.law == outcome.result.law && l.asymmetric == outcome.result.asymmetric,
+            ),
+        ]);
+    }
+    table(&rows, &[false, true, true, true, true, true, true, false])
+}
+
+fn elements(outcome: &Outcome) -> String {
+    let mut rows = vec![
+        ["elements", "fitted", "held out", ""]
+            .map(String::from)
+            .to_vec(),
+    ];
+    let percent = |x: f64| Percent::error(x).decimals(2);
+    for score in &outcome.result.elements {
+        rows.push(vec![
+            score.elements.to_string(),
+            percent(score.fitted_error_percent),
+            score.held_out_error_percent.map_or("-".into(), percent),
+            if score.chosen { "chosen" } else { "" }.to_string(),
+        ]);
+    }
+    table(&rows, &[true, true, true, false])
+}
+
+fn remark(law: &LawEntry, reported: bool) -> String {
+    let best = match (law.best, law.determined) {
+        (true, true) => "best",
+        (true, false) => "best, but not determined by this log",
+        (false, _) if reported => "reported",
+        (false, _) => "",
+    };
+    best.into()
+}
+
+/// The outcome of a check.
+pub fn check(check: &Check) -> String {
+    check
+        .logs
+        .iter()
+        .map(log_check)
+        .collect::<Vec<_>>()
+        .join("\n")
+}
+
+fn log_check(log: &LogCheck) -> String {
+    let mut out = format!(
+        "{}\n  {} axis, {} samples, {} s at {} Hz\n",
+        log.input.path,
+        log.kind,
+        log.input.samples,
+        short(log.seconds),
+        short(log.input.rate_hz)
+    );
+    for line in &log.input.detected {
+        let _ = writeln!(out, "  detected   {line}");
+    }
+    for line in &log.ranges {
+        let _ = writeln!(out, "  range      {line}");
+    }
+    for f in &log.findings {
+        let _ = writeln!(out, "  {:<10} [{}] {}", f.severity, f.code, f.message);
+    }
+    for line in &log.conditioning {
+        let _ = writeln!(out, "  condition  {line}");
+    }
+    if !log.parameters.is_empty() {
+        out.push_str("  a LuGre fit to this log\n");
+        let mut rows = Vec::new();
+        for p in &log.parameters {
+            rows.push(vec![
+                format!("    {}", p.name),
+                symbols::symbol(&p.name),
+                if p.identifiable {
+                    format!("determined, about {} {}", short(p.value), p.unit)
+                } else {
+                    format!("not determined: {}", p.reason)
+                },
+            ]);
+        }
+        out.push_str(&table(&rows, &[]));
+    }
+    if let Some(refused) = &log.refused {
+        let _ = writeln!(out, "  cannot be trusted: {refused}");
+    }
+    out
+}

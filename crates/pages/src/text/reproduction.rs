@@ -1,0 +1,72 @@
+//! Published experiments on the terminal.
+
+use super::table;
+use stiction_files::reproduce_file::{ClaimEntry, ReproduceFile};
+use stiction_number::quantity;
+use stiction_number::{Percent, four_digits as short};
+
+/// Every number beside its reference.
+pub fn reproduction(file: &ReproduceFile) -> String {
+    let header = ["", "number", "reference", "found", "unit", "allowed", ""];
+    let mut rows = vec![header.map(String::from).to_vec()];
+    for check in &file.checks {
+        rows.push(vec![
+            check.experiment.clone(),
+            check.name.clone(),
+            short(check.reference),
+            // A zero is found to the last bits, which no reader needs.
+            if check.reference == 0.0 {
+                format!("{:.0e}", check.found)
+            } else {
+                short(check.found)
+            },
+            check.unit.clone(),
+            match check.reference {
+                0.0 => format!("{:.0e}", check.tolerance),
+                x => format!("{} %", short(100.0 * check.tolerance / x.abs())),
+            },
+            if check.within { "within" } else { "OFF" }.into(),
+        ]);
+    }
+    let mut out = table(&rows, &[false, false, true, true, false, true, false]);
+    let off = file.checks.iter().filter(|c| !c.within).count();
+    out.push_str(&match off {
+        0 => format!("\nall {} within\n", file.checks.len()),
+        n => format!("\n{n} of {} OFF\n", file.checks.len()),
+    });
+    if !file.claims.is_empty() {
+        out.push('\n');
+        out.push_str(&claims(&file.claims));
+        out.push_str(
+            "\nClaims are of another experiment; what was assumed stands in the report.\n",
+        );
+    }
+    if file.status == "interrupted" {
+        out.push_str("\nSTOPPED EARLY: what was done is kept\n");
+    }
+    out
+}
+
+/// Metrics of ours beside the claims of a publication.
+fn claims(claims: &[ClaimEntry]) -> String {
+    let header = [
+        "metric",
+        "law fed by",
+        "without",
+        "with",
+        "less",
+        "published",
+    ];
+    let mut rows = vec![header.map(String::from).to_vec()];
+    rows.extend(claims.iter().map(|claim| {
+        vec![
+            claim.name.clone(),
+            claim.compensation.clone(),
+            quantity(claim.without, &claim.unit),
+            quantity(claim.with, &claim.unit),
+            Percent::error(claim.reduction_percent).decimals(1),
+            claim.published.clone(),
+        ]
+    }));
+    table(&rows, &[false, false, true, true, true, false])
+}

@@ -1,0 +1,79 @@
+//! A study on the terminal.
+
+use super::table;
+use crate::report::{judged, less};
+use std::fmt::Write;
+use stiction_files::study::result::ResultRow;
+use stiction_number::quantity;
+use stiction_workflows::study::StudyOutcome;
+
+/// The outcome of a study.
+pub fn study(outcome: &StudyOutcome) -> String {
+    let file = &outcome.file;
+    let mut out = format!("{}: {}\n", file.name, file.axis.origin);
+    if let Some(second) = &file.second_axis {
+        let _ = writeln!(out, "second axis: {}", second.origin);
+    }
+    let same = |a: &ResultRow, b: &ResultRow| (&a.path, &a.controller) == (&b.path, &b.controller);
+    for rows in file.results.chunk_by(same) {
+        let _ = writeln!(out, "\n{}, {}", rows[0].path, rows[0].controller);
+        let header = [
+            "compensator",
+            "parameters",
+            "rms",
+            "largest",
+            "at reversals",
+            "less",
+            "worst",
+            "",
+        ];
+        let mut lines = vec![header.map(String::from).to_vec()];
+        if rows[0].metric("contour_peak").is_some() {
+            lines[0][4] = String::new();
+        }
+        lines.extend(rows.iter().map(line));
+        out.push_str(&table(
+            &lines,
+            &[false, false, true, true, true, true, true, false],
+        ));
+    }
+    for warning in &file.warnings {
+        let _ = writeln!(out, "\nwarning [{}] {}", warning.code, warning.message);
+    }
+    if file.status == "interrupted" {
+        out.push_str("\nSTOPPED EARLY: what was done is kept\n");
+    }
+    out
+}
+
+fn line(row: &ResultRow) -> Vec<String> {
+    let contour = row.metric("contour_peak").is_some();
+    let value = |name: &str| {
+        let metric = row.metric(name);
+        metric.map_or("-".into(), |m| quantity(m.mean, &m.unit))
+    };
+    let judged = judged(row).filter(|_| row.compensator != "none" || row.coupled);
+    let percent = |x: Option<f64>| x.map_or(String::new(), less);
+    vec![
+        row.scheme(),
+        row.parameters.clone(),
+        value(if contour { "contour_rms" } else { "rms_error" }),
+        value(if contour {
+            "contour_peak"
+        } else {
+            "peak_error"
+        }),
+        if contour {
+            String::new()
+        } else {
+            value("reversal_peak")
+        },
+        percent(judged.and_then(|m| m.reduction_percent)),
+        percent(
+            judged
+                .and_then(|m| m.worst_reduction_percent)
+                .filter(|_| row.runs > 1),
+        ),
+        row.remarks(),
+    ]
+}

@@ -1,0 +1,585 @@
+//! `stiction export` from a model file: what is written, what is refused, what is said.
+
+use std::path::{Path, PathBuf};
+use stiction::{Error, ExportOptions, Exported, Target, export};
+
+const LUGRE: [(&str, f64, &str); 6] = [
+    ("sigma0", 1.2e5, "N/m"),
+    ("sigma1", 300.0, "N s/m"),
+    ("coulomb", 20.0, "N"),
+    ("static", 30.0, "N"),
+    ("stribeck_velocity", 5e-3, "m/s"),
+    ("sigma2", 60.0, "N s/m"),
+];
+
+/// The text of a model file.
+fn text(law: &str, parameters: &[(&str, f64, &str)]) -> String {
+    let asymmetric = parameters.iter().any(|(name, ..)| name.ends_with("_pos"));
+    let mut out = format!(
+        "schema = \"stiction.model/1\"\nname = \"X axis */ (left)\"\nkind = \"linear\"\nlaw = \"{law}\"\nasymmetric = {asymmetric}\n\
+         force_unit = \"N\"\ntrustworthy = true\n\n[source]\nversion = \"0.1.0\"\nmethod = \"separable\"\nseed = 0\n\n\
+         [[source.inputs]]\npath = \"log.csv\"\nsha256 = \"{}\"\n",
+        "ab".repeat(32)
+    );
+    for (name, value, unit) in parameters {
+        out += &format!(
+            "\n[[parameter]]\nname = \"{name}\"\nsymbol = \"{name}\"\nvalue = {value:?}\nunit = \"{unit}\"\n\
+             ci95 = [{:?}, {:?}]\nidentifiable = true\norigin = \"identified\"\n",
+            value - 0.1 * value.abs(),
+            value + 0.1 * value.abs()
+        );
+    }
+    out + "\n[covariance]\nnames = []\nmatrix = []\n"
+}
+
+struct Bench(tempfile::TempDir);
+
+impl Bench {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn options(&self, model: &str) -> ExportOptions {
+        std::fs::write(self.path("model.toml"), model).unwrap();
+        ExportOptions {
+            model: self.path("model.toml"),
+            target: Target::C,
+            name: None,
+            cycle_time: 1e-3,
+            limit: None,
+            rated_force: None,
+        }
+    }
+
+    fn export(&self, model: &str) -> Result<Exported, Error> {
+        export(&self.options(model), &self.path("out"))
+    }
+}
+
+fn contents(dir: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut found = Vec::new();
+    for path in std::fs::read_dir(dir).unwrap().map(|e| e.unwrap().path()) {
+        if path.is_dir() {
+            found.extend(contents(&path));
+        } else {
+            found.push((
+                path.to_string_lossy().into_owned(),
+                std::fs::read(&path).unwrap(),
+            ));
+        }
+    }
+    found.sort();
+    found
+}
+
+#[test]
+fn the_same_model_gives_the_same_bytes() {
+    let model = text("lugre", &LUGRE);
+    for target in Target::ALL {
+        let (a, b) = (Bench::new(), Bench::new());
+        for bench in [&a, &b] {
+            let options = ExportOptions {
+                target,
+                rated_force: (target == Target::Tf5200).then_some(221.0),
+                ..bench.options(&model)
+            };
+            let exported = export(&options, &bench.path("out")).unwrap();
+            // 20 N + 60 N s/m v is 60 N at 0.67 m/s, and 80 N at 1 m/s, where the table ends.
+            let (codes, limit): (&[&str], f64) = match target {
+                Target::Mujoco => (&[], 60.0),
+                Target::Tf5200 => (&[], 80.0),
+                _ => (&["export-limit"], 60.0),
+            };
+            let found: Vec<_> = exported.warnings.iter().map(|w| w.code.as_str()).collect();
+            assert!(
+                exported.trustworthy && found == codes,
+                "{:?}",
+                exported.warnings
+            );
+            assert_eq!(exported.limit, limit);
+        }
+        let bytes = |bench: &Bench| -> Vec<Vec<u8>> {
+            let files = contents(&bench.path("out"));
+            files.into_iter().map(|(_, bytes)| bytes).collect()
+        };
+        assert_eq!(bytes(&a), bytes(&b));
+        if target == Target::Fmu {
+            continue; // Archives; what is in them is looked at in the crate.
+        }
+        let head = String::from_utf8(contents(&a.path("out"))[0].1.clone()).unwrap();
+        assert!(
+            head.contains(&"ab".repeat(32)) && head.contains("X axis _/ (left)"),
+            "{head}"
+        );
+        assert!(
+            head.contains("sigma0 = 1.200000e5 N/m, 1.0800e5 to 1.3200e5"),
+            "{head}"
+        );
+    }
+}
+
+#[test]
+fn a_folder_that_holds_something_is_left_alone() {
+    let bench = Bench::new();
+    std::fs::create_dir(bench.path("out")).unwrap();
+    std::fs::write(bench.path("out/mine.txt"), "mine").unwrap();
+    let before = contents(&bench.path("out"));
+    let error = bench.export(&text("lugre", &LUGRE)).unwrap_err();
+    assert_eq!(error.code().as_str(), "output");
+    assert_eq!(contents(&bench.path("out")), before);
+    std::fs::remove_file(bench.path("out/mine.txt")).unwrap();
+    assert_eq!(
+        bench.export(&text("lugre", &LUGRE)).unwrap().written.len(),
+        contents(&bench.path("out")).len()
+    );
+}
+
+/// A free folder is used as it is: as a link, with its rights, as the one the user is in.
+#[cfg(unix)]
+#[test]
+fn an_empty_folder_stays_the_same_folder() {
+    use std::os::unix::fs::MetadataExt;
+    let model = text("lugre", &LUGRE);
+    let bench = Bench::new();
+    let (real, link) = (bench.path("real"), bench.path("link"));
+    std::fs::create_dir(&real).unwrap();
+    let before = real.metadata().unwrap().ino();
+    std::os::unix::fs::symlink(&real, &link).unwrap();
+    for out in [link.clone(), real.join("."), real.clone()] {
+        let exported = export(&bench.options(&model), &out).unwrap();
+        assert_eq!(contents(&real).len(), exported.written.len(), "{out:?}");
+        assert_eq!(std::fs::read_dir(&real).unwrap().count(), 6, "{out:?}");
+        assert_eq!(real.metadata().unwrap().ino(), before, "{out:?}");
+        assert!(link.is_symlink());
+        for (path, _) in contents(&real) {
+            std::fs::remove_file(path).unwrap();
+        }
+    }
+}
+
+/// The limit is said where the log was fast enough to reach it with the whole friction: 20 N + 60 N s/m v is 60 N at
+/// 0.667 m/s; at the gain that is written at 1 m/s.
+#[test]
+fn the_limit_is_said_where_the_log_reached_it() {
+    for (top, says) in [
+        ("0.66", None),
+        (
+            "0.7",
+            Some("at 0.6667 m/s with a gain of 1, at 1 m/s with 0.75, and the log goes to 0.7 m/s"),
+        ),
+        ("0.0", Some("source: top_speed = 0; above 0")),
+        ("inf", Some("source: top_speed = inf; above 0")),
+    ] {
+        let top = format!("seed = 0\ntop_speed = {top}\n");
+        let bench = Bench::new();
+        let said = match bench.export(&text("lugre", &LUGRE).replace("seed = 0\n", &top)) {
+            Ok(exported) => {
+                let limits = exported
+                    .warnings
+                    .into_iter()
+                    .filter(|w| w.code.as_str() == "export-limit");
+                limits.map(|w| w.message).collect()
+            }
+            Err(e) => e.to_string(),
+        };
+        match says {
+            Some(text) => assert!(said.contains(text), "{said}"),
+            None => assert_eq!(said, "", "{top}"),
+        }
+    }
+}
+
+/// What is refused, with its code and the place; nothing is left behind.
+#[test]
+fn bad_models_are_refused() {
+    let missing = &LUGRE[1..];
+    let with = |name: &'static str, value: f64| {
+        let unit = LUGRE.iter().find(|p| p.0 == name).map_or("N", |p| p.2);
+        let mut p: Vec<_> = LUGRE.into_iter().filter(|p| p.0 != name).collect();
+        p.push((name, value, unit));
+        p
+    };
+    let no_viscous: Vec<_> = LUGRE.into_iter().filter(|p| p.0 != "sigma2").collect();
+    let cases: [(&str, String, &str, &str); 10] = [
+        ("missing", text("lugre", missing), "bad-config", "no sigma0"),
+        (
+            "law",
+            text("elasto-plastic", &LUGRE),
+            "bad-config",
+            "identify with --law lugre",
+        ),
+        (
+            "static",
+            text("lugre", &with("static", 10.0)),
+            "bad-config",
+            "static = 10",
+        ),
+        (
+            "zero",
+            text("lugre", &with("sigma0", 0.0)),
+            "bad-config",
+            "sigma0 = 0",
+        ),
+        (
+            "single",
+            text("lugre", &with("sigma0", 1e40)),
+            "not-exported",
+            "model.toml: parameter: sigma0 = 1e40; allowed: from 1e-15 to 1e15 (as float)",
+        ),
+        (
+            "single, small",
+            text("lugre", &with("sigma0", 1e-40)),
+            "not-exported",
+            "model.toml: parameter: sigma0 = 1e-40; allowed",
+        ),
+        (
+            "term",
+            text("lugre", &with("coulomb_load", 0.1)),
+            "bad-config",
+            "coulomb_load",
+        ),
+        (
+            "no sigma2",
+            text("lugre", &no_viscous),
+            "bad-config",
+            "no sigma2",
+        ),
+        (
+            "side",
+            text("lugre", &with("stribeck_exponent_pos", 1.0)),
+            "bad-config",
+            "stribeck_exponent_pos",
+        ),
+        ("not ours", "x = 1".into(), "bad-config", "model.toml"),
+    ];
+    for (name, model, code, says) in cases {
+        let bench = Bench::new();
+        let error = bench.export(&model).unwrap_err();
+        assert_eq!(error.code().as_str(), code, "{name}: {error}");
+        assert!(error.to_string().contains(says), "{name}: {error}");
+        assert_eq!(contents(bench.0.path()).len(), 1, "{name}");
+    }
+    for (name, cycle_time, limit, says) in [
+        (Some("../x"), 1e-3, None, "name \"../x\""),
+        (Some("a__b"), 1e-3, None, "underscores"),
+        (None, 250.0, None, "cycle time 250 s"),
+        (None, f64::NAN, None, "cycle time NaN"),
+        (None, 1e-3, Some(-1.0), "limit = -1"),
+        (None, 1e-3, Some(f64::INFINITY), "limit = inf"),
+        (
+            None,
+            1e-3,
+            Some(1e-40),
+            "limit = 1e-40; allowed: from 1e-30 to 1e30 (as float)",
+        ),
+        (
+            None,
+            1e-3,
+            Some(1e-300),
+            "limit = 1e-300; allowed: from 1e-30 to 1e30 (as float)",
+        ),
+    ] {
+        let bench = Bench::new();
+        let options = ExportOptions {
+            name: name.map(str::to_string),
+            cycle_time,
+            limit,
+            ..bench.options(&text("lugre", &LUGRE))
+        };
+        let error = export(&options, &bench.path("out")).unwrap_err();
+        assert_eq!(error.code().as_str(), "not-exported", "{error}");
+        assert!(error.to_string().contains(says), "{error}");
+        assert_eq!(contents(bench.0.path()).len(), 1);
+    }
+}
+
+#[test]
+fn doubts_are_said_and_written() {
+    let mut stiff = LUGRE;
+    stiff[0].1 = 1e8;
+    stiff[1].1 = 5e3;
+    let mut parameters = stiff.to_vec();
+    parameters.push(("mass", 9.0, "kg"));
+    let model = text("lugre", &parameters)
+        .replace("trustworthy = true", "trustworthy = false")
+        .replacen("identifiable = true", "identifiable = false", 1);
+    let bench = Bench::new();
+    let mut options = bench.options(&model);
+    options.limit = Some(10.0);
+    let exported = export(&options, &bench.path("out")).unwrap();
+    let codes: Vec<_> = exported.warnings.iter().map(|w| w.code.as_str()).collect();
+    let all = [
+        "export-untrusted",
+        "export-untrusted",
+        "export-terms",
+        "export-damping",
+        "export-cycle-time",
+        "export-limit",
+    ];
+    assert_eq!(codes, all);
+    assert!(!exported.trustworthy);
+    let said = stiction::text::exported(&exported, Path::new("out"));
+    assert!(
+        said.contains("the data do not determine sigma0") && said.contains("mass is no friction"),
+        "{said}"
+    );
+    for (name, bytes) in contents(&bench.path("out")) {
+        let text = String::from_utf8(bytes).unwrap();
+        assert!(
+            text.contains("NOTE: the identification did not stand by its numbers"),
+            "{name}"
+        );
+        assert!(text.contains("NOT determined by the data"), "{name}");
+    }
+}
+
+/// A model in amperes stays one: its limit, what is said, what a table is in; MuJoCo, which takes newtons, refuses it.
+#[test]
+fn a_current_stays_one() {
+    let model = text("lugre", &LUGRE)
+        .replace("force_unit = \"N\"", "force_unit = \"A\"")
+        .replace("\"N/m\"", "\"A/m\"")
+        .replace("\"N s/m\"", "\"A*s/m\"")
+        .replace("unit = \"N\"", "unit = \"A\"");
+    let bench = Bench::new();
+    let exported = bench.export(&model).unwrap();
+    let said = stiction::text::exported(&exported, Path::new("out"));
+    assert!(said.contains("force at most 60.00 A"), "{said}");
+    assert!(said.contains("limited to 60 A, which"), "{said}");
+    for (name, bytes) in contents(&bench.path("out")) {
+        let text = String::from_utf8(bytes).unwrap();
+        assert!(
+            text.contains("The force is in A, as the log counted it"),
+            "{name}"
+        );
+        assert!(text.contains("  sigma1 = 3.000000e2 A s/m, 2.7"), "{name}");
+        assert!(
+            text.contains("NOTE: the force is limited to 60 A"),
+            "{name}"
+        );
+    }
+    let bench = Bench::new();
+    let options = ExportOptions {
+        target: Target::Tf5200,
+        rated_force: Some(200.0),
+        ..bench.options(&model)
+    };
+    export(&options, &bench.path("out")).unwrap();
+    let (_, bytes) = contents(&bench.path("out")).swap_remove(0);
+    let table = String::from_utf8(bytes).unwrap();
+    assert!(table.contains("rated force of 200.0 A"), "{table}");
+    let options = ExportOptions {
+        target: Target::Mujoco,
+        rated_force: None,
+        ..options
+    };
+    let error = export(&options, &bench.path("other")).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("takes forces in N, and those of the model are in A"),
+        "{error}"
+    );
+}
+
+/// Two axes have two names, and where a name is not the whole one it is said, on the terminal and in the files.
+#[test]
+fn names_are_not_lost_without_a_word() {
+    let named = |title: &str| {
+        let bench = Bench::new();
+        let model = text("lugre", &LUGRE).replace("X axis */ (left)", title);
+        let exported = bench.export(&model).unwrap();
+        let said = exported
+            .warnings
+            .iter()
+            .any(|w| w.code.as_str() == "export-name");
+        let text = String::from_utf8(contents(&bench.path("out")).swap_remove(0).1).unwrap();
+        assert_eq!(
+            text.contains("NOTE: the names in the code begin with"),
+            said,
+            "{title}"
+        );
+        (exported.name, said)
+    };
+    assert_eq!(
+        named("gantry axis number 1 left side"),
+        ("gantry_axis_number_1_left_side".into(), false)
+    );
+    assert_eq!(named("\u{8f74}"), ("axis".into(), true));
+    let (left, right) = (
+        named("the gantry of the long machine, left side"),
+        named("the gantry of the long machine, right side"),
+    );
+    assert!(left.1 && right.1 && left.0 != right.0, "{left:?} {right:?}");
+}
+
+/// Every law that a model file can carry and the compensator has.
+#[test]
+fn every_law() {
+    let dahl = [
+        ("sigma0", 1e5, "N/m"),
+        ("coulomb", 20.0, "N"),
+        ("sigma2", 60.0, "N s/m"),
+    ];
+    let lopsided = [
+        ("coulomb_pos", 20.0, "N"),
+        ("coulomb_neg", 14.0, "N"),
+        ("sigma2_pos", 60.0, "N s/m"),
+        ("sigma2_neg", 85.0, "N s/m"),
+        ("offset", -3.0, "N"),
+    ];
+    let mut power = LUGRE.to_vec();
+    power.push(("stribeck_exponent", 1.3, "1"));
+    for (law, parameters, holds) in [
+        ("dahl", &dahl[..], "params->sigma1 = 0.0;"),
+        (
+            "coulomb-viscous",
+            &lopsided[..],
+            "params->neg.coulomb = 14.0;",
+        ),
+        (
+            "stribeck",
+            &LUGRE[2..],
+            "params->pos.stribeck_velocity = 0.005;",
+        ),
+        ("lugre", &power[..], "params->exponent = 1.3;"),
+    ] {
+        let bench = Bench::new();
+        bench.export(&text(law, parameters)).unwrap();
+        let source = std::fs::read_to_string(bench.path("out/X_axis_left_friction.c")).unwrap();
+        assert!(source.contains(holds), "{law}");
+    }
+}
+
+/// The words of every refusal and warning, as they are read; what is refused leaves nothing behind.
+#[test]
+fn what_is_said() {
+    let with = |changes: &[(&'static str, f64)]| {
+        let mut p = LUGRE.to_vec();
+        for (name, value) in changes {
+            match p.iter_mut().find(|p| p.0 == *name) {
+                Some(p) => p.1 = *value,
+                None => p.push((name, *value, "N")),
+            }
+        }
+        text("lugre", &p)
+    };
+    let good = with(&[]);
+    let loose = good.replacen("identifiable = true", "identifiable = false", 1);
+    let untrusted = good.replace("trustworthy = true", "trustworthy = false");
+    type Change = fn(&mut ExportOptions);
+    let cases: Vec<(&str, &str, Change)> = vec![
+        ("not identifiable", &loose, |_| {}),
+        ("not trusted", &untrusted, |_| {}),
+        ("another name", &good, |o| o.name = Some("2nd axis".into())),
+        ("a key word of C with an ending", &good, |o| {
+            o.name = Some("int".into())
+        }),
+        ("a path for a name", &good, |o| {
+            o.name = Some("../../etc/x".into())
+        }),
+        ("a reserved name", &good, |o| o.name = Some("_x__y".into())),
+        ("a long name", &good, |o| o.name = Some("x".repeat(40))),
+        ("a cycle time in microseconds", &good, |o| {
+            o.cycle_time = 250.0
+        }),
+        ("no cycle time", &good, |o| o.cycle_time = 0.0),
+        ("no force", &good, |o| o.limit = Some(0.0)),
+        ("less than the friction", &good, |o| o.limit = Some(10.0)),
+        ("a table without the motor", &good, |o| {
+            o.target = Target::Tf5200
+        }),
+        ("a table of a motor without force", &good, |o| {
+            (o.target, o.rated_force) = (Target::Tf5200, Some(0.0));
+        }),
+        ("a motor for code", &good, |o| o.rated_force = Some(221.0)),
+        ("a motor far too large", &good, |o| {
+            (o.target, o.rated_force) = (Target::Tf5200, Some(1e6));
+        }),
+        ("a motor far too small", &good, |o| {
+            (o.target, o.rated_force) = (Target::Tf5200, Some(0.5));
+        }),
+        ("a motor too small", &good, |o| {
+            (o.target, o.rated_force) = (Target::Tf5200, Some(20.0));
+        }),
+        ("a limit in MuJoCo", &good, |o| {
+            (o.target, o.limit) = (Target::Mujoco, Some(40.0));
+        }),
+        ("a table with a limit", &good, |o| {
+            (o.target, o.rated_force, o.limit) = (Target::Tf5200, Some(221.0), Some(40.0));
+        }),
+    ];
+    let beyond = with(&[("sigma0", 1e40), ("sigma1", 0.0)]);
+    let tiny = with(&[("coulomb", 1e-50), ("static", 1e-50)]);
+    let stiff = with(&[("sigma0", 1e8), ("sigma1", 0.0)]);
+    let active = with(&[("sigma1", 5e3)]);
+    let asymmetric = text(
+        "lugre",
+        &[
+            &LUGRE[..2],
+            &LUGRE[3..],
+            &[("coulomb_pos", 20.0, "N"), ("coulomb_neg", 14.0, "N")],
+        ]
+        .concat(),
+    );
+    let more: Vec<(&str, &str, Change)> = vec![
+        ("beyond REAL", &beyond, |o| o.target = Target::St),
+        ("nothing in REAL", &tiny, |o| o.target = Target::St),
+        ("too stiff for the cycle", &stiff, |_| {}),
+        ("not passive", &active, |_| {}),
+        ("asymmetric in MuJoCo", &asymmetric, |o| {
+            o.target = Target::Mujoco
+        }),
+        ("no law of ours", "law = 3", |_| {}),
+        ("nothing", "", |_| {}),
+    ];
+    let mut said = String::new();
+    for (name, model, change) in cases.into_iter().chain(more) {
+        let bench = Bench::new();
+        let mut options = bench.options(model);
+        change(&mut options);
+        said += &format!("{name}\n");
+        match export(&options, &bench.path("out")) {
+            Ok(exported) => {
+                assert!(bench.path("out").is_dir(), "{name}");
+                let none = exported.warnings.is_empty();
+                said += if none { "  written\n" } else { "" };
+                for w in exported.warnings {
+                    said += &format!("  warning [{}]: {}\n", w.code, w.message);
+                }
+            }
+            Err(e) => {
+                assert_eq!(contents(bench.0.path()).len(), 1, "{name}");
+                let place = bench.0.path().display().to_string();
+                said += &format!(
+                    "  {} [{}]\n",
+                    e.to_string().replace(&place, "DIR"),
+                    e.code()
+                );
+            }
+        }
+    }
+    // Where to write.
+    let bench = Bench::new();
+    let options = bench.options(&good);
+    std::fs::create_dir(bench.path("full")).unwrap();
+    std::fs::write(bench.path("full/mine.txt"), "mine").unwrap();
+    let before = contents(bench.0.path());
+    for (name, out) in [
+        ("a folder that holds something", "full"),
+        ("a file", "full/mine.txt"),
+        ("below a file", "full/mine.txt/out"),
+        ("the model itself", "model.toml"),
+    ] {
+        let error = export(&options, &bench.path(out)).unwrap_err();
+        let place = bench.0.path().display().to_string();
+        let error = error.to_string().replace(&place, "DIR");
+        said += &format!("{name}\n  {error}\n");
+        assert_eq!(contents(bench.0.path()), before, "{name}");
+    }
+    insta::assert_snapshot!(said);
+}

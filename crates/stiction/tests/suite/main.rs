@@ -1,0 +1,18 @@
+//! The integration tests of `stiction` in one program, which is linked once: a new file is a module here.
+
+mod auto;
+mod chain;
+mod common;
+mod compare;
+mod compare_logs;
+mod contours;
+mod export;
+mod measure;
+mod model;
+mod paper;
+mod procedures;
+mod recordings;
+mod simulation;
+mod study;
+mod terms;
+mod workflow;

@@ -1,0 +1,120 @@
+//! Identifies a measured recording as its case says and measures what must hold.
+
+use std::path::Path;
+use stiction::{LawKind, Method, Options, Outcome, Procedures, Silent, identify};
+use stiction_testkit::{Case, Limit, Metric, workspace};
+
+/// A limit with what was measured.
+pub struct Measured {
+    pub what: String,
+    pub value: f64,
+    pub most: f64,
+}
+
+impl Measured {
+    pub fn holds(&self) -> bool {
+        self.value <= self.most
+    }
+}
+
+/// Identifies the recordings of a case below `data`.
+pub fn run(case: &Case, data: &Path) -> Outcome {
+    with_law(case, data, case.law)
+}
+
+fn with_law(case: &Case, data: &Path, law: &str) -> Outcome {
+    let options = Options {
+        logs: case.logs.iter().map(|log| data.join(log)).collect(),
+        axis: Some(workspace().join("validation").join(case.axis)),
+        law: Some(LawKind::from_name(law).expect("a law of the cases exists")),
+        asymmetric: case.asymmetric,
+        validate: case.validate.iter().map(|log| data.join(log)).collect(),
+        split: case.split,
+        seed: 0,
+        compare_laws: false,
+        procedures: Procedures {
+            method: Method::from_name(case.method).expect("a method of the cases exists"),
+            ..Procedures::default()
+        },
+        searching: stiction::Searching::default(),
+    };
+    identify(&options, &mut Silent).unwrap_or_else(|e| panic!("{}: {e}", case.name))
+}
+
+/// Measures one limit of a case.
+pub fn measure(case: &Case, limit: &Limit, outcome: &Outcome, data: &Path) -> Measured {
+    let result = &outcome.result;
+    let unit = &result.fit.unit;
+    let held_out = result.validation.last();
+    let (what, value) = match limit.metric {
+        Metric::OffPercent(name, reference) => {
+            let p = result
+                .parameters
+                .iter()
+                .find(|p| p.name == name)
+                .expect("parameter");
+            (
+                format!("{name} {:.5} {}, off {reference} by (%)", p.value, p.unit),
+                100.0 * (p.value / reference - 1.0).abs(),
+            )
+        }
+        Metric::FitPercent => (
+            "relative error (%)".into(),
+            result.fit.relative_error_percent,
+        ),
+        Metric::HeldOutRms => (
+            format!("residual on unseen data ({unit} rms)"),
+            held_out.expect("validation").fit.rmse,
+        ),
+        Metric::PositionPercent => {
+            let simulation = result.simulation.as_ref().expect("a simulation");
+            let position = &simulation.position;
+            (
+                format!(
+                    "position error ({:.3e} {} rms), %",
+                    position.rmse, position.unit
+                ),
+                position.relative_error_percent,
+            )
+        }
+        Metric::ForcePercent => {
+            let simulation = result.simulation.as_ref().expect("a simulation");
+            let force = simulation.force.as_ref().expect("a closed loop");
+            (
+                format!("force error ({:.3} {} rms), %", force.rmse, force.unit),
+                force.relative_error_percent,
+            )
+        }
+        Metric::UnseenPosition => (
+            format!("position residual on unseen runs, the largest ({unit} rms)"),
+            result.validation.iter().fold(0.0, |m, v| v.fit.rmse.max(m)),
+        ),
+        Metric::LowSpeedOver(law) => {
+            let other = with_law(case, data, law);
+            let slow = |o: &Outcome| o.result.low_speed.as_ref().expect("slow samples").fit.rmse;
+            (low_speed_words(result, law), slow(outcome) / slow(&other))
+        }
+        Metric::HeldOutLowSpeedOver(law) => {
+            let other = with_law(case, data, law);
+            let slow = |o: &Outcome| {
+                let last = o.result.validation.last().expect("validation");
+                last.low_speed.as_ref().expect("slow samples").fit.rmse
+            };
+            (low_speed_words(result, law), slow(outcome) / slow(&other))
+        }
+    };
+    Measured {
+        what,
+        value,
+        most: limit.most,
+    }
+}
+
+fn low_speed_words(result: &stiction::result::ResultFile, law: &str) -> String {
+    let low = result.low_speed.as_ref().expect("slow samples");
+    let side = if result.asymmetric { "asymmetric " } else { "" };
+    format!(
+        "residual below {} {} over that of {side}{law}",
+        low.bound, low.bound_unit
+    )
+}

@@ -1,0 +1,271 @@
+//! The procedures as whole workflows: on the logs of the demo, and what they refuse.
+
+use crate::common::{Bench, options};
+use std::path::{Path, PathBuf};
+use stiction::result::ResultFile;
+use stiction::{Error, LawKind, Method, ModelFile, Options, Outcome, Procedures, Silent};
+
+fn with(logs: &[&Path], procedures: Procedures) -> Options {
+    Options {
+        procedures,
+        ..options(logs, LawKind::LuGre)
+    }
+}
+
+fn method(method: Method) -> Procedures {
+    Procedures {
+        method,
+        ..Procedures::default()
+    }
+}
+
+fn run(options: &Options) -> Result<Outcome, Error> {
+    stiction::identify(options, &mut Silent)
+}
+
+const TRUTH: [(&str, f64); 7] = [
+    ("sigma0", 1.2e5),
+    ("sigma1", 600.0),
+    ("sigma2", 60.0),
+    ("coulomb", 20.0),
+    ("static", 30.0),
+    ("stribeck_velocity", 5e-3),
+    ("mass", 10.0),
+];
+
+/// Every identified parameter within this share of the truth, and within four deviations of it.
+fn near_truth(outcome: &Outcome, share: f64) {
+    for p in outcome
+        .result
+        .parameters
+        .iter()
+        .filter(|p| p.origin == "identified")
+    {
+        let Some((_, truth)) = TRUTH.iter().find(|(name, _)| *name == p.name) else {
+            continue;
+        };
+        assert!(
+            (p.value / truth - 1.0).abs() < share,
+            "{}: {}",
+            p.name,
+            p.value
+        );
+        let std = p
+            .std
+            .unwrap_or_else(|| panic!("{} has no deviation: {}", p.name, p.reason));
+        assert!(
+            (p.value - truth).abs() < 4.0 * std,
+            "{}: {} +- {std}",
+            p.name,
+            p.value
+        );
+        assert!(p.identifiable, "{}: {}", p.name, p.reason);
+    }
+    let trust = &outcome.result.trust;
+    assert!(trust.trustworthy, "{:?}", trust.reasons);
+}
+
+/// What is written can be read back, and the report is whole.
+fn files(outcome: &Outcome, bench: &Bench, name: &str) -> PathBuf {
+    let dir = bench.path(name);
+    stiction::bundle::identification(outcome)
+        .write(&dir)
+        .unwrap();
+    let json = std::fs::read_to_string(dir.join("result.json")).unwrap();
+    let back: ResultFile = serde_json::from_str(&json).unwrap();
+    assert_eq!(back, outcome.result);
+    let html = std::fs::read_to_string(dir.join("report.html")).unwrap();
+    assert!(html.trim_end().ends_with("</html>"));
+    let model = dir.join("model.toml");
+    ModelFile::read(&model).unwrap();
+    model
+}
+
+/// The four procedures of the documentation, each on the model of the one before.
+#[test]
+fn the_logs_of_the_demo() {
+    let bench = Bench::new();
+    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap();
+    let log = |name: &str| {
+        let found = logs.iter().find(|p| p.ends_with(name));
+        found.unwrap_or_else(|| panic!("no {name}")).clone()
+    };
+    let speeds = log("speeds.csv");
+
+    let map = run(&with(&[&speeds], method(Method::Static))).unwrap();
+    near_truth(&map, 0.02);
+    let entry = map.result.static_map.as_ref().unwrap();
+    assert_eq!(entry.points.len(), 24);
+    assert!(entry.scatter < 0.15, "{}", entry.scatter);
+    assert_eq!(map.result.method, "static");
+    assert_eq!(map.result.law, "stribeck");
+    assert!(map.result.warnings.is_empty(), "{:?}", map.result.warnings);
+    files(&map, &bench, "static");
+
+    let both = Procedures {
+        statics: vec![speeds.clone()],
+        ..method(Method::StaticThenDynamic)
+    };
+    let dynamic = run(&with(&[&log("motion.csv")], both)).unwrap();
+    near_truth(&dynamic, 0.02);
+    let entry = dynamic.result.static_then_dynamic.as_ref().unwrap();
+    assert_eq!(entry.statics, "static logs");
+    assert!(entry.joint_rmse <= entry.rmse * (1.0 + 1e-9));
+    assert!(entry.explanation.len() >= 2);
+    let names: Vec<&str> = entry.parameters.iter().map(|p| p.name.as_str()).collect();
+    assert!(
+        TRUTH.iter().all(|(name, _)| names.contains(name)),
+        "{names:?}"
+    );
+    let model = files(&dynamic, &bench, "dynamic");
+
+    let steps = Procedures {
+        model: Some(model.clone()),
+        ..method(Method::PreslidingStep)
+    };
+    let step = run(&with(&[&log("step_1.csv"), &log("step_2.csv")], steps)).unwrap();
+    near_truth(&step, 0.005);
+    let entry = step.result.presliding_step.as_ref().unwrap();
+    assert_eq!(entry.used, "simulated");
+    // The bias of the published inversion at a damping ratio of .3 and a tenth of Fs.
+    let published = &entry.published[0];
+    assert!((-17.0..-13.0).contains(&published.sigma0_off_percent));
+    assert!((20.0..35.0).contains(&published.sigma1_off_percent.unwrap()));
+    assert_eq!(step.result.fit.unit, "m");
+    files(&step, &bench, "step");
+
+    let ramps = Procedures {
+        model: Some(model),
+        break_away: vec![log("ramp_1.csv"), log("ramp_2.csv"), log("ramp_3.csv")],
+        ..method(Method::Static)
+    };
+    let ramps = run(&with(&[&speeds], ramps)).unwrap();
+    let found = &ramps.result.break_away;
+    for (run, rate) in found.iter().zip([5.0, 20.0, 100.0]) {
+        assert!((run.rate / rate - 1.0).abs() < 0.005);
+        let predicted = run.predicted_force.unwrap();
+        assert!((run.force / predicted - 1.0).abs() < 0.02, "{run:?}");
+    }
+    assert!(found.is_sorted_by(|a, b| a.force > b.force));
+    // Not a point of the map, whatever comes beside it.
+    assert_eq!(ramps.result.parameters, map.result.parameters);
+    files(&ramps, &bench, "ramps");
+}
+
+/// What a procedure cannot be given is refused, each with its page.
+#[test]
+fn what_cannot_be_is_refused() {
+    let bench = Bench::new();
+    let log = bench.good("log.csv", 1);
+    let other = bench.good("other.csv", 2);
+    let refused = |options: &Options, code: &str| {
+        let error = run(options)
+            .err()
+            .unwrap_or_else(|| panic!("{code}: accepted"));
+        assert_eq!(error.code().as_str(), code, "{error}");
+        let page = stiction_testkit::workspace().join(format!("docs/codes/{code}.md"));
+        assert!(page.is_file(), "{code}");
+        bench.plain(&error.to_string())
+    };
+    let of = |m| with(&[&log], method(m));
+    assert!(refused(&of(Method::Static), "too-few-speeds").contains("log.csv"));
+    refused(&of(Method::StaticThenDynamic), "too-few-speeds");
+    assert!(refused(&of(Method::PreslidingStep), "no-step").contains("log.csv"));
+    let ramp = Procedures {
+        break_away: vec![other.clone()],
+        ..Procedures::default()
+    };
+    let message = refused(&with(&[&log], ramp), "no-break-away");
+    assert!(
+        message.contains("other.csv") && !message.contains("log.csv:"),
+        "{message}"
+    );
+    let statics = Procedures {
+        statics: vec![other.clone()],
+        ..Procedures::default()
+    };
+    refused(&with(&[&log], statics), "usage");
+    let twice = Procedures {
+        statics: vec![log.clone()],
+        ..method(Method::StaticThenDynamic)
+    };
+    refused(&with(&[&log], twice), "usage");
+    for m in [Method::Static, Method::PreslidingStep] {
+        let split = Options {
+            split: Some(0.5),
+            ..of(m)
+        };
+        refused(&split, "usage");
+        let dahl = Options {
+            law: Some(LawKind::Dahl),
+            ..of(m)
+        };
+        refused(&dahl, "usage");
+    }
+    let model = |text: &str| Procedures {
+        model: Some(bench.write("model.toml", text)),
+        ..method(Method::StaticThenDynamic)
+    };
+    refused(&with(&[&log], model("schema = 3")), "bad-config");
+    let missing = Procedures {
+        model: Some(bench.path("none.toml")),
+        ..method(Method::StaticThenDynamic)
+    };
+    refused(&with(&[&log], missing), "bad-config");
+}
+
+/// Measured recordings: the servo moves at .017 to .027 N m, on ramps of 1/60 N m/s; the benchmark axis
+/// has its constant velocities in its reference, and the map agrees with the published least squares.
+#[test]
+fn measured_recordings() {
+    let Some(data) = stiction_testkit::recordings() else {
+        return;
+    };
+    let axis = |name: &str| Some(stiction_testkit::workspace().join("validation").join(name));
+    let ramps = Procedures {
+        break_away: (1..=5)
+            .map(|k| data.join(format!("servo/breakaway_{k}.txt")))
+            .collect(),
+        ..Procedures::default()
+    };
+    let servo = Options {
+        axis: axis("servo.toml"),
+        law: Some(LawKind::CoulombViscous),
+        ..with(&[&data.join("servo/sliding_1.txt")], ramps)
+    };
+    for found in &run(&servo).unwrap().result.break_away {
+        println!(
+            "{}: {} N m at {} N m/s",
+            found.path, found.force, found.rate
+        );
+        assert!((0.017..=0.0275).contains(&found.force), "{found:?}");
+        assert!((found.rate * 60.0 - 1.0).abs() < 0.01);
+        assert_eq!(found.predicted_force, None);
+    }
+    let emps = Options {
+        axis: axis("emps.toml"),
+        law: Some(LawKind::CoulombViscous),
+        ..with(&[&data.join("emps/DATA_EMPS.mat")], method(Method::Static))
+    };
+    let emps = Options {
+        asymmetric: true,
+        ..emps
+    };
+    let emps = run(&emps).unwrap();
+    let value = |name: &str| {
+        let found = emps.result.parameters.iter().find(|p| p.name == name);
+        found.unwrap().value
+    };
+    let points = &emps.result.static_map.as_ref().unwrap().points;
+    let [pos, neg] = ["pos", "neg"]
+        .map(|s| value(&format!("coulomb_{s}")) + 0.1 * value(&format!("sigma2_{s}")));
+    println!("{} points: {pos} and {neg} N at .1 m/s", points.len());
+    assert!(points.len() >= 20);
+    // Published, from the whole motion: 20.3935 N and 203.5034 N s/m, offset -3.1648 N.
+    let friction = 20.3935 + 0.1 * 203.5034;
+    assert!(
+        (0.5 * (pos + neg) / friction - 1.0).abs() < 0.03,
+        "{pos} {neg}"
+    );
+    assert!((0.5 * (pos - neg) + 3.1648).abs() < 1.0, "{pos} {neg}");
+}

@@ -1,0 +1,215 @@
+//! `--method output-error` from files to files: a closed loop with a known controller, an open loop, what
+//! is refused.
+
+use crate::common::{Bench, options};
+use std::fmt::Write;
+use std::path::PathBuf;
+use stiction::{LawKind, Method, Options, Outcome, Silent};
+use stiction_servo::cascade::{Cascade, CascadeState};
+use stiction_servo::known;
+use stiction_servo::path::Reference;
+use stiction_servo::plant::{Load, Motion, Plant};
+
+const CASCADE: Cascade = Cascade {
+    position_gain: 60.0,
+    speed_gain: 2500.0,
+    integral_gain: 25_000.0,
+    mass_feedforward: 0.0,
+    force_limit: 500.0,
+};
+
+const AXIS: &str = r#"kind = "linear"
+
+[columns]
+time = "t"
+position = { column = "x", unit = "mm" }
+force = { column = "u", unit = "V", scale = "50 N/V" }
+reference = { column = "r", unit = "mm" }
+"#;
+
+const CONTROLLER: &str = r#"
+[controller]
+kind = "p-pi"
+position_gain = "60 1/s"
+speed_gain = "2500 N s/m"
+integral_gain = "500 V/m"
+force_limit = "500 N"
+"#;
+
+/// The machine axis in closed loop, as its drive would write it: steps of 0.1 um, volts.
+fn log(bench: &Bench, name: &str, n: usize, phase: f64) -> PathBuf {
+    let h = 1e-3;
+    let axis = known::find("machine").unwrap();
+    let plant = Plant::new(axis.mass, axis.law).unwrap();
+    let (mut state, mut motion) = (CascadeState::default(), Motion::default());
+    let mut text = String::from("t [s],r,x,u\n");
+    for k in 0..n {
+        let t = k as f64 * h;
+        let path = 0.01 * ((2.0 * t + phase).sin() - phase.sin()) + 0.004 * (9.0 * t).sin();
+        let wanted = Reference {
+            position: path,
+            velocity: 0.0,
+            acceleration: 0.0,
+        };
+        let x = 1e-7 * (motion.position / 1e-7).round();
+        let force = CASCADE.force(&mut state, h, wanted, x);
+        let _ = writeln!(
+            text,
+            "{t:.3},{:.9},{:.4},{:.6}",
+            1e3 * path,
+            1e3 * x,
+            force / 50.0
+        );
+        for _ in 0..10 {
+            motion = plant.step(motion, h / 10.0, Load::force(force)).motion;
+        }
+    }
+    bench.write(name, &text)
+}
+
+fn simulated(bench: &Bench, axis: &str, change: impl FnOnce(&mut Options)) -> Options {
+    let mut options = options(&[], LawKind::LuGre);
+    options.axis = Some(bench.write("axis.toml", axis));
+    options.procedures.method = Method::OutputError;
+    change(&mut options);
+    options
+}
+
+fn run(options: &Options) -> Result<Outcome, stiction::Error> {
+    stiction::identify(options, &mut Silent)
+}
+
+#[test]
+fn a_closed_loop_is_identified_from_its_file() {
+    let bench = Bench::new();
+    let first = log(&bench, "first.csv", 4000, 0.0);
+    let second = log(&bench, "second.csv", 2000, 0.7);
+    let options = simulated(&bench, &format!("{AXIS}{CONTROLLER}"), |o| {
+        o.logs = vec![first];
+        o.validate = vec![second];
+    });
+    let outcome = run(&options).unwrap();
+    let result = &outcome.result;
+    assert!(result.trust.trustworthy, "{:?}", result.trust.reasons);
+    assert_eq!(result.method, "output-error");
+    for (name, truth) in [
+        ("sigma0", 1.2e5),
+        ("sigma1", 600.0),
+        ("sigma2", 60.0),
+        ("coulomb", 20.0),
+        ("static", 30.0),
+        ("stribeck_velocity", 5e-3),
+        ("mass", 10.0),
+    ] {
+        let p = result.parameters.iter().find(|p| p.name == name).unwrap();
+        assert!((p.value / truth - 1.0).abs() < 0.01, "{name} {}", p.value);
+        assert!(p.identifiable, "{name}: {}", p.reason);
+    }
+    assert_eq!(
+        (result.fit.signal.as_str(), result.fit.unit.as_str()),
+        ("position", "m")
+    );
+    let simulation = result.simulation.as_ref().unwrap();
+    assert_eq!((simulation.kind.as_str(), simulation.runs), ("closed", 1));
+    let floor = simulation.quantisation_floor.unwrap();
+    assert!(
+        (floor / (1e-7 / 12f64.sqrt()) - 1.0).abs() < 1e-6,
+        "{floor}"
+    );
+    assert!(result.fit.rmse < 3.0 * floor, "{}", result.fit.rmse);
+    let force = simulation.force.as_ref().unwrap();
+    assert_eq!((force.signal.as_str(), force.unit.as_str()), ("force", "N"));
+    assert!(force.relative_error_percent < 2.0, "{force:?}");
+    assert!(
+        result.validation[0].fit.rmse < 3.0 * floor,
+        "{:?}",
+        result.validation[0]
+    );
+    assert_eq!(simulation.validation_force.len(), 1);
+
+    let out = bench.path("out");
+    stiction::bundle::identification(&outcome)
+        .write(&out)
+        .unwrap();
+    let csv = std::fs::read_to_string(out.join("fit.csv")).unwrap();
+    assert!(csv.starts_with(
+        "time [s],measured [m],model [m],residual [m],velocity [m/s],force [N],model force [N]\n"
+    ));
+    assert_eq!(csv.lines().count(), 4001);
+    let json = std::fs::read_to_string(out.join("result.json")).unwrap();
+    let read: stiction::result::ResultFile = serde_json::from_str(&json).unwrap();
+    assert_eq!(read.simulation, result.simulation);
+    let html = std::fs::read_to_string(out.join("report.html")).unwrap();
+    for words in [
+        "Measured and simulated",
+        "Force over position",
+        "Validation",
+    ] {
+        assert!(html.contains(words), "{words}");
+    }
+    let text = stiction::text::outcome(&outcome);
+    assert!(
+        text.contains("simulation  closed loop, one run; force"),
+        "{text}"
+    );
+}
+
+#[test]
+fn the_same_log_is_split_and_driven_by_its_force() {
+    let bench = Bench::new();
+    let only = log(&bench, "only.csv", 3000, 0.0);
+    let axis = format!("{AXIS}\n[simulation]\nsegment = \"0.5 s\"\n");
+    let options = simulated(&bench, &axis, |o| {
+        o.logs = vec![only];
+        o.split = Some(0.7);
+        o.law = Some(LawKind::Dahl);
+    });
+    let outcome = run(&options).unwrap();
+    let simulation = outcome.result.simulation.as_ref().unwrap();
+    assert_eq!((simulation.kind.as_str(), simulation.runs), ("open", 4));
+    assert_eq!(simulation.start, "runs");
+    assert!(simulation.force.is_none());
+    assert_eq!(outcome.result.validation[0].fit.samples, 900);
+    let mass = outcome.estimate.value("mass").unwrap();
+    assert!((mass / 10.0 - 1.0).abs() < 0.1, "{mass}");
+}
+
+#[test]
+fn what_cannot_be_simulated_is_told() {
+    let bench = Bench::new();
+    let only = log(&bench, "only.csv", 1000, 0.0);
+    let blind = AXIS
+        .replace("reference", "load")
+        .replace("\"mm\" }\n\"", "");
+    let blind = blind.replace(
+        "{ column = \"r\", unit = \"mm\" }",
+        "{ column = \"r\", unit = \"N\" }",
+    );
+    let cases = [
+        (format!("{blind}{CONTROLLER}"), None, "not-simulated"),
+        (
+            format!("mass = \"none\"\n{AXIS}{CONTROLLER}"),
+            None,
+            "not-simulated",
+        ),
+        (
+            format!("{AXIS}{CONTROLLER}rate = \"1234 Hz\"\n"),
+            None,
+            "bad-setting",
+        ),
+        (
+            format!("{AXIS}{}", CONTROLLER.replace("2500 N s/m", "2500 N s")),
+            None,
+            "bad-config",
+        ),
+        (format!("{AXIS}{CONTROLLER}"), Some(1.5), "usage"),
+    ];
+    for (axis, split, code) in cases {
+        let options = simulated(&bench, &axis, |o| {
+            o.logs = vec![only.clone()];
+            o.split = split;
+        });
+        let e = run(&options).unwrap_err();
+        assert_eq!(e.code().as_str(), code, "{e}");
+    }
+}

@@ -1,0 +1,673 @@
+//! Studies: numbers that are known from elsewhere, what a covariance does, what is refused, and that threads do not count.
+
+use std::path::PathBuf;
+use stiction::study::result::{ResultRow, StudyFile};
+use stiction::{Control, FileError, Study};
+use tempfile::TempDir;
+
+/// A folder with a study in it.
+struct Desk(TempDir);
+
+impl Desk {
+    fn new() -> Self {
+        Desk(tempfile::tempdir().unwrap())
+    }
+
+    fn write(&self, name: &str, text: &str) -> PathBuf {
+        let path = self.0.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path
+    }
+
+    fn study(&self, text: &str) -> Result<Study, FileError> {
+        Study::read(&self.write("study.toml", text))
+    }
+
+    fn run(&self, text: &str) -> StudyFile {
+        run(&self.study(text).unwrap())
+    }
+
+    /// What is said of a study, without the folder that it is in.
+    fn refusal(&self, text: &str) -> String {
+        let Err(error) = self.study(text) else {
+            panic!("not refused: {text}");
+        };
+        assert_eq!(error.code().as_str(), "bad-config");
+        let folder = format!("{}/", self.0.path().display());
+        error.to_string().replace(&folder, "")
+    }
+}
+
+fn run(study: &Study) -> StudyFile {
+    stiction::simulate(study, &mut |_, _| Control::Continue).file
+}
+
+fn row<'f>(file: &'f StudyFile, compensator: &str, parameters: &str) -> &'f ResultRow {
+    let found = file
+        .results
+        .iter()
+        .find(|r| r.compensator == compensator && r.parameters == parameters);
+    found.unwrap_or_else(|| panic!("no row {compensator}, {parameters}"))
+}
+
+const AXIS: &str = r#"
+[axis]
+known        = "motor"
+rate         = "4 kHz"
+encoder      = "50 nm"
+current_loop = "1 kHz"
+peak_force   = "1248 N"
+"#;
+
+const SINE: &str = r#"
+[[path]]
+kind      = "sine"
+amplitude = "5 mm"
+frequency = "0.5 Hz"
+"#;
+
+const CASCADE: &str = r#"
+[[controller]]
+kind        = "cascade"
+bandwidth   = "60 Hz"
+force_limit = "200 N"
+"#;
+
+const WHOLE: &str = r#"
+[[compensator]]
+name     = "whole"
+kind     = "lugre"
+gain     = 1.0
+watchdog = false
+ramp     = "0 s"
+"#;
+
+fn together(parts: &[&str]) -> String {
+    parts.concat()
+}
+
+/// The errors without and with compensation are those of an independent prototype (58.5 um, and 98.5 % less) and of the
+/// tables in docs/compensation.md.
+#[test]
+fn the_published_sine() {
+    let observer = "\n[[compensator]]\nname = \"DOB\"\nkind = \"disturbance-observer\"\nbandwidth = \"60 Hz\"\n";
+    let file = Desk::new().run(&together(&[AXIS, SINE, CASCADE, WHOLE, observer]));
+    assert_eq!(file.status, "complete");
+    assert_eq!(file.results.len(), 3);
+    let peak = |name: &str| row(&file, name, "exact").metric("peak_error").unwrap().mean;
+    assert!(
+        (peak("none") / 58.5e-6 - 1.0).abs() < 0.01,
+        "{}",
+        peak("none")
+    );
+    let less = |name: &str| {
+        let metric = row(&file, name, "exact").metric("reversal_peak").unwrap();
+        metric.reduction_percent.unwrap()
+    };
+    assert!(less("whole") > 98.5, "{}", less("whole"));
+    assert!((less("DOB") - 81.7).abs() < 0.5, "{}", less("DOB"));
+    let none = row(&file, "none", "exact").metric("rms_error").unwrap();
+    assert_eq!((none.reduction_percent, none.interval95), (None, None));
+    // A sine has no stretch of constant velocity.
+    assert!(
+        none.mean > 0.0
+            && row(&file, "none", "exact")
+                .metric("velocity_ripple")
+                .is_none()
+    );
+}
+
+const SHORT: &str = r#"
+[[path]]
+kind      = "sine"
+amplitude = "0.2 mm"
+frequency = "4 Hz"
+cycles    = 2
+"#;
+
+/// The same bits with any number of threads; every cell of the grid is there, and an interrupt keeps what is done.
+#[test]
+fn threads_do_not_count_and_an_interrupt_keeps_what_is_done() {
+    let moves = "\n[[path]]\nkind = \"constant-velocity\"\nhold = \"0.2 s\"\nvelocity = \"5 mm/s\"\nacceleration = \"1 m/s2\"\njerk = \"100 m/s3\"\n";
+    let fuzzy = "\n[[controller]]\nkind = \"fuzzy-pid\"\nbandwidth = \"40 Hz\"\n";
+    let learning = "\n[[compensator]]\nkind = \"learning\"\nlead = \"2.5 ms\"\ncutoff = \"250 Hz\"\npasses = 3\n";
+    let corners = "\n[[parameter_error]]\nkind = \"corners\"\nby = \"20 %\"\n";
+    let text = together(&[AXIS, SHORT, moves, CASCADE, fuzzy, WHOLE, learning, corners])
+        .replace("[axis]", "seed = 3\n[axis]\nposition_noise = \"20 nm\"");
+    let desk = Desk::new();
+    let study = desk.study(&text).unwrap();
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let file = pool.build().unwrap().install(|| run(&study));
+        serde_json::to_string(&file).unwrap()
+    };
+    let one = with(1);
+    assert!(one == with(3));
+    let file: StudyFile = serde_json::from_str(&one).unwrap();
+    // Two paths, two controllers; none, whole, whole with wrong parameters, learning.
+    assert_eq!(file.results.len(), 2 * 2 * 4);
+    assert_eq!(row(&file, "whole", "±20 %").runs, 64);
+    let ripple = |r: &ResultRow| r.metric("velocity_ripple").is_some();
+    assert_eq!(file.results.iter().filter(|r| ripple(r)).count(), 8);
+    assert!(file.warnings.is_empty(), "{:?}", file.warnings);
+
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1);
+    let mut seen = 0;
+    let cut = pool.build().unwrap().install(|| {
+        stiction::simulate(&study, &mut |done, all| {
+            seen = done;
+            assert_eq!(all, 4 * (1 + 65 + 1));
+            match done {
+                5.. => Control::Stop,
+                _ => Control::Continue,
+            }
+        })
+    });
+    assert_eq!(seen, 5);
+    assert_eq!(cut.file.status, "interrupted");
+    let kept: usize = cut.file.results.iter().map(|r| r.runs).sum();
+    assert_eq!(kept, 5);
+    // What is kept can be drawn.
+    assert_eq!(stiction::bundle::study(&cut).files().len(), 3);
+}
+
+/// A model file of the stage whose static and Coulomb friction have the standard deviations given, N, and correlate fully.
+fn model(coulomb: f64, fixed: f64) -> String {
+    let parameters = [
+        ("sigma0", 2e6, "N/m"),
+        ("sigma1", 1.5e3, "N*s/m"),
+        ("sigma2", 30.0, "N*s/m"),
+        ("coulomb", 12.0, "N"),
+        ("static", 18.0, "N"),
+        ("stribeck_velocity", 3e-3, "m/s"),
+        ("mass", 4.6, "kg"),
+    ];
+    let mut text = String::from(
+        "schema = \"stiction.model/1\"\nname = \"stage\"\nkind = \"linear\"\nlaw = \"lugre\"\nasymmetric = false\n\
+         force_unit = \"N\"\ntrustworthy = true\n[source]\nversion = \"0\"\nmethod = \"separable\"\nseed = 0\n\
+         inputs = []\n",
+    );
+    for (name, value, unit) in parameters {
+        text += &format!(
+            "[[parameter]]\nname = \"{name}\"\nsymbol = \"{name}\"\nvalue = {value:?}\nunit = \"{unit}\"\n\
+             identifiable = true\norigin = \"identified\"\n"
+        );
+    }
+    let c = coulomb * fixed;
+    text += &format!(
+        "[covariance]\nnames = [\"coulomb\", \"static\"]\nmatrix = [[{:?}, {c:?}], [{c:?}, {:?}]]\n",
+        coulomb * coulomb,
+        fixed * fixed
+    );
+    text
+}
+
+/// Draws spread as the covariance says: with a compensator of the steady curve at high speed, what it is off by is what the
+/// Coulomb level is off by, in the part of the error that a Coulomb level off by 10 % makes.
+#[test]
+fn draws_from_the_covariance() {
+    let desk = Desk::new();
+    let draws = "\n[[parameter_error]]\nkind = \"covariance\"\ndraws = 60\n";
+    let text = |file: &str| {
+        together(&[AXIS, SHORT, CASCADE, WHOLE, draws])
+            .replace("known        = \"motor\"", &format!("model = \"{file}\""))
+    };
+    desk.write("sure.toml", &model(0.0, 0.0));
+    desk.write("good.toml", &model(0.12, 0.18));
+    desk.write("poor.toml", &model(0.6, 0.9));
+    let [sure, good, poor] = ["sure", "good", "poor"].map(|name| {
+        let file = desk.run(&text(&format!("{name}.toml")));
+        assert!(file.warnings.is_empty(), "{:?}", file.warnings);
+        assert_eq!(file.inputs.len(), 2);
+        let exact = row(&file, "whole", "exact")
+            .metric("rms_error")
+            .unwrap()
+            .mean;
+        let draws = row(&file, "whole", "60 draws");
+        assert_eq!(draws.runs, 60);
+        let metric = draws.metric("rms_error").unwrap();
+        let [low, high] = metric.interval95.unwrap();
+        assert!(metric.least <= low && low <= high && high <= metric.largest);
+        (exact, high, metric.least)
+    });
+    // Without spread every draw is the exact run.
+    assert_eq!((sure.0, sure.0), (sure.1, sure.2));
+    assert_eq!((sure.0, sure.0), (good.0, poor.0));
+    // Five times the deviation, about five times the error.
+    let ratio = (poor.1 - poor.0) / (good.1 - good.0);
+    assert!((3.5..6.5).contains(&ratio), "{ratio}");
+    let off = Desk::new();
+    off.write("m.toml", &model(0.1, 0.1).replace("[0.01", "[-0.01"));
+    assert!(off.study(&text("m.toml")).is_err());
+    off.write("m.toml", &model(1e9, 1e9));
+    let refusal = off.refusal(&text("m.toml"));
+    assert!(
+        refusal.contains("coulomb = 12.00 has a standard deviation of 1.000e9"),
+        "{refusal}"
+    );
+}
+
+/// A model whose directions differ, with a force at rest and a constant micro-damping: parameters that are hardly wrong give
+/// hardly another result.
+#[test]
+fn corners_are_the_model_but_for_what_they_name() {
+    let desk = Desk::new();
+    let extra = ["coulomb_neg", "static_neg", "offset"]
+        .into_iter()
+        .zip([8.0, 10.0, 5.0]);
+    let extra: String = extra
+        .map(|(name, value)| {
+            format!(
+                "[[parameter]]\nname = \"{name}\"\nsymbol = \"{name}\"\nvalue = {value:?}\nunit = \"N\"\n\
+                 identifiable = true\norigin = \"identified\"\n"
+            )
+        })
+        .collect();
+    let text = model(0.0, 0.0)
+        .replace("asymmetric = false", "asymmetric = true")
+        .replace("\"coulomb\"", "\"coulomb_pos\"")
+        .replace("\"static\"", "\"static_pos\"")
+        .replace("[covariance]", &(extra + "[covariance]"));
+    desk.write("m.toml", &text);
+    let axis = AXIS.replace(
+        "known        = \"motor\"",
+        "model = \"m.toml\"\nsigma1 = \"constant\"",
+    );
+    let corners = "\n[[parameter_error]]\nkind = \"corners\"\nby = \"0.001 %\"\n";
+    let file = desk.run(&together(&[&axis, SHORT, CASCADE, WHOLE, corners]));
+    let rms = |parameters: &str| {
+        let row = row(&file, "whole", parameters);
+        row.metric("rms_error").unwrap().clone()
+    };
+    let (exact, wrong) = (rms("exact"), rms("±0.001 %"));
+    assert!(exact.reduction_percent.unwrap() > 90.0, "{exact:?}");
+    for of in [wrong.least, wrong.largest] {
+        // A tenth of an encoder step.
+        assert!((of - exact.mean).abs() < 5e-9, "{exact:?} {wrong:?}");
+    }
+}
+
+fn codes(file: &StudyFile) -> Vec<&str> {
+    file.warnings.iter().map(|w| w.code.as_str()).collect()
+}
+
+/// The plant is stepped as often as its bristles need, or the study says that it is not.
+#[test]
+fn stiff_bristles_get_shorter_steps() {
+    let desk = Desk::new();
+    for (sigma0, substeps, warned) in [
+        ("2000000.0", 3, false),
+        ("1e10", 12, false),
+        ("1e14", 100, true),
+    ] {
+        desk.write("stiff.toml", &model(0.0, 0.0).replace("2000000.0", sigma0));
+        let text = together(&[AXIS, SHORT, CASCADE])
+            .replace("known        = \"motor\"", "model = \"stiff.toml\"");
+        let file = desk.run(&text);
+        assert_eq!(file.axis.substeps, substeps, "{sigma0}");
+        assert_eq!(codes(&file).contains(&"long-steps"), warned, "{sigma0}");
+    }
+}
+
+/// A watchdog whose learning reaches into what counts is named, in the rows too; one that is done by then is not.
+#[test]
+fn a_watchdog_that_still_learns() {
+    let supplied = "\n[[compensator]]\nkind = \"lugre\"\n";
+    let run = |more: &str, skip: &str| {
+        let path = SHORT.replace("cycles    = 2", &format!("cycles = 4\nskip = \"{skip}\""));
+        let text = together(&[AXIS, &path, CASCADE, supplied, more]);
+        let study = Desk::new().study(&text).unwrap();
+        stiction::simulate(&study, &mut |_, _| Control::Continue)
+    };
+    let outcome = run("", "0.5 s");
+    let file = &outcome.file;
+    assert_eq!(codes(file), ["still-learning"]);
+    let lugre = row(file, "lugre", "exact");
+    assert_eq!(
+        (lugre.still_learning, lugre.remarks().as_str()),
+        (1, "still learning")
+    );
+    assert!(
+        lugre
+            .metric("rms_error")
+            .unwrap()
+            .reduction_percent
+            .unwrap()
+            .abs()
+            < 1e-9
+    );
+    let html = String::from_utf8(stiction::bundle::study(&outcome).files()[0].1.clone()).unwrap();
+    assert!(html.contains("exact, still learning") && html.contains("not every figure"));
+    assert!(stiction::text::study(&outcome).contains("still learning"));
+    // Half a second from the first turn, at 0.125 s; the force has come in 50 ms later.
+    for (skip, still) in [("0.67 s", 1), ("0.68 s", 0)] {
+        let outcome = run("watchdog_window = \"0.5 s\"\n", skip);
+        let courses =
+            String::from_utf8(stiction::bundle::study(&outcome).files()[1].1.clone()).unwrap();
+        let first = courses.lines().find_map(|line| {
+            let numbers: Vec<f64> = line.split(',').filter_map(|x| x.parse().ok()).collect();
+            (numbers.last().is_some_and(|force| *force != 0.0)).then(|| numbers[0])
+        });
+        assert!((first.unwrap() - 0.625).abs() < 2e-3, "{first:?}");
+        let file = outcome.file;
+        assert_eq!(row(&file, "lugre", "exact").still_learning, still, "{skip}");
+        assert_eq!(codes(&file).len(), still);
+    }
+}
+
+/// A drive that cannot even overcome friction, and a loop so fast that it swings between its limits, are named.
+#[test]
+fn forces_at_their_limit_and_loops_that_swing() {
+    let weak = AXIS.replace("1248 N", "10 N");
+    let file = Desk::new().run(&together(&[&weak, SHORT, CASCADE, WHOLE]));
+    assert_eq!(codes(&file), ["at-force-limit"]);
+    assert!(
+        file.warnings[0].message.contains("limit of 10.0 N"),
+        "{:?}",
+        file.warnings
+    );
+    let saturation = row(&file, "none", "exact").metric("saturation").unwrap();
+    assert!(saturation.mean > 0.5 && saturation.mean <= 1.0);
+    let fast = CASCADE.replace("60 Hz", "900 Hz");
+    let file = Desk::new().run(&together(&[AXIS, SHORT, &fast, WHOLE]));
+    assert_eq!(codes(&file), ["at-force-limit", "unsteady-command"]);
+    let file = Desk::new().run(&together(&[AXIS, SHORT, CASCADE, WHOLE]));
+    assert!(codes(&file).is_empty());
+    let saturation = row(&file, "none", "exact").metric("saturation").unwrap();
+    assert_eq!(saturation.largest, 0.0);
+}
+
+/// A sine from a file, in other units and at uneven times, is the sine.
+#[test]
+fn a_path_from_a_file() {
+    let desk = Desk::new();
+    let omega = 8.0 * std::f64::consts::PI;
+    let mut rows = String::from("t [ms];x [mm]\n");
+    for k in 0..=1000 {
+        let t = 0.5e-3 * f64::from(k) + if k % 2 == 1 { 0.1e-3 } else { 0.0 };
+        rows += &format!("{};{}\n", 1e3 * t, 3.0 + 0.2 * (1.0 - libm::cos(omega * t)));
+    }
+    desk.write("sine.csv", &rows);
+    let from_file = "\n[[path]]\nkind = \"file\"\nfile = \"sine.csv\"\nskip = \"0.25 s\"\n";
+    let file = desk.run(&together(&[AXIS, SHORT, from_file, CASCADE, WHOLE]));
+    assert!(file.warnings.is_empty(), "{:?}", file.warnings);
+    assert_eq!(file.inputs.len(), 2);
+    assert!((file.paths[1].duration_s - 0.5).abs() < 1e-9);
+    let rms = |path: &str| {
+        let of = |r: &&ResultRow| r.path == path && r.compensator == "none";
+        let row = file.results.iter().find(of).unwrap();
+        row.metric("rms_error").unwrap().mean
+    };
+    assert!(
+        (rms("file") / rms("sine") - 1.0).abs() < 0.01,
+        "{} {}",
+        rms("file"),
+        rms("sine")
+    );
+
+    let mut out = String::new();
+    for (name, text) in [
+        ("absent.csv", None),
+        ("one.csv", Some("t [s]\n0\n1\n2\n")),
+        ("back.csv", Some("t [s],x [mm]\n0,0\n1,1\n0.5,2\n")),
+        ("unit.csv", Some("t [s],x [N]\n0,0\n1,1\n2,2\n")),
+        ("hole.csv", Some("t [s],x [mm]\n0,0\n1,\n2,2\n")),
+    ] {
+        if let Some(text) = text {
+            desk.write(name, text);
+        }
+        let text = together(&[AXIS, from_file, CASCADE]).replace("sine.csv", name);
+        let Err(error) = desk.study(&text) else {
+            panic!("not refused: {name}");
+        };
+        let folder = format!("{}/", desk.0.path().display());
+        out += &format!("{}: {error}\n", error.code()).replace(&folder, "");
+    }
+    insta::assert_snapshot!(out);
+    // Without units they are those of the SI, and that is said.
+    desk.write("bare.csv", "t,x\n0,0\n0.5,0.001\n1,0\n");
+    let text = together(&[AXIS, from_file, CASCADE]).replace("sine.csv", "bare.csv");
+    assert_eq!(codes(&desk.run(&text)), ["unit-assumed"]);
+}
+
+/// Of many compensators the figures show some, and say so; of the tile's two one names the risk.
+#[test]
+fn what_the_report_does_not_draw_it_says() {
+    let gains: String = (1..=8)
+        .map(|k| {
+            format!(
+                "\n[[compensator]]\nname = \"gain {k}\"\nkind = \"lugre\"\nwatchdog = false\ngain = {}\n",
+                0.1 * f64::from(k)
+            )
+        })
+        .collect();
+    let corners = "\n[[parameter_error]]\nkind = \"corners\"\nby = \"10 %\"\n";
+    let study = Desk::new()
+        .study(&together(&[AXIS, SHORT, CASCADE, &gains, corners]))
+        .unwrap();
+    let outcome = stiction::simulate(&study, &mut |_, _| Control::Continue);
+    let html = String::from_utf8(stiction::bundle::study(&outcome).files()[0].1.clone()).unwrap();
+    assert!(html.contains("7 of 9: without compensation, and those that leave the least"));
+    assert!(html.contains("largest error, gain 8; ") && html.contains("at the worst of ±10 %"));
+}
+
+/// The courses stand beside the report: the whole run, thinned evenly, one block for each run with exact parameters.
+#[test]
+fn courses_beside_the_report() {
+    let corners = "\n[[parameter_error]]\nkind = \"corners\"\nby = \"10 %\"\n";
+    let path = SHORT.replace("kind", "name = \"to, and \\\"fro\\\"\"\nkind");
+    let study = Desk::new()
+        .study(&together(&[AXIS, &path, CASCADE, WHOLE, corners]))
+        .unwrap();
+    let outcome = stiction::simulate(&study, &mut |_, _| Control::Continue);
+    let bundle = stiction::bundle::study(&outcome);
+    let (name, rows) = &bundle.files()[1];
+    assert_eq!(*name, "trajectories.csv");
+    let rows = String::from_utf8(rows.clone()).unwrap();
+    let mut lines = rows.lines();
+    assert_eq!(
+        lines.next().unwrap(),
+        "path,controller,compensator,time [s],reference [m],position [m],error [m],force [N],compensation [N]"
+    );
+    let key = "\"to, and \"\"fro\"\"\",\"cascade 60 Hz\",\"whole\",";
+    let whole: Vec<Vec<f64>> = lines
+        .filter_map(|line| line.strip_prefix(key))
+        .map(|line| line.split(',').map(|x| x.parse().unwrap()).collect())
+        .collect();
+    // Half a second at 4 kHz, all of it.
+    assert_eq!(whole.len(), 2001);
+    assert!((whole[2000][0] - 0.5).abs() < 1e-12);
+    for row in &whole {
+        let [_, reference, position, error, force, compensation] = row[..] else {
+            panic!("{row:?}");
+        };
+        assert!((reference - position - error).abs() < 1e-9);
+        assert!(compensation.abs() <= 20.0 && force.abs() <= 200.0);
+    }
+    let of = |name: &str| {
+        row(&outcome.file, "whole", "exact")
+            .metric(name)
+            .unwrap()
+            .mean
+    };
+    let counted = whole.iter().filter(|row| row[0] >= 0.25);
+    let peak = counted.map(|row| row[3].abs()).fold(0.0, f64::max);
+    assert!((peak / of("peak_error") - 1.0).abs() < 1e-6);
+}
+
+// Motions that are over within a few samples at 4 kHz.
+const CHIRP: &str = "
+[[path]]
+kind = \"chirp\"
+amplitude = \"1 mm\"
+from = \"1 Hz\"
+to = \"500 Hz\"
+duration = \"2 s\"
+";
+const MOVE: &str = "
+[[path]]
+kind = \"staircase\"
+distance = \"1e-300 m\"
+velocity = \"1 m/s\"
+acceleration = \"1 m/s2\"
+jerk = \"100 m/s3\"
+";
+const HOLD: &str = "
+[[path]]
+kind = \"constant-velocity\"
+hold = \"1 ms\"
+velocity = \"1 um/s\"
+acceleration = \"1 m/s2\"
+jerk = \"1e6 m/s3\"
+";
+const EXCITATION: &str = "
+[[path]]
+kind = \"excitation\"
+speed = \"1e300 m/s\"
+duration = \"9 s\"
+";
+const BRIEF: &str = "
+[[path]]
+kind = \"excitation\"
+speed = \"1 m/s\"
+duration = \"1 ms\"
+";
+
+/// Set points that go 1e200 m, the square of which is no number.
+fn far() -> String {
+    let rows = (0..100).map(|i| format!("{},{:e}\n", 0.01 * f64::from(i), 1e198 * f64::from(i)));
+    "t [s],x [m]\n".to_string() + &rows.collect::<String>()
+}
+
+/// A run whose figures are not finite is none: it is named, and no row stands for it.
+#[test]
+fn figures_that_are_no_numbers() {
+    let desk = Desk::new();
+    desk.write("far.csv", &far());
+    let path = "\n[[path]]\nname = \"far\"\nkind = \"file\"\nfile = \"far.csv\"\n";
+    let file = desk.run(&together(&[AXIS, path, CASCADE, WHOLE]));
+    assert!(file.results.is_empty(), "{:?}", file.results);
+    assert_eq!(codes(&file), ["not-run", "not-run"]);
+    insta::assert_snapshot!(file.warnings[0].message);
+}
+
+/// Between the passes of learning the work can be stopped; what was not finished is not kept.
+#[test]
+fn learning_stops_between_passes() {
+    let learning = "\n[[compensator]]\nkind = \"learning\"\nlead = \"2.5 ms\"\ncutoff = \"250 Hz\"\npasses = 50\n";
+    let study = Desk::new()
+        .study(&together(&[AXIS, SHORT, CASCADE, learning]))
+        .unwrap();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1);
+    let mut asked = 0;
+    let outcome = pool.build().unwrap().install(|| {
+        stiction::simulate(&study, &mut |done, _| {
+            // The run without compensation, then three passes.
+            asked += 1;
+            assert_eq!(done, 1);
+            match asked {
+                4.. => Control::Stop,
+                _ => Control::Continue,
+            }
+        })
+    });
+    assert_eq!((asked, outcome.file.status.as_str()), (4, "interrupted"));
+    assert_eq!(outcome.file.results.len(), 1);
+}
+
+#[test]
+fn what_is_refused() {
+    let good = together(&[AXIS, SINE, CASCADE, WHOLE]);
+    let desk = Desk::new();
+    desk.write(
+        "volts.toml",
+        &model(0.1, 0.1)
+            .replace("\"N", "\"V")
+            .replace("\"kg\"", "\"V*s^2/m\""),
+    );
+    desk.write(
+        "richer.toml",
+        &model(0.1, 0.1).replace("\"lugre\"", "\"elasto-plastic\""),
+    );
+    desk.write(
+        "part.toml",
+        &model(0.1, 0.1)
+            .replacen("sigma0", "delay", 1)
+            .replacen("N/m", "s", 1),
+    );
+    let changes = [
+        ("amplitude = \"5 mm\"", "amplitude = 5"),
+        ("amplitude = \"5 mm\"", "amplitude = \"5 N\""),
+        ("amplitude = \"5 mm\"", "amplitude = \"-5 mm\""),
+        (
+            "amplitude = \"5 mm\"",
+            "amplitude = \"5 mm\"\ndwell = \"1 s\"",
+        ),
+        (
+            "amplitude = \"5 mm\"",
+            "skip = \"9 s\"\namplitude = \"5 mm\"",
+        ),
+        ("frequency = \"0.5 Hz\"", ""),
+        ("amplitude = \"5 mm\"", "amplitud = \"5 mm\""),
+        ("frequency = \"0.5 Hz\"", "frequency = \"1e-6 Hz\""),
+        ("frequency = \"0.5 Hz\"", "frequency = \"3 kHz\""),
+        ("frequency = \"0.5 Hz\"", "frequency = \"1e300 Hz\""),
+        ("amplitude = \"5 mm\"", "amplitude = \"1e300 m\""),
+        (
+            "peak_force   = \"1248 N\"",
+            "peak_force = \"1248 N\"\ncogging = { amplitude = \"1e300 N\", pitch = \"24 mm\" }",
+        ),
+        (SINE, CHIRP),
+        (SINE, MOVE),
+        (SINE, HOLD),
+        (SINE, EXCITATION),
+        (SINE, BRIEF),
+        ("kind      = \"sine\"", "kind = \"sinus\""),
+        ("[[path]]", "[path]"),
+        ("known        = \"motor\"", ""),
+        ("known        = \"motor\"", "known = \"engine\""),
+        ("known        = \"motor\"", "model = \"absent.toml\""),
+        ("known        = \"motor\"", "model = \"volts.toml\""),
+        ("known        = \"motor\"", "model = \"richer.toml\""),
+        ("known        = \"motor\"", "model = \"part.toml\""),
+        ("rate         = \"4 kHz\"", "rate = \"4 MHz\""),
+        ("peak_force   = \"1248 N\"", "delay = \"1 s\""),
+        ("bandwidth   = \"60 Hz\"", ""),
+        (
+            "bandwidth   = \"60 Hz\"",
+            "bandwidth = \"60 Hz\"\nspeed_gain = \"1 N s/m\"",
+        ),
+        ("gain     = 1.0", "gain = 1.5"),
+        ("gain     = 1.0", "gain = \"1\""),
+        ("gain     = 1.0", "source = \"blend\""),
+        ("name     = \"whole\"", "name = \"none\""),
+        ("watchdog = false", "watchdog = 0"),
+        ("[axis]", "sead = 1\n[axis]"),
+        ("[axis]", "seed = -1\n[axis]"),
+        (
+            "[axis]",
+            "[[parameter_error]]\nkind = \"covariance\"\n[axis]",
+        ),
+        (
+            "[axis]",
+            "[[parameter_error]]\nkind = \"corners\"\nby = \"120 %\"\n[axis]",
+        ),
+        ("[axis]", "[axis"),
+    ];
+    let mut out = String::new();
+    for (from, to) in changes {
+        assert!(good.contains(from), "{from}");
+        out += &desk.refusal(&good.replacen(from, to, 1));
+        out += "\n";
+    }
+    out += &desk.refusal(AXIS);
+    insta::assert_snapshot!(out);
+}
+
+/// The study that comes with the documentation is one.
+#[test]
+fn the_example_is_a_study() {
+    let file = stiction_testkit::workspace().join("examples/stage/study.toml");
+    let study = Study::read(&file).unwrap();
+    assert_eq!(study.inputs().count(), 1);
+}

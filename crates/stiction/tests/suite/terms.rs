@@ -1,0 +1,222 @@
+//! Load, temperature and position in the axis file: from columns of a log to parameters in files.
+
+use crate::common;
+use crate::common::{Bench, both_ways, noise, options};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use stiction::{LawKind, ModelFile, Options, Outcome, Silent};
+
+const LOAD_MEAN: f64 = 100.0;
+
+/// `Fc = 20 N + 0.1 (N - 100 N) - 0.4 N/K (T - 300 K)`, viscous 60 N s/m, mass 9 kg.
+fn log(bench: &Bench, name: &str, asymmetric: bool) -> PathBuf {
+    let mut text =
+        String::from("Time [s],Position [mm],Force [N],Normal load [N],Temperature [degC]\n");
+    for i in 0..8000 {
+        let t = i as f64 / common::RATE;
+        let [x, v, a] = both_ways(t);
+        let load = LOAD_MEAN + 40.0 * (1.3 * t).sin();
+        let kelvin = 300.0 + 5.0 * (0.7 * t).cos();
+        let mut level = 20.0 + 0.1 * (load - LOAD_MEAN) - 0.4 * (kelvin - 300.0);
+        if asymmetric && v < 0.0 {
+            level += 3.0 + 0.05 * (load - LOAD_MEAN);
+        }
+        let sign = f64::from(i8::from(v > 0.0) - i8::from(v < 0.0));
+        let force = level * sign + 60.0 * v + 9.0 * a + 0.5 * noise(11, i);
+        let _ = writeln!(
+            text,
+            "{t:.4},{:.6},{force:.4},{load:.3},{:.4}",
+            1e3 * x,
+            kelvin - 273.15
+        );
+    }
+    bench.write(name, &text)
+}
+
+fn with_axis(bench: &Bench, log: &Path, text: &str, law: LawKind) -> Options {
+    let mut options = options(&[log], law);
+    options.axis = Some(bench.write("axis.toml", text));
+    options
+}
+
+fn run(options: &Options) -> Outcome {
+    stiction::identify(options, &mut Silent).unwrap()
+}
+
+const TERMS: &str = "[terms]\ncoulomb_load = true\ncoulomb_temperature = true\n";
+
+#[test]
+fn load_and_temperature_reach_every_file() {
+    let bench = Bench::new();
+    let file = log(&bench, "log.csv", false);
+    let outcome = run(&with_axis(&bench, &file, TERMS, LawKind::CoulombViscous));
+    let result = &outcome.result;
+    assert!(result.trust.trustworthy, "{:?}", result.trust);
+    for (name, truth, unit) in [
+        ("coulomb_load", 0.1, "1"),
+        ("coulomb_temperature", -0.4, "N/K"),
+        ("sigma2", 60.0, "N*s/m"),
+        ("mass", 9.0, "kg"),
+    ] {
+        let p = result.parameters.iter().find(|p| p.name == name).unwrap();
+        assert!((p.value / truth - 1.0).abs() < 0.03, "{name} = {}", p.value);
+        // The central differences shift the mass by (w h)^2/3, which its interval does not know of.
+        let [low, high] = p.ci95.unwrap().map(|x| x.expect("a closed interval"));
+        let inside = low <= truth && truth <= high;
+        assert!(inside || name == "mass", "{name}: {low} .. {high}");
+        assert_eq!(p.unit, unit);
+        assert!(p.identifiable);
+    }
+    let given = |name: &str| {
+        let p = result.parameters.iter().find(|p| p.name == name).unwrap();
+        assert_eq!(p.origin, "given");
+        (p.value, p.unit.as_str())
+    };
+    let (load, unit) = given("load_reference");
+    assert!(
+        (load - LOAD_MEAN).abs() < 8.0 && unit == "N",
+        "{load} {unit}"
+    );
+    let (kelvin, unit) = given("temperature_reference");
+    assert!(
+        (kelvin - 300.0).abs() < 2.0 && unit == "K",
+        "{kelvin} {unit}"
+    );
+    // The Coulomb level holds at the references.
+    let coulomb = 20.0 + 0.1 * (load - LOAD_MEAN) - 0.4 * (kelvin - 300.0);
+    let found = result
+        .parameters
+        .iter()
+        .find(|p| p.name == "coulomb")
+        .unwrap();
+    let [low, high] = found.ci95.unwrap().map(|x| x.expect("a closed interval"));
+    assert!(
+        low <= coulomb && coulomb <= high,
+        "{coulomb}: {low} .. {high}"
+    );
+
+    let bundle = stiction::bundle::identification(&outcome);
+    let text = |wanted: &str| {
+        let (_, bytes) = bundle
+            .files()
+            .iter()
+            .find(|(name, _)| *name == wanted)
+            .unwrap();
+        std::str::from_utf8(bytes).unwrap().to_string()
+    };
+    let model = ModelFile::parse(&text("model.toml"), Path::new("model.toml")).unwrap();
+    for name in ["coulomb_load", "load_reference", "temperature_reference"] {
+        assert!(model.parameter.iter().any(|p| p.name == name), "{name}");
+    }
+    assert!(model.covariance.names.iter().any(|n| n == "coulomb_load"));
+    let report = text("report.html");
+    assert!(report.contains("Coulomb friction per normal load"));
+    assert!(report.contains("<mi>L</mi>"), "the level in the formula");
+    insta::assert_snapshot!(
+        stiction::text::outcome(&outcome).replace(&format!("{}/", bench.dir().display()), "")
+    );
+}
+
+/// Each direction has its own dependence beside an asymmetric law.
+#[test]
+fn each_direction_has_its_own() {
+    let bench = Bench::new();
+    let file = log(&bench, "log.csv", true);
+    for law in [LawKind::CoulombViscous, LawKind::Stribeck] {
+        let mut options = with_axis(&bench, &file, TERMS, law);
+        options.asymmetric = true;
+        let outcome = run(&options);
+        for (name, truth) in [("coulomb_load_pos", 0.1), ("coulomb_load_neg", 0.15)] {
+            let parameters = &outcome.result.parameters;
+            let found = parameters.iter().find(|p| p.name == name).unwrap();
+            assert!(
+                (found.value - truth).abs() < 0.01,
+                "{law}: {name} = {}",
+                found.value
+            );
+        }
+    }
+}
+
+/// Without the terms the same log leaves much more, and the ladder fits them beside every law.
+#[test]
+fn the_terms_count() {
+    let bench = Bench::new();
+    let file = log(&bench, "log.csv", false);
+    let without = run(&options(&[&file], LawKind::CoulombViscous));
+    let mut with = with_axis(&bench, &file, TERMS, LawKind::CoulombViscous);
+    with.compare_laws = true;
+    let with = run(&with);
+    assert!(without.result.fit.rmse > 3.0 * with.result.fit.rmse);
+    assert!(with.result.laws.len() >= 4);
+    for law in &with.result.laws {
+        assert!(law.fitted_error_percent < without.result.fit.relative_error_percent);
+    }
+}
+
+/// A term whose column is missing is refused with the term and the key to fill in, also where only a
+/// validation log lacks it.
+#[test]
+fn a_missing_column_is_named() {
+    let bench = Bench::new();
+    let whole = log(&bench, "log.csv", false);
+    let bare = bench.good("bare.csv", 1);
+    for key in ["coulomb_load", "coulomb_temperature", "sigma2_temperature"] {
+        let axis = format!("[terms]\n{key} = true\n");
+        let alone = with_axis(&bench, &bare, &axis, LawKind::CoulombViscous);
+        let mut validated = with_axis(&bench, &whole, &axis, LawKind::CoulombViscous);
+        validated.validate = vec![bare.clone()];
+        for options in [alone, validated] {
+            let error = stiction::identify(&options, &mut Silent).unwrap_err();
+            assert_eq!(error.code().as_str(), "log-missing");
+            let message = error.to_string();
+            let channel = key.rsplit_once('_').unwrap().1;
+            for part in ["bare.csv", key, &format!("[columns] {channel} =")] {
+                assert!(message.contains(part), "{message}");
+            }
+        }
+    }
+    let axis = with_axis(
+        &bench,
+        &whole,
+        "[terms]\ncoulomb_pitch = [\"0 mm\"]\n",
+        LawKind::CoulombViscous,
+    );
+    let error = stiction::identify(&axis, &mut Silent).unwrap_err();
+    assert_eq!(error.code().as_str(), "bad-config");
+    assert!(error.to_string().contains("terms.coulomb_pitch"), "{error}");
+}
+
+/// A load that does not change cannot tell its coefficient: flagged, and the rest stands.
+#[test]
+fn a_constant_load_is_flagged() {
+    let bench = Bench::new();
+    let good = bench.good("good.csv", 2);
+    let text = std::fs::read_to_string(&good).unwrap();
+    let mut lines = text.lines();
+    let mut out = format!("{},Normal load [N]\n", lines.next().unwrap());
+    for line in lines {
+        let _ = writeln!(out, "{line},80");
+    }
+    let file = bench.write("constant.csv", &out);
+    let axis = "[columns]\nload = \"Normal load\"\n[terms]\ncoulomb_load = true\n";
+    let outcome = run(&with_axis(&bench, &file, axis, LawKind::CoulombViscous));
+    let load = outcome
+        .result
+        .parameters
+        .iter()
+        .find(|p| p.name == "coulomb_load")
+        .unwrap();
+    assert!(!load.identifiable && load.std.is_none(), "{load:?}");
+    let warning = outcome
+        .result
+        .warnings
+        .iter()
+        .find(|w| w.message.contains("coulomb_load"));
+    assert!(warning.unwrap().message.contains("Record several loads"));
+    assert!(
+        outcome.result.trust.trustworthy,
+        "{:?}",
+        outcome.result.trust
+    );
+}

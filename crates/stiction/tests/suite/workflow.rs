@@ -1,0 +1,601 @@
+//! Whole identifications on made logs: what is refused, what is flagged, what is written.
+
+use crate::common;
+use crate::common::{Bench, both_ways, friction, noise, options};
+use std::collections::BTreeSet;
+use std::fmt::Write;
+use std::path::Path;
+use stiction::result::ResultFile;
+use stiction::{
+    Axis, Control, LawKind, Method, ModelFile, Observer, Options, Outcome, Progress, Silent, Stage,
+    check_folder,
+};
+
+fn run(options: &Options) -> Result<Outcome, stiction::Error> {
+    stiction::identify(options, &mut Silent)
+}
+
+fn value(outcome: &Outcome, name: &str) -> f64 {
+    let found = outcome.result.parameters.iter().find(|p| p.name == name);
+    found.unwrap_or_else(|| panic!("no {name}")).value
+}
+
+fn has_page(code: &str) -> bool {
+    let pages = stiction_testkit::workspace().join("docs/codes");
+    pages.join(format!("{code}.md")).is_file()
+}
+
+/// Logs from which nothing, or not everything, can be identified: an error, or a result that says no.
+#[test]
+fn poor_logs_are_refused_or_flagged() {
+    let bench = Bench::new();
+    let n = 4000;
+    let sine = |t: f64| both_ways(t)[0];
+    let one_way = |t: f64| {
+        [
+            0.05 * t + 0.005 * (6.0 * t).sin(),
+            0.05 + 0.03 * (6.0 * t).cos(),
+            -0.18 * (6.0 * t).sin(),
+        ]
+    };
+    let logs = [
+        (
+            "constant velocity",
+            bench.log("constant.csv", n, |t| 0.1 * t, |i, _| 26.0 + noise(1, i)),
+        ),
+        (
+            "no motion",
+            bench.log("rest.csv", n, |_| 0.1, |i, _| 5.0 + noise(2, i)),
+        ),
+        (
+            "no motion but noise",
+            bench.log(
+                "buzz.csv",
+                n,
+                |t| 0.1 + 1e-6 * noise(3, (t * 1e3) as usize),
+                |i, _| 5.0 + noise(4, i),
+            ),
+        ),
+        (
+            "pure noise",
+            bench.log(
+                "noise.csv",
+                n,
+                |t| 1e-3 * noise(5, (t * 1e3) as usize),
+                |i, _| noise(6, i),
+            ),
+        ),
+        (
+            "20 samples",
+            bench.log("short.csv", 20, sine, |_, t| friction(both_ways(t))),
+        ),
+        (
+            "2 samples",
+            bench.log("two.csv", 2, sine, |_, t| friction(both_ways(t))),
+        ),
+        ("no samples", bench.log("none.csv", 0, sine, |_, _| 0.0)),
+        (
+            "one direction only",
+            bench.log(
+                "oneway.csv",
+                n,
+                move |t| one_way(t)[0],
+                move |i, t| friction(one_way(t)) + 0.1 * noise(7, i),
+            ),
+        ),
+        (
+            "saturated force",
+            bench.log("saturated.csv", n, sine, |_, t| {
+                friction(both_ways(t)).clamp(-15.0, 15.0)
+            }),
+        ),
+        ("no force", bench.log("zero.csv", n, sine, |_, _| 0.0)),
+        ("constant force", bench.log("same.csv", n, sine, |_, _| 7.0)),
+        (
+            "force unrelated to motion",
+            bench.log("other.csv", n, sine, |i, _| 9.0 * noise(8, i)),
+        ),
+    ];
+    let mut out = String::new();
+    for (what, log) in &logs {
+        for law in [LawKind::CoulombViscous, LawKind::LuGre, LawKind::Gms] {
+            let _ = writeln!(out, "{what}, {}", law.name());
+            match run(&options(&[log], law)) {
+                Err(e) => {
+                    assert!(has_page(e.code().as_str()), "{}", e.code());
+                    let _ = writeln!(
+                        out,
+                        "    error [{}] {}",
+                        e.code(),
+                        bench.plain(&e.to_string())
+                    );
+                }
+                Ok(outcome) => {
+                    let trust = &outcome.result.trust;
+                    assert!(!trust.trustworthy, "{what}: trusted");
+                    for reason in &trust.reasons {
+                        let _ = writeln!(out, "    not trustworthy: {}", bench.plain(reason));
+                    }
+                    let codes: BTreeSet<&str> = outcome
+                        .result
+                        .warnings
+                        .iter()
+                        .map(|w| w.code.as_str())
+                        .collect();
+                    for code in &codes {
+                        assert!(has_page(code), "{code}");
+                    }
+                    let _ = writeln!(out, "    warnings: {codes:?}");
+                    whole(&outcome);
+                }
+            }
+        }
+    }
+    insta::assert_snapshot!(out);
+}
+
+/// Every file of an outcome can be read by what it is for, whatever the log was.
+fn whole(outcome: &Outcome) {
+    let bundle = stiction::bundle::identification(outcome);
+    let names: Vec<&str> = bundle.files().iter().map(|(name, _)| *name).collect();
+    let mut sorted = names.clone();
+    sorted.sort_unstable();
+    assert_eq!(
+        sorted,
+        ["fit.csv", "model.toml", "report.html", "result.json"]
+    );
+    for (name, bytes) in bundle.files() {
+        let text = std::str::from_utf8(bytes).unwrap();
+        match *name {
+            "result.json" => {
+                let back: ResultFile = serde_json::from_str(text).unwrap();
+                assert_eq!(back, outcome.result);
+            }
+            "model.toml" => {
+                let back = ModelFile::parse(text, Path::new(name)).unwrap();
+                assert_eq!(back, ModelFile::from_result(&outcome.result));
+            }
+            "report.html" => {
+                let options = roxmltree::ParsingOptions {
+                    allow_dtd: true,
+                    ..Default::default()
+                };
+                let tree = roxmltree::Document::parse_with_options(text, options).unwrap();
+                let headings: Vec<String> = tree
+                    .descendants()
+                    .filter(|n| n.has_tag_name("h2"))
+                    .map(|n| n.descendants().filter_map(|d| d.text()).collect())
+                    .collect();
+                for heading in [
+                    "Parameters",
+                    "Friction and velocity",
+                    "Force in time",
+                    "How sure",
+                    "What was read, and how it was conditioned",
+                ] {
+                    assert!(
+                        headings.iter().any(|h| h.contains(heading)),
+                        "{heading}: {headings:?}"
+                    );
+                }
+                // A page that anything may be mailed in: it fetches and runs nothing.
+                for tag in ["script", "iframe", "link", "img", "object"] {
+                    assert!(
+                        !tree.descendants().any(|n| n.tag_name().name() == tag),
+                        "<{tag}>"
+                    );
+                }
+                assert!(
+                    tree.descendants()
+                        .filter(|n| n.tag_name().name() == "svg")
+                        .count()
+                        >= 6
+                );
+                assert!(!text.contains("NaN"), "NaN in the report");
+            }
+            _ => assert!(text.starts_with("time [s],measured [")),
+        }
+    }
+}
+
+#[test]
+fn a_good_log_gives_the_truth() {
+    let bench = Bench::new();
+    let log = bench.good("good.csv", 1);
+    let outcome = run(&options(&[&log], LawKind::CoulombViscous)).unwrap();
+    assert!(
+        outcome.result.trust.trustworthy,
+        "{:?}",
+        outcome.result.trust
+    );
+    for (name, truth) in [
+        ("coulomb", 20.0),
+        ("sigma2", 60.0),
+        ("mass", 9.0),
+        ("offset", 1.0),
+    ] {
+        let found = value(&outcome, name);
+        assert!((found / truth - 1.0).abs() < 0.02, "{name} = {found}");
+    }
+    whole(&outcome);
+}
+
+/// A given mass stays as given, and what is named in the axis file counts.
+#[test]
+fn the_axis_file_counts() {
+    let bench = Bench::new();
+    let log = bench.good("good.csv", 2);
+    let axis = bench.write(
+        "axis.toml",
+        "name = \"<b>X & Y</b>\"\nmass = \"9 kg\"\n[log]\ncrop = [\"1 s\", \"5 s\"]\n[report]\nlow_speed = \"20 mm/s\"\n",
+    );
+    let mut options = options(&[&log], LawKind::CoulombViscous);
+    options.axis = Some(axis);
+    let outcome = run(&options).unwrap();
+    let mass = outcome
+        .result
+        .parameters
+        .iter()
+        .find(|p| p.name == "mass")
+        .unwrap();
+    assert_eq!((mass.value, mass.origin.as_str()), (9.0, "given"));
+    assert_eq!(outcome.result.inputs[0].samples, 4001);
+    assert_eq!(outcome.result.low_speed.as_ref().unwrap().bound, 0.02);
+    whole(&outcome);
+    options.axis = Some(bench.write("wrong.toml", "mass = \"9 kg m2\"\n"));
+    let error = run(&options).unwrap_err();
+    assert_eq!(error.code().as_str(), "bad-config");
+}
+
+/// `fit.csv` is itself a log: the reader gives back the numbers, bit for bit.
+#[test]
+fn the_fit_is_a_log() {
+    let bench = Bench::new();
+    let (a, b) = (bench.good("a.csv", 3), bench.good("b.csv", 4));
+    for logs in [vec![a.as_path()], vec![a.as_path(), b.as_path()]] {
+        let outcome = run(&options(&logs, LawKind::CoulombViscous)).unwrap();
+        let bundle = stiction::bundle::identification(&outcome);
+        let fit = &bundle
+            .files()
+            .iter()
+            .find(|(name, _)| *name == "fit.csv")
+            .unwrap()
+            .1;
+        let file = bench.path("fit.csv");
+        std::fs::write(&file, fit).unwrap();
+        let table = stiction::table(&file, &Axis::default()).unwrap();
+        let series = &outcome.estimate.series;
+        assert_eq!(table.columns[0].name, "time");
+        assert_eq!(table.columns[1].unit.as_deref(), Some("N"));
+        assert_eq!(table.columns[0].values, series.time);
+        assert_eq!(table.columns[1].values, series.measured);
+        assert_eq!(table.columns[2].values, series.model);
+        assert_eq!(table.columns[3].values, series.residual());
+        assert_eq!(table.columns.len(), 3 + logs.len());
+    }
+}
+
+fn names(dir: &Path) -> Vec<String> {
+    let mut names: Vec<String> = std::fs::read_dir(dir)
+        .unwrap()
+        .map(|e| e.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn the_folder_is_whole_or_untouched() {
+    let bench = Bench::new();
+    let log = bench.good("good.csv", 5);
+    let outcome = run(&options(&[&log], LawKind::CoulombViscous)).unwrap();
+    let bundle = stiction::bundle::identification(&outcome);
+    let out = bench.path("deep/er/out");
+    check_folder(&out, false).unwrap();
+    assert!(!bench.path("deep").exists(), "a check makes nothing");
+    let written = bundle.write(&out).unwrap();
+    assert_eq!(written.last().unwrap(), &out.join("result.json"));
+    let four = ["fit.csv", "model.toml", "report.html", "result.json"];
+    assert_eq!(names(&out), four);
+    for (name, bytes) in bundle.files() {
+        assert_eq!(&std::fs::read(out.join(name)).unwrap(), bytes);
+    }
+    // Its own folder may be written again.
+    check_folder(&out, false).unwrap();
+    bundle.write(&out).unwrap();
+    assert_eq!(names(&out), four);
+
+    let foreign = bench.path("foreign");
+    std::fs::create_dir(&foreign).unwrap();
+    check_folder(&foreign, false).unwrap();
+    std::fs::write(foreign.join("thesis.doc"), "years of work").unwrap();
+    let error = check_folder(&foreign, false).unwrap_err();
+    assert_eq!(error.code().as_str(), "output");
+    check_folder(&foreign, true).unwrap();
+    bundle.write(&foreign).unwrap();
+    assert_eq!(
+        std::fs::read(foreign.join("thesis.doc")).unwrap(),
+        b"years of work"
+    );
+
+    // A result of somebody else's is not ours.
+    let other = bench.path("other");
+    std::fs::create_dir(&other).unwrap();
+    std::fs::write(other.join("result.json"), "{\"schema\": \"theirs\"}").unwrap();
+    assert_eq!(
+        check_folder(&other, false).unwrap_err().code().as_str(),
+        "output"
+    );
+
+    // A file that cannot be replaced stops everything before anything is replaced.
+    let blocked = bench.path("blocked");
+    std::fs::create_dir_all(blocked.join("result.json")).unwrap();
+    assert_eq!(
+        bundle.write(&blocked).unwrap_err().code().as_str(),
+        "output"
+    );
+    assert_eq!(names(&blocked), ["result.json"]);
+
+    for bad in [log.clone(), log.join("sub")] {
+        assert_eq!(
+            check_folder(&bad, true).unwrap_err().code().as_str(),
+            "output"
+        );
+        assert_eq!(bundle.write(&bad).unwrap_err().code().as_str(), "output");
+    }
+}
+
+/// A pipe of the name of a result must not make anyone wait.
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_no_result() {
+    let bench = Bench::new();
+    let pipe = bench.path("result.json");
+    let made = std::process::Command::new("mkfifo")
+        .arg(&pipe)
+        .status()
+        .unwrap();
+    assert!(made.success());
+    assert_eq!(
+        check_folder(bench.dir(), false)
+            .unwrap_err()
+            .code()
+            .as_str(),
+        "output"
+    );
+}
+
+#[test]
+fn the_same_input_gives_the_same_bytes() {
+    let bench = Bench::new();
+    let log = bench.good("good.csv", 6);
+    for law in [LawKind::CoulombViscous, LawKind::LuGre] {
+        let mut options = options(&[&log], law);
+        options.seed = u64::MAX;
+        options.compare_laws = law == LawKind::CoulombViscous;
+        let (a, b) = (
+            stiction::bundle::identification(&run(&options).unwrap()),
+            stiction::bundle::identification(&run(&options).unwrap()),
+        );
+        for ((name, a), (_, b)) in a.files().iter().zip(b.files()) {
+            // Only result.json tells how long it took.
+            if *name != "result.json" {
+                assert!(a == b, "{name} differs");
+            }
+        }
+    }
+}
+
+#[test]
+fn validation_and_split() {
+    let bench = Bench::new();
+    let (a, b) = (bench.good("a.csv", 7), bench.good("b.csv", 8));
+    let mut with = options(&[&a], LawKind::CoulombViscous);
+    with.validate = vec![b.clone()];
+    let outcome = run(&with).unwrap();
+    let held_out = &outcome.result.validation[0];
+    assert_eq!(held_out.path, b.display().to_string());
+    // The law is the truth, so unseen data leave what the noise leaves.
+    let ratio = held_out.fit.rmse / outcome.result.fit.rmse;
+    assert!((0.9..1.1).contains(&ratio), "{ratio}");
+    whole(&outcome);
+
+    let mut split = options(&[&a], LawKind::CoulombViscous);
+    split.split = Some(0.5);
+    let outcome = run(&split).unwrap();
+    let (fit, rest) = (&outcome.result.fit, &outcome.result.validation[0].fit);
+    let whole_log = run(&options(&[&a], LawKind::CoulombViscous)).unwrap();
+    assert_eq!(fit.samples + rest.samples, whole_log.result.fit.samples);
+    assert!(
+        fit.samples.abs_diff(rest.samples) <= 60,
+        "{} {}",
+        fit.samples,
+        rest.samples
+    );
+    whole(&outcome);
+
+    for part in [0.0, 1.0, -0.5, 1.5, f64::NAN, f64::INFINITY] {
+        split.split = Some(part);
+        assert_eq!(run(&split).unwrap_err().code().as_str(), "usage", "{part}");
+    }
+    // Too little to fit, too little to validate on.
+    split.split = Some(1e-6);
+    assert_eq!(run(&split).unwrap_err().code().as_str(), "too-few-samples");
+}
+
+/// Where the measured force never changes there is no variance to explain; the files stay readable.
+#[test]
+fn a_validation_without_variance_can_be_read_back() {
+    let bench = Bench::new();
+    let log = |name: &str, force: &dyn Fn(f64) -> f64| {
+        let mut text = String::from("Time [s],Velocity [m/s],Force [N]\n");
+        for i in 0..4000 {
+            let t = f64::from(i) / common::RATE;
+            let _ = writeln!(text, "{t:.4},{:.9},{:.6}", both_ways(t)[1], force(t));
+        }
+        bench.write(name, &text)
+    };
+    let good = log("good.csv", &|t| friction(both_ways(t)));
+    let same = log("same.csv", &|_| 5.0);
+    let mut options = options(&[&good], LawKind::CoulombViscous);
+    options.validate = vec![same];
+    whole(&run(&options).unwrap());
+}
+
+#[test]
+fn logs_of_different_axes_are_not_mixed() {
+    let bench = Bench::new();
+    let good = bench.good("good.csv", 9);
+    let text = std::fs::read_to_string(&good).unwrap();
+    let rotary = bench.write(
+        "rotary.csv",
+        &text
+            .replace("[mm]", "[deg]")
+            .replace("Force [N]", "Torque [Nm]"),
+    );
+    let current = bench.write("current.csv", &text.replace("Force [N]", "Current [A]"));
+    for other in [rotary, current] {
+        let mixed = options(&[&good, &other], LawKind::CoulombViscous);
+        assert_eq!(run(&mixed).unwrap_err().code().as_str(), "usage");
+        let mut validated = options(&[&good], LawKind::CoulombViscous);
+        validated.validate = vec![other.clone()];
+        assert_eq!(run(&validated).unwrap_err().code().as_str(), "usage");
+    }
+    assert_eq!(
+        run(&options(&[], LawKind::LuGre))
+            .unwrap_err()
+            .code()
+            .as_str(),
+        "usage"
+    );
+}
+
+/// A log of elastic elements between stops, through all files: what they do together is found, their
+/// number chosen from those that were tried, and the start of the log left out.
+#[test]
+fn maxwell_slip_from_log_to_files() {
+    let bench = Bench::new();
+    let motion = |t: f64| 40e-6 * (6.3 * t).sin() + 8e-6 * (22.0 * t).sin();
+    let elements = [(2e6, 3e-6), (4e5, 15e-6)];
+    let mut z = [0.0_f64; 2];
+    let mut force = Vec::new();
+    for i in 0..8000 {
+        let way = motion(i as f64 / common::RATE) - motion((i.max(1) - 1) as f64 / common::RATE);
+        for (z, (_, d)) in z.iter_mut().zip(elements) {
+            *z = (*z + way).clamp(-d, d);
+        }
+        force.push(z.iter().zip(elements).map(|(z, (k, _))| k * z).sum::<f64>());
+    }
+    let log = bench.log("elements.csv", 8000, motion, |i, _| {
+        force[i] + 0.05 * noise(3, i)
+    });
+    let axis = bench.write("axis.toml", "mass = \"none\"\n");
+    let mut options = options(&[&log], LawKind::MaxwellSlip);
+    options.axis = Some(axis);
+    options.compare_laws = true;
+    let outcome = run(&options).unwrap();
+    whole(&outcome);
+    let result = &outcome.result;
+    assert_eq!(result.law, "maxwell-slip");
+    assert!(result.trust.trustworthy, "{:?}", result.trust);
+    for (name, truth) in [("sigma0", 2.4e6), ("coulomb", 12.0)] {
+        let off = value(&outcome, name) / truth - 1.0;
+        assert!(off.abs() < 0.02, "{name} off by {off}");
+    }
+    assert_eq!(result.elements.iter().filter(|e| e.chosen).count(), 1);
+    assert!(
+        result
+            .elements
+            .iter()
+            .all(|e| e.held_out_error_percent.is_some())
+    );
+    assert!(
+        result
+            .laws
+            .iter()
+            .any(|l| l.law == "maxwell-slip" && l.best)
+    );
+    let notes = &result.axis.conditioning;
+    assert!(
+        notes.iter().any(|n| n.contains("at the start not fitted")),
+        "{notes:?}"
+    );
+}
+
+/// Stops at the first sign of a stage.
+struct StopAt(Stage);
+
+impl Observer for StopAt {
+    fn progress(&mut self, progress: &Progress) -> Control {
+        match progress.stage == self.0 {
+            true => Control::Stop,
+            false => Control::Continue,
+        }
+    }
+}
+
+/// Stopped before the cut-offs are chosen, a search sees a record that the same command would not see again:
+/// there is nothing to go on from, and the result says what it stands on.
+#[test]
+fn a_search_on_a_record_not_yet_chosen_keeps_no_state() {
+    let bench = Bench::new();
+    let log = bench.good("log.csv", 5);
+    let mut options = options(&[&log], LawKind::LuGre);
+    options.procedures.method = Method::Searched("niched-ga");
+    options.searching.evaluations = Some(200);
+    options.searching.checkpoint = Some(bench.path("c.json"));
+    let stopped = stiction::identify(&options, &mut StopAt(Stage::Tuning)).unwrap();
+    let notes = stopped.result.axis.conditioning.join("\n");
+    assert!(
+        notes.contains("cut-offs not chosen: the run was stopped"),
+        "{notes}"
+    );
+    assert!(!bench.path("c.json").exists());
+    run(&options).unwrap();
+    assert!(bench.path("c.json").exists());
+}
+
+/// A third, or half, of the force written as 0: friction and mass are those of the whole log. Offset
+/// and delay are not compared: a line across a reversal moves the edge of the force by a part of a sample.
+#[test]
+fn zeros_for_missing_samples_are_not_fitted() {
+    let bench = Bench::new();
+    let fit = |name: &str, nth: usize| {
+        let log = bench.log(
+            name,
+            6000,
+            |t| both_ways(t)[0],
+            |i, t| {
+                if i % nth == 1 {
+                    0.0
+                } else {
+                    friction(both_ways(t)) + 0.3 * noise(5, i)
+                }
+            },
+        );
+        let options = options(&[&log], LawKind::CoulombViscous);
+        stiction::identify(&options, &mut Silent).unwrap().result
+    };
+    let whole = fit("whole.csv", usize::MAX);
+    for (name, nth) in [("third.csv", 3), ("half.csv", 2)] {
+        let filled = fit(name, nth);
+        assert!(
+            filled
+                .warnings
+                .iter()
+                .any(|w| w.code.as_str() == "zero-filled"),
+            "{name}"
+        );
+        let both = whole.parameters.iter().zip(&filled.parameters);
+        for (a, b) in both.filter(|(a, _)| !["offset", "delay"].contains(&a.name.as_str())) {
+            let bound = 0.01 * a.value.abs() + 4.0 * a.std.unwrap_or(0.0);
+            assert!(
+                (a.value - b.value).abs() <= bound,
+                "{name} {}: {} {}",
+                a.name,
+                a.value,
+                b.value
+            );
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! The check workflow: what was read and detected, and what a log can and cannot determine.
+
+use crate::error::Error;
+use crate::identify::{self, Options, Outcome};
+use crate::source;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+use stiction_codes::Code;
+use stiction_files::axis::{Axis, template};
+use stiction_files::result::Input;
+use stiction_identify::{LawKind, Observer};
+use stiction_log::{Mapping, Severity};
+use stiction_number::four_digits as short;
+
+/// What a check found, log by log.
+#[derive(Clone, Debug, Serialize)]
+pub struct Check {
+    /// `stiction.check/1`.
+    pub schema: String,
+    /// One entry a log.
+    pub logs: Vec<LogCheck>,
+}
+
+/// What a check found in one log.
+#[derive(Clone, Debug, Serialize)]
+pub struct LogCheck {
+    /// The file, and how it was understood.
+    pub input: Input,
+    /// `linear` or `rotary`.
+    pub kind: String,
+    /// Length of the record, s.
+    pub seconds: f64,
+    /// Ranges of the channels, for people: `position -0.1 .. 0.1 m`.
+    pub ranges: Vec<String>,
+    /// What is wrong or worth knowing.
+    pub findings: Vec<Finding>,
+    /// How it would be conditioned.
+    pub conditioning: Vec<String>,
+    /// What a LuGre fit to this log would and would not determine.
+    pub parameters: Vec<ParameterCheck>,
+    /// Why nothing could be identified, if so.
+    pub refused: Option<String>,
+}
+
+/// A finding about a log.
+#[derive(Clone, Debug, Serialize)]
+pub struct Finding {
+    /// What it is; each code has a page in `docs/codes/`.
+    pub code: Code,
+    /// `note` or `warning`.
+    pub severity: String,
+    /// What was found.
+    pub message: String,
+}
+
+/// Whether a log determines a parameter.
+#[derive(Clone, Debug, Serialize)]
+pub struct ParameterCheck {
+    /// Name.
+    pub name: String,
+    /// Estimate, SI.
+    pub value: f64,
+    /// Unit.
+    pub unit: String,
+    /// Whether the log determines it.
+    pub identifiable: bool,
+    /// Why not.
+    pub reason: String,
+}
+
+/// Reads each log and tries what can be identified from it.
+///
+/// # Errors
+/// Where a log or the axis file is refused.
+pub fn check(
+    logs: &[PathBuf],
+    axis: Option<&Path>,
+    observer: &mut dyn Observer,
+) -> Result<Check, Error> {
+    if logs.is_empty() {
+        return Err(Error::usage("no log given", "name at least one log file"));
+    }
+    let read = match axis {
+        Some(file) => Axis::read(file)?,
+        None => Axis::default(),
+    };
+    let mut out = Vec::new();
+    for path in logs {
+        out.push(one(path, &read, observer)?);
+    }
+    Ok(Check {
+        schema: "stiction.check/1".into(),
+        logs: out,
+    })
+}
+
+fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck, Error> {
+    let clock = Instant::now();
+    let source = source::load(path, axis)?;
+    let log = &source.log;
+    let mut out = LogCheck {
+        input: source.input(),
+        kind: log.motion.to_string(),
+        seconds: log.time.last().copied().unwrap_or(0.0),
+        ranges: ranges(&source),
+        findings: log
+            .findings
+            .iter()
+            .map(|f| Finding {
+                code: f.code,
+                severity: match f.severity {
+                    Severity::Note => "note".into(),
+                    Severity::Warning => "warning".into(),
+                },
+                message: f.message.clone(),
+            })
+            .collect(),
+        conditioning: Vec::new(),
+        parameters: Vec::new(),
+        refused: None,
+    };
+    let options = Options {
+        logs: vec![path.to_path_buf()],
+        axis: None,
+        law: Some(LawKind::LuGre),
+        asymmetric: false,
+        validate: Vec::new(),
+        split: None,
+        seed: 0,
+        compare_laws: false,
+        procedures: crate::identify::Procedures::default(),
+        searching: crate::identify::Searching::default(),
+    };
+    match identify::fit(&options, axis, vec![source], Vec::new(), clock, observer) {
+        Ok(outcome) => {
+            out.refused = untrusted(&outcome);
+            out.parameters = verdicts(&outcome);
+            out.conditioning = outcome.result.axis.conditioning;
+        }
+        // What the log cannot give is a verdict on the log; a bad axis file is an error of its own.
+        Err(e @ Error::Identify { .. }) if e.code() != Code::BadSetting => {
+            out.refused = Some(format!("{}: {e}", e.code()));
+        }
+        Err(Error::File(stiction_files::Error::Log(e))) => {
+            out.refused = Some(format!("{}: {e}", e.kind.code()))
+        }
+        Err(e) => return Err(e),
+    }
+    Ok(out)
+}
+
+fn untrusted(outcome: &Outcome) -> Option<String> {
+    let trust = &outcome.result.trust;
+    (!trust.trustworthy).then(|| trust.reasons.join("; "))
+}
+
+fn verdicts(outcome: &Outcome) -> Vec<ParameterCheck> {
+    outcome
+        .result
+        .parameters
+        .iter()
+        .filter(|p| p.origin == "identified")
+        .map(|p| ParameterCheck {
+            name: p.name.clone(),
+            value: p.value,
+            unit: p.unit.clone(),
+            identifiable: p.identifiable,
+            reason: p.reason.clone(),
+        })
+        .collect()
+}
+
+fn ranges(source: &source::Source) -> Vec<String> {
+    let log = &source.log;
+    let length = stiction_files::symbols::length_unit(log.motion);
+    let speed = stiction_files::symbols::speed_unit(log.motion);
+    let channels = [
+        ("position", &log.position, length),
+        ("velocity", &log.velocity, speed),
+        ("force", &log.force, log.force_unit.as_str()),
+        ("reference", &log.reference, length),
+        ("temperature", &log.temperature, "K"),
+        ("load", &log.load, log.load_unit.as_str()),
+    ];
+    channels
+        .iter()
+        .filter_map(|(name, values, unit)| {
+            let values = values.as_ref()?;
+            let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            Some(format!("{name} {} .. {} {unit}", short(low), short(high)))
+        })
+        .collect()
+}
+
+/// An axis file for a log, with what was detected filled in and the rest to fill in.
+///
+/// # Errors
+/// Where the file cannot be read at all; columns that cannot be told apart are left to fill in.
+pub fn init(path: &Path) -> Result<String, Error> {
+    let table = source::table(path, &Axis::default())?;
+    let detected = Mapping::detect(&table);
+    Ok(match &detected {
+        Ok(found) => template(&table, Ok(&found.mapping)),
+        Err(e) => template(&table, Err(&e.to_string())),
+    })
+}

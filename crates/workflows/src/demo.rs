@@ -1,0 +1,111 @@
+//! The demo: a known axis, a realistic log of it, its identification, and the truth beside it.
+
+mod procedures;
+
+use crate::error::Error;
+use crate::identify::{self, Options, Outcome};
+pub use procedures::procedures;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use stiction_files::write_atomic;
+use stiction_friction::ParamError;
+use stiction_identify::{LawKind, Observer};
+use stiction_servo::cascade::Cascade;
+use stiction_servo::closed_loop::{ClosedLoop, ForceLog, Record};
+use stiction_servo::encoder::Encoder;
+use stiction_servo::known::{self, KnownAxis};
+use stiction_servo::path::Path as Reference;
+use stiction_servo::plant::Plant;
+
+/// Name of the log that the demo writes.
+pub const LOG: &str = "demo.csv";
+/// The axis that is simulated.
+const AXIS: &str = "machine";
+/// One encoder count, m.
+const COUNT: f64 = 50e-9;
+/// Noise of the force (motor current times force constant), N rms.
+const NOISE: f64 = 1.0;
+/// Control and log rate, Hz.
+const RATE: f64 = 4000.0;
+
+/// Simulates the axis, writes its log into `dir`, and identifies it from that file.
+///
+/// # Errors
+/// When the folder cannot be written.
+pub fn demo(dir: &Path, seed: u64, observer: &mut dyn Observer) -> Result<Outcome, Error> {
+    let axis = known::find(AXIS).expect("the demo axis is in the library");
+    let record = simulate(&axis, seed).expect("the demo settings are valid");
+    std::fs::create_dir_all(dir).map_err(|e| stiction_files::Error::output(dir, e.to_string()))?;
+    let log: PathBuf = dir.join(LOG);
+    write_atomic(&log, csv(&record).as_bytes())?;
+    let options = Options {
+        logs: vec![log],
+        axis: None,
+        law: Some(LawKind::LuGre),
+        asymmetric: false,
+        validate: Vec::new(),
+        split: None,
+        seed,
+        compare_laws: true,
+        procedures: crate::identify::Procedures::default(),
+        searching: crate::identify::Searching::default(),
+    };
+    let mut outcome = identify::identify(&options, observer)?;
+    outcome.result.axis.name = Some("a simulated machine axis".into());
+    outcome.truth = truth(&axis);
+    Ok(outcome)
+}
+
+fn simulate(axis: &KnownAxis, seed: u64) -> Result<Record, ParamError> {
+    ClosedLoop {
+        plant: Plant::new(axis.mass, axis.law)?,
+        controller: Cascade::tuned(axis.mass, 60.0, 500.0)?,
+        path: Reference::three_segments(0.196, 9.0)?,
+        encoder: Encoder::new(COUNT)?,
+        rate: RATE,
+        substeps: 5,
+        force_noise: NOISE,
+        force_log: ForceLog::Centred,
+        seed,
+    }
+    .run()
+}
+
+/// The log as a drive would write it: position in whole encoder steps, force with its noise.
+fn csv(record: &Record) -> String {
+    let mut out = String::from("Time [s],Reference [mm],Position [mm],Force [N]\n");
+    for i in 0..record.time.len() {
+        let _ = writeln!(
+            out,
+            "{:.6},{:.6},{:.6},{:.4}",
+            record.time[i],
+            1e3 * record.reference[i],
+            1e3 * record.position[i],
+            record.force[i]
+        );
+    }
+    out
+}
+
+/// Names and values of the parameters of the axis that the demo simulates.
+pub fn truth_of_demo() -> Vec<(String, f64)> {
+    known::find(AXIS).map_or_else(Vec::new, |axis| truth(&axis))
+}
+
+fn truth(axis: &KnownAxis) -> Vec<(String, f64)> {
+    let law = &axis.law;
+    let side = law.curve().positive();
+    [
+        ("sigma0", law.stiffness()),
+        ("sigma1", law.damping().at_rest()),
+        ("sigma2", side.viscous),
+        ("coulomb", side.coulomb),
+        ("static", side.static_friction),
+        ("stribeck_velocity", side.stribeck_velocity),
+        ("mass", axis.mass),
+        ("offset", law.curve().offset()),
+    ]
+    .into_iter()
+    .map(|(name, value)| (name.to_string(), value))
+    .collect()
+}

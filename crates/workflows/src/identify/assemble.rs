@@ -1,0 +1,202 @@
+//! From what the engine found to what goes to disk.
+
+use super::Options;
+use crate::entries;
+use crate::source::Source;
+use stiction_files::Warning;
+use stiction_files::result::ResolvedAxis;
+use stiction_files::result::{
+    CovarianceEntry, ElementsEntry, LawEntry, LowSpeedEntry, ParameterEntry, PartnerEntry,
+    ResultFile, SCHEMA, Search, Trust, ValidationEntry,
+};
+use stiction_files::symbols;
+use stiction_identify::{Delay, Fit, FittedLaw, Parameter, Series};
+use stiction_log::Motion;
+
+pub(super) struct Parts<'a> {
+    pub options: &'a Options,
+    pub sources: &'a [Source],
+    pub axis: ResolvedAxis,
+    pub motion: Motion,
+    pub force_unit: &'a str,
+    pub estimate: &'a FittedLaw,
+    pub validation: &'a [(String, Series)],
+    pub laws: Vec<LawEntry>,
+    pub law_chosen_by: &'static str,
+    pub trust: Trust,
+    pub warnings: Vec<Warning>,
+    pub wall_s: f64,
+}
+
+pub(super) fn result(parts: Parts) -> ResultFile {
+    let Parts {
+        estimate,
+        motion,
+        force_unit,
+        ..
+    } = parts;
+    let signal = symbols::driver(motion, force_unit);
+    let fit_entry = |fit: &Fit| entries::fit(fit, signal, force_unit);
+    let low_entry = |fit: &Fit| LowSpeedEntry {
+        bound: estimate.low_speed_bound,
+        bound_unit: symbols::speed_unit(motion).into(),
+        fit: fit_entry(fit),
+    };
+    let validation = parts
+        .validation
+        .iter()
+        .filter_map(|(path, series)| {
+            let residual = series.residual();
+            let fit = Fit::new(&series.measured, &residual)?;
+            let slow = Fit::slow(
+                &series.measured,
+                &residual,
+                &series.velocity,
+                estimate.low_speed_bound,
+            );
+            Some(ValidationEntry {
+                path: path.clone(),
+                fit: fit_entry(&fit),
+                low_speed: slow.as_ref().map(low_entry),
+            })
+        })
+        .collect();
+    ResultFile {
+        schema: SCHEMA.into(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        seed: parts.options.seed,
+        inputs: parts.sources.iter().map(Source::input).collect(),
+        axis: parts.axis,
+        law: estimate.law.kind.name().into(),
+        asymmetric: estimate.law.asymmetric,
+        law_chosen_by: parts.law_chosen_by.into(),
+        method: parts.options.procedures.method.name().into(),
+        trust: parts.trust,
+        parameters: estimate
+            .parameters
+            .iter()
+            .map(|p| parameter(p, motion, force_unit, &parts.sources[0].log.load_unit))
+            .collect(),
+        covariance: CovarianceEntry {
+            names: estimate.covariance.names.clone(),
+            matrix: estimate.covariance.matrix.clone(),
+        },
+        fit: fit_entry(&estimate.fit),
+        low_speed: estimate.low_speed.as_ref().map(low_entry),
+        validation,
+        simulation: None,
+        laws: parts.laws,
+        static_map: None,
+        static_then_dynamic: None,
+        presliding_step: None,
+        break_away: Vec::new(),
+        elements: elements(estimate),
+        top_speed: top_speed(estimate),
+        search: Search {
+            status: estimate.status.name().into(),
+            evaluations: estimate.counts.total(),
+            with_sensitivities: estimate.counts.sensitivities,
+            thinned: estimate.counts.thinned,
+            iterations: estimate.iterations,
+            wall_s: parts.wall_s,
+        },
+        searched: None,
+        warnings: parts.warnings,
+    }
+}
+
+fn top_speed(estimate: &FittedLaw) -> Option<f64> {
+    let speeds = estimate.series.velocity.iter().map(|v| v.abs());
+    let top = speeds.fold(0.0, f64::max);
+    (top > 0.0 && top.is_finite()).then_some(top)
+}
+
+fn elements(estimate: &FittedLaw) -> Vec<ElementsEntry> {
+    let tried = estimate.elements.iter();
+    tried
+        .map(|score| ElementsEntry {
+            elements: score.elements,
+            fitted_error_percent: score.fitted_error_percent,
+            held_out_error_percent: score.held_out_error_percent,
+            chosen: score.elements == estimate.law.elements,
+        })
+        .collect()
+}
+
+fn parameter(p: &Parameter, motion: Motion, force_unit: &str, load_unit: &str) -> ParameterEntry {
+    ParameterEntry {
+        name: p.name.clone(),
+        symbol: symbols::symbol(&p.name),
+        value: p.value,
+        unit: symbols::unit(p.dimension, motion, force_unit, load_unit),
+        std: p.std,
+        bias: p.bias,
+        ci95: p
+            .ci95
+            .map(|(low, high)| [low, high].map(|x| Some(x).filter(|x| x.is_finite()))),
+        interval: p.ci95.map(|_| p.interval.name().into()),
+        identifiable: p.identifiable,
+        origin: if p.identified { "identified" } else { "given" }.into(),
+        reason: p.reason.clone(),
+        moves_with: p
+            .moves_with
+            .iter()
+            .map(|(name, correlation)| PartnerEntry {
+                name: name.clone(),
+                correlation: *correlation,
+            })
+            .collect(),
+        advice: p.advice.clone(),
+    }
+}
+
+/// What the correction of the bias did to the parameters; nothing where there was none.
+pub(super) fn correction_note(estimate: &FittedLaw) -> Option<String> {
+    let correction = |p: &Parameter| -p.bias.unwrap_or(0.0);
+    let relative = |p: &&Parameter| (correction(p) / p.value).abs();
+    let most = estimate
+        .parameters
+        .iter()
+        .filter(|p| p.identifiable && correction(p) != 0.0 && p.value != 0.0)
+        .filter(|p| !["offset", "delay"].contains(&p.name.as_str()))
+        .max_by(|a, b| relative(a).total_cmp(&relative(b)))?;
+    Some(format!(
+        "bias of filters, encoder steps and noise measured on simulated logs of the fitted axis and \
+         taken out: {} changed most, by {}",
+        most.name,
+        stiction_number::Percent::error(100.0 * correction(most) / most.value).signed(2)
+    ))
+}
+
+/// Says of a law that is fitted without a delay that it is.
+pub(super) fn delay_note(estimate: &FittedLaw) -> Option<String> {
+    let without = estimate.law.kind.has_elements() && estimate.terms.delay == Delay::Fitted;
+    without.then(|| {
+        "delay between force and motion: not fitted beside a Maxwell-slip law; state it, such as the \
+         one that lugre finds"
+            .into()
+    })
+}
+
+/// Names of the linear terms that stand beside the law.
+pub(super) fn term_names(estimate: &FittedLaw, motion: Motion) -> Vec<String> {
+    const LAW: [&str; 10] = [
+        "sigma0",
+        "sigma1",
+        "sigma2",
+        "coulomb",
+        "static",
+        "stribeck_velocity",
+        "breakaway_ratio",
+        "attraction",
+        "stiffness_",
+        "yield_",
+    ];
+    estimate
+        .parameters
+        .iter()
+        .filter(|p| !LAW.contains(&p.name.trim_end_matches("_pos").trim_end_matches("_neg")))
+        .filter(|p| p.name != "stribeck_exponent" && !p.name.ends_with("_reference"))
+        .map(|p| format!("{} ({})", p.name, symbols::meaning(&p.name, motion)))
+        .collect()
+}

@@ -1,0 +1,121 @@
+//! Logs to records: cut-offs chosen once, the same for every log of the axis.
+
+use crate::error::Error;
+use crate::source::Source;
+use stiction_files::Axis;
+use stiction_identify as engine;
+use stiction_identify::{
+    Conditioning, Cutoff, Law, LawKind, Mass, Observer, Record, Settings, Terms, Tuned,
+};
+
+/// Conditions logs together as the axis asks; the encoder step of the log is used where the axis
+/// states none.
+pub(crate) fn condition(sources: &[Source], conditioning: &Conditioning) -> Result<Record, Error> {
+    let samples = sources
+        .iter()
+        .map(Source::samples)
+        .collect::<Result<Vec<_>, _>>()?;
+    engine::condition(&samples, conditioning).map_err(|source| fail(sources, source))
+}
+
+/// What the axis file asks, with the encoder step of the logs.
+pub(crate) fn wanted(sources: &[Source], axis: &Axis) -> Conditioning {
+    let mut conditioning = axis.conditioning;
+    if conditioning.resolution.is_none() {
+        let steps = sources.iter().filter_map(|s| s.log.quantum);
+        conditioning.resolution = steps.reduce(f64::min);
+    }
+    conditioning
+}
+
+/// The conditioning of a fit.
+pub(super) struct Chosen {
+    pub conditioning: Conditioning,
+    /// How it was chosen.
+    pub note: Option<String>,
+    /// Whether the choice was stopped; the conditioning is then the default one.
+    pub interrupted: bool,
+}
+
+impl Chosen {
+    fn stated(conditioning: Conditioning) -> Self {
+        Self {
+            conditioning,
+            note: None,
+            interrupted: false,
+        }
+    }
+}
+
+/// Chooses the cut-offs that the axis file leaves open, and says how.
+///
+/// LuGre, the same in both directions and with `terms` beside it, stands for the axis whatever law is
+/// asked: it is the law that a filter can spoil, and all laws that are compared must see one record.
+pub(super) fn choose(
+    sources: &[Source],
+    wanted: &Conditioning,
+    terms: &Terms,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Result<Chosen, Error> {
+    if terms.mass == Mass::Absent || wanted.min_speed > 0.0 {
+        return Ok(Chosen::stated(*wanted));
+    }
+    let samples = sources
+        .iter()
+        .map(Source::samples)
+        .collect::<Result<Vec<_>, _>>()?;
+    let law = Law::new(LawKind::LuGre);
+    let plain = Terms {
+        quadratic_viscous: false,
+        dependences: Vec::new(),
+        ..terms.clone()
+    };
+    // What cannot be fitted at all is told by the fit that was asked for.
+    let Ok(tuned) = engine::tune(&samples, wanted, law, &plain, settings, observer) else {
+        return Ok(Chosen::stated(*wanted));
+    };
+    let note = match tuned.interrupted {
+        true => Some(
+            "cut-offs not chosen: the run was stopped before; these follow from the sample rate"
+                .into(),
+        ),
+        false => note(&tuned),
+    };
+    Ok(Chosen {
+        conditioning: tuned.conditioning,
+        note,
+        interrupted: tuned.interrupted,
+    })
+}
+
+fn note(tuned: &Tuned) -> Option<String> {
+    let hertz = |cutoff| match cutoff {
+        Cutoff::Hz(f) => Some(f),
+        Cutoff::Auto | Cutoff::Off => None,
+    };
+    let used = tuned.trials.iter().find(|trial| {
+        hertz(tuned.conditioning.source_cutoff) == Some(trial.source_hz)
+            && hertz(tuned.conditioning.common_cutoff) == Some(trial.common_hz)
+    })?;
+    let highest = tuned.trials.iter().map(|t| t.source_hz).fold(0.0, f64::max);
+    let lowest = tuned.trials.iter().map(|t| t.source_hz);
+    let lowest = lowest.fold(f64::INFINITY, f64::min);
+    Some(format!(
+        "cut-offs chosen among {} pairs, {lowest:.0} to {highest:.0} Hz on the position, on simulated logs of the \
+         fitted axis with this encoder and noise: parameters off by {} (rms) there",
+        tuned.trials.len(),
+        stiction_number::Percent::error(100.0 * used.error).decimals(2)
+    ))
+}
+
+pub(super) fn fail(sources: &[Source], source: engine::Error) -> Error {
+    let paths: Vec<String> = sources
+        .iter()
+        .map(|s| s.path.display().to_string())
+        .collect();
+    Error::Identify {
+        inputs: paths.join(", "),
+        source,
+    }
+}

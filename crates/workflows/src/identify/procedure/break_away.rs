@@ -1,0 +1,54 @@
+//! `--break-away`: force ramps, each with its rate, and what the model predicts at that rate.
+
+use super::{Beside, curve, refused, samples};
+use crate::error::Error;
+use stiction_files::result::BreakAwayEntry;
+use stiction_identify::FittedLaw;
+use stiction_identify::procedure::{Run, break_away as find, predict_break_away};
+use stiction_log::Motion;
+
+/// Share of the Stribeck velocity that counts as broken away, where a model is known.
+const SHARE: f64 = 1.0 / 3.0;
+
+/// The break-aways of the runs given, in their order.
+pub(in crate::identify) fn break_away(
+    beside: &Beside,
+    estimate: &FittedLaw,
+    _motion: Motion,
+) -> Result<Vec<BreakAwayEntry>, Error> {
+    let sources = &beside.break_away;
+    let own = samples(sources)?;
+    // A model that was given comes first: the method at hand may know no stiffness.
+    let value = |name: &str| {
+        let given = beside.model.as_ref().and_then(|m| curve::value(m, name));
+        given.or_else(|| estimate.value(name))
+    };
+    let mut out = Vec::new();
+    for (k, (source, samples)) in sources.iter().zip(&own).enumerate() {
+        let run = Run {
+            samples,
+            reference: None,
+            resolution: source.log.quantum,
+        };
+        let positive = samples.force.iter().sum::<f64>() >= 0.0;
+        let model = curve::plant(&value, positive);
+        let threshold = model.map(|(_, side)| SHARE * side.stribeck_velocity);
+        let found = find(&run, threshold, k).map_err(|e| refused(sources, e))?;
+        let sign = found.rate.signum();
+        let predicted = model
+            .and_then(|(plant, _)| predict_break_away(&plant, found.rate.abs(), found.threshold));
+        let offset = value("offset").unwrap_or(0.0);
+        out.push(BreakAwayEntry {
+            path: source.path.display().to_string(),
+            rate: found.rate,
+            force: found.force,
+            force_scatter: found.scatter,
+            time_s: found.time,
+            displacement: found.displacement,
+            threshold: found.threshold,
+            predicted_force: predicted.map(|p| sign * p.force + offset),
+            predicted_friction: predicted.map(|p| sign * p.friction),
+        });
+    }
+    Ok(out)
+}

@@ -1,0 +1,262 @@
+//! `--method presliding-step`: force steps below break-away to sigma0 and sigma1.
+
+use super::{Beside, curve, path_of, refused, run_of, samples};
+use crate::entries;
+use crate::error::Error;
+use crate::identify::{Options, Outcome, assemble, log_warnings, trust};
+use crate::source::Source;
+use std::time::Instant;
+use stiction_codes::Code;
+use stiction_files::Axis;
+use stiction_files::Warning;
+use stiction_files::result::{
+    InversionEntry, PreslidingStepEntry, ResolvedAxis, StaticMapEntry, Trust,
+};
+use stiction_files::symbols;
+use stiction_friction::Direction;
+use stiction_identify::procedure::{Run, Statics, StepFit, StepResponse, StepSettings, fit_steps};
+use stiction_identify::{LawKind, Mass, Observer, Status};
+
+/// Findings about a log that hardly moves, which a step below break-away does on purpose.
+const ON_PURPOSE: [Code; 5] = [
+    Code::NoMotion,
+    Code::NoiseOnly,
+    Code::CoarsePosition,
+    Code::OneDirection,
+    Code::ConstantVelocity,
+];
+
+/// The whole workflow.
+pub(super) fn run(
+    options: &Options,
+    axis: &Axis,
+    sources: Vec<Source>,
+    beside: &Beside,
+    clock: Instant,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, Error> {
+    let allowed = "the step response is that of lugre";
+    super::require(options, &[LawKind::LuGre], allowed)?;
+    let motion = sources[0].log.motion;
+    let force_unit = sources[0].log.force_unit.clone();
+    let own = samples(&sources)?;
+    let mut runs: Vec<(Run, StepResponse)> = Vec::new();
+    for (k, (source, samples)) in sources.iter().zip(&own).enumerate() {
+        let run = run_of(source, samples, axis);
+        let step = StepResponse::read(&run, k).map_err(|e| refused(&sources, e))?;
+        runs.push((run, step));
+    }
+    let mut warnings = log_warnings(&sources);
+    warnings.retain(|w| !ON_PURPOSE.contains(&w.code));
+    let (settings, map) = settings(options, axis, &sources, beside, &runs, &mut warnings)?;
+    let fit = fit_steps(&runs, &settings, observer).map_err(|e| refused(&sources, e))?;
+    let estimate = fit.fitted_law(&settings);
+    let mut reasons = Vec::new();
+    trust::unidentifiable(&estimate, motion, &mut warnings, &mut reasons);
+    judge(&fit, &mut warnings, &mut reasons);
+    let entry = entry(&fit, &runs, &settings, &sources, &mut warnings);
+    let break_away = super::break_away(beside, &estimate, motion)?;
+    let mut result = assemble::result(assemble::Parts {
+        options,
+        law_chosen_by: "user",
+        sources: &sources,
+        axis: ResolvedAxis {
+            name: axis.name.clone(),
+            kind: motion.to_string(),
+            force_unit: force_unit.clone(),
+            columns: sources[0].log.detected.clone(),
+            conditioning: vec![
+                "force and position as logged, nothing filtered; each force held until the next \
+                 sample"
+                    .into(),
+            ],
+            terms: assemble::term_names(&estimate, motion),
+        },
+        motion,
+        force_unit: &force_unit,
+        estimate: &estimate,
+        validation: &[],
+        laws: Vec::new(),
+        trust: Trust {
+            trustworthy: reasons.is_empty(),
+            reasons,
+        },
+        warnings,
+        wall_s: clock.elapsed().as_secs_f64(),
+    });
+    result.fit = entries::fit(&estimate.fit, "position", symbols::length_unit(motion));
+    result.presliding_step = Some(entry);
+    result.static_map = map;
+    result.break_away = break_away;
+    Ok(Outcome {
+        result,
+        estimate,
+        simulation: None,
+        validation: Vec::new(),
+        sources,
+        motion,
+        force_unit,
+        truth: Vec::new(),
+    })
+}
+
+/// What is known beside the steps: mass and steady curve.
+fn settings(
+    options: &Options,
+    axis: &Axis,
+    sources: &[Source],
+    beside: &Beside,
+    runs: &[(Run, StepResponse)],
+    warnings: &mut Vec<Warning>,
+) -> Result<(StepSettings, Option<StaticMapEntry>), Error> {
+    let terms = axis.terms_for(&sources[0].log, options.asymmetric)?;
+    let mass = match terms.mass {
+        Mass::Given(mass) => Some(mass),
+        Mass::Fitted => beside
+            .model
+            .as_ref()
+            .and_then(|model| curve::value(model, "mass")),
+        Mass::Absent => {
+            return Err(Error::usage(
+                "mass = \"none\" beside --method presliding-step",
+                "the step response is that of a mass on its bristles; give the mass, or \"fit\"",
+            ));
+        }
+    };
+    let mut settings = StepSettings {
+        mass,
+        curve: None,
+        exponent: axis.stribeck_exponent,
+        given: [[0.0; 5]; 5],
+    };
+    if beside.model.is_none() && beside.statics.is_empty() {
+        warnings.push(Warning::new(
+            Code::StaticsAssumed,
+            "neither --model nor --static gives the steady curve: its level is taken as constant and \
+             fitted, sigma2 as zero. sigma1 then stands for sigma1 + sigma2, and where the axis gets \
+             near the Stribeck velocity all parameters are off by more than their intervals",
+        ));
+        return Ok((settings, None));
+    }
+    let known = curve::known(options, axis, sources, beside)?;
+    warnings.extend(known.warnings);
+    let forth = runs.iter().all(|(_, step)| step.height > 0.0);
+    let back = runs.iter().all(|(_, step)| step.height < 0.0);
+    let [pos, neg] = known.statics.sides;
+    settings.exponent = known.statics.exponent;
+    settings.given = given(&known.statics, !back);
+    if matches!(terms.mass, Mass::Given(_)) {
+        // The axis file's mass is exact.
+        settings.given[4] = [0.0; 5];
+        settings.given.iter_mut().for_each(|row| row[4] = 0.0);
+    }
+    settings.curve = Some(match (forth, back) {
+        (true, _) => pos,
+        (_, true) => neg,
+        // Steps both ways: what they have in common.
+        _ => Direction {
+            coulomb: 0.5 * (pos.coulomb + neg.coulomb),
+            static_friction: 0.5 * (pos.static_friction + neg.static_friction),
+            stribeck_velocity: 0.5 * (pos.stribeck_velocity + neg.stribeck_velocity),
+            viscous: 0.5 * (pos.viscous + neg.viscous),
+        },
+    });
+    Ok((settings, known.map))
+}
+
+/// Covariance of the curve and the mass that are given, for steps in one direction.
+fn given(statics: &Statics, positive: bool) -> [[f64; 5]; 5] {
+    let suffix = match (statics.asymmetric, positive) {
+        (false, _) => "",
+        (true, true) => "_pos",
+        (true, false) => "_neg",
+    };
+    let covariance = &statics.covariance;
+    let at = ["coulomb", "static", "stribeck_velocity", "sigma2", "mass"].map(|stem| {
+        let with = format!("{stem}{suffix}");
+        covariance
+            .names
+            .iter()
+            .position(|n| *n == with || n == stem)
+    });
+    let mut out = [[0.0; 5]; 5];
+    for (i, row) in at.iter().enumerate() {
+        for (j, column) in at.iter().enumerate() {
+            if let (Some(a), Some(b)) = (row, column) {
+                out[i][j] = covariance.matrix[*a][*b];
+            }
+        }
+    }
+    out
+}
+
+fn judge(fit: &StepFit, warnings: &mut Vec<Warning>, reasons: &mut Vec<String>) {
+    if fit.status != Status::Converged {
+        let code = if fit.status == Status::Interrupted {
+            Code::Interrupted
+        } else {
+            Code::NotConverged
+        };
+        let text = format!("the search did not converge (status {})", fit.status.name());
+        warnings.push(Warning::new(code, text.clone()));
+        reasons.push(text);
+    }
+    for p in fit.parameters.iter().filter(|p| p.name == "sigma0") {
+        if !p.identifiable {
+            reasons.push(format!(
+                "sigma0 is not determined by these steps: {}",
+                p.reason
+            ));
+        }
+    }
+}
+
+fn entry(
+    fit: &StepFit,
+    runs: &[(Run, StepResponse)],
+    settings: &StepSettings,
+    sources: &[Source],
+    warnings: &mut Vec<Warning>,
+) -> PreslidingStepEntry {
+    let found = |name: &str| fit.value(name).unwrap_or(f64::NAN);
+    let off = |value: f64, name: &str| 100.0 * (value / found(name) - 1.0);
+    let viscous = settings.curve.map_or(0.0, |c| c.viscous);
+    let mass = settings.mass.or_else(|| fit.value("mass"));
+    let published = runs
+        .iter()
+        .enumerate()
+        .map(|(k, (_, step))| {
+            let inverted = step.invert(mass, viscous);
+            if inverted.sigma1.is_none() {
+                warnings.push(Warning::new(
+                    Code::NoOvershoot,
+                    format!(
+                        "{}: the published inversion has no sigma1, since the axis does not overshoot; \
+                         the fit by simulation needs no overshoot",
+                        path_of(sources, k)
+                    ),
+                ));
+            }
+            InversionEntry {
+                path: path_of(sources, k),
+                height: step.height,
+                settled: step.settled,
+                overshoot: step.overshoot.map(|(_, mp)| mp),
+                damping_ratio: inverted.damping_ratio,
+                sigma0: inverted.sigma0,
+                sigma1: inverted.sigma1,
+                sigma0_off_percent: off(inverted.sigma0, "sigma0"),
+                sigma1_off_percent: inverted.sigma1.map(|x| off(x, "sigma1")),
+            }
+        })
+        .collect();
+    PreslidingStepEntry {
+        used: "simulated".into(),
+        displacement_unit: symbols::length_unit(sources[0].log.motion).into(),
+        force_unit: sources[0].log.force_unit.clone(),
+        damping_ratio: fit.damping_ratio,
+        delay_s: fit.delay.0,
+        delay_std_s: fit.delay.1,
+        published,
+    }
+}

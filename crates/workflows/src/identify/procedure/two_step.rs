@@ -1,0 +1,212 @@
+//! `--method static-then-dynamic`: the static map, then sigma0 and sigma1 with it held, beside the
+//! joint fit of the same record.
+
+use super::{Beside, curve, refused};
+use crate::error::Error;
+use crate::identify::Options;
+use crate::source::Source;
+use stiction_files::Axis;
+use stiction_files::Warning;
+use stiction_files::result::{ResultFile, StaticMapEntry, TwoStepEntry, TwoStepParameter};
+use stiction_files::symbols;
+use stiction_identify as engine;
+use stiction_identify::procedure::dynamic;
+use stiction_identify::{Delay, Estimate, Law, LawKind, Observer, Record, Settings, Terms};
+use stiction_log::Motion;
+
+/// Differences of more than this many standard deviations of the joint fit are explained.
+const APART: f64 = 2.0;
+/// Correlation above which two parameters are said to stand for each other.
+const STRONG: f64 = 0.9;
+
+/// What the two steps work on.
+pub(in crate::identify) struct TwoStep<'a> {
+    pub options: &'a Options,
+    pub axis: &'a Axis,
+    pub sources: &'a [Source],
+    pub beside: &'a Beside,
+    pub record: &'a Record,
+    /// Linear terms beside the law as asked for, and beside the one of the other symmetry.
+    pub terms: [&'a Terms; 2],
+    pub low_speed: f64,
+    pub settings: &'a Settings,
+}
+
+/// Both fits.
+pub(in crate::identify) struct TwoSteps {
+    pub estimate: Estimate,
+    joint: Estimate,
+    from: &'static str,
+    map: Option<StaticMapEntry>,
+    warnings: Vec<Warning>,
+}
+
+/// Fits in two steps, and all at once.
+pub(in crate::identify) fn two_step(
+    parts: TwoStep,
+    observer: &mut dyn Observer,
+) -> Result<TwoSteps, Error> {
+    let allowed = "the dynamic parameters are those of lugre";
+    super::require(parts.options, &[LawKind::LuGre], allowed)?;
+    let known = curve::known(parts.options, parts.axis, parts.sources, parts.beside)?;
+    let fail = |e| refused(parts.sources, e);
+    let statics = &known.statics;
+    // A model may be of the other symmetry than was asked for.
+    let terms = parts.terms[usize::from(statics.asymmetric != parts.options.asymmetric)];
+    let law = Law {
+        asymmetric: statics.asymmetric,
+        exponent: statics.exponent,
+        ..Law::new(LawKind::LuGre)
+    };
+    let low_speed = parts.low_speed;
+    let (joint, _) = engine::identify(
+        parts.record,
+        law,
+        terms,
+        low_speed,
+        parts.settings,
+        observer,
+    )
+    .map_err(fail)?;
+    // The delay belongs to the log, not to friction: both see the same.
+    let delay = match (joint.terms.delay, joint.value("delay")) {
+        (Delay::Fitted, Some(time)) => Delay::Given(time),
+        (known, _) => known,
+    };
+    let terms = Terms {
+        delay,
+        ..terms.clone()
+    };
+    let estimate = dynamic(parts.record, statics, &terms, low_speed, observer).map_err(fail)?;
+    Ok(TwoSteps {
+        estimate,
+        joint,
+        from: known.from,
+        map: known.map,
+        warnings: known.warnings,
+    })
+}
+
+impl TwoSteps {
+    /// Puts the comparison into the result.
+    pub fn into_result(self, result: &mut ResultFile, motion: Motion) {
+        let unit = &result.axis.force_unit;
+        let parameters: Vec<TwoStepParameter> = self
+            .estimate
+            .parameters
+            .iter()
+            .filter(|p| p.identified)
+            .filter_map(|p| {
+                let other = self.joint.parameter(&p.name)?;
+                Some(TwoStepParameter {
+                    name: p.name.clone(),
+                    unit: symbols::unit(p.dimension, motion, unit, ""),
+                    value: p.value,
+                    std: p.std,
+                    joint: other.value,
+                    joint_std: other.std,
+                    difference_in_std: other
+                        .std
+                        .filter(|s| *s > 0.0)
+                        .map(|s| (p.value - other.value) / s),
+                })
+            })
+            .collect();
+        let explanation = self.explanation(&parameters, unit);
+        result.static_then_dynamic = Some(TwoStepEntry {
+            statics: self.from.into(),
+            rmse: self.estimate.fit.rmse,
+            joint_rmse: self.joint.fit.rmse,
+            parameters,
+            explanation,
+        });
+        result.static_map = self.map;
+        result.warnings.extend(self.warnings);
+    }
+
+    fn explanation(&self, parameters: &[TwoStepParameter], unit: &str) -> Vec<String> {
+        let mut out = Vec::new();
+        let (two, one) = (self.estimate.fit.rmse, self.joint.fit.rmse);
+        out.push(format!(
+            "On this record the two steps leave {} {unit} rms and the joint fit {} {unit}: the joint \
+             fit may move every parameter and so always leaves the least; what is between the two is \
+             the price of static parameters that were not made for this motion.",
+            stiction_number::four_digits(two),
+            stiction_number::four_digits(one)
+        ));
+        let apart: Vec<&TwoStepParameter> = parameters
+            .iter()
+            .filter(|p| p.difference_in_std.is_some_and(|d| d.abs() > APART))
+            .collect();
+        if apart.is_empty() {
+            out.push(format!(
+                "No parameter differs by more than {APART} standard deviations of the joint fit."
+            ));
+        } else {
+            let list: Vec<String> = apart
+                .iter()
+                .map(|p| {
+                    let d = p.difference_in_std.unwrap_or(0.0);
+                    format!("{} by {d:+.1}", symbols::symbol(&p.name))
+                })
+                .collect();
+            out.push(format!(
+                "In standard deviations of the joint fit they differ in {}.",
+                list.join(", ")
+            ));
+        }
+        let differs = |stem: &str| apart.iter().any(|p| p.name.starts_with(stem));
+        if differs("coulomb") || differs("sigma2") || differs("static") || differs("stribeck") {
+            out.push(
+                "The static map is made at constant velocity: no acceleration, no lag and no \
+                 break-away are in it, so neither mass nor delay can bias it. The joint fit sees \
+                 friction as it is in motion, with the motion's own temperature and lubrication. If \
+                 the two disagree, the steady curve is not the same in both, or force and position of \
+                 the log do not belong to the same instants."
+                    .into(),
+            );
+        }
+        for (a, b) in self.confused() {
+            out.push(format!(
+                "In the joint fit {} and {} stand for each other (correlation {:+.2}): a difference \
+                 in one is paid back by the other. The constant velocities tell them apart.",
+                symbols::symbol(&a.0),
+                symbols::symbol(&a.1),
+                b
+            ));
+        }
+        let wider = |name: &str| {
+            let p = parameters.iter().find(|p| p.name == name)?;
+            Some(p.std? > 2.0 * p.joint_std?)
+        };
+        if wider("sigma1") == Some(true) || wider("sigma0") == Some(true) {
+            out.push(
+                "σ₀ and σ₁ are less sure in two steps: whatever the static map is off by ends in \
+                 them, and their intervals count that. More and longer runs at low speeds narrow \
+                 them."
+                    .into(),
+            );
+        }
+        out
+    }
+
+    /// Pairs of steady parameters that the joint fit cannot tell apart.
+    fn confused(&self) -> Vec<((String, String), f64)> {
+        let covariance = &self.joint.covariance;
+        let correlation = covariance.correlation();
+        let steady = |name: &String| {
+            ["coulomb", "sigma2", "static", "stribeck_velocity"]
+                .iter()
+                .any(|stem| name.starts_with(stem))
+        };
+        let mut out = Vec::new();
+        for (i, (a, row)) in covariance.names.iter().zip(&correlation).enumerate() {
+            for (b, x) in covariance.names.iter().zip(row).skip(i + 1) {
+                if steady(a) && steady(b) && x.abs() >= STRONG {
+                    out.push(((a.clone(), b.clone()), *x));
+                }
+            }
+        }
+        out
+    }
+}

@@ -1,0 +1,327 @@
+//! The output-error workflow: the axis simulated, its position fitted.
+
+use super::{Options, Outcome, assemble, condition, conditioning, log_warnings, paths, trust};
+use crate::entries;
+use crate::error::Error;
+use crate::source::Source;
+use std::time::Instant;
+use stiction_files::Axis;
+use stiction_files::result::{ResolvedAxis, SimulationEntry, ValidationEntry};
+use stiction_files::symbols;
+use stiction_identify as engine;
+use stiction_identify::{
+    Delay, Estimate, Fit, Hold, Law, LawKind, Observer, Recording, Series, Settings, Signals,
+    Simulation, SimulationFit, Status, Terms, Unseen,
+};
+
+/// A simulated axis, and its simulations of unseen logs with their names.
+#[derive(Clone, Debug)]
+pub struct Simulated {
+    /// The fit.
+    pub fit: SimulationFit,
+    /// Simulations of logs that were not fitted.
+    pub unseen: Vec<(String, Unseen)>,
+}
+
+/// Part of the variance of the force that a separable fit must explain to be started from.
+const GOOD_START: f64 = 0.9;
+
+/// Laws that can be simulated.
+fn is_simulated(law: LawKind) -> bool {
+    matches!(
+        law,
+        LawKind::CoulombViscous | LawKind::Stribeck | LawKind::Dahl | LawKind::LuGre
+    )
+}
+
+pub(super) fn fit(
+    options: &Options,
+    axis: &Axis,
+    sources: Vec<Source>,
+    held_out: &[Source],
+    clock: Instant,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, Error> {
+    let Some(kind) = options.law.filter(|law| is_simulated(*law)) else {
+        let law = options.law.map_or("auto", LawKind::name);
+        return Err(Error::usage(
+            format!("--method output-error with --law {law}"),
+            "coulomb-viscous, stribeck, dahl or lugre",
+        ));
+    };
+    let first = &sources[0].log;
+    let motion = first.motion;
+    let force_unit = first.force_unit.clone();
+    let asked = axis.terms_for(first, options.asymmetric)?;
+    if asked.quadratic_viscous || !asked.dependences.is_empty() {
+        return Err(Error::usage(
+            "--method output-error with friction that depends on load, temperature, position or v|v|",
+            "offset, gravity and cogging beside the law",
+        ));
+    }
+    // When the force acts on the axis is stated in `[simulation]`.
+    let terms = Terms {
+        delay: Delay::NONE,
+        ..asked.clone()
+    };
+    let controller = axis.controller_for(first)?;
+    let law = Law {
+        kind,
+        asymmetric: options.asymmetric,
+        exponent: axis.stribeck_exponent,
+        elements: 0,
+        exponent_fitted: false,
+    };
+    let mut recordings = recordings(&sources)?;
+    let mut unseen_logs: Vec<(String, Recording)> = Vec::new();
+    if let Some(part) = options.split {
+        let rests = split(&mut recordings, part)?;
+        let name = |i: usize| match sources.len() {
+            1 => "rest of the log".to_string(),
+            _ => format!("rest of {}", sources[i].path.display()),
+        };
+        unseen_logs.extend(rests.into_iter().enumerate().map(|(i, r)| (name(i), r)));
+    }
+    for source in held_out {
+        let recording = self::recordings(std::slice::from_ref(source))?.remove(0);
+        unseen_logs.push((source.path.display().to_string(), recording));
+    }
+    let fail = |source| Error::Identify {
+        inputs: paths(&sources).join(", "),
+        source,
+    };
+    let start = match options.split {
+        None => separable(&sources, axis, law, &asked, options.seed, observer),
+        // It would have seen the rest.
+        Some(_) => None,
+    };
+    let quantum = axis.conditioning.resolution.or_else(|| {
+        sources
+            .iter()
+            .filter_map(|s| s.log.quantum)
+            .reduce(f64::min)
+    });
+    let simulation = Simulation {
+        controller,
+        hold: axis.hold,
+        segment: axis.segment,
+        quantum,
+        start: start.as_ref(),
+    };
+    let found =
+        engine::output_error(&recordings, law, &terms, &simulation, observer).map_err(fail)?;
+    let mut unseen = Vec::new();
+    for (name, recording) in unseen_logs {
+        let one = engine::simulate_unseen(&[recording], &found).map_err(|source| {
+            let inputs = name.clone();
+            Error::Identify { inputs, source }
+        })?;
+        unseen.push((name, one));
+    }
+
+    let mut warnings = log_warnings(&sources);
+    let both_ways = moves_both_ways(&found.signals);
+    let mut trust = trust::judge(
+        &found.fitted,
+        both_ways,
+        &sources,
+        &[],
+        motion,
+        &mut warnings,
+    );
+    trust::open_loop(&found, &mut trust, &mut warnings);
+    let started = if start.is_some() { "separable" } else { "runs" };
+    let resolved = ResolvedAxis {
+        name: axis.name.clone(),
+        kind: motion.to_string(),
+        force_unit: force_unit.clone(),
+        columns: sources[0].log.detected.clone(),
+        conditioning: notes(&found, axis, started),
+        terms: assemble::term_names(&found.fitted, motion),
+    };
+    let mut result = assemble::result(assemble::Parts {
+        options,
+        law_chosen_by: "user",
+        sources: &sources,
+        axis: resolved,
+        motion,
+        force_unit: &force_unit,
+        estimate: &found.fitted,
+        validation: &[],
+        laws: Vec::new(),
+        trust,
+        warnings,
+        wall_s: clock.elapsed().as_secs_f64(),
+    });
+    // What was fitted is the position; the entries of a force keep their name for it.
+    let force = |fit: &Fit| entries::fit(fit, &result.fit.signal, &force_unit);
+    let position = |fit: &Fit| entries::fit(fit, "position", symbols::length_unit(motion));
+    let entry = SimulationEntry {
+        kind: if found.is_closed_loop() {
+            "closed"
+        } else {
+            "open"
+        }
+        .into(),
+        force_is: match axis.hold {
+            Hold::Held => "held",
+            Hold::Centred => "centred",
+        }
+        .into(),
+        runs: found.runs,
+        substeps: found.substeps,
+        start: started.into(),
+        position: position(&found.position),
+        quantisation_floor: found.floor,
+        force: found.force.as_ref().map(&force),
+        validation_force: unseen
+            .iter()
+            .filter_map(|(_, u)| u.force.as_ref().map(&force))
+            .collect(),
+    };
+    result.validation = unseen
+        .iter()
+        .map(|(path, u)| ValidationEntry {
+            path: path.clone(),
+            fit: position(&u.position),
+            low_speed: None,
+        })
+        .collect();
+    result.fit = position(&found.position);
+    result.simulation = Some(entry);
+    let validation = unseen
+        .iter()
+        .map(|(name, u)| (name.clone(), series(&u.signals)))
+        .collect();
+    Ok(Outcome {
+        result,
+        estimate: found.fitted.clone(),
+        validation,
+        simulation: Some(Simulated { fit: found, unseen }),
+        sources,
+        motion,
+        force_unit,
+        truth: Vec::new(),
+    })
+}
+
+fn recordings(sources: &[Source]) -> Result<Vec<Recording>, Error> {
+    sources
+        .iter()
+        .map(|source| {
+            Ok(Recording {
+                samples: source.samples()?,
+                reference: source.log.reference.clone(),
+            })
+        })
+        .collect()
+}
+
+/// Leaves the first part of each recording where it is and gives back the rests.
+fn split(recordings: &mut [Recording], part: f64) -> Result<Vec<Recording>, Error> {
+    if !(part > 0.0 && part < 1.0) {
+        return Err(Error::usage(
+            format!("--split {part}"),
+            "a number between 0 and 1, such as 0.5",
+        ));
+    }
+    let rest = |r: &mut Recording| {
+        let at = (part * r.samples.time.len() as f64) as usize;
+        let s = &mut r.samples;
+        let tail = |x: &mut Vec<f64>| x.split_off(at.min(x.len()));
+        let breaks: Vec<usize> = s.breaks.iter().filter_map(|b| b.checked_sub(at)).collect();
+        s.breaks.retain(|b| *b < at);
+        Recording {
+            samples: engine::Samples {
+                time: tail(&mut s.time),
+                position: s.position.as_mut().map(tail),
+                velocity: s.velocity.as_mut().map(tail),
+                force: tail(&mut s.force),
+                valid: s.valid.split_off(at.min(s.valid.len())),
+                breaks: breaks.into_iter().filter(|b| *b > 0).collect(),
+                ..engine::Samples::default()
+            },
+            reference: r.reference.as_mut().map(tail),
+        }
+    };
+    Ok(recordings.iter_mut().map(rest).collect())
+}
+
+/// The separable fit of the same logs, where it explains them well enough to be started from.
+fn separable(
+    sources: &[Source],
+    axis: &Axis,
+    law: Law,
+    terms: &Terms,
+    seed: u64,
+    observer: &mut dyn Observer,
+) -> Option<Estimate> {
+    let wanted = conditioning::wanted(sources, axis);
+    let record = condition(sources, &wanted).ok()?;
+    let settings = Settings {
+        seed,
+        ..Settings::default()
+    };
+    let low_speed = engine::low_speed_bound(&record);
+    let (found, _) = engine::identify(&record, law, terms, low_speed, &settings, observer).ok()?;
+    (found.status == Status::Converged && found.fit.r2 >= GOOD_START).then_some(found)
+}
+
+/// Whether the axis moves in both directions, faster than a hundredth of its top speed.
+fn moves_both_ways(signals: &Signals) -> bool {
+    let top = signals.velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let beyond = |sign: f64| signals.velocity.iter().any(|v| sign * v > 0.01 * top);
+    beyond(1.0) && beyond(-1.0)
+}
+
+fn series(signals: &Signals) -> Series {
+    Series {
+        log: signals.log.clone(),
+        time: signals.time.clone(),
+        position: signals.position.clone(),
+        velocity: signals.velocity.clone(),
+        measured: signals.position.clone(),
+        model: signals.simulated.clone(),
+        other: vec![0.0; signals.time.len()],
+    }
+}
+
+/// What was simulated, for people.
+fn notes(found: &SimulationFit, axis: &Axis, started: &str) -> Vec<String> {
+    let mut out = vec![match found.is_closed_loop() {
+        true => "closed loop: the controller of the axis file runs on the recorded reference and the \
+                 simulated position; position and force are fitted, each weighted by its own residual"
+            .to_string(),
+        false => "open loop: the logged force drives the simulated axis; the position is fitted"
+            .to_string(),
+    }];
+    out.push(
+        match axis.hold {
+            Hold::Held => "the force of a sample holds until the next",
+            Hold::Centred => "the force of a sample is the mean around its instant",
+        }
+        .to_string(),
+    );
+    let starts = if found.is_closed_loop() {
+        "position, velocity, bristle deflection and any integral of the controller"
+    } else {
+        "position, velocity and bristle deflection"
+    };
+    let runs = match found.runs {
+        1 => "one run, whose start".to_string(),
+        n => format!("{n} runs, whose starts"),
+    };
+    out.push(format!("{runs} ({starts}) are fitted too"));
+    out.push(format!(
+        "nothing filtered or differentiated; {} in a control period",
+        match found.substeps {
+            1 => "one plant step".to_string(),
+            n => format!("{n} plant steps"),
+        }
+    ));
+    out.push(match started {
+        "separable" => "searched from the separable fit of the same logs".into(),
+        _ => "searched from many starting points, without a separable fit".to_string(),
+    });
+    out
+}

@@ -1,0 +1,179 @@
+//! sigma0 and sigma1 from control force and acceleration, Z25 eqs. (35)-(38), the static parameters held; and all six at
+//! once from the same record, by each of the three searches.
+
+use super::Budget;
+use super::fault::Fault;
+use super::search::{METHODS, Searched, search};
+use super::stage::{RATE, along, settings, truth};
+use crate::reproduce::watch::Watch;
+use rayon::prelude::*;
+use stiction_identify::candidates::{Candidates, Named, Scheme, SixParameters};
+use stiction_identify::{
+    Conditioning, Cutoff, Law, LawKind, Mass, Record, Samples, Source, Terms, condition,
+};
+use stiction_search::{Bounds, CostsOnly, Derivatives, Fidelity, Points, Problem};
+use stiction_servo::motion::Sine;
+
+/// The motion, m, Hz: through presliding six times, up to twice the Stribeck velocity.
+const AMPLITUDE: f64 = 0.5e-3;
+const FREQUENCY: f64 = 2.0;
+const CYCLES: f64 = 3.0;
+/// One sample in so many is fitted.
+const EVERY: usize = 2;
+
+/// The box of the six parameters `[sigma0, sigma1, sigma2, Fc, Fs - Fc, vs]`, SI.
+const LOW: [f64; 6] = [1e4, 10.0, 0.1, 0.1, 0.1, 1e-4];
+const HIGH: [f64; 6] = [1e8, 1e5, 1e3, 100.0, 100.0, 0.1];
+
+/// Both identifications.
+#[derive(Clone, Debug)]
+pub struct Dynamics {
+    /// sigma0 and sigma1 with the static parameters held.
+    pub two: Searched,
+    /// All six at once: one search for each method and seed, in that order.
+    pub six: Vec<Searched>,
+}
+
+pub(super) fn run(statics: &Named, budget: Budget, watch: &Watch) -> Result<Dynamics, Fault> {
+    let record = record()?;
+    watch.done()?;
+    let held = Held {
+        bounds: bounds(&LOW[..2], &HIGH[..2])?,
+        all: cost(&record)?,
+        statics: logarithms(statics),
+    };
+    let two = search(&held, "annealing-ga", budget, 1, watch)?;
+    let tasks: Vec<(&str, u64)> = METHODS
+        .iter()
+        .flat_map(|m| (1..=budget.seeds).map(move |seed| (*m, seed)))
+        .collect();
+    let six: Result<Vec<Searched>, Fault> = tasks
+        .par_iter()
+        .map(|(method, seed)| search(&cost(&record)?, method, budget, *seed, watch))
+        .collect();
+    Ok(Dynamics { two, six: six? })
+}
+
+/// Friction `Ke u - M a` over the velocity: D10 of the decisions on the paper's gaps. Both are of the instant of the
+/// velocity: the mean of the forces held before and after it, and the central difference.
+fn record() -> Result<Record, Fault> {
+    let mass = truth()?.mass;
+    let samples = along(&settings()?, &Sine::new(AMPLITUDE, FREQUENCY, CYCLES)?)?;
+    let mut log = Samples::default();
+    let mut velocity = Vec::new();
+    for three in samples.windows(3).step_by(EVERY) {
+        let [before, now, after] = three else {
+            continue;
+        };
+        let acceleration = 0.5 * RATE * (after.velocity - before.velocity);
+        let force = 0.5 * (before.command + now.command);
+        log.time.push(now.time);
+        velocity.push(now.velocity);
+        log.force.push(force - mass * acceleration);
+    }
+    log.velocity = Some(velocity);
+    let as_it_is = Conditioning {
+        source: Some(Source::Velocity),
+        source_cutoff: Cutoff::Off,
+        common_cutoff: Cutoff::Off,
+        ..Conditioning::default()
+    };
+    Ok(condition(&[log], &as_it_is)?)
+}
+
+fn bounds(low: &[f64], high: &[f64]) -> Result<Bounds, Fault> {
+    let logarithms = |ends: &[f64]| ends.iter().map(|x| libm::log(*x)).collect();
+    Ok(Bounds::new(logarithms(low), logarithms(high))?)
+}
+
+fn cost(record: &Record) -> Result<SixParameters, Fault> {
+    let terms = Terms {
+        mass: Mass::Absent,
+        offset: false,
+        ..Terms::default()
+    };
+    let law = Law::new(LawKind::LuGre);
+    let bounds = bounds(&LOW, &HIGH)?;
+    Ok(SixParameters::new(
+        record,
+        law,
+        &terms,
+        bounds,
+        Scheme::Explin,
+    )?)
+}
+
+/// `[sigma2, Fc, Fs - Fc, vs]` as the genome has them.
+fn logarithms(statics: &Named) -> [f64; 4] {
+    let value = |name: &str| {
+        let found = statics.iter().find(|(n, _)| n == name);
+        found.map_or(f64::NAN, |(_, x)| *x)
+    };
+    let excess = value("static") - value("coulomb");
+    [
+        value("sigma2"),
+        value("coulomb"),
+        excess,
+        value("stribeck_velocity"),
+    ]
+    .map(libm::log)
+}
+
+/// The cost of the six parameters with four of them held.
+struct Held {
+    bounds: Bounds,
+    all: SixParameters,
+    statics: [f64; 4],
+}
+
+impl Held {
+    fn whole(&self, points: &Points) -> Points {
+        let mut whole = Points::new(6);
+        for x in points.rows() {
+            let [s2, fc, excess, vs] = self.statics;
+            whole.push(&[x[0], x[1], s2, fc, excess, vs]);
+        }
+        whole
+    }
+}
+
+impl Problem for Held {
+    fn bounds(&self) -> &Bounds {
+        &self.bounds
+    }
+
+    fn costs(&self, points: &Points, fidelity: Fidelity, out: &mut [f64]) {
+        self.all.costs(&self.whole(points), fidelity, out);
+    }
+
+    fn derivatives(
+        &self,
+        points: &Points,
+        fidelity: Fidelity,
+        out: &mut [Derivatives],
+    ) -> Result<(), CostsOnly> {
+        let mut all = vec![Derivatives::zeros(6); out.len()];
+        self.all
+            .derivatives(&self.whole(points), fidelity, &mut all)?;
+        for (all, out) in all.iter().zip(out) {
+            out.cost = all.cost;
+            out.gradient.copy_from_slice(&all.gradient[..2]);
+            for i in 0..2 {
+                out.normal[2 * i..2 * i + 2].copy_from_slice(&all.normal[6 * i..6 * i + 2]);
+            }
+        }
+        Ok(())
+    }
+
+    fn coarse_share(&self) -> f64 {
+        self.all.coarse_share()
+    }
+}
+
+impl Candidates for Held {
+    fn parameters(&self, point: &[f64]) -> Named {
+        let [s2, fc, excess, vs] = self.statics;
+        let whole = [point[0], point[1], s2, fc, excess, vs];
+        self.all.parameters(&whole)
+    }
+}

@@ -1,0 +1,94 @@
+//! A step of the voltage below break-away: Z25 eqs. (26)-(34).
+
+use super::fault::Fault;
+use super::law;
+use super::stage::{RATE, settings};
+use crate::reproduce::watch::Watch;
+use stiction_friction::Direction;
+use stiction_identify::candidates::Named;
+use stiction_identify::procedure::{
+    Inversion, Run, StepResponse, StepSeries, StepSettings, fit_steps,
+};
+use stiction_identify::{Samples, Silent};
+use stiction_servo::integrator::{Integrator, Ode4};
+use stiction_servo::plant::{Load, Motion};
+
+/// Height of the step, V; when it comes and when the record ends, s.
+pub(super) const VOLTS: f64 = 0.02;
+const FROM: f64 = 0.01;
+const UNTIL: f64 = 0.1;
+
+/// The response and what two methods make of it.
+#[derive(Clone, Debug)]
+pub struct Presliding {
+    /// N
+    pub height: f64,
+    /// What second-order theory makes of rest and overshoot, as published.
+    pub inverted: Inversion,
+    /// Overshoot as a part of the displacement at rest.
+    pub overshoot: Option<f64>,
+    /// Displacement at rest, m.
+    pub settled: f64,
+    /// What a simulation fitted to the response makes of it: sigma0, sigma1.
+    pub fitted: [f64; 2],
+    /// Time, measured and fitted displacement.
+    pub series: StepSeries,
+    /// Time from the first sample shown, at which the force steps, s.
+    pub onset: f64,
+}
+
+pub(super) fn run(identified: &Named, watch: &Watch) -> Result<Presliding, Fault> {
+    let settings = settings()?;
+    let height = VOLTS * settings.drive.gain();
+    let mut ode4 = Ode4::new(1)?;
+    let mut log = Samples::default();
+    let (mut motion, mut position) = (Motion::default(), Vec::new());
+    for k in 0..=(UNTIL * RATE) as usize {
+        let time = k as f64 / RATE;
+        let force = if time < FROM { 0.0 } else { height };
+        log.time.push(time);
+        log.force.push(force);
+        position.push(motion.position);
+        motion = ode4.advance(&settings.plant, motion, 1.0 / RATE, Load::force(force), 0.0);
+    }
+    log.position = Some(position);
+    let run = Run {
+        samples: &log,
+        reference: None,
+        resolution: None,
+    };
+    let response = StepResponse::read(&run, 0)?;
+    let found = law(identified)?;
+    let side: Direction<f64> = *found.curve().positive();
+    let mass = settings.plant.mass();
+    let fit = fit_steps(
+        &[(run, response.clone())],
+        &StepSettings {
+            mass: Some(mass),
+            curve: Some(side),
+            exponent: 2.0,
+            given: [[0.0; 5]; 5],
+        },
+        &mut Silent,
+    )?;
+    watch.done()?;
+    let value = |name: &str| fit.value(name).unwrap_or(f64::NAN);
+    let series = fit.series.first().cloned();
+    let series = series.unwrap_or(StepSeries {
+        time: Vec::new(),
+        measured: Vec::new(),
+        model: Vec::new(),
+    });
+    // The series and the response end together.
+    let until = log.time[response.range.end - 1] - log.time[response.onset];
+    let last = series.time.last().copied().unwrap_or(0.0);
+    Ok(Presliding {
+        height,
+        inverted: response.invert(Some(mass), side.viscous),
+        overshoot: response.overshoot.map(|(_, part)| part),
+        settled: response.settled,
+        fitted: [value("sigma0"), value("sigma1")],
+        series,
+        onset: last - until,
+    })
+}

@@ -1,0 +1,73 @@
+//! Friction over velocity from runs at constant velocity, and the static parameters from it: Z25 eqs. (7)-(8).
+
+use super::Budget;
+use super::fault::Fault;
+use super::search::{Searched, search};
+use super::stage::{along, settings};
+use crate::reproduce::watch::Watch;
+use rayon::prelude::*;
+use stiction_friction::ParamError;
+use stiction_identify::candidates::Curve;
+use stiction_search::Bounds;
+use stiction_servo::speeds::{SpeedRun, Speeds};
+
+/// Velocities of the runs, mm/s, each in both directions.
+pub(super) const SPEEDS: [f64; 16] = [
+    0.2, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0, 50.0, 75.0, 100.0,
+];
+
+/// Time to reach a velocity, to settle there, and over which the force is averaged, s.
+const RAMP: f64 = 0.1;
+const SETTLE: f64 = 0.3;
+const MEAN: f64 = 0.3;
+
+/// The map and what was made of it.
+#[derive(Clone, Debug)]
+pub struct Statics {
+    /// m/s
+    pub speed: Vec<f64>,
+    /// Mean control force, N.
+    pub force: Vec<f64>,
+    /// What was made of them.
+    pub search: Searched,
+}
+
+pub(super) fn run(budget: Budget, watch: &Watch) -> Result<Statics, Fault> {
+    let (speed, force) = map(watch)?;
+    // Coulomb and static friction to 100 N, Stribeck velocity .1 to 100 mm/s, viscous to 1000 N s/m.
+    let bounds = Bounds::new(
+        [0.1, 0.1, 0.1, 1e-4].map(libm::log).into(),
+        [1000.0, 100.0, 100.0, 0.1].map(libm::log).into(),
+    )?;
+    let curve = Curve::new(speed.clone(), force.clone(), bounds)?;
+    let search = search(&curve, "annealing-ga", budget, 1, watch)?;
+    Ok(Statics {
+        speed,
+        force,
+        search,
+    })
+}
+
+fn map(watch: &Watch) -> Result<(Vec<f64>, Vec<f64>), Fault> {
+    let speeds: Vec<f64> = SPEEDS.iter().flat_map(|v| [-1e-3 * v, 1e-3 * v]).collect();
+    let points: Result<Vec<(f64, f64)>, ParamError> =
+        speeds.par_iter().map(|&v| Ok((v, at(v)?))).collect();
+    let mut points = points?;
+    watch.done()?;
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(points.into_iter().unzip())
+}
+
+/// Mean control force, N, at a constant velocity, m/s.
+fn at(velocity: f64) -> Result<f64, ParamError> {
+    let run = SpeedRun {
+        velocity,
+        hold: SETTLE + MEAN,
+        ramp: RAMP,
+    };
+    let samples = along(&settings()?, &Speeds::new(vec![run])?)?;
+    let settled = RAMP + SETTLE..RAMP + SETTLE + MEAN;
+    let forces = samples.iter().filter(|s| settled.contains(&s.time));
+    let (sum, n) = forces.fold((0.0, 0.0), |(sum, n), s| (sum + s.command, n + 1.0));
+    Ok(sum / n)
+}

@@ -1,0 +1,134 @@
+//! A log file, read, hashed and mapped.
+
+use crate::error::Error;
+use std::path::{Path, PathBuf};
+use stiction_files::Axis;
+use stiction_files::result::Input;
+use stiction_identify::{Samples, Terms};
+use stiction_log::{Log, ReadOptions, Table, read_table};
+
+/// How a column that was not read is told among what was detected.
+const LEFT_OUT: &str = "left out: ";
+
+/// A log with the file it came from.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// Path as given.
+    pub path: PathBuf,
+    /// SHA-256 of the file, hexadecimal.
+    pub sha256: String,
+    /// What the reader detected, and what it left out.
+    pub detected: Vec<String>,
+    /// The log in SI units.
+    pub log: Log,
+}
+
+/// Reads the columns of a file as they stand.
+///
+/// # Errors
+/// With file, place, what was found and what is allowed.
+pub fn table(path: &Path, axis: &Axis) -> Result<Table, Error> {
+    let options = ReadOptions {
+        text: axis.text,
+        ..ReadOptions::default()
+    };
+    Ok(read_table(path, &options)?)
+}
+
+/// Reads a file and maps it by the axis.
+///
+/// # Errors
+/// As [`table`], and where columns or units are missing or ambiguous.
+pub fn load(path: &Path, axis: &Axis) -> Result<Source, Error> {
+    let table = table(path, axis)?;
+    let log = Log::from_table(&table, &axis.mapping).map_err(|e| e.in_file(path))?;
+    let mut detected = log.detected.clone();
+    detected.extend(table.skipped.iter().map(|s| format!("{LEFT_OUT}{s}")));
+    Ok(Source {
+        path: path.to_path_buf(),
+        sha256: stiction_files::sha256(path)?,
+        detected,
+        log,
+    })
+}
+
+impl Source {
+    /// How the log goes into `result.json`.
+    pub fn input(&self) -> Input {
+        Input {
+            path: self.path.display().to_string(),
+            sha256: self.sha256.clone(),
+            samples: self.log.time.len(),
+            rate_hz: self.log.rate_hz,
+            detected: self.detected.clone(),
+        }
+    }
+
+    /// Whether the log has every column that the terms need.
+    ///
+    /// # Errors
+    /// When one is missing, with the term that needs it.
+    pub fn check_channels(&self, terms: &Terms) -> Result<(), Error> {
+        for term in &terms.dependences {
+            let channel = term.channel();
+            let column = match channel {
+                "load" => &self.log.load,
+                "temperature" => &self.log.temperature,
+                _ => &self.log.position,
+            };
+            if column.is_none() {
+                let found = format!("no {channel} column, and [terms] {} needs one", term.name());
+                let allowed = format!("name it in the axis file: [columns] {channel} = \"...\"");
+                let kind = stiction_log::Kind::Missing;
+                let error = stiction_log::Error::new(kind, found, allowed);
+                return Err(error.in_file(&self.path).into());
+            }
+        }
+        Ok(())
+    }
+
+    /// Columns of the file that were not read, and why.
+    fn left_out(&self) -> impl Iterator<Item = &str> {
+        self.detected
+            .iter()
+            .filter_map(|text| text.strip_prefix(LEFT_OUT))
+    }
+
+    /// What an identification needs of it.
+    ///
+    /// # Errors
+    /// When the log has no force, or neither position nor velocity.
+    pub fn samples(&self) -> Result<Samples, Error> {
+        let left_out: Vec<&str> = self.left_out().take(4).collect();
+        let left_out = match left_out.as_slice() {
+            [] => String::new(),
+            columns => format!(" (left out is {})", columns.join(", ")),
+        };
+        let missing = |what: &str, key: &str| {
+            let error = stiction_log::Error::new(
+                stiction_log::Kind::Missing,
+                format!("no {what} column{left_out}"),
+                format!("name it in the axis file: [columns] {key} = \"...\""),
+            );
+            Error::from(error.in_file(&self.path))
+        };
+        let force = self
+            .log
+            .force
+            .clone()
+            .ok_or_else(|| missing("force", "force"))?;
+        if self.log.position.is_none() && self.log.velocity.is_none() {
+            return Err(missing("position or velocity", "position"));
+        }
+        Ok(Samples {
+            time: self.log.time.clone(),
+            position: self.log.position.clone(),
+            velocity: self.log.velocity.clone(),
+            force,
+            load: self.log.load.clone(),
+            temperature: self.log.temperature.clone(),
+            valid: self.log.valid(),
+            breaks: self.log.segments.iter().skip(1).map(|s| s.start).collect(),
+        })
+    }
+}

@@ -1,0 +1,21 @@
+//! Simulation of a study: every run of its grid, and what is told of them.
+
+mod compensation;
+mod contour;
+mod contour_trace;
+mod course;
+mod done;
+pub mod doubt;
+mod learnt;
+mod machine;
+mod metrics;
+mod outcome;
+mod path;
+mod rows;
+mod run;
+mod trace;
+
+pub use contour_trace::ContourTrace;
+pub use outcome::StudyOutcome;
+pub use run::simulate;
+pub use trace::{Course, Trace};

@@ -1,0 +1,73 @@
+//! From a scheme and what is believed of an axis to its compensation.
+
+use stiction_files::study::{Belief, Machine, ModelKind, ModelScheme, Scheme};
+use stiction_friction::compensator::{
+    Compensator, DisturbanceObserver, Friction, Settings, Source,
+};
+use stiction_friction::{CoulombViscous, LuGre, ParamError};
+use stiction_servo::controller::Controller;
+use stiction_servo::feedforward::Feedforward;
+
+/// A controller that feeds the mass that is believed forward: the part of it is the controller's.
+pub(super) fn believing(controller: Controller, machine: &Machine, belief: Belief) -> Controller {
+    let fed = controller.mass_feedforward() / machine.mass * belief.mass;
+    controller.with_mass_feedforward(fed)
+}
+
+/// The compensation of an axis of which `belief` is believed.
+pub(super) fn feedforward(
+    scheme: &Scheme,
+    machine: &Machine,
+    controller: &Controller,
+    belief: Belief,
+) -> Result<Feedforward, ParamError> {
+    let limit = controller.force_limit();
+    let observer = |bandwidth: f64| {
+        DisturbanceObserver::new(belief.mass, bandwidth, 1.0 / machine.rate, limit)
+    };
+    match scheme {
+        Scheme::None | Scheme::Learning(..) => Ok(Feedforward::default()),
+        Scheme::Observer(bandwidth) => Ok(Feedforward::observer(observer(*bandwidth)?)),
+        Scheme::Model(model) => Ok(Feedforward {
+            observer: model.observer.map(observer).transpose()?,
+            ..from_law(model, machine, limit, &belief.law)?
+        }),
+    }
+}
+
+/// A force from the law.
+fn from_law(
+    model: &ModelScheme,
+    machine: &Machine,
+    limit: f64,
+    law: &LuGre<f64>,
+) -> Result<Feedforward, ParamError> {
+    let curve = law.curve();
+    let sides = [curve.positive(), curve.negative()];
+    let friction = match model.kind {
+        ModelKind::Coulomb => Friction::Coulomb(CoulombViscous::new(
+            sides.map(|s| s.coulomb),
+            sides.map(|s| s.viscous),
+            curve.offset(),
+        )?),
+        ModelKind::Stribeck => Friction::Stribeck(*curve),
+        ModelKind::LuGre => Friction::LuGre(*law),
+    };
+    let period = 1.0 / machine.rate;
+    let limit = model.limit.unwrap_or(limit);
+    let settings = Settings {
+        gain: model.gain,
+        dead_zone: model.dead_zone,
+        slew: model.slew.unwrap_or(f64::MAX),
+        ramp: model.ramp,
+        adaptation: model.adaptation,
+        watchdog: model.watchdog,
+        ..Settings::new(period, limit)
+    };
+    let preview = model.preview.unwrap_or(match model.source {
+        Source::Reference => machine.drive.preview(period),
+        _ => 0.0,
+    });
+    let compensator = Compensator::new(friction, model.source, settings)?;
+    Ok(Feedforward::compensator(compensator, preview))
+}

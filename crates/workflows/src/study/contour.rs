@@ -1,0 +1,162 @@
+//! Two axes along a contour: one run of the grid, and what is kept of it.
+
+use super::compensation::{believing, feedforward};
+use super::contour_trace::ContourTrace;
+use super::course;
+use super::done::Done;
+use super::learnt::learnt;
+use super::machine::{self, largest_force};
+use stiction_files::study::result::PathEntry;
+use stiction_files::study::{Belief, ContourPlan, Job, Machine, Scheme, Second, Study};
+use stiction_friction::ParamError;
+use stiction_servo::axis::{Axis, Sample};
+use stiction_servo::controller::Controller;
+use stiction_servo::cross_coupling::CrossCoupling;
+use stiction_servo::integrator::Quick;
+use stiction_servo::metrics::{Contour, Tracking, circular_deviation, share_at_limit};
+use stiction_servo::two_axes::{PlaneSample, follow};
+
+/// What is asked of one run.
+struct Plan<'a> {
+    pub contour: &'a ContourPlan,
+    pub controllers: [Controller; 2],
+    pub scheme: &'a Scheme,
+    pub beliefs: [Belief; 2],
+    pub coupling: Option<CrossCoupling>,
+}
+
+/// What a run gives.
+struct Ran {
+    pub metrics: Vec<f64>,
+    /// Whether a watchdog switched off, whether one still learnt when the run began to count.
+    pub switched_off: bool,
+    pub still_learning: bool,
+    /// All samples, and from which on they count.
+    pub samples: Vec<PlaneSample>,
+    pub counted: usize,
+}
+
+fn along(study: &Study, second: &Second, plan: &Plan) -> Result<Ran, ParamError> {
+    let axis = |i: usize, machine: &Machine| {
+        let belief = plan.beliefs[i];
+        let controller = believing(plan.controllers[i], machine, belief);
+        // Noise of its own on each axis.
+        let mut settings =
+            machine::settings(machine, controller, study.seed.wrapping_add(i as u64));
+        settings.feedforward = feedforward(plan.scheme, machine, &controller, belief)?;
+        Axis::new(settings, Quick::new(1)?)
+    };
+    let mut axes = [axis(0, &study.machine)?, axis(1, &second.machine)?];
+    let contour = plan.contour;
+    let samples = follow(&mut axes, plan.coupling.as_ref(), contour.motion.as_ref())?;
+    let sides: [Vec<Sample>; 2] = [0, 1].map(|i| samples.iter().map(|s| s.axes[i]).collect());
+    let learnt = sides
+        .iter()
+        .filter_map(|side| learnt(plan.scheme, side, study.machine.rate));
+    let still_learning = learnt.fold(0.0, f64::max) > contour.skip;
+    let from = samples.partition_point(|s| s.axes[0].time < contour.skip);
+    let counted = &samples[from..];
+    let switched_off = axes.iter().any(|axis| {
+        let compensator = axis.feedforward().compensator();
+        compensator.is_some_and(|c| c.state().watch.tripped)
+    });
+    let limits = [
+        largest_force(&study.machine, &plan.controllers[0]),
+        largest_force(&second.machine, &plan.controllers[1]),
+    ];
+    Ok(Ran {
+        metrics: metrics(
+            contour,
+            counted,
+            sides.each_ref().map(|s| &s[from..]),
+            limits,
+        ),
+        switched_off,
+        still_learning,
+        counted: from,
+        samples,
+    })
+}
+
+fn metrics(
+    contour: &ContourPlan,
+    samples: &[PlaneSample],
+    sides: [&[Sample]; 2],
+    limits: [f64; 2],
+) -> Vec<f64> {
+    let deviation = Contour::of(samples);
+    let circular = match contour.kind {
+        "circle" => {
+            let points: Vec<_> = samples.iter().map(|s| s.axes.map(|a| a.position)).collect();
+            circular_deviation(&points)
+        }
+        _ => f64::NAN,
+    };
+    let [x, y] = sides.map(Tracking::of);
+    vec![
+        deviation.rms,
+        deviation.peak,
+        circular,
+        x.reversal_peak,
+        y.reversal_peak,
+        x.command_change,
+        y.command_change,
+        share_at_limit(sides[0], limits[0]),
+        share_at_limit(sides[1], limits[1]),
+    ]
+}
+
+pub(super) fn on_contour(
+    study: &Study,
+    job: Job,
+    contour: &ContourPlan,
+) -> Result<Done, ParamError> {
+    let missing = ParamError::new("axes", 1.0, "two, for a contour");
+    let second = study.second.as_ref().ok_or(missing)?;
+    let family = &study.families[job.family];
+    let controllers = [
+        study.controllers[job.controller].value,
+        second.controllers[job.controller],
+    ];
+    let coupling = second.coupling.filter(|_| job.coupled);
+    let plan = Plan {
+        contour,
+        controllers,
+        scheme: &study.compensators[job.compensator].value,
+        beliefs: [
+            family.beliefs[job.belief],
+            second.families[job.family][job.belief],
+        ],
+        coupling: coupling.map(|c| c.above(controllers.each_ref())),
+    };
+    let ran = along(study, second, &plan)?;
+    let names = study.names(job);
+    let exact = family.kind == "exact";
+    Ok(Done {
+        job,
+        metrics: ran.metrics,
+        switched_off: ran.switched_off,
+        still_learning: ran.still_learning,
+        trace: None,
+        course: match exact {
+            true => course::contour_rows(
+                names,
+                job.coupled,
+                &ran.samples,
+                course::rows_of_a_run(study),
+            ),
+            false => String::new(),
+        },
+        contour: exact.then(|| ContourTrace::of(names, job.coupled, &ran.samples[ran.counted..])),
+    })
+}
+
+/// A contour as it goes into `study.json`.
+pub(super) fn entry(plan: &ContourPlan) -> PathEntry {
+    PathEntry {
+        name: plan.name.clone(),
+        kind: plan.kind.into(),
+        duration_s: plan.motion.duration(),
+        skip_s: plan.skip,
+    }
+}

@@ -1,0 +1,151 @@
+//! What a run shows that its figures do not: a watchdog that still learns while they count, a force at its limit, a
+//! command that shakes.
+
+use super::machine::largest_force;
+use stiction_codes::Code;
+use stiction_files::Warning;
+use stiction_files::study::result::ResultRow;
+use stiction_files::study::{Scheme, Study};
+use stiction_number::quantity;
+
+/// Share of the samples at the limit of the force from which on a run is warned of.
+const MUCH: f64 = 0.01;
+/// Rms change of the command from sample to sample, as a part of the largest force, from which on it shakes: a loop that
+/// swings between the limits in 64 samples or fewer.
+const SHAKES: f64 = 0.1;
+
+/// Codes of the warnings that are made here.
+pub const CODES: [Code; 3] = [
+    Code::StillLearning,
+    Code::AtForceLimit,
+    Code::UnsteadyCommand,
+];
+
+/// What is to be said of the rows of a path or contour under a controller.
+pub(super) fn warnings(study: &Study, rows: &[ResultRow]) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    for rows in rows.chunk_by(|a, b| (&a.path, &a.controller) == (&b.path, &b.controller)) {
+        warnings.extend(at_limit(study, rows));
+        warnings.extend(shaking(study, rows));
+    }
+    let mut learning: Vec<&ResultRow> = Vec::new();
+    for row in rows.iter().filter(|r| r.still_learning > 0) {
+        // The same under every controller and with all parameters.
+        let same = |r: &&ResultRow| (&r.path, &r.compensator) == (&row.path, &row.compensator);
+        if !learning.iter().any(same) {
+            learning.push(row);
+        }
+    }
+    warnings.extend(learning.iter().filter_map(|row| still_learning(study, row)));
+    warnings
+}
+
+fn still_learning(study: &Study, row: &ResultRow) -> Option<Warning> {
+    let compensator = study
+        .compensators
+        .iter()
+        .find(|c| c.name == row.compensator)?;
+    let Scheme::Model(model) = &compensator.value else {
+        return None;
+    };
+    let window = model.watchdog.as_ref()?.window;
+    let (duration, skip) = span(study, &row.path)?;
+    Some(Warning::new(
+        Code::StillLearning,
+        format!(
+            "{}, {}: the watchdog lets no force through until it has learnt the error without, from the first turn of \
+             the motion over {} and two strokes at least; of {} what counts begins at {}. Give a longer run and a \
+             skip beyond the learning, a shorter watchdog_window (a cycle of the motion), or watchdog = false",
+            row.path,
+            row.compensator,
+            quantity(window, "s"),
+            quantity(duration, "s"),
+            quantity(skip, "s"),
+        ),
+    ))
+}
+
+/// The largest of a metric over all runs of some rows, on any axis, as a part of what `of` gives for that axis.
+fn worst<'r>(
+    rows: &'r [ResultRow],
+    stem: &str,
+    of: &dyn Fn(usize) -> f64,
+) -> Option<(&'r ResultRow, f64)> {
+    let all = rows.iter().flat_map(|row| {
+        row.metrics.iter().filter_map(move |m| {
+            let axis = m.name.strip_prefix(stem)?;
+            Some((row, m.largest / of(usize::from(axis == "_y"))))
+        })
+    });
+    all.max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+fn at_limit(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
+    let (row, share) = worst(rows, "saturation", &|_| 1.0)?;
+    (share > MUCH).then(|| {
+        Warning::new(
+            Code::AtForceLimit,
+            format!(
+                "{}, {}: with {} the command is at its limit of {} in {:.0} % of the samples: what counts is then the \
+                 limit, neither the controller nor the compensation",
+                row.path,
+                row.controller,
+                row.scheme(),
+                limits(study, &row.controller),
+                100.0 * share
+            ),
+        )
+    })
+}
+
+fn shaking(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
+    let limits = force_limits(study, &rows.first()?.controller)?;
+    let (row, share) = worst(rows, "command_change", &|axis| limits[axis])?;
+    (share > SHAKES).then(|| {
+        Warning::new(
+            Code::UnsteadyCommand,
+            format!(
+                "{}, {}: with {} the command changes by {:.0} % of the largest force from sample to sample (rms): the \
+                 loop is not stable, or its gains are too high for the encoder and the noise",
+                row.path,
+                row.controller,
+                row.scheme(),
+                100.0 * share
+            ),
+        )
+    })
+}
+
+/// Length of a path or contour and from when on it counts, s.
+fn span(study: &Study, name: &str) -> Option<(f64, f64)> {
+    let path = study.paths.iter().find(|p| p.name == name);
+    let path = path.map(|p| (p.trajectory.duration(), p.skip));
+    let contour = study.contours.iter().find(|c| c.name == name);
+    path.or_else(|| contour.map(|c| (c.motion.duration(), c.skip)))
+}
+
+/// The largest force of either axis under a controller, N (N m); that of the first twice where there is one.
+fn force_limits(study: &Study, controller: &str) -> Option<[f64; 2]> {
+    let i = study
+        .controllers
+        .iter()
+        .position(|c| c.name == controller)?;
+    let first = largest_force(&study.machine, &study.controllers[i].value);
+    let second = study
+        .second
+        .as_ref()
+        .map(|second| largest_force(&second.machine, &second.controllers[i]));
+    Some([first, second.unwrap_or(first)])
+}
+
+/// The same in words.
+fn limits(study: &Study, controller: &str) -> String {
+    let unit = stiction_files::symbols::force_unit(study.machine.motion);
+    match force_limits(study, controller) {
+        Some([x, y]) if x != y => {
+            format!("{} (x) and {} (y)", quantity(x, unit), quantity(y, unit))
+        }
+        Some([x, _]) => quantity(x, unit),
+        None => "the largest force".into(),
+    }
+}

@@ -1,0 +1,76 @@
+//! The simulated axis: its settings for a run, and what is said of it.
+
+use stiction_files::study::Machine;
+use stiction_files::study::result::{AxisParameter, SimulatedAxis};
+use stiction_files::symbols;
+use stiction_friction::Damping;
+use stiction_log::Motion;
+use stiction_servo::axis::AxisSettings;
+use stiction_servo::controller::Controller;
+use stiction_servo::feedforward::Feedforward;
+
+/// The axis with a controller and without compensation.
+pub(super) fn settings(machine: &Machine, controller: Controller, seed: u64) -> AxisSettings {
+    AxisSettings {
+        plant: machine.plant,
+        drive: machine.drive,
+        encoder: machine.encoder,
+        position_noise: machine.position_noise,
+        cogging: machine.cogging,
+        disturbance: None,
+        controller,
+        feedforward: Feedforward::default(),
+        rate: machine.rate,
+        substeps: machine.substeps,
+        seed,
+    }
+}
+
+/// What the controller may ask for and the drive can give, N (N m).
+pub(super) fn largest_force(machine: &Machine, controller: &Controller) -> f64 {
+    controller.force_limit().min(machine.drive.peak_force())
+}
+
+/// Unit of a metric.
+pub(super) fn unit(machine: &Machine, metric: &str) -> String {
+    match (metric, machine.motion) {
+        ("stick_time", _) => "s",
+        ("velocity_ripple", _) => "1",
+        (name, _) if name.starts_with("saturation") => "1",
+        (name, Motion::Linear) if name.starts_with("command_change") => "N",
+        (name, Motion::Rotary) if name.starts_with("command_change") => "N*m",
+        (_, motion) => symbols::length_unit(motion),
+    }
+    .into()
+}
+
+/// The axis as it goes into `study.json`.
+pub(super) fn entry(machine: &Machine) -> SimulatedAxis {
+    let parameters = machine.model.parameters.iter().map(|p| AxisParameter {
+        name: p.name.clone(),
+        value: p.value,
+        unit: p.unit.clone(),
+    });
+    let sigma1 = match machine.law.damping() {
+        Damping::Constant(_) => "constant",
+        _ => "capped",
+    };
+    SimulatedAxis {
+        kind: match machine.motion {
+            Motion::Linear => "linear",
+            Motion::Rotary => "rotary",
+        }
+        .into(),
+        origin: machine.model.origin.clone(),
+        parameters: parameters.collect(),
+        sigma1: sigma1.into(),
+        mass: machine.mass,
+        rate_hz: machine.rate,
+        substeps: machine.substeps,
+        delay_s: machine.drive.delay,
+        current_lag_s: machine.drive.current_lag,
+        peak_force: Some(machine.drive.peak_force()).filter(|f| f.is_finite()),
+        encoder: machine.encoder.resolution(),
+        position_noise: machine.position_noise,
+    }
+}

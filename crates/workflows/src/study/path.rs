@@ -1,0 +1,105 @@
+//! One axis along a path: one run of the grid, and what is kept of it.
+
+use super::compensation::{believing, feedforward};
+use super::course;
+use super::done::Done;
+use super::learnt::learnt;
+use super::machine::{largest_force, settings};
+use super::trace::Trace;
+use stiction_files::study::result::PathEntry;
+use stiction_files::study::{Job, PathPlan, Scheme, Study};
+use stiction_friction::ParamError;
+use stiction_servo::axis::Axis;
+use stiction_servo::integrator::Quick;
+use stiction_servo::metrics::{Tracking, ripple_at_constant_velocity, share_at_limit};
+use stiction_servo::run::{follow, follow_sampled, sample_count};
+use stiction_servo::sampled::Sampled;
+
+/// Samples of references that are kept for all runs, of all paths together: a hundred megabytes.
+const MOST_SHARED: usize = 4_000_000;
+
+/// The reference of each path at the control rate, for all runs along it; `None` where that would be too much to keep.
+pub(super) fn sampled(study: &Study) -> Vec<Option<Sampled>> {
+    let mut left = MOST_SHARED;
+    let sampled = study.paths.iter().map(|path| {
+        let count = sample_count(path.trajectory.duration(), study.machine.rate).ok()?;
+        left = left.checked_sub(count)?;
+        Sampled::new(path.trajectory.as_ref(), study.machine.rate).ok()
+    });
+    sampled.collect()
+}
+
+/// Along `sampled`, if it is there, which is the path's own reference.
+pub(super) fn on_path(
+    study: &Study,
+    job: Job,
+    sampled: Option<&Sampled>,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Option<Done>, ParamError> {
+    let path = &study.paths[job.path];
+    let follow = |axis: &mut Axis<_, _>| match sampled {
+        Some(sampled) => follow_sampled(axis, sampled),
+        None => follow(axis, path.trajectory.as_ref()),
+    };
+    let family = &study.families[job.family];
+    let belief = family.beliefs[job.belief];
+    let controller = study.controllers[job.controller].value;
+    let controller = believing(controller, &study.machine, belief);
+    let scheme = &study.compensators[job.compensator].value;
+    let mut settings = settings(&study.machine, controller, study.seed);
+    settings.feedforward = feedforward(scheme, &study.machine, &controller, belief)?;
+    let mut axis = Axis::new(settings.clone(), Quick::new(1)?)?;
+    let mut samples = follow(&mut axis)?;
+    if let Scheme::Learning(learning, passes) = scheme {
+        for _ in 1..*passes {
+            if !go_on() {
+                return Ok(None);
+            }
+            let force = &settings.feedforward.learned;
+            let next = learning.learn(
+                force,
+                &samples,
+                controller.mass_feedforward(),
+                study.machine.rate,
+            )?;
+            settings.feedforward.learned = next;
+            axis = Axis::new(settings.clone(), Quick::new(1)?)?;
+            samples = follow(&mut axis)?;
+        }
+    }
+    let exact = family.kind == "exact";
+    let learnt = learnt(scheme, &samples, study.machine.rate);
+    let from = samples.partition_point(|s| s.time < path.skip);
+    let counted = &samples[from.min(samples.len())..];
+    let tracking = Tracking::of(counted);
+    let compensator = axis.feedforward().compensator();
+    Ok(Some(Done {
+        job,
+        metrics: vec![
+            tracking.rms,
+            tracking.peak,
+            tracking.reversal_peak,
+            tracking.command_change,
+            tracking.stick_time,
+            share_at_limit(counted, largest_force(&study.machine, &controller)),
+            ripple_at_constant_velocity(counted).unwrap_or(f64::NAN),
+        ],
+        switched_off: compensator.is_some_and(|c| c.state().watch.tripped),
+        still_learning: learnt.is_some_and(|t| t > path.skip),
+        trace: exact.then(|| Trace::of(study.names(job), counted)),
+        contour: None,
+        course: match exact {
+            true => course::rows(study.names(job), &samples, course::rows_of_a_run(study)),
+            false => String::new(),
+        },
+    }))
+}
+/// A path as it goes into `study.json`.
+pub(super) fn entry(plan: &PathPlan) -> PathEntry {
+    PathEntry {
+        name: plan.name.clone(),
+        kind: plan.kind.into(),
+        duration_s: plan.trajectory.duration(),
+        skip_s: plan.skip,
+    }
+}

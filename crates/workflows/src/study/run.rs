@@ -1,0 +1,148 @@
+//! The grid of a study, run in parallel, and what is kept of each run.
+
+use super::done::Done;
+use super::metrics::metrics;
+use super::outcome::StudyOutcome;
+use super::rows::rows;
+use super::{contour, course, doubt, machine, path};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+use stiction_codes::Code;
+use stiction_files::Warning;
+use stiction_files::study::result::{SCHEMA, StudyFile};
+use stiction_files::study::{Job, Study};
+use stiction_friction::ParamError;
+use stiction_identify::Control;
+use stiction_number::four_digits as short;
+use stiction_servo::sampled::Sampled;
+
+/// Runs the whole grid on all threads. `watch` is told how many runs of how many are done, from one thread at a
+/// time, also between the passes of learning, and may stop the work: what is done then is kept. Results do not depend on the number of threads.
+pub fn simulate(
+    study: &Study,
+    watch: &mut (dyn FnMut(usize, usize) -> Control + Send),
+) -> StudyOutcome {
+    let jobs = study.jobs();
+    let stopped = AtomicBool::new(false);
+    let count = Mutex::new((0, watch));
+    // Tells of `more` runs that are done, and notes whether the work is to stop.
+    let go_on = |more: usize| {
+        let mut count = count.lock().unwrap_or_else(PoisonError::into_inner);
+        count.0 += more;
+        let so_far = count.0;
+        if (count.1)(so_far, jobs.len()) == Control::Stop {
+            stopped.store(true, Ordering::SeqCst);
+        }
+        !stopped.load(Ordering::SeqCst)
+    };
+    let mut warnings = study.warnings.clone();
+    let sampled = path::sampled(study);
+    let done: Vec<Option<Result<Done, (Job, ParamError)>>> = jobs
+        .par_iter()
+        .map(|&job| {
+            if stopped.load(Ordering::SeqCst) {
+                return None;
+            }
+            let done = one(study, job, &sampled, &|| go_on(0)).transpose()?;
+            go_on(1);
+            Some(done.map_err(|e| (job, e)))
+        })
+        .collect();
+    let complete = done.iter().all(Option::is_some);
+    let (mut kept, mut failed) = (Vec::new(), Vec::new());
+    for result in done.into_iter().flatten() {
+        match result {
+            Ok(done) => kept.push(done),
+            Err(e) => failed.push(e),
+        }
+    }
+    // The same fault in every member of a cell is said once.
+    failed.dedup_by_key(|(job, _)| job.cell());
+    warnings.extend(failed.iter().map(|(job, e)| not_run(study, *job, e)));
+    let results = rows(study, &kept);
+    warnings.extend(doubt::warnings(study, &results));
+    let (mut traces, mut contours) = (Vec::new(), Vec::new());
+    let mut courses = headers(study);
+    for done in kept {
+        courses[usize::from(done.job.path >= study.paths.len())].push_str(&done.course);
+        traces.extend(done.trace);
+        contours.extend(done.contour);
+    }
+    StudyOutcome {
+        file: StudyFile {
+            schema: SCHEMA.into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            name: study.name.clone(),
+            seed: study.seed,
+            status: if complete { "complete" } else { "interrupted" }.into(),
+            inputs: study.inputs.clone(),
+            axis: machine::entry(&study.machine),
+            second_axis: study.second.as_ref().map(|s| machine::entry(&s.machine)),
+            paths: (study.paths.iter().map(path::entry))
+                .chain(study.contours.iter().map(contour::entry))
+                .collect(),
+            results,
+            warnings,
+        },
+        traces,
+        contours,
+        courses,
+    }
+}
+
+/// A run whose metrics are numbers; `None` where it was not to go on.
+fn one(
+    study: &Study,
+    job: Job,
+    sampled: &[Option<Sampled>],
+    go_on: &dyn Fn() -> bool,
+) -> Result<Option<Done>, ParamError> {
+    let done = match study.contours.get(job.path.wrapping_sub(study.paths.len())) {
+        Some(contour) => Some(contour::on_contour(study, job, contour)?),
+        None => path::on_path(study, job, sampled[job.path].as_ref(), go_on)?,
+    };
+    for (&name, &value) in metrics(study, job)
+        .iter()
+        .zip(done.iter().flat_map(|d| &d.metrics))
+    {
+        // Not every motion has these.
+        let absent = ["velocity_ripple", "circular_deviation"].contains(&name) && value.is_nan();
+        if !(value.is_finite() || absent) {
+            let allowed =
+                "a finite number: a smaller motion, slower, with smaller gains and forces";
+            return Err(ParamError::new(name, value, allowed));
+        }
+    }
+    Ok(done)
+}
+
+/// Headers of the courses on paths and on contours, where there are any.
+fn headers(study: &Study) -> [String; 2] {
+    let motion = study.machine.motion;
+    [
+        match study.paths.is_empty() {
+            true => String::new(),
+            false => course::header(motion),
+        },
+        match study.contours.is_empty() {
+            true => String::new(),
+            false => course::contour_header(motion),
+        },
+    ]
+}
+
+fn not_run(study: &Study, job: Job, e: &ParamError) -> Warning {
+    Warning::new(
+        Code::NotRun,
+        format!(
+            "{}, {}, {} was not run: {} = {}; allowed: {}",
+            study.path_name(job),
+            study.controllers[job.controller].name,
+            study.compensators[job.compensator].name,
+            e.name,
+            short(e.value),
+            e.allowed
+        ),
+    )
+}
