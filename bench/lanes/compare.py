@@ -3,7 +3,7 @@
 
     python3 bench/lanes/compare.py [ROUNDS]
 
-Makes its own virtual environment in target/bench-lanes, builds the Rust example, and runs both in turn on one
+Builds the Rust example, and runs both in turn on one
 record (3 s at 10 kHz, the velocity a sine, 1 % noise on the force) with the same random candidates. Prints the
 least time of each in ns per candidate and sample, on one core.
 """
@@ -13,28 +13,19 @@ import os
 import platform
 import subprocess
 import sys
-import venv
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-WORK = ROOT / "target" / "bench-lanes"
-PYTHON = WORK / "venv" / "bin" / "python"
-WANTED = ["numpy", "numba"]
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import environment
+
+environment.enter()
+
+WORK = environment.WORK / "lanes"
 LANES = 32
 STEP = 1e-4
 # sigma0, sigma1, sigma2, Fc, Fs, vs
 TRUTH = (1.2e5, 600.0, 60.0, 20.0, 30.0, 5e-3)
 CANDIDATES = 64
-
-
-def in_environment():
-    """Starts again inside the environment, made if it is not there."""
-    if Path(sys.prefix) == WORK / "venv":
-        return
-    if not PYTHON.exists():
-        venv.create(WORK / "venv", with_pip=True)
-        subprocess.check_call([PYTHON, "-m", "pip", "install", "--quiet", *WANTED])
-    os.execv(PYTHON, [str(PYTHON), __file__, *sys.argv[1:]])
 
 
 def kernels():
@@ -160,10 +151,8 @@ def main():
     import numpy as np
 
     rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 10
-    subprocess.check_call(
-        ["cargo", "build", "--quiet", "--release", "-p", "stiction-lanes", "--example", "throughput"],
-        cwd=ROOT,
-    )
+    program = environment.example("throughput")
+    WORK.mkdir(parents=True, exist_ok=True)
     velocity, force = record()
     spread = 10 ** np.random.default_rng(0).uniform(-1.0, 1.0, (CANDIDATES, 6))
     candidates = np.array(TRUTH) * spread
@@ -182,7 +171,7 @@ def main():
             least["numba"] = min(least["numba"], spent * 1e9 / (CANDIDATES * len(velocity)))
         lines = subprocess.check_output(
             [
-                ROOT / "target/release/examples/throughput",
+                program,
                 WORK / "record.bin",
                 WORK / "candidates.bin",
                 "5",
@@ -205,5 +194,4 @@ def main():
 
 
 if __name__ == "__main__":
-    in_environment()
     main()

@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
 """stiction beside the searches that a Python user would take, on the same logs, in the same box, for the same optimum.
 
-    cargo xtask peers
+    cargo xtask peers           # or: python3 bench/peers/compare.py
 
-makes the environment from requirements.txt, runs this in it, prints the tables and writes them to docs/performance.md.
+prints the tables and writes them to docs/performance.md. With other limits it only prints them:
+
+    python3 bench/peers/compare.py EVALUATIONS MINUTES
 """
 
-import machine  # first: it sets the threads
+import sys
+
+import machine  # before what is not in the standard library: it enters the environment and sets the threads
 
 import crew
 import stiction
@@ -34,7 +38,7 @@ def write(text):
     PAGE.write_text(f"{before}{START}\n{text}\n{END}{after}")
 
 
-def section(log, ours, file, theirs, optimum):
+def section(log, ours, file, theirs, optimum, minutes):
     """Heading, table and remarks of one axis."""
     off = abs(optimum / file["reference"]["cost"] - 1.0)
     assert off < AGREE, f"{log}: the optima differ by {off}"
@@ -46,24 +50,28 @@ def section(log, ours, file, theirs, optimum):
     ]
     cut = [f"{name} {len(theirs[name])} of {wanted}" for name, _, wanted in METHODS if len(theirs[name]) < wanted]
     if cut:
-        remarks.append(f"Seeds that were begun within {MINUTES:.0f} minutes: {', '.join(cut)}.")
+        remarks.append(f"Seeds that were begun within {minutes:.0f} minutes: {', '.join(cut)}.")
     return f"{log}, {file['samples']} samples:\n\n{table(ours, theirs)}\n\n{' '.join(remarks)}"
 
 
 def main():
-    stiction.build()
-    logs = {name: stiction.Log(name, RATE) for name in AXES}
+    # A run with other limits than those of the page is for trying things out.
+    most = int(sys.argv[1]) if len(sys.argv) > 1 else MOST
+    minutes = float(sys.argv[2]) if len(sys.argv) > 2 else MINUTES
+    maker = stiction.build()
+    logs = {name: stiction.Log(name, RATE, maker) for name in AXES}
     ours, files = {}, {}
     for name, log in logs.items():
-        ours[name], files[name] = log.searches(MOST)
+        ours[name], files[name] = log.searches(most)
         ours[name]["separable"] = log.commands(files[name]["reference"]["cost"], FOUND)
     given = {name: (log.file, files[name]["bounds"], log.truth) for name, log in logs.items()}
-    optima, theirs = crew.work(given, MOST, MINUTES)
+    optima, theirs = crew.work(given, most, minutes)
     about = machine.described("numpy", "numba", "scipy", "cma", "pymoo", "deap")
-    parts = [section(name, ours[name], files[name], theirs[name], optima[name]) for name in AXES]
+    parts = [section(name, ours[name], files[name], theirs[name], optima[name], minutes) for name in AXES]
     text = "\n\n".join([f"{about}.", *parts])
     print(text)
-    write(text)
+    if (most, minutes) == (MOST, MINUTES):
+        write(text)
 
 
 if __name__ == "__main__":

@@ -2,8 +2,7 @@
 """The library's identification beside what a Python user would write: scipy's least_squares, the six LuGre parameters
 by their logarithms, exact sensitivities.
 
-    cargo xtask peers                                       # makes the environment
-    target/peers/venv/bin/python bench/peers/identify.py [ROUNDS]
+    python3 bench/peers/identify.py [ROUNDS]
 
 Builds the Rust example, and runs both in turn on one record (30 001 samples, 3 s at 10 kHz, the velocity a sine, 1 %
 noise on the force). scipy starts at random points of a box one decade to each side of the truth; stiction is told
@@ -11,7 +10,7 @@ neither start nor box. Prints the least time of each part over all rounds, what 
 batch.
 """
 
-import machine  # first: it sets the threads
+import machine  # first: it enters the environment and sets the threads
 
 import subprocess
 import sys
@@ -75,8 +74,7 @@ class Peer:
 
 def main():
     rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 5
-    build = ["cargo", "build", "--quiet", "--release", "-p", "stiction-identify", "--example", "record"]
-    subprocess.check_call(build, cwd=machine.ROOT)
+    program = machine.environment.example("record")
     velocity, force = record()
     file = machine.WORK / "record.bin"
     np.column_stack([velocity, force]).astype("<f8").tofile(file)
@@ -84,7 +82,7 @@ def main():
     ours = {}
     for _ in range(rounds):
         peer.round()
-        example = [machine.ROOT / "target/release/examples/record", file, "40"]
+        example = [program, file, "40"]
         for line in subprocess.check_output(example, text=True).splitlines():
             name, value = line.split()
             ours[name] = min(ours.get(name, float("inf")), float(value)) if name in TIMES else float(value)

@@ -17,24 +17,25 @@ delay = "none"
 SEARCHES = (("lm", 30), ("niched-ga", 30), ("annealing-ga", 10))
 # The whole command is repeated, to take the middle.
 COMMANDS = 9
-BINARY = machine.ROOT / "target/release/stiction"
+BINARY = machine.environment.target() / "release/stiction"
 
 
 def build():
-    for what in (["-p", "stiction-cli"], ["-p", "stiction", "--example", "known_log"]):
-        subprocess.check_call(["cargo", "build", "--quiet", "--release", *what], cwd=machine.ROOT)
+    """Builds the command and what writes the logs; gives the latter."""
+    command = ["cargo", "build", "--quiet", "--release", "--workspace", "--bin", "stiction"]
+    subprocess.check_call(command, cwd=machine.ROOT)
+    return machine.environment.example("known_log")
 
 
 class Log:
     """A log whose parameters are known, with the axis file that says what it holds."""
 
-    def __init__(self, name, rate):
+    def __init__(self, name, rate, maker):
         folder = machine.WORK / name
         folder.mkdir(parents=True, exist_ok=True)
         self.name, self.folder = name, folder
         self.file, self.axis = folder / "log.csv", folder / "axis.toml"
         self.axis.write_text(AXIS)
-        maker = machine.ROOT / "target/release/examples/known_log"
         lines = subprocess.check_output([maker, name, str(rate), self.file], text=True).splitlines()
         known = {key: float(value) for key, value in map(str.split, lines)}
         drop = known["static"] - known["coulomb"]

@@ -3,7 +3,7 @@
 
     python3 bench/servo/compare.py [ROUNDS]
 
-Needs numpy and numba. Builds the Rust example `loops` and runs both in turn: a 10 kHz cascade (P in position, PI in
+Builds the Rust example `loops` and runs both in turn: a 10 kHz cascade (P in position, PI in
 speed, acceleration fed forward) on a mass with LuGre friction along a sine of 20 mm and 1 Hz for 3 s, with one plant
 step a control step; no encoder steps, delay or lag. numba holds z exactly and takes semi-implicit Euler for the
 motion, of first order; stiction's step is implicit and of second order. Both compute the sine of the reference in the
@@ -19,9 +19,13 @@ import sys
 import time
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import environment
+
+environment.enter()
+
 import numba
 
-ROOT = Path(__file__).resolve().parents[2]
 RATE, SECONDS, MASS = 10_000, 3, 10.0
 # sigma0, sigma1, sigma2, Fc, Fs, vs
 LAW = (1.2e5, 600.0, 60.0, 20.0, 30.0, 5e-3)
@@ -73,9 +77,7 @@ def loop(steps, h, mass, law, compensated):
 
 def main():
     rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 10
-    subprocess.check_call(
-        ["cargo", "build", "--quiet", "--release", "-p", "stiction-servo", "--example", "loops"], cwd=ROOT
-    )
+    program = environment.example("loops")
     steps = RATE * SECONDS
     least = {}
     for turn in range(rounds):
@@ -87,7 +89,7 @@ def main():
                 spent = (time.perf_counter() - start) * 1e9 / steps
                 least[name] = min(least.get(name, math.inf), spent)
         study = sys.argv[2:3] if turn == 0 else []
-        command = [ROOT / "target/release/examples/loops", "30", *study]
+        command = [program, "30", *study]
         for line in subprocess.check_output(command, text=True).splitlines():
             name, value = line.split()
             least[name] = min(least.get(name, math.inf), float(value))

@@ -4,9 +4,11 @@
 mod debian;
 mod instructions;
 mod licences;
+mod package;
 mod peers;
 mod python;
 mod shell;
+mod soak;
 mod test;
 mod tools;
 
@@ -29,6 +31,16 @@ const TASKS: &[Task] = &[
         name: "test",
         help: "set up, then everything CI checks: format, licences, lints, docs, tests",
         run: test::run,
+    },
+    Task {
+        name: "soak",
+        help: "what CI has no time for: the same tests with more seeds, packed crates built on their own",
+        run: soak::run,
+    },
+    Task {
+        name: "package",
+        help: "pack every crate as it would be published",
+        run: package::run,
     },
     Task {
         name: "validation",
@@ -70,13 +82,13 @@ fn setup() -> shell::Outcome {
 
 fn validation() -> shell::Outcome {
     shell::run(shell::cargo(
-        "run --release --quiet --package stiction --example validation",
+        "run --release --quiet --workspace --example validation",
     ))
 }
 
 fn searches() -> shell::Outcome {
     shell::run(shell::cargo(
-        "run --release --quiet --package stiction --example searches",
+        "run --release --quiet --workspace --example searches",
     ))
 }
 

@@ -1,4 +1,4 @@
-//! Virtual environments with the Python packages that stiction is compared against.
+//! The virtual environment with the Python packages that tests compare stiction with.
 
 use crate::debian;
 use crate::shell::{self, Outcome};
@@ -8,42 +8,28 @@ use std::fs;
 const OLDEST: &str = "3.11";
 const TOO_OLD: &str = "import sys; sys.exit(sys.version_info < (3, 11))";
 
-/// A virtual environment; paths from the workspace root.
-pub struct Environment {
-    pub folder: &'static str,
-    /// Exact versions of its packages.
-    pub requirements: &'static str,
-    /// Python that runs only where the packages are whole.
-    pub probe: &'static str,
-}
-
-/// What tests need.
-const TESTS: Environment = Environment {
-    folder: ".venv",
-    requirements: "xtask/requirements.txt",
-    probe: "import numpy",
-};
+/// Where the environment is made, from the workspace root.
+const FOLDER: &str = ".venv";
+/// Exact versions of its packages.
+const REQUIREMENTS: &str = "xtask/requirements.txt";
+/// Python that runs only where the packages are whole.
+const PROBE: &str = "import numpy";
 
 /// Makes `.venv`.
 pub fn install() -> Outcome {
-    tests().map(drop)
+    environment().map(drop)
 }
 
-/// The Python of `.venv`, made if it is not there.
-pub fn tests() -> Result<String, String> {
-    make(&TESTS)
-}
-
-/// Makes an environment afresh unless it was made from the requirements as they are now, and gives its Python.
-pub fn make(environment: &Environment) -> Result<String, String> {
-    let folder = shell::root().join(environment.folder);
+/// The Python of `.venv`, which is made afresh unless it was made from the requirements as they are now.
+pub fn environment() -> Result<String, String> {
+    let folder = shell::root().join(FOLDER);
     let python = folder.join("bin/python").to_string_lossy().into_owned();
-    let file = shell::root().join(environment.requirements);
+    let file = shell::root().join(REQUIREMENTS);
     let wanted = fs::read_to_string(&file).map_err(|e| format!("{}: {e}", file.display()))?;
     // A copy of the requirements, written last: it is there only if all of them are installed.
     let stamp = folder.join("requirements.installed");
     let made = fs::read_to_string(&stamp).is_ok_and(|installed| installed == wanted);
-    if made && shell::succeeds(shell::command(&python, &["-c", environment.probe])) {
+    if made && shell::succeeds(shell::command(&python, &["-c", PROBE])) {
         return Ok(python);
     }
     if !shell::on_path("python3") {
@@ -62,11 +48,11 @@ pub fn make(environment: &Environment) -> Result<String, String> {
     if !has("import ensurepip, venv") {
         debian::install_python_venv()?;
     }
-    let arguments = ["-m", "venv", "--clear", environment.folder];
+    let arguments = ["-m", "venv", "--clear", FOLDER];
     shell::run(shell::command("python3", &arguments))?;
     let install = "-m pip install --quiet --disable-pip-version-check --only-binary :all: -r";
     let mut arguments: Vec<&str> = install.split_whitespace().collect();
-    arguments.push(environment.requirements);
+    arguments.push(REQUIREMENTS);
     shell::run(shell::command(&python, &arguments))?;
     fs::write(&stamp, wanted).map_err(|e| format!("{}: {e}", stamp.display()))?;
     Ok(python)

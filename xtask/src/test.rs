@@ -1,7 +1,7 @@
 //! Everything CI checks, the quick refusals first.
 
 use crate::shell::{self, Outcome, cargo};
-use crate::{instructions, licences, setup, tools};
+use crate::{instructions, licences, package, setup, tools};
 use std::thread;
 
 /// Runs all checks and stops at the first that fails.
@@ -15,6 +15,7 @@ pub fn run() -> Outcome {
         .unwrap_or_else(|_| Err("the set-up panicked".into()))?;
     lints?;
     licences::run()?;
+    package::run()?;
     let mut doc = cargo("doc --workspace --no-deps");
     doc.env("RUSTDOCFLAGS", "-D warnings");
     shell::run(doc)?;

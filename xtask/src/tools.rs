@@ -46,7 +46,7 @@ fn find(tool: &Tool) -> Result<String, String> {
     if shell::on_path(tool.program) {
         return Ok(tool.program.into());
     }
-    let python = python::tests()?;
+    let python = python::environment()?;
     let program = python.replace("bin/python", &format!("bin/{}", tool.program));
     if shell::succeeds(shell::command(&program, &["--version"])) {
         return Ok(program);

@@ -1,5 +1,6 @@
 //! What can be typed.
 
+use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -45,6 +46,37 @@ pub enum Command {
     Reproduce(Reproduce),
     /// Write the compensator of a model as code or tables for a controller.
     Export(Export),
+    /// Print the completions for a shell.
+    Completions(Completions),
+    /// Print the manual page, or that of a command.
+    Man(Man),
+}
+
+/// The names of all commands.
+pub const COMMANDS: [&str; 9] = [
+    "demo",
+    "check",
+    "identify",
+    "compare",
+    "simulate",
+    "reproduce",
+    "export",
+    "completions",
+    "man",
+];
+
+#[derive(Clone, Debug, Args)]
+pub struct Completions {
+    /// Which shell.
+    #[arg(value_enum)]
+    pub shell: clap_complete::Shell,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct Man {
+    /// A command of stiction.
+    #[arg(value_name = "COMMAND", value_parser = PossibleValuesParser::new(COMMANDS))]
+    pub command: Option<String>,
 }
 
 #[derive(Clone, Debug, Args)]

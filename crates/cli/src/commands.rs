@@ -2,6 +2,7 @@
 
 use crate::Exit;
 use crate::arguments::{self, Arguments, Command, Common};
+use crate::brought;
 use crate::interrupt;
 use crate::output;
 use crate::progress::{Bar, Counter};
@@ -29,6 +30,8 @@ pub fn run(arguments: &Arguments) -> Exit {
         Command::Simulate(simulate) => self::simulate(simulate, common),
         Command::Reproduce(reproduce) => self::reproduce(reproduce, common),
         Command::Export(export) => self::export(export, common),
+        Command::Completions(wanted) => text(&brought::completions(wanted.shell), common),
+        Command::Man(wanted) => text(&brought::manual(wanted.command.as_deref()), common),
     };
     result.unwrap_or_else(|e| {
         // Where nobody listens, the exit code has to do.
@@ -41,6 +44,16 @@ pub fn run(arguments: &Arguments) -> Exit {
         }
         Exit::BadInput
     })
+}
+
+/// Prints a text that is asked for itself.
+fn text(text: &str, common: &Common) -> Result<Exit, Error> {
+    if common.json {
+        output::json(&serde_json::json!({ "text": text }))?;
+    } else {
+        output::print(text)?;
+    }
+    Ok(Exit::Done)
 }
 
 fn demo(demo: &arguments::Demo, common: &Common) -> Result<Exit, Error> {

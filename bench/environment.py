@@ -1,0 +1,52 @@
+"""The Python that the comparisons run in: a virtual environment in `target/bench`, made from `requirements.txt` by the
+first script that is started, from a clean checkout too. Needs Python 3.11 or later and PyPI.
+
+    import environment
+    environment.enter()     # before anything that is not in the standard library
+"""
+
+import os
+import subprocess
+import sys
+import venv
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+# What the scripts write, and the environment.
+WORK = ROOT / "target" / "bench"
+HOME = WORK / "venv"
+REQUIREMENTS = ROOT / "bench" / "requirements.txt"
+
+
+def make():
+    """Makes the environment afresh, unless it was made from the requirements as they are now."""
+    wanted = REQUIREMENTS.read_text()
+    # A copy of the requirements, written last: it is there only if all of them are installed.
+    stamp = HOME / "requirements.installed"
+    if stamp.exists() and stamp.read_text() == wanted:
+        return
+    assert sys.version_info >= (3, 11), f"found Python {sys.version.split()[0]}; 3.11 or later is needed"
+    venv.create(HOME, clear=True, with_pip=True)
+    pip = [HOME / "bin/python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    subprocess.check_call([*pip, "--only-binary", ":all:", "-r", REQUIREMENTS])
+    stamp.write_text(wanted)
+
+
+def enter():
+    """Starts the script again inside the environment; returns where it runs there already."""
+    if Path(sys.prefix) == HOME:
+        return
+    make()
+    sys.stdout.flush()
+    os.execv(HOME / "bin/python", [str(HOME / "bin/python"), *sys.argv])
+
+
+def example(name):
+    """Builds an example of the workspace and gives its path."""
+    subprocess.check_call(["cargo", "build", "--quiet", "--release", "--workspace", "--example", name], cwd=ROOT)
+    return target() / "release/examples" / name
+
+
+def target():
+    """Where cargo builds."""
+    return ROOT / os.environ.get("CARGO_TARGET_DIR", "target")

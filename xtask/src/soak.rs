@@ -1,0 +1,13 @@
+//! What CI has no time for: the tests marked `#[ignore = "soak: .."]`, most of them one of the ordinary tests with more
+//! seeds, and the packed crates built on their own.
+
+use crate::shell::{self, Outcome};
+use crate::{package, setup, tools};
+
+/// Runs it all; about half an hour on two cores.
+pub fn run() -> Outcome {
+    setup()?;
+    package::verified()?;
+    let tests = "nextest run --workspace --no-fail-fast --run-ignored only";
+    shell::run(tools::command(&tools::NEXTEST, tests)?)
+}
