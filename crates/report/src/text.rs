@@ -99,6 +99,23 @@ impl Text {
 
     /// Appends HTML phrasing content.
     pub(crate) fn push_html(&self, out: &mut String) {
+        self.push_html_with(out, escape::push);
+    }
+
+    /// Appends HTML phrasing content with places in long words where a line may be broken.
+    pub(crate) fn push_html_breaking(&self, out: &mut String) {
+        self.push_html_with(out, |out, text| {
+            let mut pieces = pieces(text).peekable();
+            while let Some(piece) = pieces.next() {
+                escape::push(out, piece);
+                if pieces.peek().is_some() && !piece.ends_with(char::is_whitespace) {
+                    out.push_str("<wbr/>");
+                }
+            }
+        });
+    }
+
+    fn push_html_with(&self, out: &mut String, push: impl Fn(&mut String, &str)) {
         for (style, text) in &self.0 {
             let tag = match style {
                 Style::Plain => "",
@@ -111,17 +128,17 @@ impl Text {
                     out.push_str("<a href=\"");
                     escape::push(out, target.trim());
                     out.push_str("\">");
-                    escape::push(out, text);
+                    push(out, text);
                     out.push_str("</a>");
                     continue;
                 }
                 Style::Link(_) => "",
             };
             if tag.is_empty() {
-                escape::push(out, text);
+                push(out, text);
             } else {
                 out.push_str(&format!("<{tag}>"));
-                escape::push(out, text);
+                push(out, text);
                 out.push_str(&format!("</{tag}>"));
             }
         }
@@ -166,18 +183,61 @@ impl Text {
     /// A cautious estimate of the width at `size` px: the fonts of the reader are not known here,
     /// so the widths are those of a wide sans serif.
     pub(crate) fn width(&self, size: f64) -> f64 {
-        let ems = |text: &str| text.chars().map(em_width).sum::<f64>();
         self.0
             .iter()
-            .map(|(style, text)| match style {
-                Style::Sub | Style::Sup => 0.76 * ems(text),
-                Style::Bold => 1.08 * ems(text),
-                Style::Code => 0.62 * text.chars().count() as f64,
-                _ => ems(text),
-            })
+            .map(|(style, text)| style.width(text))
             .sum::<f64>()
             * size
     }
+
+    /// The same of the widest part that is not broken in a table.
+    pub(crate) fn widest_piece(&self, size: f64) -> f64 {
+        let (mut widest, mut width) = (0.0_f64, 0.0);
+        for (style, text) in &self.0 {
+            let mut pieces = pieces(text).peekable();
+            while let Some(piece) = pieces.next() {
+                width += style.width(piece.trim_end());
+                widest = widest.max(width);
+                // A word may go on in the next run, such as a symbol and its subscript.
+                if pieces.peek().is_some() || piece.ends_with(char::is_whitespace) {
+                    width = 0.0;
+                }
+            }
+        }
+        widest * size
+    }
+}
+
+impl Style {
+    /// Width of characters over the size of the font.
+    fn width(&self, text: &str) -> f64 {
+        let ems = text.chars().map(em_width).sum::<f64>();
+        match self {
+            Style::Sub | Style::Sup => 0.76 * ems,
+            Style::Bold => 1.08 * ems,
+            Style::Code => 0.62 * text.chars().count() as f64,
+            _ => ems,
+        }
+    }
+}
+
+/// Characters of a word from which on it may be broken in a table: file names, hashes.
+const LONG_WORD: usize = 24;
+
+/// The parts of a text between which a line of a table may be broken, blanks at their ends.
+fn pieces(text: &str) -> impl Iterator<Item = &str> {
+    text.split_inclusive([' ', '\n', '\t']).flat_map(|word| {
+        let long = word.chars().count() > LONG_WORD;
+        let mut letters = 0;
+        word.split_inclusive(move |c: char| {
+            letters += 1;
+            let end = long && ("/\\_.-,=".contains(c) || letters == LONG_WORD);
+            if end {
+                letters = 0;
+            }
+            end
+        })
+    })
 }
 
 fn em_width(c: char) -> f64 {

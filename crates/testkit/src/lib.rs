@@ -3,10 +3,12 @@
 
 mod cases;
 mod mean_of_ends;
+mod pages;
 pub mod st;
 
 pub use cases::{CASES, Case, Limit, Metric};
 pub use mean_of_ends::MeanOfEnds;
+pub use pages::assert_tables_fit;
 
 use std::path::{Path, PathBuf};
 

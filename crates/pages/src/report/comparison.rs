@@ -5,6 +5,7 @@ mod figures;
 use figures::{beside, overlay, population, rates, single};
 use stiction_codes::Code;
 use stiction_files::compare_file::{CompareFile, MethodEntry, Quartiles, RunEntry, Stage};
+use stiction_files::symbols;
 use stiction_number::Percent;
 use stiction_report::{
     Align, Axis, Block, Callout, Document, KeyFigure, Severity, Table, Text, number,
@@ -275,8 +276,8 @@ fn errors(file: &CompareFile, title: &str, stage: &dyn Fn(&MethodEntry) -> &Stag
     let names = file
         .truth
         .iter()
-        .map(|(name, _)| (name.as_str(), Align::Right));
-    let columns = std::iter::once(("Method", Align::Left)).chain(names);
+        .map(|(name, _)| (symbols::symbol(name), Align::Right));
+    let columns = std::iter::once(("Method".to_string(), Align::Left)).chain(names);
     let mut table = Table::new(columns).caption(title);
     for m in &file.methods {
         let cells = stage(m).errors.iter().map(|e| {
@@ -301,8 +302,11 @@ fn found(file: &CompareFile) -> Table {
     let names: Vec<&str> = names.map_or_else(Vec::new, |values| {
         values.iter().map(|(name, _)| name.as_str()).collect()
     });
-    let columns = names.iter().map(|name| (*name, Align::Right));
-    let mut table = Table::new(std::iter::once(("Method", Align::Left)).chain(columns));
+    let columns = names
+        .iter()
+        .map(|name| (symbols::symbol(name), Align::Right));
+    let first = std::iter::once(("Method".to_string(), Align::Left));
+    let mut table = Table::new(first.chain(columns));
     for (m, values) in &rows {
         let cells = names.iter().map(|name| {
             let value = values.iter().find(|(n, _)| n == name);

@@ -2,6 +2,7 @@
 
 mod html;
 mod table;
+mod width;
 
 pub use table::{Align, Row, Table};
 

@@ -1,6 +1,7 @@
 //! Tables.
 
 use super::Severity;
+use super::width::Setting;
 use crate::text::Text;
 
 /// How the cells of a column are aligned.
@@ -100,7 +101,11 @@ impl Table {
             _ => "",
         };
         let empty = Text::new();
-        out.push_str("<table>\n");
+        out.push_str(match Setting::of(self) {
+            Setting::Normal => "<table>\n",
+            Setting::Dense => "<table class=\"dense\">\n",
+            Setting::Scrolling => "<table class=\"dense scrolling\">\n",
+        });
         if !self.caption.is_empty() {
             out.push_str(&format!(
                 "<caption><span><b>{number}</b> {}</span></caption>\n",
@@ -127,7 +132,11 @@ impl Table {
             };
             out.push_str(&format!("<tr{mark}>"));
             for i in 0..wide {
-                let cell = row.cells.get(i).unwrap_or(&empty).to_html();
+                let mut cell = String::new();
+                row.cells
+                    .get(i)
+                    .unwrap_or(&empty)
+                    .push_html_breaking(&mut cell);
                 if i == 0 {
                     let word = row
                         .severity

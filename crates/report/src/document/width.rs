@@ -84,3 +84,60 @@ fn least(table: &Table, sizes: &Sizes) -> f64 {
     };
     MARGIN + (0..columns).map(column).sum::<f64>()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Errors of ten methods in so many parameters, with names as in files.
+    fn errors(names: &[&str], cell: &str) -> Table {
+        let columns = names.iter().map(|name| (*name, Align::Right));
+        let table = Table::new(std::iter::once(("Method", Align::Left)).chain(columns));
+        let row = std::iter::once("nelder\u{2011}mead").chain(names.iter().map(|_| cell));
+        table.row(row)
+    }
+
+    const NAMES: [&str; 8] = [
+        "sigma2_pos",
+        "coulomb_pos",
+        "static_pos",
+        "stribeck_velocity_pos",
+        "sigma2_neg",
+        "coulomb_neg",
+        "static_neg",
+        "stribeck_velocity_neg",
+    ];
+
+    /// Chromium 156 with DejaVu Sans, a wide face, sets the table of [`NAMES`] in 981 px at least, densely.
+    #[test]
+    fn the_estimate_is_that_of_a_browser() {
+        let width = least(&errors(&NAMES, "0.12 %"), &DENSE);
+        assert!((width / 981.0 - 1.0).abs() < 0.05, "{width}");
+    }
+
+    #[test]
+    fn tables_are_set_as_widely_as_they_fit() {
+        let short = ["σ₂⁺", "Fc⁺", "Fs⁺", "vs⁺", "σ₂⁻", "Fc⁻", "Fs⁻", "vs⁻"];
+        assert_eq!(Setting::of(&errors(&short, "0.12 %")), Setting::Normal);
+        assert_eq!(Setting::of(&errors(&NAMES[..7], "0.12 %")), Setting::Dense);
+        assert_eq!(Setting::of(&errors(&NAMES, "0.12 %")), Setting::Scrolling);
+        // Words may be broken, numbers not.
+        let words = errors(&short, "0.12 %").row(["a name of many words"; 1]);
+        assert_eq!(Setting::of(&words), Setting::Normal);
+        let digits = "1".repeat(40);
+        assert_eq!(Setting::of(&errors(&short, &digits)), Setting::Scrolling);
+    }
+
+    /// A long path or hash does not widen its column.
+    #[test]
+    fn long_words_are_broken() {
+        let path = "/home/somebody/measurements/2026_11_22/x_axis_stribeck_run_0001.csv";
+        let table = Table::new([("Log", Align::Left), ("Samples", Align::Right)]);
+        let table = table.row([path.to_string(), "30 001".into()]);
+        assert!(least(&table, &NORMAL) < 450.0);
+        let mut html = String::new();
+        table.push_html("", &mut html);
+        assert!(html.contains("measurements/<wbr/>"), "{html}");
+        assert_eq!(html.replace("<wbr/>", "").matches(path).count(), 1);
+    }
+}

@@ -60,6 +60,7 @@ fn the_simulated_axis_is_found_and_compensated() {
     let read: ReproduceFile = serde_json::from_str(&text("reproduce.json")).unwrap();
     assert_eq!(&read, file);
     let html = text("report.html");
+    stiction_testkit::assert_tables_fit(&html);
     for figure in [
         "FIG. 1)",
         "FIG. 4–6",

@@ -75,6 +75,7 @@ fn files(outcome: &Outcome, bench: &Bench, name: &str) -> PathBuf {
     let back: ResultFile = serde_json::from_str(&json).unwrap();
     assert_eq!(back, outcome.result);
     let html = std::fs::read_to_string(dir.join("report.html")).unwrap();
+    stiction_testkit::assert_tables_fit(&html);
     assert!(html.trim_end().ends_with("</html>"));
     let model = dir.join("model.toml");
     ModelFile::read(&model).unwrap();

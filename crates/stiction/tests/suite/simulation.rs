@@ -140,6 +140,7 @@ fn a_closed_loop_is_identified_from_its_file() {
     let read: stiction::result::ResultFile = serde_json::from_str(&json).unwrap();
     assert_eq!(read.simulation, result.simulation);
     let html = std::fs::read_to_string(out.join("report.html")).unwrap();
+    stiction_testkit::assert_tables_fit(&html);
     for words in [
         "Measured and simulated",
         "Force over position",

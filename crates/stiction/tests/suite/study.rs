@@ -337,6 +337,7 @@ fn a_watchdog_that_still_learns() {
             < 1e-9
     );
     let html = String::from_utf8(stiction::bundle::study(&outcome).files()[0].1.clone()).unwrap();
+    stiction_testkit::assert_tables_fit(&html);
     assert!(html.contains("exact, still learning") && html.contains("not every figure"));
     assert!(stiction::text::study(&outcome).contains("still learning"));
     // Half a second from the first turn, at 0.125 s; the force has come in 50 ms later.
@@ -447,6 +448,7 @@ fn what_the_report_does_not_draw_it_says() {
         .unwrap();
     let outcome = stiction::simulate(&study, &mut |_, _| Control::Continue);
     let html = String::from_utf8(stiction::bundle::study(&outcome).files()[0].1.clone()).unwrap();
+    stiction_testkit::assert_tables_fit(&html);
     assert!(html.contains("7 of 9: without compensation, and those that leave the least"));
     assert!(html.contains("largest error, gain 8; ") && html.contains("at the worst of ±10 %"));
 }

@@ -110,6 +110,7 @@ fn load_and_temperature_reach_every_file() {
     }
     assert!(model.covariance.names.iter().any(|n| n == "coulomb_load"));
     let report = text("report.html");
+    stiction_testkit::assert_tables_fit(&report);
     assert!(report.contains("Coulomb friction per normal load"));
     assert!(report.contains("<mi>L</mi>"), "the level in the formula");
     insta::assert_snapshot!(

@@ -156,6 +156,7 @@ fn whole(outcome: &Outcome) {
                 assert_eq!(back, ModelFile::from_result(&outcome.result));
             }
             "report.html" => {
+                stiction_testkit::assert_tables_fit(text);
                 let options = roxmltree::ParsingOptions {
                     allow_dtd: true,
                     ..Default::default()
