@@ -1,7 +1,7 @@
-//! The compensator that runs on the drive: a friction force to be added to the controller's, made safe.
+//! The compensator that runs on the drive: a friction force, limited and supervised, to be added to the controller's.
 //!
-//! One call a sample, plain arithmetic, no allocation. [`Settings`] and the law are checked once and, the
-//! gain aside, never change; everything that does is in [`State`].
+//! One call a sample, plain arithmetic, no allocation. [`Settings`] and the law are checked once and, except for the
+//! gain, never change; everything that changes is in [`State`].
 //!
 //! ```text
 //! velocity --dead zone--> law --level--> x gain, by its ramp --> saturation --slew limit--> force
@@ -39,7 +39,7 @@ pub use watchdog::{Watch, Watchdog};
 
 use crate::{ParamError, Real};
 
-/// What the drive knows at a sample.
+/// What the drive knows in a sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Input<T> {
     /// Reference velocity, m/s (rad/s); where it is known, that of the instant at which the force will act
@@ -53,7 +53,7 @@ pub struct Input<T> {
     pub enable: bool,
 }
 
-/// What a running compensator remembers.
+/// The state of a running compensator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<T> {
     /// The law's state; only `force` is used by laws without memory.
@@ -113,7 +113,7 @@ impl<T: Real> Compensator<T> {
         &self.settings
     }
 
-    /// What it remembers.
+    /// Its state.
     pub fn state(&self) -> &State<T> {
         &self.state
     }
@@ -123,7 +123,7 @@ impl<T: Real> Compensator<T> {
         self.state = State::rest(&self.friction);
     }
 
-    /// Sets the factor on the law's force from outside, as an estimate of the load has it; 0 to 2. One that is not a number
+    /// Sets the factor on the law's force from outside, as from an estimate of the load; 0 to 2. One that is not a number
     /// changes nothing.
     pub fn set_level(&mut self, level: T) {
         if level.is_finite() {
@@ -149,7 +149,7 @@ impl<T: Real> Compensator<T> {
 
     /// [`step`](Self::step) where the cycle time varies: `h` seconds since the call before.
     ///
-    /// The force is finite and within the limit whatever comes in. A sample with an input that is not finite moves no
+    /// The force is finite and within the limit for any input. A sample with an input that is not finite moves no
     /// state of the law and counts as not enabled: the force fades while such samples last and comes back with good
     /// ones. An `h` that is negative or not finite repeats the force.
     #[inline]

@@ -67,7 +67,7 @@ pub(crate) fn passive_cap<T: Real>(curve: &Stribeck<T>, v: T, g: T) -> T {
     Cap::new(curve, v, g).value()
 }
 
-/// What [`passive_cap`] and its derivative take of a velocity other than 0.
+/// Intermediate values of [`passive_cap`] and its derivative at a velocity other than 0.
 struct Cap<T> {
     speed: T,
     level: T,
@@ -142,7 +142,7 @@ pub(crate) fn micro_damping_and_slope<T: Real>(law: &LuGre<T>, v: T, g: T, g_slo
     }
 }
 
-/// The same where sigma1 varies with velocity: apart, so that it does not stand in every step's way.
+/// The same where sigma1 varies with velocity: a function of its own, so that it does not slow down every step.
 #[inline(never)]
 fn varied<T: Real>(law: &LuGre<T>, v: T, g: T, g_slope: T) -> (T, T) {
     match law.damping() {
@@ -164,8 +164,8 @@ fn varied<T: Real>(law: &LuGre<T>, v: T, g: T, g_slope: T) -> (T, T) {
     }
 }
 
-/// Whether the cap at the velocity `v`, level `g`, can be below `sigma1`: none is below 4g/|v|, since of u^2/(u - 1),
-/// u > 1, the least is 4.
+/// Whether the cap at the velocity `v`, level `g`, can be below `sigma1`: it is at least 4g/|v|, since u^2/(u - 1) is at
+/// least 4 for u > 1.
 #[inline(always)]
 pub(crate) fn may_bite<T: Real>(sigma1: T, v: T, g: T) -> bool {
     sigma1 * v.abs() > T::from_f64(4.0) * g

@@ -20,7 +20,7 @@ use plasticity::Plasticity;
 /// ```
 /// Source: Dupont, Hayward, Armstrong, Altpeter 2002, doi 10.1109/TAC.2002.1000274: the state equation with exponent 1,
 /// and their example of alpha with the sine.
-/// Below break-away the motion is elastic and reversible, so a force that oscillates there moves nothing for good.
+/// Below break-away the motion is elastic and reversible, so a force that oscillates there causes no drift.
 ///
 /// Where this differs from the source: the break-away deflection there is a constant below every |z_ss(v)|, here it is a
 /// constant part of it, `z_ba = breakaway |z_ss(v)|`. The same at low speed, where break-away happens, and valid for

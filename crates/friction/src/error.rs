@@ -1,4 +1,4 @@
-//! What a constructor says when a parameter is outside its range.
+//! The error of a parameter outside its range.
 
 use crate::Real;
 use core::fmt;

@@ -1,7 +1,7 @@
 //! Explicit steps, for comparison only.
 //!
-//! Both turn unstable without a sign of it once `h sigma0 |v|/g` exceeds 2 (Euler) or 2.785 (Runge-Kutta): at 50 mm/s,
-//! g = 12 N and h = 0.1 ms the latter is at a stiffness of 6.7e6 N/m. Use [`LuGre::step_record`] for work.
+//! Both become unstable, without showing it, once `h sigma0 |v|/g` exceeds 2 (Euler) or 2.785 (Runge-Kutta): at 50 mm/s,
+//! g = 12 N and h = 0.1 ms the latter is a stiffness of 6.7e6 N/m. For actual use there is [`LuGre::step_record`].
 
 use crate::{LuGre, Real};
 

@@ -1,26 +1,28 @@
 //! The two exponentials of the law, for `f64`.
 //!
-//! They are what a step of the law costs most for, and their short code is inlined into it. Only sums and products
-//! that every processor rounds alike, so the bits are the same everywhere; no table, no branch but for the range.
+//! Most of the time of a step goes into them, and their short code is inlined. They use only sums and products,
+//! which every processor rounds alike, so the bits are the same everywhere; no table, and branches for the range only.
 
 use core::f64::consts::LOG2_E;
 
-/// Beyond this results leave the normal numbers, or come near to it.
-const RANGE: f64 = 708.0;
+/// Largest magnitude of an argument whose exponential is a normal number (with a margin; `ln` of the largest `f64` is 709.8).
+const MAX_ARGUMENT: f64 = 708.0;
 
-/// Up to this there is nothing to reduce, the power of two is 1. The velocity of an axis changes little from sample to
-/// sample, so the branch is foreseen, and a third of the time of an exponential is saved.
-const WHOLE: f64 = 0.34;
+/// Largest magnitude of an argument that needs no reduction, below ln2/2 = 0.347: the power of two is then 1. The velocity of
+/// an axis changes little from sample to sample, so the branch is predicted, and a third of the time of an exponential is
+/// saved (decision 0033).
+const MAX_UNREDUCED: f64 = 0.34;
 
-/// 2^-54: up to this an exponential is 1 plus its argument to rounding.
-const TINY: f64 = 1.0 / (1_u64 << 54) as f64;
+/// Largest magnitude of an argument whose exponential is 1 plus the argument to rounding: 2^-54, a quarter of the spacing of
+/// `f64` at 1.
+const MAX_LINEAR: f64 = 1.0 / (1_u64 << 54) as f64;
 
-/// Below this an exponential is 0 to rounding.
-const VANISHED: f64 = -746.0;
+/// Below this argument an exponential is 0 to rounding: less than half the smallest `f64`, whose `ln` is -744.4.
+const MIN_ARGUMENT: f64 = -746.0;
 
 /// Adding this to a number rounds it to an integer; the lowest bits of the sum are then that integer with the bias of
 /// an exponent already on it.
-const ROUND: f64 = 1.5 * (1_u64 << 52) as f64 + 1023.0;
+const ROUNDING_SHIFT: f64 = 1.5 * (1_u64 << 52) as f64 + 1023.0;
 
 /// ln 2 in two parts: the first has 33 bits, so that its product with an exponent is exact.
 const LN2: [f64; 2] = [
@@ -30,14 +32,14 @@ const LN2: [f64; 2] = [
 
 /// `(exp(r) - 1 - r)/r^2` on |r| <= ln2/2 to 2.4e-16 of its value: interpolation at the ten Chebyshev points in seventy
 /// digits (`crates/lanes/tests/exp/polynomial.py`), even and odd powers apart.
-const EVEN: [f64; 5] = [
+const EVEN_COEFFICIENTS: [f64; 5] = [
     0.5000000000000001,
     0.041666666666624136,
     0.001388888891720967,
     2.4801521302241082e-05,
     2.7620085455018414e-07,
 ];
-const ODD: [f64; 5] = [
+const ODD_COEFFICIENTS: [f64; 5] = [
     0.16666666666666669,
     0.008333333333330063,
     0.00019841269863050506,
@@ -51,14 +53,14 @@ fn grown(r: f64) -> f64 {
     let r2 = r * r;
     let r4 = r2 * r2;
     let half = |c: &[f64; 5]| (c[0] + c[1] * r2) + r4 * ((c[2] + c[3] * r2) + c[4] * r4);
-    r + r2 * (half(&EVEN) + r * half(&ODD))
+    r + r2 * (half(&EVEN_COEFFICIENTS) + r * half(&ODD_COEFFICIENTS))
 }
 
-/// A power of two and what is left: `exp(x) = scale exp(r)` with |r| <= ln2/2, for |x| <= 708.
+/// A power of two and the remainder: `exp(x) = scale exp(r)` with |r| <= ln2/2, for |x| <= 708.
 #[inline(always)]
 fn reduced(x: f64) -> (f64, f64) {
-    let shifted = x * LOG2_E + ROUND;
-    let n = shifted - ROUND;
+    let shifted = x * LOG2_E + ROUNDING_SHIFT;
+    let n = shifted - ROUNDING_SHIFT;
     let r = (x - n * LN2[0]) - n * LN2[1];
     (f64::from_bits(shifted.to_bits() << 52), r)
 }
@@ -67,16 +69,16 @@ fn reduced(x: f64) -> (f64, f64) {
 #[inline(always)]
 pub(crate) fn exp(x: f64) -> f64 {
     let size = x.abs();
-    if size <= WHOLE {
-        // A law at rest asks for this each sample.
-        if size <= TINY {
+    if size <= MAX_UNREDUCED {
+        // A law at rest needs this in each sample.
+        if size <= MAX_LINEAR {
             return 1.0 + x;
         }
         1.0 + grown(x)
-    } else if size <= RANGE {
+    } else if size <= MAX_ARGUMENT {
         let (scale, r) = reduced(x);
         scale + scale * grown(r)
-    } else if x < VANISHED {
+    } else if x < MIN_ARGUMENT {
         0.0
     } else {
         libm::exp(x)
@@ -87,9 +89,9 @@ pub(crate) fn exp(x: f64) -> f64 {
 #[inline(always)]
 pub(crate) fn expm1(x: f64) -> f64 {
     let size = x.abs();
-    if size <= WHOLE {
+    if size <= MAX_UNREDUCED {
         grown(x)
-    } else if size <= RANGE {
+    } else if size <= MAX_ARGUMENT {
         let (scale, r) = reduced(x);
         (scale - 1.0) + scale * grown(r)
     } else {
@@ -104,7 +106,7 @@ mod tests {
     /// Both signs, from 1e-17 to 800, as many in each decade; the ends of the range.
     fn arguments() -> impl Iterator<Item = f64> {
         let sizes = (0..1_000_000).map(|i| 800.0 * libm::exp(-f64::from(i) * 4.6e-5));
-        sizes.chain([RANGE, 708.1]).flat_map(|x| [x, -x])
+        sizes.chain([MAX_ARGUMENT, 708.1]).flat_map(|x| [x, -x])
     }
 
     fn worst(own: fn(f64) -> f64, right: fn(f64) -> f64) -> f64 {

@@ -13,12 +13,12 @@ pub use realtime::GmsState;
 pub struct Element<T> {
     /// Stiffness k_i > 0, N/m (N m/rad).
     pub stiffness: T,
-    /// Share nu_i > 0 of the friction level; only the ratios of the shares count, [`Gms::new`] makes their sum 1. So where
-    /// the deflections are known at which the elements yield, stiffness times yield deflection serves as it is.
+    /// Share nu_i > 0 of the friction level; only the ratios of the shares matter, [`Gms::new`] makes their sum 1. So where
+    /// the yield deflections of the elements are known, stiffness times yield deflection can be given.
     pub share: T,
 }
 
-/// Where the elements of a [`Gms`] law are.
+/// State of the elements of a [`Gms`] law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Elements<T, const N: usize> {
     /// Spring force F_i of each, N (N m).
@@ -58,14 +58,14 @@ impl<T: Real, const N: usize> Elements<T, N> {
 /// Source: Al-Bender, Lampaert, Swevers 2005, doi 10.1109/TAC.2005.858676: the states of stick and of slip in terms of the
 /// element forces, with shares nu_i whose sum is 1, so the attraction C is a force rate, N/s (N m/s), the same for all
 /// elements, and in sliding all forces follow the curve g(v) with the time constant g/C. An infinite C is Maxwell slip:
-/// a slipping element stands on its limit. In terms of deflections, `z_i = F_i/k_i`, slip reads
+/// a slipping element stays at its limit. In terms of deflections, `z_i = F_i/k_i`, slip reads
 /// `z_i' = sgn(v) (C/k_i)(nu_i - k_i z_i/g)`.
 /// The micro-damping on the elements is spread like their stiffness: each element has the damping time
 /// `sigma1/(sum k_i)`, and while all stick the law damps as LuGre does, by sigma1.
 /// Asymmetric: g and sigma2 per direction of motion, the element forces continuous through reversal.
 ///
-/// Where elements slip in time rather than in path, friction that rises while the axis slows down can return energy: the
-/// law is passive where g is flat (Fs = Fc), at any sigma1, and not in general.
+/// Since elements slip in time rather than in path, friction that rises while the axis slows down can return energy: the
+/// law is passive where g is constant (Fs = Fc), at any sigma1, but not in general.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gms<T, const N: usize> {
     elements: [Element<T>; N],

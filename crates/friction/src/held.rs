@@ -1,8 +1,8 @@
-//! What a simulated axis asks of a law, whatever its state is.
+//! What a simulated axis needs of a law, whatever its state is.
 
 use crate::{Damping, ElastoPlastic, Elements, Gms, LuGre, Real, Stribeck};
 
-/// A step of an axis as its friction meets it.
+/// A time step of an axis, as far as it matters to friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pace<T> {
     /// Length of the step, > 0, s.
@@ -13,8 +13,8 @@ pub struct Pace<T> {
     pub mass: T,
 }
 
-/// A law stepped at a velocity that is held over the step, with the mean force over the step: enough for an implicit
-/// simulation of an axis that has this law.
+/// A law that is stepped at a velocity held constant over the step, with the mean force over the step: what an implicit
+/// simulation of an axis needs.
 ///
 /// The mean force takes the mean of the spring forces at both ends and their change over the step as their rate.
 pub trait Held<T: Real>: Copy {
@@ -31,14 +31,14 @@ pub trait Held<T: Real>: Copy {
     fn mean_force(&self, from: Self::State, to: Self::State, h: T, v: T) -> T;
 
     /// Mean friction force, N (N m), over a step at the mean velocity `v`, and its derivative with respect to `v`
-    /// (N s/m, N m s/rad), good enough to lead Newton's method. LuGre counts how the deflection bends within the step, see
-    /// [`Sweep`](crate::Sweep); the other laws take the mean of both ends.
+    /// (N s/m, N m s/rad), accurate enough for Newton's method. LuGre takes the curvature of the deflection within the step
+    /// into account, see [`Sweep`](crate::Sweep); the other laws take the mean of both ends.
     fn mean_force_slope(&self, from: Self::State, pace: &Pace<T>, v: T) -> (T, T);
 
     /// Friction force, N (N m), at a state and the velocity `v` (m/s, rad/s).
     fn force_now(&self, state: Self::State, v: T) -> T;
 
-    /// No mean force over `h > 0` seconds, less the viscous part and the offset, is larger than this, N (N m).
+    /// Upper bound of the mean force over `h > 0` seconds, without the viscous part and the offset, N (N m).
     fn reach(&self, h: T) -> T;
 }
 
@@ -49,7 +49,7 @@ impl<T: Real> LuGre<T> {
     pub(crate) fn mean_force_from_end(&self, from: T, end: (T, T), h: T, v: T, g: T) -> (T, T) {
         let (end, end_slope) = end;
         let s1 = self.micro_damping_at_level(v, g);
-        // Where sigma1 is what it is at rest its cap does not bite, and there is nothing to differentiate.
+        // Where sigma1 has its value at rest the cap is not active, and there is nothing to differentiate.
         let s1_slope = if s1 == self.damping().at_rest() {
             T::ZERO
         } else {
@@ -93,7 +93,7 @@ impl<T: Real> Held<T> for LuGre<T> {
 
     fn reach(&self, h: T) -> T {
         let swing = T::from_f64(2.0) * self.bound();
-        // The deflection and what its correction adds to it at most.
+        // The largest deflection, and the most that its correction adds to it.
         T::from_f64(3.0) * self.stiffness() * self.bound() + self.damping().at_rest() * swing / h
     }
 }
@@ -167,7 +167,7 @@ impl<T: Real, const N: usize> Held<T> for Gms<T, N> {
     }
 }
 
-/// Derivative of sigma1 in velocity; a difference will do where it only steers Newton's method.
+/// Derivative of sigma1 with respect to velocity; a difference is enough, since it only guides Newton's method.
 fn damping_slope<T: Real>(law: &LuGre<T>, v: T) -> T {
     match law.damping() {
         Damping::Constant(_) => T::ZERO,

@@ -10,7 +10,7 @@
 //! | [`Gms`] | one force an element | presliding with non-local memory, Stribeck, frictional lag |
 //! | [`Dahl`] | z | presliding and Coulomb only |
 //! | [`Stribeck`] | none | the steady curve, any [`Shape`], either direction its own |
-//! | [`CoulombViscous`] | none | the plainest law |
+//! | [`CoulombViscous`] | none | the simplest law |
 //! | [`TanhRegularised`] | none | a steady curve for solvers that need it smooth |
 //!
 //! Parameters are checked once, at construction:

@@ -21,8 +21,8 @@ pub struct LuGre<T> {
 }
 
 impl<T: Real> LuGre<T> {
-    /// `stiffness` sigma0 in N/m (N m/rad), finite, > 0, and such that the largest deflection Fs/sigma0 can be computed
-    /// with; the micro-damping; the steady curve with sigma2 and F0.
+    /// `stiffness` sigma0 in N/m (N m/rad), finite, > 0, and such that the largest deflection Fs/sigma0 is well within the
+    /// range of the number type; the micro-damping; the steady curve with sigma2 and F0.
     pub fn new(stiffness: T, damping: Damping<T>, curve: Stribeck<T>) -> Result<Self, ParamError> {
         ParamError::positive("sigma0", stiffness)?;
         damping.validate()?;
@@ -47,7 +47,7 @@ impl<T: Real> LuGre<T> {
         self.stiffness
     }
 
-    /// The micro-damping's form and numbers.
+    /// The micro-damping: its form and parameters.
     pub fn damping(&self) -> Damping<T> {
         self.damping
     }
@@ -115,7 +115,7 @@ impl<T: Real> LuGre<T> {
     ///
     /// With `y = max(Fs+, Fs-)`: `(2g/|v|)(1 + sqrt(1 + sigma2|v|/g))` while a bristle can reach the worst force,
     /// else `(sigma2 + y^2/(g|v|))/(y/g - 1)`; unlimited (the largest number) at rest and where g is not below y.
-    /// For v to infinity the limit of a symmetric law is `sigma2 Fc/(Fs - Fc)`, the condition of Olsson 1996.
+    /// As v goes to infinity the limit for a symmetric law is `sigma2 Fc/(Fs - Fc)`, the condition of Olsson 1996.
     #[inline]
     pub fn passive_cap(&self, v: T) -> T {
         passive_cap(&self.curve, v, self.curve.level(v))

@@ -36,8 +36,8 @@ pub trait Real:
     const ONE: Self;
     /// The largest finite number.
     const MAX: Self;
-    /// Below this argument `1 + expm1(-a)/a` is taken from its series: above it the subtraction keeps enough digits,
-    /// below it six terms are exact to rounding.
+    /// Largest argument a for which `1 + expm1(-a)/a` is taken from its series: above it the subtraction keeps enough digits,
+    /// up to it six terms are exact to rounding.
     const SERIES_BELOW: Self;
 
     /// The nearest number of this type.

@@ -52,7 +52,7 @@ impl<T: Real> LuGre<T> {
     /// deflection that is not a number becomes 0.
     ///
     /// With [`Damping::Capped`] no sample creates energy, at any `h`: sigma1 is further limited where the sampled law
-    /// would otherwise release some that the law in flowing time does not.
+    /// would otherwise release energy that the law in continuous time does not.
     #[inline(always)]
     pub fn step(&self, state: &mut State<T>, h: T, v: T) -> T {
         let within = state.z.abs() <= self.bound();
@@ -89,7 +89,7 @@ impl<T: Real> LuGre<T> {
 
     /// The largest sigma1 up to `s1` with which a sample from `z` to `end` at the deflection rate `rate` creates no energy.
     ///
-    /// [`passive_cap`](Self::passive_cap) is the answer for flowing time. A sample holds the force of its end over its
+    /// [`passive_cap`](Self::passive_cap) is the bound in continuous time. A sample holds the force of its end over its
     /// whole length, and where a bristle unloads that is the smallest force of the sample: up to 13 % of Fs |v| h would
     /// be missing. So the balance of the sample itself is kept: work done on the law >= growth of sigma0 z^2/2.
     #[inline]
@@ -101,7 +101,7 @@ impl<T: Real> LuGre<T> {
         let taken = (self.stiffness() * end + self.curve().direction(v).viscous * v) * v;
         let stored = self.stiffness() * (T::from_f64(0.5) * (z + end)) * rate;
         let left = taken - stored;
-        // The quotient hardly ever is below s1. Where it is not, by more than rounding, it need not be known.
+        // The quotient is hardly ever below s1. Where it is above by more than rounding it need not be computed.
         if left > T::from_f64(1.0 + 1e-6) * (s1 * returned) {
             return s1;
         }

@@ -12,12 +12,12 @@ impl<T: Real> LuGre<T> {
     /// these two, so `|z| <= bound()` is kept for every stiffness and step; nothing is clamped. Where the velocity
     /// changes sign the interval is split at its zero.
     ///
-    /// `h <= 0` leaves `z` as it is; a NaN in `va` or `vb` gives NaN (a record is to be cleaned before, not here).
+    /// `h <= 0` leaves `z` as it is; a NaN in `va` or `vb` gives NaN (records have to be cleaned before).
     #[inline]
     pub fn step_record(&self, z: T, h: T, va: T, vb: T) -> T {
         let rises = va < T::ZERO && vb > T::ZERO;
         if rises || (va > T::ZERO && vb < T::ZERO) {
-            // Each part by its own quotient: one less the other would lose the digits of a short one.
+            // Each part by its own quotient: the difference from 1 would lose the digits of a short part.
             let theta = va / (va - vb);
             let turn = self.one_way(!rises, z, theta * h, va.abs(), T::ZERO);
             self.one_way(rises, turn, vb / (vb - va) * h, T::ZERO, vb.abs())
@@ -28,7 +28,7 @@ impl<T: Real> LuGre<T> {
 
     #[inline]
     fn one_way(&self, positive: bool, z: T, h: T, speed_a: T, speed_b: T) -> T {
-        // Also keeps 0 times infinity out of the exponent.
+        // This also avoids 0 times infinity in the exponent.
         if h <= T::ZERO {
             return z;
         }
@@ -50,7 +50,7 @@ impl<T: Real> LuGre<T> {
     }
 }
 
-/// `1 + e/a` for `e = expm1(-a)`, `a >= 0`: the share of the linear run that the deflection follows, in 0..1.
+/// `1 + e/a` for `e = expm1(-a)`, `a >= 0`: the fraction of the linear course that the deflection follows, in 0..1.
 #[inline]
 pub(crate) fn one_plus_ratio<T: Real>(a: T, e: T) -> T {
     if a >= T::SERIES_BELOW {

@@ -1,29 +1,29 @@
-//! What a step at a held velocity takes of the law before the deflection is known.
+//! Steps at a held velocity, evaluated before the deflection is known.
 
 use crate::damping::micro_damping_and_slope;
 use crate::{Direction, LuGre, Real, Shape};
 
-/// A step of `h > 0` seconds at a mean velocity, whatever the deflection z and the velocity that it begins with. An
-/// implicit simulation may have this ready before it knows them, and so wait less for the exponentials.
+/// A step of `h > 0` seconds at a mean velocity, for any deflection z and velocity at its beginning. An implicit
+/// simulation can evaluate this ahead, before it knows them, and so waits less for the exponentials.
 ///
-/// The deflection goes as at a held velocity w. Its mean over the step, on which the mean force rests, is that of the
-/// trapezoidal rule corrected at its ends (Euler-Maclaurin), with the rate at the ends from the derivatives of z' at w and
+/// The deflection follows the solution at a held velocity w. Its mean over the step, from which the mean force follows, is that
+/// of the trapezoidal rule with end corrections (Euler-Maclaurin), with the rate at the ends from the derivatives of z' at w and
 /// at the mean deflection:
 /// ```text
 /// (z + z+)/2 - c h/12 [(v+ - v) dz'/dv + (z+ - z) dz'/dz],   c = 1/(1 + sigma0 h^2/(12 M))
 /// ```
-/// The first part acts as if the mass M were less by sigma0 h^2/12 while the bristles hold; with c it stays positive. A
-/// step that is long for the bristles, `a = sigma0 |w| h/g`, leaves nothing to correct: the first part fades as
-/// `1/(1 + a^2)` and is worth g/4 at most, the second fades as `1/(1 + a^2/60)`, as the mean of an exponential demands.
-/// And no correction gives back energy that the bristles do not hold.
+/// The first part acts as if the mass M were smaller by sigma0 h^2/12 while the bristles stick; the factor c keeps it positive.
+/// In a step that is long for the bristles (large `a = sigma0 |w| h/g`) the correction must vanish: the first part fades as
+/// `1/(1 + a^2)` and is at most g/4, the second fades as `1/(1 + a^2/60)`, as the mean of an exponential requires.
+/// The correction is limited so that it never returns more energy than the bristles store.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sweep<T> {
     velocity: T,
-    /// The way, m (rad).
+    /// Distance travelled, m (rad).
     path: T,
-    /// Deflection that the velocity leads to, with its derivative in velocity.
+    /// Steady deflection at the velocity, with its derivative with respect to velocity.
     steady: (T, T),
-    /// `exp(-a) - 1`, the share of the way there with its sign reversed, and the derivative of a.
+    /// `exp(-a) - 1`, minus the fraction of the approach to the steady deflection, and the derivative of a.
     decay: T,
     a_slope: T,
     /// Force for a deflection, and for its change over the step, with the derivative and without the correction.
@@ -32,12 +32,12 @@ pub struct Sweep<T> {
     by_rate: T,
     /// Force without deflection, with its derivative.
     rest: (T, T),
-    /// Force taken off for half the rise of the velocity, linear in the deflection; and the most of it, N (N m).
+    /// Correction of the force for half the change of velocity, linear in the deflection; and its bound, N (N m).
     bend: [T; 2],
     most: T,
 }
 
-/// Steps of one length at held velocities: what they have in common is computed once.
+/// Steps of one length at held velocities: everything that does not depend on the velocity is computed once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sweeps<T> {
     law: LuGre<T>,
@@ -47,7 +47,7 @@ pub struct Sweeps<T> {
     compliance: T,
     /// sigma0 h, N s/m (N m s/rad)
     swept: T,
-    /// Of the correction: 5 c sigma0, N/m (N m/rad), and c sigma0 h/6, N s/m (N m s/rad).
+    /// Coefficients of the correction: 5 c sigma0, N/m (N m/rad), and c sigma0 h/6, N s/m (N m s/rad).
     relaxed: T,
     bend: T,
     /// `|v|/vs` beyond which the level is the Coulomb level to rounding.
@@ -94,7 +94,8 @@ impl<T: Real> Sweeps<T> {
     /// The step at the mean velocity `v`, m/s (rad/s).
     #[inline(always)]
     pub fn at(&self, v: T) -> Sweep<T> {
-        // Each way its own code: the branch is foreseen, and the numbers of a side are there before the velocity is.
+        // Separate code for each direction: the branch is predicted, and the parameters of a side are loaded before the
+        // velocity is known.
         if v >= T::ZERO {
             self.towards(v, 0, self.law.curve().positive(), T::ONE)
         } else {
@@ -117,7 +118,7 @@ impl<T: Real> Sweeps<T> {
         let g = side.coulomb + drop * weight;
         let g_slope = sign * (drop * per_velocity) * falls;
         let per_level = T::ONE / g;
-        // Of the way there exp(-a) is left.
+        // exp(-a) of the approach is left.
         let per_speed = self.swept * per_level;
         let a = per_speed * v.abs();
         let a_slope = sign * per_speed - a * g_slope * per_level;
@@ -126,7 +127,7 @@ impl<T: Real> Sweeps<T> {
         let decay = (-a).expm1();
         let steady = (sign * g * self.compliance, sign * g_slope * self.compliance);
 
-        // Both parts of the correction by one division, far from overflow; with a million there is nothing left of either.
+        // Both parts of the correction by one division, far from overflow; at a million both have vanished.
         let long = a.min(T::from_f64(1e6));
         let sixty = T::from_f64(60.0) + long * long;
         let fades = T::ONE + long * long;
@@ -176,7 +177,7 @@ impl<T: Real> Sweep<T> {
         )
     }
 
-    /// The force of [`mean_force`](Self::mean_force) where its correction is within bounds: enough to foresee a velocity by.
+    /// The force of [`mean_force`](Self::mean_force) where its correction is within bounds: accurate enough to predict a velocity.
     #[inline]
     pub fn likely_force(&self, z: T, start: T) -> T {
         let change = self.change(z).0;
@@ -185,15 +186,15 @@ impl<T: Real> Sweep<T> {
     }
 
     /// Mean force over the step from the deflection `z` and the velocity `start` (m/s, rad/s), and its derivative with
-    /// respect to the mean velocity, N and N s/m (N m, N m s/rad). The derivative leaves out what the correction's own
-    /// coefficients change by: of the order of `sigma0 h^2/(12 M)`, enough to be led by.
+    /// respect to the mean velocity, N and N s/m (N m, N m s/rad). The derivative leaves out the change of the correction's
+    /// coefficients, which is of the order of `sigma0 h^2/(12 M)`: accurate enough for Newton's method.
     #[inline]
     pub fn mean_force(&self, z: T, start: T) -> (T, T) {
         let (change, change_slope) = self.change(z);
         let by_rise = self.bend[0] + self.bend[1] * z;
         let bends = (self.velocity - start) * by_rise;
         let bristle = self.stiffness * z + change * self.by_change.0 - bends;
-        // Work done on the bristles, and what they keep of it.
+        // Work done on the bristles, and the part of it that they store.
         let kept = self.stiffness * (z + T::from_f64(0.5) * change) * change;
         let (bristle, slope) = if bends.abs() <= self.most && bristle * self.path >= kept {
             let slope = change_slope * self.by_change.0 + change * self.by_change.1 - by_rise;
@@ -204,7 +205,7 @@ impl<T: Real> Sweep<T> {
         (bristle + self.rest.0, slope + self.rest.1)
     }
 
-    /// The force of the bristles where the correction is more than it may be.
+    /// The force of the bristles where the correction exceeds its bound.
     #[cold]
     #[inline(never)]
     fn bounded(&self, z: T, by_rise: T, bends: T) -> (T, T) {
@@ -230,7 +231,7 @@ impl<T: Real> Sweep<T> {
         if corrected.0 * self.path >= kept {
             return corrected;
         }
-        // The law itself may give energy back where sigma1 is not capped: that is left to it.
+        // Where sigma1 is not capped the law itself may release energy: that is kept.
         let plain = of_change(self.by_rate);
         let enough = kept / self.path;
         let kept_slope = self.stiffness * change_slope * (mean + T::from_f64(0.5) * change);

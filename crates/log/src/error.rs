@@ -1,10 +1,12 @@
 //! Why a recording was refused: the file, the place in it, what was found, what is allowed.
+//!
+//! The text of an [`Error`] ends in what is allowed or what to do; [`Kind::code`] names its page in `docs/codes`.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 
-/// The sort of problem; each has a stable code and a page in `docs/codes/`.
+/// The kind of problem; each has a stable code and a page in `docs/codes/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// The file cannot be opened or read.
@@ -15,11 +17,11 @@ pub enum Kind {
     Limit,
     /// More than one reading is possible; the message lists the choices.
     Ambiguous,
-    /// Something that is needed is not there (a column, a rate).
+    /// Something that is needed is missing (a column, a rate).
     Missing,
     /// A unit or scale is unknown or of the wrong dimension.
     Unit,
-    /// Time stamps that no documented rule can mend.
+    /// Time stamps that no documented rule can repair.
     Time,
     /// A number outside what is allowed.
     Value,
@@ -41,7 +43,7 @@ impl Kind {
     }
 }
 
-/// Where in a file the problem stands; every part is optional.
+/// Where in a file the problem is; every part is optional.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Place {
     /// Line or row, counted from 1 as an editor shows it.
@@ -71,7 +73,7 @@ impl fmt::Display for Place {
 /// A recording that was refused.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
-    /// The sort of problem.
+    /// The kind of problem.
     pub kind: Kind,
     /// The file, where known.
     pub file: Option<PathBuf>,

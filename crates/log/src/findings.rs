@@ -2,26 +2,28 @@
 //!
 //! A *warning* may change what an identification finds; a *note* says what was assumed or seen.
 //! What no rule can mend is an [`Error`](crate::Error) instead. Thresholds stand as constants beside
-//! their check; in short:
+//! their check. They are this project's choices, held by tests: `tests/mapping_faults.rs` asks that random clean logs
+//! get no warning and that every fault put into them is found, `tests/mapping_recordings.rs` fixes what is found in
+//! measured recordings. In short:
 //!
 //! | code | found when | handled by |
 //! |---|---|---|
 //! | `gap` | a time step above 1.5 median steps | kept as it is; above 5 missing samples the record is split |
 //! | `duplicate-time` | a step of exactly 0 | first sample kept; refused above 5 % |
-//! | `time-missing` | a time stamp that is no number | row dropped; refused above 5 % |
-//! | `time-wrap` | a backward step of a full 16-, 31- or 32-bit counter | counted on; any other backward step is refused |
+//! | `time-missing` | a time stamp that is not a number | row dropped; refused above 5 % |
+//! | `time-wrap` | a backward step of a full 16-, 31- or 32-bit counter | unwrapped; any other backward step is refused |
 //! | `jitter` | rms of the step above 1 % (note) or 5 % (warning) of its median, gaps apart | time stamps used as recorded |
-//! | `missing-cells` | cells that are no number, or above 1e30 | up to 5 in a row bridged by a line and excluded; longer runs dropped; refused above half |
+//! | `missing-cells` | cells that are not a number, or above 1e30 | up to 5 in a row interpolated linearly and excluded; longer runs dropped; refused above half |
 //! | `zero-filled` | position or force 0 in many samples whose neighbours are far from it | as missing cells |
 //! | `short-column` | a column ends before the others | all cut to the shortest; refused if that costs over 1 % |
-//! | `saturation` | force flat at its extreme, 5 samples or more, not a staircase; or at a stated limit | samples excluded |
-//! | `stuck-encoder` | position frozen while velocity, reference or the jump after it tells of motion | samples excluded |
+//! | `saturation` | force constant at its extreme for 5 samples or more and not a staircase; or at a given limit | samples excluded |
+//! | `stuck-encoder` | position frozen while the velocity, the reference or the jump after it shows motion | samples excluded |
 //! | `position-jump` | a step above half the range and 50 times the usual one | record split there |
 //!
 //! *Excluded* samples stay in the log, with the reason, so that a state can be carried through
 //! them; they should not be fitted to. Single missing samples and small jitter are left to
-//! resampling: they cost less than a split. A force that sticks while the position rests is
-//! friction, not a fault, which is why a stuck encoder needs evidence of motion from elsewhere.
+//! resampling: they cost less than a split. A position that rests while the force builds up is
+//! friction, not a fault, so a stuck encoder is only reported with evidence of motion from another signal.
 
 mod clock;
 mod encoder;
@@ -34,6 +36,11 @@ use crate::log::Log;
 use crate::mapping::Mapping;
 use stiction_codes::Code;
 pub(crate) use stiction_number::{counted as count, full, short};
+
+/// Missing samples in a row that are interpolated linearly; more in one gap split the record.
+pub(crate) const MAX_BRIDGED_SAMPLES: usize = 5;
+/// Share of missing samples above which they are a warning.
+pub(crate) const MISSING_SHARE_FOR_WARNING: f64 = 0.01;
 
 /// How much a finding matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

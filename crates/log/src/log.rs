@@ -6,15 +6,15 @@
 //! 2. columns are cut to one length: up to 1 % may be missing at the end of one of them, more is
 //!    refused, since a column at half the rate would be misaligned;
 //! 3. time stamps are reduced to the first kept one before anything is rounded; a 16-, 31- or 32-bit
-//!    counter that overflows is counted on; any other backward step is refused with its row;
-//! 4. the record is cropped, in seconds from its first sample; trouble outside is of no concern;
+//!    counter that overflows is unwrapped; any other backward step is refused with its row;
+//! 4. the record is cropped, in seconds from its first sample; faults outside the crop do not matter;
 //! 5. rows without a time stamp, and all but the first of equal time stamps, are dropped, each
 //!    refused above 5 % (stamps coarser than the sampling: give the rate instead);
 //! 6. units, scale and sign are applied; zeros that stand for missing samples of position and force
-//!    become missing cells; a wrapping position is put together;
-//! 7. missing cells of position, velocity and force: up to 5 in a row are bridged by a straight
-//!    line in time and excluded; longer runs are dropped with their rows and leave a gap. Of
-//!    reference, temperature and load any missing cell is bridged or held: they vary slowly;
+//!    become missing cells; a position that wraps is unwrapped;
+//! 7. missing cells of position, velocity and force: up to 5 in a row are interpolated
+//!    linearly in time and excluded; longer runs are dropped with their rows and leave a gap. In
+//!    reference, temperature and load every missing cell is interpolated or held: they vary slowly;
 //! 8. the log is inspected (see [`Finding`]).
 //!
 //! No sample is resampled, filtered or moved in time.
@@ -59,15 +59,15 @@ pub struct Log {
     pub time: Vec<f64>,
     /// Time of the first kept sample on the clock of the file, s.
     pub start: f64,
-    /// Position, m or rad; put together where it wrapped.
+    /// Position, m or rad; unwrapped.
     pub position: Option<Vec<f64>>,
     /// Velocity as recorded, m/s or rad/s.
     pub velocity: Option<Vec<f64>>,
     /// Force in `force_unit`, positive where it drives towards positive position.
     pub force: Option<Vec<f64>>,
-    /// SI unit of the force: `N`, `N*m`, `A`, `V`, or `1` for a share of the rated force.
+    /// SI unit of the force: `N`, `N*m`, `A`, `V`, or `1` for a fraction of the rated force.
     pub force_unit: String,
-    /// Position that was asked for, m or rad.
+    /// Reference (commanded) position, m or rad.
     pub reference: Option<Vec<f64>>,
     /// Temperature, K.
     pub temperature: Option<Vec<f64>>,
@@ -77,7 +77,7 @@ pub struct Log {
     pub load_unit: String,
     /// Rate of the median time step, Hz, to nine digits.
     pub rate_hz: f64,
-    /// Step of the position, m or rad: as stated, or as seen in the data.
+    /// Encoder step, m or rad: as given, or as detected in the data.
     pub quantum: Option<f64>,
     /// Missing samples, in order.
     pub gaps: Vec<Gap>,
@@ -93,10 +93,10 @@ pub struct Log {
     pub mapping: Mapping,
 }
 
-/// Fewer samples than this are no record.
+/// Fewest samples of a log; derivatives need three.
 const MIN_SAMPLES: usize = 3;
-/// Share of its samples that a column may lack at the end.
-const SHORTER: f64 = 0.01;
+/// Largest share of samples that may be cut off to bring all columns to the length of the shortest.
+const MAX_CUT_SHARE: f64 = 0.01;
 
 impl Log {
     /// Reads a table as this mapping says; what the mapping leaves open is detected.
@@ -253,11 +253,11 @@ fn common_length(
         return Ok(longest);
     }
     let found = format!(
-        "{role} has {} and other columns up to {longest}",
+        "{role} has {}, other columns up to {longest}",
         findings::count(shortest, "sample")
     );
-    if lost as f64 > SHORTER * longest as f64 && lost > 2 {
-        let allowed = "all columns need one rate; export them at the same sample time";
+    if lost as f64 > MAX_CUT_SHARE * longest as f64 && lost > 2 {
+        let allowed = "all columns need the same rate; export them with one sample time";
         return Err(Error::new(Kind::Value, found, allowed));
     }
     let message = format!("{found}; the record is cut to {shortest}");

@@ -1,5 +1,5 @@
 //! Which column is what: plain data that says how a [`Table`] becomes a [`Log`](crate::Log), and
-//! what fills it in where it is silent.
+//! the detection of whatever it leaves open.
 //!
 //! # What is recognised without an axis file
 //! A column is recognised by the words of its name (`Position`, `act_vel`, `MAIN.fActTorque`,
@@ -8,24 +8,24 @@
 //! force stands in only where no measured one exists. Columns about errors, limits and states are
 //! passed over. Where names say nothing, the only column in a unit of length (angle, velocity,
 //! force, torque) is taken. Two columns that fit equally well are refused, unless they are equal
-//! sample by sample. Columns that a mapping names are never second-guessed; only what it leaves
+//! sample by sample. Columns that a mapping names are taken as named; only what it leaves
 //! open is filled in: time where neither time nor rate is given, force where none is given, and
 //! position and velocity only where neither is given.
 //!
-//! # Units that are not written
-//! * A unit in the mapping goes before the unit in the file; a difference is a finding.
+//! # Missing units
+//! * A unit in the mapping takes precedence over the unit in the file; a difference is a finding.
 //! * **time**: seconds, if the median spacing is then 1 us to 0.2 s, as motion logs have. Otherwise
 //!   refused: sample numbers and milliseconds look alike.
-//! * **position, velocity, force**: if not one unit is written anywhere, in the file or in the
+//! * **position, velocity, force**: if no unit is given anywhere, in the file or in the
 //!   mapping, SI is assumed and a finding says so (a MATLAB file has no place for units). If some
-//!   are written and this one is not, it is refused: half-labelled files hide factors of a thousand.
+//!   are given and this one is not, it is refused: partly labelled files hide factors of a thousand.
 //! * **counts** follow from a scale such as `1 um/count`.
 //! * **reference** takes the unit of the position, **temperature** degrees Celsius, **load** a plain
 //!   number; findings say so.
 //!
 //! # Linear or rotary
 //! From the mapping; else from the unit of position, velocity or force; else, where units are
-//! assumed, from words (`torque`, `angle`, `force`, `displacement`); else refused.
+//! assumed, from the names (`torque`, `angle`, `force`, `displacement`); else refused.
 //!
 //! Error texts quote `axis.toml` as: top-level `kind`, `rate`; table `[columns]` with a name, a
 //! number counted from 1, or `{ column, unit, scale, invert }` for each quantity; table `[log]` with
@@ -41,7 +41,7 @@ mod select;
 
 use crate::findings::{Finding, full};
 use crate::{Dimension, Error, Kind, Table, Unit, Value};
-pub(crate) use convert::{LARGEST, Source};
+pub(crate) use convert::{LARGEST_VALUE, Source};
 use std::fmt;
 
 /// Whether the axis moves along a line or turns.
@@ -99,7 +99,7 @@ pub enum Role {
     Velocity,
     /// Force or torque that drives the axis, or the current or voltage it is proportional to.
     Force,
-    /// Position that was asked for.
+    /// Reference (commanded) position.
     Reference,
     /// Temperature.
     Temperature,
@@ -153,11 +153,11 @@ pub enum Selector {
 pub struct Channel {
     /// Which column.
     pub column: Selector,
-    /// Unit of the column; goes before a unit in the file.
+    /// Unit of the column; takes precedence over a unit in the file.
     pub unit: Option<Unit>,
     /// What one unit of the column is worth, as `35.15 N/V`, `1 um/count` or a plain number.
     pub scale: Option<Value>,
-    /// Whether the sign is turned round.
+    /// Whether the sign is inverted.
     pub invert: bool,
 }
 
@@ -196,7 +196,7 @@ impl Channel {
         self
     }
 
-    /// The same column with its sign turned round.
+    /// The same column with its sign inverted.
     #[must_use]
     pub fn inverted(mut self) -> Self {
         self.invert = true;
@@ -204,7 +204,7 @@ impl Channel {
     }
 }
 
-/// A position that starts again after some travel.
+/// A position that wraps after some travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wrap {
     /// Travel after which the position repeats, m or rad; 1e-9 to 1e9.
@@ -220,7 +220,7 @@ impl Wrap {
     }
 }
 
-/// Everything that says how a table is to be read; `Mapping::default()` leaves all to detection.
+/// How a table is to be read; `Mapping::default()` leaves everything to detection.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mapping {
     /// Linear or rotary; from units where `None`.
@@ -235,17 +235,17 @@ pub struct Mapping {
     pub velocity: Option<Channel>,
     /// Column of force, torque, or the current or voltage proportional to it.
     pub force: Option<Channel>,
-    /// Column of the position that was asked for.
+    /// Column of the reference (commanded) position.
     pub reference: Option<Channel>,
     /// Temperature column.
     pub temperature: Option<Channel>,
     /// Column of the normal load.
     pub load: Option<Channel>,
-    /// Where the position starts again.
+    /// Where the position wraps.
     pub wrap: Option<Wrap>,
     /// First and last second to keep, counted from the first sample of the file.
     pub crop: Option<(f64, f64)>,
-    /// Smallest step of the position, m or rad; estimated from the data where `None`.
+    /// Encoder step, m or rad; estimated from the data where `None`.
     pub resolution: Option<f64>,
     /// Force at which drive or sensor saturates, in the unit of the log's force; above 0.
     pub force_limit: Option<f64>,
@@ -318,7 +318,7 @@ impl Mapping {
         for (name, value, range, unit) in bounded {
             if let Some(value) = value.filter(|x| !range.contains(x)) {
                 let (low, high) = (range.start(), range.end());
-                let allowed = format!("needed is a number from {low:e} to {high:e}, in {unit}");
+                let allowed = format!("it has to be from {low:e} to {high:e}, in {unit}");
                 return Err(Error::new(
                     Kind::Value,
                     format!("{name} is {}", full(value)),
@@ -328,7 +328,7 @@ impl Mapping {
         }
         if let Some((from, to)) = self.crop.filter(|(a, b)| !(a.is_finite() && a < b)) {
             let allowed =
-                "needed are two times in s from the first sample, the first below the second";
+                "crop takes two times in s from the first sample, the first less than the second";
             return Err(Error::new(
                 Kind::Value,
                 format!("crop is {} to {}", full(from), full(to)),
@@ -344,7 +344,7 @@ impl Mapping {
 pub struct Detected {
     /// The complete mapping.
     pub mapping: Mapping,
-    /// How each column was understood, for people: `force = column 5 "Torque [N m]", unit N m`.
+    /// How each column was understood, in words: `force = column 5 "Torque [N m]", unit N m`.
     pub phrases: Vec<String>,
     /// What had to be assumed.
     pub findings: Vec<Finding>,

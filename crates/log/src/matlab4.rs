@@ -9,7 +9,7 @@ use std::io::{BufReader, Read, Seek, SeekFrom};
 use crate::binary::{ByteOrder, Class, Collector, Layout, Number, Order, Values, read_numbers};
 use crate::{Error, Kind, Limits, Table};
 
-/// Longest name, far above the 31 characters of that version.
+/// Longest name of a variable in bytes, far above the 31 characters of that version.
 const MAX_NAME: u32 = 1024;
 
 /// Reads all variables of a file of this many bytes.
@@ -85,7 +85,7 @@ fn variable(
     let next = next.ok_or_else(|| bad("the file ends inside a variable").in_column(&name))?;
     match (kind % 10, imaginary, Layout::of(&dims)) {
         (1, ..) => collector.skip(&name, "text"),
-        (2, ..) => collector.skip(&name, "sparse matrix; save it full"),
+        (2, ..) => collector.skip(&name, "sparse matrix; save it as a full one"),
         (0, 0, Layout::Skip(why)) => collector.skip(&name, &why),
         (0, 0, _) => {
             let count = collector.reserve(&name, &dims)?;

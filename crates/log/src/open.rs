@@ -1,4 +1,4 @@
-//! One way in for every format: look at the first bytes, call the reader.
+//! The one entry point for every format: looks at the first bytes and calls the reader.
 
 use std::fs::File;
 use std::io::Seek;
@@ -8,7 +8,7 @@ use crate::sniff::{Format, sniff};
 use crate::text::{self, TextOptions};
 use crate::{Error, Kind, Table};
 
-/// What a file may cost before it is refused with [`Kind::Limit`].
+/// How large a file may be before it is refused with [`Kind::Limit`].
 ///
 /// A compressed file can claim a thousand times its size; nothing is allocated for more than this.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,19 +29,19 @@ impl Default for Limits {
     }
 }
 
-/// How a file is to be read, as far as it does not say so itself.
+/// How a file is to be read, where that does not follow from the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ReadOptions {
     /// What the user states about a text file.
     pub text: TextOptions,
-    /// What the file may cost.
+    /// How large the file may be.
     pub limits: Limits,
 }
 
 /// Reads a recording: MATLAB (versions 4, 5 and 7.3), HDF5, NumPy (NPY and NPZ), Parquet or text.
 ///
-/// The format is told by the first bytes of the file, never by its name. Columns stand in the order
-/// of the file; HDF5 keeps none, there they stand in the order of their names.
+/// The format is recognised by the first bytes of the file, never by its name. Columns are in the order
+/// of the file; HDF5 keeps no order, so its columns are sorted by name.
 ///
 /// # Errors
 ///
@@ -60,7 +60,11 @@ fn read(path: &Path, options: &ReadOptions) -> Result<Table, Error> {
         } else {
             "not a regular file"
         };
-        return Err(Error::new(Kind::Io, what, "a recording is one file"));
+        return Err(Error::new(
+            Kind::Io,
+            what,
+            "a recording has to be a regular file",
+        ));
     }
     let bytes = about.len();
     if bytes == 0 {
@@ -120,8 +124,8 @@ fn read(path: &Path, options: &ReadOptions) -> Result<Table, Error> {
         };
         return Err(Error::new(
             Kind::Missing,
-            format!("no column of numbers; left out: {}", shorten(&skipped)),
-            "a recording needs at least one column of numbers",
+            format!("no numeric column; left out: {}", shorten(&skipped)),
+            "a recording needs at least one numeric column",
         ));
     }
     table.detected.insert(0, format.words().to_owned());

@@ -1,9 +1,9 @@
-//! Telling formats apart by the first bytes of a file.
+//! Recognises the format of a file by its first bytes.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 
-/// The formats that are told apart.
+/// The formats that are recognised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Format {
     Matlab4,
@@ -12,13 +12,13 @@ pub(crate) enum Format {
     Npy,
     Npz,
     Parquet,
-    /// Known, not read, and what to do instead.
+    /// A known format that is not read, and what to do instead.
     Foreign(&'static str, &'static str),
     Text,
 }
 
 impl Format {
-    /// What a person calls it.
+    /// Its usual name.
     pub(crate) fn words(self) -> &'static str {
         match self {
             Format::Matlab4 => "MATLAB version 4",

@@ -1,4 +1,4 @@
-//! A recording as it stands in its file: named columns of plain numbers, nothing converted.
+//! A recording as it is in its file: named columns of plain numbers, nothing converted.
 
 /// One numeric column of a recording, in the unit of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,11 +28,11 @@ pub struct Scalar {
 pub struct Table {
     /// Columns in file order.
     pub columns: Vec<Column>,
-    /// Numbers that stand alone in the file.
+    /// Single numbers in the file.
     pub scalars: Vec<Scalar>,
     /// Sample time in seconds where the file states one apart from a time column.
     pub sample_time: Option<f64>,
-    /// What was detected, for people: `separator TAB`, `decimal comma`, `3 preamble lines`.
+    /// What was detected, in words: `separator TAB`, `decimal comma`, `3 preamble lines`.
     pub detected: Vec<String>,
     /// What was present and left out, and why: `phase_name: text`.
     pub skipped: Vec<String>,

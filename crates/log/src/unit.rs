@@ -9,14 +9,14 @@
 //! * The longest known symbol wins: `min` is a minute, `mm` a millimetre, `m` alone a metre.
 //! * A force or mass symbol directly before a length is a product (`Nm`, `mNm`, `kgcm2`); nothing
 //!   else runs together, so `Nms` is refused and `N m s` is understood.
-//! * After a division, a further factor needs a sign or brackets: `N/m s` is refused, `N s/m` and
+//! * After a division, a further factor needs an operator or brackets: `N/m s` is refused, `N s/m` and
 //!   `N/(m s)` are understood, `a/b/c` divides twice.
 //! * `1/min`, `min-1`, `U/min` and `r/min` are revolutions a minute, as drives mean them; `1/s` is
 //!   a plain rate, not a speed.
 //! * Angle and encoder counts are dimensions of their own, so a torque over a velocity is not
 //!   mistaken for something linear, and `1 um/count` says what it says.
-//! * `Arms` and `Apk` are amperes with a note: amplitude conventions differ by sqrt(2), and a
-//!   torque constant must be in the same one.
+//! * `Arms` and `Apk` are amperes with a note: rms and peak differ by sqrt(2), and a
+//!   torque constant must use the same convention.
 
 mod dimension;
 mod near;
@@ -31,7 +31,7 @@ pub(crate) use near::nearest;
 use std::fmt;
 pub use value::Value;
 
-/// Longest unit text that is looked at, in characters; longer is refused.
+/// Longest text of a unit in characters; longer ones are refused.
 pub const MAX_UNIT_CHARS: usize = 64;
 
 /// A unit of measurement: how it was written, its dimension and its factor to SI.

@@ -4,10 +4,10 @@ use crate::sos::{Section, Sos};
 use crate::{SignalError, check};
 use core::f64::consts::PI;
 
-/// The cut-off may come this close to 0 and to the Nyquist frequency, as a fraction of the latter.
-/// Below it the rounding of the coefficients moves the poles by more than 1e-7 of their distance
+/// Least distance of the cut-off from 0 and from the Nyquist frequency, as a fraction of the latter.
+/// Closer to them the rounding of the coefficients moves the poles by more than 1e-7 of their distance
 /// from the unit circle.
-const MARGIN: f64 = 1e-5;
+const MIN_CUTOFF_MARGIN: f64 = 1e-5;
 
 impl Sos {
     /// Butterworth low-pass filter of `order` 1 to 8 for signals sampled at `rate` Hz, with a gain
@@ -73,7 +73,10 @@ fn design(order: usize, cutoff: f64, rate: f64, zeros: Zeros) -> Result<Sos, Sig
     }
     check::positive("sample rate in Hz", rate)?;
     let nyquist = 0.5 * rate;
-    let (lowest, highest) = (MARGIN * nyquist, (1.0 - MARGIN) * nyquist);
+    let (lowest, highest) = (
+        MIN_CUTOFF_MARGIN * nyquist,
+        (1.0 - MIN_CUTOFF_MARGIN) * nyquist,
+    );
     if !(lowest..=highest).contains(&cutoff) {
         return Err(SignalError::Parameter {
             parameter: "cut-off frequency in Hz",

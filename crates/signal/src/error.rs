@@ -1,4 +1,4 @@
-//! What can be wrong with a signal or a setting.
+//! Errors of signals and settings.
 
 use thiserror::Error;
 
@@ -13,13 +13,13 @@ pub enum SignalError {
         parameter: &'static str,
         /// The value given.
         found: f64,
-        /// The range that works.
+        /// The allowed range.
         allowed: String,
     },
     /// The signal has fewer samples than the operation needs.
     #[error("{operation} needs at least {needed} samples, found {found}")]
     TooShort {
-        /// What was asked for.
+        /// The operation.
         operation: &'static str,
         /// Samples given.
         found: usize,
@@ -27,7 +27,7 @@ pub enum SignalError {
         needed: usize,
     },
     /// Two signals that belong together differ in length.
-    #[error("{signal} has {found} samples where {expected} belong")]
+    #[error("{signal} has {found} samples, expected {expected}")]
     LengthMismatch {
         /// The signal that differs.
         signal: &'static str,

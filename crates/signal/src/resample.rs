@@ -2,9 +2,12 @@
 
 use crate::{SignalError, check};
 
-/// Most grid samples for each sample of the input, so that a stray time stamp cannot ask for more
-/// memory than there is.
+/// Most grid samples for each sample of the input, so that a stray time stamp cannot exhaust
+/// the memory.
 const MAX_EXPANSION: f64 = 64.0;
+/// How far the last grid point may lie beyond the last time stamp, in grid steps: rounding of the time stamps. It then
+/// takes the value of the last sample.
+const GRID_ROUNDING: f64 = 1e-6;
 
 /// Values at the instants `at`, s, on the straight lines between the samples taken at `times`, s;
 /// before the first and after the last sample, their values. Equal to
@@ -46,9 +49,7 @@ pub fn resample_uniform(times: &[f64], signal: &[f64], rate: f64) -> Result<Vec<
             allowed: format!("at most {} for these {} samples", most / span, times.len()),
         });
     }
-    // The last grid point may miss the last time stamp by rounding: a millionth of a step counts
-    // as reached, and takes the last sample's value.
-    let steps = (span * rate + 1e-6).floor() as usize;
+    let steps = (span * rate + GRID_ROUNDING).floor() as usize;
     Ok(on_lines(
         times,
         signal,

@@ -3,12 +3,12 @@
 use crate::orthogonal::Gram;
 use crate::{SignalError, check};
 
-/// Highest degree: the recurrence of the polynomials is accurate to 1e-12 up to here.
+/// Highest degree of the polynomials: up to it their recurrence is accurate to 1e-12.
 const MAX_DEGREE: usize = 12;
 
 /// A sliding least-squares polynomial (Savitzky and Golay 1964): each sample becomes the value or
 /// a derivative of the polynomial fitted to the window around it. Near the ends the first and last
-/// full windows are evaluated off their middle.
+/// full windows are evaluated away from their middle.
 ///
 /// Equal to `scipy.signal.savgol_filter(..., mode="interp")` for odd windows.
 ///

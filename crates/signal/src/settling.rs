@@ -1,13 +1,15 @@
-//! How far a filter reaches.
+//! The settling time of a filter.
 
 use crate::cascade::{Cascade, for_each_length};
 use crate::sos::Sos;
 
-/// Part of the impulse response that may lie beyond the settling time.
-const LEFT: f64 = 1e-3;
+/// Fraction of the absolute sum of the impulse response that may come after the settling time.
+const SETTLED_WITHIN: f64 = 1e-3;
 
-/// Where the impulse response is cut off in any case.
-const LONGEST: usize = 1 << 26;
+/// Logarithm of the envelope r^n, per section to allow for repeated poles, at which the impulse response has ended: 1e-9.
+const ENVELOPE_LOGARITHM: f64 = -21.0;
+/// Longest impulse response that is computed, in samples.
+const MAX_SAMPLES: usize = 1 << 26;
 
 impl Sos {
     /// Samples at each end that the unknown signal beyond the end can affect.
@@ -23,20 +25,19 @@ impl Sos {
             .iter()
             .map(|s| s.pole_radius())
             .fold(0.0, f64::max);
-        // Where an envelope r^n, with room for repeated poles, is below 1e-9.
-        let factor = -21.0 * self.sections().len() as f64;
+        let factor = ENVELOPE_LOGARITHM * self.sections().len() as f64;
         let end = if radius > 0.0 {
             factor / libm::log(radius)
         } else {
             2.0
         };
-        let end = (end.ceil() as usize).clamp(2 * self.sections().len() + 1, LONGEST);
+        let end = (end.ceil() as usize).clamp(2 * self.sections().len() + 1, MAX_SAMPLES);
         let total: f64 = self.impulse_response(end).map(f64::abs).sum();
         let mut left = total;
         self.impulse_response(end)
             .position(|h| {
                 left -= h.abs();
-                left <= LEFT * total
+                left <= SETTLED_WITHIN * total
             })
             .map_or(end, |index| index + 1)
     }

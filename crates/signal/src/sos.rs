@@ -44,7 +44,7 @@ pub struct Sos {
     sections: Vec<Section>,
 }
 
-/// Most sections a filter may have: order 8.
+/// Most sections of a filter: order 8.
 pub(crate) const MAX_SECTIONS: usize = 4;
 
 impl Sos {
@@ -71,7 +71,7 @@ impl Sos {
                 });
             }
             let [a1, a2] = section.a;
-            // The triangle of stability.
+            // The stability triangle.
             if !(a2 < 1.0 && a1.abs() < 1.0 + a2) {
                 return Err(SignalError::Parameter {
                     parameter: "pole radius of a section",

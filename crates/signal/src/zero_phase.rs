@@ -8,7 +8,7 @@ impl Sos {
     /// The signal filtered forward and backward: no delay at any frequency, and the gain squared.
     ///
     /// Equal to `scipy.signal.sosfiltfilt` with its defaults: beyond each end the signal is
-    /// continued by [`padding`](Self::padding) samples turned about the end point (odd extension),
+    /// continued by [`padding`](Self::padding) samples rotated about the end point (odd extension),
     /// and each pass starts as if its first value had been there for ever. What lies beyond the
     /// ends is thus a guess, which [`settling_samples`](Self::settling_samples) bounds.
     ///
@@ -100,19 +100,19 @@ impl<const S: usize> Pass<S> {
     fn run<const L: usize>(&self, columns: &mut [&mut [f64]; L]) {
         let length = columns[0].len();
         let mut columns: [&mut [f64]; L] = columns.each_mut().map(|column| &mut column[..length]);
-        let turned = |columns: &[&mut [f64]; L], end: usize, inside: usize| {
+        let rotated = |columns: &[&mut [f64]; L], end: usize, inside: usize| {
             core::array::from_fn(|l| 2.0 * columns[l][end] - columns[l][inside])
         };
         let mut cascade = Cascade::<S, L>::new(self.sections);
 
         // The continuation at the start only prepares the state: the backward pass ends before it.
-        cascade.settle(&self.state, turned(&columns, 0, self.padding));
+        cascade.settle(&self.state, rotated(&columns, 0, self.padding));
         for inside in (1..=self.padding).rev() {
-            cascade.step(turned(&columns, 0, inside));
+            cascade.step(rotated(&columns, 0, inside));
         }
         let last = length - 1;
         let mut beyond: Vec<[f64; L]> = (1..=self.padding)
-            .map(|k| turned(&columns, last, last - k))
+            .map(|k| rotated(&columns, last, last - k))
             .collect();
         for n in 0..length {
             let output = cascade.step(core::array::from_fn(|l| columns[l][n]));

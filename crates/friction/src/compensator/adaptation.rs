@@ -1,4 +1,4 @@
-//! The level of friction corrected while running.
+//! Adaptation of the friction level while running.
 
 use crate::error::require;
 use crate::{ParamError, Real};
@@ -31,7 +31,7 @@ impl<T: Real> Adaptation<T> {
     #[inline]
     pub(super) fn step(&self, level: T, h: T, error: T, force: T) -> T {
         let next = level + h * self.rate * error * force;
-        // A product that overflows to something that is not a number moves nothing.
+        // A product that overflows to NaN changes nothing.
         let next = if next.is_finite() { next } else { level };
         next.max(T::ONE - self.range).min(T::ONE + self.range)
     }

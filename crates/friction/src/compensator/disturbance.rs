@@ -3,9 +3,9 @@
 use crate::{ParamError, Real};
 
 /// The disturbance observer of first order: `d = Q(u) - M s Q(v)` with `Q = w/(s + w)`, u the force applied, v the
-/// measured velocity, M the nominal mass (Sariyildiz, Ohnishi 2015, doi 10.1109/TIE.2014.2327009). To be started at rest.
+/// measured velocity, M the nominal mass (Sariyildiz, Ohnishi 2015, doi 10.1109/TIE.2014.2327009). It has to be started at rest.
 ///
-/// It needs no model of friction and no reference, and acts after the fact: what is faster than its bandwidth passes.
+/// It needs neither a friction model nor a reference, but acts with a delay: disturbances above its bandwidth pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DisturbanceObserver<T> {
     mass: T,
@@ -14,7 +14,7 @@ pub struct DisturbanceObserver<T> {
     limit: T,
 }
 
-/// What a disturbance observer remembers.
+/// The state of a disturbance observer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DisturbanceState<T> {
     /// `Q(u + M w v)`, N (N m).

@@ -1,4 +1,4 @@
-//! Which law, and which velocity drives it.
+//! The law of a compensator, and the velocity that drives it.
 
 use super::Input;
 use crate::error::require;
@@ -12,7 +12,7 @@ pub enum Friction<T> {
     Coulomb(CoulombViscous<T>),
     /// The steady curve.
     Stribeck(Stribeck<T>),
-    /// Bristles: the force also while the axis turns round.
+    /// With bristles: right in presliding too, while the axis reverses.
     LuGre(LuGre<T>),
 }
 
@@ -89,8 +89,8 @@ impl<T: Real> Friction<T> {
     }
 
     /// Advances the observer's correction c (m, rad) by `h` seconds at the velocity `v`, with `c' = pull - sigma0 |v| c/g`,
-    /// and returns the force that it adds; sigma0 c stays within `limit`. The law is linear in z: law and correction
-    /// together are the observer, and the law's own deflection keeps its bound.
+    /// and returns the force that it adds; sigma0 c stays within `limit`. Since the law is linear in z, law and
+    /// correction together are the observer, and the law's own deflection keeps its bound.
     pub(super) fn correct(&self, c: &mut T, h: T, v: T, pull: T, limit: T) -> T {
         let Friction::LuGre(law) = self else {
             return T::ZERO;

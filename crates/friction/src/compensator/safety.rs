@@ -1,4 +1,4 @@
-//! From the law's force to the one that is let through.
+//! From the law's force to the force that is applied.
 
 use super::{Settings, State};
 use crate::Real;
@@ -10,7 +10,7 @@ impl<T: Real> Settings<T> {
         state.share = self.ramped(state.share, h, on);
         let force = state.share * wanted;
         let force = force.max(-self.limit).min(self.limit);
-        // h times the slew limit may be infinite: then there is none.
+        // h times the slew limit may be infinite: then there is no limit.
         let most = h * self.slew;
         let change = force - state.output;
         state.output = if change.abs() <= most {

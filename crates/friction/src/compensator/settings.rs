@@ -1,4 +1,4 @@
-//! What a compensator is allowed to do.
+//! Settings and limits of a compensator.
 
 use super::{Adaptation, Watchdog};
 use crate::error::require;
@@ -11,19 +11,19 @@ pub struct Settings<T> {
     pub cycle_time: T,
     /// Share of the friction that is compensated, 0 to 1.
     pub gain: T,
-    /// Speeds up to this count as standstill, >= 0, m/s (rad/s): bristles keep their deflection. For a measured velocity
-    /// that is never quite 0; half an encoder step a cycle does.
+    /// Speeds up to this count as standstill, >= 0, m/s (rad/s): bristles keep their deflection. For measured velocities, which
+    /// are never quite 0; half an encoder step per cycle is enough.
     pub dead_zone: T,
     /// Largest force either way, > 0, N (N m).
     pub limit: T,
-    /// Fastest change of the force, > 0, N/s (N m/s); the largest number is no limit.
+    /// Fastest change of the force, > 0, N/s (N m/s); the largest number means no limit.
     pub slew: T,
     /// Time in which the share that is let through goes from 0 to 1, >= 0, s: so the force comes in when enabled, goes when
     /// not, and follows a change of the gain.
     pub ramp: T,
     /// Correction of the friction level while running.
     pub adaptation: Option<Adaptation<T>>,
-    /// Switches off what makes tracking worse.
+    /// Switches the compensation off where it makes tracking worse.
     pub watchdog: Option<Watchdog<T>>,
 }
 
@@ -31,9 +31,9 @@ impl<T: Real> Settings<T> {
     /// Settings to start with, for a cycle time (s) and a largest force (N, N m): gain .75, no dead zone, no slew limit, a
     /// ramp of 50 ms, the watchdog on.
     ///
-    /// With a gain of .75 parameters that are 30 % too large still compensate too little. That is the side to be on: a
-    /// force beyond the friction there is breaks an axis away that would stand, and where the loop is slow against the
-    /// motion it is then worse off than without. With parameters known to some percent, take 1.
+    /// With a gain of .75 even parameters that are 30 % too large undercompensate. That is the safe side: a force above
+    /// the actual friction sets an axis in motion that should stand, and where the loop is slow compared with the
+    /// motion tracking is then worse than without. With parameters known to a few percent take 1 (decision 0020).
     pub fn new(cycle_time: T, limit: T) -> Self {
         Settings {
             cycle_time,
@@ -47,7 +47,7 @@ impl<T: Real> Settings<T> {
         }
     }
 
-    /// The whole force at once and nothing that could hold it back but the limit: for studies with exact parameters.
+    /// The full force at once, with no limit but `limit`: for studies with exact parameters.
     pub fn bare(cycle_time: T, limit: T) -> Self {
         Settings {
             gain: T::ONE,

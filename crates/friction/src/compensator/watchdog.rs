@@ -3,26 +3,31 @@
 use super::Input;
 use crate::{ParamError, Real};
 
+/// Largest single error with compensation that is allowed, over `ratio` times the largest one without (decision 0035).
+const PEAK_ALLOWANCE: f64 = 1.5;
+/// Length of a window in which the reference does not reverse, in [`Watchdog::window`]s.
+const WINDOWS_WITHOUT_REVERSAL: f64 = 10.0;
+
 /// Compares the tracking error with and without compensation and switches off, until a reset, where it is larger with:
 /// its mean square over a window, or any one error beyond one and a half times the largest without.
 ///
-/// A window goes from one turn of the reference to another of the same sense, over two strokes, four and so on, so that
-/// windows hold the same: what happens at the reversals, and each stroke there and back. Where the reference does not turn,
-/// it ends after ten times as long. The watchdog first lets the axis move for a
+/// A window goes from one reversal of the reference to another in the same sense, over two strokes, four and so on, so that
+/// all windows contain the same: the same reversals, and as many strokes each way. Where the reference does not reverse,
+/// a window ends after ten times its length. The watchdog first lets the axis move for a
 /// window without compensation to learn what is normal, and learns again whenever no force is added, be it that
 /// compensation is not enabled or that the gain is 0. The first window after the gain has been reached is not judged:
-/// a force that comes in disturbs the controller, which had carried the friction itself. Only time in which the reference
-/// moves counts, and with compensation only time in which a force is added. A window is to hold a cycle of the motion;
-/// before a motion of another kind, disable for a window or reset.
+/// the incoming force disturbs the controller, whose integrator had carried the friction. Only time in which the reference
+/// moves counts, and with compensation only time in which a force is added. A window should hold a cycle of the motion;
+/// before a motion of another kind, disable the compensation for a window or reset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Watchdog<T> {
-    /// Moving time that is compared, > 0, s; at least that of two reversals.
+    /// Moving time that is compared, > 0, s; it should hold at least two reversals.
     pub window: T,
-    /// Largest allowed error with compensation over that without, > 0.
+    /// Largest allowed rms error with compensation over that without, > 0.
     pub ratio: T,
 }
 
-/// What a watchdog remembers.
+/// The state of a watchdog.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Watch<T> {
     /// Integral of the squared error over the present window, m^2 s (rad^2 s).
@@ -31,8 +36,8 @@ pub struct Watch<T> {
     pub peak: T,
     /// Moving time in the present window, s.
     pub time: T,
-    /// Turns of the reference in the present window with that of its beginning: 1, 2, 3, and from then on 2 and 3 in turn,
-    /// 3 being of the sense of the first; 0: it began elsewhere.
+    /// Reversals of the reference in the present window, the one at its beginning included: 1, 2, 3, and from then on 2 and 3
+    /// alternately, 3 being in the sense of the first; 0: the window did not begin at a reversal.
     pub turns: u8,
     /// The reference moved in the positive direction last.
     pub forward: bool,
@@ -76,7 +81,7 @@ impl<T: Real> Default for Watch<T> {
 }
 
 impl<T: Real> Watch<T> {
-    /// Whether it lets the compensation on: it knows the error without, and has not switched off.
+    /// Whether the compensation may be on: the error without it is known, and the watchdog has not tripped.
     #[inline]
     pub fn allows(&self) -> bool {
         self.without >= T::ZERO && !self.tripped
@@ -95,8 +100,8 @@ impl<T: Real> Watchdog<T> {
         ParamError::positive("watchdog_ratio", self.ratio)
     }
 
-    /// Counts a sample of `h` seconds that began with a `share` of the friction, of the share `gain` that is wanted, let
-    /// through as `output`.
+    /// Counts a sample of `h` seconds that began with a `share` of the friction applied, of the wanted share `gain`, and gave
+    /// the force `output`.
     #[inline]
     pub(super) fn step(
         &self,
@@ -108,7 +113,7 @@ impl<T: Real> Watchdog<T> {
         let off = share == T::ZERO && output == T::ZERO;
         let on = share == gain && share > T::ZERO;
         if !(off || on) || on != watch.with {
-            // Coming, going or changing: a window belongs to one side and one gain only.
+            // While the force ramps up, down or to another gain: a window belongs to one side and one gain only.
             watch.clear();
             (watch.with, watch.judged) = (on, false);
         }
@@ -123,19 +128,19 @@ impl<T: Real> Watchdog<T> {
             if watch.turns == 0 {
                 watch.clear();
             }
-            // After the third, which turns as the first did, comes one like the second.
+            // After the third reversal, which has the sense of the first, comes one like the second.
             watch.turns = if watch.turns == 3 { 2 } else { watch.turns + 1 };
         }
         let error = input.tracking_error.abs();
         watch.sum = watch.sum + error * error * h;
         watch.peak = watch.peak.max(error);
         watch.time = watch.time + h;
-        let far = T::from_f64(1.5) * self.ratio * watch.peak_without;
+        let far = T::from_f64(PEAK_ALLOWANCE) * self.ratio * watch.peak_without;
         if watch.judged && error > far {
             watch.tripped = true;
         }
         let whole = turned && watch.turns == 3 && watch.time >= self.window;
-        if !(whole || watch.time >= T::from_f64(10.0) * self.window) {
+        if !(whole || watch.time >= T::from_f64(WINDOWS_WITHOUT_REVERSAL) * self.window) {
             return;
         }
         let mean_square = watch.sum / watch.time;

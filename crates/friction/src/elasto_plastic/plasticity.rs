@@ -85,7 +85,7 @@ impl<T: Real> Plasticity<T> {
         // e after a part of the path at the pull m, and its derivative.
         let after = |part: T, m: (T, T)| {
             let fall = (-(part * a * m.0)).exp();
-            // A vanished e has a vanished derivative; computing it could be 0 times infinity.
+            // Where e is 0 so is its derivative; computing it could be 0 times infinity.
             if fall == T::ZERO {
                 return (T::ZERO, T::ZERO);
             }

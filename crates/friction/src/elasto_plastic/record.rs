@@ -15,7 +15,7 @@ impl<T: Real> ElastoPlastic<T> {
     /// result, is a convex combination of `z` and the steady deflections at both ends, so `|z| <= bound()` is kept for
     /// every stiffness and step. Where the velocity changes sign the interval is split at its zero.
     ///
-    /// `h <= 0` leaves `z` as it is; a NaN in `va` or `vb` gives NaN (a record is to be cleaned before, not here).
+    /// `h <= 0` leaves `z` as it is; a NaN in `va` or `vb` gives NaN (records have to be cleaned before).
     #[inline]
     pub fn step_record(&self, z: T, h: T, va: T, vb: T) -> T {
         let rises = va < T::ZERO && vb > T::ZERO;
@@ -51,7 +51,7 @@ impl<T: Real> ElastoPlastic<T> {
         }
     }
 
-    /// Change of the deflection over a way, both counted in the direction of motion.
+    /// Change of the deflection over a distance, both counted in the direction of motion.
     #[inline]
     pub(super) fn along(&self, start: T, mut way: Way<T>) -> T {
         let (begin, end) = (self.breakaway * way.from, self.breakaway * way.to);
@@ -67,11 +67,11 @@ impl<T: Real> ElastoPlastic<T> {
             z = self.breakaway * way.from;
         }
         if z >= way.from && way.to <= way.from {
-            // Beyond the steady deflection all along: LuGre, every stage would say 1.
+            // Beyond the steady deflection throughout: LuGre, the pull would be 1 in every stage.
             return (z - start) + way.change(z, T::ONE, T::ONE);
         }
         let half = T::from_f64(0.5);
-        // The pull after a part of the way, if it was `m` on that part.
+        // The pull after a part of the distance, if it was `m` on that part.
         let pull = |part: T, m: T| {
             let steady = way.from + part * (way.to - way.from);
             let z = z + way.change(z, part, m);
@@ -92,17 +92,17 @@ pub(super) struct Way<T> {
     pub path: T,
     /// The integral of `sigma0 |v|/g`.
     pub stretched: T,
-    /// Steady deflection at its begin, m (rad).
+    /// Steady deflection at its beginning, m (rad).
     pub from: T,
     /// Steady deflection at its end, m (rad).
     pub to: T,
 }
 
 impl<T: Real> Way<T> {
-    /// Change of the deflection over a part of the way at the pull `m`.
+    /// Change of the deflection over a part of the distance at the pull `m`.
     #[inline]
     fn change(&self, z: T, part: T, m: T) -> T {
-        // Also keeps 0 times infinity out of the exponent.
+        // This also avoids 0 times infinity in the exponent.
         if part == T::ZERO {
             return T::ZERO;
         }

@@ -47,7 +47,7 @@ impl<T: Real, const N: usize> Gms<T, N> {
                 + if !to.slips[i] {
                     element.stiffness * h
                 } else {
-                    // Having reached the limit inside the step it stands on it; else it is on its way there.
+                    // Where it has reached the limit inside the step it stays there; else it still approaches it.
                     let gap = if slipped || start > limit {
                         start - limit
                     } else {
@@ -55,7 +55,7 @@ impl<T: Real, const N: usize> Gms<T, N> {
                     };
                     let a = h * (self.attraction / g);
                     let left = (-a).exp();
-                    // Where nothing is left, neither is its derivative; a may be infinite there.
+                    // Where nothing is left, the derivative is 0 too; a may be infinite there.
                     let by_pull = if left == T::ZERO || gap == T::ZERO {
                         T::ZERO
                     } else {

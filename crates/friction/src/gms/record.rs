@@ -13,7 +13,7 @@ impl<T: Real, const N: usize> Gms<T, N> {
     /// interval, by the exponential of the interval's `integral of C/g` with its limit running linearly. Where the
     /// velocity changes sign the interval is split at its zero, and there all elements stick. Exact for a held velocity.
     ///
-    /// `h <= 0` leaves the elements as they are; a NaN in `va` or `vb` gives NaN (a record is to be cleaned before).
+    /// `h <= 0` leaves the elements as they are; a NaN in `va` or `vb` gives NaN (records have to be cleaned before).
     pub fn step_record(&self, from: Elements<T, N>, h: T, va: T, vb: T) -> Elements<T, N> {
         if h <= T::ZERO {
             return from;
@@ -67,9 +67,9 @@ impl<T: Real, const N: usize> Gms<T, N> {
 /// A stretch of motion in one direction: the same for all elements.
 struct Run<T> {
     h: T,
-    /// Speed at begin and end.
+    /// Speed at the beginning and the end.
     speed: (T, T),
-    /// Friction level at begin and end.
+    /// Friction level at the beginning and the end.
     level: (T, T),
     attraction: T,
 }
@@ -84,7 +84,7 @@ impl<T: Real> Run<T> {
         match self.breaks(element, force) {
             Err(end) => (end, false),
             Ok(theta) => {
-                // Beyond its limit already where that fell, or where the other direction bears more.
+                // Beyond its limit already where the limit fell, or where the other direction carries more.
                 let limit = element.share * self.level_at(theta);
                 let start = if theta > T::ZERO { limit } else { force };
                 (self.slip(element, start, theta), true)
@@ -119,7 +119,7 @@ impl<T: Real> Run<T> {
         } else {
             (root - b) / (T::from_f64(2.0) * a)
         };
-        // A jump beyond the range of numbers breaks at once; rounding may miss the end by a bit.
+        // A jump beyond the range of numbers slips at once; rounding may miss the end by a bit.
         Ok(if theta.is_finite() {
             theta.max(T::ZERO).min(T::ONE)
         } else {
@@ -131,7 +131,7 @@ impl<T: Real> Run<T> {
     #[inline]
     fn slip(&self, element: &Element<T>, force: T, theta: T) -> T {
         let rest = (T::ONE - theta) * self.h;
-        // Also keeps 0 times infinity out of the exponent.
+        // This also avoids 0 times infinity in the exponent.
         if rest <= T::ZERO {
             return force;
         }

@@ -3,13 +3,13 @@
 use super::Values;
 use crate::{Column, Error, Kind, Limits, Scalar, Table};
 
-/// Variables, fields and cells that one file may hold.
+/// Most variables, fields and cells in one file; far more than any recording has.
 const MAX_ENTRIES: usize = 65_536;
 
-/// Columns of one matrix; a wider one has its signals in rows, or is no recording.
+/// Most columns of one matrix; a wider one has its signals in rows, or is not a recording.
 const MAX_MATRIX_COLUMNS: u64 = 1024;
 
-/// Which index of a matrix runs fastest in the file.
+/// Which index of a matrix varies fastest in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Order {
     /// The last one, as in C and Python.
@@ -47,7 +47,7 @@ impl Layout {
                     columns: wide,
                 },
                 _ => Layout::Skip(format!(
-                    "{rows} x {columns} matrix: signals stand in columns, at most \
+                    "{rows} x {columns} matrix: each signal has to be a column, and there are at most \
                      {MAX_MATRIX_COLUMNS} of them"
                 )),
             },

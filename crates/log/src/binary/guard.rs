@@ -19,7 +19,7 @@ pub(crate) fn guard<T>(format: &str, read: impl FnOnce() -> Result<T, Error>) ->
             .unwrap_or_default();
         Err(Error::new(
             Kind::Format,
-            format!("the {format} decoder gave up on this file ({why})"),
+            format!("the {format} decoder failed on this file ({why})"),
             "write the file again, or in another format",
         ))
     })

@@ -125,11 +125,12 @@ pub(crate) fn read_numbers(
     count: u64,
     out: &mut Values,
 ) -> io::Result<()> {
-    const NUMBERS: usize = 8192;
-    let mut buffer = vec![0; NUMBERS * number.width()];
+    // 64 KiB of doubles: large enough that the calls do not count, small enough for the cache.
+    const BATCH_NUMBERS: usize = 8192;
+    let mut buffer = vec![0; BATCH_NUMBERS * number.width()];
     let mut left = count;
     while left > 0 {
-        let now = left.min(NUMBERS as u64) as usize;
+        let now = left.min(BATCH_NUMBERS as u64) as usize;
         let bytes = &mut buffer[..now * number.width()];
         reader.read_exact(bytes)?;
         number.decode(bytes, out);

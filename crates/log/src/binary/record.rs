@@ -20,7 +20,7 @@ pub(crate) enum Cell {
     Other(String),
 }
 
-/// Bytes of one record; far more than any recording needs, and what one read buffer may take.
+/// Most bytes of one record: the size of one read buffer, and far more than any recording needs.
 const MAX_BYTES: usize = 1 << 20;
 
 /// The layout of one record.

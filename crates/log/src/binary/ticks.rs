@@ -31,10 +31,10 @@ pub(crate) fn seconds(ticks: &[Option<i64>], period: Period, clock: Clock) -> (V
         .collect();
     let done = match clock {
         Clock::Epoch => format!(
-            "time stamps, as seconds from the first ({first} x {}/{} s after 1970-01-01)",
+            "time stamps, converted to seconds from the first ({first} x {}/{} s after 1970-01-01)",
             period.times, period.over
         ),
-        Clock::Duration => "durations, as seconds".to_owned(),
+        Clock::Duration => "durations, converted to seconds".to_owned(),
     };
     (values, done)
 }

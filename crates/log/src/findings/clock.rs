@@ -1,18 +1,17 @@
 //! Gaps and jitter of the time stamps, which are increasing by now.
 
-use super::{Finding, Severity, count, median, place, short};
+use super::{
+    Finding, MAX_BRIDGED_SAMPLES, MISSING_SHARE_FOR_WARNING, Severity, count, median, place, short,
+};
 use crate::log::{Gap, Log};
 use stiction_codes::Code;
 use stiction_number::Percent;
 
-/// A step above this many median steps misses a sample.
-const GAP_STEPS: f64 = 1.5;
-/// More missing samples than this in one gap split the record: nothing sensible bridges them.
-pub(crate) const SPLIT_MISSING: usize = 5;
-/// Share of missing samples above which gaps are a warning.
-const MANY_MISSING: f64 = 0.01;
-/// Rms of the time step against its median: worth a note, and a warning.
+/// Time step from which on samples are missing in it, in median time steps.
+const MIN_GAP_STEPS: f64 = 1.5;
+/// Rms deviation of the time step from its median, as a fraction of the median, above which there is a note ...
 const JITTER_NOTE: f64 = 0.01;
+/// ... and above which there is a warning.
 const JITTER_WARNING: f64 = 0.05;
 
 /// Finds the median step, the gaps, and the stretches between the long ones.
@@ -24,7 +23,7 @@ pub(super) fn gaps(log: &mut Log) {
     drop(steps);
     for (index, w) in log.time.windows(2).enumerate() {
         let seconds = w[1] - w[0];
-        if seconds > GAP_STEPS * step {
+        if seconds > MIN_GAP_STEPS * step {
             let missing = ((seconds / step).round() as usize).saturating_sub(1).max(1);
             log.gaps.push(Gap {
                 start_index: index,
@@ -36,7 +35,7 @@ pub(super) fn gaps(log: &mut Log) {
     let long: Vec<usize> = log
         .gaps
         .iter()
-        .filter(|g| g.missing_samples > SPLIT_MISSING)
+        .filter(|g| g.missing_samples > MAX_BRIDGED_SAMPLES)
         .map(|g| g.start_index + 1)
         .collect();
     log.split(&long);
@@ -51,7 +50,7 @@ pub(super) fn gaps(log: &mut Log) {
         .gaps
         .iter()
         .fold(0_usize, |sum, g| sum.saturating_add(g.missing_samples));
-    let many = missing as f64 > MANY_MISSING * log.time.len() as f64;
+    let many = missing as f64 > MISSING_SHARE_FOR_WARNING * log.time.len() as f64;
     let severity = if many || !long.is_empty() {
         Severity::Warning
     } else {
@@ -82,7 +81,7 @@ pub(super) fn jitter(log: &mut Log) {
     let (mut worst, mut at) = (0.0, 0);
     for (index, w) in log.time.windows(2).enumerate() {
         let off = (w[1] - w[0]) - step;
-        if off + step > GAP_STEPS * step {
+        if off + step > MIN_GAP_STEPS * step {
             continue;
         }
         squares += off * off;
@@ -104,7 +103,7 @@ pub(super) fn jitter(log: &mut Log) {
         Severity::Note
     };
     let message = format!(
-        "time steps are off their median of {} s by {} s rms ({}), at most {} s at {}",
+        "time steps deviate from their median of {} s by {} s rms ({}), at most {} s at {}",
         short(step),
         short(rms),
         Percent::error(100.0 * rms / step).short(),

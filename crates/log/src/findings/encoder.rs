@@ -1,27 +1,31 @@
-//! The steps in which the position moves, and jumps that no motion explains.
+//! Encoder steps, and jumps of the position that no motion explains.
 
 use super::{Finding, Severity, count, extremes, place, short};
 use crate::log::Log;
 use crate::mapping::Mapping;
 use stiction_codes::Code;
 
-/// A travel of fewer steps than this says little about presliding.
-const COARSE_STEPS: f64 = 50.0;
-/// A jump is above this share of the range ...
-const JUMP_OF_RANGE: f64 = 0.5;
-/// ... and this many times the mean step of the rest.
-const JUMP_OF_MEAN: f64 = 50.0;
-/// Smallest differences looked at: up to this many quanta.
-const SMALL: f64 = 20.5;
-/// At least so many small differences, each this near a whole number of quanta (rms).
-const MIN_SMALL: usize = 30;
-const NEAR_WHOLE: f64 = 0.1;
+/// Fewest encoder steps of the whole travel; with fewer presliding is hardly resolved.
+const MIN_TRAVEL_STEPS: f64 = 50.0;
+/// Least size of a jump of the position, as a fraction of its range ...
+const MIN_JUMP_SHARE_OF_RANGE: f64 = 0.5;
+/// ... and in mean steps between the other samples.
+const MIN_JUMP_IN_MEAN_STEPS: f64 = 50.0;
+/// Fewest other samples, so that there is a mean step to compare a jump with.
+const MIN_ORDINARY_STEPS: usize = 20;
+/// Largest difference between neighbouring samples from which the encoder step is estimated, in smallest differences.
+/// The half keeps whole multiples clear of the bound.
+const MAX_SMALL_DIFFERENCE: f64 = 20.5;
+/// Fewest such differences ...
+const MIN_SMALL_DIFFERENCES: usize = 30;
+/// ... and how far they may be from whole numbers of encoder steps, rms, in encoder steps.
+const MAX_RMS_OFF_WHOLE: f64 = 0.1;
 
-/// The step of a stepped signal, in its own unit; `None` where it is continuous or says too little.
-/// Samples where `skip` holds are left out.
+/// The quantum of a quantised signal, in its own unit; `None` where it is continuous or too short to tell.
+/// Samples where `skip` is true are left out.
 pub(super) fn quantum(values: &[f64], skip: &[bool]) -> Option<f64> {
     let (low, high) = extremes(values)?;
-    // Differences below the rounding of the numbers themselves are no steps.
+    // Differences below the rounding of the numbers themselves are not steps.
     let fuzz = 8.0 * f64::EPSILON * low.abs().max(high.abs());
     let steps = || {
         let pairs = values.windows(2).zip(skip.windows(2));
@@ -31,7 +35,7 @@ pub(super) fn quantum(values: &[f64], skip: &[bool]) -> Option<f64> {
             .filter(move |d| *d > fuzz)
     };
     let smallest = steps().min_by(f64::total_cmp)?;
-    let limit = SMALL * smallest;
+    let limit = MAX_SMALL_DIFFERENCE * smallest;
     let mut quantum = smallest;
     for _ in 0..3 {
         let (mut kd, mut kk) = (0.0, 0.0);
@@ -48,11 +52,11 @@ pub(super) fn quantum(values: &[f64], skip: &[bool]) -> Option<f64> {
         squares += (ratio - ratio.round()) * (ratio - ratio.round());
         seen += 1;
     }
-    let near = (squares / seen.max(1) as f64).sqrt() <= NEAR_WHOLE;
-    (seen >= MIN_SMALL && near && quantum > 0.0).then_some(quantum)
+    let near = (squares / seen.max(1) as f64).sqrt() <= MAX_RMS_OFF_WHOLE;
+    (seen >= MIN_SMALL_DIFFERENCES && near && quantum > 0.0).then_some(quantum)
 }
 
-/// Finds the step of the position, or takes the one that is stated.
+/// Estimates the encoder step, or takes the one that is given.
 pub(super) fn steps(log: &mut Log, mapping: &Mapping) {
     let Some(position) = &log.position else {
         return;
@@ -67,21 +71,21 @@ pub(super) fn steps(log: &mut Log, mapping: &Mapping) {
         .or_else(|| quantum(position, &log.skipped()));
     let Some(step) = log.quantum else { return };
     let source = if mapping.resolution.is_some() {
-        "as stated"
+        "as given"
     } else {
-        "as seen in the data"
+        "detected in the data"
     };
     let message = format!(
-        "position moves in steps of {} {unit} ({source}); its range of {} {unit} is {} steps",
+        "position is quantised in steps of {} {unit} ({source}); its range of {} {unit} is {} steps",
         short(step),
         short(range),
         short((range / step).round())
     );
     log.findings
         .push(Finding::new(Code::Quantisation, Severity::Note, message));
-    if range > 0.0 && range / step < COARSE_STEPS {
+    if range > 0.0 && range / step < MIN_TRAVEL_STEPS {
         let message = format!(
-            "the whole travel is {} steps of the position; presliding is hardly visible",
+            "the whole travel is {} encoder steps; presliding is hardly resolved",
             short((range / step).round())
         );
         log.findings.push(Finding::new(
@@ -100,7 +104,7 @@ pub(super) fn jumps(log: &mut Log) {
     let Some((low, high)) = extremes(position) else {
         return;
     };
-    let bound = JUMP_OF_RANGE * (high - low);
+    let bound = MIN_JUMP_SHARE_OF_RANGE * (high - low);
     let steps = || {
         position
             .windows(2)
@@ -121,15 +125,15 @@ pub(super) fn jumps(log: &mut Log) {
     let mean = small / smalls.max(1) as f64;
     let Some(&first) = jumps.first() else { return };
     // A record with few other samples has no usual step to compare with.
-    if bound <= JUMP_OF_MEAN * mean || smalls < 20 {
+    if bound <= MIN_JUMP_IN_MEAN_STEPS * mean || smalls < MIN_ORDINARY_STEPS {
         return;
     }
     let unit = log.motion.position().si_text();
     let size = (position[first + 1] - position[first]).abs();
     let message = format!(
-        "position jumps {} by more than half its range, first by {} {unit} after {}; if it starts \
-         again there, give that travel as wrap under [log] in axis.toml; the record is split at \
-         the jumps",
+        "position jumps {} by more than half its range, first by {} {unit} after {}; if the \
+         position wraps there, give that travel as wrap under [log] in axis.toml; the record is \
+         split at the jumps",
         count(jumps.len(), "time"),
         short(size),
         place(log, first)

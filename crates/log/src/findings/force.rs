@@ -1,4 +1,4 @@
-//! A force that is cut off, and a force whose sign is turned round.
+//! A force that saturates, and a force with the wrong sign.
 
 use super::{Finding, Severity, count, extremes, place, short};
 use crate::log::Log;
@@ -7,26 +7,32 @@ use std::ops::Range;
 use stiction_codes::Code;
 use stiction_number::Percent;
 
-/// Shortest stretch at an extreme that can be saturation, in samples.
-const MIN_FLAT: usize = 5;
-/// Entering or leaving a cut-off skips more than this many of the smallest steps; the crest of a
-/// stepped sine does not.
-const STEEP_STEPS: f64 = 1.5;
-/// Or the extremes hold this share of all samples of a signal with at least this many levels.
-const HELD_SHARE: f64 = 0.10;
-const LEVELS: f64 = 100.0;
-/// Net work below this share of the work in both directions is the wrong sign.
-const NEGATIVE_WORK: f64 = -0.3;
+/// Shortest constant stretch at the largest or smallest force that can be saturation, in samples.
+const MIN_FLAT_SAMPLES: usize = 5;
+/// Least step into or out of saturation, in smallest steps of the signal; at the crest of a quantised sine it is one.
+const MIN_STEPS_INTO_SATURATION: f64 = 1.5;
+/// Or the extremes hold at least this share of all samples ...
+const MIN_HELD_SHARE: f64 = 0.10;
+/// ... of a signal with at least this many quantisation levels.
+const MIN_LEVELS: f64 = 100.0;
+/// Share of a given limit from which on a sample is saturated: limits are stated in fewer digits than the force is logged.
+const SATURATED_SHARE_OF_LIMIT: f64 = 0.999;
+/// Net work over the sum of its magnitudes, below which the sign is wrong: friction as a force gives -1.
+const MIN_NET_WORK: f64 = -0.3;
+/// Largest net travel over the whole path of a motion to and fro.
+const MAX_NET_TRAVEL: f64 = 0.5;
 
-/// Finds stretches where the force is cut off and excludes them.
+/// Finds stretches where the force saturates and excludes them.
 pub(super) fn saturation(log: &mut Log, mapping: &Mapping) {
     let Some(force) = &log.force else { return };
     let (runs, limit) = match mapping.force_limit {
-        // One part in a thousand of slack: a limit is stated in fewer digits than it is logged.
-        Some(limit) => (runs_where(force, 1, |x| x.abs() >= 0.999 * limit), limit),
+        Some(limit) => {
+            let saturated = |x: f64| x.abs() >= SATURATED_SHARE_OF_LIMIT * limit;
+            (runs_where(force, 1, saturated), limit)
+        }
         None => match extremes(force) {
             Some((low, high)) if low < high => {
-                (cut_off(force, low, high), low.abs().max(high.abs()))
+                (saturated_runs(force, low, high), low.abs().max(high.abs()))
             }
             _ => return,
         },
@@ -36,7 +42,7 @@ pub(super) fn saturation(log: &mut Log, mapping: &Mapping) {
     };
     let samples: usize = runs.iter().map(Range::len).sum();
     let message = format!(
-        "force is cut off near {} {} for {} in {}, first from {}; these samples are excluded",
+        "force saturates near {} {} for {} in {}, first from {}; these samples are excluded",
         short(limit),
         log.force_unit,
         count(samples, "sample"),
@@ -51,14 +57,14 @@ pub(super) fn saturation(log: &mut Log, mapping: &Mapping) {
 }
 
 /// Flat stretches at the extremes of a signal that is not a staircase.
-fn cut_off(force: &[f64], low: f64, high: f64) -> Vec<Range<usize>> {
-    let at = |level: f64| runs_where(force, MIN_FLAT, move |x| x == level);
+fn saturated_runs(force: &[f64], low: f64, high: f64) -> Vec<Range<usize>> {
+    let at = |level: f64| runs_where(force, MIN_FLAT_SAMPLES, move |x| x == level);
     let (lows, highs) = (at(low), at(high));
     let held: usize = lows.iter().chain(&highs).map(Range::len).sum();
     if held == 0 {
         return Vec::new();
     }
-    // A commanded staircase rests on other levels as well; a signal that rests at 0 is switched off.
+    // A commanded staircase rests at other levels as well; a signal that rests at 0 is switched off.
     let elsewhere: usize = flat_elsewhere(force, low, high)
         .filter(|(x, _)| *x != 0.0)
         .map(|(_, n)| n)
@@ -74,12 +80,13 @@ fn cut_off(force: &[f64], low: f64, high: f64) -> Vec<Range<usize>> {
     };
     let smallest = steps().fold(f64::INFINITY, f64::min);
     let held_long =
-        held as f64 > HELD_SHARE * force.len() as f64 && (high - low) / smallest >= LEVELS;
+        held as f64 > MIN_HELD_SHARE * force.len() as f64 && (high - low) / smallest >= MIN_LEVELS;
     let steep = |run: &Range<usize>| {
         let enters = run.start > 0
-            && (force[run.start] - force[run.start - 1]).abs() > STEEP_STEPS * smallest;
+            && (force[run.start] - force[run.start - 1]).abs()
+                > MIN_STEPS_INTO_SATURATION * smallest;
         let leaves = run.end < force.len()
-            && (force[run.end] - force[run.end - 1]).abs() > STEEP_STEPS * smallest;
+            && (force[run.end] - force[run.end - 1]).abs() > MIN_STEPS_INTO_SATURATION * smallest;
         enters || leaves
     };
     // Zero as an extreme is a force that is off, or one that only ever pushes.
@@ -117,16 +124,16 @@ fn runs_where(values: &[f64], shortest: usize, test: impl Fn(f64) -> bool) -> Ve
 fn flat_elsewhere(force: &[f64], low: f64, high: f64) -> impl Iterator<Item = (f64, usize)> {
     force
         .chunk_by(|a, b| a == b)
-        .filter(move |run| run.len() >= MIN_FLAT && run[0] != low && run[0] != high)
+        .filter(move |run| run.len() >= MIN_FLAT_SAMPLES && run[0] != low && run[0] != high)
         .map(|run| (run[0], run.len()))
 }
 
 /// Compares work done along and against the motion: a force that drives an axis with friction
-/// feeds it. Only for motion to and fro, since a weight may well brake one way.
+/// puts energy in. Only for motion to and fro, since a weight may well brake one way.
 pub(super) fn sign(log: &mut Log) {
     let Some(force) = &log.force else { return };
     let gap = |sample| log.gap_after(sample);
-    let (mut net, mut gross, mut travel, mut way) = (0.0, 0.0, 0.0, 0.0);
+    let (mut net, mut gross, mut travel, mut path) = (0.0, 0.0, 0.0, 0.0);
     for i in 1..log.time.len() {
         let moved = match (&log.position, &log.velocity) {
             (Some(x), _) => x[i] - x[i - 1],
@@ -140,21 +147,20 @@ pub(super) fn sign(log: &mut Log) {
         net += work;
         gross += work.abs();
         travel += moved;
-        way += moved.abs();
+        path += moved.abs();
     }
-    if net < NEGATIVE_WORK * gross && travel.abs() < 0.5 * way {
-        let turned =
+    if net < MIN_NET_WORK * gross && travel.abs() < MAX_NET_TRAVEL * path {
+        let inverted =
             log.mapping.force.as_ref().is_some_and(|f| {
                 f.invert != f.scale.as_ref().is_some_and(|scale| scale.number < 0.0)
             });
-        let cure = if turned {
-            "its sign is turned round already (invert or a negative scale): take that back"
+        let cure = if inverted {
+            "the axis file inverts its sign already (invert or a negative scale): undo that"
         } else {
-            "if it is the friction rather than the drive force, set invert = true"
+            "if the column is the friction force rather than the driving force, set invert = true"
         };
         let message = format!(
-            "the force takes {} of the work it does out of the motion, as a force that opposes \
-             motion does; {cure}",
+            "the force brakes: its net work is -{} of all the work it does, as if it opposed the motion; {cure}",
             Percent::error(-100.0 * net / gross).short()
         );
         log.findings

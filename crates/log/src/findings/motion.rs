@@ -1,28 +1,30 @@
-//! Whether the motion can tell anything: too short, none, noise, one way, one speed.
+//! Whether the motion is informative: too short, none, noise, one direction, one speed.
 
 use super::{Finding, Severity, count, extremes, short};
 use crate::log::Log;
 use std::borrow::Cow;
 use stiction_codes::Code;
 
-/// Fewer samples than this cannot support an interval.
-const FEW: usize = 100;
-/// Positions within this many steps are rest: an encoder dithers between two counts.
-const REST_STEPS: f64 = 2.0;
-/// Neighbouring samples of a motion correlate above this; those of noise do not.
-const SMOOTH: f64 = 0.5;
-/// A way back counts from this share of the range, or this many steps.
-const BACK_OF_RANGE: f64 = 0.02;
-const BACK_STEPS: f64 = 3.0;
-/// One speed: mean velocities of this many windows differ by less than this share.
-const WINDOWS: usize = 50;
-const SPEED_SPREAD: f64 = 0.05;
+/// Fewest samples on which an interval can be based.
+const MIN_USEFUL_SAMPLES: usize = 100;
+/// Largest range of an axis at rest, in encoder steps: at rest an encoder may dither between two counts.
+const MAX_REST_STEPS: f64 = 2.0;
+/// Least correlation of neighbouring samples of a motion; that of noise is near 0.
+pub(super) const MIN_NEIGHBOUR_CORRELATION: f64 = 0.5;
+/// Least return travel that counts as motion in the other direction, as a fraction of the range ...
+const MIN_RETURN_SHARE_OF_RANGE: f64 = 0.02;
+/// ... and in encoder steps; the larger of the two.
+const MIN_RETURN_STEPS: f64 = 3.0;
+/// Windows whose mean velocities are compared to see whether the axis moves at one speed ...
+const SPEED_WINDOWS: usize = 50;
+/// ... and how much these may differ (largest less smallest), as a fraction of their mean.
+const MAX_SPEED_SPREAD: f64 = 0.05;
 
 pub(super) fn few_samples(log: &mut Log) {
     let samples = log.time.len();
-    if samples < FEW {
+    if samples < MIN_USEFUL_SAMPLES {
         let message = format!(
-            "{}; below {FEW} an identification means little",
+            "{}; with fewer than {MIN_USEFUL_SAMPLES} an identification means little",
             count(samples, "sample")
         );
         log.findings
@@ -49,7 +51,7 @@ fn judge(log: &Log) -> Vec<Finding> {
     let range = high - low;
     let step = log.quantum.unwrap_or(0.0);
     let unit = log.motion.position().si_text();
-    if range <= REST_STEPS * step {
+    if range <= MAX_REST_STEPS * step {
         let message = format!(
             "the axis does not move: {what} covers {} {unit}",
             short(range)
@@ -57,16 +59,22 @@ fn judge(log: &Log) -> Vec<Finding> {
         return vec![warning(Code::NoMotion, message)];
     }
     let judged = log.position.as_ref().or(log.velocity.as_ref());
-    if judged.is_some_and(|values| values.len() >= FEW / 2 && likeness(values) < SMOOTH) {
+    if judged.is_some_and(|values| {
+        values.len() >= MIN_USEFUL_SAMPLES / 2
+            && neighbour_correlation(values) < MIN_NEIGHBOUR_CORRELATION
+    }) {
         let message =
-            format!("{what} looks like noise: neighbouring samples have little in common");
+            format!("{what} looks like noise: neighbouring samples are hardly correlated");
         return vec![warning(Code::NoiseOnly, message)];
     }
     let mut found = Vec::new();
-    if !turns_back(&x, (BACK_OF_RANGE * range).max(BACK_STEPS * step)) {
+    if !turns_back(
+        &x,
+        (MIN_RETURN_SHARE_OF_RANGE * range).max(MIN_RETURN_STEPS * step),
+    ) {
         let message = format!(
-            "the axis moves in one direction only, over {} {unit}; friction against the other \
-             direction, and an offset of the force, cannot be told",
+            "the axis moves in one direction only, over {} {unit}; friction in the other \
+             direction and an offset of the force cannot be identified",
             short(range)
         );
         found.push(warning(Code::OneDirection, message));
@@ -74,8 +82,8 @@ fn judge(log: &Log) -> Vec<Finding> {
     if let Some(speed) = one_speed(&log.time, &x) {
         let unit = log.motion.velocity().si_text();
         let message = format!(
-            "the axis moves at one speed, {} {unit}; mass and the shape of friction over speed \
-             cannot be told",
+            "the axis moves at one speed, {} {unit}; the mass and how friction depends on speed \
+             cannot be identified",
             short(speed)
         );
         found.push(warning(Code::ConstantVelocity, message));
@@ -93,7 +101,7 @@ fn integral(time: &[f64], velocity: &[f64]) -> Vec<f64> {
 }
 
 /// Correlation of each sample with the next.
-fn likeness(values: &[f64]) -> f64 {
+fn neighbour_correlation(values: &[f64]) -> f64 {
     let mean = values.iter().sum::<f64>() / values.len() as f64;
     let power: f64 = values.iter().map(|v| (v - mean) * (v - mean)).sum();
     let next: f64 = values
@@ -125,7 +133,7 @@ fn turns_back(x: &[f64], least: f64) -> bool {
 
 /// The speed, where windows over the whole record all have nearly the same.
 fn one_speed(time: &[f64], x: &[f64]) -> Option<f64> {
-    let windows = WINDOWS.min((x.len() - 1) / 4);
+    let windows = SPEED_WINDOWS.min((x.len() - 1) / 4);
     if windows < 4 {
         return None;
     }
@@ -135,7 +143,7 @@ fn one_speed(time: &[f64], x: &[f64]) -> Option<f64> {
         .collect();
     let (low, high) = extremes(&speeds)?;
     let mean = speeds.iter().sum::<f64>() / windows as f64;
-    (high - low < SPEED_SPREAD * mean.abs()).then_some(mean)
+    (high - low < MAX_SPEED_SPREAD * mean.abs()).then_some(mean)
 }
 
 /// Columns that never change though something moves.

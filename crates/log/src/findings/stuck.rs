@@ -1,23 +1,37 @@
 //! An encoder that is frozen while the axis moves.
 //!
-//! A constant position alone is rest, and a constant position under a rising force is stiction: the
-//! very thing to be measured. Frozen is what contradicts another signal:
+//! A constant position alone is rest, and a constant position under a rising force is stiction: exactly
+//! what is to be measured. A position is frozen where it contradicts another signal:
 //!
-//! 1. the velocity says that the axis travelled meanwhile: its integral covers more than 10 steps
-//!    and 1 % of the range, at more than 5 % of the usual speed, smoothly (neighbouring samples
+//! 1. the velocity says that the axis travelled meanwhile: its integral covers more than 10 encoder steps
+//!    and 1 % of the range, at more than 5 % of the rms speed, smoothly (neighbouring samples
 //!    correlate above 0.5, which noise around rest does not);
-//! 2. or the position goes on with a jump of more than 3 times any ordinary step, which inertia
+//! 2. or the position continues with a jump of more than 3 times any ordinary step, which inertia
 //!    does not allow after rest;
 //! 3. or it is frozen to the end of the record while the reference still covers half its range,
 //!    though the position had followed it before.
 
+use super::motion::MIN_NEIGHBOUR_CORRELATION;
 use super::{Finding, Severity, count, extremes, place, short};
 use crate::log::Log;
 use std::ops::Range;
 use stiction_codes::Code;
 
-/// Shortest stretch of equal positions that is looked at, in samples.
-const MIN_FLAT: usize = 10;
+/// Shortest stretch of equal positions that is checked, in samples.
+const MIN_FLAT_SAMPLES: usize = 10;
+/// Least travel by the integral of the velocity that contradicts a frozen position, in encoder steps ...
+const MIN_TRAVEL_STEPS: f64 = 10.0;
+/// ... and as a fraction of the range of the position; the larger of the two.
+const MIN_TRAVEL_SHARE_OF_RANGE: f64 = 0.01;
+/// Least mean speed of such travel, as a fraction of the rms speed of the record.
+const MIN_SPEED_SHARE: f64 = 0.05;
+/// Relative variance of the velocity up to which it is constant to rounding, as that of a held or failed channel.
+const CONSTANT_VARIANCE: f64 = 1e-12;
+/// Least jump at the end of a frozen stretch, in largest ordinary steps.
+const MIN_JUMP_IN_STEPS: f64 = 3.0;
+/// Least range of the reference during a final frozen stretch, and of the position over the record, as a fraction of the
+/// range of the reference.
+const MIN_REFERENCE_SHARE: f64 = 0.5;
 
 pub(super) fn stuck(log: &mut Log) {
     let found = frozen(log);
@@ -50,11 +64,12 @@ fn frozen(log: &Log) -> Vec<(Range<usize>, String)> {
     let ordinary = ordinary_step(position, &runs, log);
     let rms = log.velocity.as_deref().map_or(0.0, rms);
     let unit = log.motion.position().si_text();
+    let least = (MIN_TRAVEL_STEPS * step).max(MIN_TRAVEL_SHARE_OF_RANGE * range);
     let mut found = Vec::new();
     for run in runs {
         if let Some(velocity) = &log.velocity {
             let travelled = travelled(&log.time[run.clone()], &velocity[run.clone()], rms);
-            if travelled.is_some_and(|x| x > (10.0 * step).max(0.01 * range)) {
+            if travelled.is_some_and(|x| x > least) {
                 let x = short(travelled.unwrap_or(0.0));
                 found.push((run, format!("the velocity covers {x} {unit}")));
                 continue;
@@ -62,8 +77,8 @@ fn frozen(log: &Log) -> Vec<(Range<usize>, String)> {
         }
         if run.end < position.len() && !log.gap_after(run.end - 1) {
             let jump = (position[run.end] - position[run.end - 1]).abs();
-            if ordinary > 0.0 && jump > 3.0 * ordinary.max(step) {
-                let text = format!("it then goes on with a jump of {} {unit}", short(jump));
+            if ordinary > 0.0 && jump > MIN_JUMP_IN_STEPS * ordinary.max(step) {
+                let text = format!("it then continues with a jump of {} {unit}", short(jump));
                 found.push((run, text));
             }
         } else if run.end == position.len()
@@ -71,7 +86,10 @@ fn frozen(log: &Log) -> Vec<(Range<usize>, String)> {
         {
             let whole = span(reference);
             let meanwhile = span(&reference[run.clone()]);
-            if whole > 0.0 && meanwhile > 0.5 * whole && range > 0.5 * whole {
+            if whole > 0.0
+                && meanwhile > MIN_REFERENCE_SHARE * whole
+                && range > MIN_REFERENCE_SHARE * whole
+            {
                 let text = format!("the reference covers {} {unit}", short(meanwhile));
                 found.push((run, text));
             }
@@ -88,7 +106,7 @@ fn flat_runs(position: &[f64], log: &Log) -> Vec<Range<usize>> {
     for i in 1..=position.len() {
         let goes_on = i < position.len() && position[i] == position[i - 1] && !gap(i - 1);
         if !goes_on {
-            if i - start >= MIN_FLAT {
+            if i - start >= MIN_FLAT_SAMPLES {
                 runs.push(start..i);
             }
             start = i;
@@ -119,8 +137,9 @@ fn travelled(time: &[f64], velocity: &[f64], usual: f64) -> Option<f64> {
     let power: f64 = velocity.iter().map(|v| v * v).sum();
     let spread: f64 = velocity.iter().map(|v| (v - mean) * (v - mean)).sum();
     let neighbours: f64 = velocity.windows(2).map(|w| w[0] * w[1]).sum();
-    let varies = spread > 1e-12 * power;
-    if size <= 0.05 * usual || neighbours <= 0.5 * power || !varies {
+    let varies = spread > CONSTANT_VARIANCE * power;
+    if size <= MIN_SPEED_SHARE * usual || neighbours <= MIN_NEIGHBOUR_CORRELATION * power || !varies
+    {
         return None;
     }
     let (mut x, mut low, mut high) = (0.0_f64, 0.0_f64, 0.0_f64);

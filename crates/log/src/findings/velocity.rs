@@ -1,17 +1,17 @@
-//! Whether velocity and position tell the same motion.
+//! Whether velocity and position describe the same motion.
 
 use super::{Finding, Severity, short};
 use crate::log::Log;
 use stiction_codes::Code;
 
-/// Travel is compared over windows of so many samples, where noise and delay matter little.
-const WINDOW: usize = 32;
-/// Ratio of the two that may be a sensor's business.
-const RATIO_OFF: f64 = 0.05;
-/// Below this correlation they are not the same motion.
-const CORRELATED: f64 = 0.7;
-/// Windows must move more than this many encoder steps (rms).
-const MIN_STEPS: f64 = 5.0;
+/// Window over which the travel of both is compared, in samples: long enough that noise and delay matter little.
+const WINDOW_SAMPLES: usize = 32;
+/// Deviation of their ratio from 1 that is put down to the sensors.
+const MAX_RATIO_DEVIATION: f64 = 0.05;
+/// Least correlation of the same motion.
+const MIN_CORRELATION: f64 = 0.7;
+/// Least rms travel within a window, in encoder steps.
+const MIN_WINDOW_STEPS: f64 = 5.0;
 
 /// Ratios that have a usual cause: derivative of the position over the velocity.
 const CAUSES: &[(f64, &str)] = &[
@@ -39,7 +39,7 @@ pub(super) fn consistency(log: &mut Log) {
     for i in 1..log.time.len() {
         x += 0.5 * (velocity[i] + velocity[i - 1]) * (log.time[i] - log.time[i - 1]);
         broken |= gap(i - 1) || log.starts_segment(i);
-        if i - start == WINDOW {
+        if i - start == WINDOW_SAMPLES {
             if !broken {
                 let moved = position[i] - position[start];
                 xx += moved * moved;
@@ -52,22 +52,23 @@ pub(super) fn consistency(log: &mut Log) {
     }
     let step = log.quantum.unwrap_or(0.0);
     let rms = (xx / windows.max(1) as f64).sqrt();
-    if windows < 3 || xx == 0.0 || vv == 0.0 || rms <= MIN_STEPS * step {
+    if windows < 3 || xx == 0.0 || vv == 0.0 || rms <= MIN_WINDOW_STEPS * step {
         return;
     }
     let correlation = xv / (xx * vv).sqrt();
     let ratio = (xx / vv).sqrt().copysign(correlation);
-    let message = if correlation.abs() < CORRELATED {
+    let message = if correlation.abs() < MIN_CORRELATION {
         format!(
-            "velocity is not the derivative of the position: over {WINDOW} samples they correlate \
-             by {}",
+            "velocity is not the derivative of the position: over {WINDOW_SAMPLES} samples their correlation \
+             is {}",
             short(correlation)
         )
-    } else if (ratio - 1.0).abs() > RATIO_OFF {
-        let near = |(value, _): &&(f64, &str)| (ratio.abs() / value - 1.0).abs() < RATIO_OFF;
+    } else if (ratio - 1.0).abs() > MAX_RATIO_DEVIATION {
+        let near =
+            |(value, _): &&(f64, &str)| (ratio.abs() / value - 1.0).abs() < MAX_RATIO_DEVIATION;
         let cause = CAUSES.iter().find(near).map(|(_, cause)| *cause);
-        let turned = (ratio < 0.0).then_some("one of them has its sign turned round");
-        let why = [cause, turned]
+        let inverted = (ratio < 0.0).then_some("one of them has the wrong sign");
+        let why = [cause, inverted]
             .into_iter()
             .flatten()
             .collect::<Vec<_>>()
@@ -78,7 +79,7 @@ pub(super) fn consistency(log: &mut Log) {
             &why
         };
         format!(
-            "the position moves {} times as fast as the velocity says: {why}?",
+            "the derivative of the position is {} times the velocity: {why}?",
             short(ratio)
         )
     } else {

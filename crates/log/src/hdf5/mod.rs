@@ -19,7 +19,7 @@ use window::Window;
 use crate::binary::{Collector, Layout, Order, Values, guard, read_numbers};
 use crate::{Error, Kind, Limits, Table};
 
-/// Groups in groups, cells in cells.
+/// Deepest nesting of groups or cells; MATLAB and h5py files of recordings use two or three levels.
 const MAX_DEPTH: usize = 16;
 
 /// Reads every dataset of numbers.
@@ -48,7 +48,7 @@ fn group(
 ) -> Result<(), Error> {
     let fail = |found| broken(found).in_column(if path.is_empty() { "/" } else { path });
     if depth > MAX_DEPTH {
-        return Err(fail(format!("groups nest deeper than {MAX_DEPTH}")));
+        return Err(fail(format!("groups are nested deeper than {MAX_DEPTH}")));
     }
     let mut members = group.members().map_err(fail)?;
     members.sort_by(|a, b| a.0.cmp(&b.0));
@@ -151,12 +151,12 @@ fn cell(
     collector: &mut Collector,
 ) -> Result<(), Error> {
     if depth > MAX_DEPTH {
-        return Err(broken(format!("cells nest deeper than {MAX_DEPTH}")));
+        return Err(broken(format!("cells are nested deeper than {MAX_DEPTH}")));
     }
     collector.fits(name, dims)?;
     let count = dims.iter().product::<u64>();
     if count > 65_536 {
-        collector.skip(name, "a cell of too many elements");
+        collector.skip(name, "a cell array with too many elements");
         return Ok(());
     }
     let targets = dataset.targets().map_err(broken)?;

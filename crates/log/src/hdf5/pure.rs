@@ -5,7 +5,7 @@ use hdf5_pure::{Datatype, DatatypeByteOrder, FloatingPointLayout, Object};
 use super::tree::{Dataset, Element, Group, Node};
 use crate::binary::{ByteOrder, Cell, Class, Field, Number, Record};
 
-/// Filters that the crate undoes: deflate, shuffle, Fletcher-32, scale-offset, LZF.
+/// Filters that the crate can decode: deflate, shuffle, Fletcher-32, scale-offset, LZF.
 const FILTERS: [u16; 5] = [1, 2, 3, 6, 32000];
 
 /// Opens the file, which is read into memory: reading on demand, the crate takes memory for the
@@ -89,7 +89,7 @@ impl Dataset for hdf5_pure::Dataset {
             .map(|object| match object {
                 Object::Group(group) => Ok(Node::Group(Box::new(group))),
                 Object::Dataset(dataset) => Ok(Node::Dataset(dataset)),
-                _ => Err("a reference to neither a group nor a dataset".to_owned()),
+                _ => Err("a reference to something other than a group or dataset".to_owned()),
             })
             .collect()
     }
@@ -131,11 +131,11 @@ fn number(datatype: &Datatype) -> Result<Number, String> {
         } => return Err("text".to_owned()),
         Datatype::VariableLength { .. } => return Err("lists of varying length".to_owned()),
         Datatype::Compound { .. } => return Err("records".to_owned()),
-        Datatype::Array { .. } => return Err("arrays as elements".to_owned()),
+        Datatype::Array { .. } => return Err("elements that are arrays".to_owned()),
         Datatype::Time { .. } => return Err("times".to_owned()),
         _ => return Err("not numbers".to_owned()),
     };
-    let unusual = || "numbers of an unusual format".to_owned();
+    let unusual = || "numbers in an unsupported format".to_owned();
     let (class, size, byte_order) = found.ok_or_else(unusual)?;
     Number::new(class, size as usize, order(byte_order)?).ok_or_else(unusual)
 }

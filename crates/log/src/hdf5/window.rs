@@ -4,8 +4,8 @@ use std::io::{self, Read};
 
 use super::tree::Dataset;
 
-/// Bytes of one window, where the chunks are not larger.
-const WINDOW: u64 = 1 << 20;
+/// Bytes of one window; more where a single chunk is larger.
+const WINDOW_BYTES: u64 = 1 << 20;
 
 pub(super) struct Window<'a> {
     dataset: &'a dyn Dataset,
@@ -28,7 +28,7 @@ impl<'a> Window<'a> {
         };
         // Whole chunks, so that none is unpacked twice.
         let chunk = chunk.first().copied().unwrap_or(1).max(1);
-        let chunks = (WINDOW / row.max(1) / chunk).max(1);
+        let chunks = (WINDOW_BYTES / row.max(1) / chunk).max(1);
         Self {
             dataset,
             rows,

@@ -2,18 +2,16 @@
 
 use super::Excluded;
 use super::clock::Clock;
-use crate::findings::{Finding, Severity, count, short};
-use crate::mapping::{LARGEST, Role, Source};
+use crate::findings::{
+    Finding, MAX_BRIDGED_SAMPLES, MISSING_SHARE_FOR_WARNING, Severity, count, short,
+};
+use crate::mapping::{LARGEST_VALUE, Role, Source};
 use crate::{Error, Kind, Table};
 use std::ops::Range;
 use stiction_codes::Code;
 
-/// Missing cells in a row that a straight line may bridge.
-pub(super) const BRIDGED: usize = 5;
-/// A column that lacks more than this share is at another rate, or not there.
-pub(super) const MISSING: f64 = 0.5;
-/// Share of missing cells above which they are a warning.
-const MANY: f64 = 0.01;
+/// Largest share of missing cells in a column; with more the column is sampled at another rate, or empty.
+pub(super) const MAX_MISSING_SHARE: f64 = 0.5;
 
 /// The columns of a log in the making, one number a kept row.
 pub(super) struct Columns {
@@ -21,7 +19,7 @@ pub(super) struct Columns {
     beyond: Vec<Beyond>,
 }
 
-/// Numbers of a column that are too large for a measurement.
+/// Numbers of a column that are too large to be measurements.
 struct Beyond {
     role: Role,
     cells: usize,
@@ -30,7 +28,7 @@ struct Beyond {
     number: String,
 }
 
-/// What mending did.
+/// What was done about missing cells.
 pub(super) struct Mended {
     pub bridged: Vec<Excluded>,
     pub findings: Vec<Finding>,
@@ -87,27 +85,27 @@ impl Columns {
             };
             let cells: usize = runs.iter().map(Range::len).sum();
             let core = matches!(role, Role::Position | Role::Velocity | Role::Force);
-            if core && cells as f64 > MISSING * rows as f64 {
+            if core && cells as f64 > MAX_MISSING_SHARE * rows as f64 {
                 if let Some(beyond) = self.beyond.iter().find(|b| b.role == *role)
                     && 2 * beyond.cells > cells
                 {
                     return Err(beyond.refusal(rows));
                 }
-                let found = format!("{role} lacks {cells} of {}", count(rows, "cell"));
-                let allowed = "at most half; a column at a slower rate has to be exported at the \
+                let found = format!("{role}: {cells} of {} missing", count(rows, "cell"));
+                let allowed = "at most half may be missing; a column at a slower rate has to be exported at the \
                                rate of the others";
                 return Err(Error::new(Kind::Value, found, allowed).in_column(role.name()));
             }
             if cells == rows {
                 values.clear();
-                let message = format!("{role} has no number at all and is left out");
+                let message = format!("{role} holds no numbers and is left out");
                 findings.push(Finding::new(Code::MissingCells, Severity::Warning, message));
                 continue;
             }
             let (mut short, mut long) = (0, 0);
             for run in runs {
                 let inside = run.start > 0 && run.end < rows;
-                if core && !(inside && run.len() <= BRIDGED) {
+                if core && !(inside && run.len() <= MAX_BRIDGED_SAMPLES) {
                     long += run.len();
                     drop[run].fill(true);
                     continue;
@@ -119,19 +117,20 @@ impl Columns {
                 bridge(time, values, run);
             }
             let done = match (short, long) {
-                (_, 0) if core => "bridged and excluded".to_string(),
+                (_, 0) if core => "interpolated and excluded".to_string(),
                 (_, 0) => "bridged".to_string(),
                 (0, _) => "dropped with their rows".to_string(),
                 (short, long) => {
-                    format!("{short} bridged and excluded, {long} dropped with their rows")
+                    format!("{short} interpolated and excluded, {long} dropped with their rows")
                 }
             };
             let message = format!(
-                "{role} lacks {} of {rows}, first in row {} of the kept part; {done}",
+                "{role}: {} of {rows} missing, first in row {} of the part that is kept; {done}",
                 count(cells, "cell"),
                 first.start + 1
             );
-            let grave = core && (long > 0 || cells as f64 > MANY * rows as f64);
+            let grave =
+                core && (long > 0 || cells as f64 > MISSING_SHARE_FOR_WARNING * rows as f64);
             let severity = if grave {
                 Severity::Warning
             } else {
@@ -160,13 +159,13 @@ impl Columns {
 impl Beyond {
     fn refusal(&self, rows: usize) -> Error {
         let found = format!(
-            "{} is {} there, and too large in {} of {}",
+            "{} is {}, and {} of {} are implausibly large",
             self.role,
             self.number,
             self.cells,
             count(rows, "cell")
         );
-        let allowed = format!("at most {LARGEST:e} in SI units; check its unit and scale");
+        let allowed = format!("at most {LARGEST_VALUE:e} in SI units; check its unit and scale");
         Error::new(Kind::Value, found, allowed)
             .at_row(self.row as u64)
             .in_column(self.role.name())

@@ -1,19 +1,19 @@
 //! Time stamps to seconds: overflow, order, crop, duplicates.
 
 use crate::findings::{Finding, Severity, count, full, median, short};
-use crate::mapping::{LARGEST, Mapping, Role, Source};
+use crate::mapping::{LARGEST_VALUE, Mapping, Role, Source};
 use crate::{Error, Kind, Table};
 use std::ops::Range;
 use stiction_codes::Code;
 
-/// Dropping more than this share of the rows is no repair.
-const DROPPED: f64 = 0.05;
-/// An overflow goes on within this many usual steps.
-const OVERFLOW_STEPS: f64 = 10.0;
-/// No recording lasts longer than this, s: thirty years.
-const LONGEST: f64 = 1e9;
-/// Where counters overflow, in their own unit.
-const COUNTERS: [f64; 3] = [65_536.0, 2_147_483_648.0, 4_294_967_296.0];
+/// Largest share of the rows that may be dropped for their time stamps; above it the log is refused.
+const MAX_DROPPED_SHARE: f64 = 0.05;
+/// Longest time step across an overflow of the counter, in median time steps; longer ones are not taken as overflows.
+const MAX_STEPS_OVER_OVERFLOW: f64 = 10.0;
+/// Longest plausible recording, s (thirty years); longer ones have a wrong unit of time.
+const MAX_DURATION: f64 = 1e9;
+/// Counts at which time counters overflow: 16 bits, 31 bits (signed), 32 bits.
+const COUNTER_SIZES: [f64; 3] = [65_536.0, 2_147_483_648.0, 4_294_967_296.0];
 
 /// The rows that are kept and when they were taken.
 pub(super) struct Clock {
@@ -114,7 +114,7 @@ fn stamped(
     let share = |rows: &[usize]| rows.len() as f64 / range.len() as f64;
     if let Some(&first) = stampless.first() {
         let found = format!("{} without a time stamp", count(stampless.len(), "row"));
-        if share(&stampless) > DROPPED {
+        if share(&stampless) > MAX_DROPPED_SHARE {
             let allowed = "at most 5 % of the rows; give the rate instead of the time column";
             return Err(Error::new(Kind::Time, found, allowed).at_row(first as u64 + 1));
         }
@@ -126,8 +126,8 @@ fn stamped(
             "{} with the time stamp of the row before",
             count(repeated.len(), "row")
         );
-        if share(&repeated) > DROPPED {
-            let allowed = "at most 5 %: the clock is coarser than the sampling; give the rate \
+        if share(&repeated) > MAX_DROPPED_SHARE {
+            let allowed = "at most 5 % of the rows: the clock is coarser than the sampling; give the rate \
                            instead of the time column (rate = \"4 kHz\")";
             return Err(Error::new(Kind::Time, found, allowed).at_row(first as u64 + 1));
         }
@@ -145,13 +145,13 @@ fn stamped(
     if let Some(&(row, size)) = lifts.iter().find(|(row, _)| range.contains(row)) {
         let times = lifts.iter().filter(|(row, _)| range.contains(row)).count();
         let message = format!(
-            "the time counter overflowed at {size} {}, first in data row {}; counted on",
+            "the time counter overflowed at {size} {}, first in data row {}; it was unwrapped",
             count(times, "time"),
             row + 1
         );
         findings.push(Finding::new(Code::TimeWrap, Severity::Note, message));
     }
-    if time.last().is_some_and(|t| *t > LONGEST) {
+    if time.last().is_some_and(|t| *t > MAX_DURATION) {
         let found = format!("the record lasts {} s", short(*time.last().unwrap_or(&0.0)));
         return Err(Error::new(
             Kind::Time,
@@ -183,10 +183,10 @@ fn overflows(raw: &[f64]) -> (Vec<(usize, f64)>, Vec<usize>) {
     let mut before = f64::NEG_INFINITY;
     for (row, &now) in raw.iter().enumerate().filter(|(_, t)| is_stamp(t)) {
         if now < before {
-            let counter = COUNTERS.into_iter().find(|size| {
+            let counter = COUNTER_SIZES.into_iter().find(|size| {
                 let step = now + size - before;
                 let whole = now.fract() == 0.0 && before.fract() == 0.0;
-                whole && now >= -size / 2.0 && step > 0.0 && step <= OVERFLOW_STEPS * usual
+                whole && now >= -size / 2.0 && step > 0.0 && step <= MAX_STEPS_OVER_OVERFLOW * usual
             });
             match counter {
                 Some(size) => {
@@ -203,7 +203,7 @@ fn overflows(raw: &[f64]) -> (Vec<(usize, f64)>, Vec<usize>) {
 
 /// Whether a number can be a time stamp.
 fn is_stamp(raw: &f64) -> bool {
-    raw.abs() <= LARGEST
+    raw.abs() <= LARGEST_VALUE
 }
 
 fn backward(raw: &[f64], row: usize) -> Error {

@@ -1,32 +1,32 @@
 //! Zeros that stand for missing samples.
 //!
-//! Some exports write 0, or a number as good as 0, where they have no sample. Nothing in the number
-//! tells, but its neighbours do: a signal that passes through 0 comes close to it first. A zero
-//! counts as evidence where the three samples before and the three after all lie on one side of 0
-//! and further from it than [`FAR`] times their own spread and the smallest step of the signal.
-//! Once there is enough of it, the zeros of the column are missing cells like empty ones.
+//! Some exports write 0, or practically 0, where they have no sample. The number itself does not show it, but its
+//! neighbours do: a signal that passes through 0 comes close to it first. A zero counts as evidence where the three
+//! samples before and the three after all lie on one side of 0 and further from it than
+//! [`MIN_DISTANCE_IN_SPREADS`] times their own spread and the smallest step of the signal. Once there is enough
+//! evidence, all zeros of the column are treated as missing cells.
 //!
-//! A velocity is left alone: one that is counted from encoder pulses is 0 wherever no pulse came.
+//! Velocity is not checked: one that is counted from encoder pulses is 0 wherever no pulse came.
 
-use super::cells::{BRIDGED, Columns, MISSING, runs};
-use crate::findings::{Finding, Severity, count, short};
+use super::cells::{Columns, MAX_MISSING_SHARE, runs};
+use crate::findings::{Finding, MAX_BRIDGED_SAMPLES, Severity, count, short};
 use crate::mapping::Role;
 use crate::{Error, Kind};
 use std::ops::Range;
 use stiction_codes::Code;
 use stiction_number::Percent;
 
-/// Samples that are looked at on either side of a zero.
-const BESIDE: usize = 3;
-/// A zero sticks out by more than so many spreads of the samples around it. Equal ones, at a limit
-/// say, do not tell how far a sample may be from the next.
-const FAR: f64 = 3.0;
-/// So many short runs of zeros must stick out ...
-const MIN_RUNS: usize = 5;
-/// ... and this share of all of them: slow samples and reversals hide the rest.
-const SHARE: f64 = 0.2;
+/// Samples on either side of a zero that it is compared with.
+const NEIGHBOURS: usize = 3;
+/// Distance of a zero from its neighbours above which it is an outlier, in spreads (maximum less minimum) of these
+/// neighbours. Equal neighbours, at a limit say, do not show how far a sample may be from the next.
+const MIN_DISTANCE_IN_SPREADS: f64 = 3.0;
+/// Least number of short runs of zeros that are outliers ...
+const MIN_OUTLYING_RUNS: usize = 5;
+/// ... and their least share of all short runs of zeros: slow motion and reversals hide the rest.
+const MIN_OUTLYING_SHARE: f64 = 0.2;
 
-/// Makes zeros that were filled in missing cells again.
+/// Turns zeros that an export filled in back into missing cells.
 pub(super) fn clear(columns: &mut Columns, findings: &mut Vec<Finding>) -> Result<(), Error> {
     for role in [Role::Position, Role::Force] {
         let Some(values) = columns.get_mut(role) else {
@@ -44,21 +44,22 @@ pub(super) fn clear(columns: &mut Columns, findings: &mut Vec<Finding>) -> Resul
         let value = if largest == 0.0 {
             "0".to_string()
         } else {
-            format!("0 or as good as 0 (at most {})", short(largest))
+            format!("0 or practically 0 (at most {})", short(largest))
         };
         let found = format!(
-            "{role} is {value} in {cells} of {} ({}), first in row {} of the kept part, between \
+            "{role} is {value} in {cells} of {} ({}), first in row {} of the part that is kept, between \
              samples far from 0",
             count(rows, "sample"),
             Percent::error(100.0 * cells as f64 / rows as f64).short(),
             first + 1
         );
-        if cells as f64 > MISSING * rows as f64 {
+        if cells as f64 > MAX_MISSING_SHARE * rows as f64 {
             let allowed = "at most half may be missing; export the column at the rate of the \
                            others, and missing samples as empty cells";
             return Err(Error::new(Kind::Value, found, allowed).in_column(role.name()));
         }
-        let message = format!("{found}: missing samples that were filled in, not fitted to");
+        let message =
+            format!("{found}: the export wrote 0 for missing samples, which are not fitted to");
         findings.push(Finding::new(Code::ZeroFilled, Severity::Warning, message).at(first));
         for run in filled {
             values[run].fill(f64::NAN);
@@ -76,7 +77,7 @@ fn filled(values: &[f64]) -> Vec<Range<usize>> {
     // Below the rounding of the column's own range there is nothing to be measured.
     let zero = |x: &f64| x.abs() <= f64::EPSILON * largest;
     let zeros = runs(values, zero);
-    if zeros.len() < MIN_RUNS {
+    if zeros.len() < MIN_OUTLYING_RUNS {
         return Vec::new();
     }
     let rest: Vec<usize> = (0..values.len())
@@ -89,27 +90,27 @@ fn filled(values: &[f64]) -> Vec<Range<usize>> {
         .fold(f64::INFINITY, f64::min);
     let sticks_out = |run: &Range<usize>| {
         let at = rest.partition_point(|&i| i < run.start);
-        let around = &rest[at.saturating_sub(BESIDE)..(at + BESIDE).min(rest.len())];
+        let around = &rest[at.saturating_sub(NEIGHBOURS)..(at + NEIGHBOURS).min(rest.len())];
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for &i in around {
             low = low.min(values[i]);
             high = high.max(values[i]);
         }
         let spread = high - low;
-        spread > 0.0 && low.max(-high) > FAR * spread.max(step)
+        spread > 0.0 && low.max(-high) > MIN_DISTANCE_IN_SPREADS * spread.max(step)
     };
-    let short = |run: &&Range<usize>| run.len() <= BRIDGED;
+    let short = |run: &&Range<usize>| run.len() <= MAX_BRIDGED_SAMPLES;
     let all = zeros.iter().filter(short).count();
     let telling = zeros
         .iter()
         .filter(short)
         .filter(|run| run.start > 0 && run.end < values.len() && sticks_out(run))
         .count();
-    if telling < MIN_RUNS || (telling as f64) < SHARE * all as f64 {
+    if telling < MIN_OUTLYING_RUNS || (telling as f64) < MIN_OUTLYING_SHARE * all as f64 {
         return Vec::new();
     }
     zeros
         .into_iter()
-        .filter(|run| run.len() <= BRIDGED || sticks_out(run))
+        .filter(|run| run.len() <= MAX_BRIDGED_SAMPLES || sticks_out(run))
         .collect()
 }

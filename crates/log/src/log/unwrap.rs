@@ -1,4 +1,4 @@
-//! Putting a wrapping position together.
+//! Unwrapping a position.
 
 use crate::findings::{Finding, Severity, count, short};
 use stiction_codes::Code;
@@ -29,7 +29,7 @@ pub(super) fn unwrap(position: &mut [f64], period: f64, unit: &str) -> Option<Fi
     }
     (wraps > 0).then(|| {
         let message = format!(
-            "position started again {}, first at sample {first}; put together with a period of {} \
+            "position wrapped {}, first at sample {first}; unwrapped with a period of {} \
              {unit}",
             count(wraps, "time"),
             short(period)

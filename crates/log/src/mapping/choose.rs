@@ -8,8 +8,8 @@ use crate::findings::{Finding, Severity, median, short};
 use crate::{Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;
 
-/// A stated rate and that of the time stamps may differ by this share.
-const RATE_OFF: f64 = 0.01;
+/// How much a given rate and that of the time stamps may differ, as a fraction.
+const MAX_RATE_DEVIATION: f64 = 0.01;
 
 /// A table with what its names and units say.
 struct Scan<'a> {
@@ -88,7 +88,7 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
                 Ok(None) => {}
                 Err(_) => out
                     .phrases
-                    .push(format!("{role}: several columns fit, none is taken")),
+                    .push(format!("{role}: several columns fit, so none is taken")),
             }
         }
     }
@@ -100,10 +100,10 @@ fn stated_rate(table: &Table) -> Result<f64, Error> {
         return Ok(1.0 / step);
     }
     let found = format!(
-        "no time column is recognised, and no rate is given; {}",
+        "no time column was recognised, and no rate is given; {}",
         describe::columns(table)
     );
-    let allowed = "say so in axis.toml: rate = \"1 kHz\", or under [columns]: time = \"t\" (or the \
+    let allowed = "give one of them in axis.toml: rate = \"1 kHz\", or under [columns]: time = \"t\" (or the \
                    number of the column, counted from 1)";
     Err(Error::new(Kind::Missing, found, allowed))
 }
@@ -116,7 +116,7 @@ fn nameless(table: &Table) -> Error {
     Error::new(
         Kind::Missing,
         format!(
-            "nothing tells what the columns are: {}",
+            "nothing identifies the columns: {}",
             describe::columns(table)
         ),
         allowed,
@@ -125,8 +125,8 @@ fn nameless(table: &Table) -> Error {
 
 fn no_force(table: &Table) -> Finding {
     let message = format!(
-        "no column is recognised as force, torque or current; friction needs one; {}; say \
-         which in axis.toml under [columns], as in: force = {{ column = {}, unit = \"N\" }}",
+        "no column was recognised as force, torque or current; friction needs one; {}; name \
+         it in axis.toml under [columns], as in: force = {{ column = {}, unit = \"N\" }}",
         describe::columns(table),
         table.columns.len()
     );
@@ -262,12 +262,12 @@ impl Scan<'_> {
         let Some(usual) = median(&mut steps.filter(|d| *d > 0.0).collect::<Vec<_>>()) else {
             return Ok(());
         };
-        let agrees = |step: f64| (rate * step - 1.0).abs() <= RATE_OFF;
+        let agrees = |step: f64| (rate * step - 1.0).abs() <= MAX_RATE_DEVIATION;
         if agrees(mean) || agrees(usual) {
             return Ok(());
         }
         let found = format!(
-            "rate is {} Hz, and the time stamps run at {} Hz",
+            "rate is {} Hz, but the time stamps run at {} Hz",
             short(rate),
             short(1.0 / usual)
         );
@@ -278,7 +278,7 @@ impl Scan<'_> {
 
     fn no_motion(&self) -> Error {
         let found = format!(
-            "no column is recognised as position or velocity; {}",
+            "no column was recognised as position or velocity; {}",
             describe::columns(self.table)
         );
         let allowed = "say which in axis.toml under [columns], by name or by number counted from 1, \

@@ -4,9 +4,9 @@ use super::select::select;
 use super::{Channel, Mapping, Motion, Role, describe};
 use crate::{Dimension, Error, Kind, Table, Unit};
 
-/// Larger numbers are markers of missing samples (the largest `f32` is a common one), no
-/// measurements; in SI, and for time stamps in the unit of the file.
-pub(crate) const LARGEST: f64 = 1e30;
+/// Largest number that can be a measurement, in SI units (for time stamps in the unit of the file). Larger ones mark
+/// missing samples; the largest `f32`, 3.4e38, is a common marker.
+pub(crate) const LARGEST_VALUE: f64 = 1e30;
 
 /// A column and how its numbers become SI.
 #[derive(Clone, Debug)]
@@ -22,7 +22,7 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// Settles a channel whose unit is known.
+    /// A channel whose unit is known.
     pub fn new(
         table: &Table,
         column: usize,
@@ -49,7 +49,7 @@ impl Source {
         };
         let scale_text = channel.scale.as_ref().map(ToString::to_string);
         let dimension = dimension.ok_or_else(|| {
-            let found = format!("{role} in {unit} times its scale has no sensible dimension");
+            let found = format!("{role} in {unit} times its scale has no plausible dimension");
             Error::new(Kind::Unit, found, "").in_column(describe::place(table, column))
         })?;
         Ok(Self {
@@ -77,7 +77,11 @@ impl Source {
     /// One number of the file in SI; what is no measurement becomes NaN, a missing sample.
     pub fn si(&self, number: f64) -> f64 {
         let si = self.unit.to_si(number) * self.scale;
-        if si.abs() <= LARGEST { si } else { f64::NAN }
+        if si.abs() <= LARGEST_VALUE {
+            si
+        } else {
+            f64::NAN
+        }
     }
 
     /// A difference of two numbers of the file in SI.
@@ -119,12 +123,12 @@ impl Source {
             ),
             Some(scale) => {
                 let result = self.dimension.si_text();
-                format!("{role} in {unit} times its scale {scale} comes out in {result}")
+                format!("{role} in {unit} times its scale {scale} is in {result}")
             }
         };
         let kind = match role {
             Role::Position | Role::Reference | Role::Velocity => format!("a {motion} axis needs"),
-            _ => "needed is".to_string(),
+            _ => "it has to be".to_string(),
         };
         let also = if role == Role::Force {
             ", A, V or %"

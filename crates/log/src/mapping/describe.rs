@@ -41,7 +41,7 @@ pub(super) fn columns(table: &Table) -> String {
         return there;
     }
     let left_out = listed(table.skipped.iter().map(|text| shortened(text)));
-    format!("{there}, and left out is {left_out}")
+    format!("{there}; left out: {left_out}")
 }
 
 /// At most 80 characters of a text.

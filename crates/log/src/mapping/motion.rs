@@ -33,8 +33,8 @@ pub(super) fn from_names<'a>(chosen: impl Iterator<Item = &'a str>) -> Result<Mo
         [one] => Ok(*one),
         _ => Err(Error::new(
             Kind::Ambiguous,
-            "neither units nor names tell whether the axis is linear or rotary",
-            "say so in axis.toml: kind = \"linear\" or kind = \"rotary\"",
+            "neither the units nor the names show whether the axis is linear or rotary",
+            "set it in axis.toml: kind = \"linear\" or kind = \"rotary\"",
         )),
     }
 }

@@ -8,9 +8,9 @@ pub(super) struct Hint {
     pub role: Role,
     /// A command or set point rather than a measurement.
     pub commanded: bool,
-    /// Says outright that it is measured.
+    /// The name says that it is measured.
     pub measured: bool,
-    /// Only a letter or two: any longer word goes before it.
+    /// Only a letter or two: any longer word takes precedence.
     pub weak: bool,
 }
 
@@ -106,8 +106,8 @@ const PASSED_OVER: &[&str] = &[
     "offset",
     "warning",
 ];
-/// Words that may stand beside a letter or two without changing what it means.
-const BESIDE: &[&str] = &["axis", "motor", "joint", "drive", "m"];
+/// Words that may be beside a letter or two without changing its meaning.
+const HARMLESS_NEIGHBOURS: &[&str] = &["axis", "motor", "joint", "drive", "m"];
 
 /// What a name says; `None` where it says nothing, or names something that is passed over.
 pub(super) fn hint(name: &str) -> Option<Hint> {
@@ -186,7 +186,7 @@ pub(super) fn passed_over(name: &str) -> bool {
 /// Whether nothing but numbers and harmless words stands beside this word.
 fn alone(words: &[String], word: &str) -> bool {
     words.iter().filter(|w| *w != word).all(|w| {
-        let harmless = [COMMANDED, MEASURED, BESIDE]
+        let harmless = [COMMANDED, MEASURED, HARMLESS_NEIGHBOURS]
             .iter()
             .any(|l| l.contains(&w.as_str()));
         harmless || w.chars().all(|c| c.is_ascii_digit())

@@ -70,7 +70,7 @@ impl<'a> Stream<'a> {
     pub(super) fn verify_end(mut self) -> Result<(), Error> {
         match self.read(&mut [0]) {
             Ok(0) => Ok(()),
-            Ok(_) => Err(self.bad("compressed data longer than their variable")),
+            Ok(_) => Err(self.bad("compressed data that are longer than their variable")),
             Err(error) => Err(self.io(error)),
         }
     }
@@ -166,7 +166,7 @@ impl<'a> Stream<'a> {
         let tag = self.tag()?;
         if tag.size > most {
             return Err(self.bad(format!(
-                "{} bytes where at most {most} make sense",
+                "{} bytes where at most {most} are plausible",
                 tag.size
             )));
         }

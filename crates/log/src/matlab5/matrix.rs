@@ -4,10 +4,10 @@ use super::element::{MATRIX, Stream, Tag, number};
 use crate::Error;
 use crate::binary::{ByteOrder, Class, Collector, Layout, Number, Order, Values, read_numbers};
 
-/// Structs in structs, cells in cells.
+/// Deepest nesting of structs and cells.
 const MAX_DEPTH: usize = 16;
 
-/// Longest name of a variable or list of field names.
+/// Longest name of a variable, or list of field names, in bytes.
 const MAX_NAMES: u64 = 1 << 20;
 
 /// How a variable is called: by its own name, or by its place in the one around it.
@@ -38,7 +38,9 @@ fn matrix(
 ) -> Result<(), Error> {
     collector.entry().map_err(|e| e.at_byte(stream.at()))?;
     if depth > MAX_DEPTH {
-        return Err(stream.bad(format!("structs and cells nest deeper than {MAX_DEPTH}")));
+        return Err(stream.bad(format!(
+            "structs and cells are nested deeper than {MAX_DEPTH}"
+        )));
     }
     if let (Called::Path(path), 0) = (called, stream.left()) {
         // An empty array in a cell or field may be written as an element without content.
@@ -62,7 +64,7 @@ fn content(
     let name = head.name.as_str();
     if name.is_empty() {
         // MATLAB keeps the content of objects in a variable without a name.
-        collector.skip("", "content of objects");
+        collector.skip("", "contents of objects");
         return Ok(());
     }
     let mut skip = |why: &str| collector.skip(name, why);
@@ -71,7 +73,7 @@ fn content(
         2 => structure(stream, head, depth, collector)?,
         3 => skip("object of a class; save it as a struct"),
         4 => skip("text"),
-        5 => skip("sparse matrix; save it full"),
+        5 => skip("sparse matrix; save it as a full one"),
         6..=15 if head.complex => skip("complex numbers; save real(x) and imag(x)"),
         6..=15 => numeric(stream, head, collector)?,
         16 => skip("function handle"),
@@ -204,7 +206,7 @@ fn structure(
     }
     let length = match length.samples[..] {
         [length] if (1.0..=4096.0).contains(&length) => length as usize,
-        _ => return Err(stream.bad("a struct without a length of field names")),
+        _ => return Err(stream.bad("a struct without the length of its field names")),
     };
     let (_, bytes) = stream.small_element(MAX_NAMES)?;
     let fields: Vec<String> = bytes.chunks_exact(length).map(text).collect();

@@ -17,6 +17,7 @@ use flate2::bufread::ZlibDecoder;
 use crate::binary::{ByteOrder, Collector};
 use crate::{Error, Kind, Limits, Table};
 
+/// Bytes of the header of a file.
 const HEADER: u64 = 128;
 
 /// Reads all variables of a file of this many bytes.

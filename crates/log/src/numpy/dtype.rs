@@ -14,7 +14,7 @@ pub(super) enum Dtype {
     Other(String),
 }
 
-/// Elements of an array inside a record that become columns of their own.
+/// Most elements of an array inside a record; each becomes a column of its own.
 const MAX_SUBARRAY: u64 = 1024;
 
 impl Dtype {
@@ -196,7 +196,7 @@ fn cells(
     };
     let Plain { dtype, bytes } = Plain::new(code)?;
     match dtype {
-        Dtype::Number(_) if copies > MAX_SUBARRAY => other("an array of too many elements"),
+        Dtype::Number(_) if copies > MAX_SUBARRAY => other("an array with too many elements"),
         Dtype::Number(number) => {
             for copy in 0..copies as usize {
                 out.push(Field {

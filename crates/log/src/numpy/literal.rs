@@ -15,7 +15,7 @@ pub(super) enum Literal {
     Dictionary(Vec<(String, Literal)>),
 }
 
-/// Nested lists and tuples; a record in a record takes two levels.
+/// Deepest nesting of lists and tuples; a record in a record takes two levels.
 const MAX_DEPTH: usize = 16;
 
 /// Parses the whole of `text`; the error says what is wrong and where.
@@ -68,7 +68,9 @@ impl Parser<'_> {
 
     fn value(&mut self, depth: usize) -> Result<Literal, String> {
         if depth > MAX_DEPTH {
-            return Err(format!("the header nests deeper than {MAX_DEPTH} levels"));
+            return Err(format!(
+                "the header is nested deeper than {MAX_DEPTH} levels"
+            ));
         }
         self.blank();
         match self.peek().ok_or("the header ends early")? {

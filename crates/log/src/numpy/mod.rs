@@ -17,7 +17,7 @@ use crate::binary::{
 };
 use crate::{Error, Kind, Limits, Table};
 
-/// Longest header; NumPy's own reader stops at 10 000 bytes unless told otherwise.
+/// Longest header in bytes; NumPy's own reader stops at 10 000 bytes unless told otherwise.
 const MAX_HEADER: u64 = 1 << 20;
 
 /// Reads the one array of an NPY file; it has no name.
@@ -91,7 +91,7 @@ fn array(reader: &mut impl Read, name: &str, collector: &mut Collector) -> Resul
         Dtype::Ticks(order, period, clock) => {
             dims.retain(|&n| n != 1);
             if dims.len() != 1 || dims.contains(&0) {
-                collector.skip(name, "times that are not one column");
+                collector.skip(name, "time stamps that are not one column");
                 return Ok(());
             }
             let count = collector.reserve(name, &dims)?;

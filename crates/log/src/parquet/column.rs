@@ -184,7 +184,8 @@ fn each<T: DataType>(
     full: i16,
     mut take: impl FnMut(Option<&T::T>),
 ) -> Result<(), ParquetError> {
-    const ROWS: usize = 8192;
+    // As many as the readers of other formats take at once.
+    const BATCH_ROWS: usize = 8192;
     let (mut values, mut present) = (Vec::new(), Vec::new());
     let nullable = full > 0;
     let mut left = rows;
@@ -192,7 +193,8 @@ fn each<T: DataType>(
         values.clear();
         present.clear();
         let levels = nullable.then_some(&mut present);
-        let (records, _, _) = reader.read_records(left.min(ROWS), levels, None, &mut values)?;
+        let (records, _, _) =
+            reader.read_records(left.min(BATCH_ROWS), levels, None, &mut values)?;
         if records == 0 {
             break;
         }

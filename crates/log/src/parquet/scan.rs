@@ -1,4 +1,4 @@
-//! A look at the sizes that a Parquet file claims, before the library takes memory for them.
+//! Checks the sizes that a Parquet file claims before the library allocates memory for them.
 //!
 //! The library trusts the number of children of a schema element, the size of an unpacked page and
 //! the length of a dictionary; a few bytes in a small file could ask for gigabytes.
@@ -8,13 +8,13 @@ use std::io::{Read, Seek, SeekFrom};
 
 use super::thrift::{Compact, I32, LIST, STRUCT};
 
-/// Largest footer; 64 MiB describe a million column chunks.
+/// Largest footer in bytes; 64 MiB describe a million column chunks.
 const MAX_FOOTER: u64 = 64 << 20;
 
-/// Largest header of one page, statistics included.
+/// Largest header of one page in bytes, statistics included.
 const MAX_PAGE_HEADER: u64 = 1 << 20;
 
-/// Groups in groups of the schema.
+/// Deepest nesting of groups in the schema.
 const MAX_DEPTH: usize = 32;
 
 /// Checks the footer of a file of this many bytes; the error says what is wrong with it.

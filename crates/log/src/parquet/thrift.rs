@@ -1,12 +1,12 @@
-//! As much of Thrift's compact protocol as it takes to look at sizes before memory is taken for them.
+//! The part of Thrift's compact protocol that is needed to check sizes before memory is allocated for them.
 
-/// Items of one list; a recording has far fewer columns, row groups or pages statistics.
+/// Most items of one list; a recording has far fewer columns, row groups or page statistics.
 const MAX_ITEMS: u64 = 65_536;
 
-/// Structs in structs.
+/// Deepest nesting of structs.
 const MAX_DEPTH: usize = 32;
 
-/// Wire types that the scan tells apart.
+/// Wire types that the scan distinguishes.
 pub(super) const I32: u8 = 5;
 pub(super) const LIST: u8 = 9;
 pub(super) const STRUCT: u8 = 12;

@@ -15,9 +15,9 @@ use super::twincat;
 use super::{MAX_COLUMNS, MAX_PREAMBLE_LINES};
 use crate::{Error, Kind};
 
-/// Lines of samples that are looked at.
+/// Lines of samples from which the dialect is decided.
 const SAMPLE_LINES: usize = 256;
-/// Bytes of the head that are looked at for the separator.
+/// Bytes of the head from which the separator is decided.
 const SAMPLE_BYTES: usize = 1 << 20;
 
 /// How a file is written.
@@ -85,7 +85,7 @@ pub(super) fn layout(source: &Source, options: &TextOptions) -> Result<Layout, E
             Kind::Ambiguous,
             format!("{} with decimal {}", other.seen.text, other.decimal),
             format!(
-                "numbers with decimal {} as in row {} ({}); one mark in the whole file",
+                "numbers with decimal {} as in row {} ({}); the same mark throughout the file",
                 first.decimal, first.seen.line, first.seen.text
             ),
         )
@@ -166,7 +166,7 @@ fn first_texts(lines: &[Line], fit: &Fit, ends: &Ends) -> Vec<Option<Seen>> {
             let cell = cells.get(c).filter(|_| *role == Role::Text)?;
             let local = super::clock::is_local_date(&cell.text);
             let order = if local {
-                ", day and month in unknown order"
+                ", with day and month in unknown order"
             } else {
                 ""
             };
@@ -179,7 +179,7 @@ fn first_texts(lines: &[Line], fit: &Fit, ends: &Ends) -> Vec<Option<Seen>> {
         .collect()
 }
 
-/// The separator that makes most of the head.
+/// The separator with which the head holds most numbers.
 fn best(lines: &[Line], skip: usize, row_end: u8, options: &TextOptions) -> Result<Fit, Error> {
     let fit = |separator| Fit::new(lines, skip, separator, row_end, options);
     let none = || nothing_fits(lines, skip, options);
@@ -227,7 +227,7 @@ fn best(lines: &[Line], skip: usize, row_end: u8, options: &TextOptions) -> Resu
             Err(Error::new(
                 Kind::Ambiguous,
                 format!(
-                    "{} splits at commas or at blanks",
+                    "{} can be split at commas or at blanks",
                     problem::show(lines[row].text.trim_ascii())
                 ),
                 "state the separator",

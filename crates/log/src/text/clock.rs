@@ -7,7 +7,7 @@ pub(super) struct Moment {
     pub ns: i64,
     /// Whether a date is part of it.
     pub dated: bool,
-    /// Whether it shows a broken part of a second.
+    /// Whether it has a fraction of a second.
     pub fraction: bool,
 }
 

@@ -56,11 +56,12 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
                     "times of day"
                 };
                 let midnight = if !dated && unwrap_midnight(&mut values) {
-                    ", a day added after each midnight"
+                    ", with a day added after each midnight"
                 } else {
                     ""
                 };
-                let said = format!("{label}: {sort}, as seconds from the first{midnight}");
+                let said =
+                    format!("{label}: {sort}, converted to seconds from the first{midnight}");
                 table.detected.push(said);
             }
             _ => {}

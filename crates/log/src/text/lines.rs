@@ -35,7 +35,7 @@ impl Line<'_> {
 }
 
 /// Most lines that one quoted cell in the head may span.
-const SPAN: usize = 16;
+const MAX_QUOTED_LINES: usize = 16;
 
 /// The first lines of a head; a last line that is cut off by the end of the head is left out.
 pub(super) fn lines(head: &[u8], row_end: u8, whole_file: bool, limit: usize) -> Vec<Line<'_>> {
@@ -47,7 +47,7 @@ pub(super) fn lines(head: &[u8], row_end: u8, whole_file: bool, limit: usize) ->
         let mut spanned = 1;
         if has_open_quote(&head[start..end]) {
             let mut longer = end;
-            for count in 2..=SPAN {
+            for count in 2..=MAX_QUOTED_LINES {
                 match end_of_line(head, longer + 1, row_end, whole_file) {
                     Some(next) if longer < head.len() => longer = next,
                     _ => break,

@@ -110,7 +110,7 @@ fn read_sized(reader: impl Read, size: Option<u64>, options: &TextOptions) -> Re
         return Err(Error::new(
             Kind::Format,
             "no column holds numbers",
-            "a recording needs at least one column of numbers",
+            "a recording needs at least one numeric column",
         ));
     }
     Ok(table)

@@ -3,7 +3,7 @@
 use crate::{Error, Kind};
 use std::fmt;
 
-/// What stands between two cells of a row.
+/// The separator between two cells of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Separator {
     /// One TAB.
@@ -47,7 +47,7 @@ impl fmt::Display for Separator {
     }
 }
 
-/// What stands between the whole and the broken part of a number.
+/// The decimal mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Decimal {
     /// `1.5`
@@ -68,7 +68,7 @@ impl fmt::Display for Decimal {
 /// How a text file is written, as far as the user states it; `None` is detected.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TextOptions {
-    /// What stands between two cells.
+    /// The separator between two cells.
     pub separator: Option<Separator>,
     /// The decimal mark of every number.
     pub decimal: Option<Decimal>,

@@ -1,34 +1,34 @@
-//! The words for what is wrong with a text file.
+//! Error messages for text files.
 
 use super::cell::{self, Cell};
 use super::options::{Decimal, Separator};
 use crate::{Error, Kind};
 use std::io;
 
-/// Longest piece of a file that a message shows.
-const SHOWN: usize = 40;
+/// Longest piece of a file that a message shows, in characters.
+const MAX_SHOWN_CHARS: usize = 40;
 
 /// A piece of the file in a message: short, one line, control characters escaped.
 pub(super) fn show(text: &[u8]) -> String {
-    let text = decode(&text[..text.len().min(8 * SHOWN)]);
+    let text = decode(&text[..text.len().min(8 * MAX_SHOWN_CHARS)]);
     let mut shown: String = text
         .chars()
-        .take(SHOWN)
+        .take(MAX_SHOWN_CHARS)
         .flat_map(char::escape_debug)
         .collect();
     shown = shown.replace("\\\"", "\"").replace("\\'", "'");
-    if text.chars().count() > SHOWN {
+    if text.chars().count() > MAX_SHOWN_CHARS {
         shown.push('…');
     }
     format!("`{shown}`")
 }
 
-/// The first few of several things, and how many more there are.
+/// The first few items of a list, and how many more there are.
 pub(super) fn list(things: &[String]) -> String {
-    const FEW: usize = 8;
-    let mut text = things[..things.len().min(FEW)].join(", ");
-    if things.len() > FEW {
-        text += &format!(" and {} more", things.len() - FEW);
+    const MAX_LISTED: usize = 8;
+    let mut text = things[..things.len().min(MAX_LISTED)].join(", ");
+    if things.len() > MAX_LISTED {
+        text += &format!(" and {} more", things.len() - MAX_LISTED);
     }
     text
 }
@@ -105,7 +105,7 @@ pub(super) fn wrong_count(
     Error::new(Kind::Format, found_text, allowed)
 }
 
-/// A cell in a column of numbers that is no number there.
+/// A cell in a numeric column that is not a number there.
 pub(super) fn wrong_cell(text: &[u8], decimal: Option<Decimal>, seen: Option<&str>) -> Error {
     let other = match cell::classify(text) {
         Cell::Number(_, mark) => mark,
@@ -117,7 +117,9 @@ pub(super) fn wrong_cell(text: &[u8], decimal: Option<Decimal>, seen: Option<&st
             Error::new(
                 Kind::Ambiguous,
                 format!("{} with decimal {other}", show(text)),
-                format!("numbers with decimal {decimal}, {because}; one mark in the whole file"),
+                format!(
+                    "numbers with decimal {decimal}, {because}; the same mark throughout the file"
+                ),
             )
         }
         _ => {

@@ -120,7 +120,7 @@ pub(super) fn read(
         return Err(Error::new(
             Kind::Ambiguous,
             format!(
-                "{}, part names and part numbers",
+                "{}, partly names and partly numbers",
                 problem::show(lines[last].text.trim_ascii())
             ),
             "names only, or numbers only; else state whether the file has a header, or how many \

@@ -338,7 +338,7 @@ impl Parser<'_> {
                 state.roles[column] = Role::Text;
                 let text = match clock::is_local_date(&found.text) {
                     true => format!(
-                        "{}, day and month in unknown order",
+                        "{}, with day and month in unknown order",
                         problem::show(&found.text)
                     ),
                     false => problem::show(&found.text),

@@ -41,7 +41,7 @@ pub(super) fn finish(scope: &Scope, table: &mut Table) {
                 let of: Vec<String> = stamps.channels.iter().map(|&c| shown(table, c)).collect();
                 table
                     .detected
-                    .push(format!("`{name}` holds for {}", problem::list(&of)));
+                    .push(format!("`{name}` applies to {}", problem::list(&of)));
                 table.columns[stamps.times[0]].name = name;
             }
         }

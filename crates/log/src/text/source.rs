@@ -7,10 +7,10 @@ use super::utf16::Utf16;
 use crate::{Error, Kind};
 use std::io::{Cursor, Read};
 
-/// Bytes of the head; the 17 header rows of a TwinCAT export with 4096 channels fit in.
-const HEAD: usize = 4 << 20;
-/// Bytes of one block of rows.
-const BLOCK: usize = 512 << 10;
+/// Size of the head in bytes; the 17 header rows of a TwinCAT export with 4096 channels fit in.
+const HEAD_BYTES: usize = 4 << 20;
+/// Size of one block of rows in bytes.
+const BLOCK_BYTES: usize = 512 << 10;
 
 /// A text file as UTF-8 (or at least ASCII) bytes.
 pub(super) struct Source<'a> {
@@ -52,12 +52,12 @@ impl<'a> Source<'a> {
             _ => Box::new(plain),
         };
         let mut head = Vec::new();
-        fill(&mut reader, &mut head, HEAD)?;
+        fill(&mut reader, &mut head, HEAD_BYTES)?;
         if let Some(at) = memchr::memchr(0, &head) {
             return Err(Error::new(
                 Kind::Format,
-                "a byte 0, which no text holds",
-                "a text file (UTF-16 needs its byte order mark), or the format its ending names",
+                "a zero byte, which is not text",
+                "a text file (UTF-16 needs its byte order mark), or the format that its extension names",
             )
             .at_byte(at as u64));
         }
@@ -65,7 +65,7 @@ impl<'a> Source<'a> {
             Some(at) if head[at] == b'\r' && memchr::memchr(b'\n', &head).is_none() => b'\r',
             _ => b'\n',
         };
-        let whole = head.len() < HEAD;
+        let whole = head.len() < HEAD_BYTES;
         let size = size.filter(|_| rest != 2);
         Ok(Self {
             reader,
@@ -114,7 +114,7 @@ impl<'a> Source<'a> {
     /// Appends up to one block's worth of bytes.
     fn more(&mut self, block: &mut Vec<u8>) -> Result<(), Error> {
         if self.taken < self.head.len() {
-            let end = self.head.len().min(self.taken + BLOCK);
+            let end = self.head.len().min(self.taken + BLOCK_BYTES);
             block.extend_from_slice(&self.head[self.taken..end]);
             self.taken = end;
             return Ok(());
@@ -122,12 +122,12 @@ impl<'a> Source<'a> {
         // The head is not needed any more.
         self.head = Vec::new();
         self.taken = 0;
-        fill(&mut self.reader, block, BLOCK)
+        fill(&mut self.reader, block, BLOCK_BYTES)
     }
 }
 
 fn fill(reader: &mut impl Read, to: &mut Vec<u8>, count: usize) -> Result<(), Error> {
-    to.reserve(count.min(BLOCK));
+    to.reserve(count.min(BLOCK_BYTES));
     reader
         .take(count as u64)
         .read_to_end(to)

@@ -41,10 +41,10 @@ const FILE_KEYS: [&str; 4] = [
     "StartRecord",
     "EndRecord",
 ];
-/// FILETIME stamps of this century and the last are above this; milliseconds of a log are below.
-const LEAST_FILETIME: i64 = 10_000_000_000_000_000;
+/// Least FILETIME stamp (100 ns since 1601): those of this century and the last are above it, milliseconds of a log below.
+const MIN_FILETIME: i64 = 10_000_000_000_000_000;
 
-/// The layout of a Scope export, or `None` where the file is none.
+/// The layout of a Scope export, or `None` where the file is not one.
 pub(super) fn layout(
     lines: &[Line],
     skip: usize,
@@ -140,7 +140,7 @@ impl Header<'_> {
             };
             if Some(c) == key {
                 group.time = Some(at);
-                let stamp = row::file_time(samples[at].as_bytes()).filter(|t| *t >= LEAST_FILETIME);
+                let stamp = row::file_time(samples[at].as_bytes()).filter(|t| *t >= MIN_FILETIME);
                 file_time = file_time.or(stamp);
                 let role = stamp
                     .and(file_time)
@@ -176,7 +176,7 @@ impl Header<'_> {
             detected.push("no time columns".to_owned());
         }
         if file_time.is_some() {
-            detected.push("FILETIME stamps, as seconds from the first".to_owned());
+            detected.push("FILETIME stamps, converted to seconds from the first".to_owned());
         }
         detected.extend(self.display_rows(&names, first));
         let decimal = options.decimal.or_else(|| self.decimal(&times));
@@ -304,7 +304,7 @@ impl Header<'_> {
             ([a, b, c], None) => *a == 0.0 && *b > 0.0 && ((c - b) - (b - a)).abs() < 1e-6 * b,
             _ => false,
         };
-        if !ramp && starts[0] < LEAST_FILETIME as f64 {
+        if !ramp && starts[0] < MIN_FILETIME as f64 {
             return Ok(());
         }
         Err(Error::new(
@@ -344,7 +344,10 @@ impl Header<'_> {
                 .map(|c| format!("{} {}", problem::show(names[c].as_bytes()), row[c]))
                 .collect();
             if !set.is_empty() {
-                said.push(format!("display {key} left alone: {}", problem::list(&set)));
+                said.push(format!(
+                    "display {key} not applied: {}",
+                    problem::list(&set)
+                ));
             }
         }
         said
@@ -393,7 +396,7 @@ fn mend(words: &[String]) -> Vec<String> {
     names
 }
 
-/// The unit of a cell such as `mm (Length)`; `(None)` is none.
+/// The unit of a cell such as `mm (Length)`; `(None)` means no unit.
 fn unit(cell: &str) -> Option<String> {
     let unit = cell.split(" (").next().unwrap_or_default().trim();
     (!unit.is_empty() && unit != "(None)").then(|| unit.to_owned())

@@ -11,9 +11,10 @@ pub struct Dimension {
     exponents: [i8; 7],
 }
 
-/// Largest exponent that is accepted; beyond it a unit is a typing error.
+/// Largest exponent of a base quantity; beyond it a unit is a typing error.
 const MAX_EXPONENT: i32 = 12;
 
+/// Symbols of the base quantities, in the order of the exponents.
 const BASE: [&str; 7] = ["m", "kg", "s", "A", "K", "rad", "count"];
 
 const fn of(exponents: [i8; 7]) -> Dimension {
@@ -113,7 +114,7 @@ impl Dimension {
         text.join("*")
     }
 
-    /// What is measured in words where it has a name (`torque`), else its SI unit.
+    /// The quantity in words where it has a name (`torque`), else its SI unit.
     pub fn name(self) -> String {
         match NAMED.iter().find(|(d, _, _)| *d == self) {
             Some((_, _, name)) => (*name).to_string(),

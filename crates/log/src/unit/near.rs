@@ -1,4 +1,4 @@
-//! Which known words are near a word that is not known.
+//! Suggestions for a misspelt word.
 
 /// At most four known words near this one, nearest first: same letters in another case, then few
 /// edits.
@@ -33,6 +33,7 @@ pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
         .collect()
 }
 
+/// Longest word that is compared, in characters: the work grows with its square.
 const MAX_CHARS: usize = 40;
 
 fn solid(letters: &[char]) -> Vec<char> {

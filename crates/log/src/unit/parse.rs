@@ -34,7 +34,7 @@ pub(super) fn unit(text: &str) -> Result<Unit, Error> {
                 let left = &inner[parser.at..];
                 return Err(problem(
                     text,
-                    &format!("{left:?} that belongs to no unit"),
+                    &format!("{left:?}, which is not part of a unit"),
                     SPELLING,
                 ));
             }
@@ -46,7 +46,7 @@ pub(super) fn unit(text: &str) -> Result<Unit, Error> {
         }
     };
     let factor = Factor::new(size.mantissa, size.exponent)
-        .ok_or_else(|| problem(text, "a factor beyond any number", SPELLING))?;
+        .ok_or_else(|| problem(text, "a factor outside the range of numbers", SPELLING))?;
     Ok(Unit {
         text: text.to_string(),
         dimension: size.dimension,
@@ -136,7 +136,9 @@ impl Parser<'_> {
                 Join::Times { sign } => {
                     if divided && !sign {
                         let advice = "put the numerator first (N s/m) or use brackets (N/(m s))";
-                        return Err(self.wrong("a factor after a division without a sign", advice));
+                        return Err(
+                            self.wrong("a factor after a division without an operator", advice)
+                        );
                     }
                     let next = self.factor()?;
                     total = self.combine(total, next, 1)?;
@@ -182,7 +184,7 @@ impl Parser<'_> {
             let inner = self.product()?;
             self.blanks();
             if !self.take(')') {
-                return Err(self.wrong("a bracket that is not closed", SPELLING));
+                return Err(self.wrong("an unclosed bracket", SPELLING));
             }
             self.depth -= 1;
             let power = self.power()?;
@@ -273,7 +275,7 @@ impl Parser<'_> {
             .dimension
             .power(power)
             .and_then(|d| total.dimension.times(d))
-            .ok_or_else(|| self.wrong("powers beyond any physical quantity", SPELLING))?;
+            .ok_or_else(|| self.wrong("powers that no physical quantity has", SPELLING))?;
         let mut mantissa = total.mantissa;
         for _ in 0..power.abs() {
             mantissa = if power > 0 {
@@ -304,9 +306,11 @@ fn is_symbol(c: char) -> bool {
 fn unknown(run: &str) -> Error {
     let near = nearest(run, symbol::COMMON.iter().copied());
     let allowed = if near.is_empty() {
-        format!("known are s, m, rad, deg, rpm, N, A, V, kg, counts, % and their like; {SPELLING}")
+        format!(
+            "known units are s, m, rad, deg, rpm, N, A, V, kg, counts, % and similar ones; {SPELLING}"
+        )
     } else {
-        format!("near it are {}; {SPELLING}", near.join(", "))
+        format!("similar: {}; {SPELLING}", near.join(", "))
     };
     Error::new(Kind::Unit, format!("unknown unit {run:?}"), allowed)
 }

@@ -18,7 +18,7 @@ impl Value {
     ///
     /// # Errors
     /// [`Kind::Value`] where no finite number leads the text (a decimal comma is named as such),
-    /// [`Kind::Unit`] where the rest is no unit.
+    /// [`Kind::Unit`] where the rest is not a unit.
     pub fn parse(text: &str) -> Result<Self, Error> {
         let text = text.trim();
         let length = number_length(text);

@@ -200,7 +200,7 @@ fn text_columns_are_skipped_and_said() {
     let table = detect("t;day\n0;01/02/2024 10:00:00\n1,5;01/02/2024 10:00:01\n").unwrap();
     assert_eq!(
         table.skipped,
-        ["day: text such as `01/02/2024 10:00:00`, day and month in unknown order in row 2"]
+        ["day: text such as `01/02/2024 10:00:00`, with day and month in unknown order in row 2"]
     );
 }
 
@@ -232,7 +232,7 @@ fn moments_become_seconds() {
     assert!(
         table
             .detected
-            .contains(&"time: dates with time, as seconds from the first".to_owned())
+            .contains(&"time: dates with time, converted to seconds from the first".to_owned())
     );
     let text = "23:59:59,5\t1,5\n23:59:59,75\t2\n00:00:00,25\t3\n";
     let table = detect(text).unwrap();
