@@ -3,14 +3,14 @@
 use crate::model::cast;
 use crate::number::Literal;
 use crate::template::Fill;
-use crate::vectors::Vectors;
+use crate::vectors::{DOUBLE_TOLERANCE, SINGLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, header, law};
 
 const HEADER: &str = include_str!("../templates/c/compensator.h.in");
 const SOURCE: &str = include_str!("../templates/c/compensator.c.in");
 const SELFTEST: &str = include_str!("../templates/c/selftest.c.in");
 
-/// How a number type is called in C.
+/// A number type of C.
 struct Precision {
     /// What is appended to the model's identifier.
     suffix: &'static str,
@@ -20,7 +20,7 @@ struct Precision {
     /// Suffix of a function of `math.h`.
     function: &'static str,
     max: &'static str,
-    /// Error allowed in the self-test, of the static friction.
+    /// Largest error of the self-test, relative to [`Vectors::scale`].
     tolerance: f64,
 }
 
@@ -30,7 +30,7 @@ const DOUBLE: Precision = Precision {
     literal: "",
     function: "",
     max: "DBL_MAX",
-    tolerance: 1e-12,
+    tolerance: DOUBLE_TOLERANCE,
 };
 
 const FLOAT: Precision = Precision {
@@ -39,7 +39,7 @@ const FLOAT: Precision = Precision {
     literal: "f",
     function: "f",
     max: "FLT_MAX",
-    tolerance: 2e-6,
+    tolerance: SINGLE_TOLERANCE,
 };
 
 pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {

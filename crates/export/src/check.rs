@@ -1,4 +1,4 @@
-//! What an engineer should know before the code runs.
+//! Advice before the code runs.
 
 use crate::number::short;
 use crate::{Error, Model, Target, check_identifier, hal, tf5200};
@@ -9,16 +9,23 @@ use stiction_friction::{Damping, LuGre};
 /// Shortest and longest cycle time, s.
 pub(crate) const CYCLE_TIMES: (f64, f64) = (1e-6, 0.1);
 
-/// Something to know, although the model is exported.
+/// Fast motion where the speed of the log is not known, in Stribeck velocities.
+const FAST_STRIBECK_VELOCITIES: f64 = 100.0;
+/// Lower end of the speeds at which the law may turn active, relative to the top speed.
+const SLOWEST: f64 = 1e-15;
+/// Accuracy of that speed, a ratio; messages show four digits.
+const SPEED_ACCURACY: f64 = 1.0001;
+
+/// Advice about a model that is exported all the same.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Advice {
     /// Stable code.
     pub code: Code,
-    /// What would happen, with figures.
+    /// What will happen, with figures.
     pub message: String,
 }
 
-/// Refuses what a target cannot express whose narrowest number type is `number_type`.
+/// Refuses what a target with the narrowest number type `number_type` cannot express.
 pub(crate) fn check(model: &Model, number_type: &'static str) -> Result<(), Error> {
     check_identifier(&model.identifier)?;
     let found = model.settings.cycle_time;
@@ -30,7 +37,7 @@ pub(crate) fn check(model: &Model, number_type: &'static str) -> Result<(), Erro
         .map(|_| ())
 }
 
-/// What would happen with this model in a target at this cycle time; numbers as an engineer reads them.
+/// Advice on this model in a target at its cycle time.
 pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
     let mut found = Vec::new();
     if let (Friction::LuGre(law), true) = (&model.friction, target != Target::Tf5200) {
@@ -40,7 +47,7 @@ pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
     match target {
         Target::Mujoco => {}
         Target::Tf5200 => {
-            // Beyond its last speed the table has nothing to say.
+            // The table ends at its last speed.
             if tf5200::largest_force(model) > model.settings.limit {
                 found.extend(limited(model, 1.0, &|v| tf5200::mean(model, v)));
             }
@@ -53,15 +60,14 @@ pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
         found.push(Advice {
             code: Code::ExportName,
             message: format!(
-                "names in LinuxCNC's HAL hold 47 characters with those of the pins: the component is called {short}"
+                "names in LinuxCNC's HAL have at most 47 characters, pins included: the component is called {short}"
             ),
         });
     }
     found
 }
 
-/// The friction, `force` at a speed, is beyond the limit: its share `gain`, or the whole of it, to which the gain may be
-/// raised.
+/// The friction, `force` at a speed, is beyond the limit: at the gain `gain`, or at a gain of 1, to which it may be raised.
 fn limited(model: &Model, gain: f64, force: &dyn Fn(f64) -> f64) -> Option<Advice> {
     let (limit, rest) = (model.settings.limit, force(0.0));
     let (unit, speed_unit) = (model.force_unit(), model.speed_unit());
@@ -82,14 +88,14 @@ fn limited(model: &Model, gain: f64, force: &dyn Fn(f64) -> f64) -> Option<Advic
     };
     let message = if limit < gain * rest {
         format!(
-            "{head}, below {share}the friction at standstill of {} {unit}: what is beyond stays uncompensated",
+            "{head}, below {share}the friction at standstill of {} {unit}: the rest stays uncompensated",
             short(rest)
         )
     } else if limit < rest || whole == 0.0 {
         let until = by_gain.map_or(String::new(), |v| format!(" up to {}", speed(v)));
         format!(
-            "{head}, no more than the friction at standstill of {} {unit}: enough for a gain of {gain}{until}, but with a gain of 1 what is beyond stays \
-             uncompensated; give another --limit before the gain is raised",
+            "{head}, not above the friction at standstill of {} {unit}: enough for a gain of {gain}{until}, but with a gain of 1 the rest stays \
+             uncompensated; give a higher --limit before raising the gain",
             short(rest)
         )
     } else {
@@ -103,10 +109,10 @@ fn limited(model: &Model, gain: f64, force: &dyn Fn(f64) -> f64) -> Option<Advic
         match model.top_speed {
             Some(top) if whole > top => return None,
             Some(top) => format!(
-                "{reached}, and the log goes to {}: give another --limit, or stay slower",
+                "{reached}, and the log goes to {}: give a higher --limit, or stay below that speed",
                 speed(top)
             ),
-            None => format!("{reached}: if the axis moves faster, give another --limit"),
+            None => format!("{reached}: if the axis moves faster, give a higher --limit"),
         }
     };
     Some(Advice {
@@ -115,7 +121,7 @@ fn limited(model: &Model, gain: f64, force: &dyn Fn(f64) -> f64) -> Option<Advic
     })
 }
 
-/// The friction is more than what the motor is rated for, at the speeds of the log where they are known.
+/// The friction exceeds the rated force of the motor, within the speeds of the log where they are known.
 fn rated(model: &Model) -> Option<Advice> {
     let rated = model.rated_force?;
     let upto = model.top_speed.unwrap_or(f64::MAX);
@@ -127,7 +133,7 @@ fn rated(model: &Model) -> Option<Advice> {
     (most > rated).then(|| Advice {
         code: Code::ExportRatedForce,
         message: format!(
-            "{at}the table goes to {} {unit}, {:.0} percent of the rated force of {rated} {unit}: see that this is in {unit}, and the motor's",
+            "{at}the table goes to {} {unit}, {:.0} percent of the rated force of {rated} {unit}: check that --rated-force is that of the motor, in {unit}",
             short(most),
             100.0 * most / rated,
             unit = model.force_unit(),
@@ -135,22 +141,22 @@ fn rated(model: &Model) -> Option<Advice> {
     })
 }
 
-/// The law as identified is not passive at the speeds of the log, or where those are not known, below a hundred Stribeck
-/// velocities.
+/// The law as identified is not passive within the speeds of the log, or where those are not known, within
+/// [`FAST_STRIBECK_VELOCITIES`].
 fn released(model: &Model, law: &LuGre<f64>, target: Target) -> Option<Advice> {
     let Damping::Constant(sigma1) = law.damping() else {
         return None;
     };
     let cap = |v: f64| law.passive_cap(v).min(law.passive_cap(-v));
-    let fast = 100.0 * law.curve().positive().stribeck_velocity;
+    let fast = FAST_STRIBECK_VELOCITIES * law.curve().positive().stribeck_velocity;
     let top = model.top_speed.unwrap_or(fast);
     let least = cap(top);
     if sigma1 <= least {
         return None;
     }
-    // The cap falls with speed, and is beyond all numbers at rest.
-    let (mut low, mut high) = (1e-15 * top, top);
-    while high > 1.0001 * low {
+    // The cap falls with speed, and is infinite at rest.
+    let (mut low, mut high) = (SLOWEST * top, top);
+    while high > SPEED_ACCURACY * low {
         let middle = libm::sqrt(low * high);
         *if cap(middle) < sigma1 {
             &mut high
@@ -160,20 +166,20 @@ fn released(model: &Model, law: &LuGre<f64>, target: Target) -> Option<Advice> {
     }
     let outcome = match target {
         Target::Mujoco => {
-            "MuJoCo keeps it constant; if the joint trembles where it should stand, take a smaller one"
+            "MuJoCo keeps it constant; if the joint trembles where it should stand still, take a smaller one"
         }
         _ => {
-            "The exported code limits sigma1 to what is passive at each speed, so its force differs from the identified law's where speed changes suddenly"
+            "The exported code limits sigma1 to the passive value at each speed, so its force differs from that of the identified law where the speed changes suddenly"
         }
     };
     let whose = match model.top_speed {
-        Some(_) => "the largest of the log",
+        Some(_) => "the largest speed of the log",
         None => "a hundred Stribeck velocities",
     };
     Some(Advice {
         code: Code::ExportDamping,
         message: format!(
-            "sigma1 = {} {unit} as a constant would release energy: from {} {speed} on only less is passive, at {} {speed} ({whose}) no more than {} {unit}. {outcome}",
+            "sigma1 = {} {unit} as a constant would release energy: it is not passive above {} {speed}, and at {} {speed} ({whose}) no more than {} {unit} is. {outcome}",
             short(sigma1),
             short(high),
             short(top),
@@ -184,9 +190,9 @@ fn released(model: &Model, law: &LuGre<f64>, target: Target) -> Option<Advice> {
     })
 }
 
-/// The bristles are crossed within a cycle.
+/// The axis moves farther than the presliding length within a cycle.
 fn unresolved(model: &Model, law: &LuGre<f64>, target: Target) -> Option<Advice> {
-    // A law whose level does not fall has no speed of its own.
+    // A law whose level does not fall has no Stribeck velocity.
     let (vs, length) = (model.stribeck_velocity(), law.bound());
     let path = vs * model.settings.cycle_time;
     let cycle = match target {
@@ -198,7 +204,7 @@ fn unresolved(model: &Model, law: &LuGre<f64>, target: Target) -> Option<Advice>
         format!("ask for a {cycle} below {below:.1e} s with --cycle-time")
     } else {
         format!(
-            "no {cycle} that is allowed, {:?} s or more, resolves it",
+            "no allowed {cycle} ({:?} s or more) resolves it",
             CYCLE_TIMES.0
         )
     };
@@ -215,7 +221,7 @@ fn unresolved(model: &Model, law: &LuGre<f64>, target: Target) -> Option<Advice>
     })
 }
 
-/// Cut to two digits: never more than the number, but for rounding.
+/// Rounded down to two digits.
 fn two_digits(x: f64) -> f64 {
     let unit = libm::pow(10.0, libm::floor(libm::log10(x)) - 1.0);
     libm::floor(x / unit * (1.0 + 1e-9)) * unit

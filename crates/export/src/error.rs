@@ -1,4 +1,4 @@
-//! Why a model is not exported.
+//! Errors of an export.
 
 use stiction_friction::ParamError;
 use stiction_number::shortest;
@@ -6,7 +6,7 @@ use stiction_number::shortest;
 /// A model that cannot be exported to a target.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
-    /// A name that is no identifier in every target.
+    /// A name that is not an identifier in every target.
     #[error(
         "name {found:?}; allowed: a letter, then letters, digits and single underscores, at most {} characters, not ending in an underscore",
         crate::IDENTIFIER_LENGTH
@@ -15,7 +15,7 @@ pub enum Error {
         /// The name found.
         found: String,
     },
-    /// A parameter that is too large, or too close to 0, for the number type of a file to compute with.
+    /// A parameter that is too large or too small to be computed with in the number type of a file.
     #[error(
         "{name} = {}; allowed: from {} to {} (as {number_type})",
         shortest(*value),
@@ -32,7 +32,7 @@ pub enum Error {
         /// `double`, `float`, `LREAL` or `REAL`.
         number_type: &'static str,
     },
-    /// A parameter or setting that the law or the compensator does not take.
+    /// A parameter or setting that the law or the compensator refuses.
     #[error(
         "{} = {}; allowed: {} (as {number_type})",
         source.name,
@@ -45,25 +45,25 @@ pub enum Error {
         /// What is wrong.
         source: ParamError,
     },
-    /// A cycle time that no controller has.
+    /// An implausible cycle time.
     #[error("cycle time {found} s; allowed: {} s to {} s", crate::check::CYCLE_TIMES.0, crate::check::CYCLE_TIMES.1)]
     CycleTime {
         /// The time found, s.
         found: f64,
     },
-    /// A law that the target has no form for.
-    #[error("target {target} has no form for the law {law}; allowed: {allowed}")]
+    /// A law that the target cannot express.
+    #[error("target {target} cannot express the law {law}; allowed: {allowed}")]
     Law {
         /// The target.
         target: &'static str,
         /// The law found.
         law: &'static str,
-        /// What the target takes.
+        /// The laws that the target can express.
         allowed: &'static str,
     },
-    /// A target that needs to know the motor.
+    /// A target that needs the rated force of the motor.
     #[error(
-        "target {target} writes forces in per mille of the motor's rated force, and none was given; give it with --rated-force, in {unit}"
+        "target {target} writes forces in per mille of the motor's rated force, which is not known; give it with --rated-force, in {unit}"
     )]
     RatedForce {
         /// The target.
@@ -71,9 +71,9 @@ pub enum Error {
         /// Unit of the model's force.
         unit: String,
     },
-    /// A target that takes forces only, and a model that counts in something else.
+    /// A target that needs SI forces, and a model in another unit.
     #[error(
-        "target {target} takes forces in {allowed}, and those of the model are in {found}; give the force a scale in the axis file, such as the force constant, and identify again"
+        "target {target} needs forces in {allowed}, but those of the model are in {found}; give the force a scale in the axis file, such as the force constant, and identify again"
     )]
     ForceUnit {
         /// The target.
@@ -83,7 +83,7 @@ pub enum Error {
         /// Unit that the target takes.
         allowed: &'static str,
     },
-    /// An archive that cannot be made.
+    /// An archive that could not be written.
     #[error("archive: {found}")]
     Archive {
         /// What went wrong.

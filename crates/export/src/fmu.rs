@@ -1,5 +1,5 @@
 //! Functional Mock-up Units for co-simulation, FMI 2.0 and 3.0: the C text behind the interface of the standard, with a
-//! binary where a compiler is at hand.
+//! binary where a compiler is available.
 //!
 //! Standards: FMI 2.0.4 and FMI 3.0.1, Modelica Association, fmi-standard.org.
 
@@ -11,7 +11,7 @@ mod variables;
 use crate::guid::guid;
 use crate::number::Literal;
 use crate::template::Fill;
-use crate::vectors::Vectors;
+use crate::vectors::{DOUBLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, c, check, header, law};
 use variables::Variables;
 
@@ -21,11 +21,8 @@ const FMI3: &str = include_str!("../templates/fmu/fmi3.c.in");
 const SELFTEST: &str = include_str!("../templates/fmu/selftest.py.in");
 const PAGE: &str = include_str!("../templates/fmu/index.html.in");
 
-/// Error allowed in the self-test, of the largest force.
-const TOLERANCE: f64 = 1e-12;
-
-/// How gcc makes the binary from a source; the same source and compiler give the same bytes. A name for the output and the
-/// source's are to follow.
+/// Options of gcc that make the binary from a source; the same source and compiler give the same bytes. The names of the
+/// output and the source come after them.
 pub const GCC: [&str; 9] = [
     "-std=c99",
     "-O2",
@@ -88,7 +85,7 @@ pub fn fmu(
     for (version, interface) in [(Version::Two, FMI2), (Version::Three, FMI3)] {
         let mut own = fill.clone();
         law::settings(&mut own, compensator.settings(), f64::c);
-        // Of the text without its own token, which two models never share.
+        // A hash of the text without the token itself, so that no two models share it.
         let token = guid(&format!(
             "{}{}{interface}",
             version.number(),
@@ -125,7 +122,7 @@ pub fn fmu(
     law::settings(&mut test, &vectors.settings, f64::c);
     test.set("header", header::comment(model, "# "))
         .set("rows", vectors.python())
-        .set("tolerance", (TOLERANCE * vectors.scale(model)).c());
+        .set("tolerance", (DOUBLE_TOLERANCE * vectors.scale(model)).c());
     files.push(File::text(
         format!("{component}_selftest.py"),
         test.render(SELFTEST),
@@ -133,7 +130,7 @@ pub fn fmu(
     Ok(files)
 }
 
-/// What makes a model's FMU another one than that of the next.
+/// The text that distinguishes the FMU of one model from that of another.
 fn own_text(model: &Model) -> Result<String, Error> {
     Ok(format!(
         "{}{}",

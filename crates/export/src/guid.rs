@@ -1,4 +1,4 @@
-//! Identifiers made from a content, so that the same model gives the same file.
+//! Identifiers made from contents, so that the same model gives the same file.
 
 use sha2::{Digest, Sha256};
 

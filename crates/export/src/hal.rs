@@ -1,26 +1,23 @@
-//! LinuxCNC: a HAL component, with the C text inside, and a self-test in a real thread.
+//! LinuxCNC: a HAL component, with the C text inside, and a self-test that runs in a HAL thread.
 
 use crate::identifier::shortened;
 use crate::number::Literal;
 use crate::template::Fill;
-use crate::vectors::Vectors;
+use crate::vectors::{DOUBLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, c, header, law};
 
 const COMPONENT: &str = include_str!("../templates/hal/component.comp.in");
 const SELFTEST: &str = include_str!("../templates/hal/selftest.py.in");
 
-/// Error allowed in the self-test, of the largest force.
-const TOLERANCE: f64 = 1e-12;
-
-/// Longest beginning of a component's name: with `_friction`, the number of the instance and the longest parameter,
+/// Most characters of the first part of a component's name: with `_friction`, the number of the instance and the longest parameter,
 /// `tmax-increased`, it stays within 47 characters (`HAL_NAME_LEN` of hal.h), and the component within 31
 /// (`RTAPI_NAME_LEN` of rtapi.h).
-const LENGTH: usize = 20;
+const MAX_NAME_LENGTH: usize = 20;
 
 /// Name of the component.
 pub(crate) fn component(model: &Model) -> String {
     let name = model.identifier.to_ascii_lowercase();
-    format!("{}_friction", shortened(&name, LENGTH))
+    format!("{}_friction", shortened(&name, MAX_NAME_LENGTH))
 }
 
 pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
@@ -44,7 +41,7 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     test.set("header", header::comment(model, "# "))
         .set("period", format!("{period:.0}"))
         .set("rows", vectors.python())
-        .set("tolerance", (TOLERANCE * vectors.scale(model)).c());
+        .set("tolerance", (DOUBLE_TOLERANCE * vectors.scale(model)).c());
     let text = fill
         .set("header", header::comment(model, ""))
         .render(COMPONENT);

@@ -1,9 +1,9 @@
-//! The head of every file: what it is, its numbers with intervals, where they came from.
+//! The head of every file: what it is, the parameters with their intervals, and their origin.
 
 use crate::{Model, Parameter};
 
 /// Lines of plain ASCII without anything that could end a comment in a target's language; `code` where the compensator
-/// itself follows, with what goes in and comes out.
+/// itself follows: then with its inputs and outputs.
 pub(crate) fn lines(model: &Model, code: bool) -> Vec<String> {
     let mut lines = vec![format!(
         "Friction compensator of the axis '{}', law {}, written by stiction {}.",
@@ -14,7 +14,7 @@ pub(crate) fn lines(model: &Model, code: bool) -> Vec<String> {
     if code {
         lines.extend(interface(model));
     } else {
-        lines.extend(counted(model));
+        lines.extend(other_unit(model));
     }
     if !model.notes.is_empty() {
         lines.push(String::new());
@@ -63,12 +63,12 @@ fn interval([low, high]: [f64; 2]) -> String {
     }
 }
 
-/// A unit after a number, a product with a blank; none for a bare number. Where the force is a share, what stands for it
-/// in a unit is 1.
+/// The unit of a parameter, products with a blank; empty for a plain number. Where the force is a fraction of a rated value,
+/// 1 takes the place of its unit.
 fn unit(p: &Parameter, share: bool) -> String {
     let text = p.unit.replace(['*', '·'], " ");
     let unit = match text.strip_prefix('1') {
-        // The only number of a law that is one in any unit of the force.
+        // The only parameter that is a plain number whatever the unit of the force.
         Some(rest) if share && p.name != "stribeck_exponent" => format!("p.u.{rest}"),
         Some(rest) if rest.is_empty() || rest.starts_with(' ') => rest.trim_start().into(),
         _ => text,
@@ -80,10 +80,10 @@ fn unit(p: &Parameter, share: bool) -> String {
     }
 }
 
-/// What goes in and comes out.
+/// Inputs and outputs.
 fn interface(model: &Model) -> Vec<String> {
     let mut lines = vec![
-        "The force is a feedforward: add it to the force or torque that the controller asks for."
+        "The force is a feedforward: add it to the force or torque that the controller commands."
             .into(),
         String::new(),
         format!(
@@ -100,19 +100,19 @@ fn interface(model: &Model) -> Vec<String> {
             model.force_unit()
         ),
     ];
-    lines.extend(counted(model));
+    lines.extend(other_unit(model));
     lines
 }
 
-/// What a force is counted in that is none.
-fn counted(model: &Model) -> Option<String> {
+/// The unit of the force where it is not an SI force or torque.
+fn other_unit(model: &Model) -> Option<String> {
     let share = match model.force_unit() {
         _ if model.in_newtons() => return None,
         "p.u." => " (1 is 100 percent)",
         _ => "",
     };
     Some(format!(
-        "The force is in {}{share}, as the log counted it; what it is added to has to count in the same.",
+        "The force is in {}{share}, the unit of the log; whatever it is added to has to be in the same unit.",
         model.force_unit()
     ))
 }
@@ -122,7 +122,7 @@ pub(crate) fn comment(model: &Model, prefix: &str) -> String {
     joined(&lines(model, true), prefix)
 }
 
-/// The same without what goes in and comes out, for a table.
+/// The same without inputs and outputs, for a table.
 pub(crate) fn table_comment(model: &Model, prefix: &str) -> String {
     joined(&lines(model, false), prefix)
 }
@@ -135,7 +135,7 @@ fn joined(lines: &[String], prefix: &str) -> String {
     lines.join("\n")
 }
 
-/// What is left of a text that may come from anywhere.
+/// The harmless part of a text from an untrusted source.
 pub(crate) fn plain(text: &str) -> String {
     let spelled = text
         .replace('·', " ")

@@ -3,12 +3,12 @@
 use crate::Error;
 use sha2::{Digest, Sha256};
 
-/// Longest identifier; LinuxCNC's HAL takes less. The endings of a target come on top: where a C compiler tells apart no
-/// more than the 31 characters that C99 promises (section 5.2.4.1), 18 are the most.
+/// Longest identifier, in characters; LinuxCNC's HAL takes less. The suffixes of a target are not included: where a C compiler
+/// distinguishes only the 31 characters that C99 guarantees (section 5.2.4.1), use at most 18.
 pub const IDENTIFIER_LENGTH: usize = 31;
 
-/// An identifier from any name: what is no letter or digit becomes an underscore; `axis` where nothing is left. Where it
-/// is cut, a mark of the whole name takes the place of its end, so that two names stay two.
+/// An identifier from any name: characters other than letters and digits become an underscore; `axis` where nothing is left.
+/// Where it is too long, digits of a hash replace its end, so that two names stay different.
 ///
 /// ```
 /// use stiction_export::identifier;
@@ -51,8 +51,8 @@ pub(crate) fn shortened(identifier: &str, length: usize) -> String {
     format!("{head}_{:02x}{:02x}", hash[0], hash[1])
 }
 
-/// Refuses a name that is no identifier in every target. (Double underscores are reserved in C and forbidden in
-/// IEC 61131-3. Key words need no care: no target uses the name without an ending of its own.)
+/// Refuses a name that is not an identifier in every target. (Double underscores are reserved in C and forbidden in
+/// IEC 61131-3. Keywords need no check: every target adds a suffix to the name.)
 ///
 /// # Errors
 /// With the name.

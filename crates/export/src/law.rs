@@ -1,4 +1,4 @@
-//! The law and its settings as values of a template; the same keys in every target.
+//! The law and its settings as values for a template; the same keys in every target.
 
 use crate::template::Fill;
 use stiction_friction::compensator::{Friction, Settings};

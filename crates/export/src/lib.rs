@@ -1,8 +1,10 @@
-//! The compensator of `stiction-friction` written for a target: C, Structured Text and other forms.
+//! The compensator of `stiction-friction` as code for a target: C, Structured Text and other forms.
 //!
-//! Text out: [`export`] gives relative paths with their bytes, and writes no file. The compensator in
-//! [`stiction_friction::compensator`] is the definition; every target carries vectors computed with it, and a runner.
-//! The same model gives the same bytes.
+//! Start with a [`Model`] and [`export`]; [`advice`] tells what to know before the code runs.
+//!
+//! [`export`] returns relative paths with their bytes and writes no file. The compensator in
+//! [`stiction_friction::compensator`] is the definition; every target comes with test vectors computed with it, and a
+//! self-test that runs them. The same model gives the same bytes.
 //!
 //! ```
 //! use stiction_export::{Model, Provenance, Target, export};

@@ -1,4 +1,4 @@
-//! What is exported.
+//! The model that is exported.
 
 use crate::{Error, range};
 use stiction_friction::compensator::{Compensator, Friction, Settings, Source};
@@ -14,8 +14,8 @@ pub struct Model {
     pub identifier: String,
     /// Rotary: rad; else linear: m.
     pub rotary: bool,
-    /// Unit of the force: `N` (`N m`), or what the drive counts in, such as `A`; `1` where it is a share. The limit, the
-    /// law and what comes out are in it.
+    /// Unit of the force: `N` (`N m`), or the unit of the drive, such as `A`; `1` where it is a fraction of a rated value. The
+    /// limit, the law and the output are in this unit.
     pub force_unit: String,
     /// The law. The micro-damping of bristles is exported capped, whatever form it has here.
     pub friction: Friction<f64>,
@@ -27,7 +27,7 @@ pub struct Model {
     pub top_speed: Option<f64>,
     /// Parameters as they were identified.
     pub parameters: Vec<Parameter>,
-    /// Sentences for the head of every file, such as what is not trustworthy.
+    /// Sentences for the head of every file, such as warnings about the parameters.
     pub notes: Vec<String>,
     /// Where the numbers came from.
     pub provenance: Provenance,
@@ -46,7 +46,7 @@ pub struct Parameter {
     pub interval: Option<[f64; 2]>,
     /// Whether the data determine it.
     pub identifiable: bool,
-    /// It was not identified but given.
+    /// Whether it was given, not identified.
     pub given: bool,
 }
 
@@ -106,12 +106,12 @@ impl Model {
         }
     }
 
-    /// Whether the force is a share, of which 1 is the whole.
+    /// Whether the force is a fraction of a rated value.
     pub(crate) fn is_share(&self) -> bool {
         self.force_unit == "1"
     }
 
-    /// Whether the force is one, or a torque, in SI.
+    /// Whether the unit of the force is the SI unit of force or torque.
     pub(crate) fn in_newtons(&self) -> bool {
         self.force_unit == if self.rotary { "N m" } else { "N" }
     }
@@ -134,13 +134,13 @@ impl Model {
         }
     }
 
-    /// The larger steady force of the two directions at a speed, with the offset; at standstill that of the least speed.
+    /// The larger steady force of the two directions at a speed, with the offset; at standstill the limit as the speed goes to 0.
     pub(crate) fn larger(&self, speed: f64) -> f64 {
         let v = speed.max(1e-300);
         self.steady(v).abs().max(self.steady(-v).abs())
     }
 
-    /// The least speed from which on a force is beyond the limit, m/s (rad/s), if that is below 1e4; 0 for standstill.
+    /// The least speed at which a force is beyond the limit, m/s (rad/s), if that is below 1e4; 0 for standstill.
     pub(crate) fn saturates_from(&self, force: &dyn Fn(f64) -> f64) -> Option<f64> {
         let beyond = |speed: f64| force(speed) > self.settings.limit;
         let speed = |k: i32| libm::pow(10.0, -6.0 + 0.01 * f64::from(k));
@@ -184,7 +184,7 @@ fn capped(law: &LuGre<f64>) -> Result<LuGre<f64>, stiction_friction::ParamError>
     law.with_damping(Damping::Capped(law.damping().at_rest()))
 }
 
-/// Settings in another number type, without what is not exported. No limit stays no limit.
+/// Settings in another number type, without those that are not exported. An unlimited slew stays unlimited.
 pub(crate) fn cast<T: Real>(settings: &Settings<f64>) -> Settings<T> {
     let to = T::from_f64;
     Settings {

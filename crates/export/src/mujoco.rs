@@ -1,7 +1,7 @@
 //! MuJoCo 4: the `dcmotor` with the law's bristles, on a joint.
 //!
-//! MuJoCo holds the velocity over a step as our step does, so the deflections are the same; its force is that of the
-//! step's beginning and has the rate of the state equation, with sigma1 constant. The self-test compares with that.
+//! MuJoCo holds the velocity over a step as stiction does, so the deflections are the same; its force is that of the
+//! beginning of the step, with the deflection rate of the state equation and a constant sigma1. The self-test compares with that.
 
 use crate::number::Literal;
 use crate::template::Fill;
@@ -12,6 +12,10 @@ use stiction_friction::{Damping, LuGre, Shape};
 
 const MODEL: &str = include_str!("../templates/mujoco/model.xml.in");
 const SELFTEST: &str = include_str!("../templates/mujoco/selftest.py.in");
+
+/// Largest error of the self-test, relative to the largest force or deflection: MuJoCo's own integration of the motion rounds
+/// too.
+const TOLERANCE: f64 = 1e-9;
 
 pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     let given = simple(model)?;
@@ -37,8 +41,8 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         .set("axis", if model.rotary { "0 0 1" } else { "1 0 0" })
         .set("against", (-lugre.curve().offset()).c())
         .set("rows", rows(&lugre, &vectors, model.settings.cycle_time))
-        .set("force_tolerance", (1e-9 * vectors.scale(model)).c())
-        .set("deflection_tolerance", (1e-9 * lugre.bound()).c());
+        .set("force_tolerance", (TOLERANCE * vectors.scale(model)).c())
+        .set("deflection_tolerance", (TOLERANCE * lugre.bound()).c());
     law::settings(&mut fill, &model.settings, f64::c);
     law::fill(&mut fill, &Friction::LuGre(lugre), f64::c);
     // Two hyphens would end a comment in XML.
@@ -53,7 +57,7 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     ])
 }
 
-/// The law, if MuJoCo has it.
+/// The law, if MuJoCo has one.
 fn simple(model: &Model) -> Result<LuGre<f64>, Error> {
     let refuse = |law| Error::Law {
         target: "mujoco",

@@ -28,7 +28,7 @@ impl Literal for f32 {
     }
 }
 
-/// Four digits: enough to read.
+/// Four digits, for messages.
 pub(crate) fn short(x: f64) -> f64 {
     format!("{x:.3e}").parse().unwrap_or(x)
 }

@@ -1,32 +1,34 @@
-//! Numbers that a number type can compute with: far enough from its ends that what the compensator makes of them, and
-//! the vectors of the self-test, neither overflow nor vanish.
+//! Numbers that a number type can compute with: far enough from the ends of its range that nothing in the compensator or
+//! the vectors of the self-test overflows or vanishes.
 
 use crate::{Error, Model};
 use stiction_friction::Direction;
 use stiction_friction::compensator::Friction;
 
-/// A number with its name, and whether it may be as small as it likes.
+/// A number with its name, and whether it may be arbitrarily small.
 struct Number {
     name: &'static str,
     value: f64,
     small: bool,
 }
 
-/// The sizes that a number type computes with.
+/// The magnitudes that a number type can compute with.
 struct Range {
     /// Parameters that are divided by, or multiplied with each other.
     parameters: (f64, f64),
     /// Largest stiffness and micro-damping of bristles.
     bristles: f64,
+    /// Least and largest force limit.
     limit: (f64, f64),
 }
 
 impl Range {
-    /// Of the number type that is called so in its target. Products of two parameters, and of those with the times and
+    /// The range of the number type of this name. Products of two parameters, and of those with the times and
     /// speeds of a test, stay well inside.
     fn of(number_type: &str) -> Self {
         match number_type {
-            // No operation of the block overflows in REAL, at any speed that it takes; the block's `valid` is the same.
+            // No operation of the block overflows in REAL, at any speed that it accepts; the block's `valid` uses the same
+            // bounds.
             "REAL" | "LREAL" => Range {
                 parameters: (1e-9, 1e9),
                 bristles: 1e15,
@@ -46,8 +48,8 @@ impl Range {
     }
 }
 
-/// Refuses a law or a limit beyond the range of a number type, which is called `number_type` in the target. Signs and
-/// relations are the constructors' matter.
+/// Refuses a law or a limit beyond the range of a number type, `number_type` in the target. Signs and relations between
+/// parameters are checked by the constructors.
 pub(crate) fn check(model: &Model, limit: f64, number_type: &'static str) -> Result<(), Error> {
     let range = Range::of(number_type);
     let refuse = |name, value, range: (f64, f64)| Error::Range {
@@ -73,7 +75,7 @@ pub(crate) fn check(model: &Model, limit: f64, number_type: &'static str) -> Res
     Ok(())
 }
 
-/// The numbers of a law; those of a direction under the name of one where both are the same.
+/// The parameters of a law; without direction in their names where both directions are the same.
 fn law(friction: &Friction<f64>) -> Vec<Number> {
     let flat = |coulomb, viscous| Direction {
         coulomb,

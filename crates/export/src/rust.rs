@@ -2,15 +2,12 @@
 
 use crate::number::Literal;
 use crate::template::Fill;
-use crate::vectors::Vectors;
+use crate::vectors::{DOUBLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, header, law};
 
 const MANIFEST: &str = include_str!("../templates/rust/Cargo.toml.in");
 const LIBRARY: &str = include_str!("../templates/rust/lib.rs.in");
 const SELFTEST: &str = include_str!("../templates/rust/selftest.rs.in");
-
-/// Error allowed in the self-test, of the largest force.
-const TOLERANCE: f64 = 1e-12;
 
 pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     let vectors = Vectors::<f64>::new(model, "f64")?;
@@ -32,7 +29,7 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     test.set("header", header::comment(model, "//! "))
         .set("rows", rows(&vectors))
         .set("count", vectors.rows.len().to_string())
-        .set("tolerance", (TOLERANCE * vectors.scale(model)).c());
+        .set("tolerance", (DOUBLE_TOLERANCE * vectors.scale(model)).c());
     let manifest = fill
         .clone()
         .set("header", header::comment(model, "# "))

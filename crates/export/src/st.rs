@@ -7,7 +7,7 @@ mod twincat;
 use crate::model::cast;
 use crate::number::Literal;
 use crate::template::Fill;
-use crate::vectors::Vectors;
+use crate::vectors::{DOUBLE_TOLERANCE, SINGLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, header, law};
 
 const DECLARATION: &str = include_str!("../templates/st/block.declaration.in");
@@ -15,16 +15,17 @@ const BODY: &str = include_str!("../templates/st/block.body.in");
 const TEST_DECLARATION: &str = include_str!("../templates/st/test.declaration.in");
 const TEST_BODY: &str = include_str!("../templates/st/test.body.in");
 
-/// How a number type is called, and what it can hold.
+/// A number type of IEC 61131-3.
 struct Precision {
     suffix: &'static str,
     real: &'static str,
-    /// Largest velocity and tracking error that are taken for one: no product of them overflows.
+    /// Largest velocity and tracking error that are accepted: no product of them overflows.
     huge: &'static str,
-    /// Arguments at which exp(-x^2), exp(-x) and exp(-exp(x)) have vanished.
+    /// Arguments from which on exp(-x^2), exp(-x) and exp(-exp(x)) are 0 to rounding.
     ends: [&'static str; 3],
-    /// Terms of exp(-a) - 1 below a = 0.3.
+    /// Terms of the series of exp(-a) - 1, used below a = 0.3, that make it exact to rounding.
     terms: u32,
+    /// Largest error of the self-test, relative to [`Vectors::scale`].
     tolerance: f64,
 }
 
@@ -34,7 +35,7 @@ const LREAL: Precision = Precision {
     huge: "1.0E15",
     ends: ["26.0", "700.0", "6.5"],
     terms: 13,
-    tolerance: 1e-12,
+    tolerance: DOUBLE_TOLERANCE,
 };
 
 const REAL: Precision = Precision {
@@ -43,7 +44,7 @@ const REAL: Precision = Precision {
     huge: "1.0E12",
     ends: ["9.0", "87.0", "4.4"],
     terms: 7,
-    tolerance: 2e-6,
+    tolerance: SINGLE_TOLERANCE,
 };
 
 /// A program organisation unit: head with variables, then statements.
@@ -65,7 +66,7 @@ impl Unit {
     }
 }
 
-/// Plain text, a unit a file.
+/// Plain text, one file per unit.
 pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     let units = units(model)?;
     Ok(units
@@ -74,7 +75,7 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         .collect())
 }
 
-/// TwinCAT 3, a unit a file.
+/// TwinCAT 3, one file per unit.
 pub(crate) fn twincat(model: &Model) -> Result<Vec<File>, Error> {
     Ok(units(model)?.iter().map(twincat::file).collect())
 }

@@ -1,8 +1,8 @@
-//! The targets and what each consists of.
+//! The targets and the files of each.
 
 use crate::{Error, Model, c, check, fmu, hal, mujoco, rust, st, tf5200};
 
-/// A form that the compensator is written in.
+/// A form in which the compensator is exported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
     /// C99, in double and single precision.
@@ -72,7 +72,7 @@ impl Target {
         }
     }
 
-    /// The number type that holds least, as it is called there.
+    /// The name of its number type with the smallest range.
     fn narrowest(self) -> &'static str {
         match self {
             Target::C => "float",
@@ -83,10 +83,10 @@ impl Target {
     }
 }
 
-/// The files of a model for a target; FMUs with their source only, those with a binary are [`fmu`](crate::fmu)'s.
+/// The files of a model for a target; FMUs with their source only, [`fmu`](crate::fmu) makes those with a binary.
 ///
 /// # Errors
-/// Where the model is out of what the target can express: names, numbers, the law.
+/// If the target cannot express the model: its names, numbers or law.
 pub fn export(model: &Model, target: Target) -> Result<Vec<File>, Error> {
     check::check(model, target.narrowest())?;
     match target {

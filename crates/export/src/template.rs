@@ -1,4 +1,4 @@
-//! Texts with places to fill in. The code of a target is kept as that target's own text in `templates`.
+//! Templates. The code of a target is kept as that target's own text in `templates`.
 //!
 //! `@key@` is replaced by a value. A line `%if key` keeps what follows up to `%else` or `%end` where the flag is set,
 //! `%if !key` where it is not; conditions nest.

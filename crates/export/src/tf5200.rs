@@ -2,7 +2,7 @@
 //!
 //! Parameters P-COMP-00041 to 00047, 00058 and 00062 of Beckhoff's documentation: fewer than 20 pairs of a speed (um/s, or
 //! 0.001 deg/s) and a motor current in the units of the drive's actual torque, which CiA 402 counts in per mille of the
-//! rated one. How the controller interpolates is not documented; linear is taken.
+//! rated one. How the controller interpolates is not documented; linear interpolation is assumed.
 
 mod spacing;
 
@@ -15,20 +15,29 @@ use stiction_friction::compensator::Friction;
 const TABLE: &str = include_str!("../templates/tf5200/table.lis.in");
 const SELFTEST: &str = include_str!("../templates/tf5200/selftest.py.in");
 
-/// Entries that every controller takes: fewer than the 20 that are set up by default (P-COMP-00041, 00062).
-const POINTS: usize = 19;
+/// Most entries that every controller takes: fewer than the default of 20 (P-COMP-00041, 00062).
+const MAX_POINTS: usize = 19;
 
-/// Largest force in rated ones: the drive's 60B2h counts per mille in 16 bits.
-const MOST_RATED: f64 = 32.0;
+/// Largest force of a table, in rated forces: object 60B2h of the drive counts per mille in 16 bits.
+const MAX_FORCE_RATIO: f64 = 32.0;
 
-/// Least static friction, and least limit, in rated forces: ten steps of the table.
-const LEAST_RATED: f64 = 1e-3;
+/// Least static friction and least limit, in rated forces: ten steps of the table.
+const MIN_FORCE_RATIO: f64 = 1e-3;
 
-/// Largest `position_delay` (P-COMP-00043).
-const LONGEST_DELAY: f64 = 10.0;
+/// Largest `position_delay`, in cycles (P-COMP-00043).
+const MAX_POSITION_DELAY: f64 = 10.0;
 
-/// Speeds between which errors are looked for.
-const GRID: usize = 3000;
+/// Speeds from which the points of the table are chosen.
+const GRID_SPEEDS: usize = 3000;
+
+/// Margin of the self-test beyond the table's own error, relative to the scale of forces: the printed numbers have ten digits
+/// or more.
+const TOLERANCE: f64 = 1e-9;
+
+/// Last speed of a table, in Stribeck velocities: far beyond where the curve falls ...
+const END_STRIBECK_VELOCITIES: f64 = 100.0;
+/// ... and at least this, m/s; rad/s for a rotary axis.
+const MIN_END: (f64, f64) = (1.0, 100.0);
 
 pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     let rated = rated(model)?;
@@ -40,18 +49,18 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     let cut = |v: f64| mean(model, v) > limit;
     let limited = grid.iter().any(|n| cut(n * step));
     let at_rest = limited && cut(0.0);
-    // Up to there it is cut at standstill, and from there on at speed.
+    // Up to the one it is limited at standstill, and from the other on at speed.
     let turns = |kept: bool| kinks.iter().find(|n| cut(**n * step) != kept).copied();
     let (free, from) = (turns(true), turns(false));
     let from = from.map(|n| n * step);
     let wanted: Vec<f64> = grid.iter().map(|n| held(model, n * step)).collect();
     let count = |force: f64| libm::round(force / rated * 1e4);
-    let table: Vec<(f64, f64)> = spacing::least_error(&grid, &wanted, POINTS)
+    let table: Vec<(f64, f64)> = spacing::least_error(&grid, &wanted, MAX_POINTS)
         .into_iter()
         .map(|(at, force)| (grid[at], count(force)))
         .collect();
     let given = |n: f64| interpolate(&table, n) * 1e-4 * rated;
-    // Between the speeds of the grid too, up to where the limit cuts.
+    // Also between the speeds of the grid, up to where the limit is reached.
     let fine: Vec<f64> = grid
         .windows(2)
         .flat_map(|ends| (0..8).map(|k| ends[0] + (ends[1] - ends[0]) * f64::from(k) / 8.0))
@@ -65,7 +74,7 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         })
     };
     let all = end * step;
-    // Where the limit cuts at standstill already, errors are those within it.
+    // Where the limit is reached at standstill already, errors are those within it.
     let good = from.filter(|_| !at_rest).unwrap_or(all);
     let most = if at_rest { limit } else { f64::MAX };
     let (mean_error, _) = largest(good, &|v| mean(model, v).min(most));
@@ -90,7 +99,7 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     let delay = libm::round(length / (0.1 * step));
     let scale = model.scale().max(f64::MIN_POSITIVE);
     let file = format!("{}_frict_comp", model.identifier);
-    let mut speeds: Vec<f64> = grid.iter().copied().step_by(GRID / 40).collect();
+    let mut speeds: Vec<f64> = grid.iter().copied().step_by(GRID_SPEEDS / 40).collect();
     speeds.extend(kinks);
     speeds.push(worst);
     speeds.sort_by(f64::total_cmp);
@@ -122,13 +131,13 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         .set("length", format!("{length:.2e}"))
         .set(
             "clamped",
-            if delay > LONGEST_DELAY {
+            if delay > MAX_POSITION_DELAY {
                 "; the controller takes no more than this"
             } else {
                 ""
             },
         )
-        .set("delay", format!("{:.0}", delay.min(LONGEST_DELAY)))
+        .set("delay", format!("{:.0}", delay.min(MAX_POSITION_DELAY)))
         .set("scaling", format!("{:.0}", 100.0 * model.settings.gain))
         .flag("limited", limited)
         .flag("at_rest", at_rest)
@@ -141,8 +150,8 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         .set("mean_percent", format!("{:.2}", 100.0 * mean_error / scale))
         .set("side_error", format!("{side_error:.2e}"))
         .set("side_percent", format!("{:.2}", 100.0 * side_error / scale))
-        .set("tolerance", (due_error + 1e-9 * scale).c())
-        .set("points", POINTS.to_string())
+        .set("tolerance", (due_error + TOLERANCE * scale).c())
+        .set("points", MAX_POINTS.to_string())
         .set("rows", rows.join("\n"))
         .set("due", due.join("\n"));
     Ok(vec![
@@ -165,13 +174,17 @@ fn rated(model: &Model) -> Result<f64, Error> {
         let source = ParamError::new(name, value, allowed);
         Err(Error::number("table", source))
     };
-    if !(rated.is_finite() && rated >= most / MOST_RATED && rated * LEAST_RATED <= model.scale()) {
-        let allowed = "from a 32nd of the table's largest force, which is the range of the drive's 60B2h, to 1000 times the static friction, \
-             below which tenths of a per mille are too coarse";
+    if !(rated.is_finite()
+        && rated >= most / MAX_FORCE_RATIO
+        && rated * MIN_FORCE_RATIO <= model.scale())
+    {
+        let allowed = "from a 32nd of the table's largest force (the range of the drive's object 60B2h) to 1000 times the static friction \
+             (beyond, tenths of a per mille are too coarse)";
         return refuse("rated_force", rated, allowed);
     }
-    if limit < rated * LEAST_RATED {
-        let allowed = "from a thousandth of the rated force, below which tenths of a per mille are too coarse";
+    if limit < rated * MIN_FORCE_RATIO {
+        let allowed =
+            "from a thousandth of the rated force (below, tenths of a per mille are too coarse)";
         return refuse("limit", limit, allowed);
     }
     Ok(rated)
@@ -182,7 +195,7 @@ pub fn largest_force(model: &Model) -> f64 {
     largest_upto(model, f64::MAX)
 }
 
-/// The same at speeds that are not above one, m/s (rad/s), and at that one.
+/// The same up to a speed, m/s (rad/s).
 pub(crate) fn largest_upto(model: &Model, speed: f64) -> f64 {
     let step = speed_step(model.rotary);
     let end = end(model, step);
@@ -192,7 +205,7 @@ pub(crate) fn largest_upto(model: &Model, speed: f64) -> f64 {
     speeds.fold(0.0, |most, v| most.max(mean(model, v)))
 }
 
-/// What one in a table's speed is, m/s (rad/s).
+/// The unit of a table's speeds, m/s (rad/s).
 fn speed_step(rotary: bool) -> f64 {
     if rotary {
         1e-3 * core::f64::consts::PI / 180.0
@@ -203,16 +216,16 @@ fn speed_step(rotary: bool) -> f64 {
 
 /// The table's last speed: far beyond where the curve falls, a whole number of steps.
 fn end(model: &Model, step: f64) -> f64 {
-    let fast = if model.rotary { 100.0 } else { 1.0 };
-    let end = libm::floor((100.0 * model.stribeck_velocity()).max(fast) / step);
+    let fast = if model.rotary { MIN_END.1 } else { MIN_END.0 };
+    let end = libm::floor((END_STRIBECK_VELOCITIES * model.stribeck_velocity()).max(fast) / step);
     end.min(f64::from(i32::MAX) - 1.0)
 }
 
 /// Whole speeds from 0 to `end`, closer where it is slower, with those on both sides of each of `kinks`.
 fn grid(end: f64, kinks: &[f64]) -> Vec<f64> {
-    let ratio = libm::log(end) / (GRID - 1) as f64;
+    let ratio = libm::log(end) / (GRID_SPEEDS - 1) as f64;
     let mut grid = vec![0.0];
-    grid.extend((0..GRID - 1).map(|k| libm::round(libm::exp(ratio * k as f64))));
+    grid.extend((0..GRID_SPEEDS - 1).map(|k| libm::round(libm::exp(ratio * k as f64))));
     grid.extend(kinks.iter().flat_map(|n| [libm::floor(*n), libm::ceil(*n)]));
     grid.push(end);
     grid.retain(|n| *n <= end);
@@ -221,7 +234,7 @@ fn grid(end: f64, kinks: &[f64]) -> Vec<f64> {
     grid
 }
 
-/// Speeds, in steps, at which the limit begins or ends to cut, each between two of the plain grid.
+/// Speeds, in steps, at which the friction passes the limit, each between two of the plain grid.
 fn kinks(model: &Model, step: f64) -> Vec<f64> {
     let plain = grid(end(model, step), &[]);
     let beyond = |n: f64| mean(model, n * step) > model.settings.limit;
@@ -255,7 +268,7 @@ pub(crate) fn mean(model: &Model, speed: f64) -> f64 {
     0.5 * (steady(model, speed) - steady(model, -speed))
 }
 
-/// The same within the limit: what the table is to hold.
+/// The same within the limit: the force to put into the table.
 fn held(model: &Model, speed: f64) -> f64 {
     mean(model, speed).min(model.settings.limit)
 }

@@ -1,4 +1,6 @@
 //! Inputs with the outputs that the exported code has to give, for the self-test of every target.
+//!
+//! The tolerances of the self-tests are here too; all are relative to the largest force, [`Vectors::scale`].
 
 use crate::number::{Literal, short};
 use crate::{Error, Model};
@@ -14,7 +16,7 @@ pub(crate) struct Row<T> {
     pub error: T,
     /// Enable.
     pub enable: bool,
-    /// The force that is due, N (N m).
+    /// The expected force, N (N m).
     pub force: T,
 }
 
@@ -25,8 +27,13 @@ pub(crate) struct Vectors<T> {
     pub rows: Vec<Row<T>>,
 }
 
-/// Error without compensation in the self-test, m (rad); any size does, only ratios count.
-const ERROR: f64 = 1e-5;
+/// Largest error of a self-test in double precision, relative: some thousand operations, each rounded to 1.1e-16.
+pub(crate) const DOUBLE_TOLERANCE: f64 = 1e-12;
+/// The same in single precision, where operations are rounded to 6e-8.
+pub(crate) const SINGLE_TOLERANCE: f64 = 2e-6;
+
+/// Tracking error without compensation in the self-test, m (rad); its size does not matter, only ratios do.
+const TRACKING_ERROR: f64 = 1e-5;
 
 impl<T: Real> Vectors<T> {
     /// Computed with the compensator itself, in the number type of the target.
@@ -54,7 +61,7 @@ impl<T: Real> Vectors<T> {
         Ok(Vectors { settings, rows })
     }
 
-    /// What errors are measured by, N (N m): static friction, or the largest force of the test if larger.
+    /// The scale of errors, N (N m): static friction, or the largest force of the test if larger.
     pub(crate) fn scale(&self, model: &Model) -> f64 {
         let forces = self.rows.iter().map(|row| row.force.to_f64().abs());
         forces.fold(model.scale(), f64::max)
@@ -77,7 +84,7 @@ impl Vectors<f64> {
     }
 }
 
-/// Limits that bite, a ramp of five cycles, a watchdog that learns and trips within the test.
+/// Limits that are reached, a ramp of five cycles, a watchdog that learns and trips within the test.
 fn settings(model: &Model) -> Settings<f64> {
     let h = model.settings.cycle_time;
     let scale = model.scale();
@@ -132,19 +139,19 @@ fn motion(model: &Model, h: f64) -> Vec<(f64, f64, bool)> {
     };
     add(2, 0.0, false, &|_| 0.0);
     // The watchdog learns over two reversals, then compensation comes in.
-    add(14, ERROR, false, &to_and_fro);
-    add(12, 0.5 * ERROR, true, &|_| v);
-    add(35, 0.5 * ERROR, true, &|k| 3.0 * v * sine(k, 25.0));
-    add(25, 0.5 * ERROR, true, &|k| small * sine(k, 12.0));
-    add(5, 0.5 * ERROR, true, &|_| 0.0);
-    add(6, 0.5 * ERROR, true, &|_| 50.0 * v);
-    add(6, 0.5 * ERROR, true, &|_| -50.0 * v);
+    add(14, TRACKING_ERROR, false, &to_and_fro);
+    add(12, 0.5 * TRACKING_ERROR, true, &|_| v);
+    add(35, 0.5 * TRACKING_ERROR, true, &|k| 3.0 * v * sine(k, 25.0));
+    add(25, 0.5 * TRACKING_ERROR, true, &|k| small * sine(k, 12.0));
+    add(5, 0.5 * TRACKING_ERROR, true, &|_| 0.0);
+    add(6, 0.5 * TRACKING_ERROR, true, &|_| 50.0 * v);
+    add(6, 0.5 * TRACKING_ERROR, true, &|_| -50.0 * v);
     // Inside the dead zone.
-    add(4, 0.5 * ERROR, true, &|_| -5e-4 * v);
-    add(12, ERROR, false, &|_| -2.0 * v);
-    // A window that is not judged, although it is worse.
-    add(20, 3.0 * ERROR, true, &|k| 2.0 * to_and_fro(k));
-    // Worse than without: the watchdog trips.
-    add(10, 3.0 * ERROR, true, &|_| 0.3 * v);
+    add(4, 0.5 * TRACKING_ERROR, true, &|_| -5e-4 * v);
+    add(12, TRACKING_ERROR, false, &|_| -2.0 * v);
+    // A window that is not judged, although the error is larger.
+    add(20, 3.0 * TRACKING_ERROR, true, &|k| 2.0 * to_and_fro(k));
+    // Larger errors than without: the watchdog trips.
+    add(10, 3.0 * TRACKING_ERROR, true, &|_| 0.3 * v);
     rows
 }

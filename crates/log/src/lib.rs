@@ -1,9 +1,23 @@
-//! Motion logs: readers for the formats drives write, units, column mapping, and what is wrong with
+//! Motion logs: readers for the formats that drives write, units, column mapping, and what is wrong with
 //! a recording.
 //!
-//! Data flows one way: bytes -> [`Table`] (columns as they stand in the file) -> mapping and units ->
-//! [`Log`] (SI, checked). A reader never guesses silently: what it detected is in
-//! [`Table::detected`], what it cannot decide is an [`Error`] that lists the choices.
+//! Start with [`read_table`] for a file, or [`text::read`] for text in memory, then [`Log::from_table`].
+//! Data flows one way: bytes -> [`Table`] (columns as in the file) -> [`Mapping`] and units -> [`Log`] (SI, checked). A
+//! reader never guesses silently: what it detected is in [`Table::detected`], what it cannot decide is an
+//! [`Error`] that lists the choices.
+//!
+//! ```
+//! use stiction_log::{Log, Mapping, text};
+//!
+//! let file = "time [s],position [mm],force [N]\n0.000,1.00,2.0\n0.001,1.02,2.1\n0.002,1.05,2.0\n";
+//! let table = text::read(file.as_bytes(), &text::TextOptions::default())?;
+//! let log = Log::from_table(&table, &Mapping::default())?; // everything detected
+//! assert_eq!(log.rate_hz, 1000.0);
+//! assert_eq!(log.force_unit, "N");
+//! assert!(log.position.is_some_and(|x| (x[0] - 1e-3).abs() < 1e-15)); // in m
+//! assert!(log.findings.iter().any(|finding| finding.code == "few-samples"));
+//! # Ok::<(), stiction_log::Error>(())
+//! ```
 
 #[cfg(any(
     feature = "matlab",

@@ -1,4 +1,4 @@
-//! The palette, told apart by readers with any kind of colour vision, in light and dark.
+//! The palette, distinguishable with any kind of colour vision, on light and dark backgrounds.
 
 /// A colour of the palette (after Okabe and Ito, "Color Universal Design", 2008), by role rather
 /// than by code: the style sheet holds one shade for light and one for dark surroundings.

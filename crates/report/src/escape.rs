@@ -1,4 +1,4 @@
-//! Text from outside made harmless for XML and HTML.
+//! Escapes untrusted text for XML and HTML.
 
 /// Appends `text` to `out` so that it is plain character data, in an element as well as in a
 /// double-quoted attribute. Characters that XML 1.0 forbids, and those that reorder the text around

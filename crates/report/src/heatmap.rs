@@ -4,8 +4,9 @@ use crate::figure::{Figure, round, svg};
 use crate::text::Text;
 
 /// Most rows and columns drawn.
-const MOST: usize = 60;
-const SIZE: f64 = 12.0;
+const MAX_CELLS: usize = 60;
+/// Size of the text, px.
+const TEXT_SIZE: f64 = 12.0;
 
 /// A matrix of values from -1 to 1 (two colours) or 0 to 1 (one).
 ///
@@ -74,9 +75,9 @@ impl Heatmap {
     }
 
     fn render(&self, place: svg::Place) -> (f64, String) {
-        let rows = &self.rows[..self.rows.len().min(MOST)];
-        let columns = &self.columns[..self.columns.len().min(MOST)];
-        let widest = |names: &[Text]| names.iter().map(|n| n.width(SIZE)).fold(0.0, f64::max);
+        let rows = &self.rows[..self.rows.len().min(MAX_CELLS)];
+        let columns = &self.columns[..self.columns.len().min(MAX_CELLS)];
+        let widest = |names: &[Text]| names.iter().map(|n| n.width(TEXT_SIZE)).fold(0.0, f64::max);
         let left = round((widest(rows) + 14.0).clamp(20.0, 300.0));
         let room = (Figure::FULL - left - 90.0) / columns.len().max(1) as f64;
         let wide = round(room.clamp(6.0, 62.0));
@@ -276,7 +277,7 @@ mod tests {
     fn large_and_empty_matrices_are_bounded() {
         let names: Vec<String> = (0..500).map(|i| format!("column {i}")).collect();
         let svg = Heatmap::square("m", names, vec![-0.5; 250_000]).to_svg();
-        assert_eq!(cells(&svg), MOST * MOST);
+        assert_eq!(cells(&svg), MAX_CELLS * MAX_CELLS);
         assert!(svg.contains("The first 60 of 500 rows"));
         assert_eq!(cells(&Heatmap::square("m", [""; 0], []).to_svg()), 0);
     }

@@ -1,5 +1,7 @@
 //! Plain data to SVG figures and a self-contained HTML document.
 //!
+//! Start with [`Document`] and add blocks, or with [`Figure`] for a single SVG file.
+//!
 //! A [`Document`] is a list of [`Block`]s: paragraphs, tables, figures, formulas, messages. It becomes
 //! one HTML file without scripts and without anything to load, in light and dark, on screen and on
 //! paper. A [`Figure`] is a stack of [`Panel`]s with [`Layer`]s; it and the [`Heatmap`] also stand

@@ -11,12 +11,12 @@ use crate::path::Reference;
 use crate::plant::{Load, Motion, Plant};
 use stiction_friction::{Held, LuGre, ParamError};
 
-/// An axis to simulate. Plain settings; [`Axis::new`] validates what the parts have not.
+/// An axis to simulate. Plain settings; [`Axis::new`] checks the numbers that the parts do not check.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AxisSettings<L = LuGre<f64>> {
     /// Mass, friction, damper and spring.
     pub plant: Plant<L>,
-    /// From the controller's force to the one on the axis.
+    /// Amplifier and motor: from the controller's force to the force on the axis.
     pub drive: Drive,
     /// The position sensor.
     pub encoder: Encoder,
@@ -32,13 +32,13 @@ pub struct AxisSettings<L = LuGre<f64>> {
     pub feedforward: Feedforward,
     /// Control rate, > 0, Hz.
     pub rate: f64,
-    /// Stretches of a control period over which the force is held, 1 to 100 000; an integrator may take several steps in each.
+    /// Substeps of a control period, over each of which the force is held, 1 to 100 000; an integrator may take several steps in each.
     pub substeps: u32,
     /// Seed of the noise.
     pub seed: u64,
 }
 
-/// What can be seen of an axis at a sample.
+/// The state of an axis at a sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sample {
     /// s
@@ -49,7 +49,7 @@ pub struct Sample {
     pub measured: f64,
     /// Force commanded for the period that begins, N (N m).
     pub command: f64,
-    /// What of it compensates friction, N (N m).
+    /// The part of it that compensates friction, N (N m).
     pub compensation: f64,
     /// True position, m (rad).
     pub position: f64,
@@ -65,7 +65,7 @@ impl Sample {
     }
 }
 
-/// What is changed from outside at a sample.
+/// Inputs to an axis beside its reference, at a sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Correction {
     /// Added to the reference velocity that the controller sees, m/s (rad/s): cross-coupled control.
@@ -79,7 +79,7 @@ pub struct Correction {
 pub struct Axis<L: Held<f64> = LuGre<f64>, I = Mid> {
     settings: AxisSettings<L>,
     integrator: I,
-    /// Control period, s, the part of it that is a stretch, and the length of that, s.
+    /// Control period, s, the fraction of it that is a substep, and the length of a substep, s.
     period: f64,
     stretch: f64,
     span: f64,
@@ -134,7 +134,7 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
         &self.settings
     }
 
-    /// The compensation at work.
+    /// The running compensation.
     pub fn feedforward(&self) -> &RunningFeedforward {
         &self.feedforward
     }
@@ -152,13 +152,13 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
         Ok(())
     }
 
-    /// Changes the plant's law from now on; what it remembers stays.
+    /// Changes the plant's law from now on; its state is kept.
     pub fn set_law(&mut self, law: L) {
         self.settings.plant = self.settings.plant.with_law(law);
         self.integrator.forget();
     }
 
-    /// Gives the compensator the level of friction to count on, a factor on its law, from now on.
+    /// Sets the friction level that the compensator assumes, a factor on its law, from now on.
     pub fn set_friction_level(&mut self, level: f64) {
         self.feedforward.set_level(level);
     }
@@ -230,14 +230,14 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
         sample
     }
 
-    /// Moves the axis by the stretch `i` of the period that began at `time`.
-    // Not inlined into the loop over the stretches: what stays the same would be kept on the stack.
+    /// Moves the axis by the substep `i` of the period that began at `time`.
+    // Not inlined into the loop over the substeps: loop invariants would be kept on the stack.
     #[inline(never)]
     fn advance(&mut self, time: f64, i: u32) {
         let span = self.span;
         let driven = self.drive.force(i as usize);
         let mut force = driven;
-        // Where the axis will be at the middle of the stretch, and when.
+        // Position and time at the middle of the substep.
         if let Some(cogging) = &self.settings.cogging {
             force += cogging.force(self.motion.position + 0.5 * span * self.motion.velocity);
         }
@@ -246,7 +246,7 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
             force += disturbance.force(time + begin * self.period + 0.5 * span);
         }
         if let Some(next) = self.drive.next_force(i as usize) {
-            // What else acts changes little over a stretch.
+            // The other forces change little over a substep.
             self.integrator.expect(next + (force - driven));
         }
         let (plant, load) = (&self.settings.plant, Load::force(force));

@@ -1,8 +1,8 @@
-//! The experiments of Canudas de Wit, Olsson, Astrom, Lischinsky 1995 (doi 10.1109/9.376053) with the numbers that they
-//! must give: the block of the paper's Table I, constant sigma1.
+//! The experiments of Canudas de Wit, Olsson, Astrom, Lischinsky 1995 (doi 10.1109/9.376053) with the expected
+//! numbers: the block of the paper's Table I, constant sigma1.
 //!
 //! References come from an adaptive Radau integration at a relative tolerance of 1e-9 to 1e-10, not from this workspace.
-//! Letters B to G are those by which this project calls them.
+//! The letters B to G are this project's names for them.
 
 mod break_away;
 mod drift;
@@ -37,16 +37,16 @@ pub struct Check {
     pub name: String,
     /// SI unit.
     pub unit: &'static str,
-    /// What it should be.
+    /// The expected value.
     pub reference: f64,
-    /// What it is here.
+    /// The value found here.
     pub found: f64,
-    /// How far off it may be, in `unit`.
+    /// Largest allowed difference, in `unit`.
     pub tolerance: f64,
 }
 
 impl Check {
-    /// A number that may be off by the part `relative` of the reference.
+    /// A number with a tolerance relative to the reference.
     fn relative(
         name: impl Into<String>,
         unit: &'static str,
@@ -57,7 +57,7 @@ impl Check {
         Check::absolute(name, unit, found, reference, relative * reference.abs())
     }
 
-    /// A number that may be off by `tolerance`.
+    /// A number with an absolute tolerance.
     fn absolute(
         name: impl Into<String>,
         unit: &'static str,
@@ -105,11 +105,11 @@ impl Curve {
     }
 }
 
-/// Part of the reference by which a number may be off; .5 % for break-away forces, which the references give to four
+/// Largest allowed difference from the reference, relative; .5 % for break-away forces, which the references give to four
 /// digits of a quantity that falls steeply.
 const TOLERANCE: f64 = 1e-3;
 
-/// An experiment to run. It asks now and then whether to go on; `None` where it was not to.
+/// An experiment to run. It asks its argument now and then whether to go on; `None` where it was stopped.
 pub type Run = fn(&dyn Fn() -> bool) -> Result<Option<Experiment>, ParamError>;
 
 /// All of them, B to G.
@@ -122,7 +122,7 @@ pub const ALL: [Run; 6] = [
     |go_on| whole(drift::run, go_on),
 ];
 
-/// One that takes less than a second.
+/// Runs one that takes less than a second, and so need not ask.
 fn whole(
     run: fn() -> Result<Experiment, ParamError>,
     go_on: &dyn Fn() -> bool,

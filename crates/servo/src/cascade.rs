@@ -18,7 +18,7 @@ pub struct Cascade {
     pub force_limit: f64,
 }
 
-/// What the controller remembers between samples.
+/// The state of the controller.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CascadeState {
     last_position: Option<f64>,
@@ -29,7 +29,7 @@ impl Cascade {
     /// Gains for an axis of `mass` (kg, kg m^2), a speed loop of `bandwidth` (Hz) and a force limit (N, N m).
     ///
     /// Speed gain 2 pi bandwidth M, so that the open speed loop of a free mass crosses 1 there; position gain a quarter
-    /// and integral corner a fifth of the bandwidth, which leaves some 60 degrees; full acceleration feedforward.
+    /// and integral corner a fifth of the bandwidth, which leaves a phase margin of some 60 degrees; full acceleration feedforward.
     pub fn tuned(mass: f64, bandwidth: f64, force_limit: f64) -> Result<Self, ParamError> {
         ParamError::positive("mass", mass)?;
         ParamError::positive("bandwidth", bandwidth)?;
@@ -68,8 +68,8 @@ impl Cascade {
         self.force_with(state, h, reference, position, 0.0)
     }
 
-    /// [`force`](Self::force) with a further force, N (N m), that is fed forward: it counts for the limit and for the
-    /// integral's anti-windup.
+    /// [`force`](Self::force) with a further force, N (N m), that is fed forward: limit and anti-windup take it into
+    /// account.
     #[inline]
     pub fn force_with(
         &self,

@@ -5,9 +5,10 @@ use crate::encoder::Encoder;
 use crate::noise::Noise;
 use crate::path::Path;
 use crate::plant::{Load, Motion, Plant};
+use crate::run::sample_count;
 use stiction_friction::{Held, LuGre, ParamError};
 
-/// Which force stands in a row of the log beside the position of the instant t_k.
+/// Which force is logged in the same row as the position at the instant t_k.
 ///
 /// The controller reads the position at t_k and holds the force u_k from t_k to t_k + h.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,7 +19,7 @@ pub enum ForceLog {
     Centred,
 }
 
-/// A closed loop to run. Plain settings; [`run`](Self::run) validates what the parts have not.
+/// A closed loop to run. Plain settings; [`run`](Self::run) checks the numbers that the parts do not check.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClosedLoop<L = LuGre<f64>> {
     /// The axis.
@@ -41,7 +42,7 @@ pub struct ClosedLoop<L = LuGre<f64>> {
     pub seed: u64,
 }
 
-/// The log of a run, one entry per control period in each channel, and the truth behind it.
+/// The log of a run, one entry per control period in each channel, and the true motion.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Record {
     /// s
@@ -54,7 +55,7 @@ pub struct Record {
     pub force_command: Vec<f64>,
     /// Logged force, N (N m), as [`ForceLog`] says, with noise.
     pub force: Vec<f64>,
-    /// What no sensor sees.
+    /// The true motion and forces, which no sensor shows.
     pub truth: Truth,
 }
 
@@ -72,9 +73,6 @@ pub struct Truth {
     /// Logged force without its noise, N (N m).
     pub force: Vec<f64>,
 }
-
-/// The most samples one run may have: with ten channels of them it stays below a gigabyte.
-const MOST_SAMPLES: f64 = 1e7;
 
 impl<L: Held<f64, State = f64>> ClosedLoop<L> {
     /// Runs the loop from rest at the origin over the whole path.
@@ -129,15 +127,7 @@ impl<L: Held<f64, State = f64>> ClosedLoop<L> {
         if self.substeps == 0 {
             return Err(ParamError::new("substeps", 0.0, ">= 1"));
         }
-        let samples = libm::floor(self.path.duration() * self.rate + 1e-6) + 1.0;
-        if samples > MOST_SAMPLES {
-            return Err(ParamError::new(
-                "samples",
-                samples,
-                "at most 1e7 (duration times rate)",
-            ));
-        }
-        Ok(samples as usize)
+        sample_count(self.path.duration(), self.rate)
     }
 }
 

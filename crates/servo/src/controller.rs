@@ -13,11 +13,11 @@ pub enum Controller {
     Cascade(Cascade),
     /// PID in position.
     Pid(Pid),
-    /// PID with gains after fuzzy rules.
+    /// PID with gains scheduled by fuzzy rules.
     Fuzzy(FuzzyPid),
 }
 
-/// What it remembers between samples; only the part of the controller in use changes.
+/// Its state; only the part of the controller in use changes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ControllerState {
     cascade: CascadeState,
@@ -64,7 +64,7 @@ impl Controller {
 
     /// The force, N (N m), to hold for the next `h` seconds, from the reference and the measured position (m, rad) at
     /// this instant and a further force (N, N m) that is fed forward. A cascade is given the reference velocity of half
-    /// `h` ago, since that is the age of the speed that it measures.
+    /// a period `h` ago, since that is the age of the speed that it measures.
     #[inline]
     pub fn force(
         &self,
@@ -76,7 +76,8 @@ impl Controller {
     ) -> f64 {
         match self {
             Controller::Cascade(cascade) => {
-                // Its measured speed is that over the last period, half of one ago: so is the one it is compared with.
+                // The measured speed is the mean over the last period, so half a period old: the reference is taken at the
+                // same instant.
                 let velocity = reference.velocity - 0.5 * h * reference.acceleration;
                 let reference = Reference {
                     velocity,

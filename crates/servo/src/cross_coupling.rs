@@ -1,4 +1,4 @@
-//! Cross-coupled control: the error that counts for a part is that of the contour, not of either axis.
+//! Cross-coupled control: what matters for a part is the contour error, not the error of either axis.
 
 use crate::controller::Controller;
 use crate::plane::Deviation;
@@ -19,7 +19,7 @@ pub struct CrossCoupling {
     pub limit: f64,
 }
 
-/// What it remembers.
+/// Its state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CouplingState {
     integral: f64,
@@ -32,7 +32,7 @@ impl CrossCoupling {
     /// 2.5 w^2, derivative 2.
     ///
     /// Across the contour the loop is then three times as fast as that of an axis alone. With loops of 45 and 60 Hz that
-    /// leaves 36 and 30 degrees where all delays from measurement to force, half samples included, come to .66 ms; with a
+    /// leaves phase margins of 36 and 30 degrees where all delays from measurement to force, half samples included, come to .66 ms; with a
     /// delay of more than .03 of the bandwidth's period, take a lower bandwidth here.
     pub fn tuned(bandwidth: f64, limit: f64) -> Result<Self, ParamError> {
         ParamError::positive("bandwidth", bandwidth)?;
@@ -47,8 +47,8 @@ impl CrossCoupling {
         Ok(coupling)
     }
 
-    /// The same above axes with these controllers. A PID integrates the position error itself, and two integrators of
-    /// nearly the same error drift against each other until one is at its limit: above it the coupling has none.
+    /// The same for axes with these controllers. A PID integrates the position error itself, and two integrators of
+    /// nearly the same error drift against each other until one is at its limit: above a PID the coupling has no integral.
     pub fn above(self, axes: [&Controller; 2]) -> Self {
         let integrates = |c: &&Controller| matches!(c, Controller::Pid(_) | Controller::Fuzzy(_));
         if axes.iter().any(integrates) {
@@ -70,7 +70,7 @@ impl CrossCoupling {
     }
 
     /// Velocities to add to both axes, m/s, from the deviation now, `h` seconds after the last. At the limit the integral
-    /// stands.
+    /// is frozen.
     pub fn correction(&self, state: &mut CouplingState, h: f64, deviation: Deviation) -> [f64; 2] {
         let error = deviation.distance;
         let rate = (error - state.last.unwrap_or(error)) / h;

@@ -2,7 +2,7 @@
 
 use stiction_friction::ParamError;
 
-/// The force of a motor's teeth and magnets, a sine in position: `amplitude sin(2 pi x/pitch + phase)`.
+/// Cogging, the force between a motor's teeth and magnets: a sine in position, `amplitude sin(2 pi x/pitch + phase)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cogging {
     /// >= 0, N (N m).

@@ -2,11 +2,14 @@
 
 use stiction_friction::ParamError;
 
-/// Delays longer than this many control periods are refused.
-const LONGEST: usize = 32;
+/// Longest delay, in control periods.
+const MAX_DELAY_PERIODS: usize = 32;
 
-/// More stretches of a control period are refused: what is known of each is kept.
-const MOST_SUBSTEPS: u32 = 100_000;
+/// Most substeps of a control period: a few numbers are kept for each.
+const MAX_SUBSTEPS: u32 = 100_000;
+
+/// Difference from a whole number of control periods below which a delay is taken as whole: rounding.
+const DELAY_ROUNDING: f64 = 1e-9;
 
 /// Settings of a drive, immutable while it runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,19 +20,19 @@ pub struct Drive {
     pub amplifier_gain: f64,
     /// Largest current either way, > 0, A; infinite: none.
     pub peak_current: f64,
-    /// Rms current that may last, > 0, A; infinite: none. Above it, on average over the thermal time, the current is held
-    /// down to it.
+    /// Rated (continuous rms) current, > 0, A; infinite: none. Where the rms over the thermal time exceeds it, the current is
+    /// limited to it.
     pub rated_current: f64,
     /// Time constant of that average, > 0, s.
     pub thermal_time: f64,
     /// Time constant of the current loop, >= 0, s: 159e-6 for 1 kHz.
     pub current_lag: f64,
-    /// Transport delay from the controller to the amplifier, 0 to 32 control periods, any part of one, s.
+    /// Transport delay from the controller to the amplifier, s: 0 to 32 control periods, not necessarily a whole number.
     pub delay: f64,
 }
 
 impl Drive {
-    /// A drive that gives the force asked for, at once and without limit.
+    /// A drive that gives the commanded force at once and without limit.
     pub fn ideal() -> Self {
         Drive {
             force_constant: 1.0,
@@ -61,13 +64,13 @@ impl Drive {
         self.force_constant * self.amplifier_gain
     }
 
-    /// The largest force that may be asked for, N (N m).
+    /// The largest force that can be commanded, N (N m).
     pub fn peak_force(&self) -> f64 {
         self.force_constant * self.peak_current
     }
 
     /// How far a compensation on the reference velocity has to look ahead at a control period of `period` seconds, in
-    /// samples: delay and current loop. The half sample by which a held force comes late on average is not among it: a law
+    /// samples: delay and current loop. The half sample by which a held force is late on average is not included: a law
     /// that is stepped with the velocity at the end of a sample is half a sample early by itself.
     pub fn preview(&self, period: f64) -> f64 {
         (self.delay + self.current_lag) / period
@@ -88,7 +91,7 @@ impl Drive {
         ParamError::positive("thermal_time", self.thermal_time)?;
         ParamError::not_negative("current_lag", self.current_lag)?;
         ParamError::not_negative("delay", self.delay)?;
-        if self.delay > LONGEST as f64 * period {
+        if self.delay > MAX_DELAY_PERIODS as f64 * period {
             let allowed = "at most 32 control periods";
             return Err(ParamError::new("delay", self.delay, allowed));
         }
@@ -96,14 +99,14 @@ impl Drive {
     }
 }
 
-/// A drive at work at a fixed control period, whose force is asked for in equal stretches of it.
+/// A running drive at a fixed control period, whose force is computed for equal substeps of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunningDrive {
     drive: Drive,
     /// Volts of command for a force, V/N.
     per_force: f64,
     /// The last commands, A, the newest at `newest`.
-    commands: [f64; LONGEST + 2],
+    commands: [f64; MAX_DELAY_PERIODS + 2],
     newest: usize,
     /// A
     current: f64,
@@ -115,34 +118,34 @@ pub struct RunningDrive {
     known: Option<(f64, f64)>,
 }
 
-/// What is the same in every period about a stretch of it.
+/// What a substep has in common in every period.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Stretch {
-    /// Part of a period.
+    /// Fraction of a period.
     length: f64,
     begins: Following,
-    /// After a command has come through within the stretch.
+    /// After a new command has taken effect within the substep.
     ends: Option<Following>,
 }
 
 /// The current loop after one command.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Following {
-    /// The command is that of so many periods ago.
+    /// Age of the command, in periods.
     late: usize,
-    /// Part of a period.
+    /// Fraction of a period.
     length: f64,
-    /// What is left of the distance to the command at the end, and of it on average.
+    /// Remaining fraction of the distance to the command at the end, and on average.
     left: f64,
     mean: f64,
 }
 
 impl RunningDrive {
-    /// At rest, for a control period in s that is asked for in `substeps` stretches, 1 to 100 000.
+    /// At rest, for a control period in s with `substeps` substeps, 1 to 100 000.
     pub fn new(drive: Drive, period: f64, substeps: u32) -> Result<Self, ParamError> {
         ParamError::positive("period", period)?;
         drive.validate(period)?;
-        if !(1..=MOST_SUBSTEPS).contains(&substeps) {
+        if !(1..=MAX_SUBSTEPS).contains(&substeps) {
             let found = f64::from(substeps);
             return Err(ParamError::new("substeps", found, "1 to 100 000"));
         }
@@ -154,7 +157,7 @@ impl RunningDrive {
         Ok(RunningDrive {
             drive,
             per_force: 1.0 / drive.gain(),
-            commands: [0.0; LONGEST + 2],
+            commands: [0.0; MAX_DELAY_PERIODS + 2],
             newest: 0,
             current: 0.0,
             heat: 0.0,
@@ -169,7 +172,7 @@ impl RunningDrive {
         &self.drive
     }
 
-    /// Takes the force that the controller asks for, N (N m), at the beginning of a period; limited to the peak.
+    /// Takes the force that the controller commands, N (N m), at the beginning of a period; limited to the peak.
     #[inline]
     pub fn command(&mut self, force: f64) {
         let volts = force * self.per_force;
@@ -188,10 +191,10 @@ impl RunningDrive {
         self.heat += self.warming * (self.current * self.current - self.heat);
     }
 
-    /// Mean force, N (N m), over the stretch `i` of the present period, from 0. All are to be asked for, in their order.
+    /// Mean force, N (N m), over the substep `i` of the present period, from 0. To be called for all of them, in order.
     ///
     /// # Panics
-    /// Where there are not so many.
+    /// If there is no such substep.
     #[inline]
     pub fn force(&mut self, i: usize) -> f64 {
         let known = self.known.take();
@@ -200,7 +203,7 @@ impl RunningDrive {
         force
     }
 
-    /// The force, N (N m), over the stretch that follows `i`, the one asked for last, where no command to come changes it.
+    /// The force, N (N m), over the substep after `i`, the last one computed, unless a later command may still change it.
     #[inline]
     pub fn next_force(&mut self, i: usize) -> Option<f64> {
         self.known = self.next(i);
@@ -222,7 +225,7 @@ impl RunningDrive {
         (latest > 0).then(|| self.after(stretch, coming))
     }
 
-    /// Mean force, N (N m), and last current, A, over a stretch from now on, where `newest` is the place of the newest command in it.
+    /// Mean force, N (N m), and last current, A, over a substep from now on, where `newest` is the index of the newest command.
     #[inline]
     fn after(&self, stretch: &Stretch, newest: usize) -> (f64, f64) {
         let Stretch {
@@ -253,11 +256,10 @@ impl RunningDrive {
 }
 
 impl Drive {
-    /// The stretch from `begin` to `end`, as parts of a period of `period` seconds.
+    /// The substep from `begin` to `end`, as fractions of a period of `period` seconds.
     fn stretch(&self, period: f64, begin: f64, end: f64) -> Stretch {
         let periods = self.delay / period;
-        // A delay that is whole but for rounding is whole.
-        let whole = libm::floor(periods + 1e-9);
+        let whole = libm::floor(periods + DELAY_ROUNDING);
         let part = (periods - whole).max(0.0);
         let whole = whole as usize;
         let length = end - begin;

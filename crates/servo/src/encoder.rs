@@ -2,7 +2,7 @@
 
 use stiction_friction::ParamError;
 
-/// An incremental encoder without error other than its steps.
+/// An incremental encoder with no error but its quantisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Encoder {
     resolution: f64,
@@ -19,8 +19,8 @@ impl Encoder {
         })
     }
 
-    /// The same encoder with its counts moved by `phase` of a step, so that the origin of the axis no
-    /// longer stands in the middle of one: any finite number, 0 to 1 covers all there is.
+    /// The same encoder with its counts shifted by `phase` of a step, so that the origin of the axis is no
+    /// longer in the middle of a step: any finite number, 0 to 1 covers all cases.
     pub fn with_phase(self, phase: f64) -> Result<Self, ParamError> {
         if !phase.is_finite() {
             return Err(ParamError::new("phase", phase, "finite"));

@@ -1,4 +1,4 @@
-//! What is added to the controller's force against friction.
+//! Friction compensation: the force that is added to the controller's.
 
 use crate::drive::Drive;
 use stiction_friction::ParamError;
@@ -16,7 +16,7 @@ use stiction_friction::compensator::{Compensator, DisturbanceObserver, Disturban
 pub struct Feedforward {
     /// The model-based compensator, the code that runs on the drive.
     pub compensator: Option<Compensator<f64>>,
-    /// How far it looks ahead on the reference, 0 to 7 samples: [`Drive::preview`].
+    /// How far it looks ahead on the reference, 0 to 7 samples; usually [`Drive::preview`].
     pub preview: f64,
     /// The disturbance observer.
     pub observer: Option<DisturbanceObserver<f64>>,
@@ -24,7 +24,7 @@ pub struct Feedforward {
     pub learned: Vec<f64>,
 }
 
-/// A moment of the run.
+/// What the compensation sees in a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Moment {
     pub index: usize,
@@ -36,22 +36,23 @@ pub(crate) struct Moment {
     pub error: f64,
 }
 
-/// The longest delay of a drive in periods, and the period that a measured velocity spans.
-const REMEMBERED: usize = 34;
+/// Commands that are kept: the longest delay of a drive, 32 periods, and the two ends of the period over which a velocity
+/// is measured.
+const KEPT_COMMANDS: usize = 34;
 
-/// A compensation at work.
+/// A running compensation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunningFeedforward {
     parts: Feedforward,
-    /// No part is there.
+    /// There is no part.
     none: bool,
     observed: DisturbanceState<f64>,
     /// The last commands less what the compensator and the passes gave, N (N m), the newest at `newest`: the observer
-    /// is to find what they leave.
-    commands: [f64; REMEMBERED],
+    /// estimates what they leave.
+    commands: [f64; KEPT_COMMANDS],
     newest: usize,
     modelled: f64,
-    /// Which of them acted over the period that a sample looks back on.
+    /// Which of them acted over the period before a sample.
     late: usize,
 }
 
@@ -78,14 +79,14 @@ impl Feedforward {
         drive: &Drive,
         period: f64,
     ) -> Result<RunningFeedforward, ParamError> {
-        if !(0.0..=crate::trajectory::FARTHEST).contains(&self.preview) {
+        if !(0.0..=crate::trajectory::MAX_PREVIEW).contains(&self.preview) {
             return Err(ParamError::new("preview", self.preview, "0 to 7 samples"));
         }
         Ok(RunningFeedforward {
             parts: self.clone(),
             none: self.compensator.is_none() && self.observer.is_none() && self.learned.is_empty(),
             observed: DisturbanceState::default(),
-            commands: [0.0; REMEMBERED],
+            commands: [0.0; KEPT_COMMANDS],
             newest: 0,
             modelled: 0.0,
             // The drive was checked: its delay is at most 32 periods.
@@ -126,17 +127,17 @@ impl RunningFeedforward {
         }
         self.modelled = force;
         if let Some(observer) = &self.parts.observer {
-            let acted = self.commands[(self.newest + REMEMBERED - self.late) % REMEMBERED];
+            let acted = self.commands[(self.newest + KEPT_COMMANDS - self.late) % KEPT_COMMANDS];
             force += observer.step(&mut self.observed, acted, moment.rate);
         }
         force
     }
 
-    /// Takes note of the force that was commanded.
+    /// Records the force that was commanded.
     #[inline]
     pub(crate) fn applied(&mut self, command: f64) {
         if self.parts.observer.is_some() {
-            self.newest = (self.newest + 1) % REMEMBERED;
+            self.newest = (self.newest + 1) % KEPT_COMMANDS;
             self.commands[self.newest] = command - self.modelled;
         }
     }

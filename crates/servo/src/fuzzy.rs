@@ -4,24 +4,24 @@ use crate::path::Reference;
 use crate::pid::{Pid, PidState, Scale};
 use stiction_friction::ParamError;
 
-/// A fuzzy PID: error and its rate, each on seven triangular sets NB, NM, NS, ZO, PS, PM, PB over -3 to 3, choose how much
-/// of each gain is in force.
+/// A fuzzy PID: error and its rate, each on seven triangular sets NB, NM, NS, ZO, PS, PM, PB over -3 to 3, determine the
+/// factor on each gain.
 ///
-/// Rules with the product as "and", singletons as consequences and their weighted mean as the result: with triangles that
+/// Product inference, singleton consequents and their weighted mean as the result: with triangles that
 /// overlap by half that is the bilinear interpolation of the table, exactly, at the cost of four entries.
 ///
-/// The tables are those of Zhang et al. 2025 (doi 10.1371/journal.pone.0322844). With the signs of error and rate the
-/// entries of the proportional and the integral one turn theirs, where an equal answer to both directions would need the
-/// same gain: a symmetric axis is held unevenly.
+/// The tables are those of Zhang et al. 2025 (doi 10.1371/journal.pone.0322844). The entries of the proportional and the integral
+/// table change sign with error and rate, where an equal response in both directions would need equal gains: so a
+/// symmetric axis is controlled asymmetrically.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FuzzyPid {
-    /// The gains around which the rules move.
+    /// The gains that the rules modify.
     pub base: Pid,
     /// Error that counts as 3 ("big"), > 0, m (rad).
     pub error_scale: f64,
     /// Error rate that counts as 3, > 0, m/s (rad/s).
     pub rate_scale: f64,
-    /// Largest change of each gain, as a part of it, 0 to below 1.
+    /// Largest relative change of each gain, 0 to below 1.
     pub range: f64,
 }
 
@@ -66,8 +66,8 @@ const DERIVATIVE: Table = [
 
 impl FuzzyPid {
     /// [`Pid::tuned`] with rules around it, for an axis whose friction is about `friction` > 0, N (N m): the error that
-    /// this force makes against Kp counts as big, and so does the rate at which it turns round once in a radian of the
-    /// bandwidth. Gains move by up to 30 %, which the phase margin of some 55 degrees bears.
+    /// this force causes against Kp counts as big, and so does the rate at which it would change that much within a radian of the
+    /// bandwidth. Gains change by up to 30 %, which the phase margin of some 55 degrees allows.
     pub fn tuned(
         mass: f64,
         bandwidth: f64,
@@ -113,7 +113,7 @@ impl FuzzyPid {
             .scaled(state, h, errors, scale, reference, feedforward)
     }
 
-    /// What the rules make of an error (m, rad) and its rate (m/s, rad/s).
+    /// The factors on the gains for an error (m, rad) and its rate (m/s, rad/s).
     fn scale(&self, error: f64, rate: f64) -> Scale {
         let row = Membership::of(error / self.error_scale);
         let column = Membership::of(rate / self.rate_scale);
@@ -134,7 +134,7 @@ struct Membership {
 }
 
 impl Membership {
-    /// `x` in parts of the scale: -1 is NB, 1 is PB. What is not a number is ZO.
+    /// `x` relative to the scale: -1 is NB, 1 is PB. NaN is ZO.
     fn of(x: f64) -> Self {
         let x = if x.is_nan() { 0.0 } else { x };
         let at = 3.0 * x.clamp(-1.0, 1.0) + 3.0;

@@ -31,10 +31,10 @@ pub trait Integrator<L: Held<f64>> {
         rate: f64,
     ) -> Motion<L::State>;
 
-    /// May be told, before a step, the force of the load in the step after it, N (N m), where that is known by then.
+    /// May be called before a step with the force of the load in the step after it, N (N m), where it is known by then.
     fn expect(&mut self, _next: f64) {}
 
-    /// To be told when the plant is no longer that of the call before: what was kept of it is dropped.
+    /// To be called when the plant is no longer that of the call before: whatever was kept of it is dropped.
     fn forget(&mut self) {}
 }
 
@@ -71,7 +71,7 @@ impl<L: Held<f64>> Integrator<L> for Mid {
 }
 
 /// A choice made at run time.
-// One stands in an axis, whose own state is larger.
+// An axis holds one, and its own state is larger.
 #[allow(clippy::large_enum_variant)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Choice {

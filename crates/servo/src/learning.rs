@@ -1,17 +1,17 @@
-//! Iterative learning: what was missing in one pass is fed forward in the next.
+//! Iterative learning control: the force that was missing in one pass is fed forward in the next.
 
 use crate::axis::Sample;
 use stiction_friction::ParamError;
 
 /// Learning from pass to pass: `u <- Q[u + gain f(t + lead)]`, with f the force that feedback had to add in the last pass
-/// and Q a low pass without phase (Bristow, Tharayil, Alleyne 2006, doi 10.1109/MCS.2006.1636313).
+/// and Q a zero-phase low-pass (Bristow, Tharayil, Alleyne 2006, doi 10.1109/MCS.2006.1636313).
 ///
-/// What feedback adds is the missing force as far as the loop could follow it: what it could not comes in the next passes.
+/// Feedback supplies the missing force as far as the loop can follow; the rest comes in the next passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Learning {
-    /// How much of what was missing is made up for, 0 to 1.
+    /// Fraction of the missing force that is added per pass, 0 to 1.
     pub gain: f64,
-    /// By how many samples feedback comes after the force it stands for.
+    /// Samples by which feedback lags behind the force that was missing.
     pub lead: usize,
     /// Cut-off of the filter, > 0, Hz: where the loop no longer follows.
     pub cutoff: f64,

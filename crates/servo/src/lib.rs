@@ -1,4 +1,7 @@
-//! The simulated axis: what a drive with a known friction law does, and what it would log.
+//! The simulated axis: how a drive with a known friction law moves, and what it would log.
+//!
+//! Start with [`closed_loop`] for a log with known truth (the example below), or with [`axis`] and [`run`] to compare
+//! controllers and friction compensation; [`known`] has axes to begin with.
 //!
 //! | module | what |
 //! |---|---|
@@ -14,11 +17,11 @@
 //! | [`feedforward`], [`learning`] | compensation of friction |
 //! | [`axis`], [`run`] | one axis with all of it, along a [`trajectory`], or one [`sampled`] for many runs |
 //! | [`two_axes`], [`cross_coupling`] | two axes along a contour in the [`plane`] |
-//! | [`load`] | mass and level of friction found while running |
-//! | [`metrics`] | how well it followed |
+//! | [`load`] | load estimation: mass and friction level while running |
+//! | [`metrics`] | tracking and contour errors |
 //! | [`closed_loop`] | all of them together at a control rate, recorded |
 //! | [`known`] | axes with published parameters |
-//! | [`c95`] | the experiments of 1995 with their numbers |
+//! | [`c95`] | the experiments of the LuGre paper (1995) with the expected numbers |
 //!
 //! SI throughout; units are given for a linear axis, those of a rotary axis in brackets. The friction laws are those of
 //! `stiction-friction`, none are written here. The same settings and seed give the same bits on every machine.

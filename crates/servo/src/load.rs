@@ -1,4 +1,4 @@
-//! The load of an axis found while it runs: mass and level of friction by recursive least squares.
+//! Load estimation: mass and friction level of a running axis by recursive least squares.
 
 use crate::drive::{Drive, RunningDrive};
 use stiction_friction::{Held, LuGre, ParamError};
@@ -6,12 +6,12 @@ use stiction_friction::{Held, LuGre, ParamError};
 /// Settings of a load estimate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadSettings {
-    /// Learning time over which samples are forgotten, > 0, s.
+    /// Time constant of the forgetting, counted in time that is learnt from, > 0, s.
     pub memory: f64,
     /// Cut-off of the two lags that force, acceleration and friction all pass, > 0, Hz.
     pub cutoff: f64,
-    /// Acceleration, past the lags, below which nothing is learnt and nothing forgotten, > 0, m/s^2 (rad/s^2): the mass
-    /// could not be told from friction there, nor the noise of force and position from either.
+    /// Filtered acceleration below which nothing is learnt and nothing forgotten, > 0, m/s^2 (rad/s^2): there the mass
+    /// could not be distinguished from friction, nor either from noise.
     pub least_acceleration: f64,
 }
 
@@ -26,7 +26,7 @@ impl Default for LoadSettings {
     }
 }
 
-/// Mass and level of friction as they are now believed.
+/// The present estimate of mass and friction level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load {
     /// kg (kg m^2)
@@ -40,7 +40,7 @@ pub struct Load {
 /// measured position, and F the law stepped along that position.
 ///
 /// The second difference belongs to the mean of two neighbouring forces exactly; all three then pass the same lags, so
-/// nothing has to be aligned but the drive's delay, which its model has.
+/// only the drive's delay has to be aligned, which its model does.
 #[derive(Clone, Debug)]
 pub struct LoadEstimator {
     law: LuGre<f64>,
@@ -62,8 +62,11 @@ pub struct LoadEstimator {
     covariance: [[f64; 2]; 2],
 }
 
-/// The covariance that says nothing is known, against squares of m/s^2 and N; it never grows beyond.
-const UNKNOWN: f64 = 1e6;
+/// Bound of the diagonal of the covariance, in 1/(m/s^2)^2 and 1/N^2 (rotary: 1/(rad/s^2)^2 and 1/(N m)^2): forgetting
+/// without excitation does not let it grow beyond.
+const MAX_COVARIANCE: f64 = 1e6;
+/// The diagonal at the start, in the same units: the nominal mass is doubted more than the nominal level.
+const INITIAL_COVARIANCE: [f64; 2] = [1.0, 1e-2];
 
 impl LoadEstimator {
     /// For a law at its nominal level and a nominal mass (kg, kg m^2), a model of the drive, and a control rate in Hz.
@@ -93,11 +96,11 @@ impl LoadEstimator {
             first: [0.0; 3],
             second: [0.0; 3],
             fade: libm::exp(-1.0 / (rate * settings.memory)),
-            covariance: [[1.0, 0.0], [0.0, 1e-2]],
+            covariance: [[INITIAL_COVARIANCE[0], 0.0], [0.0, INITIAL_COVARIANCE[1]]],
         })
     }
 
-    /// What is believed now.
+    /// The present estimate.
     pub fn load(&self) -> Load {
         self.load
     }
@@ -116,7 +119,7 @@ impl LoadEstimator {
         let friction = self.law.mean_force(self.deflection, end, h, velocity);
         self.deflection = end;
         let acceleration = (position - 2.0 * newer + older) * self.rate * self.rate;
-        // `force` is of the period that ends now, the drive's output of it was asked for a sample ago.
+        // `force` is that of the period that ends now, for the command of a sample ago.
         let force = self.drive.force(0);
         let raw = [
             0.5 * (self.force + force),
@@ -150,13 +153,13 @@ impl LoadEstimator {
         let spread = fade + a * pa[0] + f * pa[1];
         let gain = [pa[0] / spread, pa[1] / spread];
         let missing = u - self.load.mass * a - self.load.level * f;
-        // A mass or level below nothing is not believed, whatever the data.
+        // Mass and level stay positive, whatever the data.
         self.load.mass = (self.load.mass + gain[0] * missing).max(f64::MIN_POSITIVE);
         self.load.level = (self.load.level + gain[1] * missing).max(0.0);
         let next = |i: usize, j: usize| (p[i][j] - gain[i] * pa[j]) / fade;
         let cross = 0.5 * (next(0, 1) + next(1, 0));
         let grown = [[next(0, 0), cross], [cross, next(1, 1)]];
-        if grown[0][0] <= UNKNOWN && grown[1][1] <= UNKNOWN {
+        if grown[0][0] <= MAX_COVARIANCE && grown[1][1] <= MAX_COVARIANCE {
             self.covariance = grown;
         }
     }

@@ -1,4 +1,4 @@
-//! How well an axis followed.
+//! Tracking metrics of an axis.
 
 mod contour;
 
@@ -13,9 +13,9 @@ pub struct Tracking {
     pub rms: f64,
     /// Largest error, m (rad).
     pub peak: f64,
-    /// Largest error about a reversal of the reference, m (rad): the quadrant spike. 0 without reversals. A spike stands
-    /// where friction has turned round, which on a slow motion is long after the reversal: what counts is 20 ms to either
-    /// side, or a quarter of the way before and after in time if that is longer. A way is from a reversal, or the
+    /// Largest error about a reversal of the reference, m (rad): the quadrant glitch. 0 without reversals. The spike comes
+    /// when friction has reversed, which in slow motion is long after the reversal: the window is 20 ms on either
+    /// side, or a quarter of the duration of the stroke before and after if that is longer. A stroke is from a reversal, or the
     /// beginning of the samples, to the next, or their end, without the rest of the reference after it; where the
     /// reference rests before a reversal, 20 ms before it count.
     pub reversal_peak: f64,
@@ -25,14 +25,19 @@ pub struct Tracking {
     pub stick_time: f64,
 }
 
-/// The least time about a reversal that counts as part of it, s.
-const ABOUT: f64 = 0.02;
+/// Least half width of the window about a reversal, s.
+const MIN_REVERSAL_WINDOW: f64 = 0.02;
+/// Half width of that window as a fraction of the stroke, where that is longer: a spike comes once friction has reversed,
+/// which in slow motion is late (decision 0034).
+const REVERSAL_SHARE_OF_STROKE: f64 = 0.25;
+/// Speed below which the axis stands still, as a fraction of the fastest reference.
+const STANDSTILL_SHARE: f64 = 0.01;
 
-/// Shorter stretches of constant velocity are still settling, s.
-const SETTLES: f64 = 0.1;
+/// Shortest stretch of constant velocity whose ripple is measured, s; in shorter ones the axis is still settling.
+const MIN_CONSTANT_STRETCH: f64 = 0.1;
 
 impl Tracking {
-    /// Of the samples given; none give zeros. Leave out what is not to count, as the first cycle.
+    /// From the given samples; all 0 without samples. Leave out those that should not count, such as the first cycle.
     pub fn of(samples: &[Sample]) -> Self {
         let turns = turns(samples);
         let squares = samples.iter().map(|s| s.error() * s.error());
@@ -58,9 +63,9 @@ pub fn reversals(samples: &[Sample]) -> Vec<f64> {
 
 /// A reversal of the reference.
 struct Turn {
-    /// When it moved last the way before, s.
+    /// When it last moved in the direction before, s.
     left: f64,
-    /// When it moves the other way, s.
+    /// When it first moves in the other direction, s.
     time: f64,
 }
 
@@ -95,11 +100,11 @@ fn about<'a>(samples: &'a [Sample], turns: &'a [Turn]) -> impl Iterator<Item = &
             None => begin.unwrap_or(turn.left),
         };
         let until = turns.get(i + 1).map_or(end, |next| Some(next.left));
-        let rested = turn.time - turn.left > ABOUT;
+        let rested = turn.time - turn.left > MIN_REVERSAL_WINDOW;
         let before = if rested { 0.0 } else { turn.left - since };
         let after = until.unwrap_or(turn.time) - turn.time;
-        let from = turn.time - ABOUT.max(0.25 * before);
-        let to = turn.time + ABOUT.max(0.25 * after);
+        let from = turn.time - MIN_REVERSAL_WINDOW.max(REVERSAL_SHARE_OF_STROKE * before);
+        let to = turn.time + MIN_REVERSAL_WINDOW.max(REVERSAL_SHARE_OF_STROKE * after);
         &samples[place(from)..place(to)]
     })
 }
@@ -111,16 +116,16 @@ fn stick_time(samples: &[Sample], turns: &[Turn]) -> f64 {
     let mut longest = 0.0_f64;
     let mut since: Option<f64> = None;
     for sample in samples {
-        if sample.velocity.abs() >= 0.01 * fastest {
+        if sample.velocity.abs() >= STANDSTILL_SHARE * fastest {
             since = None;
             continue;
         }
         let begin = *since.get_or_insert(sample.time);
-        // A standstill belongs to a reversal that it holds or follows within the time about it.
-        let next = turns.partition_point(|turn| turn.time < begin - ABOUT);
+        // A standstill belongs to a reversal that it contains or follows within the window about it.
+        let next = turns.partition_point(|turn| turn.time < begin - MIN_REVERSAL_WINDOW);
         if turns
             .get(next)
-            .is_some_and(|turn| turn.time <= sample.time + ABOUT)
+            .is_some_and(|turn| turn.time <= sample.time + MIN_REVERSAL_WINDOW)
         {
             longest = longest.max(sample.time - begin);
         }
@@ -128,7 +133,7 @@ fn stick_time(samples: &[Sample], turns: &[Turn]) -> f64 {
     longest
 }
 
-/// Share of the samples whose command is at `limit` > 0, N (N m), or beyond; 0 of none.
+/// Share of the samples whose command is at `limit` > 0, N (N m), or beyond; 0 without samples.
 pub fn share_at_limit(samples: &[Sample], limit: f64) -> f64 {
     let at = samples.iter().filter(|s| s.command.abs() >= limit).count();
     at as f64 / samples.len().max(1) as f64
@@ -152,12 +157,12 @@ pub fn ripple_at_constant_velocity(samples: &[Sample]) -> Option<f64> {
     samples
         .chunk_by(same)
         .filter(|stretch| constant(&stretch[0]))
-        .filter(|stretch| stretch[stretch.len() - 1].time - stretch[0].time >= SETTLES)
+        .filter(|stretch| stretch[stretch.len() - 1].time - stretch[0].time >= MIN_CONSTANT_STRETCH)
         .map(|stretch| velocity_ripple(&stretch[stretch.len() / 2..]))
         .reduce(f64::max)
 }
 
-/// The square root of the mean; 0 of nothing.
+/// The square root of the mean; 0 without values.
 pub(crate) fn root_mean(squares: impl Iterator<Item = f64>) -> f64 {
     let (sum, n) = squares.fold((0.0, 0.0), |(sum, n), x| (sum + x, n + 1.0));
     if n == 0.0 { 0.0 } else { libm::sqrt(sum / n) }

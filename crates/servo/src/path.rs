@@ -2,7 +2,7 @@
 
 use stiction_friction::ParamError;
 
-/// Where the reference is at an instant.
+/// The reference at an instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reference {
     /// m (rad)
@@ -102,7 +102,7 @@ impl Path {
         Path::new(vec![Sine::new(speed, frequency, duration)])
     }
 
-    /// The excitation that leaves no LuGre parameter undetermined: fast and slow for Fc, sigma2 and mass, slow around vs
+    /// An excitation that determines all LuGre parameters: fast and slow for Fc, sigma2 and mass, slow around vs
     /// for the Stribeck curve, small and quick for the bristles.
     ///
     /// `speed` is the velocity amplitude of the fast part, m/s (rad/s); the others are 0.0189 and 0.128 of it, at 1, 1.2

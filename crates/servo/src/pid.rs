@@ -20,7 +20,7 @@ pub struct Pid {
     pub force_limit: f64,
 }
 
-/// What a PID remembers between samples.
+/// The state of a PID.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PidState {
     last_position: Option<f64>,
@@ -28,7 +28,7 @@ pub struct PidState {
     integral: f64,
 }
 
-/// Parts of a PID's gains that are in force, 1 each for all of it.
+/// Factors on the gains of a PID; 1 leaves a gain as it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Scale {
     pub proportional: f64,

@@ -1,4 +1,4 @@
-//! Contours of two axes: what they are, the way along them, and how far from them a point is.
+//! Contours of two axes: their shapes, the motion along them, and the deviation of a point from them.
 
 mod along;
 mod curve;

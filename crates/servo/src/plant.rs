@@ -1,4 +1,4 @@
-//! A mass with friction, driven by a force: the implicit-midpoint step MID.
+//! A mass with friction, driven by a force: the implicit midpoint step MID.
 
 use stiction_friction::{Held, LuGre, Pace, ParamError};
 
@@ -11,14 +11,14 @@ pub struct Plant<L = LuGre<f64>> {
     stiffness: f64,
 }
 
-/// Where the axis is.
+/// The state of motion of an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion<S = f64> {
     /// Position, m (rad).
     pub position: f64,
     /// Velocity, m/s (rad/s).
     pub velocity: f64,
-    /// Bristle deflection, m (rad), or what else the law remembers.
+    /// Bristle deflection, m (rad), or whatever the state of the law is.
     pub deflection: S,
 }
 
@@ -43,7 +43,7 @@ impl Load {
     }
 }
 
-/// What one step led to.
+/// The result of one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step<S = f64> {
     /// The motion at the end of the step.
@@ -52,7 +52,7 @@ pub struct Step<S = f64> {
     pub mean_velocity: f64,
     /// Mean friction force over the step, N (N m), offset included.
     pub friction: f64,
-    /// Evaluations of the force balance that the solution took.
+    /// Evaluations of the force balance that the solution needed.
     pub evaluations: u32,
 }
 
@@ -119,11 +119,11 @@ impl<L: Held<f64>> Plant<L> {
     /// x+ = x + h w,  v+ = 2 w - v
     /// ```
     /// with the mean deflection z_mean of [`Sweep`](stiction_friction::Sweep); other laws take `(z + z+)/2`. Second order
-    /// and A-stable; the work of all forces equals the change of kinetic energy to rounding. It does not damp what is too
-    /// fast for the step: keep `h sqrt(sigma0/M)` below about 2. With sigma1 capped friction gives no energy back over a
-    /// closed cycle, in steps no longer than g(v)/sigma0; a longer one through a reversal can.
+    /// and A-stable; the work of all forces equals the change of kinetic energy to rounding. It does not damp motion that is too
+    /// fast for the step: keep `h sqrt(sigma0/M)` below about 2. With sigma1 capped friction releases no energy over a
+    /// closed cycle, in steps that move no farther than g(v)/sigma0; a longer one through a reversal can.
     ///
-    /// A load that is not finite gives a motion that is not.
+    /// A load that is not finite gives a motion that is not finite.
     pub fn step(&self, from: Motion<L::State>, h: f64, load: Load) -> Step<L::State> {
         let load = Load {
             stiffness: load.stiffness + self.stiffness,
@@ -159,8 +159,31 @@ impl<L: Held<f64>> Plant<L> {
     }
 }
 
-/// Bisection alone would need about sixty; a load that is not a number stops here.
-const MOST_EVALUATIONS: u32 = 200;
+/// Tolerances of the solution of one step.
+struct Tolerances {
+    /// Most evaluations: bisection alone would need about sixty; a load that is NaN ends here.
+    max_evaluations: u32,
+    /// Largest Newton step after which the solution is exact to rounding, relative to the velocity: Newton's method
+    /// converges quadratically.
+    final_step: f64,
+    /// Velocity that counts as standstill, in Stribeck velocities.
+    standstill: f64,
+    /// Width of the bracket at which it is closed, in velocities that count as standstill.
+    closed_bracket: f64,
+    /// Factor on the largest force of the bristles that brackets the solution.
+    bracket_factor: f64,
+    /// Margin of the bracket for rounding, relative to the velocity.
+    bracket_rounding: f64,
+}
+
+const TOLERANCES: Tolerances = Tolerances {
+    max_evaluations: 200,
+    final_step: 1e-8,
+    standstill: 1e-12,
+    closed_bracket: 1e-3,
+    bracket_factor: 1.01,
+    bracket_rounding: 1e-6,
+};
 
 /// The force balance of one step as an equation for the mean velocity.
 struct Balance<'a, L: Held<f64>> {
@@ -198,19 +221,19 @@ impl<L: Held<f64>> Balance<'_, L> {
         let law = &self.plant.law;
         let h = self.pace.h;
         let inertia = 2.0 * self.plant.mass / h;
-        // Whatever w is, the bristle contributes no more than this; the viscous part and the spring only brake.
+        // For any w the bristles contribute no more than this; the viscous part and the spring only brake.
         let bristle = law.reach(h);
         let drive =
             self.load.force - self.load.stiffness * self.from.position - law.curve().offset();
         let passive = inertia + self.plant.viscous + 0.5 * h * self.load.stiffness;
         let free = (inertia * self.from.velocity + drive) / passive;
-        // The small share keeps rounding from shutting the solution out.
-        let reach = 1.01 * bristle / inertia + 1e-6 * (free.abs() + self.from.velocity.abs());
+        let rounding = TOLERANCES.bracket_rounding * (free.abs() + self.from.velocity.abs());
+        let reach = TOLERANCES.bracket_factor * bristle / inertia + rounding;
         let (mut low, mut high) = (free.min(0.0) - reach, free.max(0.0) + reach);
 
-        // Below this a velocity is standstill: a millionth of a millionth of the Stribeck velocity.
-        let negligible = 1e-12 * law.curve().direction(self.from.velocity).stribeck_velocity;
-        // Not `clamp`: the ends are no numbers where the load is none.
+        let negligible =
+            TOLERANCES.standstill * law.curve().direction(self.from.velocity).stribeck_velocity;
+        // Not `clamp`: the ends are NaN where the load is.
         let mut w = self.from.velocity.max(low).min(high);
         let mut last_move = high - low;
         let mut evaluations = 0;
@@ -224,17 +247,16 @@ impl<L: Held<f64>> Balance<'_, L> {
             }
             let newton = w - excess / slope;
             let moves = (newton - w).abs();
-            // Newton converges quadratically: after a move of 1e-8 what remains is rounding.
-            if moves <= 1e-8 * w.abs() + negligible {
+            if moves <= TOLERANCES.final_step * w.abs() + negligible {
                 return Solution {
                     mean_velocity: newton,
                     friction: friction + friction_slope * (newton - w),
                     evaluations,
                 };
             }
-            // At standstill the force of a law may jump, as where slipping elements come to stick.
-            let shut = high - low <= (4.0 * f64::EPSILON * w.abs()).max(1e-3 * negligible);
-            if shut || evaluations == MOST_EVALUATIONS {
+            // At standstill the force of a law may jump, as where slipping elements begin to stick.
+            let width = (4.0 * f64::EPSILON * w.abs()).max(TOLERANCES.closed_bracket * negligible);
+            if high - low <= width || evaluations == TOLERANCES.max_evaluations {
                 return Solution {
                     mean_velocity: w,
                     friction,

@@ -7,20 +7,24 @@ use crate::sampled::Sampled;
 use crate::trajectory::{Lookahead, Trajectory};
 use stiction_friction::{Held, ParamError};
 
-/// The most samples one run may have: below a gigabyte.
-const MOST_SAMPLES: f64 = 1e7;
+/// Most samples of one run: with ten channels of `f64` it stays below a gigabyte.
+const MAX_SAMPLES: f64 = 1e7;
+
+/// How far the last sample may lie beyond the end of the trajectory, in control periods: rounding of the product of
+/// duration and rate.
+const PERIOD_ROUNDING: f64 = 1e-6;
 
 /// Samples of a trajectory at a rate (Hz), if they are not too many.
 pub fn sample_count(duration: f64, rate: f64) -> Result<usize, ParamError> {
-    let samples = libm::floor(duration * rate + 1e-6) + 1.0;
-    if samples.is_nan() || samples > MOST_SAMPLES {
+    let samples = libm::floor(duration * rate + PERIOD_ROUNDING) + 1.0;
+    if samples.is_nan() || samples > MAX_SAMPLES {
         let allowed = "at most 1e7 (duration times rate)";
         return Err(ParamError::new("samples", samples, allowed));
     }
     Ok(samples as usize)
 }
 
-/// Runs an axis from rest over the whole trajectory, with MID in one step a stretch.
+/// Runs an axis from rest over the whole trajectory, with MID in one step per substep.
 pub fn run<L: Held<f64>>(
     settings: &AxisSettings<L>,
     trajectory: &impl Trajectory,
@@ -37,7 +41,7 @@ pub fn run_with<L: Held<f64>, I: Integrator<L>>(
     follow(&mut Axis::new(settings.clone(), integrator)?, trajectory)
 }
 
-/// Runs an axis over the whole trajectory from where it is.
+/// Runs an axis over the whole trajectory from its present state.
 pub fn follow<L: Held<f64>, I: Integrator<L>>(
     axis: &mut Axis<L, I>,
     trajectory: &(impl Trajectory + ?Sized),

@@ -2,7 +2,7 @@
 
 use crate::path::Reference;
 use crate::run::sample_count;
-use crate::trajectory::{FARTHEST, Preview, Trajectory};
+use crate::trajectory::{MAX_PREVIEW, Preview, Trajectory};
 use stiction_friction::ParamError;
 
 /// The references of a whole trajectory at a control rate, 24 bytes a sample.
@@ -10,7 +10,7 @@ use stiction_friction::ParamError;
 pub struct Sampled {
     rate: f64,
     count: usize,
-    /// As far beyond the end as a preview may look.
+    /// References beyond the end, as far as a preview may look ahead.
     references: Vec<Reference>,
 }
 
@@ -19,7 +19,7 @@ impl Sampled {
     pub fn new(trajectory: &(impl Trajectory + ?Sized), rate: f64) -> Result<Self, ParamError> {
         ParamError::positive("rate", rate)?;
         let count = sample_count(trajectory.duration(), rate)?;
-        let instants = (0..count + FARTHEST as usize).map(|k| k as f64 / rate);
+        let instants = (0..count + MAX_PREVIEW as usize).map(|k| k as f64 / rate);
         Ok(Sampled {
             rate,
             count,

@@ -1,4 +1,4 @@
-//! What an axis is told to do over time.
+//! References over time.
 
 use crate::path::{Path, Reference};
 use crate::speeds::Speeds;
@@ -32,9 +32,10 @@ impl Trajectory for Speeds {
     }
 }
 
-/// Looks at most this many samples ahead.
-pub const FARTHEST: f64 = 7.0;
-const KNOWN: usize = FARTHEST as usize + 1;
+/// Longest preview, in samples; enough for the delay and current loop of a drive at usual rates.
+pub const MAX_PREVIEW: f64 = 7.0;
+/// References that are kept for it.
+const KNOWN: usize = MAX_PREVIEW as usize + 1;
 
 /// How far ahead: whole samples, and the part of one beyond them.
 #[derive(Clone, Copy, Debug)]
@@ -44,9 +45,9 @@ pub(crate) struct Preview {
 }
 
 impl Preview {
-    /// 0 to [`FARTHEST`] samples, more counting as that.
+    /// 0 to [`MAX_PREVIEW`] samples, more counting as that.
     pub fn new(samples: f64) -> Self {
-        let samples = samples.clamp(0.0, FARTHEST);
+        let samples = samples.clamp(0.0, MAX_PREVIEW);
         let whole = (libm::ceil(samples) - 1.0).max(0.0);
         Preview {
             whole: whole as usize,
@@ -54,7 +55,7 @@ impl Preview {
         }
     }
 
-    /// How many samples are to be known, that of now among them.
+    /// How many samples have to be known, the present one included.
     pub fn count(self) -> usize {
         self.whole + 1 + usize::from(self.part > 0.0)
     }
@@ -84,7 +85,7 @@ pub struct Lookahead<'a, T: ?Sized> {
 }
 
 impl<'a, T: Trajectory + ?Sized> Lookahead<'a, T> {
-    /// Samples at `rate` Hz with a preview of 0 to [`FARTHEST`] samples, more counting as that.
+    /// Samples at `rate` Hz with a preview of 0 to [`MAX_PREVIEW`] samples, more counting as that.
     pub fn new(trajectory: &'a T, rate: f64, preview: f64) -> Self {
         let preview = Preview::new(preview);
         let mut lookahead = Lookahead {

@@ -14,7 +14,7 @@ use stiction_friction::{Held, LuGre, ParamError};
 pub struct TwoAxes<L = LuGre<f64>> {
     /// x and y.
     pub axes: [AxisSettings<L>; 2],
-    /// Control of the contour above them.
+    /// Cross-coupled control of the contour error.
     pub coupling: Option<CrossCoupling>,
 }
 
@@ -43,7 +43,7 @@ impl<M: PlaneMotion + ?Sized> Trajectory for Side<'_, M> {
 }
 
 impl<L: Held<f64>> TwoAxes<L> {
-    /// Runs both from rest over the whole contour, with MID in one step a stretch.
+    /// Runs both from rest over the whole contour, with MID in one step per substep.
     pub fn run(&self, motion: &impl PlaneMotion) -> Result<Vec<PlaneSample>, ParamError> {
         self.run_with(motion, Mid::new(1)?)
     }
@@ -63,7 +63,7 @@ impl<L: Held<f64>> TwoAxes<L> {
     }
 }
 
-/// Runs two axes over the whole contour from where they are, with or without control of the contour.
+/// Runs two axes over the whole contour from their present state, with or without cross-coupled control.
 pub fn follow<L: Held<f64>, I: Integrator<L>>(
     axes: &mut [Axis<L, I>; 2],
     coupling: Option<&CrossCoupling>,

@@ -1,4 +1,4 @@
-//! The measured recordings, how each is identified, and what must hold.
+//! The measured recordings, how each is identified, and the limits that its result has to keep.
 
 /// One identification of a recording.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +19,7 @@ pub struct Case {
     pub law: &'static str,
     /// Whether each direction has parameters of its own.
     pub asymmetric: bool,
-    /// What must hold.
+    /// Limits that the result has to keep.
     pub limits: &'static [Limit],
 }
 
@@ -35,7 +35,7 @@ pub struct Limit {
 /// A number of a result.
 #[derive(Clone, Copy, Debug)]
 pub enum Metric {
-    /// Distance of a parameter from a reference, percent of the reference.
+    /// Difference of a parameter from a reference value, percent of the reference.
     OffPercent(&'static str, f64),
     /// Relative error of the fit, percent.
     FitPercent,
@@ -47,7 +47,7 @@ pub enum Metric {
     ForcePercent,
     /// Largest position residual on the validations, m or rad rms.
     UnseenPosition,
-    /// Residual near zero speed over that of the symmetric or asymmetric static law named.
+    /// Residual near zero speed over that of the named static law, symmetric or asymmetric alike.
     LowSpeedOver(&'static str),
     /// The same on the held-out part.
     HeldOutLowSpeedOver(&'static str),

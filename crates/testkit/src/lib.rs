@@ -20,7 +20,7 @@ pub fn workspace() -> PathBuf {
 
 /// The folder of measured recordings: `STICTION_DATA`, else `../shared/data` beside the workspace.
 ///
-/// Where there is none, a test must say so loudly and pass over; with `CI=true` their absence is a
+/// Where there is none, a test has to say so and skip; with `CI=true` their absence is a
 /// failure.
 ///
 /// # Panics

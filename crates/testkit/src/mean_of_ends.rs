@@ -1,9 +1,9 @@
-//! The plain midpoint step, for engines that take it.
+//! The plain midpoint step, to compare engines with that use it.
 
 use stiction_friction::{Held, LuGre, Pace, Stribeck};
 
 /// LuGre whose mean force over a step is that of the mean of both ends: a `Plant` with it takes the midpoint step without
-/// what `stiction_friction::Sweep` corrects, as the fits do that simulate an axis.
+/// the correction of `stiction_friction::Sweep`, as the fits that simulate an axis do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeanOfEnds(pub LuGre<f64>);
 

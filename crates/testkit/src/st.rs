@@ -1,7 +1,7 @@
 //! Executes Structured Text: function blocks and programs of real, integer and Boolean variables.
 //!
 //! Parsed by `iecst`; every name is resolved once, so that a million calls take seconds. Written for tests of exported
-//! text: what it does not know (loops, arrays, strings, pointers) is refused when a unit is loaded.
+//! text: unsupported language (loops, arrays, strings, pointers) is refused when a unit is loaded.
 
 use iecst::{BinaryOp, CaseValue, Expr, ExprKind, Pou, PouKind, Stmt, StmtKind, TypeKind, UnaryOp};
 use std::collections::BTreeMap;
@@ -207,10 +207,7 @@ impl Instance {
 
     fn arithmetic(&self, x: f64) -> f64 {
         let x = self.round(x);
-        assert!(
-            x.is_finite(),
-            "overflow or no number: a controller may stop here"
-        );
+        assert!(x.is_finite(), "overflow or NaN: a controller may stop here");
         x
     }
 }
@@ -227,7 +224,7 @@ struct Loader<'l> {
 impl<'l> Loader<'l> {
     fn new(library: &'l Library, pou: &Pou) -> Result<Self, String> {
         if pou.kind == PouKind::Function {
-            return Err("functions are not known".into());
+            return Err("functions are not supported".into());
         }
         let mut loader = Loader {
             library,
@@ -392,7 +389,7 @@ impl<'l> Loader<'l> {
                 op: BinaryOp::Mod | BinaryOp::Power,
                 ..
             } => {
-                return Err("MOD and ** are not known".into());
+                return Err("MOD and ** are not supported".into());
             }
             ExprKind::BinaryOp { left, op, right } => {
                 Node::Binary(*op, boxed(left)?, boxed(right)?)

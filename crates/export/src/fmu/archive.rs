@@ -1,11 +1,11 @@
-//! Files in one zip, the same bytes every time.
+//! Files in one ZIP archive, the same bytes every time.
 
 use crate::{Error, File};
 use std::io::{Cursor, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
-/// In the order given and not compressed: a compressor may give other bytes on another processor. Every one dated 1980-01-01, which is where the dates of the format begin.
+/// In the order given and not compressed: a compressor may give other bytes on another processor. All are dated 1980-01-01, the earliest date of the format.
 pub(super) fn zip(files: &[File]) -> Result<Vec<u8>, Error> {
     let fail = |e: &dyn std::fmt::Display| Error::Archive {
         found: e.to_string(),

@@ -1,6 +1,6 @@
 //! Units as the standard describes them: a name with its exponents of the SI base units.
 
-/// What a number of a compensator is measured in.
+/// Units of the numbers of a compensator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unit {
     /// No unit.
@@ -28,7 +28,7 @@ impl Unit {
         Unit::Damping,
     ];
 
-    /// Name, of a linear or a rotary axis whose force is in `force`; empty for none.
+    /// Its name for a linear or rotary axis whose force is in `force`; empty without unit.
     pub(super) fn name(self, rotary: bool, force: &str) -> String {
         let length = if rotary { "rad" } else { "m" };
         // A product as the standard's examples write it.

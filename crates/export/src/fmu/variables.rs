@@ -1,4 +1,4 @@
-//! The variables of an FMU: one list, from which come the description and the addresses in the C text.
+//! The variables of an FMU: one list, from which the description and the addresses in the C text are made.
 
 use super::unit::Unit;
 use crate::Model;
@@ -65,7 +65,7 @@ impl Variables {
             0.0,
             Unit::Speed,
             "velocity",
-            "of the set point, not measured; beyond all numbers: not enabled",
+            "of the set point, not measured; not finite: not enabled",
         );
         number(
             "tracking_error",
@@ -81,7 +81,7 @@ impl Variables {
             0.0,
             Unit::Force,
             "law.output",
-            "to be added to that of the controller",
+            "to be added to the force of the controller",
         );
         number(
             "friction",
@@ -109,7 +109,7 @@ impl Variables {
             s.gain,
             Unit::One,
             "params.gain",
-            "share that is compensated, 0 to 1",
+            "fraction of the friction that is compensated, 0 to 1",
         );
         number(
             "dead_zone",
@@ -141,7 +141,7 @@ impl Variables {
             s.ramp,
             Unit::Time,
             "params.ramp",
-            "time in which the share let through goes from 0 to 1",
+            "time in which the compensation goes from 0 to its full value",
         );
         number(
             "watchdog_window",
@@ -330,7 +330,7 @@ impl Variables {
             Role::Input,
             false,
             "reset",
-            "off, at rest, nothing learnt; arms the watchdog again",
+            "resets the state and arms the watchdog again",
         );
         flag(
             5,

@@ -1,7 +1,9 @@
-//! A curve as few points with straight lines between them, so that its largest error is the least.
+//! A curve as few points with straight lines between them, with the least possible largest error.
 
-/// Rounds in which the points' values are shifted.
-const ROUNDS: usize = 60;
+/// Rounds in which the values of the points are shifted; far beyond where the error settles.
+const SHIFT_ROUNDS: usize = 60;
+/// Halvings of the common error: to the rounding of its first value.
+const HALVINGS: usize = 50;
 
 /// Points of a curve given at `x`, rising, by its values `y`: at most `count` of them, as index and value.
 ///
@@ -11,7 +13,7 @@ pub(super) fn least_error(x: &[f64], y: &[f64], count: usize) -> Vec<(usize, f64
     let (mut low, mut high) = (0.0, span(y));
     let mut knots = chords(x, y, 0.0);
     if knots.len() > count {
-        for _ in 0..50 {
+        for _ in 0..HALVINGS {
             let error = 0.5 * (low + high);
             if chords(x, y, error).len() <= count {
                 high = error;
@@ -23,7 +25,7 @@ pub(super) fn least_error(x: &[f64], y: &[f64], count: usize) -> Vec<(usize, f64
     }
     let mut values: Vec<f64> = knots.iter().map(|&k| y[k]).collect();
     let mut best = (largest(x, y, &knots, &values), values.clone());
-    for _ in 0..ROUNDS {
+    for _ in 0..SHIFT_ROUNDS {
         let middles: Vec<f64> = knots
             .windows(2)
             .zip(values.windows(2))

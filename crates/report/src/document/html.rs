@@ -8,8 +8,8 @@ use crate::figure::svg;
 use crate::text::Text;
 
 const STYLE: &str = include_str!("document.css");
-/// Headings from which on there is a table of contents.
-const CONTENTS_FROM: usize = 4;
+/// Fewest headings for a table of contents.
+const MIN_HEADINGS_FOR_CONTENTS: usize = 4;
 
 pub(crate) fn render(document: &Document) -> String {
     let mut body = Body::default();
@@ -51,7 +51,7 @@ pub(crate) fn render(document: &Document) -> String {
 }
 
 fn contents(headings: &[(u8, String, Text)]) -> String {
-    if headings.len() < CONTENTS_FROM {
+    if headings.len() < MIN_HEADINGS_FOR_CONTENTS {
         return String::new();
     }
     let mut out = String::from(

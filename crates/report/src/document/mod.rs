@@ -32,7 +32,7 @@ pub struct Callout {
     pub severity: Severity,
     /// The stable code; may be empty.
     pub code: String,
-    /// What to tell.
+    /// The message.
     pub text: Text,
     /// Where the code is explained (a web address or relative path); may be empty.
     pub link: String,
@@ -87,7 +87,7 @@ pub enum Block {
     Paragraph(Text),
     /// A bulleted list.
     List(Vec<Text>),
-    /// Terms with what is said about each: file, rate, filter.
+    /// Terms with their values: file, rate, filter.
     Facts(Vec<(Text, Text)>),
     /// A table.
     Table(Table),

@@ -3,12 +3,12 @@
 use super::path::Path;
 use super::trace::Place;
 
-/// Most dots drawn one by one.
-const MOST_DOTS: usize = 3000;
-/// Most runs of cells; above, cells get larger.
-const MOST_RUNS: usize = 15_000;
+/// Most dots drawn one by one: about 100 kB of path data.
+const MAX_DOTS: usize = 3000;
+/// Most runs of cells; with more, larger cells are taken.
+const MAX_RUNS: usize = 15_000;
 /// Opacity of cells by the number of points in them: 1, 2 to 3, 4 to 9, 10 to 29, 30 and more.
-const LEVELS: [(usize, f64); 5] = [(1, 0.28), (2, 0.42), (4, 0.58), (10, 0.76), (30, 1.0)];
+const OPACITIES: [(usize, f64); 5] = [(1, 0.28), (2, 0.42), (4, 0.58), (10, 0.76), (30, 1.0)];
 
 /// A drawn cloud.
 #[derive(Debug)]
@@ -27,7 +27,7 @@ pub(crate) fn cloud(places: impl Iterator<Item = Place> + Clone, width: f64, hei
     let mut count = 0;
     for (x, y) in places.clone().flatten().filter(inside) {
         count += 1;
-        if count > MOST_DOTS {
+        if count > MAX_DOTS {
             return density(places.flatten().filter(inside), width, height);
         }
         dots.dot(x, y);
@@ -40,7 +40,7 @@ fn density(points: impl Iterator<Item = (f64, f64)> + Clone, width: f64, height:
     loop {
         let levels = map(points.clone(), width, height, size);
         let runs: usize = levels.iter().map(|(_, path)| path.vertices / 2).sum();
-        if runs <= MOST_RUNS || size > 30.0 {
+        if runs <= MAX_RUNS || size > 30.0 {
             let drawn = levels.into_iter().filter(|(_, path)| !path.is_empty());
             return Cloud::Density(size, drawn.map(|(o, path)| (o, path.into_data())).collect());
         }
@@ -62,8 +62,8 @@ fn map(
         let row = ((y / size).max(0.0) as usize).min(rows - 1);
         counts[row * columns + column] += 1;
     }
-    let level = |count: usize| LEVELS.iter().rposition(|(least, _)| count >= *least);
-    let mut paths: Vec<(f64, Path)> = LEVELS.iter().map(|(_, o)| (*o, Path::new())).collect();
+    let level = |count: usize| OPACITIES.iter().rposition(|(least, _)| count >= *least);
+    let mut paths: Vec<(f64, Path)> = OPACITIES.iter().map(|(_, o)| (*o, Path::new())).collect();
     for row in 0..rows {
         let cells = &counts[row * columns..][..columns];
         let y = (row as f64 + 0.5) * size;

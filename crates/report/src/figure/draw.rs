@@ -9,8 +9,8 @@ use super::trace::{Place, Trace, trace};
 use crate::color::Color;
 use crate::text::Text;
 
-/// Most bars or intervals drawn one by one; more are merged by pixel.
-const MOST_STROKES: usize = 2000;
+/// Most bars or intervals drawn one by one, above twice the width of a figure in px; more are merged by pixel.
+const MAX_STROKES: usize = 2000;
 
 /// The plot area of a panel: the maps of its axes and its size in px.
 pub(crate) struct Frame {
@@ -290,7 +290,7 @@ fn strokes(
     cap: Option<f64>,
     sideways: bool,
 ) -> String {
-    let many = bars.clone().nth(MOST_STROKES).is_some();
+    let many = bars.clone().nth(MAX_STROKES).is_some();
     let mut merged: Vec<Option<Stroke>> = Vec::new();
     if many {
         merged.resize(extent.ceil().max(1.0) as usize, None);

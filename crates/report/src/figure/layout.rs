@@ -1,19 +1,22 @@
-//! Where the parts of a figure stand.
+//! The layout of a figure.
 
 use super::axis::{Axis, Map, Range, Scale};
 use super::draw::{Frame, draw, round};
 use super::layer::{Dash, Layer, Shape};
-use super::legend::{Legend, ROW};
+use super::legend::{Legend, ROW_HEIGHT};
 use super::path::Path;
 use super::svg;
 use super::ticks::Ticks;
 use super::{Figure, Panel};
 use crate::color::Color;
 
+/// Size of the tick labels, px.
 const TICK_SIZE: f64 = 12.0;
-const RIGHT: f64 = 18.0;
-const BETWEEN_PANELS: f64 = 16.0;
-/// Sine of the angle at which names stand that are too long to lie.
+/// Margin to the right of the plot, px.
+const RIGHT_MARGIN: f64 = 18.0;
+/// Distance between two panels, px.
+const PANEL_GAP: f64 = 16.0;
+/// Sine of the angle at which names are written that are too long to be horizontal.
 const SLANT: f64 = 0.5;
 
 pub(crate) fn render(figure: &Figure, place: svg::Place) -> String {
@@ -26,9 +29,9 @@ pub(crate) fn render(figure: &Figure, place: svg::Place) -> String {
         .min(0.45 * width);
     let slanted = panels
         .iter()
-        .map(|p| slanted_room(p.x_axis, width - left - RIGHT));
+        .map(|p| slanted_room(p.x_axis, width - left - RIGHT_MARGIN));
     let left = slanted.fold(left, f64::max).min(0.45 * width);
-    let plot_width = round(width - left - RIGHT);
+    let plot_width = round(width - left - RIGHT_MARGIN);
     let last = panels.len().saturating_sub(1);
     let mut content = String::new();
     let mut top = 2.0;
@@ -180,7 +183,7 @@ fn with_bars((low, high): (f64, f64), layers: &[&Layer], axis: &Axis) -> (f64, f
     }
 }
 
-/// The lowest and highest value that has a place on the axis.
+/// The lowest and highest value that can be shown on the axis.
 fn span<'a>(columns: impl Iterator<Item = &'a [f64]>, axis: &Axis) -> Option<(f64, f64)> {
     let log = axis.scale == Scale::Log;
     let mut span: Option<(f64, f64)> = None;
@@ -198,10 +201,10 @@ fn span<'a>(columns: impl Iterator<Item = &'a [f64]>, axis: &Axis) -> Option<(f6
 impl Resolved<'_> {
     /// Appends the panel below `top`; returns where the next may start.
     fn push_svg(self, out: &mut String, left: f64, top: f64, width: f64, with_x: bool) -> f64 {
-        let layers = told_apart(&self.panel.layers);
+        let layers = with_colors(&self.panel.layers);
         let mut base = top;
         if !self.panel.title.is_empty() {
-            base += ROW;
+            base += ROW_HEIGHT;
             text(
                 out,
                 "panel-title",
@@ -224,7 +227,7 @@ impl Resolved<'_> {
             );
         }
         legend.push_svg(left, base + 14.0, out);
-        let plot_top = round(base + legend.rows as f64 * ROW + 5.0);
+        let plot_top = round(base + legend.rows as f64 * ROW_HEIGHT + 5.0);
         let frame = Frame {
             x: self.x,
             y: self.y,
@@ -260,7 +263,7 @@ impl Resolved<'_> {
             text(out, "", left - 7.0, y + 4.0, "end", label);
         }
         if !with_x {
-            return bottom + BETWEEN_PANELS;
+            return bottom + PANEL_GAP;
         }
         for (at, label) in &x_ticks.labelled {
             let x = left + frame.x_px(*at);
@@ -293,13 +296,13 @@ impl Resolved<'_> {
             );
             bottom += 19.0;
         }
-        bottom + BETWEEN_PANELS - 8.0
+        bottom + PANEL_GAP - 8.0
     }
 }
 
 /// The layers with a colour each: their own, or the next of the cycle. Lines of the second turn of
 /// the cycle are dashed, those of further turns dotted.
-fn told_apart(layers: &[Layer]) -> Vec<Layer> {
+fn with_colors(layers: &[Layer]) -> Vec<Layer> {
     let mut used = 0;
     let mut layers = layers.to_vec();
     for layer in layers.iter_mut().filter(|layer| layer.color.is_none()) {

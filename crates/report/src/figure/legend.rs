@@ -5,11 +5,14 @@ use super::layer::{Dash, Layer, Shape};
 use crate::color::Color;
 use crate::text::Text;
 
-const SIZE: f64 = 12.0;
-const SWATCH: f64 = 22.0;
-const GAP: f64 = 18.0;
+/// Size of the text, px.
+const TEXT_SIZE: f64 = 12.0;
+/// Width of the mark before a label, px.
+const SWATCH_WIDTH: f64 = 22.0;
+/// Distance between two entries, px.
+const ENTRY_GAP: f64 = 18.0;
 /// Height of a row of text, in px.
-pub(crate) const ROW: f64 = 19.0;
+pub(crate) const ROW_HEIGHT: f64 = 19.0;
 
 /// A legend laid out in rows.
 pub(crate) struct Legend<'a> {
@@ -25,13 +28,17 @@ impl<'a> Legend<'a> {
         let listed = layers.iter().filter_map(|layer| {
             let text = layer.label.as_ref()?;
             let note = matches!(layer.shape, Shape::Note { .. });
-            (!note && !text.is_empty()).then(|| (layer, text, text.width(SIZE) + SWATCH))
+            (!note && !text.is_empty()).then(|| (layer, text, text.width(TEXT_SIZE) + SWATCH_WIDTH))
         });
         let listed: Vec<_> = listed.collect();
-        let total: f64 = listed.iter().map(|entry| entry.2 + GAP).sum::<f64>() - GAP;
-        let beside = total + title + 2.0 * GAP <= width;
+        let total: f64 = listed.iter().map(|entry| entry.2 + ENTRY_GAP).sum::<f64>() - ENTRY_GAP;
+        let beside = total + title + 2.0 * ENTRY_GAP <= width;
         let mut rows = if beside || listed.is_empty() { 1 } else { 2 };
-        let after_title = if title > 0.0 { title + 2.0 * GAP } else { 0.0 };
+        let after_title = if title > 0.0 {
+            title + 2.0 * ENTRY_GAP
+        } else {
+            0.0
+        };
         let mut x = if beside { after_title } else { 0.0 };
         let mut entries = Vec::new();
         for (layer, text, wide) in listed {
@@ -39,8 +46,8 @@ impl<'a> Legend<'a> {
                 x = 0.0;
                 rows += 1;
             }
-            entries.push((layer, text, x, (rows - 1) as f64 * ROW));
-            x += wide + GAP;
+            entries.push((layer, text, x, (rows - 1) as f64 * ROW_HEIGHT));
+            x += wide + ENTRY_GAP;
         }
         Self { entries, rows }
     }
@@ -50,7 +57,10 @@ impl<'a> Legend<'a> {
         for (layer, text, x, y) in &self.entries {
             let (x, y) = (round(left + x), round(top + y));
             out.push_str(&swatch(layer, x, y - 4.0));
-            out.push_str(&format!("<text x=\"{}\" y=\"{y}\">", round(x + SWATCH)));
+            out.push_str(&format!(
+                "<text x=\"{}\" y=\"{y}\">",
+                round(x + SWATCH_WIDTH)
+            ));
             text.push_svg(out);
             out.push_str("</text>\n");
         }

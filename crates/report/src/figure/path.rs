@@ -1,8 +1,8 @@
 //! SVG path data in tenths of a pixel, relative and without a spare character.
 
-/// Coordinates beyond this many px are drawn here: far outside any plot, and small enough for
+/// Largest coordinate, px; larger ones are drawn here, far outside any plot, and small enough for
 /// every renderer.
-const FAR: f64 = 1e5;
+const MAX_COORDINATE: f64 = 1e5;
 
 /// Path data under construction. Rounding does not add up: every step is the difference of
 /// two rounded places.
@@ -18,7 +18,7 @@ pub(crate) struct Path {
 }
 
 fn tenths(px: f64) -> i64 {
-    (px.clamp(-FAR, FAR) * 10.0).round() as i64
+    (px.clamp(-MAX_COORDINATE, MAX_COORDINATE) * 10.0).round() as i64
 }
 
 impl Path {

@@ -4,7 +4,7 @@ use crate::escape;
 
 const STYLE: &str = include_str!("figure.css");
 
-/// Where a figure is going to stand.
+/// Where a figure is going to be used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Place {
     /// In a file of its own, with its style sheet and its paper.

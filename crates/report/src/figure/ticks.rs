@@ -1,4 +1,4 @@
-//! Where the ticks of an axis stand and what they say.
+//! Positions and labels of the ticks of an axis.
 
 use super::axis::{Axis, Map, Scale};
 use crate::text::Text;
@@ -11,7 +11,7 @@ pub(crate) struct Ticks {
     pub labelled: Vec<(f64, Text)>,
     /// Places between them with a fainter line.
     pub minor: Vec<f64>,
-    /// What stands at the axis: quantity and unit, with the power of ten taken out of the labels.
+    /// The title of the axis: quantity and unit, with the power of ten taken out of the labels.
     pub title: Text,
 }
 
@@ -67,7 +67,7 @@ fn linear(axis: &Axis, low: f64, high: f64, most: usize) -> Ticks {
             _ => (1, power + 1),
         };
         let coarse = ends(coarser, coarser_power);
-        // One tick alone tells nothing: rather one too many.
+        // A single tick shows no scale: rather one too many.
         if coarse.1 - coarse.0 < 1.0 {
             break;
         }

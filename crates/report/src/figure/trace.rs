@@ -9,12 +9,12 @@ use super::path::Path;
 /// A place in the plot in px, or a break in the line.
 pub(crate) type Place = Option<(f64, f64)>;
 
-/// Longest path drawn point by point; about 100 kB.
-const MOST_VERTICES: usize = 12_000;
+/// Most points of a path drawn point by point: about 100 kB of path data.
+const MAX_VERTICES: usize = 12_000;
 /// Size of the cells in which an even longer path is drawn, in px.
-const CELL: f64 = 1.0;
-/// Breaks kept inside one pixel column.
-const BREAKS_KEPT: usize = 4;
+const CELL_SIZE: f64 = 1.0;
+/// Most breaks of a line kept inside one pixel column.
+const MAX_BREAKS_PER_COLUMN: usize = 4;
 
 /// A drawn line.
 #[derive(Debug)]
@@ -36,7 +36,7 @@ pub(crate) fn trace(places: impl Iterator<Item = Place> + Clone, width: f64, hei
     let mut pen = Pen::default();
     for place in Columns::new(places.clone()) {
         pen.step(place, &clip, &mut path);
-        if path.vertices > MOST_VERTICES {
+        if path.vertices > MAX_VERTICES {
             return Trace::Cells(cover(Columns::new(places), width, height));
         }
     }
@@ -164,7 +164,7 @@ impl<I: Iterator<Item = Place>> Iterator for Columns<I> {
                 }
                 (Some(None), None) => {}
                 (Some(Some(p)), Some(column)) if column.index == p.0.floor() => {
-                    if column.broken && column.breaks <= BREAKS_KEPT {
+                    if column.broken && column.breaks <= MAX_BREAKS_PER_COLUMN {
                         let breaks = column.breaks;
                         self.flush();
                         self.column = Some(Column {
@@ -236,7 +236,7 @@ impl Pen {
 
 /// The cells that a line touches, as horizontal runs.
 fn cover(places: impl Iterator<Item = Place>, width: f64, height: f64) -> String {
-    let mut cells = Cells::new(width, height, CELL);
+    let mut cells = Cells::new(width, height, CELL_SIZE);
     let mut before: Place = None;
     for place in places {
         if let Some(to) = place {

@@ -1,14 +1,14 @@
-//! G: under a force that oscillates below break-away a LuGre block creeps; an elasto-plastic one stays (Dupont et al. 2002,
-//! doi 10.1109/TAC.2002.1000274, is about this).
+//! G: under a force that oscillates below break-away a LuGre block drifts; an elasto-plastic one does not (the subject of
+//! Dupont et al. 2002, doi 10.1109/TAC.2002.1000274).
 
 use super::{Check, Curve, Experiment, TOLERANCE, axis, block};
 use crate::plant::{Load, Motion, Plant};
 use stiction_friction::{ElastoPlastic, Held, ParamError};
 
-/// Steps a second.
+/// Integration steps a second.
 const RATE: u32 = 10_000;
 
-/// Bristles elastic up to 1.35 N, above the largest force.
+/// Break-away ratio: bristles are elastic up to 1.35 N, above the largest force.
 const BREAKAWAY: f64 = 0.9;
 
 pub(super) fn run() -> Result<Experiment, ParamError> {
@@ -19,7 +19,7 @@ pub(super) fn run() -> Result<Experiment, ParamError> {
     let drift = |x: &[f64]| (x[20 * PER] - x[10 * PER]) / 10.0;
     let checks = vec![
         Check::relative("drift of LuGre", "m/s", drift(&lugre), 12.75e-6, TOLERANCE),
-        // Steps hit the same phases each second to rounding.
+        // Each second has steps at the same phases, to rounding.
         Check::absolute(
             "drift of the elasto-plastic law",
             "m/s",
@@ -44,7 +44,7 @@ pub(super) fn run() -> Result<Experiment, ParamError> {
     })
 }
 
-/// Positions kept a second.
+/// Positions stored per second.
 const PER: usize = 50;
 
 /// Positions, m, over 20 s under .9 + .3 sin(2 pi t) N, [`PER`] a second.

@@ -1,4 +1,4 @@
-//! F: a PID hunts about its target, and does not with a friction observer.
+//! F: under PID control the block hunts about its target; with a friction observer it does not.
 
 use super::{Check, Curve, Experiment, TOLERANCE, axis, largest};
 use crate::axis::{Axis, AxisSettings, Correction};
@@ -12,11 +12,11 @@ use crate::pid::Pid;
 use stiction_friction::ParamError;
 use stiction_friction::compensator::{Compensator, Friction, Settings, Source};
 
-/// Positions kept a second.
+/// Positions stored per second.
 const RATE: usize = 10_000;
 
-/// Control periods in each of them. The experiment is continuous: an observer is a hundredth of a millisecond late here,
-/// at a tenth of that rate its error after 30 s would be off by .5 %.
+/// Control periods between two of them. The experiment is in continuous time: here the observer is a hundredth of a
+/// millisecond late; at a tenth of this rate its error after 30 s would be off by .5 %.
 const FINE: usize = 10;
 
 pub(super) fn run(go_on: &dyn Fn() -> bool) -> Result<Option<Experiment>, ParamError> {
@@ -74,8 +74,8 @@ pub(super) fn run(go_on: &dyn Fn() -> bool) -> Result<Option<Experiment>, ParamE
     }))
 }
 
-/// Positions under Kv 6, Kp 3, Ki 4 and a step of 1 m, with an observer of that gain and so many control periods between
-/// two of them; asks every second of them whether to go on.
+/// Positions under Kv 6, Kp 3, Ki 4 and a step of 1 m, with an observer of that gain and the given number of control
+/// periods between two of them; asks once per simulated second whether to go on.
 fn positioning(
     observer: Option<f64>,
     periods: usize,

@@ -4,7 +4,7 @@ use super::{Check, Curve, Experiment, TOLERANCE, axis, largest};
 use stiction_friction::ParamError;
 
 const TURN: f64 = 2.0 * std::f64::consts::PI;
-/// Steps of a period.
+/// Steps per period.
 const STEPS: usize = 400_000;
 
 /// Speeds, m/s, at which the width of the loop is read.
@@ -56,7 +56,7 @@ fn velocity(k: usize) -> f64 {
     1e-3 * (1.5 + libm::cos(TURN * k as f64 / STEPS as f64))
 }
 
-/// The force over the second period. The path of one is a hundred deflections or more: the second is periodic.
+/// The force over the second period. The path of one period is a hundred deflections or more, so the second is periodic.
 fn period(w: f64) -> Result<Vec<f64>, ParamError> {
     let law = axis()?.law;
     let h = TURN / w / STEPS as f64;

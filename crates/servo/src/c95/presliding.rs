@@ -4,7 +4,7 @@ use super::{Check, Curve, Experiment, TOLERANCE, block};
 use crate::plant::{Load, Motion};
 use stiction_friction::ParamError;
 
-/// Steps a second.
+/// Integration steps a second.
 const RATE: usize = 10_000;
 
 /// Force ramps of .1425 N/s to +-95 % of Fs with holds of 5 s.

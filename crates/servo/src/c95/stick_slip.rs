@@ -4,12 +4,13 @@ use super::{Check, Curve, Experiment, TOLERANCE, block};
 use crate::plant::{Load, Motion};
 use stiction_friction::ParamError;
 
-/// Stiffness of the spring, N/m, and the velocity of its end, m/s.
+/// Stiffness of the spring, N/m.
 const SPRING: f64 = 2.0;
+/// Velocity of the end of the spring, m/s.
 const PULL: f64 = 0.1;
-/// Beyond ten Stribeck velocities the block slips, m/s.
+/// Velocity from which on the block counts as slipping, m/s: ten Stribeck velocities.
 const SLIPS: f64 = 10.0 * 1e-3;
-/// Steps a second.
+/// Integration steps a second.
 const RATE: u32 = 10_000;
 
 /// A beginning or end of slip: instant, s; position after it, m; force of the spring before it, N.

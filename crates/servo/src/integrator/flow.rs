@@ -3,6 +3,12 @@
 use crate::plant::{Load, Plant};
 use stiction_friction::Damping;
 
+/// Step of the central difference, relative to the velocity: about the cube root of the rounding, where truncation and
+/// rounding errors are equal.
+const DIFFERENCE: f64 = 1e-5;
+/// Least velocity that the step is relative to, in Stribeck velocities.
+const LEAST_VELOCITY: f64 = 1e-6;
+
 /// Position, velocity, deflection; or their rates.
 pub(super) type Triple = [f64; 3];
 
@@ -15,7 +21,7 @@ pub(super) struct Flow<'a> {
     pub rate: f64,
 }
 
-/// Derivatives of acceleration and deflection rate, where they are not 0.
+/// Those derivatives of acceleration and deflection rate that are not 0.
 pub(super) struct Slopes {
     /// Of the acceleration by position, velocity, deflection.
     pub acceleration: Triple,
@@ -57,15 +63,14 @@ impl Flow<'_> {
         }
     }
 
-    /// Derivative of sigma1 by velocity: 0, or a central difference good to ten digits.
+    /// Derivative of sigma1 with respect to velocity: 0, or a central difference, accurate to ten digits.
     fn damping_slope(&self, v: f64) -> f64 {
         let law = self.plant.law();
         if let Damping::Constant(_) = law.damping() {
             return 0.0;
         }
-        let d = 1e-5
-            * v.abs()
-                .max(1e-6 * law.curve().direction(v).stribeck_velocity);
+        let least = LEAST_VELOCITY * law.curve().direction(v).stribeck_velocity;
+        let d = DIFFERENCE * v.abs().max(least);
         (law.micro_damping(v + d) - law.micro_damping(v - d)) / (2.0 * d)
     }
 }

@@ -6,13 +6,21 @@ use crate::plant::{Load, Motion, Plant};
 use std::fmt;
 use stiction_friction::{LuGre, ParamError};
 
-/// Runge-Kutta of order 4 in equal steps: to reproduce published settings, not for work. [`check`](Self::check) first.
+/// Speeds between 0 and the fastest at which stability is checked.
+const CHECKED_SPEEDS: i32 = 32;
+/// Growth factor above 1 that is put down to rounding.
+const GROWTH_ROUNDING: f64 = 1e-9;
+/// Where the growth factor exceeds 1 on the negative real axis: the stability limit of Runge-Kutta 4 (Hairer, Wanner 1996,
+/// Solving Ordinary Differential Equations II, section IV.2).
+const STABILITY_LIMIT: f64 = 2.785;
+
+/// Runge-Kutta of order 4 in equal steps: to reproduce published settings only. Call [`check`](Self::check) first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ode4 {
     steps: u32,
 }
 
-/// An explicit step that grows what it should damp.
+/// An explicit step that is too long: it amplifies what it should damp.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unstable {
     /// The step asked for, s.
@@ -41,15 +49,15 @@ impl Ode4 {
     }
 
     /// Whether a step of `h` seconds is unstable for this plant, at rest or in steady motion at up to `fastest` m/s
-    /// (rad/s). Runge-Kutta 4 does not announce it: the motion comes out wrong before it comes out infinite.
+    /// (rad/s). Runge-Kutta 4 gives no sign of it: the motion becomes wrong before it becomes infinite.
     ///
     /// The eigenvalues of the linearised equations times `h` are put into the method's growth factor
-    /// `1 + y + y^2/2 + y^3/6 + y^4/24`, which must not exceed 1. A growth that the equations themselves have, as on the
-    /// falling side of the Stribeck curve, is not the method's fault.
+    /// `1 + y + y^2/2 + y^3/6 + y^4/24`, which must not exceed 1. Growth of the equations themselves, as on the
+    /// falling side of the Stribeck curve, does not count.
     pub fn check(plant: &Plant, h: f64, fastest: f64) -> Result<(), Unstable> {
         let law = plant.law();
-        for part in 0..=32 {
-            let speed = fastest * f64::from(part) / 32.0;
+        for part in 0..=CHECKED_SPEEDS {
+            let speed = fastest * f64::from(part) / f64::from(CHECKED_SPEEDS);
             let z = if part == 0 {
                 0.0
             } else {
@@ -73,8 +81,8 @@ impl Ode4 {
                 [(half, root), (half, -root)]
             };
             for (re, im) in pair {
-                if re <= 0.0 && growth(h * re, h * im) > 1.0 + 1e-9 {
-                    let largest = 2.785 / libm::hypot(re, im);
+                if re <= 0.0 && growth(h * re, h * im) > 1.0 + GROWTH_ROUNDING {
+                    let largest = STABILITY_LIMIT / libm::hypot(re, im);
                     return Err(Unstable {
                         step: h,
                         largest,

@@ -1,22 +1,22 @@
-//! MID for LuGre with a good first guess: one evaluation of the law in most steps.
+//! MID for LuGre with a good initial guess: one evaluation of the law in most steps.
 
 use super::{Integrator, at_least_one};
 use crate::plant::{Load, Motion, Plant};
 use stiction_friction::{LuGre, ParamError, Sweep, Sweeps};
 
-/// The step of [`Plant::step`], solved from a guess: the velocity changes as in the step before and by what the force on the
-/// axis has changed since, as if friction stayed as it was. Steps are best of one length, and are to be of one plant:
-/// before one of another, [`forget`](Integrator::forget).
+/// The step of [`Plant::step`], solved from an initial guess: the velocity changes as in the step before, and by the change
+/// of the force on the axis since, as if friction stayed the same. Steps should all have the same length and must belong to
+/// one plant: before a step of another call [`forget`](Integrator::forget).
 ///
-/// Where one step of Newton's method from there is so small that its square is nothing, velocity and deflection take
-/// that step by their derivatives, and no further evaluation is needed. Where it is not after four, as in a reversal, the
-/// safeguarded solution is taken. The motion is that of [`Mid`](super::Mid) to some 1e-10 of the velocity.
+/// Where a Newton step from there is so small that its square is negligible, velocity and deflection take
+/// that step by their derivatives, and no further evaluation is needed. Where it is not after four evaluations, as in a
+/// reversal, the safeguarded solution is taken. The motion is that of [`Mid`](super::Mid) to some 1e-10 of the velocity.
 ///
-/// The law is evaluated a step ahead where that step's velocity can be foreseen: a processor does that beside the step in
-/// hand, and the axis and its controller do not wait for exponentials. Where the load of the next step is known already
-/// ([`Integrator::expect`]), as within a control period or behind a delay, the law as it was in the step before leads
-/// there. Else, while the velocity runs as smoothly as without an encoder's steps, it is the one to which the three steps
-/// before lead.
+/// The law is evaluated a step ahead where that step's velocity can be predicted: the processor overlaps this with the
+/// current step, and the axis and its controller do not wait for exponentials. Where the load of the next step is known
+/// already ([`Integrator::expect`]), as within a control period or behind a delay, the velocity is predicted with the law
+/// of the step before. Else, while the velocity is as smooth as without encoder steps, it is extrapolated from the three
+/// steps before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quick {
     steps: u32,
@@ -25,36 +25,38 @@ pub struct Quick {
     course: Course,
 }
 
-/// What is known of the steps before.
+/// History of the steps before.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Course {
-    /// From the velocity at the beginning of the step before to its mean, m/s (rad/s): half of what it gained.
+    /// From the velocity at the beginning of the step before to its mean, m/s (rad/s): half of its change.
     rise: f64,
-    /// That of the load over the step before, N (N m).
+    /// Force of the load over the step before, N (N m).
     force: f64,
-    /// Mean velocity of the step before, and what the last two gained, the later one first, m/s (rad/s).
+    /// Mean velocity of the step before, and the last two changes of it, the later one first, m/s (rad/s).
     last: f64,
     gained: [f64; 2],
-    /// The velocity that was foreseen along the parabola for the step to come, m/s (rad/s), and how many before it were
-    /// right.
+    /// The velocity that was extrapolated along a parabola for the next step, m/s (rad/s), and how many such predictions
+    /// before it were right.
     foreseen: f64,
     smooth: u32,
-    /// The law at the velocity of this step and of the one before, in turn; this step's is at `at`.
+    /// The law at the velocities of this step and the one before, alternately; this step's is at `at`.
     laws: [Sweep<f64>; 2],
     at: usize,
-    /// Whether there is one for the step to come, at a velocity foreseen.
+    /// Whether there is one for the next step, at a predicted velocity.
     is_ready: bool,
-    /// Velocity for a force by the law of the step before, m/s a newton (rad/s a newton metre); 0 without one.
+    /// Change of velocity per force by the law of the step before, m/s per N (rad/s per N m); 0 without one.
     yields: f64,
-    /// Load of the step after the one to come, N (N m), where it is known.
+    /// Load of the step after the next, N (N m), where it is known.
     next: Option<f64>,
 }
 
-/// A Newton step of this part of the velocity, or of the Stribeck velocity, leaves its square.
-const SMALL: f64 = 1e-5;
-/// So many steps have to be foreseen rightly before one is built upon.
-const SMOOTH: u32 = 4;
-const MOST_EVALUATIONS: u32 = 4;
+/// Largest Newton step after which no further one is needed, relative to the larger of velocity and Stribeck velocity: its
+/// square, 1e-10, is what remains.
+const NEGLIGIBLE_STEP: f64 = 1e-5;
+/// Correct predictions in a row before one is relied on.
+const RIGHT_PREDICTIONS: u32 = 4;
+/// Evaluations of the law before the safeguarded solution is taken.
+const MAX_EVALUATIONS: u32 = 4;
 
 impl Quick {
     /// `steps` >= 1 in each call.
@@ -106,10 +108,10 @@ impl Course {
             evaluate(&mut self.laws[at], law, guess);
         }
         self.force = load.force;
-        for _ in 0..MOST_EVALUATIONS {
+        for _ in 0..MAX_EVALUATIONS {
             let sweep = &self.laws[at];
             let w = sweep.velocity();
-            // What is known without the law first.
+            // First whatever does not need the law.
             let (left, slope) = balance.without_friction(w);
             let (friction, friction_slope) = sweep.mean_force(from.deflection, from.velocity);
             let slope = slope + friction_slope;
@@ -135,15 +137,15 @@ impl Course {
         step.motion
     }
 
-    /// After a step of the mean velocity `w`: the law for the next one, at a velocity for which nothing waits for `w`.
+    /// After a step with the mean velocity `w`: the law for the next one, at a predicted velocity that does not depend on `w`.
     #[inline(always)]
     fn look_ahead(&mut self, law: &Sweeps<f64>, balance: &Balance, w: f64, slow: f64) {
-        // Two steps along the parabola.
+        // Extrapolated two steps along the parabola.
         let along = self.last + 5.0 * self.gained[0] - 3.0 * self.gained[1];
         let before = &mut self.laws[1 - self.at];
         let foreseen = match self.next.take() {
             Some(next) if self.yields > 0.0 => Some(balance.two_steps(before, self.yields, next)),
-            _ if self.smooth >= SMOOTH => Some(along),
+            _ if self.smooth >= RIGHT_PREDICTIONS => Some(along),
             _ => None,
         };
         self.is_ready = foreseen.is_some();
@@ -154,7 +156,7 @@ impl Course {
         self.at = 1 - self.at;
         let right = (w - self.foreseen).abs() <= small(slow, w);
         self.smooth = if right {
-            (self.smooth + 1).min(SMOOTH)
+            (self.smooth + 1).min(RIGHT_PREDICTIONS)
         } else {
             0
         };
@@ -165,7 +167,7 @@ impl Course {
     }
 }
 
-/// The forces of one step but friction.
+/// The forces of one step except friction.
 struct Balance<'a> {
     plant: &'a Plant,
     from: Motion,
@@ -189,7 +191,7 @@ impl<'a> Balance<'a> {
         }
     }
 
-    /// What is left for friction at the mean velocity `w`, N (N m), and how fast it falls with w.
+    /// The force left for friction at the mean velocity `w`, N (N m), and how fast it falls with w.
     #[inline(always)]
     fn without_friction(&self, w: f64) -> (f64, f64) {
         let viscous = self.plant.viscous();
@@ -198,8 +200,8 @@ impl<'a> Balance<'a> {
         (left, self.inertia + viscous + 0.5 * self.h * self.stiffness)
     }
 
-    /// The mean velocity of the step after this one, under the force `next`, by one Newton step in each from the law of
-    /// another step, which gives way by `yields`.
+    /// The mean velocity of the step after this one, under the force `next`, by one Newton step in each with the law of
+    /// another step and its change of velocity per force, `yields`.
     #[inline(always)]
     fn two_steps(&self, law: &Sweep<f64>, yields: f64, next: f64) -> f64 {
         let w = law.velocity();
@@ -221,14 +223,14 @@ impl<'a> Balance<'a> {
     }
 }
 
-/// A Newton step so small that its square is nothing, at the velocity `w` and the Stribeck velocity `slow`.
+/// The largest Newton step whose square is negligible, at the velocity `w` and the Stribeck velocity `slow`.
 #[inline]
 fn small(slow: f64, w: f64) -> f64 {
     let speed = w.abs();
-    SMALL * if speed > slow { speed } else { slow }
+    NEGLIGIBLE_STEP * if speed > slow { speed } else { slow }
 }
 
-/// Apart, so that its code stands once.
+/// A function of its own, so that its code exists once.
 #[inline(never)]
 fn evaluate(sweep: &mut Sweep<f64>, law: &Sweeps<f64>, v: f64) {
     *sweep = law.at(v);
@@ -237,7 +239,7 @@ fn evaluate(sweep: &mut Sweep<f64>, law: &Sweeps<f64>, v: f64) {
 impl Integrator<LuGre<f64>> for Quick {
     #[inline]
     fn advance(&mut self, plant: &Plant, from: Motion, span: f64, load: Load, rate: f64) -> Motion {
-        // Without the loop, before which what stays the same would be computed and kept on the stack.
+        // Outside the loop, for which invariants would be computed and kept on the stack.
         if self.steps == 1 {
             let force = load.force + 0.5 * rate * span;
             return self.step(plant, from, span, Load { force, ..load });

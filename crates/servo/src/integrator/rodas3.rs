@@ -17,7 +17,7 @@ pub struct Rodas3 {
     work: Work,
 }
 
-/// What a run has cost.
+/// Work done so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
     /// Steps taken.
@@ -26,12 +26,18 @@ pub struct Work {
     pub rejected: u64,
 }
 
+/// The coefficient gamma of the method.
 const GAMMA: f64 = 0.5;
-/// Below this part of the span a step is taken whatever its error: the state is not finite, or rounding is all there is.
-const SMALLEST: f64 = 1e-12;
+/// Step length, as a fraction of the span, up to which a step is taken whatever its error: the state is not finite, or only
+/// rounding is left.
+const MIN_STEP: f64 = 1e-12;
+/// Safety factor on the optimal next step, and bounds of its ratio to the last; the usual values (Hairer, Wanner 1996,
+/// Solving Ordinary Differential Equations II, section IV.7).
+const STEP_SAFETY: f64 = 0.9;
+const STEP_RATIO: (f64, f64) = (0.2, 5.0);
 
 impl Rodas3 {
-    /// The relative tolerance of a step, 1e-12 to 1e-2; 1e-7 is good for five digits of a stick-slip motion.
+    /// The relative tolerance of a step, 1e-12 to 1e-2; 1e-7 gives five digits of a stick-slip motion.
     pub fn new(tolerance: f64) -> Result<Self, ParamError> {
         if !(1e-12..=1e-2).contains(&tolerance) {
             return Err(ParamError::new("tolerance", tolerance, "1e-12 to 1e-2"));
@@ -48,7 +54,7 @@ impl Rodas3 {
         self.work
     }
 
-    /// Largest error component of a step from `from` to `to`, in units of what is allowed.
+    /// Largest error component of a step from `from` to `to`, relative to the allowed error.
     fn error(&self, plant: &Plant, from: Triple, to: Triple, error: Triple) -> f64 {
         let law = plant.law();
         let small = law.bound();
@@ -77,12 +83,12 @@ impl Integrator<LuGre<f64>> for Rodas3 {
             let taken = if last { left } else { h };
             let (next, error) = step(&flow, y, t, taken);
             let size = self.error(plant, y, next, error);
-            let factor = (0.9 / libm::cbrt(size)).clamp(0.2, 5.0);
-            if size <= 1.0 || taken <= SMALLEST * span {
+            let factor = (STEP_SAFETY / libm::cbrt(size)).clamp(STEP_RATIO.0, STEP_RATIO.1);
+            if size <= 1.0 || taken <= MIN_STEP * span {
                 self.work.steps += 1;
                 y = next;
                 t = if last { span } else { t + taken };
-                // A step cut short by the end of the span says little about the next.
+                // A step shortened by the end of the span says little about the next.
                 h = if last {
                     (taken * factor).max(h)
                 } else {

@@ -12,7 +12,7 @@ use stiction_friction::{Damping, Direction, LuGre, ParamError, Stribeck};
 
 impl KnownAxis {
     /// The axis under a cascade at `rate` (Hz) with a speed loop of `bandwidth` (Hz): one sample of delay, a current loop
-    /// of 1 kHz, 50 nm (nrad) an encoder step, mass and velocity fed forward, sigma1 capped, no compensation. The plant is
+    /// of 1 kHz, encoder steps of 50 nm (nrad), mass and velocity fed forward, sigma1 capped, no compensation. The plant is
     /// stepped at 10 kHz or faster.
     pub fn simulated(&self, rate: f64, bandwidth: f64) -> Result<AxisSettings, ParamError> {
         ParamError::positive("rate", rate)?;
@@ -33,8 +33,8 @@ impl KnownAxis {
     }
 }
 
-/// The 64 laws in which each of sigma0, sigma1, sigma2, Fc, Fs, vs is too small or too large by the part `by`, 0 to below
-/// 1, in both directions of motion alike: what a compensator may be given instead of `law`. Everything else is that of
+/// The 64 laws in which each of sigma0, sigma1, sigma2, Fc, Fs, vs is too small or too large by the fraction `by`, 0 to below
+/// 1, in both directions of motion alike: wrong laws to give a compensator instead of `law`. Everything else is that of
 /// `law`. Fs is kept at Fc or above.
 pub fn corners(law: &LuGre<f64>, by: f64) -> impl Iterator<Item = LuGre<f64>> {
     let law = *law;

@@ -1,9 +1,9 @@
-//! How well two axes kept to a contour.
+//! Contour errors of two axes.
 
 use super::root_mean;
 use crate::two_axes::PlaneSample;
 
-/// Deviation from the contour, across it; m.
+/// Contour error, the deviation from the contour across it; m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Contour {
     /// Rms deviation.
@@ -13,7 +13,7 @@ pub struct Contour {
 }
 
 impl Contour {
-    /// Of the samples given; none give zeros.
+    /// From the given samples; all 0 without samples.
     pub fn of(samples: &[PlaneSample]) -> Self {
         let deviations = || samples.iter().map(|s| s.deviation);
         Contour {
@@ -25,7 +25,7 @@ impl Contour {
 
 /// Circular deviation, m: the least distance of two circles about one centre that have all points between them (minimum
 /// zone; the bidirectional deviation of ISO 230-4 if the points are those of both directions). At least three points, all
-/// finite; fewer give 0. Of points that are near no circle, as of an axis that was left behind, an upper bound.
+/// finite; fewer give 0. For points that are near no circle, as of an axis that lags far behind, an upper bound.
 pub fn circular_deviation(points: &[[f64; 2]]) -> f64 {
     if points.len() < 3 {
         return 0.0;
@@ -35,11 +35,11 @@ pub fn circular_deviation(points: &[[f64; 2]]) -> f64 {
         .iter()
         .fold([0.0; 2], |s, p| [s[0] + p[0], s[1] + p[1]]);
     let mut centre = sum.map(|s| s / n);
-    // Few points hold the zone: a part of them is searched, and those that stand out of its zone are added.
-    let every = points.len().div_ceil(SEARCHED);
+    // Few points determine the zone: it is searched for a part of them, and points outside it are added.
+    let every = points.len().div_ceil(FIRST_POINTS);
     let mut part: Vec<[f64; 2]> = points.iter().copied().step_by(every).collect();
     let mut best = width(points, centre);
-    for _ in 0..MOST_ROUNDS {
+    for _ in 0..MAX_ROUNDS {
         let start = width(&part, centre);
         let (found, ended) = narrowest(&part, centre, start);
         let (low, high) = radii(&part, found);
@@ -47,7 +47,7 @@ pub fn circular_deviation(points: &[[f64; 2]]) -> f64 {
         if whole < best {
             (best, centre) = (whole, found);
         }
-        if !ended || whole - (high - low) <= 1e-9 * whole {
+        if !ended || whole - (high - low) <= ZONE_ACCURACY * whole {
             break;
         }
         for stretch in points.chunks(points.len().div_ceil(STRETCHES)) {
@@ -59,13 +59,16 @@ pub fn circular_deviation(points: &[[f64; 2]]) -> f64 {
     best
 }
 
-/// Points of which the zone is searched at first, the stretches of all points of which the extremes are added, and how
-/// often.
-const SEARCHED: usize = 1000;
+/// Points for which the zone is searched at first.
+const FIRST_POINTS: usize = 1000;
+/// Stretches of all points whose nearest and farthest ones are added in each round.
 const STRETCHES: usize = 64;
-const MOST_ROUNDS: usize = 20;
-/// Strides of a search: some hundred lead to the centre of a circle; along a line there is no end.
-const MOST_STRIDES: usize = 2000;
+/// Most rounds of search and adding.
+const MAX_ROUNDS: usize = 20;
+/// Most strides of a search: some hundred lead to the centre of a circle; points along a line have no centre.
+const MAX_STRIDES: usize = 2000;
+/// Accuracy of the zone: strides end at this fraction of its width, and points outside by less are ignored.
+const ZONE_ACCURACY: f64 = 1e-9;
 
 fn radius(point: [f64; 2], centre: [f64; 2]) -> f64 {
     libm::hypot(point[0] - centre[0], point[1] - centre[1])
@@ -95,13 +98,13 @@ fn ends(points: &[[f64; 2]], centre: [f64; 2]) -> ([f64; 2], [f64; 2]) {
     (near.unwrap_or(centre), far.unwrap_or(centre))
 }
 
-/// The centre of the least zone near one whose zone is `best` wide, and whether the search came to its end.
+/// The centre of the least zone near one whose zone is `best` wide, and whether the search converged.
 fn narrowest(points: &[[f64; 2]], mut centre: [f64; 2], mut best: f64) -> ([f64; 2], bool) {
     // The width is not smooth in the centre: directions are tried, and the stride is halved where none is better.
     let mut stride = best;
-    let smallest = 1e-9 * best;
-    for _ in 0..MOST_STRIDES {
-        // Also where the width is no number.
+    let smallest = ZONE_ACCURACY * best;
+    for _ in 0..MAX_STRIDES {
+        // Also where the width is NaN.
         if stride.is_nan() || stride <= smallest {
             return (centre, true);
         }
@@ -121,7 +124,7 @@ fn narrowest(points: &[[f64; 2]], mut centre: [f64; 2], mut best: f64) -> ([f64;
     (centre, false)
 }
 
-/// Twelve, 30 degrees apart: along a crease of the width few directions lead down.
+/// Directions that are tried, 30 degrees apart: along a crease of the width only few lead down.
 const DIRECTIONS: [[f64; 2]; 12] = {
     const C: f64 = 0.866_025_403_784_438_6;
     [

@@ -1,4 +1,4 @@
-//! Moves one after the other, and the plain step.
+//! Moves one after the other, and the step.
 
 use super::{Limits, Profile};
 use crate::path::Reference;
@@ -61,7 +61,7 @@ impl Moves {
     pub fn constant_velocity(hold: f64, limits: Limits) -> Result<Self, ParamError> {
         ParamError::positive("hold", hold)?;
         limits.validate()?;
-        // However far it goes once it is at speed, the ramp is the same; a ramp covers half its time at full speed.
+        // The ramp does not depend on the distance at speed; it covers as much as half its time at full speed.
         let Limits {
             velocity,
             acceleration,

@@ -1,9 +1,9 @@
-//! The jerk-limited way over a distance: seven phases of constant jerk.
+//! The jerk-limited motion profile: seven phases of constant jerk.
 
 use crate::path::Reference;
 use stiction_friction::ParamError;
 
-/// What a move may not exceed; all > 0.
+/// Limits of a move; all > 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// m/s (rad/s)
@@ -23,7 +23,7 @@ impl Limits {
     }
 }
 
-/// The shortest symmetric way from rest to rest over a distance within [`Limits`]
+/// The fastest symmetric move from rest to rest over a distance within [`Limits`]
 /// (Biagiotti, Melchiorri 2008, Trajectory Planning for Automatic Machines and Robots, section 3.4).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Profile {

@@ -5,8 +5,8 @@ use crate::trajectory::Trajectory;
 use stiction_friction::ParamError;
 
 /// Positions at given times, and between them polynomials of fifth order that take over position, velocity and
-/// acceleration at each point: those of the parabola through it and its neighbours. Acceleration is continuous, and what
-/// stands in the points stands between them. Starts and ends at rest; positions count from the first, times too.
+/// acceleration at each point: those of the parabola through it and its neighbours. Acceleration is continuous, and an axis
+/// at rest in the points is at rest between them. Starts and ends at rest; positions and times count from the first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SetPoints {
     times: Vec<f64>,
@@ -85,7 +85,7 @@ impl Trajectory for SetPoints {
         let h = self.times[i + 1] - self.times[i];
         let s = (t - self.times[i]) / h;
         let ((v, a), (w, b)) = (self.slopes(i), self.slopes(i + 1));
-        // In parts of the stretch: what the parabola of the first point misses at the second.
+        // In units of the stretch: the error of the first point's parabola at the second point.
         let (v, w, a, b) = (h * v, h * w, 0.5 * h * h * a, h * h * b);
         let position = self.positions[i + 1] - self.positions[i] - v - a;
         let velocity = w - v - 2.0 * a;

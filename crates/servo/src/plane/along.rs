@@ -1,4 +1,4 @@
-//! The way along a contour over time.
+//! The motion along a contour.
 
 use super::curve::{Curve, Deviation, Place};
 use crate::motion::{Limits, Profile, SetPoints};
@@ -6,7 +6,7 @@ use crate::path::Reference;
 use crate::trajectory::Trajectory;
 use stiction_friction::ParamError;
 
-/// Where both references are at an instant.
+/// Both references at an instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Station {
     /// The references of both axes.
@@ -24,7 +24,7 @@ pub trait PlaneMotion: Curve {
     fn at(&self, t: f64) -> Station;
 }
 
-/// A curve with a jerk-limited way along its parameter, from corner to corner.
+/// A curve with a jerk-limited motion along its parameter, from corner to corner.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Along<C> {
     curve: C,

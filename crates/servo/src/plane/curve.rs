@@ -41,7 +41,7 @@ pub trait Curve {
         foot(self, position, p).deviation
     }
 
-    /// The deviation of a position, m, from the whole curve near the parameter `p`: what a metric takes.
+    /// The deviation of a position, m, from the whole curve near the parameter `p`: for metrics.
     fn true_deviation(&self, position: [f64; 2], p: f64) -> Deviation {
         foot(self, position, p).deviation
     }
@@ -56,30 +56,39 @@ pub struct Foot {
     pub deviation: Deviation,
 }
 
-/// Newton steps are quadratic near the curve; a handful is enough from a reference close by.
-const MOST_STEPS: usize = 8;
-/// How often a step may be halved: where the curve hardly moves with its parameter a whole one leads far away.
-const MOST_HALVINGS: usize = 40;
+/// Most Newton steps; near the curve they converge quadratically, so a few are enough from a reference close by.
+const MAX_STEPS: usize = 8;
+/// Most halvings of a step: where the curve hardly moves with its parameter a full step leads far away.
+const MAX_HALVINGS: usize = 40;
+/// Least slope of Newton's equation, relative to the square of the curve's speed; below it, near the centre of curvature, the
+/// step is that of the tangent.
+const MIN_RELATIVE_SLOPE: f64 = 0.1;
+/// Change of the parameter at which the search ends, relative to its range: rounding.
+const PARAMETER_ROUNDING: f64 = 1e-14;
 
 /// The foot point of `position` on a curve, by Newton's method on `(P - c(p)) c'(p) = 0` from the parameter `start`. Where
-/// the curvature would lead it away from a minimum the step is that of the tangent, and no step leads farther from the
-/// position. Where the curve stands still at the foot point its direction is that at `start`.
+/// the curvature would lead away from a minimum the step is that of the tangent, and no step leads farther from the
+/// position. Where the curve has no speed at the foot point its direction is that at `start`.
 pub fn foot<C: Curve + ?Sized>(curve: &C, position: [f64; 2], start: f64) -> Foot {
     let clamped = |p: f64| p.clamp(0.0, curve.end());
     let mut p = clamped(start);
     let mut at = curve.place(p);
     let from = at.first;
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let away = minus(position, at.point);
         let speed = dot(at.first, at.first);
         if speed == 0.0 {
             break;
         }
         let slope = speed - dot(away, at.second);
-        let slope = if slope > 0.1 * speed { slope } else { speed };
+        let slope = if slope > MIN_RELATIVE_SLOPE * speed {
+            slope
+        } else {
+            speed
+        };
         let mut step = dot(away, at.first) / slope;
         let mut next = (clamped(p + step), curve.place(clamped(p + step)));
-        for _ in 0..MOST_HALVINGS {
+        for _ in 0..MAX_HALVINGS {
             let left = minus(position, next.1.point);
             if dot(left, left) <= dot(away, away) {
                 break;
@@ -89,7 +98,7 @@ pub fn foot<C: Curve + ?Sized>(curve: &C, position: [f64; 2], start: f64) -> Foo
         }
         let moved = (next.0 - p).abs();
         (p, at) = next;
-        if moved <= 1e-14 * (1.0 + curve.end()) {
+        if moved <= PARAMETER_ROUNDING * (1.0 + curve.end()) {
             break;
         }
     }

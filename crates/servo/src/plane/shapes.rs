@@ -92,7 +92,7 @@ impl Curve for Polygon {
             if distance < least {
                 least = distance;
                 let side = from_left(to_curve, along);
-                // Beyond a corner the way to it is not across the edge.
+                // Beyond a corner the deviation from it is not across the edge.
                 best = Deviation {
                     distance: distance.copysign(side.distance),
                     ..side

@@ -353,7 +353,7 @@ fn a_current_stays_one() {
     for (name, bytes) in contents(&bench.path("out")) {
         let text = String::from_utf8(bytes).unwrap();
         assert!(
-            text.contains("The force is in A, as the log counted it"),
+            text.contains("The force is in A, the unit of the log"),
             "{name}"
         );
         assert!(text.contains("  sigma1 = 3.000000e2 A s/m, 2.7"), "{name}");
@@ -381,7 +381,7 @@ fn a_current_stays_one() {
     assert!(
         error
             .to_string()
-            .contains("takes forces in N, and those of the model are in A"),
+            .contains("needs forces in N, but those of the model are in A"),
         "{error}"
     );
 }

@@ -8,7 +8,7 @@ use crate::study::raw::Table;
 use stiction_friction::compensator::{Adaptation, Settings, Source, Watchdog};
 use stiction_log::Dimension;
 use stiction_servo::learning::Learning;
-use stiction_servo::trajectory::FARTHEST;
+use stiction_servo::trajectory::MAX_PREVIEW;
 
 const KINDS: [&str; 5] = [
     "coulomb",
@@ -102,7 +102,7 @@ fn model(table: &Table<'_>, study: &Study, kind: ModelKind) -> Result<ModelSchem
                 ..Watchdog::default()
             }),
         },
-        preview: table.number("preview", 0.0, FARTHEST)?,
+        preview: table.number("preview", 0.0, MAX_PREVIEW)?,
         observer: observer(table, "observer_bandwidth", study)?,
     };
     Ok(scheme)
