@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::result::{CovarianceEntry, ParameterEntry, ResultFile};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
+use stiction_parameters::{LawKind, ParameterSet};
 
 /// Name of the schema.
 pub const SCHEMA: &str = "stiction.model/1";
@@ -205,8 +206,10 @@ impl ModelFile {
         }
     }
 
-    /// The first parameter of its law that the model lacks.
-    pub(crate) fn missing(&self) -> Option<&'static str> {
-        fault::missing(self)
+    /// Its parameters with their values; `None` for a law of no known name.
+    pub fn values(&self) -> Option<ParameterSet> {
+        let kind = LawKind::from_name(&self.law)?;
+        let values = self.parameter.iter().map(|p| (p.name.as_str(), p.value));
+        Some(ParameterSet::from_text(kind, values))
     }
 }

@@ -32,6 +32,7 @@ pub use stiction_lanes::Scheme;
 
 use crate::conditioning::record::Record;
 use crate::error::Error;
+use stiction_parameters::{Name, Quantity};
 use stiction_search::Bounds;
 
 /// One sample in so many makes the coarse stand-in.
@@ -45,7 +46,7 @@ pub fn thinned(record: &Record) -> Option<Record> {
 }
 
 /// Parameters by name, with the values of a point.
-pub type Named = Vec<(String, f64)>;
+pub type Named = Vec<(Name, f64)>;
 
 /// A problem whose points stand for parameters.
 pub trait Candidates: stiction_search::Problem {
@@ -61,14 +62,14 @@ fn physical(x: &[f64]) -> [f64; 6] {
 
 fn named([s0, s1, s2, fc, fs, vs]: [f64; 6]) -> Named {
     let values = [
-        ("sigma0", s0),
-        ("sigma1", s1),
-        ("sigma2", s2),
-        ("coulomb", fc),
-        ("static", fs),
-        ("stribeck_velocity", vs),
+        (Quantity::Sigma0, s0),
+        (Quantity::Sigma1, s1),
+        (Quantity::Sigma2, s2),
+        (Quantity::Coulomb, fc),
+        (Quantity::Static, fs),
+        (Quantity::StribeckVelocity, vs),
     ];
-    values.map(|(name, value)| (name.to_string(), value)).into()
+    values.map(|(name, value)| (name.into(), value)).into()
 }
 
 /// Largest magnitude of a logarithm: numbers from 1e-40 to 1e40.

@@ -6,25 +6,28 @@ mod conditioned;
 mod curve;
 pub(crate) mod fitted;
 pub(crate) mod intervals;
-pub(crate) mod parameter;
+mod optimal;
 mod profile;
 mod sliding;
 pub(crate) mod uncertainty;
 
 use crate::conditioning::record::Record;
 use crate::estimate::fitted::FittedLaw;
-use crate::estimate::parameter::Parameter;
-use crate::estimate::uncertainty::{Covariance, Unknowns};
+use crate::estimate::uncertainty::Unknowns;
 use crate::fit::Fit;
 use crate::law::Law;
 use crate::law::dependence::Dependence;
-use crate::law::physical::{self, Dimension, Physical};
+use crate::law::physical::physical;
 use crate::law::terms::{ColumnKind, Delay, Mass, Terms};
 use crate::observe::Counts;
+use crate::parameter::Parameter;
+use crate::parameter::covariance::Covariance;
+use crate::parameter::physical::{Physical, propagate};
 use crate::separable::Optimum;
 use crate::separable::levenberg::Status;
 use crate::separable::objective::{Column, Objective};
 use std::ops::Deref;
+use stiction_parameters::{Dimension, Quantity};
 
 /// Signals at the samples of the fit.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -134,48 +137,36 @@ pub fn estimate(
     let objective = Objective::new(record, law, terms);
     let at = &optimum.evaluation;
     let c = &at.solution.coefficients;
-    let raw = physical::physical(&law, objective.linear(), record.step(), &optimum.p, c);
+    let raw = physical(&law, objective.linear(), record.step(), &optimum.p, c);
     let unknowns = uncertainty::unknowns(&objective, at);
-    let matrix = physical::propagate(&raw, &unknowns.covariance);
+    let matrix = propagate(&raw, &unknowns.covariance);
     let levels = levels(&objective, &raw);
     let mut parameters: Vec<Parameter> = raw
         .iter()
         .enumerate()
-        .map(|(i, p)| Parameter::fitted(p, matrix[(i, i)], None, optimum, levels[i]))
+        .map(|(i, p)| optimal::fitted(p, matrix[(i, i)], None, optimum, levels[i]))
         .collect();
     if law.kind.has_stribeck() && !law.exponent_fitted {
         let at = parameters
             .iter()
-            .rposition(|p| p.name.starts_with("stribeck_velocity"))
+            .rposition(|p| p.name.quantity == Quantity::StribeckVelocity)
             .map_or(parameters.len(), |i| i + 1);
-        let given = Parameter::given("stribeck_exponent", Dimension::One, law.exponent);
+        let given = Parameter::given(Quantity::StribeckExponent, law.exponent);
         parameters.insert(at, given);
     }
     if let Mass::Given(mass) = terms.mass {
         let at = parameters
             .iter()
-            .position(|p| p.name == "offset")
+            .position(|p| p.name == Quantity::Offset)
             .unwrap_or(parameters.len());
-        parameters.insert(at, Parameter::given("mass", Dimension::Inertia, mass));
+        parameters.insert(at, Parameter::given(Quantity::Mass, mass));
     }
     for (name, value) in terms.dependences.iter().filter_map(Dependence::reference) {
         if parameters.iter().all(|p| p.name != name) {
-            let dimension = match name {
-                "load_reference" => Dimension::Load,
-                "temperature_reference" => Dimension::Temperature,
-                _ => Dimension::Length,
-            };
-            parameters.push(Parameter::given(name, dimension, value));
+            parameters.push(Parameter::given(name, value));
         }
     }
-    let names: Vec<String> = raw.iter().map(|p| p.name.clone()).collect();
-    let n = names.len();
-    let covariance = Covariance {
-        names,
-        matrix: (0..n)
-            .map(|i| (0..n).map(|j| matrix[(i, j)]).collect())
-            .collect(),
-    };
+    let covariance = Covariance::new(raw.iter().map(|p| p.name).collect(), &matrix);
     curve::stays_within(&law, optimum, &mut parameters);
     sliding::stays_in_presliding(record.stroke(), &mut parameters);
     advice::explain(&mut parameters, &covariance);
@@ -242,12 +233,12 @@ pub fn predict(record: &Record, fitted: &Estimate) -> Series {
 fn levels(objective: &Objective, raw: &[Physical]) -> Vec<f64> {
     let coulomb = raw
         .iter()
-        .filter(|p| matches!(p.name.as_str(), "coulomb" | "coulomb_pos" | "coulomb_neg"))
+        .filter(|p| p.name.quantity == Quantity::Coulomb)
         .map(|p| p.value.abs())
         .fold(0.0, f64::max);
     let spans = objective.spans();
     raw.iter()
-        .map(|p| match (p.dimension, p.linear) {
+        .map(|p| match (p.name.dimension(), p.linear) {
             (Dimension::Time, _) => objective.record().step(),
             (_, Some(j)) => coulomb / spans[j],
             (_, None) => coulomb,

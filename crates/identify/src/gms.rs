@@ -27,5 +27,3 @@ mod settled;
 pub const FEWEST: usize = 3;
 /// Most elements.
 pub const MOST: usize = 10;
-/// Name of the linear unknown of an element, before its number.
-pub(crate) const ELEMENT: &str = "element_";

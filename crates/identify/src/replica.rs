@@ -10,10 +10,9 @@ use crate::conditioning::record::{Record, Samples, Segment};
 use crate::conditioning::shift::Shift;
 use crate::estimate::Estimate;
 use crate::law::terms::{ColumnKind, Delay, Terms};
-use crate::law::{Law, LawKind};
 use crate::reaction::{Logging, Reaction};
 use crate::separable::objective::Objective;
-use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
+use stiction_parameters::Quantity;
 use stiction_servo::encoder::Encoder;
 use stiction_servo::noise::Noise;
 use stiction_servo::plant::{Load, Motion, Plant};
@@ -210,33 +209,8 @@ fn substeps(plant: &Plant, h: f64) -> u32 {
     (h * omega / 0.05).ceil().clamp(1.0, 8.0) as u32
 }
 
-/// The plant of an estimate, friction as the friction crate defines it.
+/// The plant of an estimate: the law as it was fitted, sigma1 constant. The offset is among the forces beside it.
 fn plant(fitted: &Estimate) -> Option<Plant> {
-    let Law {
-        kind, asymmetric, ..
-    } = fitted.law;
-    if !matches!(kind, LawKind::Dahl | LawKind::LuGre) {
-        return None;
-    }
-    let value = |name: &str| fitted.value(name);
-    let side = |suffix: &str| {
-        let suffix = if asymmetric { suffix } else { "" };
-        let read = |stem: &str| value(&format!("{stem}{suffix}"));
-        let coulomb = read("coulomb")?;
-        Some(Direction {
-            coulomb,
-            static_friction: read("static").unwrap_or(coulomb),
-            stribeck_velocity: read("stribeck_velocity").unwrap_or(1.0),
-            viscous: read("sigma2")?,
-        })
-    };
-    // The exponent of the estimate: where it was fitted, that of the law is not used.
-    let shape = match value("stribeck_exponent") {
-        Some(exponent) if exponent != 2.0 => Shape::Power(exponent),
-        _ => Shape::Gaussian,
-    };
-    let curve = Stribeck::new(shape, side("_pos")?, side("_neg")?, 0.0).ok()?;
-    let damping = Damping::Constant(value("sigma1").unwrap_or(0.0));
-    let law = LuGre::new(value("sigma0")?, damping, curve).ok()?;
-    Plant::new(value("mass")?, law).ok()
+    let law = fitted.values().without(Quantity::Offset).lugre().ok()?;
+    Plant::new(fitted.value(Quantity::Mass)?, law).ok()
 }

@@ -19,6 +19,7 @@ use crate::refit::{force_noise, refitted};
 use crate::replica::{Replica, replica};
 use crate::separable::levenberg::Status;
 use crate::separable::{Settings, separable};
+use stiction_parameters::Name;
 
 /// Replicas that each pair of cut-offs is tried on.
 const REPLICAS: u64 = 4;
@@ -258,8 +259,9 @@ impl Walk<'_> {
             .iter()
             .zip(&found)
             .filter(|(t, _)| {
-                let known = |name| self.fitted.parameter(name).is_some_and(|p| p.identifiable);
-                t.positive && t.value > 0.0 && known(&t.name)
+                let known =
+                    |name: Name| self.fitted.parameter(name).is_some_and(|p| p.identifiable);
+                t.is_positive() && t.value > 0.0 && known(t.name)
             })
             .map(|(t, f)| (f.value / t.value - 1.0).clamp(-1.0, 1.0))
             .collect();

@@ -31,8 +31,8 @@ impl Allowed {
             }
     }
 
-    /// Whether 0 is among them, but nothing below.
-    pub fn is_positive_or_zero(self) -> bool {
+    /// Whether nothing below 0 is among them.
+    pub fn is_never_negative(self) -> bool {
         self != Allowed::Any
     }
 

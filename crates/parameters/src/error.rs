@@ -14,6 +14,12 @@ pub enum LawError {
         /// The parameter; with a direction where the other direction has a value.
         name: Name,
     },
+    /// Another law stands where LuGre is needed.
+    #[error("the law is {kind}; allowed: lugre, dahl")]
+    NotLuGre {
+        /// The law.
+        kind: LawKind,
+    },
     /// A value that the law cannot have.
     #[error(transparent)]
     Value(#[from] ParamError),

@@ -25,6 +25,25 @@ impl Side {
         }
     }
 
+    /// Place of the direction where positive comes first; that of both directions is read from the positive one.
+    pub fn index(self) -> usize {
+        usize::from(self == Side::Negative)
+    }
+
+    /// Whether it holds for the direction of this place.
+    pub fn holds(self, index: usize) -> bool {
+        self == Side::Both || self.index() == index
+    }
+
+    /// The directions that have parameters of their own.
+    pub fn all(asymmetric: bool) -> &'static [Side] {
+        if asymmetric {
+            &[Side::Positive, Side::Negative]
+        } else {
+            &[Side::Both]
+        }
+    }
+
     /// The direction of a velocity; that of 0 is positive.
     pub fn of(velocity: f64) -> Self {
         if velocity < 0.0 {
@@ -101,6 +120,13 @@ impl std::str::FromStr for Name {
             Some(quantity) => Ok(Name { quantity, side }),
             None => Err(UnknownName(text.chars().take(60).collect())),
         }
+    }
+}
+
+/// Against the parameter of both directions.
+impl PartialEq<Quantity> for Name {
+    fn eq(&self, other: &Quantity) -> bool {
+        *self == Name::from(*other)
     }
 }
 

@@ -298,6 +298,27 @@ impl Quantity {
         }
     }
 
+    /// Place in tables. What stands beside the law shares the last place and keeps the order in which it came.
+    pub fn place(self) -> usize {
+        const ORDER: [Quantity; 13] = [
+            Quantity::Sigma0,
+            Quantity::Sigma1,
+            Quantity::Sigma2,
+            Quantity::QuadraticViscous,
+            Quantity::Coulomb,
+            Quantity::Static,
+            Quantity::StribeckVelocity,
+            Quantity::StribeckExponent,
+            Quantity::BreakawayRatio,
+            Quantity::Attraction,
+            Quantity::Mass,
+            Quantity::Offset,
+            Quantity::Delay,
+        ];
+        let found = ORDER.iter().position(|known| *known == self);
+        found.unwrap_or(ORDER.len())
+    }
+
     /// Whether an asymmetric model may have a value for each direction of motion.
     pub fn may_differ_by_side(self) -> bool {
         self.is_of_the_steady_curve()

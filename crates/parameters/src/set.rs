@@ -119,6 +119,17 @@ impl ParameterSet {
         })
     }
 
+    /// The law where it is LuGre or Dahl, which is LuGre with a flat curve and no micro-damping.
+    ///
+    /// # Errors
+    /// As [`law`](Self::law), and for another law.
+    pub fn lugre(&self) -> Result<LuGre<f64>, LawError> {
+        match self.kind {
+            LawKind::Dahl | LawKind::LuGre => self.bristle(),
+            kind => Err(LawError::NotLuGre { kind }),
+        }
+    }
+
     fn need(&self, quantity: Quantity) -> Result<f64, LawError> {
         self.get(quantity).ok_or(LawError::Missing {
             kind: self.kind,

@@ -9,9 +9,9 @@ use stiction_export::{Model, Parameter, Provenance};
 use stiction_files::ModelFile;
 use stiction_files::Warning;
 use stiction_files::{sha256_of, write_folder};
+use stiction_friction::ParamError;
 use stiction_friction::compensator::{Friction, Settings};
-use stiction_friction::{CoulombViscous, Damping, Direction, LuGre, ParamError, Shape, Stribeck};
-use stiction_identify::LawKind;
+use stiction_parameters::{FrictionLaw, LawError, LawKind, Name};
 
 pub use stiction_export::Target;
 
@@ -286,77 +286,31 @@ fn default_limit(friction: &Friction<f64>) -> f64 {
 /// Why the numbers of a model make no law that is exported.
 enum Unfit {
     Law,
-    Missing(String),
+    Missing(Name),
     Value(ParamError),
 }
 
-impl From<ParamError> for Unfit {
-    fn from(e: ParamError) -> Self {
-        Unfit::Value(e)
+impl From<LawError> for Unfit {
+    fn from(e: LawError) -> Self {
+        match e {
+            LawError::Missing { name, .. } => Unfit::Missing(name),
+            LawError::NotLuGre { .. } => Unfit::Law,
+            LawError::Value(e) => Unfit::Value(e),
+        }
     }
 }
 
+/// The law as it was identified, sigma1 constant: the export caps it, and warns where that counts.
 fn friction(file: &ModelFile) -> Result<Friction<f64>, Unfit> {
-    let kind = LawKind::from_name(&file.law).ok_or(Unfit::Law)?;
-    let optional = |name: &str| {
-        file.parameter
-            .iter()
-            .find(|p| p.name == name)
-            .map(|p| p.value)
-    };
-    let value = |name: &str| optional(name).ok_or_else(|| Unfit::Missing(name.into()));
-    let offset = optional("offset").unwrap_or(0.0);
-    let of = |name: &str, suffix: &str| {
-        optional(name)
-            .or_else(|| optional(&format!("{name}{suffix}")))
-            .ok_or_else(|| Unfit::Missing(name.into()))
-    };
-    let coulomb = [of("coulomb", "_pos")?, of("coulomb", "_neg")?];
-    let viscous = [of("sigma2", "_pos")?, of("sigma2", "_neg")?];
-    let shape = match optional("stribeck_exponent") {
-        Some(1.0) => Shape::Exponential,
-        Some(delta) if delta != 2.0 => Shape::Power(delta),
-        _ => Shape::Gaussian,
-    };
-    let curve = || {
-        let side = |i: usize, suffix: &str| {
-            Ok::<_, Unfit>(Direction {
-                coulomb: coulomb[i],
-                static_friction: of("static", suffix)?,
-                stribeck_velocity: of("stribeck_velocity", suffix)?,
-                viscous: viscous[i],
-            })
-        };
-        let (pos, neg) = (side(0, "_pos")?, side(1, "_neg")?);
-        // Where both are the same, an error names the parameter as the model does.
-        Ok::<_, Unfit>(if pos == neg {
-            Stribeck::symmetric(shape, pos, offset)?
-        } else {
-            Stribeck::new(shape, pos, neg, offset)?
-        })
-    };
-    // Dahl is a law with a flat curve and no damping of its bristles.
-    let flat = || {
-        let side = |i: usize| Direction {
-            coulomb: coulomb[i],
-            static_friction: coulomb[i],
-            stribeck_velocity: 1.0,
-            viscous: viscous[i],
-        };
-        Stribeck::new(Shape::Gaussian, side(0), side(1), offset)
-    };
-    Ok(match kind {
-        LawKind::CoulombViscous => {
-            Friction::Coulomb(CoulombViscous::new(coulomb, viscous, offset)?)
-        }
-        LawKind::Stribeck => Friction::Stribeck(curve()?),
-        LawKind::Dahl => {
-            Friction::LuGre(LuGre::new(value("sigma0")?, Damping::Capped(0.0), flat()?)?)
-        }
-        LawKind::LuGre => {
-            let damping = Damping::Constant(value("sigma1")?);
-            Friction::LuGre(LuGre::new(value("sigma0")?, damping, curve()?)?)
-        }
+    let values = file.values().ok_or(Unfit::Law)?;
+    match values.kind() {
         LawKind::ElastoPlastic | LawKind::MaxwellSlip | LawKind::Gms => return Err(Unfit::Law),
-    })
+        LawKind::CoulombViscous | LawKind::Stribeck | LawKind::Dahl | LawKind::LuGre => {}
+    }
+    match values.law()? {
+        FrictionLaw::CoulombViscous(law) => Ok(Friction::Coulomb(law)),
+        FrictionLaw::Stribeck(curve) => Ok(Friction::Stribeck(curve)),
+        FrictionLaw::LuGre(law) => Ok(Friction::LuGre(law)),
+        FrictionLaw::ElastoPlastic(_) | FrictionLaw::MaxwellSlip(_) => Err(Unfit::Law),
+    }
 }

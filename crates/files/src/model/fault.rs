@@ -2,8 +2,8 @@
 
 use super::{ModelFile, covariance};
 use crate::symbols;
-use stiction_identify::{Dimension, LawKind};
 use stiction_log::{Motion, Unit};
+use stiction_parameters::{LawKind, Name, Quantity, Side};
 
 /// Place, what was found, what is allowed.
 pub(super) type Fault = (&'static str, String, String);
@@ -11,122 +11,51 @@ pub(super) type Fault = (&'static str, String, String);
 /// Numbers of a model stay within this size, and those above 0 above its inverse: no machine is
 /// near, and their products stay finite.
 const LARGEST: f64 = 1e100;
-/// Exponents of a Stribeck curve, as in the axis file.
-const EXPONENTS: std::ops::RangeInclusive<f64> = 0.1..=10.0;
+/// What an asymmetric model has for each direction.
+const SIDED: [Quantity; 4] = [
+    Quantity::Coulomb,
+    Quantity::Static,
+    Quantity::StribeckVelocity,
+    Quantity::Sigma2,
+];
 
-/// Stems of the parameters that have a value for each direction in an asymmetric model.
-const SIDED: [&str; 4] = ["coulomb", "static", "stribeck_velocity", "sigma2"];
-
-/// Whether a law has a parameter.
-type Laws = fn(LawKind) -> bool;
-
-/// What is known of a parameter by the stem of its name.
-struct Known {
-    dimension: Dimension,
-    /// The smallest value, if there is one: 0 itself, or above it.
-    least: Option<Least>,
-    /// The laws that have it.
-    of: Laws,
-}
-
-#[derive(PartialEq)]
-enum Least {
-    Zero,
-    AboveZero,
-}
-
-fn known(stem: &str) -> Option<Known> {
-    use Least::{AboveZero, Zero};
-    let any: Laws = |_| true;
-    let (dimension, least, of) = match stem {
-        "sigma0" => (
-            Dimension::Stiffness,
-            Some(Zero),
-            LawKind::has_bristle as Laws,
-        ),
-        "sigma1" => (
-            Dimension::Damping,
-            Some(Zero),
-            LawKind::has_micro_damping as Laws,
-        ),
-        "sigma2" => (Dimension::Damping, Some(Zero), any),
-        "coulomb" => (Dimension::Force, Some(Zero), any),
-        "static" => (Dimension::Force, Some(Zero), LawKind::has_stribeck as Laws),
-        "stribeck_velocity" => (
-            Dimension::Speed,
-            Some(AboveZero),
-            LawKind::has_stribeck as Laws,
-        ),
-        "stribeck_exponent" => (
-            Dimension::One,
-            Some(AboveZero),
-            LawKind::has_stribeck as Laws,
-        ),
-        "mass" => (Dimension::Inertia, Some(Zero), any),
-        "offset" => (Dimension::Force, None, any),
-        "delay" => (Dimension::Time, None, any),
-        _ if symbols::is_element(stem) => {
-            let length = stem.starts_with("yield_");
-            let dimension = if length {
-                Dimension::Length
-            } else {
-                Dimension::Stiffness
-            };
-            (dimension, Some(Zero), LawKind::has_elements as Laws)
-        }
-        _ => return None,
-    };
-    Some(Known {
-        dimension,
-        least,
-        of,
-    })
-}
-
-/// Whether a term beside the law may have a value for each direction; `None` for no such term. The name is without the
-/// suffix of a direction.
-fn term(stem: &str) -> Option<bool> {
-    let wave = |of: &str| {
-        let rest = stem.strip_prefix(of).unwrap_or_default();
-        let number = rest.strip_suffix("_sin").or(rest.strip_suffix("_cos"));
-        number.is_some_and(|n| n.parse::<u32>().is_ok())
-    };
-    match stem {
-        "breakaway_ratio" | "attraction" | "gravity_sin" | "gravity_cos" => Some(false),
-        "load_reference" | "temperature_reference" | "position_reference" => Some(false),
-        "quadratic_viscous" | "coulomb_load" | "coulomb_temperature" => Some(true),
-        "coulomb_position" | "sigma2_temperature" => Some(true),
-        _ if wave("cogging") => Some(false),
-        _ if wave("coulomb_pitch") => Some(true),
-        _ => None,
-    }
+/// Whether what is known of a parameter is checked: those of the law, and what any axis has. Of the terms beside the law
+/// only the name.
+fn is_checked(quantity: Quantity) -> bool {
+    quantity.is_of_the_steady_curve()
+        || matches!(
+            quantity,
+            Quantity::Sigma0
+                | Quantity::Sigma1
+                | Quantity::StribeckExponent
+                | Quantity::Mass
+                | Quantity::Offset
+                | Quantity::Delay
+                | Quantity::ElementStiffness(_)
+                | Quantity::ElementYield(_)
+        )
 }
 
 /// What is wrong with a name: what was found, what is allowed.
 fn stranger(name: &str) -> Option<(String, String)> {
-    let stem = stem(name);
-    let sided = match known(stem) {
-        Some(_) => Some(SIDED.contains(&stem)),
-        None => term(stem),
+    let Some(known) = parameter_of(name) else {
+        let short: String = name.chars().take(60).collect();
+        let found = format!("{short:?}, which is no parameter of any law");
+        return Some((found, "names as stiction identify writes them".into()));
     };
-    match sided {
-        None => {
-            let short: String = name.chars().take(60).collect();
-            let found = format!("{short:?}, which is no parameter of any law");
-            Some((found, "names as stiction identify writes them".into()))
-        }
-        Some(false) if stem != name => {
-            let allowed = format!("{stem}: it is the same in both directions");
-            Some((name.into(), allowed))
-        }
-        _ => None,
-    }
+    (known.side != Side::Both && !known.quantity.may_differ_by_side()).then(|| {
+        let allowed = format!(
+            "{}: it is the same in both directions",
+            known.quantity.stem()
+        );
+        (name.into(), allowed)
+    })
 }
 
-/// The name without the suffix of a direction.
-fn stem(name: &str) -> &str {
-    let side = name.strip_suffix("_pos").or(name.strip_suffix("_neg"));
-    side.unwrap_or(name)
+/// The parameter of a name, as files have it. The yield forces of elements are unknowns of a search, and in no file.
+fn parameter_of(name: &str) -> Option<Name> {
+    let known: Name = name.parse().ok()?;
+    (!matches!(known.quantity, Quantity::ElementForce(_))).then_some(known)
 }
 
 /// Whether two texts are one unit, however written.
@@ -139,7 +68,8 @@ fn same_unit(found: &str, wanted: &str) -> bool {
 fn directions(model: &ModelFile) -> Option<Fault> {
     let has = |name: &str| model.parameter.iter().any(|p| p.name == name);
     let mut sided = None;
-    for stem in SIDED {
+    for quantity in SIDED {
+        let stem = quantity.stem();
         let names = [
             stem.to_string(),
             format!("{stem}_pos"),
@@ -165,7 +95,7 @@ fn directions(model: &ModelFile) -> Option<Fault> {
             format!("false beside {name}"),
             "true".into(),
         )),
-        (true, None) if SIDED.into_iter().any(has) => {
+        (true, None) if SIDED.into_iter().any(|q| has(&q.stem())) => {
             let found = "true, and no parameter has a direction".into();
             Some((
                 "asymmetric: ",
@@ -250,49 +180,32 @@ fn parameter(
     if let Some(std) = p.std.filter(|std| std.is_nan() || *std < 0.0) {
         return Some((format!("{name}: std = {std:?}"), "0 or above".into()));
     }
-    let known = known(stem(name))?;
-    let unit = symbols::unit(known.dimension, motion, &model.force_unit, "");
+    let quantity = parameter_of(name)?.quantity;
+    if !is_checked(quantity) {
+        return None;
+    }
+    let unit = symbols::unit(quantity.dimension(), motion, &model.force_unit, "");
     if !same_unit(&p.unit, &unit) {
         return Some((
             format!("{name} in {:?}", p.unit),
             format!("{unit:?}, with its value"),
         ));
     }
-    if !(known.of)(law) {
+    if !law.has(quantity) {
         return Some((
             format!("{name} in a model of {law}"),
             "parameters of that law".into(),
         ));
     }
-    if name == "stribeck_exponent" && !EXPONENTS.contains(&p.value) {
-        let (low, high) = (EXPONENTS.start(), EXPONENTS.end());
-        return Some((format!("{name} = {value}"), format!("from {low} to {high}")));
-    }
-    let allowed = match known.least {
-        Some(Least::Zero) if p.value < 0.0 => "not negative",
-        Some(Least::AboveZero) if p.value <= 0.0 => "above 0",
-        Some(_) if p.value != 0.0 && p.value < 1.0 / LARGEST => "at least 1e-100",
-        _ => return None,
+    let range = quantity.allowed();
+    let allowed = if !range.admits(p.value) {
+        range.words()
+    } else if range.is_never_negative() && p.value != 0.0 && p.value < 1.0 / LARGEST {
+        "at least 1e-100"
+    } else {
+        return None;
     };
     Some((format!("{name} = {value}"), allowed.into()))
-}
-
-/// The first parameter that a model lacks of its law, without the suffix of its direction; a
-/// procedure may well find a part of them only.
-pub(super) fn missing(model: &ModelFile) -> Option<&'static str> {
-    let law = LawKind::from_name(&model.law)?;
-    let needed = [
-        ("sigma0", law.has_bristle()),
-        ("sigma1", law.has_micro_damping()),
-        ("sigma2", true),
-        ("coulomb", true),
-        ("static", law.has_stribeck()),
-        ("stribeck_velocity", law.has_stribeck()),
-    ];
-    let has = |name: &str| model.parameter.iter().any(|p| stem(&p.name) == name);
-    needed
-        .into_iter()
-        .find_map(|(name, wanted)| (wanted && !has(name)).then_some(name))
 }
 
 /// A top speed that is none.

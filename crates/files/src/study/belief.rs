@@ -1,9 +1,10 @@
 //! Wrong parameters: what a compensator is given instead of those of the axis.
 
-use super::model::{Model, law};
+use super::model::Model;
 use crate::result::CovarianceEntry;
-use stiction_friction::LuGre;
+use stiction_friction::{Damping, LuGre};
 use stiction_number::four_digits as short;
+use stiction_parameters::{Name, Quantity, Side};
 use stiction_servo::known;
 use stiction_servo::noise::Noise;
 
@@ -52,16 +53,24 @@ impl Family {
         }
     }
 
-    /// Parameters drawn from the normal distribution of the estimate, cut to what a law can have. `mass` is the one to
-    /// believe where the covariance knows none.
+    /// Parameters drawn from the normal distribution of the estimate, cut to what a law can have, with sigma1 capped or
+    /// constant as `truth` has it. `mass` is the one to believe where the covariance knows none.
     ///
     /// `Err` says in words why nothing can be drawn.
-    pub fn draws(model: &Model, mass: Option<f64>, count: u64, seed: u64) -> Result<Self, String> {
+    pub fn draws(
+        model: &Model,
+        truth: Belief,
+        mass: Option<f64>,
+        count: u64,
+        seed: u64,
+    ) -> Result<Self, String> {
         let Some(covariance) = &model.covariance else {
             return Err("a known axis has no covariance".into());
         };
         determined(model, covariance)?;
         let spread = Spread::of(covariance)?;
+        let names: Vec<Option<Name>> = covariance.names.iter().map(|n| n.parse().ok()).collect();
+        let exact = model.values();
         let mut noise = Noise::new(seed);
         let mut beliefs = Vec::new();
         let mut tries = 0;
@@ -71,12 +80,18 @@ impl Family {
             }
             tries += 1;
             let off = spread.draw(&mut noise);
-            let value = |name: &str| {
-                let i = covariance.names.iter().position(|n| n == name);
-                model.value(name).map(|x| x + i.map_or(0.0, |i| off[i]))
-            };
-            let Ok(law) = law(&value) else { continue };
-            let Some(mass) = mass.or_else(|| value("mass")) else {
+            let mut values = exact.clone();
+            for (name, off) in names.iter().zip(&off) {
+                if let Some((name, x)) = name.and_then(|n| Some((n, exact.get(n)?))) {
+                    values.insert(name, x + off);
+                }
+            }
+            let law = values.lugre().and_then(|law| {
+                let same = law.with_damping(like(truth.law.damping(), law.damping().at_rest()));
+                Ok(same?)
+            });
+            let Ok(law) = law else { continue };
+            let Some(mass) = mass.or_else(|| values.get(Quantity::Mass)) else {
                 return Err("the model has no mass".into());
             };
             if mass > 0.0 {
@@ -91,25 +106,37 @@ impl Family {
     }
 }
 
+/// The damping of this size in the form of another.
+fn like(form: Damping<f64>, sigma1: f64) -> Damping<f64> {
+    match form {
+        Damping::Constant(_) => Damping::Constant(sigma1),
+        _ => Damping::Capped(sigma1),
+    }
+}
+
 /// Refuses a variance that makes nearly every draw absurd, as of a parameter that the data did not determine. What may
 /// be 0 is measured by the Coulomb friction, and that at the Stribeck velocity.
 fn determined(model: &Model, covariance: &CovarianceEntry) -> Result<(), String> {
-    let of = |name: &str| {
-        let value = |suffix: &str| model.value(&format!("{name}{suffix}"));
-        value("").or_else(|| value("_pos")).map_or(0.0, f64::abs)
-    };
-    let damping = match of("stribeck_velocity") {
+    let values = model.values();
+    let of = |quantity| values.on(quantity, Side::Positive).map_or(0.0, f64::abs);
+    let damping = match of(Quantity::StribeckVelocity) {
         0.0 => f64::INFINITY,
-        speed => of("coulomb") / speed,
+        speed => of(Quantity::Coulomb) / speed,
     };
     for (i, name) in covariance.names.iter().enumerate() {
-        let value = model.value(name).map_or(0.0, f64::abs);
-        let stem = name.strip_suffix("_pos").or(name.strip_suffix("_neg"));
-        let size = match stem.unwrap_or(name) {
-            "sigma0" | "coulomb" | "static" | "stribeck_velocity" | "stribeck_exponent"
-            | "mass" => value,
-            "sigma1" | "sigma2" => value.max(damping),
-            "offset" => value.max(of("coulomb")),
+        let Ok(parameter) = name.parse::<Name>() else {
+            continue;
+        };
+        let value = values.get(parameter).map_or(0.0, f64::abs);
+        let size = match parameter.quantity {
+            Quantity::Sigma0
+            | Quantity::Coulomb
+            | Quantity::Static
+            | Quantity::StribeckVelocity
+            | Quantity::StribeckExponent
+            | Quantity::Mass => value,
+            Quantity::Sigma1 | Quantity::Sigma2 => value.max(damping),
+            Quantity::Offset => value.max(of(Quantity::Coulomb)),
             // Not simulated.
             _ => continue,
         };

@@ -6,14 +6,16 @@ use crate::result::CovarianceEntry;
 use crate::symbols;
 use std::path::Path;
 use stiction_codes::Code;
-use stiction_friction::{Damping, Direction, LuGre, ParamError, Shape, Stribeck};
 use stiction_log::Motion;
+use stiction_parameters::{LawError, LawKind, Name, ParameterSet, Quantity};
 use stiction_servo::known::{self, Kind};
 
 /// Parameters of a law with bristles, and what is known of their errors.
 pub struct Model {
     /// Linear or rotary.
     pub motion: Motion,
+    /// The family of the law.
+    pub kind: LawKind,
     /// Where it comes from, for reports.
     pub origin: String,
     /// Every parameter.
@@ -26,28 +28,26 @@ pub struct Model {
 
 /// One parameter.
 pub struct Parameter {
-    /// Name, such as `sigma0`.
-    pub name: String,
+    /// Which parameter.
+    pub name: Name,
     /// SI.
     pub value: f64,
     /// SI unit.
     pub unit: String,
 }
 
-/// Parameters that the simulated law has, without the suffix of their direction. The delay is one of the log, not of the
-/// axis.
-const SIMULATED: [&str; 10] = [
-    "sigma0",
-    "sigma1",
-    "sigma2",
-    "coulomb",
-    "static",
-    "stribeck_velocity",
-    "stribeck_exponent",
-    "mass",
-    "offset",
-    "delay",
-];
+/// Whether the simulated law has a parameter. The delay is one of the log, not of the axis.
+fn is_simulated(quantity: Quantity) -> bool {
+    matches!(
+        quantity,
+        Quantity::Sigma0
+            | Quantity::Sigma1
+            | Quantity::Mass
+            | Quantity::Offset
+            | Quantity::Delay
+            | Quantity::StribeckExponent
+    ) || quantity.is_of_the_steady_curve()
+}
 
 impl Model {
     /// A known axis by its name.
@@ -58,34 +58,26 @@ impl Model {
             Kind::Rotary => Motion::Rotary,
         };
         let side = axis.law.curve().positive();
-        let (length, force, mass) = match motion {
-            Motion::Linear => ("m", "N", "kg"),
-            Motion::Rotary => ("rad", "N*m", "kg*m^2"),
-        };
-        let parameter = |name: &str, value: f64, unit: String| Parameter {
-            name: name.into(),
+        let force = symbols::force_unit(motion);
+        let parameter = |(quantity, value): (Quantity, f64)| Parameter {
+            name: quantity.into(),
             value,
-            unit,
+            unit: symbols::unit(quantity.dimension(), motion, force, ""),
         };
-        let parameters = vec![
-            parameter("sigma0", axis.law.stiffness(), format!("{force}/{length}")),
-            parameter(
-                "sigma1",
-                axis.law.damping().at_rest(),
-                format!("{force}*s/{length}"),
-            ),
-            parameter("sigma2", side.viscous, format!("{force}*s/{length}")),
-            parameter("coulomb", side.coulomb, force.into()),
-            parameter("static", side.static_friction, force.into()),
-            parameter(
-                "stribeck_velocity",
-                side.stribeck_velocity,
-                symbols::speed_unit(motion).into(),
-            ),
-            parameter("mass", axis.mass, mass.into()),
-        ];
+        let parameters = [
+            (Quantity::Sigma0, axis.law.stiffness()),
+            (Quantity::Sigma1, axis.law.damping().at_rest()),
+            (Quantity::Sigma2, side.viscous),
+            (Quantity::Coulomb, side.coulomb),
+            (Quantity::Static, side.static_friction),
+            (Quantity::StribeckVelocity, side.stribeck_velocity),
+            (Quantity::Mass, axis.mass),
+        ]
+        .map(parameter)
+        .into();
         Some(Model {
             motion,
+            kind: LawKind::LuGre,
             origin: format!("Known axis {}: {}", axis.name, axis.source),
             parameters,
             covariance: None,
@@ -102,10 +94,13 @@ impl Model {
             found,
             allowed: allowed.into(),
         };
-        if !["lugre", "dahl"].contains(&model.law.as_str()) {
-            let allowed = "a study simulates lugre and dahl; identify with --law lugre";
-            return Err(refuse("law: ", format!("{:?}", model.law), allowed));
-        }
+        let kind = match LawKind::from_name(&model.law) {
+            Some(kind @ (LawKind::LuGre | LawKind::Dahl)) => kind,
+            _ => {
+                let allowed = "a study simulates lugre and dahl; identify with --law lugre";
+                return Err(refuse("law: ", format!("{:?}", model.law), allowed));
+            }
+        };
         let (motion, force) = match model.kind.as_str() {
             "rotary" => (Motion::Rotary, "N*m"),
             _ => (Motion::Linear, "N"),
@@ -117,9 +112,13 @@ impl Model {
             let found = format!("{:?}", model.force_unit);
             return Err(refuse("force_unit: ", found, &allowed));
         }
-        if let Some(name) = model.missing() {
+        if let Some(missing) = model.values().and_then(|values| values.missing()) {
             let allowed = "a study needs every parameter of the law";
-            return Err(refuse("parameter: ", format!("no {name}"), allowed));
+            return Err(refuse(
+                "parameter: ",
+                format!("no {}", missing.stem()),
+                allowed,
+            ));
         }
         let mut warnings = Vec::new();
         if !model.trustworthy {
@@ -142,70 +141,56 @@ impl Model {
                 format!("the log did not determine {unknown}: what depends on it is a guess"),
             ));
         }
-        let stem = |name: &str| {
-            let name = name.strip_suffix("_pos").unwrap_or(name);
-            name.strip_suffix("_neg").unwrap_or(name).to_string()
-        };
-        let left_out = listed(&|p| !SIMULATED.contains(&stem(&p.name).as_str()));
+        let simulated = |name: &str| name.parse().is_ok_and(|n: Name| is_simulated(n.quantity));
+        let left_out = listed(&|p| !simulated(&p.name));
         if !left_out.is_empty() {
             warnings.push(Warning::new(
                 Code::NotInStudy,
                 format!("the model has {left_out}, which a study does not simulate"),
             ));
         }
-        let parameters = model.parameter.iter().map(|p| Parameter {
-            name: p.name.clone(),
-            value: p.value,
-            unit: p.unit.clone(),
+        // A model that was read names no parameter that is unknown.
+        let parameters = model.parameter.iter().filter_map(|p| {
+            Some(Parameter {
+                name: p.name.parse().ok()?,
+                value: p.value,
+                unit: p.unit.clone(),
+            })
         });
         let name = model.name.as_deref().unwrap_or("an identified axis");
         let model = Model {
             motion,
+            kind,
             origin: format!("{name}, identified by {}", model.source.method),
             parameters: parameters.collect(),
             covariance: Some(model.covariance),
             warnings,
         };
         // What the parameters of a file do not allow is said of that file.
-        law(&|name| model.value(name)).map_err(|e| {
-            let found = format!("{} = {}", e.name, stiction_number::four_digits(e.value));
-            refuse("parameter: ", found, e.allowed)
-        })?;
-        Ok(model)
+        match model.values().lugre() {
+            Ok(_) => Ok(model),
+            Err(LawError::Value(e)) => {
+                let found = format!("{} = {}", e.name, stiction_number::four_digits(e.value));
+                Err(refuse("parameter: ", found, e.allowed))
+            }
+            Err(e) => Err(refuse(
+                "parameter: ",
+                e.to_string(),
+                "every parameter of the law",
+            )),
+        }
+    }
+
+    /// Its parameters with their values.
+    pub fn values(&self) -> ParameterSet {
+        let values = self.parameters.iter().map(|p| (p.name, p.value));
+        ParameterSet::of(self.kind, values)
     }
 
     /// A parameter by its name.
-    pub fn value(&self, name: &str) -> Option<f64> {
+    pub fn value(&self, name: impl Into<Name>) -> Option<f64> {
+        let name = name.into();
         let found = self.parameters.iter().find(|p| p.name == name);
         found.map(|p| p.value)
     }
-}
-
-/// The law of parameters by their names, with sigma1 capped. A Dahl law has no static level and no sigma1 of its own.
-pub(super) fn law(value: &dyn Fn(&str) -> Option<f64>) -> Result<LuGre<f64>, ParamError> {
-    let side = |suffix: &str| {
-        let of = |name: &str| value(&format!("{name}{suffix}")).or_else(|| value(name));
-        let coulomb = of("coulomb").unwrap_or(f64::NAN);
-        Direction {
-            coulomb,
-            static_friction: of("static").unwrap_or(coulomb),
-            // Without a static level of its own the curve is flat, whatever the velocity.
-            stribeck_velocity: of("stribeck_velocity").unwrap_or(1.0),
-            viscous: of("sigma2").unwrap_or(0.0),
-        }
-    };
-    let shape = match value("stribeck_exponent") {
-        Some(exponent) if exponent != 2.0 => Shape::Power(exponent),
-        _ => Shape::Gaussian,
-    };
-    let offset = value("offset").unwrap_or(0.0);
-    let (pos, neg) = (side("_pos"), side("_neg"));
-    // Where both are the same, an error names the parameter as the model does.
-    let curve = if pos == neg {
-        Stribeck::symmetric(shape, pos, offset)?
-    } else {
-        Stribeck::new(shape, pos, neg, offset)?
-    };
-    let damping = Damping::Capped(value("sigma1").unwrap_or(0.0));
-    LuGre::new(value("sigma0").unwrap_or(f64::NAN), damping, curve)
 }

@@ -185,7 +185,7 @@ impl Machine {
     /// Draws from the covariance of the model. A mass that the study gives is known.
     fn draws(&self, count: u64, seed: u64) -> Result<Family, String> {
         let given = self.given_mass.then_some(self.mass);
-        Family::draws(&self.model, given, count, seed)
+        Family::draws(&self.model, self.truth(), given, count, seed)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Candidates, Named, checked};
 use crate::error::Error;
+use stiction_parameters::{Name, Quantity, Side};
 use stiction_search::{Bounds, CostsOnly, Derivatives, Fidelity, Points, Problem};
 
 /// Genes of one direction.
@@ -139,21 +140,18 @@ impl Problem for Curve {
 
 impl Candidates for Curve {
     fn parameters(&self, point: &[f64]) -> Named {
-        let suffixes = match point.len() {
-            GENES => &[""][..],
-            _ => &["_pos", "_neg"],
-        };
-        let sides = suffixes.iter().zip(point.chunks(GENES));
+        let sides = Side::all(point.len() != GENES);
+        let sides = sides.iter().zip(point.chunks(GENES));
         sides
-            .flat_map(|(suffix, x)| {
+            .flat_map(|(side, x)| {
                 let [s2, fc, excess, vs] = std::array::from_fn(|i| libm::exp(x[i]));
                 [
-                    ("sigma2", s2),
-                    ("coulomb", fc),
-                    ("static", fc + excess),
-                    ("stribeck_velocity", vs),
+                    (Quantity::Sigma2, s2),
+                    (Quantity::Coulomb, fc),
+                    (Quantity::Static, fc + excess),
+                    (Quantity::StribeckVelocity, vs),
                 ]
-                .map(|(name, value)| (format!("{name}{suffix}"), value))
+                .map(|(name, value)| (Name::new(name, *side), value))
             })
             .collect()
     }

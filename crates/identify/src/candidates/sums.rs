@@ -124,7 +124,7 @@ fn shared_columns(objective: &Objective) -> (Vec<Vec<f64>>, Vec<bool>) {
             ColumnKind::Speed(None) => velocity = column.to_vec(),
             _ => {
                 further.push(column.to_vec());
-                nonnegative.push(term.nonnegative);
+                nonnegative.push(term.is_never_negative());
             }
         }
     }

@@ -9,8 +9,9 @@
 use crate::conditioning::condition;
 use crate::conditioning::record::Record;
 use crate::estimate::Estimate;
-use crate::law::physical::{Physical, physical};
+use crate::law::physical::physical;
 use crate::observe::{Control, Counts, Observer, Progress, Stage};
+use crate::parameter::physical::Physical;
 use crate::refit::{Refit, force_noise, refitted};
 use crate::replica::{Replica, replica};
 
@@ -194,7 +195,7 @@ fn once(
 
 /// From one value to another, in the logarithm where both are positive by nature.
 fn step(from: &Physical, to: &Physical) -> f64 {
-    if from.positive && from.value > 0.0 && to.value > 0.0 {
+    if from.is_positive() && from.value > 0.0 && to.value > 0.0 {
         from.value * libm::log(to.value / from.value)
     } else {
         to.value - from.value

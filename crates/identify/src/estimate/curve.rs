@@ -4,13 +4,14 @@
 //! little better than none, and the linear deviation there says how well *that* curve is known. The
 //! question is whether the cost is really higher without it.
 
-use crate::estimate::parameter::Parameter;
 use crate::estimate::profile::{Held, fit_with};
 use crate::estimate::uncertainty::Unknowns;
 use crate::law::Law;
 use crate::observe::Counts;
+use crate::parameter::Parameter;
 use crate::separable::Optimum;
 use crate::separable::objective::Objective;
+use stiction_parameters::{Name, Quantity, Side};
 
 /// Deviation of ln(Fs/Fc - 1) below which the curve is there without asking: ten deviations from none.
 const PLAIN: f64 = 0.1;
@@ -72,12 +73,10 @@ pub(super) fn stays_within(law: &Law, optimum: &Optimum, parameters: &mut [Param
         if !(optimum.bounds.at_bound(&optimum.p, i) && optimum.p[i] > 0.5 * (low + high)) {
             continue;
         }
-        let suffix = match (law.asymmetric, side) {
-            (false, _) => "",
-            (true, 0) => "_pos",
-            (true, _) => "_neg",
+        let Some(&direction) = Side::all(law.asymmetric).get(side) else {
+            continue;
         };
-        let names = ["coulomb", "sigma2"].map(|stem| format!("{stem}{suffix}"));
+        let names = [Quantity::Coulomb, Quantity::Sigma2].map(|q| Name::new(q, direction));
         for p in parameters.iter_mut().filter(|p| names.contains(&p.name)) {
             if p.identifiable {
                 p.identifiable = false;

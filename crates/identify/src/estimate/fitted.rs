@@ -1,14 +1,15 @@
 //! What any fit states of a law, whether it fitted the force, the position or points of the steady curve.
 
 use crate::estimate::Series;
-use crate::estimate::parameter::Parameter;
-use crate::estimate::uncertainty::Covariance;
 use crate::fit::Fit;
 use crate::gms::choose::ElementsScore;
 use crate::law::Law;
 use crate::law::terms::Terms;
 use crate::observe::Counts;
+use crate::parameter::Parameter;
+use crate::parameter::covariance::Covariance;
 use crate::separable::levenberg::Status;
+use stiction_parameters::{Name, ParameterSet, Quantity};
 
 /// A fitted law: its parameters with their uncertainty, how well it fits, and how the search went.
 #[derive(Clone, Debug)]
@@ -42,13 +43,29 @@ pub struct FittedLaw {
 }
 
 impl FittedLaw {
-    /// The parameter of this name.
-    pub fn parameter(&self, name: &str) -> Option<&Parameter> {
+    /// The parameter of this name, typed or as files have it (`"sigma0"`, `"coulomb_pos"`).
+    pub fn parameter<N>(&self, name: N) -> Option<&Parameter>
+    where
+        Name: PartialEq<N>,
+    {
         self.parameters.iter().find(|p| p.name == name)
     }
 
-    /// The value of this name.
-    pub fn value(&self, name: &str) -> Option<f64> {
+    /// The value of this name, typed or as files have it.
+    pub fn value<N>(&self, name: N) -> Option<f64>
+    where
+        Name: PartialEq<N>,
+    {
         self.parameter(name).map(|p| p.value)
+    }
+
+    /// All values, those that were given too.
+    pub fn values(&self) -> ParameterSet {
+        let own = self.parameters.iter().map(|p| (p.name, p.value));
+        let mut set = ParameterSet::of(self.law.kind, own);
+        if set.get(Quantity::StribeckExponent).is_none() {
+            set.insert(Quantity::StribeckExponent, self.law.exponent);
+        }
+        set
     }
 }

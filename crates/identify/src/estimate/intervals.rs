@@ -4,14 +4,16 @@
 use crate::conditioning::record::Record;
 use crate::estimate::conditioned::shift;
 use crate::estimate::curve::{missing, stays_within};
-use crate::estimate::parameter::{IntervalKind, Parameter, quantile};
 use crate::estimate::profile::{End, Held, Profile};
 use crate::estimate::sliding::stays_in_presliding;
-use crate::estimate::{Estimate, advice, levels};
-use crate::law::physical::{Physical, physical};
+use crate::estimate::{Estimate, advice, levels, optimal};
+use crate::law::physical::physical;
 use crate::observe::{Counts, Observer};
+use crate::parameter::physical::Physical;
+use crate::parameter::{IntervalKind, Parameter, quantile};
 use crate::separable::Optimum;
 use crate::separable::objective::Objective;
+use stiction_parameters::{Name, Quantity};
 
 /// Relative standard deviation from which the profile is followed; below it the linear interval is
 /// right to a part of its width of the same size.
@@ -42,8 +44,8 @@ pub fn intervals(
     let mut counts = Counts::default();
     let missing = missing(&objective, optimum, &estimate.unknowns, &mut counts);
     for p in &raw {
-        if curve_of(&p.name).is_some_and(|side| missing[side]) {
-            without_curve(estimate, &p.name);
+        if curve_of(p.name).is_some_and(|side| missing[side]) {
+            without_curve(estimate, p.name);
         } else {
             profiled(&objective, optimum, p, estimate, &mut counts);
         }
@@ -83,24 +85,25 @@ fn conditioned(
     }
     for (i, p) in raw.iter().enumerate() {
         let variance = estimate.covariance.matrix[i][i];
-        if let Some(own) = find(estimate, &p.name) {
-            *own = Parameter::fitted(p, variance, Some(shift.bias[i]), optimum, levels[i]);
+        if let Some(own) = find(estimate, p.name) {
+            *own = optimal::fitted(p, variance, Some(shift.bias[i]), optimum, levels[i]);
         }
     }
 }
 
 /// The direction of a parameter of the Stribeck curve (the positive one for what is common to both);
 /// `None` for other parameters.
-fn curve_of(name: &str) -> Option<usize> {
-    let curve = ["static", "stribeck_velocity", "stribeck_exponent"];
-    curve
-        .iter()
-        .any(|stem| name.starts_with(stem))
-        .then(|| usize::from(name.ends_with("_neg")))
+fn curve_of(name: Name) -> Option<usize> {
+    let curve = [
+        Quantity::Static,
+        Quantity::StribeckVelocity,
+        Quantity::StribeckExponent,
+    ];
+    curve.contains(&name.quantity).then(|| name.side.index())
 }
 
 /// Says of a parameter that nothing is known of it, because a fit without the curve is as good.
-fn without_curve(estimate: &mut Estimate, name: &str) {
+fn without_curve(estimate: &mut Estimate, name: Name) {
     if let Some(own) = find(estimate, name) {
         own.ci95 = None;
         if own.identifiable {
@@ -110,7 +113,7 @@ fn without_curve(estimate: &mut Estimate, name: &str) {
     }
 }
 
-fn find<'a>(estimate: &'a mut Estimate, name: &str) -> Option<&'a mut Parameter> {
+fn find(estimate: &mut Estimate, name: Name) -> Option<&mut Parameter> {
     let parameters = &mut estimate.fitted.parameters;
     parameters.iter_mut().find(|p| p.name == name)
 }
@@ -124,8 +127,13 @@ fn profiled(
     counts: &mut Counts,
 ) {
     let k = optimum.p.len();
-    let curved = ["sigma1", "static", "stribeck_velocity", "stribeck_exponent"];
-    if !curved.iter().any(|name| p.name.starts_with(name)) {
+    let curved = [
+        Quantity::Sigma1,
+        Quantity::Static,
+        Quantity::StribeckVelocity,
+        Quantity::StribeckExponent,
+    ];
+    if !curved.contains(&p.name.quantity) {
         return;
     }
     let (held, index) = match (p.nonlinear, p.linear) {
@@ -133,8 +141,7 @@ fn profiled(
         (None, Some(j)) => (Held::Linear(j), k + j),
         (None, None) => return,
     };
-    let names = &estimate.covariance.names;
-    let Some(own) = names.iter().position(|n| *n == p.name) else {
+    let Some(own) = estimate.covariance.place(p.name) else {
         return;
     };
     let variance = estimate.covariance.matrix[own][own];
@@ -144,7 +151,7 @@ fn profiled(
     if !(relative > CURVED && relative.is_finite() && std.is_finite() && bread > 0.0) {
         return;
     }
-    let Some(now) = estimate.parameter(&p.name) else {
+    let Some(now) = estimate.parameter(p.name) else {
         return;
     };
     // Of the parameter, what does not come from the unknown that is held: it is added in quadrature.
@@ -190,7 +197,7 @@ fn profiled(
     let free = p
         .nonlinear
         .is_none_or(|i| !optimum.bounds.at_bound(&optimum.p, i));
-    if let Some(own) = find(estimate, &p.name) {
+    if let Some(own) = find(estimate, p.name) {
         state(own, reach, free);
     }
 }

@@ -6,8 +6,8 @@
 //! interval is where the cost has risen by what the long-run noise makes of one standard deviation,
 //! squared times the quantile.
 
-use crate::estimate::parameter::WIDEST;
 use crate::observe::{Counts, Silent, Stage};
+use crate::parameter::WIDEST;
 use crate::separable::Optimum;
 use crate::separable::levenberg::{Descent, Watch, descend};
 use crate::separable::objective::Objective;

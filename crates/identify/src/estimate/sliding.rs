@@ -5,31 +5,44 @@
 //! suit the bend of the presliding curve, encoder steps included, and their deviations say only how well
 //! those are known.
 
-use crate::estimate::parameter::Parameter;
+use crate::parameter::Parameter;
+use stiction_parameters::{Quantity, Side};
 
 /// Parameters that show while the axis slides.
-const SLIDING: [&str; 4] = ["coulomb", "static", "stribeck_velocity", "sigma2"];
+const SLIDING: [Quantity; 4] = [
+    Quantity::Coulomb,
+    Quantity::Static,
+    Quantity::StribeckVelocity,
+    Quantity::Sigma2,
+];
 
 /// Flags what shows while the axis slides, where a stroke (m or rad) is shorter than the way of the
 /// bristles from one side to the other, the Coulomb levels over sigma0.
 pub(super) fn stays_in_presliding(stroke: f64, parameters: &mut [Parameter]) {
-    let value = |name: &str| parameters.iter().find(|p| p.name == name).map(|p| p.value);
-    let levels = match (value("coulomb"), value("coulomb_pos"), value("coulomb_neg")) {
+    let of = |quantity: Quantity, side| {
+        let mut known = parameters.iter();
+        let found = known.find(|p| p.name.quantity == quantity && p.name.side == side);
+        found.map(|p| p.value)
+    };
+    let coulomb = |side| of(Quantity::Coulomb, side);
+    let levels = match (
+        coulomb(Side::Both),
+        coulomb(Side::Positive),
+        coulomb(Side::Negative),
+    ) {
         (Some(level), ..) => 2.0 * level,
         (_, Some(positive), Some(negative)) => positive + negative,
         _ => return,
     };
-    let Some(stiffness) = value("sigma0") else {
+    let Some(stiffness) = of(Quantity::Sigma0, Side::Both) else {
         return;
     };
     if stroke * stiffness >= levels {
         return;
     }
-    let shows =
-        |name: &str| SLIDING.contains(&name.trim_end_matches("_pos").trim_end_matches("_neg"));
     for p in parameters
         .iter_mut()
-        .filter(|p| p.identifiable && shows(&p.name))
+        .filter(|p| p.identifiable && SLIDING.contains(&p.name.quantity))
     {
         p.identifiable = false;
         p.reason = "the stroke is shorter than the bristles' way from one side to the other".into();

@@ -17,37 +17,6 @@ use crate::separable::linear::dot;
 use crate::separable::objective::{Evaluation, Objective};
 use nalgebra::{DMatrix, SymmetricEigen};
 
-/// Covariance of named parameters.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Covariance {
-    /// Names, in the order of rows and columns.
-    pub names: Vec<String>,
-    /// Covariance, row by row, in the product of the units of the two parameters.
-    pub matrix: Vec<Vec<f64>>,
-}
-
-impl Covariance {
-    /// Correlation matrix, in -1..1; zero where a variance is zero or not finite.
-    pub fn correlation(&self) -> Vec<Vec<f64>> {
-        let n = self.names.len();
-        let sd: Vec<f64> = (0..n).map(|i| self.matrix[i][i].sqrt()).collect();
-        (0..n)
-            .map(|i| {
-                (0..n)
-                    .map(|j| {
-                        let x = self.matrix[i][j] / (sd[i] * sd[j]);
-                        if x.is_finite() {
-                            x.clamp(-1.0, 1.0)
-                        } else {
-                            0.0
-                        }
-                    })
-                    .collect()
-            })
-            .collect()
-    }
-}
-
 /// Relative size of an eigenvalue of the scaled `J^T J` that is rounding only.
 const ROUNDING: f64 = 1e-15;
 

@@ -9,6 +9,7 @@ use crate::conditioning::channels::Channels;
 use crate::conditioning::record::{Record, Segment};
 use crate::law::terms::Side;
 use std::f64::consts::TAU;
+use stiction_parameters::{Quantity, Wave};
 
 /// Change of temperature over which a dependence on it is judged, K; a log that spans more is judged
 /// over what it spans.
@@ -64,14 +65,14 @@ impl Dependence {
         }
     }
 
-    /// Name and value of the reference as a given parameter; none for a pitch.
-    pub(crate) fn reference(&self) -> Option<(&'static str, f64)> {
+    /// The reference as a given parameter, with its value; none for a pitch.
+    pub(crate) fn reference(&self) -> Option<(Quantity, f64)> {
         match *self {
-            Dependence::CoulombLoad(x) => Some(("load_reference", x)),
+            Dependence::CoulombLoad(x) => Some((Quantity::LoadReference, x)),
             Dependence::CoulombTemperature(x) | Dependence::ViscousTemperature(x) => {
-                Some(("temperature_reference", x))
+                Some((Quantity::TemperatureReference, x))
             }
-            Dependence::CoulombPosition(x) => Some(("position_reference", x)),
+            Dependence::CoulombPosition(x) => Some((Quantity::PositionReference, x)),
             Dependence::CoulombPitch(_) => None,
         }
     }
@@ -81,20 +82,24 @@ impl Dependence {
         matches!(self, Dependence::ViscousTemperature(_))
     }
 
-    /// Its columns: name of the parameter, and the factor.
-    pub(crate) fn factors(&self, pitches_before: usize) -> Vec<(String, Factor)> {
-        let name = self.name();
+    /// Its columns: the parameter, and the factor.
+    pub(crate) fn factors(&self, pitches_before: usize) -> Vec<(Quantity, Factor)> {
         match *self {
-            Dependence::CoulombLoad(x) => vec![(name.into(), Factor::Load(x))],
-            Dependence::CoulombTemperature(x) | Dependence::ViscousTemperature(x) => {
-                vec![(name.into(), Factor::Temperature(x))]
+            Dependence::CoulombLoad(x) => vec![(Quantity::CoulombLoad, Factor::Load(x))],
+            Dependence::CoulombTemperature(x) => {
+                vec![(Quantity::CoulombTemperature, Factor::Temperature(x))]
             }
-            Dependence::CoulombPosition(x) => vec![(name.into(), Factor::Position(x))],
+            Dependence::ViscousTemperature(x) => {
+                vec![(Quantity::Sigma2Temperature, Factor::Temperature(x))]
+            }
+            Dependence::CoulombPosition(x) => {
+                vec![(Quantity::CoulombPosition, Factor::Position(x))]
+            }
             Dependence::CoulombPitch(pitch) => {
-                let k = pitches_before + 1;
+                let wave = |part| Quantity::CoulombPitch(pitches_before as u32 + 1, part);
                 vec![
-                    (format!("{name}{k}_sin"), Factor::Sine(TAU / pitch)),
-                    (format!("{name}{k}_cos"), Factor::Cosine(TAU / pitch)),
+                    (wave(Wave::Sine), Factor::Sine(TAU / pitch)),
+                    (wave(Wave::Cosine), Factor::Cosine(TAU / pitch)),
                 ]
             }
         }

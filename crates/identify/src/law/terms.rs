@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::law::dependence::{Dependence, Factor};
 use crate::law::{Law, LawKind};
 use std::f64::consts::TAU;
+use stiction_parameters::{Name, Quantity, Wave};
 
 /// Linear terms beside the friction law; each is one more exact unknown.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,13 +69,18 @@ impl Default for Terms {
     }
 }
 
-/// One linear unknown: its name in files, its place among the physical parameters, and whether it
-/// must not be negative.
+/// One linear unknown: the parameter that it stands for, and its column.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LinearTerm {
-    pub name: String,
+    pub name: Name,
     pub column: ColumnKind,
-    pub nonnegative: bool,
+}
+
+impl LinearTerm {
+    /// Whether its coefficient must not be negative.
+    pub fn is_never_negative(&self) -> bool {
+        self.name.quantity.allowed().is_never_negative()
+    }
 }
 
 /// How a column of the regression is made.
@@ -111,6 +117,15 @@ pub(crate) enum Side {
 }
 
 impl Side {
+    /// The parameter of this direction.
+    pub fn of(self, quantity: Quantity) -> Name {
+        let side = match self {
+            Side::Positive => stiction_parameters::Side::Positive,
+            Side::Negative => stiction_parameters::Side::Negative,
+        };
+        Name::new(quantity, side)
+    }
+
     /// 1 for a velocity in this direction, 0 otherwise.
     pub fn selects(self, v: f64) -> bool {
         match self {
@@ -158,75 +173,58 @@ impl Terms {
     /// (those that depend on the nonlinear unknowns) come first.
     pub(crate) fn columns(&self, law: &Law) -> Vec<LinearTerm> {
         let mut out = Vec::new();
-        let mut push = |name: &str, column, nonnegative| {
-            out.push(LinearTerm {
-                name: name.to_string(),
-                column,
-                nonnegative,
-            });
-        };
+        let mut push = |name: Name, column| out.push(LinearTerm { name, column });
         let split = law.kind == LawKind::CoulombViscous && law.asymmetric;
         if law.kind.has_elements() {
             for k in 0..law.elements {
-                let name = format!("{}{}", crate::gms::ELEMENT, k + 1);
-                push(&name, ColumnKind::Element(k), true);
+                let name = Quantity::ElementForce(k as u32 + 1);
+                push(name.into(), ColumnKind::Element(k));
             }
         } else if split {
-            push("coulomb_pos", ColumnKind::Sign(Side::Positive), true);
-            push("coulomb_neg", ColumnKind::Sign(Side::Negative), true);
+            for side in [Side::Positive, Side::Negative] {
+                push(side.of(Quantity::Coulomb), ColumnKind::Sign(side));
+            }
         } else {
-            push("coulomb", ColumnKind::Level, true);
+            push(Quantity::Coulomb.into(), ColumnKind::Level);
         }
         if law.kind.has_micro_damping() {
-            push("sigma1", ColumnKind::Rate, true);
+            push(Quantity::Sigma1.into(), ColumnKind::Rate);
         }
-        if law.asymmetric {
-            push("sigma2_pos", ColumnKind::Speed(Some(Side::Positive)), true);
-            push("sigma2_neg", ColumnKind::Speed(Some(Side::Negative)), true);
-        } else {
-            push("sigma2", ColumnKind::Speed(None), true);
+        for side in sides(law) {
+            push(name(Quantity::Sigma2, side), ColumnKind::Speed(side));
         }
         if self.quadratic_viscous {
-            for (side, suffix) in sides(law) {
-                push(
-                    &format!("quadratic_viscous{suffix}"),
-                    ColumnKind::Square(side),
-                    false,
-                );
+            for side in sides(law) {
+                let name = name(Quantity::QuadraticViscous, side);
+                push(name, ColumnKind::Square(side));
             }
         }
         if self.mass == Mass::Fitted {
-            push("mass", ColumnKind::Acceleration, true);
+            push(Quantity::Mass.into(), ColumnKind::Acceleration);
         }
         if self.offset {
-            push("offset", ColumnKind::One, false);
+            push(Quantity::Offset.into(), ColumnKind::One);
         }
         if self.gravity {
-            push("gravity_sin", ColumnKind::Sine(1.0), false);
-            push("gravity_cos", ColumnKind::Cosine(1.0), false);
+            push(Quantity::Gravity(Wave::Sine).into(), ColumnKind::Sine(1.0));
+            let cosine = Quantity::Gravity(Wave::Cosine);
+            push(cosine.into(), ColumnKind::Cosine(1.0));
         }
         for (k, pitch) in self.cogging.iter().enumerate() {
-            push(
-                &format!("cogging{}_sin", k + 1),
-                ColumnKind::Sine(TAU / pitch),
-                false,
-            );
-            push(
-                &format!("cogging{}_cos", k + 1),
-                ColumnKind::Cosine(TAU / pitch),
-                false,
-            );
+            let wave = |part| Quantity::Cogging(k as u32 + 1, part).into();
+            push(wave(Wave::Sine), ColumnKind::Sine(TAU / pitch));
+            push(wave(Wave::Cosine), ColumnKind::Cosine(TAU / pitch));
         }
         let mut pitches = 0;
         for dependence in &self.dependences {
-            for (name, factor) in dependence.factors(pitches) {
-                for (side, suffix) in sides(law) {
+            for (quantity, factor) in dependence.factors(pitches) {
+                for side in sides(law) {
                     let column = if dependence.is_viscous() {
                         ColumnKind::SpeedTimes(factor, side)
                     } else {
                         ColumnKind::LevelTimes(factor, side)
                     };
-                    push(&format!("{name}{suffix}"), column, false);
+                    push(name(quantity, side), column);
                 }
             }
             pitches += usize::from(matches!(dependence, Dependence::CoulombPitch(_)));
@@ -235,14 +233,16 @@ impl Terms {
     }
 }
 
-/// The directions that have unknowns of their own, and the suffix of their names.
-fn sides(law: &Law) -> Vec<(Option<Side>, &'static str)> {
+/// The directions that have unknowns of their own.
+fn sides(law: &Law) -> Vec<Option<Side>> {
     if law.asymmetric {
-        vec![
-            (Some(Side::Positive), "_pos"),
-            (Some(Side::Negative), "_neg"),
-        ]
+        vec![Some(Side::Positive), Some(Side::Negative)]
     } else {
-        vec![(None, "")]
+        vec![None]
     }
+}
+
+/// The parameter of one direction, or of both.
+fn name(quantity: Quantity, side: Option<Side>) -> Name {
+    side.map_or(quantity.into(), |side| side.of(quantity))
 }

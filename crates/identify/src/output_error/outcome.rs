@@ -4,24 +4,26 @@ use crate::error::Error;
 use crate::estimate::Series;
 use crate::estimate::advice;
 use crate::estimate::fitted::FittedLaw;
-use crate::estimate::parameter::Parameter;
-use crate::estimate::uncertainty::{self, Covariance};
+use crate::estimate::uncertainty;
 use crate::fit::Fit;
 use crate::law::Law;
-use crate::law::physical::{self, Dimension, Physical};
 use crate::law::terms::{Mass, Terms};
 use crate::observe::{Counts, Silent, Stage};
 use crate::output_error::controller::Controller;
 use crate::output_error::descent::{Bounds, Descent, descend};
-use crate::output_error::plant::{Axis, Side, State};
+use crate::output_error::plant::Axis;
 use crate::output_error::problem::{Point, Problem};
 use crate::output_error::run::{self, Hold, Recording};
 use crate::output_error::simulate::{Drive, simulate, simulate_with_slopes};
 use crate::output_error::start::rest;
 use crate::output_error::unknowns::{Layout, Unknown};
 use crate::output_error::{Found, Search};
+use crate::parameter::Parameter;
+use crate::parameter::covariance::Covariance;
+use crate::parameter::physical::{Physical, propagate};
 use crate::separable::levenberg::Watch;
 use nalgebra::DMatrix;
+use stiction_parameters::{Name, Quantity};
 
 /// Measured and simulated signals at the samples that count.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -215,7 +217,7 @@ pub(crate) fn describe(
         .collect();
     let (unknowns, without) = covariance(&problem, &at, &held);
     let raw = parameters(&problem.layout, &axis, &at.q);
-    let matrix = physical::propagate(&raw, &unknowns);
+    let matrix = propagate(&raw, &unknowns);
     let level = axis.sides[0].coulomb.max(axis.sides[1].coulomb);
     let mut parameters: Vec<Parameter> = raw
         .iter()
@@ -234,13 +236,7 @@ pub(crate) fn describe(
         })
         .collect();
     insert_given(&mut parameters, &law, terms);
-    let names: Vec<String> = raw.iter().map(|p| p.name.clone()).collect();
-    let covariance = Covariance {
-        matrix: (0..names.len())
-            .map(|i| (0..names.len()).map(|j| matrix[(i, j)]).collect())
-            .collect(),
-        names,
-    };
+    let covariance = Covariance::new(raw.iter().map(|p| p.name).collect(), &matrix);
     advice::explain(&mut parameters, &covariance);
     let top = signals.velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let fitted = FittedLaw {
@@ -284,6 +280,13 @@ pub(crate) fn describe(
 
 fn signals(problem: &Problem, at: &Point) -> Signals {
     let axis = problem.layout.write(&problem.base, &at.q);
+    // Friction at an instant, without offset and position-dependent parts; viscous friction may come out negative, which
+    // no law takes.
+    let law = axis.dry_law();
+    let friction = |z: f64, v: f64| {
+        let viscous = axis.sides[usize::from(v < 0.0)].viscous;
+        law.map_or(f64::NAN, |law| law.force(z, v)) + viscous * v
+    };
     let closed = problem.drive.controller.is_some();
     let mut out = Signals::default();
     for (run, initial) in problem.runs.iter().zip(&at.starts) {
@@ -296,7 +299,7 @@ fn signals(problem: &Problem, at: &Point) -> Signals {
             out.position.push(run.position[k]);
             out.simulated.push(state.x);
             out.velocity.push(state.v);
-            out.friction.push(friction(&axis, state));
+            out.friction.push(friction(state.z, state.v));
             out.force.push(run.force[k]);
             if closed {
                 out.simulated_force.push(force);
@@ -304,16 +307,6 @@ fn signals(problem: &Problem, at: &Point) -> Signals {
         });
     }
     out
-}
-
-/// Friction at an instant, without offset and position-dependent parts.
-fn friction(axis: &Axis, state: &State) -> f64 {
-    let curve = &axis.sides[usize::from(state.v < 0.0)];
-    let speed = state.v.abs();
-    let fall = libm::exp(-libm::pow(speed / curve.velocity, axis.exponent));
-    let level = curve.coulomb + (curve.fixed - curve.coulomb) * fall;
-    let rate = state.v - speed * axis.stiffness * state.z / level;
-    axis.stiffness * state.z + axis.micro_damping * rate + curve.viscous * state.v
 }
 
 /// Covariance of the shared unknowns with the starts of the runs unknown too, and which of them have no
@@ -420,28 +413,23 @@ fn parameters(layout: &Layout, axis: &Axis, q: &[f64]) -> Vec<Physical> {
     let mut out = Vec::new();
     for (k, (unknown, &x)) in layout.unknowns.iter().zip(q).enumerate() {
         let mut slope = vec![0.0; q.len()];
-        let (name, dimension, value, positive) = match *unknown {
+        let (name, value) = match *unknown {
             Unknown::Stiffness => {
                 slope[k] = axis.stiffness;
-                ("sigma0".into(), Dimension::Stiffness, axis.stiffness, true)
+                (Quantity::Sigma0.into(), axis.stiffness)
             }
             Unknown::MicroDamping => {
                 slope[k] = axis.micro_damping;
-                (
-                    "sigma1".into(),
-                    Dimension::Damping,
-                    axis.micro_damping,
-                    true,
-                )
+                (Quantity::Sigma1.into(), axis.micro_damping)
             }
             Unknown::Viscous(side) => {
                 slope[k] = 1.0;
-                (named("sigma2", side), Dimension::Damping, x, true)
+                (Name::new(Quantity::Sigma2, side), x)
             }
             Unknown::Coulomb(side) => {
                 let level = axis.sides[side.index()].coulomb;
                 slope[k] = level;
-                (named("coulomb", side), Dimension::Force, level, true)
+                (Name::new(Quantity::Coulomb, side), level)
             }
             Unknown::Excess(side) => {
                 let curve = &axis.sides[side.index()];
@@ -449,53 +437,36 @@ fn parameters(layout: &Layout, axis: &Axis, q: &[f64]) -> Vec<Physical> {
                 if let Some(level) = layout.place(Unknown::Coulomb(side)) {
                     slope[level] = curve.fixed;
                 }
-                (named("static", side), Dimension::Force, curve.fixed, true)
+                (Name::new(Quantity::Static, side), curve.fixed)
             }
             Unknown::Velocity(side) => {
                 let velocity = axis.sides[side.index()].velocity;
                 slope[k] = velocity;
-                (
-                    named("stribeck_velocity", side),
-                    Dimension::Speed,
-                    velocity,
-                    true,
-                )
+                (Name::new(Quantity::StribeckVelocity, side), velocity)
             }
             Unknown::Mass => {
                 slope[k] = axis.mass;
-                ("mass".into(), Dimension::Inertia, axis.mass, true)
+                (Quantity::Mass.into(), axis.mass)
             }
             Unknown::Offset => {
                 slope[k] = 1.0;
-                ("offset".into(), Dimension::Force, x, false)
+                (Quantity::Offset.into(), x)
             }
             Unknown::Wave(i) => {
                 slope[k] = 1.0;
-                let name = layout.waves.get(i).map_or(String::new(), |w| w.1.clone());
-                (name, Dimension::Force, x, false)
+                (layout.waves[i].1, x)
             }
         };
         out.push(Physical {
             name,
-            dimension,
             value,
             slope,
             nonlinear: Some(k),
             linear: None,
-            positive,
-            share: false,
         });
     }
-    out.sort_by_key(|parameter| physical::rank(&parameter.name));
+    out.sort_by_key(|parameter| parameter.name.quantity.place());
     out
-}
-
-fn named(stem: &str, side: Side) -> String {
-    match side {
-        Side::Both => stem.into(),
-        Side::Positive => format!("{stem}_pos"),
-        Side::Negative => format!("{stem}_neg"),
-    }
 }
 
 /// Puts what was given beside what was found, in the order of tables.
@@ -503,19 +474,19 @@ fn insert_given(parameters: &mut Vec<Parameter>, law: &Law, terms: &Terms) {
     if law.kind.has_stribeck() {
         let at = parameters
             .iter()
-            .rposition(|p| p.name.starts_with("stribeck_velocity"))
+            .rposition(|p| p.name.quantity == Quantity::StribeckVelocity)
             .map_or(parameters.len(), |i| i + 1);
         parameters.insert(
             at,
-            Parameter::given("stribeck_exponent", Dimension::One, law.exponent),
+            Parameter::given(Quantity::StribeckExponent, law.exponent),
         );
     }
     if let Mass::Given(mass) = terms.mass {
         let at = parameters
             .iter()
-            .position(|p| p.name == "offset")
+            .position(|p| p.name == Quantity::Offset)
             .unwrap_or(parameters.len());
-        let mass = Parameter::given("mass", Dimension::Inertia, mass);
+        let mass = Parameter::given(Quantity::Mass, mass);
         parameters.insert(at, mass);
     }
 }

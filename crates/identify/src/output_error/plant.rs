@@ -7,30 +7,8 @@
 //! the smaller steps that do as well. The servo crate is the oracle it is tested against.
 
 use libm::{cos, exp, expm1, fabs, pow, sin};
-
-/// Direction of motion that an unknown belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Side {
-    Both,
-    Positive,
-    Negative,
-}
-
-impl Side {
-    /// Index of the direction that its value is read from.
-    pub fn index(self) -> usize {
-        usize::from(self == Side::Negative)
-    }
-
-    /// Whether it holds for motion in the direction of this index.
-    pub fn holds(self, index: usize) -> bool {
-        match self {
-            Side::Both => true,
-            Side::Positive => index == 0,
-            Side::Negative => index == 1,
-        }
-    }
-}
+use stiction_friction::LuGre;
+use stiction_parameters::{LawKind, Name, ParameterSet, Quantity, Side};
 
 /// The steady curve in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -166,6 +144,28 @@ impl Axis {
     /// The largest deflection, m (rad).
     pub fn bound(&self) -> f64 {
         self.sides[0].fixed.max(self.sides[1].fixed) / self.stiffness
+    }
+
+    /// The LuGre law of the axis without viscous friction and offset; `None` where its numbers make none.
+    pub fn dry_law(&self) -> Option<LuGre<f64>> {
+        let mut set = ParameterSet::of(
+            LawKind::LuGre,
+            [
+                (Quantity::Sigma0.into(), self.stiffness),
+                (Quantity::Sigma1.into(), self.micro_damping),
+                (Quantity::Sigma2.into(), 0.0),
+                (Quantity::StribeckExponent.into(), self.exponent),
+            ],
+        );
+        for (side, curve) in [Side::Positive, Side::Negative]
+            .into_iter()
+            .zip(&self.sides)
+        {
+            set.insert(Name::new(Quantity::Coulomb, side), curve.coulomb);
+            set.insert(Name::new(Quantity::Static, side), curve.fixed);
+            set.insert(Name::new(Quantity::StribeckVelocity, side), curve.velocity);
+        }
+        set.lugre().ok()
     }
 
     fn bristle(&self, z: f64, h: f64, w: f64) -> Bristle {

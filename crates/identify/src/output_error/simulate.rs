@@ -1,10 +1,10 @@
 //! One run simulated from its initial state, with the derivatives of position and force.
 
 use crate::output_error::controller::{Controller, Memory};
-use crate::output_error::plant::Side;
 use crate::output_error::plant::{Axis, State, slot};
 use crate::output_error::run::{Hold, Run};
 use crate::output_error::unknowns::{Layout, Unknown};
+use stiction_parameters::Side;
 
 /// Unknowns of each run: position, velocity, bristle deflection over `Fc/s0`, and with a PI controller
 /// its integral.

@@ -9,6 +9,7 @@ use crate::output_error::plant::{Axis, Curve, Wave};
 use crate::output_error::run::Run;
 use crate::output_error::simulate::Initial;
 use crate::output_error::unknowns::{Layout, Unknown};
+use stiction_parameters::{Name, Quantity, Side};
 
 /// Sizes of what the runs show, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,12 +74,10 @@ pub(crate) fn from_estimate(
     layout: &Layout,
     scale: &Scale,
 ) -> Option<Axis> {
-    let value = |name: &str, side: usize| {
-        let suffix = if side == 1 { "_neg" } else { "_pos" };
-        found
-            .value(name)
-            .or_else(|| found.value(&format!("{name}{suffix}")))
-            .filter(|x| x.is_finite())
+    let known = found.values();
+    let value = |quantity, side: usize| {
+        let side = [Side::Positive, Side::Negative][side];
+        known.on(quantity, side).filter(|x| x.is_finite())
     };
     let mut sides = [Curve {
         coulomb: 0.0,
@@ -87,25 +86,25 @@ pub(crate) fn from_estimate(
         viscous: 0.0,
     }; 2];
     for (i, side) in sides.iter_mut().enumerate() {
-        side.coulomb = value("coulomb", i).filter(|x| *x > 0.0)?;
+        side.coulomb = value(Quantity::Coulomb, i).filter(|x| *x > 0.0)?;
         side.fixed = side.coulomb;
         if law.kind.has_stribeck() {
-            side.fixed = value("static", i)?.max(1.02 * side.coulomb);
-            side.velocity = value("stribeck_velocity", i).filter(|x| *x > 0.0)?;
+            side.fixed = value(Quantity::Static, i)?.max(1.02 * side.coulomb);
+            side.velocity = value(Quantity::StribeckVelocity, i).filter(|x| *x > 0.0)?;
         }
-        side.viscous = value("sigma2", i).unwrap_or(0.0).max(0.0);
+        side.viscous = value(Quantity::Sigma2, i).unwrap_or(0.0).max(0.0);
     }
     let mass = match terms.mass {
         Mass::Given(mass) => mass,
-        _ => found.value("mass").filter(|m| *m > 0.0)?,
+        _ => found.value(Quantity::Mass).filter(|m| *m > 0.0)?,
     };
     let mut axis = Axis {
-        stiffness: found.value("sigma0").unwrap_or(0.0),
-        micro_damping: found.value("sigma1").unwrap_or(0.0),
+        stiffness: found.value(Quantity::Sigma0).unwrap_or(0.0),
+        micro_damping: found.value(Quantity::Sigma1).unwrap_or(0.0),
         sides,
         exponent: law.exponent,
         mass,
-        offset: found.value("offset").unwrap_or(0.0),
+        offset: found.value(Quantity::Offset).unwrap_or(0.0),
         waves: waves(layout, |name| found.value(name).unwrap_or(0.0)),
     };
     complete(&mut axis, law, scale);
@@ -202,12 +201,12 @@ pub(crate) fn with_bristles(axis: &Axis, law: &Law, scale: &Scale) -> Vec<Axis> 
     out
 }
 
-fn waves(layout: &Layout, factor: impl Fn(&str) -> f64) -> Vec<Wave> {
+fn waves(layout: &Layout, factor: impl Fn(Name) -> f64) -> Vec<Wave> {
     layout
         .waves
         .iter()
         .map(|(wave, name)| Wave {
-            factor: factor(name),
+            factor: factor(*name),
             ..*wave
         })
         .collect()

@@ -4,8 +4,9 @@
 
 use crate::law::terms::{Mass, Terms};
 use crate::law::{Law, LawKind};
-use crate::output_error::plant::{Axis, Side, Wave};
+use crate::output_error::plant::{Axis, Wave};
 use std::f64::consts::TAU;
+use stiction_parameters::{Name, Quantity, Side, Wave as Part};
 
 /// One unknown that all runs share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,16 +37,12 @@ pub(crate) struct Layout {
     /// In the order of the vector of the search.
     pub unknowns: Vec<Unknown>,
     /// Factors of the position that the waves have, with whether it is a cosine, and their names.
-    pub waves: Vec<(Wave, String)>,
+    pub waves: Vec<(Wave, Name)>,
 }
 
 impl Layout {
     pub fn new(law: &Law, terms: &Terms) -> Self {
-        let sides: &[Side] = if law.asymmetric {
-            &[Side::Positive, Side::Negative]
-        } else {
-            &[Side::Both]
-        };
+        let sides = Side::all(law.asymmetric);
         let mut unknowns = Vec::new();
         if law.kind.has_bristle() {
             unknowns.push(Unknown::Stiffness);
@@ -67,13 +64,13 @@ impl Layout {
         }
         let mut waves = Vec::new();
         if terms.gravity {
-            waves.push((Wave::sine(1.0), "gravity_sin".to_string()));
-            waves.push((Wave::cosine(1.0), "gravity_cos".to_string()));
+            waves.push((Wave::sine(1.0), Quantity::Gravity(Part::Sine).into()));
+            waves.push((Wave::cosine(1.0), Quantity::Gravity(Part::Cosine).into()));
         }
         for (i, pitch) in terms.cogging.iter().enumerate() {
-            let n = i + 1;
-            waves.push((Wave::sine(TAU / pitch), format!("cogging{n}_sin")));
-            waves.push((Wave::cosine(TAU / pitch), format!("cogging{n}_cos")));
+            let of = |part| Quantity::Cogging(i as u32 + 1, part).into();
+            waves.push((Wave::sine(TAU / pitch), of(Part::Sine)));
+            waves.push((Wave::cosine(TAU / pitch), of(Part::Cosine)));
         }
         unknowns.extend((0..waves.len()).map(Unknown::Wave));
         Self { unknowns, waves }

@@ -4,15 +4,15 @@ use super::static_map::StaticMap;
 use super::step_fit::{StepFit, StepSettings};
 use crate::estimate::Series;
 use crate::estimate::fitted::FittedLaw;
-use crate::estimate::parameter::Parameter;
-use crate::estimate::uncertainty::Covariance;
 use crate::fit::Fit;
-use crate::law::physical::{self, Dimension};
 use crate::law::terms::{Mass, Terms};
 use crate::law::{Law, LawKind};
 use crate::observe::Counts;
+use crate::parameter::Parameter;
+use crate::parameter::covariance::Covariance;
 use crate::separable::levenberg::Status;
 use stiction_friction::Direction;
+use stiction_parameters::Quantity;
 
 /// The fit is that of the series; parameters come in the order of tables.
 fn fitted_law(
@@ -23,7 +23,7 @@ fn fitted_law(
     series: Series,
     (status, counts): (Status, Counts),
 ) -> FittedLaw {
-    parameters.sort_by_key(|p| physical::rank(&p.name));
+    parameters.sort_by_key(|p| p.name.quantity.place());
     let residual = series.residual();
     let fit = Fit::new(&series.measured, &residual).unwrap_or(Fit {
         rmse: f64::MAX,
@@ -69,7 +69,7 @@ impl StaticMap {
             ..Terms::default()
         };
         let of = |f: &dyn Fn(usize) -> f64| (0..self.points.len()).map(f).collect();
-        let offset = self.value("offset").unwrap_or(0.0);
+        let offset = self.value(Quantity::Offset).unwrap_or(0.0);
         let series = Series {
             log: self.points.iter().map(|p| p.log).collect(),
             time: of(&|i| 0.5 * (self.points[i].time.0 + self.points[i].time.1)),
@@ -98,38 +98,28 @@ impl StepFit {
             ..Terms::default()
         };
         let mut parameters = self.parameters.clone();
-        let fixed = self.value("static").unwrap_or(0.0);
+        let fixed = self.value(Quantity::Static).unwrap_or(0.0);
         let curve = settings.curve.unwrap_or(Direction {
             coulomb: fixed,
             static_friction: fixed,
             stribeck_velocity: 1.0,
             viscous: 0.0,
         });
-        parameters.push(Parameter::given(
-            "sigma2",
-            Dimension::Damping,
-            curve.viscous,
-        ));
-        parameters.push(Parameter::given("coulomb", Dimension::Force, curve.coulomb));
+        parameters.push(Parameter::given(Quantity::Sigma2, curve.viscous));
+        parameters.push(Parameter::given(Quantity::Coulomb, curve.coulomb));
         if settings.curve.is_some() {
+            parameters.push(Parameter::given(Quantity::Static, curve.static_friction));
             parameters.push(Parameter::given(
-                "static",
-                Dimension::Force,
-                curve.static_friction,
-            ));
-            parameters.push(Parameter::given(
-                "stribeck_velocity",
-                Dimension::Speed,
+                Quantity::StribeckVelocity,
                 curve.stribeck_velocity,
             ));
             parameters.push(Parameter::given(
-                "stribeck_exponent",
-                Dimension::One,
+                Quantity::StribeckExponent,
                 settings.exponent,
             ));
         }
         if let Some(mass) = settings.mass {
-            parameters.push(Parameter::given("mass", Dimension::Inertia, mass));
+            parameters.push(Parameter::given(Quantity::Mass, mass));
         }
         let mut series = Series::default();
         for (log, response) in self.series.iter().enumerate() {

@@ -13,16 +13,19 @@ use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::estimate::fitted::FittedLaw;
 use crate::estimate::{Estimate, estimate, uncertainty};
-use crate::law::physical::{physical, propagate};
+use crate::law::physical::physical;
 use crate::law::terms::Terms;
 use crate::law::{Law, LawKind};
 use crate::observe::{Control, Counts, Observer, Progress, Stage};
+use crate::parameter::covariance::Covariance;
+use crate::parameter::physical::propagate;
 use crate::separable::Optimum;
 use crate::separable::levenberg::Status;
 use crate::separable::linear::{self, Solution, dot};
 use crate::separable::objective::Objective;
 use crate::separable::search_box::SearchBox;
 use nalgebra::{DMatrix, DVector};
+use stiction_parameters::{Name, Quantity};
 
 /// Starts over ln sigma0, spread over the whole range.
 const GRID: usize = 24;
@@ -146,7 +149,7 @@ impl Held<'_> {
         let views: Vec<&[f64]> = free.iter().map(|&i| columns[i].as_slice()).collect();
         let bounded: Vec<bool> = free
             .iter()
-            .map(|&i| self.objective.linear()[i].nonnegative)
+            .map(|&i| self.objective.linear()[i].is_never_negative())
             .collect();
         linear::solve(&views, &bounded, &target)
     }
@@ -247,23 +250,24 @@ impl Held<'_> {
         let matrix = propagate(&raw, &unknowns);
         let level = self.statics.sides[0].coulomb;
         let free = self.free();
-        let position = |name: &str| {
+        let position = |name: Name| {
             let i = linear.iter().position(|t| t.name == name)?;
             free.iter().position(|&j| j == i)
         };
         for (i, found) in raw.iter().enumerate() {
-            let kept =
-                self.statics.parameters.iter().find(|p| {
-                    p.name == found.name && found.name != "offset" && found.name != "mass"
-                });
-            let dynamic = found.name == "sigma0" || position(&found.name).is_some();
+            let kept = self.statics.parameters.iter().find(|p| {
+                p.name == found.name
+                    && found.name != Quantity::Offset
+                    && found.name != Quantity::Mass
+            });
+            let dynamic = found.name == Quantity::Sigma0 || position(found.name).is_some();
             let parameter = match kept.filter(|_| !dynamic) {
                 Some(kept) => kept.clone(),
                 None => {
                     let held =
-                        position(&found.name).map(|j| (solved.active[j], solved.dependent[j]));
-                    let reason = match (found.name.as_str(), held) {
-                        ("sigma0", _) if bounds.at_bound(p, self.kappa) => {
+                        position(found.name).map(|j| (solved.active[j], solved.dependent[j]));
+                    let reason = match (found.name.quantity, held) {
+                        (Quantity::Sigma0, _) if bounds.at_bound(p, self.kappa) => {
                             "stands at the bound of its search range"
                         }
                         (_, Some((_, true))) => {
@@ -273,11 +277,9 @@ impl Held<'_> {
                         _ => "",
                     };
                     Found {
-                        name: found.name.clone(),
-                        dimension: found.dimension,
+                        name: found.name,
                         value: found.value,
                         variance: matrix[(i, i)],
-                        positive: found.positive,
                         reason,
                     }
                     .parameter(level, 1.959_963_984_540_054)
@@ -287,12 +289,7 @@ impl Held<'_> {
                 *place = parameter;
             }
         }
-        out.covariance = uncertainty::Covariance {
-            names: raw.iter().map(|r| r.name.clone()).collect(),
-            matrix: (0..raw.len())
-                .map(|i| (0..raw.len()).map(|j| matrix[(i, j)]).collect())
-                .collect(),
-        };
+        out.covariance = Covariance::new(raw.iter().map(|r| r.name).collect(), &matrix);
     }
 
     /// Covariance of `(p, c)`: that of the curve, that of the record, and what the first does to the

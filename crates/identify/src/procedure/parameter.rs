@@ -1,7 +1,7 @@
 //! A value and its variance as a parameter with interval and flag.
 
-use crate::estimate::parameter::{IDENTIFIABLE, Parameter, too_uncertain};
-use crate::law::physical::Dimension;
+use crate::parameter::{IDENTIFIABLE, Parameter, too_uncertain};
+use stiction_parameters::Name;
 
 /// Two-sided 95 % quantile of Student's t for `free` degrees of freedom, by the expansion of
 /// Abramowitz and Stegun, 26.7.5; within 1 % from 3 degrees on.
@@ -17,12 +17,9 @@ pub(super) fn quantile(free: f64) -> f64 {
 
 /// What is known of one parameter.
 pub(super) struct Found {
-    pub name: String,
-    pub dimension: Dimension,
+    pub name: Name,
     pub value: f64,
     pub variance: f64,
-    /// Positive by nature, so its interval is log-normal.
-    pub positive: bool,
     /// Why it is not identifiable whatever its deviation; empty if nothing is known.
     pub reason: &'static str,
 }
@@ -32,9 +29,11 @@ impl Found {
     /// of the 95 % interval in deviations.
     pub fn parameter(self, level: f64, quantile: f64) -> Parameter {
         let mut reason = self.reason.to_string();
+        // Positive by nature, so its interval is log-normal.
+        let positive = self.name.quantity.allowed().is_never_negative();
         let known = self.variance.is_finite() && self.variance >= 0.0;
         let std = (known && reason.is_empty()).then(|| self.variance.sqrt());
-        let size = if self.positive {
+        let size = if positive {
             self.value.abs()
         } else {
             self.value.abs().max(level)
@@ -50,7 +49,7 @@ impl Found {
         }
         let ci95 = std.and_then(|s| {
             let reach = quantile * s;
-            if !self.positive {
+            if !positive {
                 return reach
                     .is_finite()
                     .then_some((self.value - reach, self.value + reach));
@@ -65,7 +64,7 @@ impl Found {
             identifiable: reason.is_empty(),
             identified: true,
             reason,
-            ..Parameter::given(&self.name, self.dimension, self.value)
+            ..Parameter::given(self.name, self.value)
         }
     }
 }

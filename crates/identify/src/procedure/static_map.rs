@@ -13,10 +13,10 @@ use super::robust;
 use super::stretch::StaticPoint;
 use crate::error::Error;
 use crate::estimate::advice;
-use crate::estimate::parameter::Parameter;
-use crate::estimate::uncertainty::Covariance;
-use crate::law::physical::Dimension;
+use crate::parameter::Parameter;
+use crate::parameter::covariance::Covariance;
 use nalgebra::{DMatrix, SymmetricEigen};
+use stiction_parameters::{Name, Quantity, Side};
 
 /// No force channel resolves more than this part of its range; noise-free points would otherwise
 /// determine what no measurement could.
@@ -88,14 +88,17 @@ pub struct StaticMap {
 
 impl StaticMap {
     /// The value of a parameter.
-    pub fn value(&self, name: &str) -> Option<f64> {
+    pub fn value<N>(&self, name: N) -> Option<f64>
+    where
+        Name: PartialEq<N>,
+    {
         let found = self.parameters.iter().find(|p| p.name == name);
         found.map(|p| p.value)
     }
 
     /// The exponent of the curve.
     pub fn exponent(&self) -> f64 {
-        self.value("stribeck_exponent").unwrap_or(2.0)
+        self.value(Quantity::StribeckExponent).unwrap_or(2.0)
     }
 }
 
@@ -294,7 +297,7 @@ impl Fitted<'_> {
             .iter()
             .map(|b| b.solved.coefficients[0])
             .fold(0.0, f64::max);
-        let names: Vec<String> = rows.iter().map(|r| r.found.name.clone()).collect();
+        let names = rows.iter().map(|r| r.found.name).collect();
         let mut parameters: Vec<Parameter> = rows
             .into_iter()
             .enumerate()
@@ -307,17 +310,11 @@ impl Fitted<'_> {
             })
             .collect();
         if self.settings.stribeck && self.settings.exponent != Exponent::Fitted {
-            let name = "stribeck_exponent";
-            parameters.push(Parameter::given(name, Dimension::One, self.exponent));
+            let name = Quantity::StribeckExponent;
+            parameters.push(Parameter::given(name, self.exponent));
         }
-        parameters.sort_by_key(|p| crate::law::physical::rank(&p.name));
-        let n = names.len();
-        let covariance = Covariance {
-            names,
-            matrix: (0..n)
-                .map(|i| (0..n).map(|j| matrix[(i, j)]).collect())
-                .collect(),
-        };
+        parameters.sort_by_key(|p| p.name.quantity.place());
+        let covariance = Covariance::new(names, &matrix);
         advice::explain(&mut parameters, &covariance);
         let (model, weights, deviation) = self.by_point();
         StaticMap {
@@ -422,24 +419,22 @@ impl Fitted<'_> {
         let mut out = Vec::new();
         let mut start = 0;
         for (k, (block, best)) in self.blocks.iter().zip(&self.best).enumerate() {
-            let suffix = match (self.blocks.len(), k) {
-                (1, _) => "",
-                (_, 0) => "_pos",
-                _ => "_neg",
+            let side = match (self.blocks.len(), k) {
+                (1, _) => Side::Both,
+                (_, 0) => Side::Positive,
+                _ => Side::Negative,
             };
             let c = &best.solved.coefficients;
-            let mut push = |name: &str, dimension, value, slopes: &[(usize, f64)], reason| {
+            let mut push = |quantity, value, slopes: &[(usize, f64)], reason| {
                 let mut slope = vec![0.0; width];
                 for (j, x) in slopes {
                     slope[start + j] = *x;
                 }
                 out.push(Row {
                     found: Found {
-                        name: format!("{name}{suffix}"),
-                        dimension,
+                        name: Name::new(quantity, side),
                         value,
                         variance: 0.0,
-                        positive: name != "offset",
                         reason,
                     },
                     slope,
@@ -459,10 +454,10 @@ impl Fitted<'_> {
                 }
             };
             let level = if mixed.is_empty() { zero(c[0]) } else { mixed };
-            push("coulomb", Dimension::Force, c[0], &[(0, 1.0)], level);
-            push("sigma2", Dimension::Damping, c[1], &[(1, 1.0)], zero(c[1]));
+            push(Quantity::Coulomb, c[0], &[(0, 1.0)], level);
+            push(Quantity::Sigma2, c[1], &[(1, 1.0)], zero(c[1]));
             if offset {
-                push("offset", Dimension::Force, c[2], &[(2, 1.0)], mixed);
+                push(Quantity::Offset, c[2], &[(2, 1.0)], mixed);
             }
             if self.settings.stribeck {
                 let rise = block.columns.len();
@@ -477,15 +472,9 @@ impl Fitted<'_> {
                 let fixed = if curve.is_empty() { mixed } else { curve };
                 let (level, velocity) = (c[0] + c[rise], best.velocity);
                 let slopes = [(0, 1.0), (rise, 1.0)];
-                push("static", Dimension::Force, level, &slopes, fixed);
+                push(Quantity::Static, level, &slopes, fixed);
                 let slopes = [(rise + 1, velocity)];
-                push(
-                    "stribeck_velocity",
-                    Dimension::Speed,
-                    velocity,
-                    &slopes,
-                    curve,
-                );
+                push(Quantity::StribeckVelocity, velocity, &slopes, curve);
             }
             start += c.len() + usize::from(self.settings.stribeck);
         }
@@ -496,11 +485,9 @@ impl Fitted<'_> {
             let inside = self.exponent > low + 1e-3 && self.exponent < high - 1e-3;
             out.push(Row {
                 found: Found {
-                    name: "stribeck_exponent".into(),
-                    dimension: Dimension::One,
+                    name: Quantity::StribeckExponent.into(),
                     value: self.exponent,
                     variance: 0.0,
-                    positive: true,
                     reason: if inside {
                         ""
                     } else {

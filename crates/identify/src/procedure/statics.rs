@@ -2,12 +2,13 @@
 
 use super::static_map::StaticMap;
 use crate::error::Error;
-use crate::estimate::parameter::Parameter;
-use crate::estimate::uncertainty::Covariance;
 use crate::law::Law;
 use crate::law::terms::LinearTerm;
+use crate::parameter::Parameter;
+use crate::parameter::covariance::Covariance;
 use nalgebra::DMatrix;
 use stiction_friction::Direction;
+use stiction_parameters::{Name, Quantity, Side};
 
 /// A rise that counts as none stands for this part of the Coulomb level, so that it has a logarithm.
 const LEAST_RISE: f64 = 1e-9;
@@ -37,20 +38,16 @@ impl Statics {
         covariance: Covariance,
         exponent: f64,
     ) -> Result<Self, Error> {
-        let asymmetric = parameters.iter().any(|p| p.name == "coulomb_pos");
-        let value = |name: &'static str, side: usize| {
-            let suffix = match (asymmetric, side) {
-                (false, _) => "",
-                (true, 0) => "_pos",
-                (true, _) => "_neg",
-            };
-            let found = parameters
-                .iter()
-                .find(|p| p.name.strip_prefix(name) == Some(suffix));
+        let asymmetric = parameters
+            .iter()
+            .any(|p| p.name == Name::new(Quantity::Coulomb, Side::Positive));
+        let value = |quantity: Quantity, side: usize| {
+            let name = Name::new(quantity, direction(asymmetric, side));
+            let found = parameters.iter().find(|p| p.name == name);
             found.map(|p| p.value)
         };
-        let need = |name: &'static str, side: usize| {
-            value(name, side)
+        let need = |quantity: Quantity, name: &'static str, side: usize| {
+            value(quantity, side)
                 .filter(|x| x.is_finite())
                 .ok_or(Error::Setting {
                     name,
@@ -59,13 +56,13 @@ impl Statics {
                 })
         };
         let side = |side: usize| {
-            let coulomb = need("coulomb", side)?;
-            let fixed = value("static", side).unwrap_or(coulomb);
+            let coulomb = need(Quantity::Coulomb, "coulomb", side)?;
+            let fixed = value(Quantity::Static, side).unwrap_or(coulomb);
             Ok::<_, Error>(Direction {
                 coulomb,
                 static_friction: fixed.max(coulomb * (1.0 + LEAST_RISE)),
-                stribeck_velocity: value("stribeck_velocity", side).unwrap_or(1.0),
-                viscous: need("sigma2", side)?,
+                stribeck_velocity: value(Quantity::StribeckVelocity, side).unwrap_or(1.0),
+                viscous: need(Quantity::Sigma2, "sigma2", side)?,
             })
         };
         let (pos, neg) = (side(0)?, side(1)?);
@@ -126,12 +123,13 @@ impl Statics {
         }
         let c = linear
             .iter()
-            .map(|term| match term.name.as_str() {
-                "coulomb" | "coulomb_pos" => self.sides[0].coulomb,
-                "coulomb_neg" => self.sides[1].coulomb,
-                "sigma2" | "sigma2_pos" => self.sides[0].viscous,
-                "sigma2_neg" => self.sides[1].viscous,
-                _ => 0.0,
+            .map(|term| {
+                let side = &self.sides[term.name.side.index()];
+                match term.name.quantity {
+                    Quantity::Coulomb => side.coulomb,
+                    Quantity::Sigma2 => side.viscous,
+                    _ => 0.0,
+                }
             })
             .collect();
         (p, c)
@@ -139,7 +137,16 @@ impl Statics {
 
     /// Which coefficients belong to the curve.
     pub(super) fn owns(term: &LinearTerm) -> bool {
-        term.name.starts_with("coulomb") || term.name.starts_with("sigma2")
+        matches!(
+            term.name.quantity,
+            Quantity::Coulomb
+                | Quantity::CoulombLoad
+                | Quantity::CoulombTemperature
+                | Quantity::CoulombPosition
+                | Quantity::CoulombPitch(..)
+                | Quantity::Sigma2
+                | Quantity::Sigma2Temperature
+        )
     }
 
     /// Slopes of the unknowns `(p, c)` with the parameters of the covariance, one row per unknown.
@@ -147,42 +154,46 @@ impl Statics {
         let layout = law.layout();
         let names = &self.covariance.names;
         let mut out = DMatrix::zeros(layout.count + linear.len(), names.len());
-        let at = |stem: &str, side: usize| {
-            let suffix = match (self.asymmetric, side) {
-                (false, _) => "",
-                (true, 0) => "_pos",
-                (true, _) => "_neg",
-            };
-            names
-                .iter()
-                .position(|n| n.strip_prefix(stem) == Some(suffix))
+        let at = |quantity, side: usize| {
+            let name = Name::new(quantity, direction(self.asymmetric, side));
+            self.covariance.place(name)
         };
         for (k, side) in self.sides.iter().enumerate() {
             let rise = side.static_friction - side.coulomb;
             if let Some(i) = layout.excess[k] {
-                if let Some(j) = at("static", k) {
+                if let Some(j) = at(Quantity::Static, k) {
                     out[(i, j)] = 1.0 / rise;
                 }
-                if let Some(j) = at("coulomb", k) {
+                if let Some(j) = at(Quantity::Coulomb, k) {
                     out[(i, j)] = -side.static_friction / (side.coulomb * rise);
                 }
             }
-            if let (Some(i), Some(j)) = (layout.velocity[k], at("stribeck_velocity", k)) {
+            if let (Some(i), Some(j)) = (layout.velocity[k], at(Quantity::StribeckVelocity, k)) {
                 out[(i, j)] = 1.0 / side.stribeck_velocity;
             }
-            if let (Some(i), Some(j)) = (layout.ratio, at("coulomb", k)) {
+            if let (Some(i), Some(j)) = (layout.ratio, at(Quantity::Coulomb, k)) {
                 out[(i, j)] = if k == 0 { -1.0 } else { 1.0 } / side.coulomb;
             }
         }
+        let positive = Name::new(Quantity::Coulomb, Side::Positive);
         for (i, term) in linear.iter().enumerate() {
             // A coefficient without suffix is that of the positive direction.
-            let own = names
-                .iter()
-                .position(|n| *n == term.name || (term.name == "coulomb" && n == "coulomb_pos"));
+            let own = names.iter().position(|n| {
+                *n == term.name || (term.name == Quantity::Coulomb && *n == positive)
+            });
             if let (true, Some(j)) = (Self::owns(term), own) {
                 out[(layout.count + i, j)] = 1.0;
             }
         }
         out
+    }
+}
+
+/// The direction of a side (0 positive, 1 negative) in the names of a curve.
+fn direction(asymmetric: bool, side: usize) -> Side {
+    match (asymmetric, side) {
+        (false, _) => Side::Both,
+        (true, 0) => Side::Positive,
+        (true, _) => Side::Negative,
     }
 }

@@ -11,14 +11,15 @@ use super::step_given::carried;
 use super::step_model::{Response, Trial};
 use super::stretch::Run;
 use crate::error::Error;
-use crate::estimate::parameter::Parameter;
-use crate::estimate::uncertainty::{self, Covariance};
-use crate::law::physical::Dimension;
+use crate::estimate::uncertainty;
 use crate::observe::{Control, Counts, Observer, Progress, Stage};
+use crate::parameter::Parameter;
+use crate::parameter::covariance::Covariance;
 use crate::separable::levenberg::Status;
 use crate::separable::linear::dot;
 use nalgebra::{DMatrix, DVector};
 use stiction_friction::Direction;
+use stiction_parameters::{Name, Quantity};
 
 /// Phase of the mass on its bristles in one sample, rad, beyond which the log cannot show its swing.
 const FASTEST: f64 = std::f64::consts::PI;
@@ -85,7 +86,10 @@ pub struct StepSeries {
 
 impl StepFit {
     /// The value of a parameter.
-    pub fn value(&self, name: &str) -> Option<f64> {
+    pub fn value<N>(&self, name: N) -> Option<f64>
+    where
+        Name: PartialEq<N>,
+    {
         let found = self.parameters.iter().find(|p| p.name == name);
         found.map(|p| p.value)
     }
@@ -368,35 +372,27 @@ impl Problem {
         let level = trial.curve.coulomb;
         // Every unknown is a logarithm, that of Fs the one of its distance from the highest step.
         let mut rows = vec![
-            (
-                "sigma0",
-                Dimension::Stiffness,
-                trial.sigma0,
-                0,
-                trial.sigma0,
-            ),
-            ("sigma1", Dimension::Damping, trial.sigma1, 1, trial.sigma1),
+            (Quantity::Sigma0, trial.sigma0, 0, trial.sigma0),
+            (Quantity::Sigma1, trial.sigma1, 1, trial.sigma1),
         ];
         let mut next = 3;
         if self.settings.curve.is_none() {
             let i = p.len() - 1;
             let fixed = trial.curve.static_friction;
-            rows.push(("static", Dimension::Force, fixed, i, fixed - self.highest));
+            rows.push((Quantity::Static, fixed, i, fixed - self.highest));
         }
         if self.settings.mass.is_none() {
-            rows.push(("mass", Dimension::Inertia, trial.mass, next, trial.mass));
+            rows.push((Quantity::Mass, trial.mass, next, trial.mass));
             next += 1;
         }
         debug_assert!(next <= p.len());
         let parameters = rows
             .iter()
-            .map(|&(name, dimension, value, i, slope)| {
+            .map(|&(name, value, i, slope)| {
                 Found {
                     name: name.into(),
-                    dimension,
                     value,
                     variance: covariance[(i, i)] * slope * slope,
-                    positive: true,
                     reason: "",
                 }
                 .parameter(level, quantile(n))
@@ -406,7 +402,7 @@ impl Problem {
             .iter()
             .map(|a| {
                 let row = rows.iter();
-                row.map(|b| covariance[(a.3, b.3)] * a.4 * b.4).collect()
+                row.map(|b| covariance[(a.2, b.2)] * a.3 * b.3).collect()
             })
             .collect();
         let slope = MOST_DELAY * self.step / libm::cosh(p[2]).powi(2);
@@ -434,7 +430,7 @@ impl Problem {
         StepFit {
             parameters,
             covariance: Covariance {
-                names: rows.iter().map(|r| r.0.to_string()).collect(),
+                names: rows.iter().map(|r| r.0.into()).collect(),
                 matrix,
             },
             delay: (trial.delay, covariance[(2, 2)].max(0.0).sqrt() * slope),

@@ -91,7 +91,7 @@ impl InLanes {
         let mut out = Self::new(record, law, &spread(record, target), &further)?;
         out.summed = Some(Summed {
             places,
-            nonnegative: terms.iter().map(|term| term.nonnegative).collect(),
+            nonnegative: terms.iter().map(|term| term.is_never_negative()).collect(),
             shared: shared_sums(&out.track),
             held: None,
         });

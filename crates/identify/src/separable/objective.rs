@@ -132,7 +132,7 @@ impl<'a> Objective<'a> {
             .collect();
         let force = record.whole(|s| &s.force);
         let energy = dot(&force, &force);
-        let nonnegative = linear.iter().map(|term| term.nonnegative).collect();
+        let nonnegative = linear.iter().map(|term| term.is_never_negative()).collect();
         let inertia = match terms.mass {
             Mass::Given(mass) => {
                 fixed_column(record, ColumnKind::Acceleration, moves).map(|a| (mass, a))

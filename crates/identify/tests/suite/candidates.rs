@@ -208,7 +208,7 @@ fn searches_end_where_the_separable_method_does() {
         )
         .unwrap();
         for p in &best.parameters {
-            let again = estimate.value(&p.name).unwrap();
+            let again = estimate.value(p.name).unwrap();
             assert!(
                 (again / p.value - 1.0).abs() < 1e-4,
                 "{}: {again} {}",

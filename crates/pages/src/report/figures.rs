@@ -2,6 +2,7 @@
 
 use stiction_files::symbols;
 use stiction_identify::Series;
+use stiction_parameters::{Quantity, Side, SteadyCurve};
 use stiction_report::{Axis, Color, Dash, Figure, Heatmap, Layer, Panel, Text};
 use stiction_signal::autocorrelation as correlate;
 use stiction_workflows::identify::Outcome;
@@ -110,8 +111,12 @@ pub(super) fn velocity_map(outcome: &Outcome) -> Figure {
 pub(super) fn steady_layers(outcome: &Outcome, velocity: &[f64]) -> [Layer; 2] {
     let top = velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let v: Vec<f64> = grid(top);
-    let curve: Vec<f64> = v.iter().map(|&v| steady(outcome, v)).collect();
-    let band: Vec<f64> = v.iter().map(|&v| 1.96 * steady_std(outcome, v)).collect();
+    let steady = steady(outcome);
+    let curve: Vec<f64> = v.iter().map(|&v| steady.force(v)).collect();
+    let band: Vec<f64> = v
+        .iter()
+        .map(|&v| 1.96 * steady_deviation(outcome, &steady, v))
+        .collect();
     let low: Vec<f64> = curve.iter().zip(&band).map(|(f, b)| f - b).collect();
     let high: Vec<f64> = curve.iter().zip(&band).map(|(f, b)| f + b).collect();
     [
@@ -138,92 +143,15 @@ pub(super) fn grid(top: f64) -> Vec<f64> {
         .collect()
 }
 
-fn value(outcome: &Outcome, name: &str, v: f64) -> f64 {
-    let side = if v < 0.0 { "_neg" } else { "_pos" };
-    outcome
-        .estimate
-        .value(name)
-        .or_else(|| outcome.estimate.value(&format!("{name}{side}")))
-        .unwrap_or(0.0)
-}
-
-/// Stribeck exponent, given or fitted.
-fn exponent(outcome: &Outcome) -> f64 {
-    let estimate = &outcome.estimate;
-    estimate
-        .value("stribeck_exponent")
-        .unwrap_or(estimate.law.exponent)
-}
-
-/// Steady friction at one velocity, where load, temperature and position are at their references.
-pub(super) fn steady(outcome: &Outcome, v: f64) -> f64 {
-    let coulomb = value(outcome, "coulomb", v);
-    let fixed = match value(outcome, "static", v) {
-        0.0 => coulomb,
-        fixed => fixed,
-    };
-    let velocity = value(outcome, "stribeck_velocity", v);
-    let fall = if velocity > 0.0 {
-        libm::exp(-libm::pow(v.abs() / velocity, exponent(outcome)))
-    } else {
-        0.0
-    };
-    let square = value(outcome, "quadratic_viscous", v);
-    (coulomb + (fixed - coulomb) * fall) * v.signum()
-        + (value(outcome, "sigma2", v) + square * v.abs()) * v
+/// Steady friction, where load, temperature and position are at their references.
+pub(super) fn steady(outcome: &Outcome) -> SteadyCurve {
+    SteadyCurve::of(&outcome.estimate.values())
 }
 
 /// Standard deviation of the steady curve, from the covariance of the parameters.
-pub(super) fn steady_std(outcome: &Outcome, v: f64) -> f64 {
+pub(super) fn steady_deviation(outcome: &Outcome, steady: &SteadyCurve, v: f64) -> f64 {
     let covariance = &outcome.estimate.covariance;
-    let coulomb = value(outcome, "coulomb", v);
-    let fixed = value(outcome, "static", v);
-    let velocity = value(outcome, "stribeck_velocity", v);
-    let exponent = exponent(outcome);
-    let x = if velocity > 0.0 {
-        v.abs() / velocity
-    } else {
-        f64::INFINITY
-    };
-    let power = libm::pow(x, exponent);
-    let fall = libm::exp(-power);
-    let side = if v < 0.0 { "_neg" } else { "_pos" };
-    let slopes: Vec<f64> = covariance
-        .names
-        .iter()
-        .map(|name| {
-            let stem = match name
-                .strip_suffix("_pos")
-                .or_else(|| name.strip_suffix("_neg"))
-            {
-                Some(_) if !name.ends_with(side) => return 0.0,
-                Some(stem) => stem,
-                None => name,
-            };
-            match stem {
-                "coulomb" => v.signum() * (1.0 - if fixed > 0.0 { fall } else { 0.0 }),
-                "static" => v.signum() * fall,
-                "stribeck_velocity" if velocity > 0.0 && fall > 0.0 => {
-                    v.signum() * (fixed - coulomb) * fall * exponent * power / velocity
-                }
-                "stribeck_exponent" if power > 0.0 && fall > 0.0 => {
-                    -v.signum() * (fixed - coulomb) * fall * power * libm::log(x)
-                }
-                "sigma2" => v,
-                "quadratic_viscous" => v * v.abs(),
-                _ => 0.0,
-            }
-        })
-        .collect();
-    let mut variance = 0.0;
-    for (row, a) in covariance.matrix.iter().zip(&slopes) {
-        for (c, b) in row.iter().zip(&slopes) {
-            if *a != 0.0 && *b != 0.0 {
-                variance += a * c * b;
-            }
-        }
-    }
-    variance.max(0.0).sqrt()
+    covariance.deviation(|name| steady.slope(name, v))
 }
 
 /// The map near zero speed.
@@ -297,8 +225,9 @@ pub(super) fn presliding(outcome: &Outcome) -> Option<Figure> {
 fn reversal(outcome: &Outcome, series: &Series) -> std::ops::Range<usize> {
     let n = series.velocity.len();
     let turns = (1..n).filter(|&i| series.velocity[i - 1] * series.velocity[i] < 0.0);
-    let length = match outcome.estimate.value("sigma0") {
-        Some(s) if s > 0.0 => 8.0 * value(outcome, "coulomb", 1.0) / s,
+    let values = outcome.estimate.values();
+    let length = match values.get(Quantity::Sigma0) {
+        Some(s) if s > 0.0 => 8.0 * values.on(Quantity::Coulomb, Side::Positive).unwrap_or(0.0) / s,
         _ => 0.0,
     };
     let reach = |turn: usize| {
@@ -413,7 +342,7 @@ pub(super) fn correlation(outcome: &Outcome) -> Heatmap {
     let names: Vec<Text> = covariance
         .names
         .iter()
-        .map(|n| Text::from(symbols::symbol(n)))
+        .map(|n| Text::from(n.symbol()))
         .collect();
     let values: Vec<f64> = covariance.correlation().into_iter().flatten().collect();
     Heatmap::square("Correlation of the parameters", names, values)

@@ -59,13 +59,11 @@ fn static_figure(outcome: &Outcome, map: &StaticMapEntry) -> Figure {
             .filter(|p| p.velocity.abs() <= reach)
             .collect();
         let v = figures::grid(reach);
-        let curve: Vec<f64> = v
-            .iter()
-            .map(|&v| figures::steady(outcome, v) + offset)
-            .collect();
+        let steady = figures::steady(outcome);
+        let curve: Vec<f64> = v.iter().map(|&v| steady.force(v) + offset).collect();
         let band: Vec<f64> = v
             .iter()
-            .map(|&v| 1.96 * figures::steady_std(outcome, v))
+            .map(|&v| 1.96 * figures::steady_deviation(outcome, &steady, v))
             .collect();
         let edge = |sign: f64| -> Vec<f64> {
             let pairs = curve.iter().zip(&band);

@@ -273,7 +273,7 @@ fn from_log(
             let (estimate, _) = engine::identify(&record, law, &terms, 0.0, &settings, observer)
                 .map_err(refused)?;
             let found: Vec<(String, f64)> = (estimate.parameters.iter())
-                .map(|p| (p.name.clone(), p.value))
+                .map(|p| (p.name.to_string(), p.value))
                 .collect();
             let floor = Floor::new(estimate.value("coulomb").unwrap_or(1.0), record.top_speed());
             about(&genome(&found, cost, floor), decades)?

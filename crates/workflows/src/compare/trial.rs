@@ -6,6 +6,7 @@ use crate::spread::Spread;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 use stiction_files::result::Evaluations;
+use stiction_identify::candidates::Named;
 use stiction_search::{
     Best, Control, Finish, Generation, Improvement, Limits, Method, Plan, Progress, Run, Stop,
     levenberg,
@@ -105,7 +106,7 @@ impl Setting<'_> {
         let point = |best: &Best| Point {
             cost: best.cost,
             evaluations: best.counts.full_records(share),
-            parameters: self.problem.parameters(&best.point),
+            parameters: in_words(self.problem.parameters(&best.point)),
         };
         Some(Trial {
             method: name.into(),
@@ -123,4 +124,10 @@ impl Setting<'_> {
             },
         })
     }
+}
+
+/// Parameters by their names in files.
+fn in_words(found: Named) -> Vec<(String, f64)> {
+    let words = found.into_iter();
+    words.map(|(name, x)| (name.to_string(), x)).collect()
 }

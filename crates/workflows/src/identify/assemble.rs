@@ -12,6 +12,7 @@ use stiction_files::result::{
 use stiction_files::symbols;
 use stiction_identify::{Delay, Fit, FittedLaw, Parameter, Series};
 use stiction_log::Motion;
+use stiction_parameters::{Name, Quantity};
 
 pub(super) struct Parts<'a> {
     pub options: &'a Options,
@@ -78,7 +79,12 @@ pub(super) fn result(parts: Parts) -> ResultFile {
             .map(|p| parameter(p, motion, force_unit, &parts.sources[0].log.load_unit))
             .collect(),
         covariance: CovarianceEntry {
-            names: estimate.covariance.names.clone(),
+            names: estimate
+                .covariance
+                .names
+                .iter()
+                .map(Name::to_string)
+                .collect(),
             matrix: estimate.covariance.matrix.clone(),
         },
         fit: fit_entry(&estimate.fit),
@@ -125,10 +131,10 @@ fn elements(estimate: &FittedLaw) -> Vec<ElementsEntry> {
 
 fn parameter(p: &Parameter, motion: Motion, force_unit: &str, load_unit: &str) -> ParameterEntry {
     ParameterEntry {
-        name: p.name.clone(),
-        symbol: symbols::symbol(&p.name),
+        name: p.name.to_string(),
+        symbol: p.name.symbol(),
         value: p.value,
-        unit: symbols::unit(p.dimension, motion, force_unit, load_unit),
+        unit: symbols::unit(p.name.dimension(), motion, force_unit, load_unit),
         std: p.std,
         bias: p.bias,
         ci95: p
@@ -142,7 +148,7 @@ fn parameter(p: &Parameter, motion: Motion, force_unit: &str, load_unit: &str) -
             .moves_with
             .iter()
             .map(|(name, correlation)| PartnerEntry {
-                name: name.clone(),
+                name: name.to_string(),
                 correlation: *correlation,
             })
             .collect(),
@@ -158,7 +164,7 @@ pub(super) fn correction_note(estimate: &FittedLaw) -> Option<String> {
         .parameters
         .iter()
         .filter(|p| p.identifiable && correction(p) != 0.0 && p.value != 0.0)
-        .filter(|p| !["offset", "delay"].contains(&p.name.as_str()))
+        .filter(|p| p.name != Quantity::Offset && p.name != Quantity::Delay)
         .max_by(|a, b| relative(a).total_cmp(&relative(b)))?;
     Some(format!(
         "bias of filters, encoder steps and noise measured on simulated logs of the fitted axis and \
@@ -180,23 +186,27 @@ pub(super) fn delay_note(estimate: &FittedLaw) -> Option<String> {
 
 /// Names of the linear terms that stand beside the law.
 pub(super) fn term_names(estimate: &FittedLaw, motion: Motion) -> Vec<String> {
-    const LAW: [&str; 10] = [
-        "sigma0",
-        "sigma1",
-        "sigma2",
-        "coulomb",
-        "static",
-        "stribeck_velocity",
-        "breakaway_ratio",
-        "attraction",
-        "stiffness_",
-        "yield_",
-    ];
+    let beside = |quantity: Quantity| {
+        !matches!(
+            quantity,
+            Quantity::Sigma0
+                | Quantity::Sigma1
+                | Quantity::Sigma2
+                | Quantity::Coulomb
+                | Quantity::Static
+                | Quantity::StribeckVelocity
+                | Quantity::StribeckExponent
+                | Quantity::BreakawayRatio
+                | Quantity::Attraction
+                | Quantity::LoadReference
+                | Quantity::TemperatureReference
+                | Quantity::PositionReference
+        )
+    };
     estimate
         .parameters
         .iter()
-        .filter(|p| !LAW.contains(&p.name.trim_end_matches("_pos").trim_end_matches("_neg")))
-        .filter(|p| p.name != "stribeck_exponent" && !p.name.ends_with("_reference"))
-        .map(|p| format!("{} ({})", p.name, symbols::meaning(&p.name, motion)))
+        .filter(|p| beside(p.name.quantity) && !p.name.quantity.is_of_an_element())
+        .map(|p| format!("{} ({})", p.name, symbols::meaning_of(p.name, motion)))
         .collect()
 }

@@ -7,6 +7,7 @@ use stiction_identify as engine;
 use stiction_identify::{
     Estimate, Law, LawKind, LawScore, Observer, Optimum, Record, Settings, Terms,
 };
+use stiction_parameters::Quantity;
 
 /// Blocks of the cross-validation where no validation data are given.
 const BLOCKS: usize = 4;
@@ -115,9 +116,8 @@ impl Ladder<'_> {
 impl Rung {
     /// Whether the data determine its Coulomb level, without which no law is trusted.
     fn determined(&self) -> bool {
-        let levels = ["coulomb", "coulomb_pos", "coulomb_neg"];
         let parameters = self.estimate.parameters.iter();
-        let mut levels = parameters.filter(|p| levels.contains(&p.name.as_str()));
+        let mut levels = parameters.filter(|p| p.name.quantity == Quantity::Coulomb);
         levels.all(|p| p.identifiable)
     }
 }

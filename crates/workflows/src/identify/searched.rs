@@ -295,7 +295,10 @@ fn run<P: Candidates + Sync>(
         parameters: problem
             .parameters(&best.point)
             .into_iter()
-            .map(|(name, value)| SearchedParameter { name, value })
+            .map(|(name, value)| SearchedParameter {
+                name: name.to_string(),
+                value,
+            })
             .collect(),
     };
     let middle = || bounds.at(&vec![0.5; bounds.dimensions()]);

@@ -5,9 +5,11 @@ use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::result::{LawEntry, Trust};
 use stiction_files::symbols;
+use stiction_identify::Parameter;
 use stiction_identify::{FittedLaw, SimulationFit, Status};
 use stiction_log::Motion;
 use stiction_number::Percent;
+use stiction_parameters::Quantity;
 
 /// Part of the variance that a fit must explain.
 const LEAST_R2: f64 = 0.5;
@@ -112,12 +114,13 @@ pub(super) fn unidentifiable(
     reasons: &mut Vec<String>,
 ) {
     let unknown = || estimate.parameters.iter().filter(|p| !p.identifiable);
-    let elements: Vec<&str> = unknown()
-        .map(|p| p.name.as_str())
-        .filter(|name| symbols::is_element(name))
+    let of_an_element = |p: &&Parameter| p.name.quantity.is_of_an_element();
+    let elements: Vec<String> = unknown()
+        .filter(of_an_element)
+        .map(|p| p.name.to_string())
         .collect();
-    for parameter in unknown().filter(|p| !symbols::is_element(&p.name)) {
-        let meaning = symbols::meaning(&parameter.name, motion);
+    for parameter in unknown().filter(|p| !of_an_element(p)) {
+        let meaning = symbols::meaning_of(parameter.name, motion);
         let mut text = format!("{} ({meaning}): {}", parameter.name, parameter.reason);
         let partners: Vec<String> = parameter
             .moves_with
@@ -131,10 +134,7 @@ pub(super) fn unidentifiable(
             text.push_str(&format!(". {}", parameter.advice));
         }
         warnings.push(Warning::new(Code::NotIdentifiable, text));
-        if matches!(
-            parameter.name.as_str(),
-            "coulomb" | "coulomb_pos" | "coulomb_neg"
-        ) {
+        if parameter.name.quantity == Quantity::Coulomb {
             reasons.push(format!(
                 "{} is not determined by this log: the law may predict such motion, its parameters \
                  do not stand for the machine",
@@ -198,7 +198,7 @@ fn another_wins(
 fn shifted(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
     let far = |p: &&stiction_identify::Parameter| {
         let part = p.bias.map_or(0.0, |bias| (bias / p.value).abs());
-        p.identifiable && p.name != "offset" && p.name != "delay" && part > FAR
+        p.identifiable && p.name != Quantity::Offset && p.name != Quantity::Delay && part > FAR
     };
     let names: Vec<String> = estimate
         .parameters

@@ -26,9 +26,10 @@ use super::watch::Watch;
 use super::{Body, Reproduction};
 use fault::Fault;
 use stiction_files::reproduce_file::{CheckEntry, ClaimEntry, ReproduceFile};
-use stiction_friction::{Damping, Direction, LuGre, ParamError, Shape, Stribeck};
+use stiction_friction::LuGre;
 use stiction_identify::Control;
 use stiction_identify::candidates::Named;
+use stiction_parameters::{LawError, LawKind, Name, ParameterSet, Quantity};
 use stiction_servo::known::KnownAxis;
 
 /// How much searching is done.
@@ -153,19 +154,8 @@ fn experiments(paper: &mut Paper, budget: Budget, watch: &Watch) -> Result<(), F
 }
 
 /// The law of identified parameters, sigma1 constant as in the paper.
-fn law(parameters: &Named) -> Result<LuGre<f64>, ParamError> {
-    let value = |name: &str| {
-        let found = parameters.iter().find(|(n, _)| n == name);
-        found.map_or(f64::NAN, |(_, x)| *x)
-    };
-    let side = Direction {
-        coulomb: value("coulomb"),
-        static_friction: value("static"),
-        stribeck_velocity: value("stribeck_velocity"),
-        viscous: value("sigma2"),
-    };
-    let curve = Stribeck::symmetric(Shape::Gaussian, side, 0.0)?;
-    LuGre::new(value("sigma0"), Damping::Constant(value("sigma1")), curve)
+fn law(parameters: &Named) -> Result<LuGre<f64>, LawError> {
+    ParameterSet::of(LawKind::LuGre, parameters.iter().copied()).lugre()
 }
 
 /// Names and units of what is identified, in the order of reports.
@@ -195,7 +185,7 @@ impl Paper {
 
     fn checks(&self) -> Vec<CheckEntry> {
         let mut checks = Vec::new();
-        let mut parameters = |experiment: &str, found: &[(String, f64)], names: &[&str]| {
+        let mut parameters = |experiment: &str, found: &[(Name, f64)], names: &[&str]| {
             for (name, unit) in PARAMETERS.iter().filter(|(n, _)| names.contains(n)) {
                 let value = found.iter().find(|(n, _)| n == name);
                 checks.push(CheckEntry::relative(
@@ -221,7 +211,7 @@ impl Paper {
         }
         if let Some(step) = &self.presliding {
             let [s0, s1] = step.fitted;
-            let found = [("sigma0".to_string(), s0), ("sigma1".to_string(), s1)];
+            let found = [(Quantity::Sigma0.into(), s0), (Quantity::Sigma1.into(), s1)];
             parameters("step", &found, &dynamic);
         }
         if let Some(load) = &self.load {

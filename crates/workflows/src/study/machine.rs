@@ -47,7 +47,7 @@ pub(super) fn unit(machine: &Machine, metric: &str) -> String {
 /// The axis as it goes into `study.json`.
 pub(super) fn entry(machine: &Machine) -> SimulatedAxis {
     let parameters = machine.model.parameters.iter().map(|p| AxisParameter {
-        name: p.name.clone(),
+        name: p.name.to_string(),
         value: p.value,
         unit: p.unit.clone(),
     });

@@ -2,13 +2,14 @@
 
 use super::dimensions::Dimensions;
 use crate::error::{Error, Warning};
-use crate::study::model::{Model, law};
+use crate::study::model::Model;
 use crate::study::plan::Machine;
 use crate::study::raw::Table;
 use std::path::Path;
 use stiction_codes::Code;
 use stiction_friction::Damping;
 use stiction_log::Dimension;
+use stiction_parameters::Quantity;
 use stiction_servo::disturbance::Cogging;
 use stiction_servo::drive::Drive;
 use stiction_servo::encoder::Encoder;
@@ -45,14 +46,21 @@ pub(super) fn machine(
     };
     let motion = model.motion;
     let is = Dimensions::of(motion);
-    let law = law(&|name| model.value(name)).map_err(|e| table.together(&e))?;
+    // The law of a model that was read, or of a known axis, is one.
+    let law = model.values().lugre().map_err(|e| {
+        table.refuse(
+            "model",
+            e.to_string(),
+            "a model whose parameters make a law",
+        )
+    })?;
     let law = match table.choice("sigma1", &["capped", "constant"])? {
-        Some("constant") => law.with_damping(Damping::Constant(law.damping().at_rest())),
-        _ => Ok(law),
+        Some("constant") => Ok(law),
+        _ => law.with_damping(Damping::Capped(law.damping().at_rest())),
     };
     let law = law.map_err(|e| table.together(&e))?;
     let given = table.positive("mass", is.mass)?;
-    let mass = given.or_else(|| model.value("mass").filter(|m| *m > 0.0));
+    let mass = given.or_else(|| model.value(Quantity::Mass).filter(|m| *m > 0.0));
     let mass = table.required("mass", mass, "one such as \"4.6 kg\": the model has none")?;
     let rate = match first {
         None => table.positive("rate", Dimension::FREQUENCY)?,

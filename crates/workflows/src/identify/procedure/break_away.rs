@@ -2,10 +2,12 @@
 
 use super::{Beside, curve, refused, samples};
 use crate::error::Error;
+use stiction_files::ModelFile;
 use stiction_files::result::BreakAwayEntry;
 use stiction_identify::FittedLaw;
 use stiction_identify::procedure::{Run, break_away as find, predict_break_away};
 use stiction_log::Motion;
+use stiction_parameters::{ParameterSet, Quantity};
 
 /// Share of the Stribeck velocity that counts as broken away, where a model is known.
 const SHARE: f64 = 1.0 / 3.0;
@@ -19,10 +21,11 @@ pub(in crate::identify) fn break_away(
     let sources = &beside.break_away;
     let own = samples(sources)?;
     // A model that was given comes first: the method at hand may know no stiffness.
-    let value = |name: &str| {
-        let given = beside.model.as_ref().and_then(|m| curve::value(m, name));
-        given.or_else(|| estimate.value(name))
-    };
+    let mut values = estimate.values();
+    let given = beside.model.as_ref().and_then(ModelFile::values);
+    for (name, value) in given.iter().flat_map(ParameterSet::iter) {
+        values.insert(name, value);
+    }
     let mut out = Vec::new();
     for (k, (source, samples)) in sources.iter().zip(&own).enumerate() {
         let run = Run {
@@ -31,13 +34,13 @@ pub(in crate::identify) fn break_away(
             resolution: source.log.quantum,
         };
         let positive = samples.force.iter().sum::<f64>() >= 0.0;
-        let model = curve::plant(&value, positive);
+        let model = curve::plant(&values, positive);
         let threshold = model.map(|(_, side)| SHARE * side.stribeck_velocity);
         let found = find(&run, threshold, k).map_err(|e| refused(sources, e))?;
         let sign = found.rate.signum();
         let predicted = model
             .and_then(|(plant, _)| predict_break_away(&plant, found.rate.abs(), found.threshold));
-        let offset = value("offset").unwrap_or(0.0);
+        let offset = values.get(Quantity::Offset).unwrap_or(0.0);
         out.push(BreakAwayEntry {
             path: source.path.display().to_string(),
             rate: found.rate,

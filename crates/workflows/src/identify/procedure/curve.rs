@@ -9,9 +9,10 @@ use stiction_files::Axis;
 use stiction_files::ModelFile;
 use stiction_files::Warning;
 use stiction_files::result::StaticMapEntry;
-use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
+use stiction_friction::Direction;
 use stiction_identify::procedure::Statics;
-use stiction_identify::{Covariance, Dimension, Parameter};
+use stiction_identify::{Covariance, Parameter};
+use stiction_parameters::{LawKind, Name, ParameterSet, Quantity, Side};
 use stiction_servo::plant::Plant;
 
 /// A curve with where it comes from.
@@ -53,19 +54,23 @@ pub(super) fn known(
 
 fn from_model(model: &ModelFile, options: &Options) -> Result<Known, Error> {
     let exponent = value(model, "stribeck_exponent").unwrap_or(2.0);
+    // A model that was read names no parameter that is unknown.
     let parameters = model
         .parameter
         .iter()
-        .map(|p| Parameter {
-            std: p.std,
-            ci95: p.ci95.map(|[low, high]| (low, high)),
-            identifiable: p.identifiable,
-            identified: p.origin == "identified",
-            ..Parameter::given(&p.name, dimension(&p.name), p.value)
+        .filter_map(|p| {
+            Some(Parameter {
+                std: p.std,
+                ci95: p.ci95.map(|[low, high]| (low, high)),
+                identifiable: p.identifiable,
+                identified: p.origin == "identified",
+                ..Parameter::given(p.name.parse::<Name>().ok()?, p.value)
+            })
         })
         .collect();
+    let names = model.covariance.names.iter();
     let covariance = Covariance {
-        names: model.covariance.names.clone(),
+        names: names.filter_map(|name| name.parse().ok()).collect(),
         matrix: model.covariance.matrix.clone(),
     };
     let file = options.procedures.model.clone().unwrap_or_default();
@@ -85,17 +90,6 @@ fn from_model(model: &ModelFile, options: &Options) -> Result<Known, Error> {
     })
 }
 
-fn dimension(name: &str) -> Dimension {
-    match name.trim_end_matches("_pos").trim_end_matches("_neg") {
-        "sigma0" => Dimension::Stiffness,
-        "sigma1" | "sigma2" => Dimension::Damping,
-        "stribeck_velocity" => Dimension::Speed,
-        "stribeck_exponent" => Dimension::One,
-        "mass" => Dimension::Inertia,
-        _ => Dimension::Force,
-    }
-}
-
 /// A value of a model file.
 pub(super) fn value(model: &ModelFile, name: &str) -> Option<f64> {
     model
@@ -105,26 +99,36 @@ pub(super) fn value(model: &ModelFile, name: &str) -> Option<f64> {
         .map(|p| p.value)
 }
 
-/// The axis of a LuGre law with one direction's curve, if its numbers make one.
-pub(super) fn plant(
-    value: &dyn Fn(&str) -> Option<f64>,
-    positive: bool,
-) -> Option<(Plant, Direction<f64>)> {
-    let suffix = if positive { "_pos" } else { "_neg" };
-    let of = |name: &str| value(name).or_else(|| value(&format!("{name}{suffix}")));
-    let coulomb = of("coulomb")?;
-    let side = Direction {
-        coulomb,
-        static_friction: of("static").unwrap_or(coulomb).max(coulomb),
-        stribeck_velocity: of("stribeck_velocity").unwrap_or(1.0),
-        viscous: of("sigma2")?,
+/// The axis of a LuGre law with one direction's curve, if its numbers make one. Of any law: without a Stribeck curve the
+/// level is flat, without micro-damping there is none.
+pub(super) fn plant(values: &ParameterSet, positive: bool) -> Option<(Plant, Direction<f64>)> {
+    let side = if positive {
+        Side::Positive
+    } else {
+        Side::Negative
     };
-    let shape = match value("stribeck_exponent") {
-        Some(delta) if delta != 2.0 => Shape::Power(delta),
-        _ => Shape::Gaussian,
-    };
-    let curve = Stribeck::symmetric(shape, side, 0.0).ok()?;
-    let damping = Damping::Constant(value("sigma1").unwrap_or(0.0));
-    let law = LuGre::new(value("sigma0")?, damping, curve).ok()?;
-    Some((Plant::new(value("mass")?, law).ok()?, side))
+    let of = |quantity| values.on(quantity, side);
+    let coulomb = of(Quantity::Coulomb)?;
+    let level = of(Quantity::Static).unwrap_or(coulomb).max(coulomb);
+    let mut set = ParameterSet::of(
+        LawKind::LuGre,
+        [
+            (Quantity::Sigma0, of(Quantity::Sigma0)?),
+            (Quantity::Sigma1, of(Quantity::Sigma1).unwrap_or(0.0)),
+            (Quantity::Sigma2, of(Quantity::Sigma2)?),
+            (Quantity::Coulomb, coulomb),
+            (Quantity::Static, level),
+            (
+                Quantity::StribeckVelocity,
+                of(Quantity::StribeckVelocity).unwrap_or(1.0),
+            ),
+        ]
+        .map(|(quantity, value)| (quantity.into(), value)),
+    );
+    if let Some(exponent) = of(Quantity::StribeckExponent) {
+        set.insert(Quantity::StribeckExponent, exponent);
+    }
+    let law = set.lugre().ok()?;
+    let plant = Plant::new(of(Quantity::Mass)?, law).ok()?;
+    Some((plant, *law.curve().positive()))
 }

@@ -16,6 +16,7 @@ use stiction_files::symbols;
 use stiction_friction::Direction;
 use stiction_identify::procedure::{Run, Statics, StepFit, StepResponse, StepSettings, fit_steps};
 use stiction_identify::{LawKind, Mass, Observer, Status};
+use stiction_parameters::{Name, Quantity, Side};
 
 /// Findings about a log that hardly moves, which a step below break-away does on purpose.
 const ON_PURPOSE: [Code; 5] = [
@@ -166,18 +167,22 @@ fn settings(
 
 /// Covariance of the curve and the mass that are given, for steps in one direction.
 fn given(statics: &Statics, positive: bool) -> [[f64; 5]; 5] {
-    let suffix = match (statics.asymmetric, positive) {
-        (false, _) => "",
-        (true, true) => "_pos",
-        (true, false) => "_neg",
+    let side = match (statics.asymmetric, positive) {
+        (false, _) => Side::Both,
+        (true, true) => Side::Positive,
+        (true, false) => Side::Negative,
     };
     let covariance = &statics.covariance;
-    let at = ["coulomb", "static", "stribeck_velocity", "sigma2", "mass"].map(|stem| {
-        let with = format!("{stem}{suffix}");
-        covariance
-            .names
-            .iter()
-            .position(|n| *n == with || n == stem)
+    let at = [
+        Quantity::Coulomb,
+        Quantity::Static,
+        Quantity::StribeckVelocity,
+        Quantity::Sigma2,
+        Quantity::Mass,
+    ]
+    .map(|quantity| {
+        let own = covariance.place(Name::new(quantity, side));
+        own.or_else(|| covariance.place(quantity.into()))
     });
     let mut out = [[0.0; 5]; 5];
     for (i, row) in at.iter().enumerate() {

@@ -13,6 +13,7 @@ use stiction_identify as engine;
 use stiction_identify::procedure::dynamic;
 use stiction_identify::{Delay, Estimate, Law, LawKind, Observer, Record, Settings, Terms};
 use stiction_log::Motion;
+use stiction_parameters::{Name, Quantity};
 
 /// Differences of more than this many standard deviations of the joint fit are explained.
 const APART: f64 = 2.0;
@@ -97,10 +98,10 @@ impl TwoSteps {
             .iter()
             .filter(|p| p.identified)
             .filter_map(|p| {
-                let other = self.joint.parameter(&p.name)?;
+                let other = self.joint.parameter(p.name)?;
                 Some(TwoStepParameter {
-                    name: p.name.clone(),
-                    unit: symbols::unit(p.dimension, motion, unit, ""),
+                    name: p.name.to_string(),
+                    unit: symbols::unit(p.name.dimension(), motion, unit, ""),
                     value: p.value,
                     std: p.std,
                     joint: other.value,
@@ -170,8 +171,8 @@ impl TwoSteps {
             out.push(format!(
                 "In the joint fit {} and {} stand for each other (correlation {:+.2}): a difference \
                  in one is paid back by the other. The constant velocities tell them apart.",
-                symbols::symbol(&a.0),
-                symbols::symbol(&a.1),
+                a.0.symbol(),
+                a.1.symbol(),
                 b
             ));
         }
@@ -191,19 +192,25 @@ impl TwoSteps {
     }
 
     /// Pairs of steady parameters that the joint fit cannot tell apart.
-    fn confused(&self) -> Vec<((String, String), f64)> {
+    fn confused(&self) -> Vec<((Name, Name), f64)> {
         let covariance = &self.joint.covariance;
         let correlation = covariance.correlation();
-        let steady = |name: &String| {
-            ["coulomb", "sigma2", "static", "stribeck_velocity"]
-                .iter()
-                .any(|stem| name.starts_with(stem))
+        let steady = |name: &Name| {
+            name.quantity.is_of_the_steady_curve()
+                || matches!(
+                    name.quantity,
+                    Quantity::CoulombLoad
+                        | Quantity::CoulombTemperature
+                        | Quantity::CoulombPosition
+                        | Quantity::CoulombPitch(..)
+                        | Quantity::Sigma2Temperature
+                )
         };
         let mut out = Vec::new();
         for (i, (a, row)) in covariance.names.iter().zip(&correlation).enumerate() {
             for (b, x) in covariance.names.iter().zip(row).skip(i + 1) {
                 if steady(a) && steady(b) && x.abs() >= STRONG {
-                    out.push(((a.clone(), b.clone()), *x));
+                    out.push(((*a, *b), *x));
                 }
             }
         }

@@ -11,6 +11,9 @@ pub(super) enum Fault {
     /// The simulation refused a setting.
     #[error("{0}")]
     Simulation(#[from] stiction_friction::ParamError),
+    /// What was identified makes no law.
+    #[error("{0}")]
+    Law(#[from] stiction_parameters::LawError),
     /// The identification refused a record.
     #[error("{0}")]
     Identification(#[from] stiction_identify::Error),

@@ -1,13 +1,16 @@
 //! One parameter with its deviation, its interval, and whether the data determine it.
 
-use crate::law::physical::{Dimension, Physical};
-use crate::separable::Optimum;
+pub(crate) mod covariance;
+pub(crate) mod physical;
+mod quantile;
+
+use physical::Physical;
+pub(crate) use quantile::quantile;
 use stiction_number::{LARGEST_PERCENT, Percent};
+use stiction_parameters::{Dimension, Name};
 
 /// Relative standard deviation above which a parameter counts as not determined by the data.
 pub const IDENTIFIABLE: f64 = 0.10;
-/// Two-sided 95 % quantile of the normal distribution.
-pub(crate) const Q95: f64 = 1.959_963_984_540_054;
 
 /// How a 95 % interval was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,10 +44,8 @@ pub(crate) fn too_uncertain(relative: f64, of: &str) -> String {
 /// One parameter of the law.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// Name in files, such as `sigma0` or `coulomb_pos`.
-    pub name: String,
-    /// What it measures.
-    pub dimension: Dimension,
+    /// Which parameter.
+    pub name: Name,
     /// Best value, SI.
     pub value: f64,
     /// Standard deviation with correlated residuals counted; `None` where the data say nothing.
@@ -65,17 +66,16 @@ pub struct Parameter {
     pub reason: String,
     /// Parameters that move together with one that is not identifiable, the closest first, with
     /// their correlation in -1..1.
-    pub moves_with: Vec<(String, f64)>,
+    pub moves_with: Vec<(Name, f64)>,
     /// What motion would determine a parameter that is not identifiable; empty if it is.
     pub advice: String,
 }
 
 impl Parameter {
     /// A parameter that was given, not fitted.
-    pub fn given(name: &str, dimension: Dimension, value: f64) -> Self {
+    pub fn given(name: impl Into<Name>, value: f64) -> Self {
         Self {
             name: name.into(),
-            dimension,
             value,
             std: None,
             bias: None,
@@ -89,20 +89,8 @@ impl Parameter {
         }
     }
 
-    /// A fitted parameter with its linear interval. `bias` is what the conditioning adds to it;
-    /// `level` the Coulomb level that a parameter is measured by which may be zero.
-    pub(crate) fn fitted(
-        p: &Physical,
-        variance: f64,
-        bias: Option<f64>,
-        optimum: &Optimum,
-        level: f64,
-    ) -> Self {
-        Self::judged(p, variance, bias, at_its_end(p, optimum), level)
-    }
-
-    /// The same with what already speaks against it in `reason`; `level` is what a parameter that may
-    /// be zero is measured by: the Coulomb level, or the sample time for a delay.
+    /// A fitted parameter with its linear interval, and what already speaks against it in `reason`. `bias` is
+    /// what the conditioning adds to it; `level` what a parameter that may be zero is measured by: the Coulomb level, or the sample time for a delay.
     pub(crate) fn judged(
         p: &Physical,
         variance: f64,
@@ -115,13 +103,13 @@ impl Parameter {
         if reason.is_empty() && std.is_none() {
             reason = "its deviation is beyond the range of numbers".into();
         }
-        let size = if p.positive {
+        let size = if p.is_positive() {
             p.value.abs()
         } else {
             p.value.abs().max(level)
         };
-        let (size, of) = match p.dimension {
-            _ if p.positive => (size, "its value"),
+        let (size, of) = match p.name.dimension() {
+            _ if p.is_positive() => (size, "its value"),
             Dimension::Time => (level, "the sample time"),
             _ => (size, "its value or of the Coulomb level"),
         };
@@ -129,10 +117,10 @@ impl Parameter {
         let corrected = shift.abs() <= IDENTIFIABLE * size;
         let value = if !corrected || shift == 0.0 {
             p.value
-        } else if p.share {
+        } else if p.is_share() {
             let odds = shift / (p.value * (1.0 - p.value));
             share_at(p.value, -odds)
-        } else if p.positive {
+        } else if p.is_positive() {
             p.value * libm::exp(-shift / p.value)
         } else {
             p.value - shift
@@ -151,11 +139,11 @@ impl Parameter {
             }
         }
         let ci95 = reach.and_then(|reach| {
-            if p.share {
+            if p.is_share() {
                 // Normal in the logarithm of the odds, so that it stays between 0 and 1.
                 let r = reach / (p.value * (1.0 - p.value));
                 (r.is_finite() && r <= WIDEST).then(|| (share_at(value, -r), share_at(value, r)))
-            } else if p.positive {
+            } else if p.is_positive() {
                 // Wider than a factor of e^4 to each side, the data bound it on no side.
                 let r = reach / p.value;
                 (r.is_finite() && r <= WIDEST)
@@ -175,7 +163,7 @@ impl Parameter {
             identifiable: reason.is_empty(),
             identified: true,
             reason,
-            ..Self::given(&p.name, p.dimension, value)
+            ..Self::given(p.name, value)
         }
     }
 }
@@ -187,71 +175,3 @@ fn share_at(share: f64, odds: f64) -> f64 {
 
 /// Half-width in the logarithm beyond which an interval says nothing.
 pub(crate) const WIDEST: f64 = 4.0;
-
-/// Why a parameter is not free at the optimum; empty if it is.
-fn at_its_end(p: &Physical, optimum: &Optimum) -> String {
-    let solution = &optimum.evaluation.solution;
-    if let Some(j) = p.linear {
-        if solution.dependent[j] {
-            return "cannot be told apart from the other terms on this motion".into();
-        }
-        if !solution.active[j] {
-            return "held at zero: the data ask for a negative value".into();
-        }
-    }
-    match p.nonlinear {
-        Some(i) if optimum.bounds.at_bound(&optimum.p, i) => {
-            "stands at the bound of its search range".into()
-        }
-        _ => String::new(),
-    }
-}
-
-/// Half-width of a 95 % interval about an estimate with this bias and standard deviation, in
-/// deviations: the 95 % quantile of |N(bias/std, 1)|, which is 1.96 without bias. An estimate that
-/// keeps its bias needs an interval that reaches that far to hold the truth as often (Armstrong and
-/// Kolesár 2018, doi 10.3982/ECTA14434).
-pub(crate) fn quantile(bias: f64, std: f64) -> f64 {
-    let t = (bias / std).abs();
-    if !(t > 0.0 && t.is_finite()) {
-        return Q95;
-    }
-    let inside = |c: f64| normal(c - t) - normal(-c - t);
-    // Between 1.96 and 1.96 + t, whatever t.
-    let (mut low, mut high) = (Q95, Q95 + t);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if inside(middle) < 0.95 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    high
-}
-
-/// Distribution function of the standard normal.
-fn normal(x: f64) -> f64 {
-    0.5 * libm::erfc(-x * std::f64::consts::FRAC_1_SQRT_2)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Tabulated quantiles of the folded normal (square roots of those of the noncentral chi-square
-    /// with one degree of freedom, scipy 1.17 `ncx2.ppf(.95, 1, t*t)`).
-    #[test]
-    fn the_quantile_is_that_of_the_noncentral_chi_square() {
-        for (t, chi) in [
-            (0.5, 4.758_843_831_386_585),
-            (1.0, 7.002_086_262_339_715),
-            (3.0, 21.574_665_215_805_194),
-        ] {
-            let found = quantile(2.0 * t, 2.0);
-            assert!((found * found / chi - 1.0).abs() < 1e-9, "{t}: {found}");
-        }
-        assert_eq!(quantile(0.0, 1.0), Q95);
-        assert_eq!(quantile(1.0, 0.0), Q95);
-    }
-}

@@ -1,0 +1,63 @@
+//! How the errors of parameters hang together.
+
+use nalgebra::DMatrix;
+use stiction_parameters::Name;
+
+/// Covariance of named parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Covariance {
+    /// Names, in the order of rows and columns.
+    pub names: Vec<Name>,
+    /// Covariance, row by row, in the product of the units of the two parameters.
+    pub matrix: Vec<Vec<f64>>,
+}
+
+impl Covariance {
+    /// That of named parameters.
+    pub(crate) fn new(names: Vec<Name>, matrix: &DMatrix<f64>) -> Self {
+        let row = |i: usize| (0..names.len()).map(|j| matrix[(i, j)]).collect();
+        Self {
+            matrix: (0..names.len()).map(row).collect(),
+            names,
+        }
+    }
+
+    /// Place of a parameter among its rows and columns.
+    pub fn place(&self, name: Name) -> Option<usize> {
+        self.names.iter().position(|own| *own == name)
+    }
+
+    /// Standard deviation of a quantity with these slopes by the parameters.
+    pub fn deviation(&self, slope: impl Fn(Name) -> f64) -> f64 {
+        let slopes: Vec<f64> = self.names.iter().map(|&name| slope(name)).collect();
+        let mut variance = 0.0;
+        for (row, a) in self.matrix.iter().zip(&slopes) {
+            for (c, b) in row.iter().zip(&slopes) {
+                if *a != 0.0 && *b != 0.0 {
+                    variance += a * c * b;
+                }
+            }
+        }
+        variance.max(0.0).sqrt()
+    }
+
+    /// Correlation matrix, in -1..1; zero where a variance is zero or not finite.
+    pub fn correlation(&self) -> Vec<Vec<f64>> {
+        let n = self.names.len();
+        let sd: Vec<f64> = (0..n).map(|i| self.matrix[i][i].sqrt()).collect();
+        (0..n)
+            .map(|i| {
+                (0..n)
+                    .map(|j| {
+                        let x = self.matrix[i][j] / (sd[i] * sd[j]);
+                        if x.is_finite() {
+                            x.clamp(-1.0, 1.0)
+                        } else {
+                            0.0
+                        }
+                    })
+                    .collect()
+            })
+            .collect()
+    }
+}
