@@ -61,9 +61,9 @@ fn counts() -> Result<Option<Vec<u64>>, String> {
     shell::run(shell::cargo(
         "build --quiet --release -p stiction-identify --example instructions",
     ))?;
-    let program = target().join("release/examples/instructions");
+    let program = shell::target().join("release/examples/instructions");
     let program = program.to_string_lossy();
-    let out = target().join("instructions.callgrind");
+    let out = shell::target().join("instructions.callgrind");
     let file = format!("--callgrind-out-file={}", out.display());
     WHAT.iter()
         .map(|what| {
@@ -81,11 +81,6 @@ fn counts() -> Result<Option<Vec<u64>>, String> {
         })
         .collect::<Result<Vec<u64>, String>>()
         .map(Some)
-}
-
-fn target() -> std::path::PathBuf {
-    std::env::var_os("CARGO_TARGET_DIR")
-        .map_or_else(|| shell::root().join("target"), std::path::PathBuf::from)
 }
 
 /// The sum of a callgrind file.

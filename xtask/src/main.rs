@@ -7,6 +7,7 @@ mod licences;
 mod package;
 mod peers;
 mod python;
+mod release;
 mod shell;
 mod soak;
 mod test;
@@ -41,6 +42,16 @@ const TASKS: &[Task] = &[
         name: "package",
         help: "pack every crate as it would be published",
         run: package::run,
+    },
+    Task {
+        name: "release",
+        help: "everything up to the upload: checks, then an archive with checksums in target/release-archives",
+        run: release::run,
+    },
+    Task {
+        name: "archive",
+        help: "only that archive, from the work tree as it is",
+        run: release::archive,
     },
     Task {
         name: "validation",

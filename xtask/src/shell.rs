@@ -25,6 +25,26 @@ pub fn command(program: &str, arguments: &[&str]) -> Command {
     command
 }
 
+/// As [`command`], in a folder of the workspace.
+pub fn command_in(folder: &str, program: &str, arguments: &[&str]) -> Command {
+    let folder = root().join(folder);
+    // A program of that folder itself is not looked for on the PATH.
+    let beside = folder.join(program);
+    let program = if beside.is_file() {
+        beside.to_string_lossy().into_owned()
+    } else {
+        program.into()
+    };
+    let mut command = command(&program, arguments);
+    command.current_dir(folder);
+    command
+}
+
+/// Where cargo builds.
+pub fn target() -> PathBuf {
+    root().join(env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()))
+}
+
 /// The cargo that started this task, with arguments separated by blanks.
 pub fn cargo(arguments: &str) -> Command {
     let arguments: Vec<&str> = arguments.split_whitespace().collect();

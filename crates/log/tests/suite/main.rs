@@ -3,15 +3,19 @@
 // The errors are those of the crate, which carry the place and the words.
 #![allow(clippy::result_large_err)]
 
-mod binary_common;
-mod binary_roundtrip;
+#[cfg(all(
+    feature = "matlab",
+    feature = "hdf5",
+    feature = "numpy",
+    feature = "parquet"
+))]
+mod binary;
 mod mapping_codes;
 mod mapping_common;
 mod mapping_detect;
 mod mapping_faults;
 mod mapping_filled;
 mod mapping_log;
-mod mapping_recordings;
 mod mapping_units;
-mod recordings;
 mod text;
+mod without_readers;

@@ -1,6 +1,6 @@
 //! What scipy, numpy, h5py, pyarrow and pandas write comes back bit for bit.
 
-use crate::binary_common::{Truth, recordings, written};
+use super::common::{Truth, recordings, written};
 use stiction_log::{Kind, ReadOptions, Table, read_table};
 
 fn compare(name: &str, found: &Truth, truth: &Truth) {

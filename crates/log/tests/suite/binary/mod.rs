@@ -1,0 +1,6 @@
+//! What reads files of every format: only where all readers are built.
+
+mod common;
+mod mapping_recordings;
+mod recordings;
+mod roundtrip;

@@ -1,0 +1,78 @@
+//! A release, made and tried out on this machine: checks that CI has no time for, an archive with checksums, and the
+//! commands that are left to give. Nothing is uploaded.
+
+mod archive;
+mod notices;
+mod semver;
+
+use crate::shell::{self, Outcome};
+use crate::{licences, package, setup};
+use std::fs;
+
+/// Makes the archive after all checks; a work tree with changes is refused.
+pub fn run() -> Outcome {
+    let changes = shell::output(shell::command("git", &["status", "--porcelain"]))?;
+    if !changes.is_empty() {
+        return Err(format!(
+            "the work tree has changes; commit them first:\n{changes}"
+        ));
+    }
+    setup()?;
+    let version = version()?;
+    has_changes(&version)?;
+    licences::run()?;
+    semver::compare()?;
+    package::verified()?;
+    let files = archive::make(&version)?;
+    println!("\nreleased into {}:", archive::FOLDER);
+    for file in files {
+        println!("    {file}");
+    }
+    println!(
+        "\nleft to do, each after a look at the one before:\n    \
+         cargo xtask test && cargo xtask soak\n    \
+         git tag --annotate v{version} --message 'stiction {version}' && git push --tags\n    \
+         cargo publish --workspace --exclude stiction-testkit --exclude xtask\n    \
+         attach the files above to the release of the tag"
+    );
+    Ok(())
+}
+
+/// Makes the archive from the work tree as it stands, without checks: to look at it.
+pub fn archive() -> Outcome {
+    archive::make(&version()?).map(drop)
+}
+
+/// The version of the workspace. The crates depend on each other at this version and no other.
+fn version() -> Result<String, String> {
+    let manifest = shell::root().join("Cargo.toml");
+    let text = fs::read_to_string(&manifest).map_err(|e| format!("{}: {e}", manifest.display()))?;
+    let version = text
+        .lines()
+        .find_map(|line| line.strip_prefix("version = \"")?.strip_suffix('"'))
+        .ok_or("Cargo.toml has no version")?;
+    let others: Vec<&str> = text
+        .lines()
+        .filter(|line| line.contains("path = \"crates/") && line.contains("version = "))
+        .filter(|line| !line.contains(&format!("version = \"{version}\"")))
+        .collect();
+    if others.is_empty() {
+        return Ok(version.into());
+    }
+    Err(format!(
+        "Cargo.toml: the workspace is at {version}, its own dependencies are not:\n{}",
+        others.join("\n")
+    ))
+}
+
+/// Refuses a version that the changelog does not know.
+fn has_changes(version: &str) -> Outcome {
+    let text = fs::read_to_string(shell::root().join("CHANGELOG.md")).map_err(|e| e.to_string())?;
+    let heading = format!("## {version} - ");
+    if text.lines().any(|line| line.starts_with(&heading)) {
+        return Ok(());
+    }
+    Err(format!(
+        "CHANGELOG.md has no section `{heading}YEAR-MONTH-DAY`; name what is `Unreleased` so"
+    ))
+}

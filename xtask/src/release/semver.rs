@@ -1,0 +1,22 @@
+//! The public interface beside that of the last release.
+
+use crate::shell::{self, Outcome};
+use crate::tools;
+
+/// Fails where the version promises more than the interface holds. Without an earlier release there is nothing to
+/// compare with, which is said.
+pub fn compare() -> Outcome {
+    let last = "describe --tags --abbrev=0 --match v[0-9]* HEAD";
+    let last: Vec<&str> = last.split_whitespace().collect();
+    let Ok(tag) = shell::output(shell::command("git", &last)) else {
+        println!(
+            "==> semver: no tag `v..` before this commit, so no interface to keep; not compared"
+        );
+        return Ok(());
+    };
+    let check = format!(
+        "semver-checks --workspace --exclude stiction-testkit --exclude xtask --baseline-rev {}",
+        tag.trim()
+    );
+    shell::run(tools::command(&tools::SEMVER, &check)?)
+}
