@@ -1,8 +1,8 @@
 //! One function a command: arguments to a workflow, its outcome to the terminal and to disk.
 
-use crate::Exit;
 use crate::arguments::{self, Arguments, Command, Common};
 use crate::brought;
+use crate::exit::Exit;
 use crate::interrupt;
 use crate::output;
 use crate::progress::{Bar, Counter};

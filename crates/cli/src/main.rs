@@ -3,33 +3,20 @@
 mod arguments;
 mod brought;
 mod commands;
+mod exit;
 mod interrupt;
 mod output;
 mod progress;
 
 use arguments::Arguments;
 use clap::Parser;
+use exit::Exit;
 use std::io::Write;
 use std::process::ExitCode;
 
 /// Keeps the memory that one search gives back for the next, where the system's would be asked for anew.
 #[global_allocator]
 static MEMORY: mimalloc::MiMalloc = mimalloc::MiMalloc;
-
-/// What the process says with its exit code.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Exit {
-    /// Done.
-    Done = 0,
-    /// Done, and the result is not trustworthy.
-    NotTrustworthy = 1,
-    /// Bad input or usage.
-    BadInput = 2,
-    /// A fault of stiction itself.
-    Internal = 3,
-    /// Interrupted; what was found so far is saved.
-    Interrupted = 130,
-}
 
 fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {

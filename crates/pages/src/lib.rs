@@ -2,5 +2,6 @@
 //!
 //! A page reads what a workflow found and calls neither a workflow nor an engine.
 
+mod names;
 pub mod report;
 pub mod text;

@@ -9,18 +9,19 @@ mod ladder;
 mod procedure;
 mod reproduction;
 mod searched;
+mod sign;
 mod simulation;
-mod study;
+pub(crate) mod study;
 mod tables;
 
 pub use comparison::comparison;
 
+use crate::names::{chosen_by, law_name};
 pub use reproduction::reproduction;
 use stiction_number::Percent;
 use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
 use stiction_workflows::identify::Outcome;
 pub use study::study;
-pub(crate) use study::{judged, less};
 
 /// The report of one identification.
 pub fn identification(outcome: &Outcome) -> Document {
@@ -68,7 +69,7 @@ pub fn identification(outcome: &Outcome) -> Document {
     // Points of a map and displacements are no force sample by sample.
     let sampled = matches!(result.method.as_str(), "separable" | "static-then-dynamic")
         || result.searched.is_some();
-    document = match &outcome.simulation {
+    document = match outcome.simulation() {
         Some(simulated) => simulation::sections(document, outcome, simulated),
         None if sampled => measured_force(document, outcome),
         None => document,
@@ -261,34 +262,6 @@ fn sureness(outcome: &Outcome) -> String {
         number::count(worth as u64),
         number::count(fit.samples as u64)
     )
-}
-
-pub(crate) fn law_name(law: &str, asymmetric: bool) -> String {
-    let name = match law {
-        "coulomb-viscous" => "Coulomb + viscous",
-        "stribeck" => "Stribeck",
-        "dahl" => "Dahl",
-        "lugre" => "LuGre",
-        "elasto-plastic" => "Elasto-plastic",
-        "maxwell-slip" => "Maxwell slip",
-        "gms" => "Generalised Maxwell slip",
-        other => other,
-    };
-    if asymmetric {
-        format!("{name}, asymmetric")
-    } else {
-        name.to_string()
-    }
-}
-
-/// What stands after the name of a law that the data chose.
-pub(crate) fn chosen_by(who: &str) -> &'static str {
-    match who {
-        "cross-validation" => " (chosen by cross-validation)",
-        "validation" => " (chosen on the validation data)",
-        "bic" => " (chosen by the Bayesian criterion: too few samples to hold some out)",
-        _ => "",
-    }
 }
 
 fn logs(n: usize) -> String {

@@ -5,7 +5,9 @@ mod export;
 mod procedure;
 mod reproduction;
 mod study;
+mod table;
 
+use crate::names::{chosen_by, law_name};
 pub use comparison::comparison;
 pub use export::exported;
 pub use procedure::procedure_commands;
@@ -18,39 +20,7 @@ use stiction_number::{Percent, four_digits as short};
 use stiction_workflows::check::{Check, LogCheck};
 use stiction_workflows::identify::Outcome;
 pub use study::study;
-
-/// A table with aligned columns; the first row is the header.
-fn table(rows: &[Vec<String>], right: &[bool]) -> String {
-    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let width = |c: usize| {
-        rows.iter()
-            .filter_map(|r| r.get(c))
-            .map(|s| s.chars().count())
-            .max()
-            .unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..columns).map(width).collect();
-    let mut out = String::new();
-    for row in rows {
-        let mut line = String::new();
-        for (c, cell) in row.iter().enumerate() {
-            let pad = widths[c] - cell.chars().count();
-            if c > 0 {
-                line.push_str("  ");
-            }
-            if right.get(c).copied().unwrap_or(false) {
-                line.push_str(&" ".repeat(pad));
-                line.push_str(cell);
-            } else {
-                line.push_str(cell);
-                line.push_str(&" ".repeat(pad));
-            }
-        }
-        out.push_str(line.trim_end());
-        out.push('\n');
-    }
-    out
-}
+use table::table;
 
 /// A search, and how far it came before the last least squares.
 fn searched(method: &str, entry: &SearchedEntry) -> String {
@@ -85,8 +55,8 @@ pub fn outcome(outcome: &Outcome) -> String {
     let _ = writeln!(
         out,
         "\n{}{}",
-        crate::report::law_name(&result.law, result.asymmetric),
-        crate::report::chosen_by(&result.law_chosen_by)
+        law_name(&result.law, result.asymmetric),
+        chosen_by(&result.law_chosen_by)
     );
     let mut rows = vec![
         ["parameter", "", "value", "unit", "std", "95 % interval", ""]
@@ -270,7 +240,7 @@ fn laws(outcome: &Outcome) -> String {
     let above = |x: Option<f64>| x.map_or("-".into(), |x| format!("+{x:.0}"));
     for l in &outcome.result.laws {
         rows.push(vec![
-            crate::report::law_name(&l.law, l.asymmetric),
+            law_name(&l.law, l.asymmetric),
             l.parameters.to_string(),
             percent(Some(l.fitted_error_percent)),
             percent(l.held_out_error_percent),

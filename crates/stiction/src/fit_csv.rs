@@ -6,7 +6,7 @@ use stiction_workflows::identify::{Outcome, Simulated};
 
 /// The samples of a fit, one a row.
 pub(crate) fn fit_csv(outcome: &Outcome) -> String {
-    match &outcome.simulation {
+    match outcome.simulation() {
         Some(simulated) => of_position(outcome, simulated),
         None => of_force(outcome),
     }
@@ -15,7 +15,7 @@ pub(crate) fn fit_csv(outcome: &Outcome) -> String {
 /// Time, measured, model, residual, and the number of the log where there are several.
 fn of_force(outcome: &Outcome) -> String {
     let unit = &outcome.result.fit.unit;
-    let series = &outcome.estimate.series;
+    let series = &outcome.law().series;
     let several = outcome.sources.len() > 1;
     let mut out = format!("time [s],measured [{unit}],model [{unit}],residual [{unit}]");
     out.push_str(if several { ",log\n" } else { "\n" });

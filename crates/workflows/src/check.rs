@@ -1,7 +1,7 @@
 //! The check workflow: what was read and detected, and what a log can and cannot determine.
 
 use crate::error::Error;
-use crate::identify::{self, Options, Outcome};
+use crate::identify::{Asked, Options, Outcome, identify_logs};
 use crate::source;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -132,7 +132,12 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
         procedures: crate::identify::Procedures::default(),
         searching: crate::identify::Searching::default(),
     };
-    match identify::fit(&options, axis, vec![source], Vec::new(), clock, observer) {
+    let asked = Asked {
+        options: &options,
+        axis,
+        clock,
+    };
+    match identify_logs(asked, vec![source], Vec::new(), observer) {
         Ok(outcome) => {
             out.refused = untrusted(&outcome);
             out.parameters = verdicts(&outcome);

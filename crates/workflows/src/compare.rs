@@ -2,109 +2,36 @@
 
 mod crew;
 mod excitation;
+mod genome;
 mod known;
+mod logged;
+mod made;
+mod options;
 mod subject;
 mod summary;
 mod trial;
 
 pub use excitation::Excitation;
+pub use options::{CompareOptions, Cost, Input, ONE_START, integrator_name};
 
 use crate::error::Error;
-use std::path::PathBuf;
+use known::Known;
+use options::USUAL_NOISE;
 use std::time::Instant;
 use stiction_files::compare_file::{CompareFile, Reference, SCHEMA};
 use stiction_identify::Observer;
-use stiction_identify::candidates::{Candidates, Scheme};
+use stiction_identify::candidates::Scheme;
 use subject::Subject;
 use trial::Trial;
 
-/// What is compared on.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Input {
-    /// Logs of one axis.
-    Log {
-        /// Fitted together.
-        logs: Vec<PathBuf>,
-        /// Axis file; `None` leaves all to detection.
-        axis: Option<PathBuf>,
-    },
-    /// A problem by name: C95, machine, motor, V2, V3, V5, V6, V7, V10, V16.
-    Named(String),
-}
+/// Part of the cost of the reference by which another may be less and still be the same optimum, dimensionless: what
+/// descents leave of the cost when they end.
+const SAME_OPTIMUM_WITHIN: f64 = 1e-6;
 
-/// What the methods minimise.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cost {
-    /// The six parameters of LuGre, motion in and force out.
-    Six,
-    /// The nonlinear unknowns of LuGre, everything linear solved.
-    Separable,
-    /// The six parameters of LuGre, force in and position out.
-    Position,
-    /// The parameters of a steady curve; for the problems that are one.
-    Curve,
-}
-
-impl Cost {
-    /// Name as typed and as written to files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Cost::Six => "six",
-            Cost::Separable => "separable",
-            Cost::Position => "position",
-            Cost::Curve => "curve",
-        }
-    }
-}
-
-/// Noise of a made record, if nobody says: deviation over the largest force.
-pub const NOISE: f64 = 0.01;
-/// Sample rate of a made record, if nobody says, Hz.
-pub const RATE: f64 = 1000.0;
-/// One start of least squares, drawn at random: what `lm` is without its many starts.
-pub const ONE_START: &str = "lm-one";
-
-/// Part of the energy by which a cost may be less and still be the same: least squares take theirs from sums of squares,
+/// Part of the energy by which a cost may be less and still be the same, dimensionless: least squares take theirs from sums of squares,
 /// of which so much is rounding. On V5 without noise six searches that end at the same parameters, to nine digits, have
 /// costs from 1.815e-12 to 1.822e-12, the reference search, from residuals, 1.825e-12.
-const ROUNDING: f64 = 1e-13;
-
-/// What to compare, and how.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CompareOptions {
-    /// On what.
-    pub input: Input,
-    /// Names of the methods; empty takes all that can work on the cost.
-    pub methods: Vec<String>,
-    /// Seeds of each method, from 0 on.
-    pub seeds: u64,
-    /// Most evaluations of a run.
-    pub evaluations: u64,
-    /// Noise of a made record; `None` takes `NOISE`.
-    pub noise: Option<f64>,
-    /// Motion of a made record.
-    pub excitation: Option<Excitation>,
-    /// Sample rate of a made record, Hz; `None` takes `RATE`.
-    pub rate: Option<f64>,
-    /// Whether a made record follows another law than the one that is fitted.
-    pub other_law: bool,
-    /// Decades of the box to each side of a point off the answer; `None` takes 1 for a problem, and
-    /// the box of `identify` for a log.
-    pub decades: Option<f64>,
-    /// What integrates the candidates.
-    pub integrator: Scheme,
-    /// What is minimised.
-    pub cost: Option<Cost>,
-}
-
-/// Name of an integrator as typed and as written to files.
-pub fn integrator_name(scheme: Scheme) -> &'static str {
-    match scheme {
-        Scheme::Explin => "explin",
-        Scheme::Euler => "euler",
-        Scheme::RungeKutta => "rk4",
-    }
-}
+const SAME_COST_WITHIN: f64 = 1e-13;
 
 /// Runs every method with every seed, side by side on all threads. What comes out, times apart, does
 /// not depend on how many there are.
@@ -136,7 +63,7 @@ pub fn compare(
             "explin, or --cost six: the separable cost is solved with its own recursion",
         ));
     }
-    let subject = Subject::new(options, observer)?;
+    let subject = subject(options, observer)?;
     let methods = methods(options, &subject)?;
     let (least, by) = subject.reference(observer)?;
     let problem = subject.problem()?;
@@ -155,7 +82,7 @@ pub fn compare(
     let found = trials.iter().filter_map(|t| t.cost());
     let lowest = found.fold(f64::INFINITY, f64::min);
     // What is less by rounding only is the same optimum.
-    let beaten = lowest < least * (1.0 - 1e-6) && least - lowest > ROUNDING;
+    let beaten = lowest < least * (1.0 - SAME_OPTIMUM_WITHIN) && least - lowest > SAME_COST_WITHIN;
     let winner = |t: &&Trial| t.cost() == Some(lowest);
     let reference = Reference {
         cost: if beaten { lowest } else { least },
@@ -170,7 +97,7 @@ pub fn compare(
     };
     let noisy = match options.input {
         Input::Log { .. } => true,
-        Input::Named(_) => options.noise.unwrap_or(NOISE) > 0.0,
+        Input::Named(_) => options.noise.unwrap_or(USUAL_NOISE) > 0.0,
     };
     let judge = summary::Judge {
         least: reference.cost,
@@ -190,7 +117,7 @@ pub fn compare(
         rate_hz: subject.rate_hz,
         noise: match options.input {
             Input::Log { .. } => None,
-            Input::Named(_) => Some(options.noise.unwrap_or(NOISE)),
+            Input::Named(_) => Some(options.noise.unwrap_or(USUAL_NOISE)),
         },
         box_decades: options.decades.or(match options.input {
             Input::Log { .. } => None,
@@ -212,6 +139,21 @@ pub fn compare(
             .collect(),
         wall_s: clock.elapsed().as_secs_f64(),
     })
+}
+
+/// Reads or makes what is compared on.
+fn subject(options: &CompareOptions, observer: &mut dyn Observer) -> Result<Subject, Error> {
+    match &options.input {
+        Input::Log { logs, axis } => logged::subject(options, logs, axis.as_deref(), observer),
+        Input::Named(name) => match known::find(name) {
+            Some(Known::Axis(axis)) => made::from_axis(options, &axis),
+            Some(Known::Curve(curve)) => made::from_curve(options, curve),
+            None => Err(Error::usage(
+                format!("--problem {name}"),
+                format!("one of {}", known::names().join(", ")),
+            )),
+        },
+    }
 }
 
 /// The methods to run: those asked for, or all that the cost allows.
@@ -245,6 +187,3 @@ fn methods(options: &CompareOptions, subject: &Subject) -> Result<Vec<String>, E
     }
     Ok(options.methods.clone())
 }
-
-/// Any problem, as the runs share it.
-type Shared<'a> = dyn Candidates + Sync + 'a;

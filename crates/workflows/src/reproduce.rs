@@ -1,74 +1,13 @@
 //! Published experiments run again, each number beside its reference.
 
+mod canudas;
+mod outcome;
 mod paper;
 mod watch;
 
-pub use paper::{Budget, zhang_2025};
+pub use canudas::canudas_1995;
+pub use outcome::{Body, Reproduction};
 pub use paper::{
-    Cornered, Dynamics, Fed, LoadFound, PARAMETERS, Paper, Presliding, Searched, Statics, Tracked,
+    Budget, Cornered, Dynamics, Fed, LoadFound, PARAMETERS, Paper, Presliding, Searched, Statics,
+    Tracked, zhang_2025,
 };
-
-use rayon::prelude::*;
-use stiction_files::reproduce_file::{CheckEntry, ReproduceFile};
-use stiction_identify::Control;
-use stiction_servo::c95::{self, Experiment};
-use watch::Watch;
-
-/// Everything that came out, in memory.
-#[derive(Clone, Debug)]
-pub struct Reproduction {
-    /// What goes into `reproduce.json`.
-    pub file: ReproduceFile,
-    /// What the report draws.
-    pub body: Body,
-}
-
-/// What the report draws.
-#[derive(Clone, Debug)]
-pub enum Body {
-    /// Experiments of Canudas de Wit et al. 1995.
-    Canudas1995(Vec<Experiment>),
-    /// Those of Zhang et al. 2025.
-    Zhang2025(Box<Paper>),
-}
-
-/// The experiments B to G of Canudas de Wit et al. 1995 (doi 10.1109/9.376053). `watch` is told how many of how many are
-/// done, also within the longest, and may stop the work: those that are done by then are kept.
-pub fn canudas_1995(watch: &mut (dyn FnMut(usize, usize) -> Control + Send)) -> Reproduction {
-    let watch = Watch::new(c95::ALL.len(), watch);
-    let experiments: Vec<Option<Experiment>> = c95::ALL
-        .par_iter()
-        .map(|run| {
-            let go_on = || !watch.stopped();
-            let experiment = run(&go_on).expect("the settings of 1995 are valid");
-            if experiment.is_some() {
-                watch.add();
-            }
-            experiment
-        })
-        .collect();
-    let all = experiments.iter().all(Option::is_some);
-    let experiments: Vec<Experiment> = experiments.into_iter().flatten().collect();
-    let checks: Vec<CheckEntry> = experiments
-        .iter()
-        .flat_map(|e| e.checks.iter().map(|check| (e.letter, check)))
-        .map(|(letter, check)| CheckEntry {
-            experiment: letter.to_string(),
-            name: check.name.clone(),
-            unit: check.unit.into(),
-            reference: check.reference,
-            found: check.found,
-            tolerance: check.tolerance,
-            within: check.holds(),
-        })
-        .collect();
-    Reproduction {
-        file: ReproduceFile {
-            status: if all { "complete" } else { "interrupted" }.into(),
-            all_within: checks.iter().all(|c| c.within),
-            checks,
-            ..ReproduceFile::of("1995")
-        },
-        body: Body::Canudas1995(experiments),
-    }
-}

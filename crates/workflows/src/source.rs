@@ -52,6 +52,11 @@ pub fn load(path: &Path, axis: &Axis) -> Result<Source, Error> {
     })
 }
 
+/// Reads every file of a list and maps it by the axis.
+pub(crate) fn load_all(paths: &[PathBuf], axis: &Axis) -> Result<Vec<Source>, Error> {
+    paths.iter().map(|path| load(path, axis)).collect()
+}
+
 impl Source {
     /// How the log goes into `result.json`.
     pub fn input(&self) -> Input {

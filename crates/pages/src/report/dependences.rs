@@ -1,5 +1,6 @@
 //! Lines of the formula for friction that changes with load, temperature or position.
 
+use super::sign::sign;
 use stiction_files::result::ParameterEntry;
 use stiction_identify::Dependence;
 use stiction_report::math::{Math, frac, id, num, op, paren, quantity, row, sub, sup};
@@ -8,7 +9,7 @@ use stiction_workflows::identify::Outcome;
 
 /// Whether the level of friction changes with more than the velocity.
 pub(super) fn level_changes(outcome: &Outcome) -> bool {
-    let mut terms = outcome.estimate.terms.dependences.iter();
+    let mut terms = outcome.law().terms.dependences.iter();
     terms.any(|d| !matches!(d, Dependence::ViscousTemperature(_)))
 }
 
@@ -19,7 +20,7 @@ pub(super) fn lines(outcome: &Outcome, side: &str) -> Vec<Math> {
     let find = |name: String| outcome.result.parameters.iter().find(|p| p.name == name);
     let coulomb = find(format!("coulomb{side}")).map_or(1.0, |p| p.value);
     let mut pitch = 0;
-    for dependence in &outcome.estimate.terms.dependences {
+    for dependence in &outcome.law().terms.dependences {
         let name = dependence.name();
         if let Dependence::CoulombPitch(length) = dependence {
             pitch += 1;
@@ -53,7 +54,7 @@ pub(super) fn lines(outcome: &Outcome, side: &str) -> Vec<Math> {
             Dependence::CoulombPitch(_) => {}
         }
     }
-    let mark = |symbol: Math| match super::formula::sign(side) {
+    let mark = |symbol: Math| match sign(side) {
         "" => symbol,
         sign => sup(symbol, op(sign)),
     };

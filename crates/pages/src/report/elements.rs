@@ -7,7 +7,7 @@ use stiction_workflows::identify::Outcome;
 
 /// Stiffness and yield deflection of each element, in the order of the yield deflections.
 fn elements(outcome: &Outcome) -> Vec<(f64, f64)> {
-    let value = |name: String| outcome.estimate.value(&name);
+    let value = |name: String| outcome.law().value(&name);
     (1..)
         .map_while(|k| {
             Some((

@@ -79,7 +79,7 @@ pub(super) fn broken(values: &[f64], breaks: &[bool]) -> Vec<f64> {
 
 /// Friction over velocity: measured cloud, model, the steady curve with its band.
 pub(super) fn velocity_map(outcome: &Outcome) -> Figure {
-    let series = &outcome.estimate.series;
+    let series = &outcome.law().series;
     let holes = breaks(series);
     let [band, curve] = steady_layers(outcome, &series.velocity);
     let panel = Panel::new(velocity_axis(outcome), friction_axis(outcome))
@@ -145,19 +145,19 @@ pub(super) fn grid(top: f64) -> Vec<f64> {
 
 /// Steady friction, where load, temperature and position are at their references.
 pub(super) fn steady(outcome: &Outcome) -> SteadyCurve {
-    SteadyCurve::of(&outcome.estimate.values())
+    SteadyCurve::of(&outcome.law().values())
 }
 
 /// Standard deviation of the steady curve, from the covariance of the parameters.
 pub(super) fn steady_deviation(outcome: &Outcome, steady: &SteadyCurve, v: f64) -> f64 {
-    let covariance = &outcome.estimate.covariance;
+    let covariance = &outcome.law().covariance;
     covariance.deviation(|name| steady.slope(name, v))
 }
 
 /// The map near zero speed.
 pub(super) fn low_speed(outcome: &Outcome) -> Option<Figure> {
-    let series = &outcome.estimate.series;
-    let bound = 2.0 * outcome.estimate.low_speed_bound;
+    let series = &outcome.law().series;
+    let bound = 2.0 * outcome.law().low_speed_bound;
     let near: Vec<bool> = series.velocity.iter().map(|v| v.abs() <= bound).collect();
     if near.iter().filter(|&&n| n).count() < FEW {
         return None;
@@ -194,10 +194,10 @@ pub(super) fn low_speed(outcome: &Outcome) -> Option<Figure> {
 
 /// Friction over position around the reversal where most is recorded.
 pub(super) fn presliding(outcome: &Outcome) -> Option<Figure> {
-    let series = &outcome.estimate.series;
+    let series = &outcome.law().series;
     let length = symbols::length_unit(outcome.motion);
     let window = reversal(outcome, series);
-    if window.len() < FEW || !outcome.estimate.law.kind.has_bristle() {
+    if window.len() < FEW || !outcome.law().law.kind.has_bristle() {
         return None;
     }
     let origin = series.position.get(window.start).copied().unwrap_or(0.0);
@@ -225,7 +225,7 @@ pub(super) fn presliding(outcome: &Outcome) -> Option<Figure> {
 fn reversal(outcome: &Outcome, series: &Series) -> std::ops::Range<usize> {
     let n = series.velocity.len();
     let turns = (1..n).filter(|&i| series.velocity[i - 1] * series.velocity[i] < 0.0);
-    let values = outcome.estimate.values();
+    let values = outcome.law().values();
     let length = match values.get(Quantity::Sigma0) {
         Some(s) if s > 0.0 => 8.0 * values.on(Quantity::Coulomb, Side::Positive).unwrap_or(0.0) / s,
         _ => 0.0,
@@ -256,7 +256,7 @@ fn reversal(outcome: &Outcome, series: &Series) -> std::ops::Range<usize> {
 
 /// Measured, model and residual in time.
 pub(super) fn time(outcome: &Outcome) -> Figure {
-    in_time(outcome, &outcome.estimate.series, "Force in time")
+    in_time(outcome, &outcome.law().series, "Force in time")
 }
 
 /// The same on data that were not fitted.
@@ -300,7 +300,7 @@ pub(super) fn clock(series: &Series) -> Vec<f64> {
 
 /// Autocorrelation of the residual with the band of white noise.
 pub(super) fn autocorrelation(outcome: &Outcome) -> Figure {
-    let residual = outcome.estimate.series.residual();
+    let residual = outcome.law().series.residual();
     let lags = LAGS.min(residual.len().saturating_sub(1));
     let acf = correlate(&residual, lags).unwrap_or_default();
     let band = 1.96 / (residual.len().max(1) as f64).sqrt();
@@ -318,7 +318,7 @@ pub(super) fn autocorrelation(outcome: &Outcome) -> Figure {
 
 /// Relative residual over evaluations.
 pub(super) fn convergence(outcome: &Outcome) -> Figure {
-    let history = &outcome.estimate.history;
+    let history = &outcome.law().history;
     let x: Vec<f64> = history.iter().map(|(n, _)| *n as f64).collect();
     let y: Vec<f64> = history.iter().map(|(_, r)| 100.0 * r).collect();
     let panel = Panel::new(
@@ -338,7 +338,7 @@ pub(super) fn convergence(outcome: &Outcome) -> Figure {
 
 /// Correlation of the parameters.
 pub(super) fn correlation(outcome: &Outcome) -> Heatmap {
-    let covariance = &outcome.estimate.covariance;
+    let covariance = &outcome.law().covariance;
     let names: Vec<Text> = covariance
         .names
         .iter()

@@ -1,6 +1,7 @@
 //! The identified law as a formula, with its numbers.
 
 use super::dependences;
+use super::sign::sign;
 use stiction_report::math::{Math, abs, dot, frac, id, num, op, paren, quantity, row, sub, sup};
 use stiction_report::{Block, number};
 use stiction_workflows::identify::Outcome;
@@ -33,7 +34,7 @@ pub(super) fn with_numbers(outcome: &Outcome) -> Block {
         lines.push(breakaway(outcome));
     }
     force.extend([op("+"), sub(id("σ"), num("2")), id("v")]);
-    if outcome.estimate.terms.quadratic_viscous {
+    if outcome.law().terms.quadratic_viscous {
         force.extend([op("+"), sub(id("σ"), num("22")), abs(id("v")), id("v")]);
     }
     lines.insert(0, row(force));
@@ -85,15 +86,6 @@ pub(super) fn with_numbers(outcome: &Outcome) -> Block {
     Block::Formula(lines, caption.into())
 }
 
-/// Sign of a direction by the suffix of its parameters.
-pub(super) fn sign(side: &str) -> &'static str {
-    match side {
-        "_pos" => "+",
-        "_neg" => "−",
-        _ => "",
-    }
-}
-
 /// How the bristle deflects; the elasto-plastic one only in part.
 fn deflection(in_part: bool) -> Math {
     let mut rate = vec![dot(id("z")), op("="), id("v"), op("−")];
@@ -112,7 +104,7 @@ fn deflection(in_part: bool) -> Math {
 
 /// The break-away deflection of the elasto-plastic law with its number.
 fn breakaway(outcome: &Outcome) -> Math {
-    let share = outcome.estimate.value("breakaway_ratio").unwrap_or(0.0);
+    let share = outcome.law().value("breakaway_ratio").unwrap_or(0.0);
     row([
         sub(id("z"), row([id("b"), id("a")])),
         op("="),

@@ -1,6 +1,6 @@
 //! The laws beside each other as a picture.
 
-use super::law_name;
+use crate::names::law_name;
 use stiction_report::{Axis, Color, Figure, Layer, Panel};
 use stiction_workflows::identify::Outcome;
 

@@ -49,9 +49,9 @@ fn static_figure(outcome: &Outcome, map: &StaticMapEntry) -> Figure {
         .fold(0.0_f64, |m, p| m.max(p.velocity.abs()));
     let vs = ["stribeck_velocity", "stribeck_velocity_pos"]
         .iter()
-        .find_map(|name| outcome.estimate.value(name))
+        .find_map(|name| outcome.law().value(name))
         .unwrap_or(top);
-    let offset = outcome.estimate.value("offset").unwrap_or(0.0);
+    let offset = outcome.law().value("offset").unwrap_or(0.0);
     let panel = |reach: f64, title: &str| {
         let near: Vec<_> = map
             .points
@@ -210,18 +210,18 @@ fn step_table(outcome: &Outcome, entry: &PreslidingStepEntry) -> Table {
         String::new(),
         String::new(),
         number::sig(entry.damping_ratio, 4),
-        plain(outcome.estimate.value("sigma0")),
+        plain(outcome.law().value("sigma0")),
         String::new(),
-        plain(outcome.estimate.value("sigma1")),
+        plain(outcome.law().value("sigma1")),
         String::new(),
     ])
 }
 
 /// Measured, simulated, and what the linear system of the published inversion would do.
 fn step_figures(outcome: &Outcome, entry: &PreslidingStepEntry) -> Vec<Figure> {
-    let series = &outcome.estimate.series;
-    let mass = outcome.estimate.value("mass");
-    let viscous = outcome.estimate.value("sigma2").unwrap_or(0.0);
+    let series = &outcome.law().series;
+    let mass = outcome.law().value("mass");
+    let viscous = outcome.law().value("sigma2").unwrap_or(0.0);
     entry
         .published
         .iter()

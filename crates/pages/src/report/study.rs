@@ -1,11 +1,12 @@
 //! The report of a study.
 
 mod contour;
+pub(crate) mod rows;
 
+use rows::{COLORS, believed, drawn, judged, left_out, less};
 use stiction_files::study::result::{MetricEntry, ResultRow, SimulatedAxis, StudyFile};
 use stiction_files::symbols;
 use stiction_log::Motion;
-use stiction_number::Percent;
 use stiction_number::quantity;
 use stiction_report::{
     Align, Axis, Block, Callout, Color, Document, Figure, KeyFigure, Layer, Panel, Severity, Table,
@@ -113,12 +114,6 @@ fn mass_unit(axis: &SimulatedAxis) -> &'static str {
         Motion::Linear => "kg",
         Motion::Rotary => "kg m²",
     }
-}
-
-/// The metric by which compensators are compared.
-pub(crate) fn judged(row: &ResultRow) -> Option<&MetricEntry> {
-    row.metric("contour_peak")
-        .or_else(|| row.metric("peak_error"))
 }
 
 fn verdict(file: &StudyFile) -> Callout {
@@ -240,45 +235,6 @@ fn table(rows: &[ResultRow]) -> Table {
     table
 }
 
-/// The kind of parameters, and what became of the compensation.
-fn believed(row: &ResultRow) -> String {
-    match row.remarks() {
-        remarks if remarks.is_empty() => row.parameters.clone(),
-        remarks => format!("{}, {remarks}", row.parameters),
-    }
-}
-
-/// A reduction with one decimal: more would not be worth the axis it was simulated on. What is not quite all of it is not
-/// said to be.
-pub(crate) fn less(x: f64) -> String {
-    match Percent::error(x).decimals(1) {
-        all if all == "100.0 %" && x < 100.0 => "> 99.9 %".into(),
-        text => text.replace('-', "−"),
-    }
-}
-
-/// Rows that are drawn: those with exact parameters, of many the first, which is without compensation, and those that
-/// leave the least.
-fn drawn(rows: &[ResultRow]) -> (Vec<&ResultRow>, usize) {
-    let exact: Vec<&ResultRow> = rows.iter().filter(|r| r.parameters == "exact").collect();
-    let all = exact.len();
-    let left = |r: &ResultRow| judged(r).map_or(f64::INFINITY, |m| m.mean);
-    let mut order: Vec<usize> = (1..all).collect();
-    order.sort_by(|a, b| left(exact[*a]).total_cmp(&left(exact[*b])));
-    order.truncate(COLORS.len() - 1);
-    order.sort_unstable();
-    let chosen = std::iter::once(0).chain(order).filter_map(|i| exact.get(i));
-    (chosen.copied().collect(), all)
-}
-
-/// What is said of curves that are left out.
-fn left_out(drawn: usize, all: usize) -> String {
-    match all > drawn {
-        true => format!(" {drawn} of {all}: without compensation, and those that leave the least."),
-        false => String::new(),
-    }
-}
-
 /// Error and compensating force with the parameters of the axis: over all that counts, and about a reversal.
 fn in_time(outcome: &StudyOutcome, rows: &[ResultRow]) -> Vec<Figure> {
     let (rows, all) = drawn(rows);
@@ -329,16 +285,6 @@ fn courses(
         _ => figure.panel(added),
     }
 }
-
-const COLORS: [Color; 7] = [
-    Color::Grey,
-    Color::Sky,
-    Color::Orange,
-    Color::Green,
-    Color::Purple,
-    Color::Vermilion,
-    Color::Blue,
-];
 
 /// What is left of the error with wrong parameters.
 fn wrong(rows: &[ResultRow]) -> Option<Figure> {
@@ -453,15 +399,4 @@ fn parameters(axis: &SimulatedAxis) -> Table {
             p.unit.clone(),
         ])
     })
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn what_is_nearly_all_is_not_all() {
-        assert_eq!(super::less(99.97), "> 99.9 %");
-        assert_eq!(super::less(99.94), "99.9 %");
-        assert_eq!(super::less(100.0), "100.0 %");
-        assert_eq!(super::less(-3.21), "−3.2 %");
-    }
 }

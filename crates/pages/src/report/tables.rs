@@ -1,6 +1,6 @@
 //! The tables of the report.
 
-use super::law_name;
+use crate::names::law_name;
 use stiction_files::result::{Input, LawEntry};
 use stiction_files::symbols;
 use stiction_identify::IDENTIFIABLE;
@@ -113,7 +113,7 @@ pub(super) fn truth(outcome: &Outcome) -> Table {
 /// Fits on data that were not fitted.
 pub(super) fn validation(outcome: &Outcome) -> Table {
     let unit = &outcome.result.fit.unit;
-    let caption = match &outcome.simulation {
+    let caption = match outcome.simulation() {
         None => "The identified law on data it was not fitted to; nothing is fitted again.",
         Some(_) => {
             "The identified law on data it was not fitted to; only where each run starts is fitted."

@@ -1,6 +1,6 @@
 //! A comparison as a terminal shows it.
 
-use super::table;
+use super::table::table;
 use std::fmt::Write;
 use stiction_files::compare_file::{CompareFile, MethodEntry, Quartiles};
 use stiction_number::four_digits as short;

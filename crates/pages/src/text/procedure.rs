@@ -1,6 +1,6 @@
 //! What the procedures found, for a terminal.
 
-use super::table;
+use super::table::table;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use stiction_files::result::{

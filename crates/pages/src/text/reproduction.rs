@@ -1,6 +1,6 @@
 //! Published experiments on the terminal.
 
-use super::table;
+use super::table::table;
 use stiction_files::reproduce_file::{ClaimEntry, ReproduceFile};
 use stiction_number::quantity;
 use stiction_number::{Percent, four_digits as short};

@@ -1,7 +1,7 @@
 //! A study on the terminal.
 
-use super::table;
-use crate::report::{judged, less};
+use super::table::table;
+use crate::report::study::rows::{judged, less};
 use std::fmt::Write;
 use stiction_files::study::result::ResultRow;
 use stiction_number::quantity;

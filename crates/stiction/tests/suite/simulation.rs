@@ -171,7 +171,7 @@ fn the_same_log_is_split_and_driven_by_its_force() {
     assert_eq!(simulation.start, "runs");
     assert!(simulation.force.is_none());
     assert_eq!(outcome.result.validation[0].fit.samples, 900);
-    let mass = outcome.estimate.value("mass").unwrap();
+    let mass = outcome.law().value("mass").unwrap();
     assert!((mass / 10.0 - 1.0).abs() < 0.1, "{mass}");
 }
 

@@ -265,7 +265,7 @@ fn the_fit_is_a_log() {
         let file = bench.path("fit.csv");
         std::fs::write(&file, fit).unwrap();
         let table = stiction::table(&file, &Axis::default()).unwrap();
-        let series = &outcome.estimate.series;
+        let series = &outcome.law().series;
         assert_eq!(table.columns[0].name, "time");
         assert_eq!(table.columns[1].unit.as_deref(), Some("N"));
         assert_eq!(table.columns[0].values, series.time);

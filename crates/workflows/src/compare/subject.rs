@@ -1,26 +1,20 @@
 //! What is compared on: a record, a curve or a drive, with its box, and where its optimum is.
 
-mod genome;
-mod made;
-
-use super::known::{self, Known};
-use super::{CompareOptions, Cost, Input, Shared};
+use super::genome::{Floor, genome};
+use super::known;
+use super::options::{Cost, Shared};
 use crate::error::Error;
-use crate::identify::record_of;
 use crate::spread::Spread;
-use genome::{Floor, about, genome};
 use std::f64::consts::LN_10;
-use stiction_files::Axis;
 use stiction_identify as engine;
-use stiction_identify::candidates::{
-    Curve, Nonlinear, Scheme, Simulated, SixParameters, box_of_six, thinned,
-};
+use stiction_identify::candidates::{Curve, Nonlinear, Scheme, Simulated, SixParameters};
 use stiction_identify::{Delay, Law, LawKind, Observer, Record, SearchBox, Settings, Terms};
 use stiction_search::{Bounds, Fidelity, Limits, Method, Plan, Points, Problem, Run, levenberg};
 
-/// Evaluations of the reference of a steady curve, and of a simulation.
-const CURVE: u64 = 20_000;
-const SIMULATIONS: u64 = 10_000;
+/// Evaluations after which the reference of a steady curve is taken: its least squares end long before.
+const REFERENCE_EVALUATIONS_OF_CURVE: u64 = 20_000;
+/// The same of a simulation, by `cma-es` in a small box about the truth.
+const REFERENCE_EVALUATIONS_OF_SIMULATION: u64 = 10_000;
 
 /// A subject of a comparison.
 pub(super) struct Subject {
@@ -33,14 +27,15 @@ pub(super) struct Subject {
     /// Known parameters; empty for a log.
     pub truth: Vec<(String, f64)>,
     pub cost: Cost,
-    data: Data,
+    pub data: Data,
     /// The law that is fitted.
-    law: Law,
-    bounds: Bounds,
-    scheme: Scheme,
+    pub law: Law,
+    pub bounds: Bounds,
+    pub scheme: Scheme,
 }
 
-enum Data {
+/// What the candidates are held against.
+pub(super) enum Data {
     Record {
         record: Box<Record>,
         thinned: Option<Box<Record>>,
@@ -58,21 +53,6 @@ enum Data {
 }
 
 impl Subject {
-    /// Reads or makes what is compared on.
-    pub fn new(options: &CompareOptions, observer: &mut dyn Observer) -> Result<Self, Error> {
-        match &options.input {
-            Input::Log { logs, axis } => from_log(options, logs, axis.as_deref(), observer),
-            Input::Named(name) => match known::find(name) {
-                Some(Known::Axis(axis)) => made::from_axis(options, &axis),
-                Some(Known::Curve(curve)) => made::from_curve(options, curve),
-                None => Err(Error::usage(
-                    format!("--problem {name}"),
-                    format!("one of {}", known::names().join(", ")),
-                )),
-            },
-        }
-    }
-
     /// The problem that the searches see.
     pub fn problem(&self) -> Result<Box<Shared<'_>>, Error> {
         self.within(self.bounds.clone())
@@ -165,7 +145,11 @@ impl Subject {
                 starts: 64,
                 ..levenberg::Settings::default()
             };
-            let least = least(&*self.problem()?, Method::Lm(many), CURVE)?;
+            let least = least(
+                &*self.problem()?,
+                Method::Lm(many),
+                REFERENCE_EVALUATIONS_OF_CURVE,
+            )?;
             return Ok((least, "least squares from 64 starts"));
         }
         // A small box about the truth holds the optimum and nothing else.
@@ -177,7 +161,11 @@ impl Subject {
         );
         let bounds = bounds.map_err(|e| Error::usage(e.to_string(), "a finite box"))?;
         let method = Method::named("cma-es").expect("a method");
-        let least = least(&*self.within(bounds)?, method, SIMULATIONS)?;
+        let least = least(
+            &*self.within(bounds)?,
+            method,
+            REFERENCE_EVALUATIONS_OF_SIMULATION,
+        )?;
         Ok((least, "cma-es near the truth"))
     }
 
@@ -209,91 +197,10 @@ fn least(problem: &Shared, method: Method, evaluations: u64) -> Result<f64, Erro
 }
 
 /// LuGre with a Gaussian curve.
-fn lugre() -> Law {
+pub(super) fn lugre() -> Law {
     Law::new(LawKind::LuGre)
 }
 
 fn search_box(bounds: &Bounds) -> SearchBox {
     SearchBox::between(bounds.low().to_vec(), bounds.high().to_vec())
-}
-
-fn from_log(
-    options: &CompareOptions,
-    logs: &[std::path::PathBuf],
-    axis: Option<&std::path::Path>,
-    observer: &mut dyn Observer,
-) -> Result<Subject, Error> {
-    let made = [
-        ("--noise", options.noise.is_some()),
-        ("--excitation", options.excitation.is_some()),
-        ("--rate", options.rate.is_some()),
-        ("--other-law", options.other_law),
-        ("--cost position", options.cost == Some(Cost::Position)),
-    ];
-    if let Some((name, _)) = made.iter().find(|(_, given)| *given) {
-        return Err(Error::usage(
-            format!("{name} beside a log"),
-            "only a --problem is made; a log is what it is",
-        ));
-    }
-    let axis = axis.map_or_else(|| Ok(Axis::default()), Axis::read)?;
-    if axis.exponent_fitted {
-        return Err(Error::usage(
-            "stribeck_exponent = \"fit\"",
-            "a number; only the default method of identify fits it",
-        ));
-    }
-    let law = Law {
-        exponent: axis.stribeck_exponent,
-        ..lugre()
-    };
-    let (sources, record, terms) = record_of(logs, &axis, observer)?;
-    let name: Vec<String> = sources
-        .iter()
-        .map(|s| s.path.display().to_string())
-        .collect();
-    let name = name.join(", ");
-    let refused = |source| Error::Identify {
-        inputs: name.clone(),
-        source,
-    };
-    let cost = options.cost.unwrap_or(Cost::Six);
-    let bounds = match (options.decades, cost) {
-        (None, Cost::Separable) => {
-            let inner = SearchBox::from_record(&record, &law).map_err(refused)?;
-            let ends = |end: fn(&SearchBox, usize) -> f64| {
-                (0..inner.len()).map(|i| end(&inner, i)).collect()
-            };
-            Bounds::new(ends(SearchBox::low), ends(SearchBox::high))
-                .map_err(|e| Error::usage(e.to_string(), "a log with motion and force"))?
-        }
-        (None, _) => box_of_six(&record).map_err(refused)?,
-        (Some(decades), _) => {
-            let settings = Settings::default();
-            let (estimate, _) = engine::identify(&record, law, &terms, 0.0, &settings, observer)
-                .map_err(refused)?;
-            let found: Vec<(String, f64)> = (estimate.parameters.iter())
-                .map(|p| (p.name.to_string(), p.value))
-                .collect();
-            let floor = Floor::new(estimate.value("coulomb").unwrap_or(1.0), record.top_speed());
-            about(&genome(&found, cost, floor), decades)?
-        }
-    };
-    Ok(Subject {
-        name: name.clone(),
-        source: "a log".into(),
-        motion: record.notes.join("; "),
-        samples: record.kept(),
-        rate_hz: 1.0 / record.step(),
-        truth: Vec::new(),
-        cost,
-        law,
-        scheme: options.integrator,
-        bounds,
-        data: Data::Record {
-            thinned: thinned(&record).map(Box::new),
-            record: Box::new(record),
-            terms,
-        },
-    })
 }

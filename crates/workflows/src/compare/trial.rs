@@ -1,6 +1,6 @@
 //! One method with one seed.
 
-use super::{ONE_START, Shared};
+use super::options::{ONE_START, Shared};
 use crate::entries;
 use crate::spread::Spread;
 use std::sync::atomic::{AtomicBool, Ordering};

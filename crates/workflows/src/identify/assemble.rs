@@ -1,41 +1,44 @@
 //! From what the engine found to what goes to disk.
 
-use super::Options;
+use super::load::Asked;
+use super::trust::Judged;
 use crate::entries;
 use crate::source::Source;
-use stiction_files::Warning;
-use stiction_files::result::ResolvedAxis;
 use stiction_files::result::{
     CovarianceEntry, ElementsEntry, LawEntry, LowSpeedEntry, ParameterEntry, PartnerEntry,
-    ResultFile, SCHEMA, Search, Trust, ValidationEntry,
+    ResolvedAxis, ResultFile, SCHEMA, Search, ValidationEntry,
 };
 use stiction_files::symbols;
 use stiction_identify::{Delay, Fit, FittedLaw, Parameter, Series};
 use stiction_log::Motion;
 use stiction_parameters::{Name, Quantity};
 
+/// What a result is made of.
 pub(super) struct Parts<'a> {
-    pub options: &'a Options,
+    pub asked: Asked<'a>,
     pub sources: &'a [Source],
-    pub axis: ResolvedAxis,
-    pub motion: Motion,
-    pub force_unit: &'a str,
-    pub estimate: &'a FittedLaw,
+    /// How the logs were treated.
+    pub conditioning: Vec<String>,
+    pub law: &'a FittedLaw,
     pub validation: &'a [(String, Series)],
+    /// Laws side by side; empty where they were not compared.
     pub laws: Vec<LawEntry>,
+    /// Who chose the law.
     pub law_chosen_by: &'static str,
-    pub trust: Trust,
-    pub warnings: Vec<Warning>,
-    pub wall_s: f64,
+    pub judged: Judged,
 }
 
+/// The result but for what is of one method alone.
 pub(super) fn result(parts: Parts) -> ResultFile {
     let Parts {
-        estimate,
-        motion,
-        force_unit,
+        asked,
+        sources,
+        law: estimate,
+        judged,
         ..
     } = parts;
+    let first = &sources[0].log;
+    let (motion, force_unit) = (first.motion, first.force_unit.as_str());
     let signal = symbols::driver(motion, force_unit);
     let fit_entry = |fit: &Fit| entries::fit(fit, signal, force_unit);
     let low_entry = |fit: &Fit| LowSpeedEntry {
@@ -65,18 +68,25 @@ pub(super) fn result(parts: Parts) -> ResultFile {
     ResultFile {
         schema: SCHEMA.into(),
         version: env!("CARGO_PKG_VERSION").into(),
-        seed: parts.options.seed,
-        inputs: parts.sources.iter().map(Source::input).collect(),
-        axis: parts.axis,
+        seed: asked.options.seed,
+        inputs: sources.iter().map(Source::input).collect(),
+        axis: ResolvedAxis {
+            name: asked.axis.name.clone(),
+            kind: motion.to_string(),
+            force_unit: force_unit.into(),
+            columns: first.detected.clone(),
+            conditioning: parts.conditioning,
+            terms: term_names(estimate, motion),
+        },
         law: estimate.law.kind.name().into(),
         asymmetric: estimate.law.asymmetric,
         law_chosen_by: parts.law_chosen_by.into(),
-        method: parts.options.procedures.method.name().into(),
-        trust: parts.trust,
+        method: asked.options.procedures.method.name().into(),
+        trust: judged.trust,
         parameters: estimate
             .parameters
             .iter()
-            .map(|p| parameter(p, motion, force_unit, &parts.sources[0].log.load_unit))
+            .map(|p| parameter(p, motion, force_unit, &first.load_unit))
             .collect(),
         covariance: CovarianceEntry {
             names: estimate
@@ -104,10 +114,10 @@ pub(super) fn result(parts: Parts) -> ResultFile {
             with_sensitivities: estimate.counts.sensitivities,
             thinned: estimate.counts.thinned,
             iterations: estimate.iterations,
-            wall_s: parts.wall_s,
+            wall_s: asked.clock.elapsed().as_secs_f64(),
         },
         searched: None,
-        warnings: parts.warnings,
+        warnings: judged.warnings,
     }
 }
 
@@ -185,7 +195,7 @@ pub(super) fn delay_note(estimate: &FittedLaw) -> Option<String> {
 }
 
 /// Names of the linear terms that stand beside the law.
-pub(super) fn term_names(estimate: &FittedLaw, motion: Motion) -> Vec<String> {
+fn term_names(estimate: &FittedLaw, motion: Motion) -> Vec<String> {
     let beside = |quantity: Quantity| {
         !matches!(
             quantity,

@@ -1,7 +1,7 @@
 //! The law that was asked for, or the one that the data choose.
 
 use super::ladder::{self, Climb, Ladder, Rung};
-use super::trust::BETTER;
+use super::trust::RICHER_LAW_WINS_BELOW;
 use stiction_files::result::LawEntry;
 use stiction_identify as engine;
 use stiction_identify::{Estimate, Law, LawKind, Observer, Optimum, Settings, Status};
@@ -129,7 +129,9 @@ fn determined(climb: &Climb, laws: &[LawEntry], best: usize) -> usize {
     }
     let error = |law: &LawEntry| law.held_out_error_percent.unwrap_or(f64::INFINITY);
     let able: Vec<usize> = (0..laws.len())
-        .filter(|&i| laws[i].determined && BETTER * error(&laws[i]) <= error(&laws[best]))
+        .filter(|&i| {
+            laws[i].determined && RICHER_LAW_WINS_BELOW * error(&laws[i]) <= error(&laws[best])
+        })
         .collect();
     climb.best_of(&able).unwrap_or(best)
 }

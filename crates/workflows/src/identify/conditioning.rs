@@ -10,7 +10,10 @@ use stiction_identify::{
 
 /// Conditions logs together as the axis asks; the encoder step of the log is used where the axis
 /// states none.
-pub(crate) fn condition(sources: &[Source], conditioning: &Conditioning) -> Result<Record, Error> {
+pub(super) fn conditioned(
+    sources: &[Source],
+    conditioning: &Conditioning,
+) -> Result<Record, Error> {
     let samples = sources
         .iter()
         .map(Source::samples)
@@ -19,7 +22,7 @@ pub(crate) fn condition(sources: &[Source], conditioning: &Conditioning) -> Resu
 }
 
 /// What the axis file asks, with the encoder step of the logs.
-pub(crate) fn wanted(sources: &[Source], axis: &Axis) -> Conditioning {
+pub(super) fn wanted(sources: &[Source], axis: &Axis) -> Conditioning {
     let mut conditioning = axis.conditioning;
     if conditioning.resolution.is_none() {
         let steps = sources.iter().filter_map(|s| s.log.quantum);

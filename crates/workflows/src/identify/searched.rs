@@ -3,14 +3,14 @@
 mod checkpoint;
 mod watch;
 
-use super::{Options, paths};
+use super::logs::paths;
+use super::method::Method;
+use super::options::{CostKind, Options, Searching};
 use crate::entries;
 use crate::error::Error;
-use crate::identify::Method;
 use crate::source::Source;
 use crate::spread::Spread;
 use checkpoint::Checkpoint;
-use std::path::PathBuf;
 use std::time::Instant;
 use stiction_files::result::{SearchedEntry, SearchedParameter, SearchedPoint};
 use stiction_identify as engine;
@@ -21,45 +21,9 @@ use stiction_identify::{
 use stiction_search::{Best, Bounds, Finish, Finished, Limits, Plan, Run, Searcher};
 use watch::{Ended, Watch};
 
-/// What a search evaluates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CostKind {
-    /// The six parameters of the symmetric LuGre law, as Zhang et al. 2025.
-    Six,
-    /// The nonlinear unknowns of the law, everything linear solved.
-    Separable,
-}
-
-impl CostKind {
-    /// Name as typed and as written to files.
-    pub fn name(self) -> &'static str {
-        match self {
-            CostKind::Six => "six",
-            CostKind::Separable => "separable",
-        }
-    }
-}
-
-/// How far a search goes, and where it keeps its state.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Searching {
-    /// What it evaluates; `None` takes six for the genetic algorithms of the publication where the law
-    /// allows it, separable for all else.
-    pub cost: Option<CostKind>,
-    /// Most evaluations of the full record; `None` takes `EVALUATIONS`.
-    pub evaluations: Option<u64>,
-    /// Stop at this cost: the square of the relative error.
-    pub target: Option<f64>,
-    /// Stop after this time, s.
-    pub time: Option<f64>,
-    /// Where the state is kept now and then, and at the end.
-    pub checkpoint: Option<PathBuf>,
-    /// A checkpoint to go on from.
-    pub resume: Option<PathBuf>,
-}
-
-/// Most evaluations, if nobody says.
-pub const EVALUATIONS: u64 = 20_000;
+/// Most evaluations of the full record, where the command names none: enough for the genetic algorithms of the
+/// publication to end by themselves on most logs.
+const USUAL_EVALUATIONS: u64 = 20_000;
 
 /// Refuses limits of a search beside another method, and limits that are none.
 pub(super) fn check(options: &Options) -> Result<(), Error> {
@@ -215,7 +179,10 @@ impl Task<'_> {
     }
 
     fn evaluations(&self) -> u64 {
-        self.options.searching.evaluations.unwrap_or(EVALUATIONS)
+        self.options
+            .searching
+            .evaluations
+            .unwrap_or(USUAL_EVALUATIONS)
     }
 
     /// What the course of the search depends on, in words; a checkpoint goes on only with the same.

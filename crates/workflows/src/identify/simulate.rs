@@ -1,30 +1,27 @@
 //! The output-error workflow: the axis simulated, its position fitted.
 
-use super::{Options, Outcome, assemble, condition, conditioning, log_warnings, paths, trust};
+use super::assemble::{self, Parts};
+use super::condition::settings;
+use super::conditioning::{self, conditioned};
+use super::load::{Asked, Loaded};
+use super::logs::{log_warnings, paths};
+use super::outcome::{Found, Outcome, Simulated};
+use super::trust::{self, Evidence};
 use crate::entries;
 use crate::error::Error;
 use crate::source::Source;
-use std::time::Instant;
 use stiction_files::Axis;
-use stiction_files::result::{ResolvedAxis, SimulationEntry, ValidationEntry};
+use stiction_files::result::{SimulationEntry, ValidationEntry};
 use stiction_files::symbols;
 use stiction_identify as engine;
 use stiction_identify::{
-    Delay, Estimate, Fit, Hold, Law, LawKind, Observer, Recording, Series, Settings, Signals,
-    Simulation, SimulationFit, Status, Terms, Unseen,
+    Delay, Estimate, Fit, Hold, Law, LawKind, Observer, Recording, Series, Signals, Simulation,
+    SimulationFit, Status, Terms,
 };
 
-/// A simulated axis, and its simulations of unseen logs with their names.
-#[derive(Clone, Debug)]
-pub struct Simulated {
-    /// The fit.
-    pub fit: SimulationFit,
-    /// Simulations of logs that were not fitted.
-    pub unseen: Vec<(String, Unseen)>,
-}
-
-/// Part of the variance of the force that a separable fit must explain to be started from.
-const GOOD_START: f64 = 0.9;
+/// Part of the variance of the force that a separable fit must explain for the search to start from it, dimensionless: one
+/// that explains less may lie in another valley.
+const GOOD_START_R2: f64 = 0.9;
 
 /// Laws that can be simulated.
 fn is_simulated(law: LawKind) -> bool {
@@ -34,14 +31,14 @@ fn is_simulated(law: LawKind) -> bool {
     )
 }
 
-pub(super) fn fit(
-    options: &Options,
-    axis: &Axis,
-    sources: Vec<Source>,
-    held_out: &[Source],
-    clock: Instant,
+/// Simulates the axis and fits its position.
+pub(super) fn run(
+    asked: Asked,
+    loaded: Loaded,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
+    let Asked { options, axis, .. } = asked;
+    let sources = &loaded.sources;
     let Some(kind) = options.law.filter(|law| is_simulated(*law)) else {
         let law = options.law.map_or("auto", LawKind::name);
         return Err(Error::usage(
@@ -52,8 +49,8 @@ pub(super) fn fit(
     let first = &sources[0].log;
     let motion = first.motion;
     let force_unit = first.force_unit.clone();
-    let asked = axis.terms_for(first, options.asymmetric)?;
-    if asked.quadratic_viscous || !asked.dependences.is_empty() {
+    let stated = axis.terms_for(first, options.asymmetric)?;
+    if stated.quadratic_viscous || !stated.dependences.is_empty() {
         return Err(Error::usage(
             "--method output-error with friction that depends on load, temperature, position or v|v|",
             "offset, gravity and cogging beside the law",
@@ -62,7 +59,7 @@ pub(super) fn fit(
     // When the force acts on the axis is stated in `[simulation]`.
     let terms = Terms {
         delay: Delay::NONE,
-        ..asked.clone()
+        ..stated.clone()
     };
     let controller = axis.controller_for(first)?;
     let law = Law {
@@ -72,7 +69,7 @@ pub(super) fn fit(
         elements: 0,
         exponent_fitted: false,
     };
-    let mut recordings = recordings(&sources)?;
+    let mut recordings = recordings(sources)?;
     let mut unseen_logs: Vec<(String, Recording)> = Vec::new();
     if let Some(part) = options.split {
         let rests = split(&mut recordings, part)?;
@@ -82,16 +79,16 @@ pub(super) fn fit(
         };
         unseen_logs.extend(rests.into_iter().enumerate().map(|(i, r)| (name(i), r)));
     }
-    for source in held_out {
+    for source in &loaded.held_out {
         let recording = self::recordings(std::slice::from_ref(source))?.remove(0);
         unseen_logs.push((source.path.display().to_string(), recording));
     }
     let fail = |source| Error::Identify {
-        inputs: paths(&sources).join(", "),
+        inputs: paths(sources).join(", "),
         source,
     };
     let start = match options.split {
-        None => separable(&sources, axis, law, &asked, options.seed, observer),
+        None => separable(sources, axis, law, &stated, options.seed, observer),
         // It would have seen the rest.
         Some(_) => None,
     };
@@ -119,39 +116,24 @@ pub(super) fn fit(
         unseen.push((name, one));
     }
 
-    let mut warnings = log_warnings(&sources);
-    let both_ways = moves_both_ways(&found.signals);
-    let mut trust = trust::judge(
-        &found.fitted,
-        both_ways,
-        &sources,
-        &[],
+    let evidence = Evidence {
+        law: &found.fitted,
+        moves_both_ways: moves_both_ways(&found.signals),
+        sources,
+        laws: &[],
         motion,
-        &mut warnings,
-    );
-    trust::open_loop(&found, &mut trust, &mut warnings);
-    let started = if start.is_some() { "separable" } else { "runs" };
-    let resolved = ResolvedAxis {
-        name: axis.name.clone(),
-        kind: motion.to_string(),
-        force_unit: force_unit.clone(),
-        columns: sources[0].log.detected.clone(),
-        conditioning: notes(&found, axis, started),
-        terms: assemble::term_names(&found.fitted, motion),
     };
-    let mut result = assemble::result(assemble::Parts {
-        options,
-        law_chosen_by: "user",
-        sources: &sources,
-        axis: resolved,
-        motion,
-        force_unit: &force_unit,
-        estimate: &found.fitted,
+    let judged = trust::of_position(&evidence, &found, log_warnings(sources));
+    let started = if start.is_some() { "separable" } else { "runs" };
+    let mut result = assemble::result(Parts {
+        asked,
+        sources,
+        conditioning: notes(&found, axis, started),
+        law: &found.fitted,
         validation: &[],
         laws: Vec::new(),
-        trust,
-        warnings,
-        wall_s: clock.elapsed().as_secs_f64(),
+        law_chosen_by: "user",
+        judged,
     });
     // What was fitted is the position; the entries of a force keep their name for it.
     let force = |fit: &Fit| entries::fit(fit, &result.fit.signal, &force_unit);
@@ -193,16 +175,8 @@ pub(super) fn fit(
         .iter()
         .map(|(name, u)| (name.clone(), series(&u.signals)))
         .collect();
-    Ok(Outcome {
-        result,
-        estimate: found.fitted.clone(),
-        validation,
-        simulation: Some(Simulated { fit: found, unseen }),
-        sources,
-        motion,
-        force_unit,
-        truth: Vec::new(),
-    })
+    let found = Found::Position(Box::new(Simulated { fit: found, unseen }));
+    Ok(Outcome::new(result, found, validation, loaded.sources))
 }
 
 fn recordings(sources: &[Source]) -> Result<Vec<Recording>, Error> {
@@ -257,14 +231,11 @@ fn separable(
     observer: &mut dyn Observer,
 ) -> Option<Estimate> {
     let wanted = conditioning::wanted(sources, axis);
-    let record = condition(sources, &wanted).ok()?;
-    let settings = Settings {
-        seed,
-        ..Settings::default()
-    };
+    let record = conditioned(sources, &wanted).ok()?;
+    let settings = settings(seed);
     let low_speed = engine::low_speed_bound(&record);
     let (found, _) = engine::identify(&record, law, terms, low_speed, &settings, observer).ok()?;
-    (found.status == Status::Converged && found.fit.r2 >= GOOD_START).then_some(found)
+    (found.status == Status::Converged && found.fit.r2 >= GOOD_START_R2).then_some(found)
 }
 
 /// Whether the axis moves in both directions, faster than a hundredth of its top speed.

@@ -1,4 +1,4 @@
-//! Whether a result may be used: every rule that can say no, in one place.
+//! Whether a result may be used: every rule that can say no, in one place. What a process exits with follows from it.
 
 use crate::source::Source;
 use stiction_codes::Code;
@@ -6,43 +6,172 @@ use stiction_files::Warning;
 use stiction_files::result::{LawEntry, Trust};
 use stiction_files::symbols;
 use stiction_identify::Parameter;
+use stiction_identify::procedure::StepFit;
 use stiction_identify::{FittedLaw, SimulationFit, Status};
 use stiction_log::Motion;
 use stiction_number::Percent;
 use stiction_parameters::Quantity;
 
-/// Part of the variance that a fit must explain.
+/// Part of the variance of what was fitted that a law must explain, dimensionless: half. A law that leaves more than it
+/// explains is not the law of this axis.
 const LEAST_R2: f64 = 0.5;
-/// Part of the samples that may be saturated.
-const MOST_SATURATED: f64 = 0.2;
-/// How much worse than a simpler law the chosen one may do before it is said, relative.
-const WORSE: f64 = 1.02;
+/// Part of the samples whose force may be cut off at a limit, dimensionless. Those are left out; with more of them the
+/// accelerations, which determine the mass, are missing.
+const MOST_SATURATED_SHARE: f64 = 0.2;
+/// Held-out error of the law over that of a simpler one above which the simpler one is named, dimensionless: 2 %, twice
+/// what the choice of a law counts as the same.
+const SIMPLER_LAW_WINS_FROM: f64 = 1.02;
 
-/// How much better a richer law must do before it is said, relative.
-pub(super) const BETTER: f64 = 0.8;
-/// How much better it must do for the chosen law not to be trusted, relative.
-const MUCH_BETTER: f64 = 0.5;
-/// Independent samples of the residual, as a part of all, below which something systematic is left.
-const SYSTEMATIC: f64 = 0.05;
-/// Part of a parameter by which it may be shifted before it is said.
-const FAR: f64 = 0.05;
-/// Independent samples of the residual for each unknown below which an open loop tells too little.
-const FOR_EACH: f64 = 5.0;
-/// Residual in encoder steps below which nothing but the encoder is in it.
-const ENCODER: f64 = 2.0;
-/// Part of the samples near rest above which a static law is told of them.
-const AT_REST: f64 = 0.05;
+/// Held-out error of a richer law over that of this one below which the richer one is named, dimensionless: a fifth less,
+/// which biases parameters visibly.
+pub(super) const RICHER_LAW_WINS_BELOW: f64 = 0.8;
+/// The same ratio below which this law is not trusted, dimensionless: another law leaves less than half.
+const UNTRUSTED_BELOW: f64 = 0.5;
+/// Independent samples that the residual is worth, as a part of all, below which it is said to be systematic,
+/// dimensionless. Residuals of measured axes with a law that fits are worth more (`docs/validation.md`).
+const SYSTEMATIC_BELOW_SHARE: f64 = 0.05;
+/// Shift of a parameter by encoder, filters and noise, as a part of its value, above which it is named, dimensionless.
+const NAMED_SHIFT: f64 = 0.05;
+/// Independent samples of the residual for each unknown below which an open loop is not trusted: with fewer the slow
+/// error of a force that is summed up twice is fitted by the parameters.
+const LEAST_SAMPLES_PER_UNKNOWN: f64 = 5.0;
+/// Rms residual over what the encoder steps alone leave, below which nothing but the encoder is in it, dimensionless.
+const ENCODER_ONLY_BELOW: f64 = 2.0;
+/// Part of the samples near rest above which a static law is warned of them, dimensionless.
+const WARNED_REST_SHARE: f64 = 0.05;
+/// Rms residual near rest over that of all samples above which a static law is warned of it, dimensionless.
+const WARNED_REST_ERROR: f64 = 1.5;
 
-/// Adds warnings about the fit and says whether its numbers may be used.
-pub(super) fn judge(
-    estimate: &FittedLaw,
-    moves_both_ways: bool,
-    sources: &[Source],
-    laws: &[LawEntry],
-    motion: Motion,
-    warnings: &mut Vec<Warning>,
-) -> Trust {
+/// A verdict, and what to beware of.
+pub(super) struct Judged {
+    pub trust: Trust,
+    pub warnings: Vec<Warning>,
+}
+
+impl Judged {
+    /// The numbers may be used if nothing speaks against it.
+    fn new(reasons: Vec<String>, warnings: Vec<Warning>) -> Self {
+        let trust = Trust {
+            trustworthy: reasons.is_empty(),
+            reasons,
+        };
+        Judged { trust, warnings }
+    }
+}
+
+/// What a fit is judged by.
+pub(super) struct Evidence<'a> {
+    pub law: &'a FittedLaw,
+    pub moves_both_ways: bool,
+    pub sources: &'a [Source],
+    /// Laws side by side; empty where they were not compared.
+    pub laws: &'a [LawEntry],
+    pub motion: Motion,
+}
+
+/// A law that was fitted to the force.
+pub(super) fn of_force(evidence: &Evidence, mut warnings: Vec<Warning>) -> Judged {
     let mut reasons = Vec::new();
+    whole_record(evidence, &mut warnings, &mut reasons);
+    Judged::new(reasons, warnings)
+}
+
+/// The same with static parameters found first.
+pub(super) fn of_two_steps(evidence: &Evidence, mut warnings: Vec<Warning>) -> Judged {
+    let mut reasons = Vec::new();
+    whole_record(evidence, &mut warnings, &mut reasons);
+    if evidence
+        .law
+        .parameter("sigma0")
+        .is_some_and(|p| !p.identifiable)
+    {
+        let text = "sigma0 is not determined, and it is what the second step is for";
+        reasons.push(text.into());
+    }
+    Judged::new(reasons, warnings)
+}
+
+/// A law that was fitted to the position of a simulated axis.
+pub(super) fn of_position(
+    evidence: &Evidence,
+    found: &SimulationFit,
+    mut warnings: Vec<Warning>,
+) -> Judged {
+    let mut reasons = Vec::new();
+    whole_record(evidence, &mut warnings, &mut reasons);
+    open_loop(found, &mut warnings, &mut reasons);
+    Judged::new(reasons, warnings)
+}
+
+/// A steady curve through points of constant velocity.
+pub(super) fn of_static_map(
+    law: &FittedLaw,
+    sources: &[Source],
+    motion: Motion,
+    mut warnings: Vec<Warning>,
+) -> Judged {
+    let mut reasons = Vec::new();
+    saturation(sources, &mut reasons);
+    unidentifiable(law, motion, &mut warnings, &mut reasons);
+    if law.fit.r2.is_nan() || law.fit.r2 < LEAST_R2 {
+        let text = "the curve explains less than half of the variance of the forces";
+        warnings.push(Warning::new(Code::PoorFit, text));
+        reasons.push(text.into());
+    }
+    Judged::new(reasons, warnings)
+}
+
+/// Stiffness and micro-damping from force steps.
+pub(super) fn of_steps(
+    law: &FittedLaw,
+    fit: &StepFit,
+    motion: Motion,
+    mut warnings: Vec<Warning>,
+) -> Judged {
+    let mut reasons = Vec::new();
+    unidentifiable(law, motion, &mut warnings, &mut reasons);
+    if fit.status != Status::Converged {
+        let code = match fit.status {
+            Status::Interrupted => Code::Interrupted,
+            _ => Code::NotConverged,
+        };
+        let text = format!("the search did not converge (status {})", fit.status.name());
+        warnings.push(Warning::new(code, text.clone()));
+        reasons.push(text);
+    }
+    for p in fit.parameters.iter().filter(|p| p.name == "sigma0") {
+        if !p.identifiable {
+            reasons.push(format!(
+                "sigma0 is not determined by these steps: {}",
+                p.reason
+            ));
+        }
+    }
+    Judged::new(reasons, warnings)
+}
+
+/// What can be said of any law that was fitted to whole records.
+fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut Vec<String>) {
+    let law = evidence.law;
+    search_ended(law, warnings, reasons);
+    explains_little(law, warnings, reasons);
+    if !evidence.moves_both_ways {
+        let text = "the axis moves in one direction only: friction cannot be told from a constant \
+                    force";
+        if !warnings.iter().any(|w| w.code == Code::OneDirection) {
+            warnings.push(Warning::new(Code::OneDirection, text));
+        }
+        reasons.push(text.to_string());
+    }
+    saturation(evidence.sources, reasons);
+    unidentifiable(law, evidence.motion, warnings, reasons);
+    another_wins(law, evidence.laws, warnings, reasons);
+    systematic(law, warnings);
+    shifted(law, warnings);
+    static_at_rest(law, evidence.motion, warnings);
+}
+
+fn search_ended(estimate: &FittedLaw, warnings: &mut Vec<Warning>, reasons: &mut Vec<String>) {
     match estimate.status {
         Status::Converged => {}
         Status::Interrupted => {
@@ -59,6 +188,9 @@ pub(super) fn judge(
             reasons.push(text);
         }
     }
+}
+
+fn explains_little(estimate: &FittedLaw, warnings: &mut Vec<Warning>, reasons: &mut Vec<String>) {
     if estimate.fit.r2 < LEAST_R2 || estimate.fit.r2.is_nan() {
         let text = format!(
             "the law explains {:.0} % of the variance of the force; at least {:.0} % are needed \
@@ -69,27 +201,9 @@ pub(super) fn judge(
         warnings.push(Warning::new(Code::PoorFit, text.clone()));
         reasons.push(text);
     }
-    if !moves_both_ways {
-        let text = "the axis moves in one direction only: friction cannot be told from a constant \
-                    force";
-        if !warnings.iter().any(|w| w.code == Code::OneDirection) {
-            warnings.push(Warning::new(Code::OneDirection, text));
-        }
-        reasons.push(text.to_string());
-    }
-    saturation(sources, &mut reasons);
-    unidentifiable(estimate, motion, warnings, &mut reasons);
-    another_wins(estimate, laws, warnings, &mut reasons);
-    systematic(estimate, warnings);
-    shifted(estimate, warnings);
-    static_at_rest(estimate, motion, warnings);
-    Trust {
-        trustworthy: reasons.is_empty(),
-        reasons,
-    }
 }
 
-pub(super) fn saturation(sources: &[Source], reasons: &mut Vec<String>) {
+fn saturation(sources: &[Source], reasons: &mut Vec<String>) {
     let total: usize = sources.iter().map(|s| s.log.time.len()).sum();
     let saturated: usize = sources
         .iter()
@@ -97,17 +211,17 @@ pub(super) fn saturation(sources: &[Source], reasons: &mut Vec<String>) {
         .map(|e| e.samples.len())
         .sum();
     let part = saturated as f64 / total.max(1) as f64;
-    if part > MOST_SATURATED {
+    if part > MOST_SATURATED_SHARE {
         reasons.push(format!(
             "the force is saturated in {:.0} % of the samples (at most {:.0} % can be left out)",
             100.0 * part,
-            100.0 * MOST_SATURATED
+            100.0 * MOST_SATURATED_SHARE
         ));
     }
 }
 
 /// Names each parameter that the data do not determine, what it is confused with, and the cure.
-pub(super) fn unidentifiable(
+fn unidentifiable(
     estimate: &FittedLaw,
     motion: Motion,
     warnings: &mut Vec<Warning>,
@@ -178,18 +292,18 @@ fn another_wins(
         Percent::error(least).decimals(2),
         Percent::error(mine).decimals(2)
     );
-    if best.parameters < chosen.parameters && mine > WORSE * least {
+    if best.parameters < chosen.parameters && mine > SIMPLER_LAW_WINS_FROM * least {
         warnings.push(Warning::new(
             Code::SimplerLawHoldsBetter,
             format!("{errors}: the richer law is not supported by this log"),
         ));
-    } else if best.parameters > chosen.parameters && least < BETTER * mine {
+    } else if best.parameters > chosen.parameters && least < RICHER_LAW_WINS_BELOW * mine {
         warnings.push(Warning::new(
             Code::RicherLawHoldsBetter,
             format!("{errors}: this law is too simple for the axis, its parameters are biased"),
         ));
     }
-    if least < MUCH_BETTER * mine {
+    if least < UNTRUSTED_BELOW * mine {
         reasons.push(errors);
     }
 }
@@ -198,7 +312,10 @@ fn another_wins(
 fn shifted(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
     let far = |p: &&stiction_identify::Parameter| {
         let part = p.bias.map_or(0.0, |bias| (bias / p.value).abs());
-        p.identifiable && p.name != Quantity::Offset && p.name != Quantity::Delay && part > FAR
+        p.identifiable
+            && p.name != Quantity::Offset
+            && p.name != Quantity::Delay
+            && part > NAMED_SHIFT
     };
     let names: Vec<String> = estimate
         .parameters
@@ -224,7 +341,7 @@ fn shifted(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
 /// A residual that resembles itself over many samples is not noise.
 fn systematic(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
     let fit = &estimate.fit;
-    if fit.effective_samples < SYSTEMATIC * fit.samples as f64 {
+    if fit.effective_samples < SYSTEMATIC_BELOW_SHARE * fit.samples as f64 {
         warnings.push(Warning::new(
             Code::CorrelatedResidual,
             format!(
@@ -239,12 +356,16 @@ fn systematic(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
 
 /// What the logged force did not do drives the simulated axis of an open loop all the same, is summed
 /// up twice on its way to the position, and so ends in the parameters.
-pub(super) fn open_loop(found: &SimulationFit, trust: &mut Trust, warnings: &mut Vec<Warning>) {
+fn open_loop(found: &SimulationFit, warnings: &mut Vec<Warning>, reasons: &mut Vec<String>) {
     let fit = &found.position;
-    let encoder_only = found.floor.is_some_and(|floor| fit.rmse < ENCODER * floor);
+    let encoder_only = found
+        .floor
+        .is_some_and(|floor| fit.rmse < ENCODER_ONLY_BELOW * floor);
     let shared = found.fitted.parameters.iter().filter(|p| p.identified);
     let unknowns = shared.count() + found.starts();
-    if found.is_closed_loop() || encoder_only || fit.effective_samples >= FOR_EACH * unknowns as f64
+    if found.is_closed_loop()
+        || encoder_only
+        || fit.effective_samples >= LEAST_SAMPLES_PER_UNKNOWN * unknowns as f64
     {
         return;
     }
@@ -263,10 +384,9 @@ pub(super) fn open_loop(found: &SimulationFit, trust: &mut Trust, warnings: &mut
              record a closed loop and give its controller ([controller]), which no force noise drives"
         ),
     ));
-    trust.reasons.push(format!(
+    reasons.push(format!(
         "{worth}: noise of the logged force is in the parameters and not in their intervals"
     ));
-    trust.trustworthy = false;
 }
 
 /// A static law says nothing of an axis at rest or in presliding.
@@ -278,7 +398,7 @@ fn static_at_rest(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warni
         return;
     };
     let part = slow.samples as f64 / estimate.fit.samples as f64;
-    if part > AT_REST && slow.rmse > 1.5 * estimate.fit.rmse {
+    if part > WARNED_REST_SHARE && slow.rmse > WARNED_REST_ERROR * estimate.fit.rmse {
         warnings.push(Warning::new(
             Code::StaticLawAtRest,
             format!(

@@ -4,82 +4,35 @@
 //! report. What is checked is whether the identification finds the axis that was simulated; the paper's claims stand
 //! beside our figures without being the same experiment.
 
+mod budget;
 mod corner;
 mod dynamics;
 mod fault;
+mod law;
 mod load;
 mod presliding;
+mod results;
 mod search;
 mod stage;
 mod statics;
 mod tracking;
 
+pub use budget::Budget;
 pub use corner::Cornered;
 pub use dynamics::Dynamics;
 pub use load::LoadFound;
 pub use presliding::Presliding;
+pub use results::{PARAMETERS, Paper};
 pub use search::Searched;
 pub use statics::Statics;
 pub use tracking::{Fed, Tracked};
 
+use super::outcome::{Body, Reproduction};
 use super::watch::Watch;
-use super::{Body, Reproduction};
 use fault::Fault;
-use stiction_files::reproduce_file::{CheckEntry, ClaimEntry, ReproduceFile};
-use stiction_friction::LuGre;
+use law::law;
+use stiction_files::reproduce_file::ReproduceFile;
 use stiction_identify::Control;
-use stiction_identify::candidates::Named;
-use stiction_parameters::{LawError, LawKind, Name, ParameterSet, Quantity};
-use stiction_servo::known::KnownAxis;
-
-/// How much searching is done.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Budget {
-    /// Generations of a round, of 50 individuals each.
-    pub generations: usize,
-    /// Rounds of the annealing search; the others have as many generations in one.
-    pub rounds: usize,
-    /// Searches of all six parameters with each method.
-    pub seeds: u64,
-}
-
-impl Default for Budget {
-    /// 5 rounds of 100 generations, 5 seeds.
-    fn default() -> Self {
-        Budget {
-            generations: 100,
-            rounds: 5,
-            seeds: 5,
-        }
-    }
-}
-
-/// What the experiments came to, as far as they were done.
-#[derive(Clone, Debug)]
-pub struct Paper {
-    /// The axis that was simulated.
-    pub truth: KnownAxis,
-    /// Static parameters from constant velocities.
-    pub statics: Option<Statics>,
-    /// Stiffness and micro-damping, and all six parameters at once.
-    pub dynamics: Option<Dynamics>,
-    /// A voltage step below break-away.
-    pub presliding: Option<Presliding>,
-    /// The law that all later experiments compensate with.
-    pub law: Option<LuGre<f64>>,
-    /// A sine without and with compensation.
-    pub tracked: Vec<Tracked>,
-    /// A corner without and with compensation.
-    pub cornered: Vec<Cornered>,
-    /// A load found while running.
-    pub load: Option<LoadFound>,
-}
-
-/// Part by which a found parameter may be off: what Liao et al. 2023 (doi 10.3390/s23042076), the closest relative of the
-/// paper, claim without noise.
-const TOLERANCE: f64 = 0.01;
-/// The same of a mass found while running.
-const LOAD_TOLERANCE: f64 = 0.02;
 
 /// What is assumed where the paper gives no number, each with what is known.
 const ASSUMPTIONS: [&str; 12] = [
@@ -151,128 +104,4 @@ fn experiments(paper: &mut Paper, budget: Budget, watch: &Watch) -> Result<(), F
     paper.cornered = corner::run(&law, watch)?;
     paper.load = Some(load::run(&law, watch)?);
     Ok(())
-}
-
-/// The law of identified parameters, sigma1 constant as in the paper.
-fn law(parameters: &Named) -> Result<LuGre<f64>, LawError> {
-    ParameterSet::of(LawKind::LuGre, parameters.iter().copied()).lugre()
-}
-
-/// Names and units of what is identified, in the order of reports.
-pub const PARAMETERS: [(&str, &str); 6] = [
-    ("sigma0", "N/m"),
-    ("sigma1", "N*s/m"),
-    ("sigma2", "N*s/m"),
-    ("coulomb", "N"),
-    ("static", "N"),
-    ("stribeck_velocity", "m/s"),
-];
-
-impl Paper {
-    /// The true value of a parameter, SI.
-    pub fn true_value(&self, name: &str) -> f64 {
-        let law = &self.truth.law;
-        let side = law.curve().positive();
-        match name {
-            "sigma0" => law.stiffness(),
-            "sigma1" => law.damping().at_rest(),
-            "sigma2" => side.viscous,
-            "coulomb" => side.coulomb,
-            "static" => side.static_friction,
-            _ => side.stribeck_velocity,
-        }
-    }
-
-    fn checks(&self) -> Vec<CheckEntry> {
-        let mut checks = Vec::new();
-        let mut parameters = |experiment: &str, found: &[(Name, f64)], names: &[&str]| {
-            for (name, unit) in PARAMETERS.iter().filter(|(n, _)| names.contains(n)) {
-                let value = found.iter().find(|(n, _)| n == name);
-                checks.push(CheckEntry::relative(
-                    experiment,
-                    name,
-                    unit,
-                    self.true_value(name),
-                    value.map_or(f64::NAN, |(_, x)| *x),
-                    TOLERANCE,
-                ));
-            }
-        };
-        let dynamic = ["sigma0", "sigma1"];
-        let steady = ["sigma2", "coulomb", "static", "stribeck_velocity"];
-        if let Some(statics) = &self.statics {
-            parameters("static", &statics.search.found, &steady);
-        }
-        if let Some(dynamics) = &self.dynamics {
-            parameters("dynamic", &dynamics.two.found, &dynamic);
-            if let Some(six) = dynamics.first_of_six() {
-                parameters("six", &six.found, &PARAMETERS.map(|(name, _)| name));
-            }
-        }
-        if let Some(step) = &self.presliding {
-            let [s0, s1] = step.fitted;
-            let found = [(Quantity::Sigma0.into(), s0), (Quantity::Sigma1.into(), s1)];
-            parameters("step", &found, &dynamic);
-        }
-        if let Some(load) = &self.load {
-            let (reference, found) = (load::HEAVIER, load.last());
-            let tolerance = LOAD_TOLERANCE;
-            checks.push(CheckEntry::relative(
-                "load", "mass", "kg", reference, found, tolerance,
-            ));
-        }
-        checks
-    }
-
-    /// Our metrics, those that the paper has a claim for with the claim.
-    fn claims(&self) -> Vec<ClaimEntry> {
-        let mut claims = Vec::new();
-        let speed = "feed error 2.8 to 2.3 m/min, 17.8 %";
-        let corner = "up to 25.1 % at corners";
-        type Metric = fn(&Tracked) -> f64;
-        let metrics: [(&str, &str, &str, Metric); 4] = [
-            ("largest speed error", "m/s", speed, |t| t.speed_peak),
-            ("rms speed error", "m/s", "", |t| t.speed_rms),
-            ("largest error at reversals", "m", "", |t| {
-                t.position.reversal_peak
-            }),
-            ("rms position error", "m", "", |t| t.position.rms),
-        ];
-        for (name, unit, published, metric) in metrics {
-            let values = self.tracked.iter().map(|t| (t.fed, metric(t)));
-            claims.extend(beside(name, unit, published, values.collect()));
-        }
-        let contour = self.cornered.iter();
-        let peaks = contour.clone().map(|c| (c.fed, c.contour.peak));
-        let name = "largest contour error, corner";
-        claims.extend(beside(name, "m", corner, peaks.collect()));
-        let rms = contour.map(|c| (c.fed, c.contour.rms));
-        let name = "rms contour error, corner";
-        claims.extend(beside(name, "m", "", rms.collect()));
-        claims
-    }
-}
-
-impl Dynamics {
-    /// The annealing search of all six with the first seed.
-    pub fn first_of_six(&self) -> Option<&Searched> {
-        self.six.iter().find(|s| s.method == "annealing-ga")
-    }
-}
-
-/// What each compensation leaves of the first value, which is that without.
-fn beside(name: &str, unit: &str, published: &str, values: Vec<(Fed, f64)>) -> Vec<ClaimEntry> {
-    let Some(((_, without), with)) = values.split_first() else {
-        return Vec::new();
-    };
-    let entry = |(fed, with): &(Fed, f64)| ClaimEntry {
-        name: name.into(),
-        unit: unit.into(),
-        compensation: fed.name().into(),
-        without: *without,
-        with: *with,
-        reduction_percent: 100.0 * (1.0 - with / without),
-        published: published.into(),
-    };
-    with.iter().map(entry).collect()
 }

@@ -3,7 +3,7 @@
 mod identified;
 mod simulated;
 
-use super::{table, verdict};
+use super::checks::verdict;
 use stiction_files::reproduce_file::{ClaimEntry, ReproduceFile};
 use stiction_number::Percent;
 use stiction_number::quantity;
@@ -55,11 +55,6 @@ pub(super) fn report(file: &ReproduceFile, paper: &Paper) -> Document {
                 .map(|a| Text::from(a.as_str()))
                 .collect(),
         ))
-}
-
-/// The numbers of one experiment.
-fn numbers(file: &ReproduceFile, experiment: &str) -> Table {
-    table(file.checks.iter().filter(|c| c.experiment == experiment))
 }
 
 fn claims(claims: &[ClaimEntry]) -> Table {

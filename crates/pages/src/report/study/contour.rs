@@ -1,6 +1,6 @@
 //! Rows and pictures of two axes on a contour.
 
-use super::{COLORS, believed, drawn, left_out};
+use super::rows::{COLORS, believed, drawn, left_out, less};
 use stiction_files::study::result::ResultRow;
 use stiction_files::symbols;
 use stiction_log::Motion;
@@ -46,7 +46,7 @@ pub(super) fn table(rows: &[ResultRow]) -> Table {
             let metric = row.metric(name).filter(|m| m.largest > 0.0);
             Text::from(metric.map_or("–".into(), |m| quantity(m.mean, &m.unit)))
         };
-        let less = |x: Option<f64>| Text::from(x.map_or("–".into(), super::less));
+        let less = |x: Option<f64>| Text::from(x.map_or("–".into(), less));
         let without = row.compensator == "none" && !row.coupled;
         let judged = row.metric("contour_peak").filter(|_| !without);
         let worst = judged.and_then(|m| m.worst_reduction_percent);

@@ -1,27 +1,28 @@
 //! `--break-away`: force ramps, each with its rate, and what the model predicts at that rate.
 
-use super::{Beside, curve, refused, samples};
+use super::curve;
 use crate::error::Error;
+use crate::identify::beside::Beside;
+use crate::identify::logs::{refused, samples};
 use stiction_files::ModelFile;
 use stiction_files::result::BreakAwayEntry;
 use stiction_identify::FittedLaw;
 use stiction_identify::procedure::{Run, break_away as find, predict_break_away};
-use stiction_log::Motion;
 use stiction_parameters::{ParameterSet, Quantity};
 
-/// Share of the Stribeck velocity that counts as broken away, where a model is known.
-const SHARE: f64 = 1.0 / 3.0;
+/// Speed that counts as broken away, as a part of the Stribeck velocity, where a model is known, dimensionless: well above
+/// the creep of presliding, well below the velocity at which friction has fallen.
+const BROKEN_AWAY_SPEED: f64 = 1.0 / 3.0;
 
 /// The break-aways of the runs given, in their order.
 pub(in crate::identify) fn break_away(
     beside: &Beside,
-    estimate: &FittedLaw,
-    _motion: Motion,
+    law: &FittedLaw,
 ) -> Result<Vec<BreakAwayEntry>, Error> {
     let sources = &beside.break_away;
     let own = samples(sources)?;
     // A model that was given comes first: the method at hand may know no stiffness.
-    let mut values = estimate.values();
+    let mut values = law.values();
     let given = beside.model.as_ref().and_then(ModelFile::values);
     for (name, value) in given.iter().flat_map(ParameterSet::iter) {
         values.insert(name, value);
@@ -35,7 +36,7 @@ pub(in crate::identify) fn break_away(
         };
         let positive = samples.force.iter().sum::<f64>() >= 0.0;
         let model = curve::plant(&values, positive);
-        let threshold = model.map(|(_, side)| SHARE * side.stribeck_velocity);
+        let threshold = model.map(|(_, side)| BROKEN_AWAY_SPEED * side.stribeck_velocity);
         let found = find(&run, threshold, k).map_err(|e| refused(sources, e))?;
         let sign = found.rate.signum();
         let predicted = model

@@ -1,9 +1,10 @@
 //! The steady curve that a procedure takes over: from logs of constant velocities or from a model.
 
-use super::static_map::{self, Mapped};
-use super::{Beside, refused};
+use super::map::{self, Mapped};
 use crate::error::Error;
-use crate::identify::Options;
+use crate::identify::beside::Beside;
+use crate::identify::logs::refused;
+use crate::identify::options::Options;
 use crate::source::Source;
 use stiction_files::Axis;
 use stiction_files::ModelFile;
@@ -43,7 +44,7 @@ pub(super) fn known(
         map,
         entry,
         warnings,
-    } = static_map::map(options, axis, logs)?;
+    } = map::map(options, axis, logs)?;
     Ok(Known {
         statics: Statics::from_map(&map).map_err(|e| refused(logs, e))?,
         from,

@@ -1,21 +1,23 @@
 //! `--method presliding-step`: force steps below break-away to sigma0 and sigma1.
 
-use super::{Beside, curve, path_of, refused, run_of, samples};
+use super::break_away::break_away;
+use super::curve;
 use crate::entries;
 use crate::error::Error;
-use crate::identify::{Options, Outcome, assemble, log_warnings, trust};
+use crate::identify::assemble::{self, Parts};
+use crate::identify::beside::Beside;
+use crate::identify::load::{Asked, Loaded};
+use crate::identify::logs::{log_warnings, path_of, refused, run_of, samples};
+use crate::identify::outcome::{Found, Outcome};
+use crate::identify::trust;
 use crate::source::Source;
-use std::time::Instant;
 use stiction_codes::Code;
-use stiction_files::Axis;
 use stiction_files::Warning;
-use stiction_files::result::{
-    InversionEntry, PreslidingStepEntry, ResolvedAxis, StaticMapEntry, Trust,
-};
+use stiction_files::result::{InversionEntry, PreslidingStepEntry, StaticMapEntry};
 use stiction_files::symbols;
 use stiction_friction::Direction;
 use stiction_identify::procedure::{Run, Statics, StepFit, StepResponse, StepSettings, fit_steps};
-use stiction_identify::{LawKind, Mass, Observer, Status};
+use stiction_identify::{LawKind, Mass, Observer};
 use stiction_parameters::{Name, Quantity, Side};
 
 /// Findings about a log that hardly moves, which a step below break-away does on purpose.
@@ -28,83 +30,54 @@ const ON_PURPOSE: [Code; 5] = [
 ];
 
 /// The whole workflow.
-pub(super) fn run(
-    options: &Options,
-    axis: &Axis,
-    sources: Vec<Source>,
-    beside: &Beside,
-    clock: Instant,
+pub(in crate::identify) fn run(
+    asked: Asked,
+    loaded: Loaded,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
     let allowed = "the step response is that of lugre";
-    super::require(options, &[LawKind::LuGre], allowed)?;
-    let motion = sources[0].log.motion;
-    let force_unit = sources[0].log.force_unit.clone();
-    let own = samples(&sources)?;
+    asked.options.require(&[LawKind::LuGre], allowed)?;
+    let sources = &loaded.sources;
+    let own = samples(sources)?;
     let mut runs: Vec<(Run, StepResponse)> = Vec::new();
     for (k, (source, samples)) in sources.iter().zip(&own).enumerate() {
-        let run = run_of(source, samples, axis);
-        let step = StepResponse::read(&run, k).map_err(|e| refused(&sources, e))?;
+        let run = run_of(source, samples, asked.axis);
+        let step = StepResponse::read(&run, k).map_err(|e| refused(sources, e))?;
         runs.push((run, step));
     }
-    let mut warnings = log_warnings(&sources);
+    let mut warnings = log_warnings(sources);
     warnings.retain(|w| !ON_PURPOSE.contains(&w.code));
-    let (settings, map) = settings(options, axis, &sources, beside, &runs, &mut warnings)?;
-    let fit = fit_steps(&runs, &settings, observer).map_err(|e| refused(&sources, e))?;
-    let estimate = fit.fitted_law(&settings);
-    let mut reasons = Vec::new();
-    trust::unidentifiable(&estimate, motion, &mut warnings, &mut reasons);
-    judge(&fit, &mut warnings, &mut reasons);
-    let entry = entry(&fit, &runs, &settings, &sources, &mut warnings);
-    let break_away = super::break_away(beside, &estimate, motion)?;
-    let mut result = assemble::result(assemble::Parts {
-        options,
-        law_chosen_by: "user",
-        sources: &sources,
-        axis: ResolvedAxis {
-            name: axis.name.clone(),
-            kind: motion.to_string(),
-            force_unit: force_unit.clone(),
-            columns: sources[0].log.detected.clone(),
-            conditioning: vec![
-                "force and position as logged, nothing filtered; each force held until the next \
-                 sample"
-                    .into(),
-            ],
-            terms: assemble::term_names(&estimate, motion),
-        },
-        motion,
-        force_unit: &force_unit,
-        estimate: &estimate,
+    let (settings, map) = settings(asked, sources, &loaded.beside, &runs, &mut warnings)?;
+    let fit = fit_steps(&runs, &settings, observer).map_err(|e| refused(sources, e))?;
+    let law = fit.fitted_law(&settings);
+    let mut judged = trust::of_steps(&law, &fit, loaded.motion(), warnings);
+    let entry = entry(&fit, &runs, &settings, sources, &mut judged.warnings);
+    let break_away = break_away(&loaded.beside, &law)?;
+    let mut result = assemble::result(Parts {
+        asked,
+        sources,
+        conditioning: vec![
+            "force and position as logged, nothing filtered; each force held until the next sample"
+                .into(),
+        ],
+        law: &law,
         validation: &[],
         laws: Vec::new(),
-        trust: Trust {
-            trustworthy: reasons.is_empty(),
-            reasons,
-        },
-        warnings,
-        wall_s: clock.elapsed().as_secs_f64(),
+        law_chosen_by: "user",
+        judged,
     });
-    result.fit = entries::fit(&estimate.fit, "position", symbols::length_unit(motion));
+    let length = symbols::length_unit(loaded.motion());
+    result.fit = entries::fit(&law.fit, "position", length);
     result.presliding_step = Some(entry);
     result.static_map = map;
     result.break_away = break_away;
-    Ok(Outcome {
-        result,
-        estimate,
-        simulation: None,
-        validation: Vec::new(),
-        sources,
-        motion,
-        force_unit,
-        truth: Vec::new(),
-    })
+    let found = Found::Procedure(Box::new(law));
+    Ok(Outcome::new(result, found, Vec::new(), loaded.sources))
 }
 
 /// What is known beside the steps: mass and steady curve.
 fn settings(
-    options: &Options,
-    axis: &Axis,
+    Asked { options, axis, .. }: Asked,
     sources: &[Source],
     beside: &Beside,
     runs: &[(Run, StepResponse)],
@@ -193,27 +166,6 @@ fn given(statics: &Statics, positive: bool) -> [[f64; 5]; 5] {
         }
     }
     out
-}
-
-fn judge(fit: &StepFit, warnings: &mut Vec<Warning>, reasons: &mut Vec<String>) {
-    if fit.status != Status::Converged {
-        let code = if fit.status == Status::Interrupted {
-            Code::Interrupted
-        } else {
-            Code::NotConverged
-        };
-        let text = format!("the search did not converge (status {})", fit.status.name());
-        warnings.push(Warning::new(code, text.clone()));
-        reasons.push(text);
-    }
-    for p in fit.parameters.iter().filter(|p| p.name == "sigma0") {
-        if !p.identifiable {
-            reasons.push(format!(
-                "sigma0 is not determined by these steps: {}",
-                p.reason
-            ));
-        }
-    }
 }
 
 fn entry(

@@ -1,9 +1,11 @@
 //! `--method static-then-dynamic`: the static map, then sigma0 and sigma1 with it held, beside the
 //! joint fit of the same record.
 
-use super::{Beside, curve, refused};
+use super::curve;
 use crate::error::Error;
-use crate::identify::Options;
+use crate::identify::beside::Beside;
+use crate::identify::logs::refused;
+use crate::identify::options::Options;
 use crate::source::Source;
 use stiction_files::Axis;
 use stiction_files::Warning;
@@ -11,14 +13,17 @@ use stiction_files::result::{ResultFile, StaticMapEntry, TwoStepEntry, TwoStepPa
 use stiction_files::symbols;
 use stiction_identify as engine;
 use stiction_identify::procedure::dynamic;
-use stiction_identify::{Delay, Estimate, Law, LawKind, Observer, Record, Settings, Terms};
+use stiction_identify::{
+    Delay, Estimate, FittedLaw, Law, LawKind, Observer, Record, Settings, Terms,
+};
 use stiction_log::Motion;
 use stiction_parameters::{Name, Quantity};
 
-/// Differences of more than this many standard deviations of the joint fit are explained.
-const APART: f64 = 2.0;
-/// Correlation above which two parameters are said to stand for each other.
-const STRONG: f64 = 0.9;
+/// Difference of a parameter between the two ways, in standard deviations of the joint fit, above which it is explained:
+/// two, as the 95 % intervals.
+const EXPLAINED_DIFFERENCE: f64 = 2.0;
+/// Correlation of two parameters in the joint fit, 0 to 1, from which they are said to stand for each other.
+const CONFUSED_CORRELATION: f64 = 0.9;
 
 /// What the two steps work on.
 pub(in crate::identify) struct TwoStep<'a> {
@@ -33,22 +38,21 @@ pub(in crate::identify) struct TwoStep<'a> {
     pub settings: &'a Settings,
 }
 
-/// Both fits.
+/// The joint fit beside the one in two steps, and where the statics come from.
 pub(in crate::identify) struct TwoSteps {
-    pub estimate: Estimate,
     joint: Estimate,
     from: &'static str,
     map: Option<StaticMapEntry>,
-    warnings: Vec<Warning>,
+    pub warnings: Vec<Warning>,
 }
 
 /// Fits in two steps, and all at once.
 pub(in crate::identify) fn two_step(
     parts: TwoStep,
     observer: &mut dyn Observer,
-) -> Result<TwoSteps, Error> {
+) -> Result<(Estimate, TwoSteps), Error> {
     let allowed = "the dynamic parameters are those of lugre";
-    super::require(parts.options, &[LawKind::LuGre], allowed)?;
+    parts.options.require(&[LawKind::LuGre], allowed)?;
     let known = curve::known(parts.options, parts.axis, parts.sources, parts.beside)?;
     let fail = |e| refused(parts.sources, e);
     let statics = &known.statics;
@@ -79,21 +83,20 @@ pub(in crate::identify) fn two_step(
         ..terms.clone()
     };
     let estimate = dynamic(parts.record, statics, &terms, low_speed, observer).map_err(fail)?;
-    Ok(TwoSteps {
-        estimate,
+    let beside = TwoSteps {
         joint,
         from: known.from,
         map: known.map,
         warnings: known.warnings,
-    })
+    };
+    Ok((estimate, beside))
 }
 
 impl TwoSteps {
     /// Puts the comparison into the result.
-    pub fn into_result(self, result: &mut ResultFile, motion: Motion) {
+    pub fn into_result(self, law: &FittedLaw, result: &mut ResultFile, motion: Motion) {
         let unit = &result.axis.force_unit;
-        let parameters: Vec<TwoStepParameter> = self
-            .estimate
+        let parameters: Vec<TwoStepParameter> = law
             .parameters
             .iter()
             .filter(|p| p.identified)
@@ -113,21 +116,25 @@ impl TwoSteps {
                 })
             })
             .collect();
-        let explanation = self.explanation(&parameters, unit);
+        let explanation = self.explanation(law, &parameters, unit);
         result.static_then_dynamic = Some(TwoStepEntry {
             statics: self.from.into(),
-            rmse: self.estimate.fit.rmse,
+            rmse: law.fit.rmse,
             joint_rmse: self.joint.fit.rmse,
             parameters,
             explanation,
         });
         result.static_map = self.map;
-        result.warnings.extend(self.warnings);
     }
 
-    fn explanation(&self, parameters: &[TwoStepParameter], unit: &str) -> Vec<String> {
+    fn explanation(
+        &self,
+        law: &FittedLaw,
+        parameters: &[TwoStepParameter],
+        unit: &str,
+    ) -> Vec<String> {
         let mut out = Vec::new();
-        let (two, one) = (self.estimate.fit.rmse, self.joint.fit.rmse);
+        let (two, one) = (law.fit.rmse, self.joint.fit.rmse);
         out.push(format!(
             "On this record the two steps leave {} {unit} rms and the joint fit {} {unit}: the joint \
              fit may move every parameter and so always leaves the least; what is between the two is \
@@ -137,11 +144,14 @@ impl TwoSteps {
         ));
         let apart: Vec<&TwoStepParameter> = parameters
             .iter()
-            .filter(|p| p.difference_in_std.is_some_and(|d| d.abs() > APART))
+            .filter(|p| {
+                p.difference_in_std
+                    .is_some_and(|d| d.abs() > EXPLAINED_DIFFERENCE)
+            })
             .collect();
         if apart.is_empty() {
             out.push(format!(
-                "No parameter differs by more than {APART} standard deviations of the joint fit."
+                "No parameter differs by more than {EXPLAINED_DIFFERENCE} standard deviations of the joint fit."
             ));
         } else {
             let list: Vec<String> = apart
@@ -209,7 +219,7 @@ impl TwoSteps {
         let mut out = Vec::new();
         for (i, (a, row)) in covariance.names.iter().zip(&correlation).enumerate() {
             for (b, x) in covariance.names.iter().zip(row).skip(i + 1) {
-                if steady(a) && steady(b) && x.abs() >= STRONG {
+                if steady(a) && steady(b) && x.abs() >= CONFUSED_CORRELATION {
                     out.push(((*a, *b), *x));
                 }
             }

@@ -1,7 +1,7 @@
 //! sigma0 and sigma1 from control force and acceleration, Z25 eqs. (35)-(38), the static parameters held; and all six at
 //! once from the same record, by each of the three searches.
 
-use super::Budget;
+use super::budget::Budget;
 use super::fault::Fault;
 use super::search::{METHODS, Searched, search};
 use super::stage::{RATE, along, settings, truth};

@@ -1,7 +1,7 @@
 //! A step of the voltage below break-away: Z25 eqs. (26)-(34).
 
 use super::fault::Fault;
-use super::law;
+use super::law::law;
 use super::stage::{RATE, settings};
 use crate::reproduce::watch::Watch;
 use stiction_friction::Direction;

@@ -1,6 +1,6 @@
 //! A genetic search of the paper, with the course of its cost.
 
-use super::Budget;
+use super::budget::Budget;
 use super::fault::Fault;
 use crate::reproduce::watch::Watch;
 use stiction_identify::candidates::{Candidates, Named};

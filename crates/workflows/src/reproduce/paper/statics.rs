@@ -1,6 +1,6 @@
 //! Friction over velocity from runs at constant velocity, and the static parameters from it: Z25 eqs. (7)-(8).
 
-use super::Budget;
+use super::budget::Budget;
 use super::fault::Fault;
 use super::search::{Searched, search};
 use super::stage::{along, settings};

@@ -1,6 +1,6 @@
 //! What was identified: map, static and dynamic parameters, searches, step response.
 
-use super::numbers;
+use crate::report::reproduction::checks::numbers;
 use stiction_files::reproduce_file::ReproduceFile;
 use stiction_files::symbols;
 use stiction_friction::LuGre;

@@ -1,6 +1,6 @@
 //! The axis in motion: tracking without and with compensation, corner, change of load.
 
-use super::numbers;
+use crate::report::reproduction::checks::numbers;
 use stiction_files::reproduce_file::ReproduceFile;
 use stiction_report::{Axis, Block, Color, Dash, Document, Figure, Layer, Panel};
 use stiction_servo::axis::Sample;

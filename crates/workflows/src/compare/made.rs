@@ -1,10 +1,10 @@
 //! Subjects that are made: axes and curves whose parameters are known.
 
-use super::super::excitation::{DURATION, Excitation};
-use super::super::known::{self, KnownCurve};
-use super::super::{CompareOptions, Cost, NOISE, RATE};
+use super::excitation::{DURATION, Excitation};
 use super::genome::{Floor, about, genome};
-use super::{Data, Subject, lugre};
+use super::known::{self, KnownCurve};
+use super::options::{CompareOptions, Cost, USUAL_NOISE, USUAL_RATE};
+use super::subject::{Data, Subject, lugre};
 use crate::error::Error;
 use stiction_friction::{LuGre, ParamError};
 use stiction_identify as engine;
@@ -14,8 +14,9 @@ use stiction_servo::known::KnownAxis;
 use stiction_servo::noise::Noise;
 use stiction_servo::plant::{Load, Motion, Plant};
 
-/// Steps of the true law in one sample.
-const FINE: usize = 20;
+/// Steps of the true law in one sample of a made record: on its grid alone the record would hold the error of the law's
+/// own step.
+const STEPS_PER_SAMPLE: usize = 20;
 /// Seed of the noise of a made record: the searches have seeds of their own.
 const NOISE_SEED: u64 = 1;
 
@@ -57,7 +58,7 @@ pub(super) fn from_curve(options: &CompareOptions, curve: &KnownCurve) -> Result
 }
 
 fn noise_of(options: &CompareOptions) -> Result<f64, Error> {
-    let noise = options.noise.unwrap_or(NOISE);
+    let noise = options.noise.unwrap_or(USUAL_NOISE);
     if (0.0..=1.0).contains(&noise) {
         return Ok(noise);
     }
@@ -77,7 +78,7 @@ fn add_noise(values: &mut [f64], share: f64) {
 }
 
 pub(super) fn from_axis(options: &CompareOptions, axis: &KnownAxis) -> Result<Subject, Error> {
-    let rate = options.rate.unwrap_or(RATE);
+    let rate = options.rate.unwrap_or(USUAL_RATE);
     if !(100.0..=100_000.0).contains(&rate) {
         return Err(Error::usage(format!("--rate {rate}"), "100 to 100000 Hz"));
     }
@@ -177,11 +178,11 @@ fn along(
     samples: usize,
     velocity: impl Fn(f64) -> f64,
 ) -> (Vec<f64>, Vec<f64>) {
-    let h = step / FINE as f64;
+    let h = step / STEPS_PER_SAMPLE as f64;
     let mut z = 0.0;
     (0..samples)
         .map(|i| {
-            for k in 0..if i > 0 { FINE } else { 0 } {
+            for k in 0..if i > 0 { STEPS_PER_SAMPLE } else { 0 } {
                 let t = (i - 1) as f64 * step + k as f64 * h;
                 z = law.step_record(z, h, velocity(t), velocity(t + h));
             }
@@ -200,11 +201,11 @@ fn broken_away(
 ) -> Result<(Vec<f64>, Vec<f64>), ParamError> {
     let plant = Plant::new(axis.mass, law)?;
     let largest = axis.law.curve().positive().static_friction;
-    let h = step / FINE as f64;
+    let h = step / STEPS_PER_SAMPLE as f64;
     let mut at = Motion::default();
     let mut out = (Vec::with_capacity(samples), Vec::with_capacity(samples));
     for i in 0..samples {
-        for k in 0..if i > 0 { FINE } else { 0 } {
+        for k in 0..if i > 0 { STEPS_PER_SAMPLE } else { 0 } {
             let t = (i - 1) as f64 * step + (k as f64 + 0.5) * h;
             let load = Load::force(largest * Excitation::force(t));
             at = plant.step(at, h, load).motion;
@@ -218,11 +219,11 @@ fn broken_away(
 /// Position at the end of each step under a force held in it.
 fn moved(mass: f64, law: LuGre<f64>, step: f64, force: &[f64]) -> Result<Vec<f64>, ParamError> {
     let plant = Plant::new(mass, law)?;
-    let h = step / FINE as f64;
+    let h = step / STEPS_PER_SAMPLE as f64;
     let mut at = Motion::default();
     let mut out = Vec::with_capacity(force.len());
     for &u in force {
-        for _ in 0..FINE {
+        for _ in 0..STEPS_PER_SAMPLE {
             at = plant.step(at, h, Load::force(u)).motion;
         }
         out.push(at.position);

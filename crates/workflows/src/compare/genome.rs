@@ -1,6 +1,6 @@
 //! Genes of known parameters, and boxes about them.
 
-use super::super::Cost;
+use super::options::Cost;
 use crate::error::Error;
 use std::f64::consts::LN_10;
 use stiction_search::Bounds;

@@ -1,0 +1,95 @@
+//! Subjects that are measured: logs of one axis.
+
+use super::genome::{Floor, about, genome};
+use super::options::{CompareOptions, Cost};
+use super::subject::{Data, Subject, lugre};
+use crate::error::Error;
+use crate::identify::record_of;
+use std::path::{Path, PathBuf};
+use stiction_files::Axis;
+use stiction_identify as engine;
+use stiction_identify::candidates::{box_of_six, thinned};
+use stiction_identify::{Law, Observer, SearchBox, Settings};
+use stiction_search::Bounds;
+
+/// The logs as searches see them.
+pub(super) fn subject(
+    options: &CompareOptions,
+    logs: &[PathBuf],
+    axis: Option<&Path>,
+    observer: &mut dyn Observer,
+) -> Result<Subject, Error> {
+    let made = [
+        ("--noise", options.noise.is_some()),
+        ("--excitation", options.excitation.is_some()),
+        ("--rate", options.rate.is_some()),
+        ("--other-law", options.other_law),
+        ("--cost position", options.cost == Some(Cost::Position)),
+    ];
+    if let Some((name, _)) = made.iter().find(|(_, given)| *given) {
+        return Err(Error::usage(
+            format!("{name} beside a log"),
+            "only a --problem is made; a log is what it is",
+        ));
+    }
+    let axis = axis.map_or_else(|| Ok(Axis::default()), Axis::read)?;
+    if axis.exponent_fitted {
+        return Err(Error::usage(
+            "stribeck_exponent = \"fit\"",
+            "a number; only the default method of identify fits it",
+        ));
+    }
+    let law = Law {
+        exponent: axis.stribeck_exponent,
+        ..lugre()
+    };
+    let (sources, record, terms) = record_of(logs, &axis, observer)?;
+    let name: Vec<String> = sources
+        .iter()
+        .map(|s| s.path.display().to_string())
+        .collect();
+    let name = name.join(", ");
+    let refused = |source| Error::Identify {
+        inputs: name.clone(),
+        source,
+    };
+    let cost = options.cost.unwrap_or(Cost::Six);
+    let bounds = match (options.decades, cost) {
+        (None, Cost::Separable) => {
+            let inner = SearchBox::from_record(&record, &law).map_err(refused)?;
+            let ends = |end: fn(&SearchBox, usize) -> f64| {
+                (0..inner.len()).map(|i| end(&inner, i)).collect()
+            };
+            Bounds::new(ends(SearchBox::low), ends(SearchBox::high))
+                .map_err(|e| Error::usage(e.to_string(), "a log with motion and force"))?
+        }
+        (None, _) => box_of_six(&record).map_err(refused)?,
+        (Some(decades), _) => {
+            let settings = Settings::default();
+            let (estimate, _) = engine::identify(&record, law, &terms, 0.0, &settings, observer)
+                .map_err(refused)?;
+            let found: Vec<(String, f64)> = (estimate.parameters.iter())
+                .map(|p| (p.name.to_string(), p.value))
+                .collect();
+            let floor = Floor::new(estimate.value("coulomb").unwrap_or(1.0), record.top_speed());
+            about(&genome(&found, cost, floor), decades)?
+        }
+    };
+    Ok(Subject {
+        name: name.clone(),
+        source: "a log".into(),
+        motion: record.notes.join("; "),
+        samples: record.kept(),
+        rate_hz: 1.0 / record.step(),
+        truth: Vec::new(),
+        cost,
+        law,
+        scheme: options.integrator,
+        bounds,
+        data: Data::Record {
+            thinned: thinned(&record).map(Box::new),
+            record: Box::new(record),
+            terms,
+        },
+    })
+}

@@ -1,0 +1,168 @@
+//! The second step: logs to the record that is fitted, and the records that are validated on.
+
+use super::conditioning::{self, conditioned};
+use super::load::{Asked, Loaded, check_together};
+use super::logs::paths;
+use crate::error::Error;
+use crate::source::{Source, load_all};
+use std::path::PathBuf;
+use stiction_codes::Code;
+use stiction_files::{Axis, symbols};
+use stiction_identify as engine;
+use stiction_identify::{LawKind, Observer, Record, Settings, Terms};
+use stiction_log::Motion;
+
+/// Fewest samples that a split may leave to validate on: fewer give an rms that says nothing.
+const FEWEST_HELD_OUT_SAMPLES: usize = 20;
+
+/// What is fitted, and what it is validated on.
+pub(super) struct Conditioned {
+    pub record: Record,
+    /// Records that are not fitted.
+    pub unseen: Vec<Record>,
+    /// Their names.
+    pub unseen_names: Vec<String>,
+    /// Linear terms beside a symmetric law.
+    pub symmetric: Terms,
+    /// Linear terms beside an asymmetric law.
+    pub asymmetric: Terms,
+    /// Speed below which a sample counts as slow, m/s or rad/s.
+    pub low_speed: f64,
+    /// How the cut-offs were chosen.
+    pub note: Option<String>,
+    /// Whether the same command would see the same record: the choice of the cut-offs was not stopped.
+    pub repeatable: bool,
+}
+
+impl Conditioned {
+    /// The linear terms beside a law.
+    pub fn terms(&self, asymmetric: bool) -> &Terms {
+        match asymmetric {
+            true => &self.asymmetric,
+            false => &self.symmetric,
+        }
+    }
+}
+
+/// Conditions the logs, and sets aside what is not to be fitted.
+pub(super) fn condition(
+    asked: Asked,
+    loaded: &Loaded,
+    observer: &mut dyn Observer,
+) -> Result<Conditioned, Error> {
+    let Asked { options, axis, .. } = asked;
+    let sources = &loaded.sources;
+    let terms = |asymmetric| axis.terms_for(&sources[0].log, asymmetric);
+    let (symmetric, asymmetric) = (terms(false)?, terms(true)?);
+    let settings = settings(options.seed);
+    let wanted = conditioning::wanted(sources, axis);
+    let chosen = conditioning::choose(sources, &wanted, &symmetric, &settings, observer)?;
+    // A Maxwell-slip law remembers its past: it is fitted from where the motion has wiped that out.
+    let settle = |record: Record| match options.law.is_some_and(LawKind::has_elements) {
+        true => record.settled(),
+        false => record,
+    };
+    let full = settle(conditioned(sources, &chosen.conditioning)?);
+    let (record, split) = match options.split {
+        None => (full.clone(), None),
+        Some(part) => {
+            let (first, rest) = split(&full, part)?;
+            (first, Some(rest))
+        }
+    };
+    refuse_rest(&record, sources, loaded.motion())?;
+    let low_speed = axis
+        .low_speed
+        .unwrap_or_else(|| engine::low_speed_bound(&full));
+    let (unseen_names, unseen) = match split {
+        Some(rest) => (vec!["rest of the log".to_string()], vec![rest]),
+        None => {
+            let one = |source: &Source| {
+                conditioned(std::slice::from_ref(source), &chosen.conditioning).map(settle)
+            };
+            let records: Result<Vec<Record>, Error> = loaded.held_out.iter().map(one).collect();
+            (paths(&loaded.held_out), records?)
+        }
+    };
+    Ok(Conditioned {
+        symmetric: symmetric.about(&record),
+        asymmetric: asymmetric.about(&record),
+        record,
+        unseen,
+        unseen_names,
+        low_speed,
+        note: chosen.note,
+        repeatable: !chosen.interrupted,
+    })
+}
+
+/// Settings of the engine with a seed.
+pub(super) fn settings(seed: u64) -> Settings {
+    Settings {
+        seed,
+        ..Settings::default()
+    }
+}
+
+/// Logs of one axis as the fit of the symmetric LuGre law sees them, and what stands beside it.
+pub(crate) fn record_of(
+    logs: &[PathBuf],
+    axis: &Axis,
+    observer: &mut dyn Observer,
+) -> Result<(Vec<Source>, Record, Terms), Error> {
+    let sources = load_all(logs, axis)?;
+    check_together(&sources, &[])?;
+    for source in &sources {
+        source.check_channels(&axis.terms)?;
+    }
+    let terms = axis.terms_for(&sources[0].log, false)?;
+    let wanted = conditioning::wanted(&sources, axis);
+    let chosen = conditioning::choose(&sources, &wanted, &terms, &Settings::default(), observer)?;
+    let record = conditioned(&sources, &chosen.conditioning)?;
+    refuse_rest(&record, &sources, sources[0].log.motion)?;
+    let terms = terms.about(&record);
+    Ok((sources, record, terms))
+}
+
+/// The part of a record that is fitted, and the rest.
+fn split(full: &Record, part: f64) -> Result<(Record, Record), Error> {
+    if !(part > 0.0 && part < 1.0) {
+        return Err(Error::usage(
+            format!("--split {part}"),
+            "a number between 0 and 1, such as 0.5",
+        ));
+    }
+    let at = (part * full.len() as f64) as usize;
+    let rest = full.masked(|i| i >= at);
+    if rest.kept() < FEWEST_HELD_OUT_SAMPLES {
+        return Err(Error::usage(
+            format!(
+                "--split {part} leaves {} samples to validate on",
+                rest.kept()
+            ),
+            format!(
+                "at least {FEWEST_HELD_OUT_SAMPLES} of the {} usable ones",
+                full.kept()
+            ),
+        ));
+    }
+    Ok((full.masked(|i| i < at), rest))
+}
+
+/// Refuses a log without motion, in the words of its own unit.
+fn refuse_rest(record: &Record, sources: &[Source], motion: Motion) -> Result<(), Error> {
+    let top = record.top_speed();
+    let still = sources
+        .iter()
+        .all(|s| s.log.findings.iter().any(|f| f.code == Code::NoMotion));
+    if top > 0.0 && !still {
+        return Ok(());
+    }
+    Err(Error::Identify {
+        inputs: paths(sources).join(", "),
+        source: engine::Error::NoMotion {
+            bound: top,
+            unit: symbols::speed_unit(motion),
+        },
+    })
+}

@@ -1,0 +1,175 @@
+//! The third step: the record to a law, by the method that is asked for.
+
+use super::choice::{self, Choice};
+use super::condition::{Conditioned, settings};
+use super::ladder::Ladder;
+use super::load::{Asked, Loaded};
+use super::logs::paths;
+use super::method::Method;
+use super::procedure::{TwoStep, TwoSteps, break_away, two_step};
+use super::searched;
+use crate::error::Error;
+use stiction_files::result::{BreakAwayEntry, SearchedEntry};
+use stiction_identify as engine;
+use stiction_identify::{Law, LawKind, Observer};
+
+/// A fitted law, and how it was come by.
+pub(super) struct Fitted {
+    /// The law, and those it was compared with.
+    pub choice: Choice,
+    /// What a search found, where one was asked for.
+    pub searched: Option<SearchedEntry>,
+    /// Why the state of the search could not be kept.
+    pub not_kept: Option<Error>,
+    /// Both fits, where static parameters come first.
+    pub two_steps: Option<TwoSteps>,
+    /// What the law says of the break-away runs.
+    pub break_away: Vec<BreakAwayEntry>,
+}
+
+/// Fits the record.
+pub(super) fn fit(
+    asked: Asked,
+    loaded: &Loaded,
+    conditioned: &Conditioned,
+    observer: &mut dyn Observer,
+) -> Result<Fitted, Error> {
+    let mut fitted = match asked.options.procedures.method {
+        Method::StaticThenDynamic => in_two_steps(asked, loaded, conditioned, observer)?,
+        Method::Searched(_) if asked.options.law.is_some() => {
+            by_search(asked, loaded, conditioned, observer)?
+        }
+        _ => at_once(asked, loaded, conditioned, observer)?,
+    };
+    fitted.break_away = break_away(&loaded.beside, &fitted.choice.estimate)?;
+    Ok(fitted)
+}
+
+impl Fitted {
+    fn new(choice: Choice) -> Self {
+        Self {
+            choice,
+            searched: None,
+            not_kept: None,
+            two_steps: None,
+            break_away: Vec::new(),
+        }
+    }
+}
+
+/// The law that is asked for.
+fn law(asked: Asked) -> Law {
+    let Asked { options, axis, .. } = asked;
+    Law {
+        kind: options.law.unwrap_or(LawKind::LuGre),
+        asymmetric: options.asymmetric,
+        exponent: axis.stribeck_exponent,
+        exponent_fitted: axis.exponent_fitted,
+        elements: axis.gms_elements.unwrap_or(0),
+    }
+}
+
+/// What laws are fitted and compared on.
+fn ladder(conditioned: &Conditioned) -> Ladder<'_> {
+    Ladder {
+        record: &conditioned.record,
+        held_out: &conditioned.unseen,
+        symmetric: &conditioned.symmetric,
+        asymmetric: &conditioned.asymmetric,
+        low_speed: conditioned.low_speed,
+    }
+}
+
+/// All parameters at once, by separable least squares.
+fn at_once(
+    asked: Asked,
+    loaded: &Loaded,
+    conditioned: &Conditioned,
+    observer: &mut dyn Observer,
+) -> Result<Fitted, Error> {
+    let options = asked.options;
+    let ladder = ladder(conditioned);
+    let settings = settings(options.seed);
+    let choice = match options.law {
+        Some(_) => choice::asked(
+            law(asked),
+            &ladder,
+            options.compare_laws,
+            &settings,
+            observer,
+        ),
+        None => choice::auto(law(asked), &ladder, &settings, observer),
+    };
+    let choice = choice.map_err(|source: engine::Error| Error::Identify {
+        inputs: paths(&loaded.sources).join(", "),
+        source,
+    })?;
+    Ok(Fitted::new(choice))
+}
+
+/// All parameters at once, by one of the searches.
+fn by_search(
+    asked: Asked,
+    loaded: &Loaded,
+    conditioned: &Conditioned,
+    observer: &mut dyn Observer,
+) -> Result<Fitted, Error> {
+    let options = asked.options;
+    let settings = settings(options.seed);
+    let found = searched::search(
+        searched::Task {
+            options,
+            inputs: &loaded.sources,
+            record: &conditioned.record,
+            law: law(asked),
+            terms: conditioned.terms(options.asymmetric),
+            low_speed: conditioned.low_speed,
+            settings: &settings,
+            clock: asked.clock,
+            keep: conditioned.repeatable,
+        },
+        observer,
+    )?;
+    let choice = choice::fitted_already(
+        (found.estimate, found.optimum),
+        &ladder(conditioned),
+        options.compare_laws,
+        &settings,
+        observer,
+    );
+    Ok(Fitted {
+        searched: Some(found.entry),
+        not_kept: found.lost,
+        ..Fitted::new(choice)
+    })
+}
+
+/// Static parameters first, then stiffness and micro-damping.
+fn in_two_steps(
+    asked: Asked,
+    loaded: &Loaded,
+    conditioned: &Conditioned,
+    observer: &mut dyn Observer,
+) -> Result<Fitted, Error> {
+    let asymmetric = asked.options.asymmetric;
+    let (estimate, both) = two_step(
+        TwoStep {
+            options: asked.options,
+            axis: asked.axis,
+            sources: &loaded.sources,
+            beside: &loaded.beside,
+            record: &conditioned.record,
+            terms: [
+                conditioned.terms(asymmetric),
+                conditioned.terms(!asymmetric),
+            ],
+            low_speed: conditioned.low_speed,
+            settings: &settings(asked.options.seed),
+        },
+        observer,
+    )?;
+    Ok(Fitted {
+        two_steps: Some(both),
+        ..Fitted::new(Choice::alone(estimate))
+    })
+}

@@ -1,0 +1,50 @@
+//! The fourth step: how far the fitted law may be trusted, and what to beware of.
+
+use super::condition::Conditioned;
+use super::fit::Fitted;
+use super::load::{Asked, Loaded};
+use super::logs::log_warnings;
+use super::trust::{self, Judged};
+use stiction_codes::Code;
+use stiction_files::Warning;
+use stiction_identify::{Delay, Status};
+
+/// Says what happened on the way, then judges the law.
+pub(super) fn judge(
+    asked: Asked,
+    loaded: &Loaded,
+    conditioned: &Conditioned,
+    fitted: &Fitted,
+) -> Judged {
+    let law = &fitted.choice.estimate;
+    let mut warnings = log_warnings(&loaded.sources);
+    if asked.axis.terms.delay == Delay::Fitted && law.terms.delay == Delay::NONE {
+        let text = "the delay between force and motion would be more than four samples, which is \
+                    something else that the law does not explain; it is taken as none";
+        warnings.push(Warning::new(Code::DelayOutOfRange, text));
+    }
+    if let Some(error) = &fitted.not_kept {
+        let text = format!("the state of the search could not be kept: {error}");
+        warnings.push(Warning::new(Code::BadCheckpoint, text));
+    }
+    let compares = asked.options.compare_laws && fitted.two_steps.is_none();
+    if compares && fitted.choice.laws.is_empty() && law.status != Status::Interrupted {
+        let text = "the comparison of laws was interrupted and is left out; the fit is complete";
+        warnings.push(Warning::new(Code::Interrupted, text));
+    }
+    let evidence = trust::Evidence {
+        law,
+        moves_both_ways: conditioned.record.moves_both_ways(),
+        sources: &loaded.sources,
+        laws: &fitted.choice.laws,
+        motion: loaded.motion(),
+    };
+    match &fitted.two_steps {
+        None => trust::of_force(&evidence, warnings),
+        Some(both) => {
+            let mut judged = trust::of_two_steps(&evidence, warnings);
+            judged.warnings.extend_from_slice(&both.warnings);
+            judged
+        }
+    }
+}

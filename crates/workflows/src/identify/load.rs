@@ -1,0 +1,108 @@
+//! The first step: the logs and what stands beside them, held against what is asked.
+
+use super::beside::Beside;
+use super::method::Method;
+use super::options::Options;
+use super::searched;
+use crate::error::Error;
+use crate::source::Source;
+use std::time::Instant;
+use stiction_files::Axis;
+use stiction_identify::LawKind;
+use stiction_log::Motion;
+
+/// What is asked, of which axis, and since when.
+#[derive(Clone, Copy)]
+pub(crate) struct Asked<'a> {
+    pub options: &'a Options,
+    pub axis: &'a Axis,
+    pub clock: Instant,
+}
+
+/// Logs of one axis, and what stands beside them.
+pub(super) struct Loaded {
+    /// Fitted together; at least one.
+    pub sources: Vec<Source>,
+    /// Validated on.
+    pub held_out: Vec<Source>,
+    pub beside: Beside,
+}
+
+impl Loaded {
+    /// Linear or rotary.
+    pub fn motion(&self) -> Motion {
+        self.sources[0].log.motion
+    }
+}
+
+/// Reads what stands beside logs that were read, and refuses what does not go together.
+pub(super) fn load(
+    asked: Asked,
+    sources: Vec<Source>,
+    held_out: Vec<Source>,
+) -> Result<Loaded, Error> {
+    let Asked { options, axis, .. } = asked;
+    if options.law.is_none() && options.asymmetric {
+        return Err(Error::usage(
+            "--law auto with --asymmetric",
+            "leave one out: auto tries every law symmetric and asymmetric",
+        ));
+    }
+    let beside = Beside::load(options, axis)?;
+    let others = [held_out.as_slice(), &beside.statics, &beside.break_away].concat();
+    check_together(&sources, &others)?;
+    beside.check_model(options, &sources[0])?;
+    for source in sources.iter().chain(&held_out) {
+        source.check_channels(&axis.terms)?;
+    }
+    let elements = options.law.is_some_and(LawKind::has_elements);
+    if axis.exponent_fitted && (elements || options.procedures.method != Method::Separable) {
+        return Err(Error::usage(
+            "stribeck_exponent = \"fit\" with another method than separable, or a Maxwell-slip law",
+            "a number; only the separable method fits it, beside laws with one curve",
+        ));
+    }
+    searched::check(options)?;
+    Ok(Loaded {
+        sources,
+        held_out,
+        beside,
+    })
+}
+
+/// All logs must be of one kind of axis, with force in one unit, and no log may count twice.
+pub(super) fn check_together(sources: &[Source], held_out: &[Source]) -> Result<(), Error> {
+    let Some(first) = sources.first() else {
+        return Err(Error::usage("no log given", "name at least one log file"));
+    };
+    let all: Vec<&Source> = sources.iter().chain(held_out).collect();
+    for (i, log) in all.iter().enumerate() {
+        if let Some(twin) = all[..i].iter().find(|other| other.sha256 == log.sha256) {
+            return Err(Error::usage(
+                format!(
+                    "{} and {} are the same log",
+                    twin.path.display(),
+                    log.path.display()
+                ),
+                "give each log once, and validate on logs that are not fitted",
+            ));
+        }
+    }
+    for other in sources.iter().chain(held_out).skip(1) {
+        if other.log.motion != first.log.motion || other.log.force_unit != first.log.force_unit {
+            return Err(Error::usage(
+                format!(
+                    "{} is {} with force in {}, {} is {} with force in {}",
+                    first.path.display(),
+                    first.log.motion,
+                    first.log.force_unit,
+                    other.path.display(),
+                    other.log.motion,
+                    other.log.force_unit
+                ),
+                "logs that are fitted or validated together must be of one axis",
+            ));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,68 @@
+//! What the steps of an identification need of its logs: their samples, their names, what was found in them.
+
+use crate::error::Error;
+use crate::source::Source;
+use stiction_files::{Axis, Warning};
+use stiction_identify as engine;
+use stiction_identify::Samples;
+use stiction_identify::procedure::Run;
+use stiction_log::Severity;
+
+/// Samples of every source, for runs to borrow.
+pub(super) fn samples(sources: &[Source]) -> Result<Vec<Samples>, Error> {
+    sources.iter().map(Source::samples).collect()
+}
+
+/// A source as a procedure sees it.
+pub(super) fn run_of<'a>(source: &'a Source, samples: &'a Samples, axis: &Axis) -> Run<'a> {
+    Run {
+        samples,
+        reference: source.log.reference.as_deref(),
+        resolution: axis.conditioning.resolution.or(source.log.quantum),
+    }
+}
+
+/// An engine's refusal with the logs it is about.
+pub(super) fn refused(sources: &[Source], source: engine::Error) -> Error {
+    // The engine counts logs; people have their names.
+    let one = match &source {
+        engine::Error::NoStep { log, .. } | engine::Error::NoBreakAway { log, .. } => {
+            sources.get(log - 1).map(std::slice::from_ref)
+        }
+        _ => None,
+    };
+    let named = one.unwrap_or(sources);
+    Error::Identify {
+        inputs: paths(named).join(", "),
+        source,
+    }
+}
+
+/// The path of a log by its number.
+pub(super) fn path_of(sources: &[Source], log: usize) -> String {
+    sources
+        .get(log)
+        .map_or_else(String::new, |s| s.path.display().to_string())
+}
+
+/// Paths as given.
+pub(super) fn paths(sources: &[Source]) -> Vec<String> {
+    sources
+        .iter()
+        .map(|s| s.path.display().to_string())
+        .collect()
+}
+
+/// What the reader warned of, with the log it is about.
+pub(super) fn log_warnings(sources: &[Source]) -> Vec<Warning> {
+    sources
+        .iter()
+        .flat_map(|s| {
+            s.log
+                .findings
+                .iter()
+                .filter(|f| f.severity == Severity::Warning)
+                .map(|f| Warning::new(f.code, format!("{}: {}", s.path.display(), f.message)))
+        })
+        .collect()
+}

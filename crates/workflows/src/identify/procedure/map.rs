@@ -1,0 +1,188 @@
+//! The static map of logs of constant velocity: the stretches, the curve, and what to beware of.
+
+use crate::error::Error;
+use crate::identify::logs::{path_of, refused, run_of, samples};
+use crate::identify::options::Options;
+use crate::source::Source;
+use stiction_codes::Code;
+use stiction_files::result::{RejectedEntry, StaticMapEntry, StaticPointEntry};
+use stiction_files::symbols;
+use stiction_files::{Axis, Warning};
+use stiction_identify::LawKind;
+use stiction_identify::procedure::{
+    Exponent, Run, StaticMap, StaticSettings, Stretches, static_map, stretches,
+};
+use stiction_log::Motion;
+
+/// Different speeds in each direction below which a map is warned of: twelve show the Stribeck curve from well below its
+/// velocity to the viscous branch (`docs/procedures.md`).
+const ADVISED_SPEEDS: usize = 12;
+/// Difference of two speeds, as a part of the lower one, up to which they count as one, dimensionless.
+const SAME_SPEED_WITHIN: f64 = 0.02;
+/// Weight of a point in the robust loss, 0 to 1, below which it is named as lying off the curve.
+const OUTLYING_WEIGHT: f64 = 0.1;
+
+/// A map with what goes into the result.
+pub(super) struct Mapped {
+    pub map: StaticMap,
+    pub entry: StaticMapEntry,
+    pub warnings: Vec<Warning>,
+}
+
+/// Finds the stretches in logs and fits the map.
+pub(super) fn map(options: &Options, axis: &Axis, sources: &[Source]) -> Result<Mapped, Error> {
+    let motion = sources[0].log.motion;
+    let terms = axis.terms_for(&sources[0].log, options.asymmetric)?;
+    let own = samples(sources)?;
+    let runs: Vec<Run> = sources
+        .iter()
+        .zip(&own)
+        .map(|(source, samples)| run_of(source, samples, axis))
+        .collect();
+    let found = stretches(&runs, &terms.cogging).map_err(|e| refused(sources, e))?;
+    let settings = StaticSettings {
+        asymmetric: options.asymmetric,
+        offset: terms.offset && !options.asymmetric,
+        stribeck: options.law != Some(LawKind::CoulombViscous),
+        exponent: Exponent::Given(axis.stribeck_exponent),
+    };
+    let map = static_map(&found.points, &settings).map_err(|e| refused(sources, e))?;
+    let warnings = warnings(&map, &found, sources, motion);
+    let entry = entry(&map, &found, sources, motion);
+    Ok(Mapped {
+        map,
+        entry,
+        warnings,
+    })
+}
+
+/// A value with its unit of speed, for messages.
+fn speed(value: f64, motion: Motion) -> String {
+    format!(
+        "{} {}",
+        stiction_number::four_digits(value),
+        symbols::speed_unit(motion)
+    )
+}
+
+fn warnings(
+    map: &StaticMap,
+    found: &Stretches,
+    sources: &[Source],
+    motion: Motion,
+) -> Vec<Warning> {
+    let mut out = Vec::new();
+    let distinct = |sign: f64| {
+        let mut speeds: Vec<f64> = map
+            .points
+            .iter()
+            .filter(|p| p.velocity * sign > 0.0)
+            .map(|p| p.velocity.abs())
+            .collect();
+        speeds.sort_by(f64::total_cmp);
+        speeds.dedup_by(|b, a| *b <= *a * (1.0 + SAME_SPEED_WITHIN));
+        speeds.len()
+    };
+    let (pos, neg) = (distinct(1.0), distinct(-1.0));
+    if pos.min(neg) < ADVISED_SPEEDS {
+        out.push(Warning::new(
+            Code::FewSpeeds,
+            format!(
+                "{pos} different speeds in the positive direction and {neg} in the negative one; a \
+                 static map should have {ADVISED_SPEEDS} each way, evenly spaced in their logarithm, from \
+                 well below the Stribeck velocity to the top speed"
+            ),
+        ));
+    }
+    if !found.rejected.is_empty() {
+        let list: Vec<String> = found
+            .rejected
+            .iter()
+            .take(3)
+            .map(|r| {
+                format!(
+                    "{} at {:.3} to {:.3} s, {}: {}",
+                    path_of(sources, r.log),
+                    r.time.0,
+                    r.time.1,
+                    speed(r.velocity, motion),
+                    r.reason.name()
+                )
+            })
+            .collect();
+        let more = found.rejected.len().saturating_sub(list.len());
+        let more = if more > 0 {
+            format!("; and {more} more")
+        } else {
+            String::new()
+        };
+        out.push(Warning::new(
+            Code::UnsteadyStretches,
+            format!(
+                "{} left out: {}{more}",
+                plural(found.rejected.len(), "stretch", "stretches"),
+                list.join("; ")
+            ),
+        ));
+    }
+    let outlying: Vec<String> = map
+        .points
+        .iter()
+        .zip(&map.weights)
+        .filter(|(_, w)| **w < OUTLYING_WEIGHT)
+        .map(|(p, _)| speed(p.velocity, motion))
+        .collect();
+    if !outlying.is_empty() {
+        out.push(Warning::new(
+            Code::OutlyingPoints,
+            format!(
+                "{} far off the curve of the others and hardly counted: {}",
+                plural(outlying.len(), "point lies", "points lie"),
+                outlying.join(", ")
+            ),
+        ));
+    }
+    out
+}
+
+fn plural(n: usize, one: &str, many: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { many })
+}
+
+fn entry(map: &StaticMap, found: &Stretches, sources: &[Source], motion: Motion) -> StaticMapEntry {
+    StaticMapEntry {
+        velocity_unit: symbols::speed_unit(motion).into(),
+        force_unit: sources[0].log.force_unit.clone(),
+        scatter: map.scatter,
+        points: map
+            .points
+            .iter()
+            .zip(map.model.iter().zip(&map.weights))
+            .map(|(p, (model, weight))| StaticPointEntry {
+                path: path_of(sources, p.log),
+                start_s: p.time.0,
+                end_s: p.time.1,
+                velocity: p.velocity,
+                force: p.force,
+                force_std: p.error,
+                model: *model,
+                weight: *weight,
+                samples: p.samples,
+                effective_samples: p.effective,
+                dropped_s: p.dropped,
+                pitches: p.pitches,
+            })
+            .collect(),
+        rejected: found
+            .rejected
+            .iter()
+            .map(|r| RejectedEntry {
+                path: path_of(sources, r.log),
+                start_s: r.time.0,
+                end_s: r.time.1,
+                velocity: r.velocity,
+                reason: r.reason.name().into(),
+            })
+            .collect(),
+    }
+}

@@ -1,0 +1,97 @@
+//! An identification from logs to outcome: load, condition, fit, judge.
+
+use super::assemble::{self, Parts};
+use super::condition::condition;
+use super::fit::fit;
+use super::judge::judge;
+use super::load::{Asked, Loaded, load};
+use super::method::Method;
+use super::options::Options;
+use super::outcome::{Found, Outcome};
+use super::procedure::{static_map, step};
+use super::simulate;
+use crate::error::Error;
+use crate::source::{Source, load_all};
+use std::time::Instant;
+use stiction_files::Axis;
+use stiction_identify as engine;
+use stiction_identify::{Observer, Series};
+
+/// Reads, conditions, fits, compares laws and validates.
+///
+/// # Errors
+/// Where an input cannot be read or nothing can be identified from it. A fit that should not be
+/// trusted is not an error: see [`ResultFile::trust`](stiction_files::result::ResultFile::trust).
+pub fn identify(options: &Options, observer: &mut dyn Observer) -> Result<Outcome, Error> {
+    let clock = Instant::now();
+    let axis = match &options.axis {
+        Some(file) => Axis::read(file)?,
+        None => Axis::default(),
+    };
+    let sources = load_all(&options.logs, &axis)?;
+    let held_out = load_all(&options.validate, &axis)?;
+    let asked = Asked {
+        options,
+        axis: &axis,
+        clock,
+    };
+    identify_logs(asked, sources, held_out, observer)
+}
+
+/// The same for logs that are in memory already.
+pub(crate) fn identify_logs(
+    asked: Asked,
+    sources: Vec<Source>,
+    held_out: Vec<Source>,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, Error> {
+    let loaded = load(asked, sources, held_out)?;
+    match asked.options.procedures.method {
+        Method::Static => static_map::run(asked, loaded),
+        Method::PreslidingStep => step::run(asked, loaded, observer),
+        Method::OutputError => simulate::run(asked, loaded, observer),
+        Method::Separable | Method::StaticThenDynamic | Method::Searched(_) => {
+            fit_force(asked, loaded, observer)
+        }
+    }
+}
+
+/// Fits the force of whole records.
+fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Result<Outcome, Error> {
+    let conditioned = condition(asked, &loaded, observer)?;
+    let fitted = fit(asked, &loaded, &conditioned, observer)?;
+    let judged = judge(asked, &loaded, &conditioned, &fitted);
+    let estimate = fitted.choice.estimate;
+    let validation: Vec<(String, Series)> = conditioned
+        .unseen_names
+        .into_iter()
+        .zip(&conditioned.unseen)
+        .map(|(name, record)| (name, engine::predict(record, &estimate)))
+        .collect();
+    let notes = conditioned.record.notes.iter().cloned();
+    let mut result = assemble::result(Parts {
+        asked,
+        sources: &loaded.sources,
+        conditioning: notes
+            .chain(conditioned.note)
+            .chain(assemble::correction_note(&estimate))
+            .chain(assemble::delay_note(&estimate))
+            .collect(),
+        law: &estimate,
+        validation: &validation,
+        laws: fitted.choice.laws,
+        law_chosen_by: fitted.choice.by,
+        judged,
+    });
+    result.break_away = fitted.break_away;
+    result.searched = fitted.searched;
+    if let Some(both) = fitted.two_steps {
+        both.into_result(&estimate, &mut result, loaded.motion());
+    }
+    Ok(Outcome::new(
+        result,
+        Found::Force(Box::new(estimate)),
+        validation,
+        loaded.sources,
+    ))
+}

@@ -1,0 +1,49 @@
+//! The experiments of Canudas de Wit et al. 1995.
+
+use super::outcome::{Body, Reproduction};
+use super::watch::Watch;
+use rayon::prelude::*;
+use stiction_files::reproduce_file::{CheckEntry, ReproduceFile};
+use stiction_identify::Control;
+use stiction_servo::c95::{self, Experiment};
+
+/// The experiments B to G of Canudas de Wit et al. 1995 (doi 10.1109/9.376053). `watch` is told how many of how many are
+/// done, also within the longest, and may stop the work: those that are done by then are kept.
+pub fn canudas_1995(watch: &mut (dyn FnMut(usize, usize) -> Control + Send)) -> Reproduction {
+    let watch = Watch::new(c95::ALL.len(), watch);
+    let experiments: Vec<Option<Experiment>> = c95::ALL
+        .par_iter()
+        .map(|run| {
+            let go_on = || !watch.stopped();
+            let experiment = run(&go_on).expect("the settings of 1995 are valid");
+            if experiment.is_some() {
+                watch.add();
+            }
+            experiment
+        })
+        .collect();
+    let all = experiments.iter().all(Option::is_some);
+    let experiments: Vec<Experiment> = experiments.into_iter().flatten().collect();
+    let checks: Vec<CheckEntry> = experiments
+        .iter()
+        .flat_map(|e| e.checks.iter().map(|check| (e.letter, check)))
+        .map(|(letter, check)| CheckEntry {
+            experiment: letter.to_string(),
+            name: check.name.clone(),
+            unit: check.unit.into(),
+            reference: check.reference,
+            found: check.found,
+            tolerance: check.tolerance,
+            within: check.holds(),
+        })
+        .collect();
+    Reproduction {
+        file: ReproduceFile {
+            status: if all { "complete" } else { "interrupted" }.into(),
+            all_within: checks.iter().all(|c| c.within),
+            checks,
+            ..ReproduceFile::of("1995")
+        },
+        body: Body::Canudas1995(experiments),
+    }
+}
