@@ -5,6 +5,7 @@
 //! alike, so it cannot bias the fit (identification of robots: Gautier 1997,
 //! doi 10.1109/ROBOT.1997.606767). Both are zero-phase, so nothing is delayed.
 
+pub(crate) mod blocks;
 pub(crate) mod channels;
 pub(crate) mod grid;
 pub(crate) mod losses;

@@ -3,6 +3,7 @@
 //! Blocks are contiguous stretches of time, because neighbouring samples share their noise and their
 //! model error; leaving out single samples would flatter every law.
 
+use crate::conditioning::blocks::kept_order;
 use crate::conditioning::record::Record;
 use crate::estimate::{Estimate, predict};
 use crate::fit::Fit;
@@ -109,20 +110,4 @@ pub fn cross_validate(
         measured.clear();
     }
     LawScore::of(fitted, &measured, residual, &speed)
-}
-
-/// For each sample of the regression its place among the kept ones.
-pub(crate) fn kept_order(record: &Record) -> Vec<Option<usize>> {
-    let mut next = 0;
-    record
-        .segments
-        .iter()
-        .flat_map(|s| &s.keep)
-        .map(|&keep| {
-            keep.then(|| {
-                next += 1;
-                next - 1
-            })
-        })
-        .collect()
 }

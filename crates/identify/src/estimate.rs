@@ -8,11 +8,13 @@ pub(crate) mod fitted;
 pub(crate) mod intervals;
 mod optimal;
 mod profile;
+pub(crate) mod series;
 mod sliding;
 pub(crate) mod uncertainty;
 
 use crate::conditioning::record::Record;
 use crate::estimate::fitted::FittedLaw;
+use crate::estimate::series::Series;
 use crate::estimate::uncertainty::Unknowns;
 use crate::fit::Fit;
 use crate::law::Law;
@@ -23,41 +25,11 @@ use crate::observe::Counts;
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
 use crate::parameter::physical::{Physical, propagate};
-use crate::separable::Optimum;
 use crate::separable::levenberg::Status;
 use crate::separable::objective::{Column, Objective};
+use crate::separable::optimum::Optimum;
 use std::ops::Deref;
 use stiction_parameters::{Dimension, Quantity};
-
-/// Signals at the samples of the fit.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Series {
-    /// Which log each sample comes from, counted from 0.
-    pub log: Vec<usize>,
-    /// Time, s.
-    pub time: Vec<f64>,
-    /// Position, m or rad.
-    pub position: Vec<f64>,
-    /// Velocity, m/s or rad/s.
-    pub velocity: Vec<f64>,
-    /// Measured force.
-    pub measured: Vec<f64>,
-    /// Model of the force.
-    pub model: Vec<f64>,
-    /// Part of the model that is not friction: inertia, offset, gravity, cogging.
-    pub other: Vec<f64>,
-}
-
-impl Series {
-    /// Measured minus model.
-    pub fn residual(&self) -> Vec<f64> {
-        self.measured
-            .iter()
-            .zip(&self.model)
-            .map(|(u, y)| u - y)
-            .collect()
-    }
-}
 
 /// A law fitted to the force of a record: what any fit states, and what it takes to predict the force of
 /// another record ([`predict`]).

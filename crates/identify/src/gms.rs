@@ -13,13 +13,15 @@
 //! curve the elements need no starting values: a dictionary of yield deflections, solved as one
 //! convex problem, says where they are.
 
-pub(crate) mod choose;
+mod choose;
 mod curves;
 mod dictionary;
 mod kink;
+mod ladder;
 mod limit;
 pub(crate) mod physical;
 pub(crate) mod recursion;
+pub(crate) mod score;
 pub(crate) mod search;
 mod settled;
 

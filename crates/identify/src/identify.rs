@@ -7,7 +7,9 @@ use crate::law::Law;
 use crate::law::terms::{Delay, Terms};
 use crate::observe::Observer;
 use crate::separable::levenberg::Status;
-use crate::separable::{Optimum, Settings, follow, separable};
+use crate::separable::optimum::Optimum;
+use crate::separable::settings::Settings;
+use crate::separable::{follow, separable};
 
 /// Fits a law by the separable method and states its parameters.
 ///

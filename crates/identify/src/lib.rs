@@ -57,9 +57,10 @@ pub use crossval::{LawScore, cross_validate};
 pub use error::Error;
 pub use estimate::fitted::FittedLaw;
 pub use estimate::intervals::intervals;
-pub use estimate::{Estimate, Series, estimate, predict};
+pub use estimate::series::Series;
+pub use estimate::{Estimate, estimate, predict};
 pub use fit::{Fit, low_speed_bound};
-pub use gms::choose::ElementsScore;
+pub use gms::score::ElementsScore;
 pub use gms::{FEWEST as GMS_FEWEST, MOST as GMS_MOST};
 pub use identify::{identify, identify_from};
 pub use law::Law;
@@ -74,8 +75,10 @@ pub use parameter::covariance::Covariance;
 pub use parameter::{IDENTIFIABLE, IntervalKind, Parameter};
 pub use separable::levenberg::Status;
 pub use separable::objective::{Evaluation, Objective};
+pub use separable::optimum::Optimum;
 pub use separable::search_box::SearchBox;
-pub use separable::{Optimum, Settings, separable};
+pub use separable::separable;
+pub use separable::settings::Settings;
 pub use stiction_parameters::{
     Dimension, LawKind, Name, ParameterSet, Quantity, Side, SteadyCurve,
 };

@@ -18,7 +18,8 @@ use crate::observe::{Control, Counts, Observer, Progress, Stage};
 use crate::refit::{force_noise, refitted};
 use crate::replica::{Replica, replica};
 use crate::separable::levenberg::Status;
-use crate::separable::{Settings, separable};
+use crate::separable::separable;
+use crate::separable::settings::Settings;
 use stiction_parameters::Name;
 
 /// Replicas that each pair of cut-offs is tried on.

@@ -45,7 +45,7 @@ impl<'a> Nonlinear<'a> {
             },
             Delay::Given(_) => terms,
         };
-        let full = crate::separable::checked(record, law, terms)?;
+        let full = crate::separable::checked::checked(record, law, terms)?;
         let ends =
             |end: fn(&SearchBox, usize) -> f64| (0..bounds.len()).map(|i| end(bounds, i)).collect();
         let bounds = Bounds::new(ends(SearchBox::low), ends(SearchBox::high));

@@ -47,7 +47,7 @@ impl Sampled {
             delay: still,
             ..terms.clone()
         };
-        let objective = crate::separable::checked(record, law, &terms)?;
+        let objective = crate::separable::checked::checked(record, law, &terms)?;
         let (shared, nonnegative) = shared_columns(&objective);
         let shift = match still {
             Delay::Given(0.0) | Delay::Fitted => None,

@@ -9,8 +9,8 @@ use crate::estimate::uncertainty::Unknowns;
 use crate::law::Law;
 use crate::observe::Counts;
 use crate::parameter::Parameter;
-use crate::separable::Optimum;
 use crate::separable::objective::Objective;
+use crate::separable::optimum::Optimum;
 use stiction_parameters::{Name, Quantity, Side};
 
 /// Deviation of ln(Fs/Fc - 1) below which the curve is there without asking: ten deviations from none.

@@ -1,8 +1,8 @@
 //! What any fit states of a law, whether it fitted the force, the position or points of the steady curve.
 
-use crate::estimate::Series;
+use crate::estimate::series::Series;
 use crate::fit::Fit;
-use crate::gms::choose::ElementsScore;
+use crate::gms::score::ElementsScore;
 use crate::law::Law;
 use crate::law::terms::Terms;
 use crate::observe::Counts;

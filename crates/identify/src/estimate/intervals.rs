@@ -11,8 +11,8 @@ use crate::law::physical::physical;
 use crate::observe::{Counts, Observer};
 use crate::parameter::physical::Physical;
 use crate::parameter::{IntervalKind, Parameter, quantile};
-use crate::separable::Optimum;
 use crate::separable::objective::Objective;
+use crate::separable::optimum::Optimum;
 use stiction_parameters::{Name, Quantity};
 
 /// Relative standard deviation from which the profile is followed; below it the linear interval is

@@ -2,7 +2,7 @@
 
 use crate::parameter::Parameter;
 use crate::parameter::physical::Physical;
-use crate::separable::Optimum;
+use crate::separable::optimum::Optimum;
 
 /// A fitted parameter with its linear interval. `bias` is what the conditioning adds to it; `level` the Coulomb
 /// level that a parameter is measured by which may be zero.

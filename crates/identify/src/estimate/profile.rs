@@ -8,9 +8,9 @@
 
 use crate::observe::{Counts, Silent, Stage};
 use crate::parameter::WIDEST;
-use crate::separable::Optimum;
 use crate::separable::levenberg::{Descent, Watch, descend};
 use crate::separable::objective::Objective;
+use crate::separable::optimum::Optimum;
 
 /// Trial values to each side, at most.
 const TRIALS: usize = 6;

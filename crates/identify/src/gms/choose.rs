@@ -1,8 +1,9 @@
 //! How many elements hold on samples that they were not fitted to.
 
-use super::search::Rung;
+use super::ladder::Rung;
+use super::score::ElementsScore;
+use crate::conditioning::blocks::kept_order;
 use crate::conditioning::record::Record;
-use crate::crossval::kept_order;
 use crate::law::terms::Terms;
 use crate::observe::Stage;
 use crate::separable::levenberg::{Watch, descend};
@@ -14,18 +15,6 @@ const BLOCKS: usize = 4;
 const STEPS: usize = 3;
 /// Held-out errors within this factor of the least count as equal, and the fewest elements win.
 const EQUAL: f64 = 1.01;
-
-/// One number of elements that was tried.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ElementsScore {
-    /// How many elements.
-    pub elements: usize,
-    /// `100 rms(residual) / rms(measured)` where it was fitted.
-    pub fitted_error_percent: f64,
-    /// The same over blocks of the record, each left out of the fit in turn; `None` where there are
-    /// too few samples or the search was stopped.
-    pub held_out_error_percent: Option<f64>,
-}
 
 /// Scores every rung, in the order given.
 pub(super) fn scores(

@@ -1,7 +1,7 @@
 //! Stribeck curves to start from, without starting values of the elements.
 
 use super::dictionary::{self, Atom};
-use super::search::Search;
+use super::ladder::Search;
 use crate::error::Error;
 use crate::law::{Law, Layout};
 use crate::observe::Control;

@@ -1,16 +1,19 @@
 //! From a dictionary of elements to few of them, and from many of those to fewer.
 
 use super::dictionary::{self, Atom};
+use super::ladder::{Rung, Search};
 use super::{FEWEST, MOST, choose, curves, kink};
 use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::law::Law;
 use crate::law::terms::Terms;
 use crate::observe::{Counts, Observer, Stage};
-use crate::separable::levenberg::{Descent, Status, Watch, descend};
+use crate::separable::checked::checked;
+use crate::separable::levenberg::{Status, Watch, descend};
 use crate::separable::objective::Objective;
+use crate::separable::optimum::Optimum;
 use crate::separable::search_box::SearchBox;
-use crate::separable::{Optimum, Settings, checked};
+use crate::separable::settings::Settings;
 
 /// Elements of the dictionary from which the elements are taken.
 const FINE: usize = 40;
@@ -40,29 +43,6 @@ const KINKS: usize = 8;
 
 /// A curve, and elements that suit it.
 type Start = (Vec<f64>, Vec<Atom>);
-
-/// A fit with some number of elements.
-pub(super) struct Rung {
-    pub law: Law,
-    pub bounds: SearchBox,
-    pub descent: Descent,
-}
-
-impl Rung {
-    pub fn cost(&self) -> f64 {
-        let cost = self.descent.evaluation.cost;
-        if cost.is_nan() { f64::INFINITY } else { cost }
-    }
-}
-
-/// One search for a law with any number of elements.
-pub(super) struct Search<'a> {
-    pub record: &'a Record,
-    pub law: Law,
-    pub terms: &'a Terms,
-    pub settings: &'a Settings,
-    pub iterations: usize,
-}
 
 /// Fits a Maxwell-slip law; without a number of elements, with the number that holds best on blocks
 /// left out. Elements to which the data give no stiffness are dropped.

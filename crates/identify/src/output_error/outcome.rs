@@ -1,9 +1,9 @@
 //! What a fit by simulation gives: parameters with their intervals, signals, and how far off it is.
 
 use crate::error::Error;
-use crate::estimate::Series;
 use crate::estimate::advice;
 use crate::estimate::fitted::FittedLaw;
+use crate::estimate::series::Series;
 use crate::estimate::uncertainty;
 use crate::fit::Fit;
 use crate::law::Law;

@@ -2,8 +2,8 @@
 
 use super::static_map::StaticMap;
 use super::step_fit::{StepFit, StepSettings};
-use crate::estimate::Series;
 use crate::estimate::fitted::FittedLaw;
+use crate::estimate::series::Series;
 use crate::fit::Fit;
 use crate::law::terms::{Mass, Terms};
 use crate::law::{Law, LawKind};

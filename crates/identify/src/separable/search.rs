@@ -4,11 +4,11 @@ use crate::conditioning::record::Record;
 use crate::law::terms::Terms;
 use crate::law::{Law, LawKind};
 use crate::observe::{Control, Stage};
-use crate::separable::Settings;
 use crate::separable::coarse::{Coarse, End};
 use crate::separable::levenberg::{Descent, Status, Watch, descend};
 use crate::separable::objective::Objective;
 use crate::separable::search_box::SearchBox;
+use crate::separable::settings::Settings;
 
 /// Starts from the thinned record that go on to the full one.
 const MOST_FINE: usize = 3;

@@ -1,0 +1,41 @@
+//! What a separable search finds.
+
+use crate::gms::score::ElementsScore;
+use crate::law::Law;
+use crate::observe::Counts;
+use crate::separable::levenberg::Status;
+use crate::separable::objective::Evaluation;
+use crate::separable::search_box::SearchBox;
+
+/// What a search found.
+#[derive(Clone, Debug)]
+pub struct Optimum {
+    /// The law that was fitted, with the number of its elements.
+    pub law: Law,
+    /// Nonlinear unknowns (logarithms, in the order of the law).
+    pub p: Vec<f64>,
+    /// The box that was searched.
+    pub bounds: SearchBox,
+    /// How it ended.
+    pub status: Status,
+    /// Evaluations by kind.
+    pub counts: Counts,
+    /// Steps of all descents.
+    pub iterations: usize,
+    /// Evaluations and best `rms(residual)/rms(measured)` until then, over the last descent.
+    pub history: Vec<(usize, f64)>,
+    /// Whether the last nonlinear unknown is the delay.
+    pub(crate) delay: bool,
+    /// The numbers of elements that were tried for a Maxwell-slip law; empty where it was given.
+    pub elements: Vec<ElementsScore>,
+    /// The evaluation at the optimum, with sensitivities.
+    pub evaluation: Evaluation,
+}
+
+impl Optimum {
+    /// Whether the delay was fitted and stands at the bound of its range.
+    pub fn delay_at_bound(&self) -> bool {
+        let last = self.p.len().checked_sub(1);
+        self.delay && last.is_some_and(|i| self.bounds.at_bound(&self.p, i))
+    }
+}

@@ -1,0 +1,34 @@
+//! How the separable search works.
+
+use crate::separable::search_box::SearchBox;
+
+/// How the separable search works.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Seed of the scramble of the low-discrepancy scan.
+    pub seed: u64,
+    /// Points of the scan. Default 64.
+    pub scan: usize,
+    /// Descents on the thinned record. Default 6.
+    pub starts: usize,
+    /// Samples of the thinned record that the scan and its descents see, where the record has no
+    /// common filter. For a law that the batch kernels know, the scan sees a quarter of them. Default 4000.
+    pub thin: usize,
+    /// Most steps of one descent. Default 200.
+    pub steps: usize,
+    /// Where to look; `None` takes the box that the record allows.
+    pub bounds: Option<SearchBox>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            seed: 0,
+            scan: 64,
+            starts: 6,
+            thin: 4000,
+            steps: 200,
+            bounds: None,
+        }
+    }
+}
