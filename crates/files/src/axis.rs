@@ -1,9 +1,7 @@
 //! `axis.toml`: what is known of the machine and its log. Raw as typed, then resolved to SI.
 
 mod controller;
-mod raw;
 mod resolve;
-pub(crate) mod syntax;
 mod template;
 mod tied;
 
@@ -79,9 +77,9 @@ impl Axis {
     /// Reads and checks an axis file.
     ///
     /// # Errors
-    /// With file, line, key, what was found and what is allowed.
+    /// With file, line, column and key, what was found and what is allowed.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        let text = crate::typed::read(file, "an axis file")?;
+        let text = crate::config::read(file, "an axis file")?;
         Self::parse(&text, file)
     }
 
@@ -90,16 +88,7 @@ impl Axis {
     /// # Errors
     /// As [`Axis::read`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
-        let raw = raw::parse(text).map_err(|e| {
-            let refusal = syntax::refusal(text, &e, "docs/axis.md");
-            Error::Config {
-                file: file.to_path_buf(),
-                place: refusal.place,
-                found: refusal.found,
-                allowed: refusal.allowed,
-            }
-        })?;
-        resolve::resolve(&raw, text, file)
+        resolve::resolve(text, file)
     }
 
     /// The linear terms for a log and a law.

@@ -8,7 +8,7 @@
 //!   `reproduce.json`.
 //! - [`Bundle`]: files that are written together, whole or not at all.
 //!
-//! Begin with [`Axis::read`] or [`ModelFile::read`]. An error names file, line, key, what was found and what is allowed:
+//! Begin with [`Axis::read`] or [`ModelFile::read`]. An error names file, line, column, key, what was found and what is allowed:
 //!
 //! ```
 //! use std::path::Path;
@@ -16,13 +16,14 @@
 //! let axis = Axis::parse("kind = \"linear\"\nmass = \"4.6 kg\"\n", Path::new("axis.toml")).unwrap();
 //! assert_eq!(axis.name, None);
 //! let refused = Axis::parse("kind = \"round\"\n", Path::new("axis.toml")).unwrap_err();
-//! assert!(refused.to_string().starts_with("axis.toml: line 1, kind: "));
+//! assert!(refused.to_string().starts_with("axis.toml: line 1, column 8, kind: "));
 //! ```
 //!
 //! Nothing here runs a workflow, and nothing prints.
 
 pub mod axis;
 pub mod compare_file;
+mod config;
 mod error;
 mod hash;
 pub mod model;
@@ -31,7 +32,6 @@ pub mod reproduce_file;
 pub mod result;
 pub mod study;
 pub mod symbols;
-mod typed;
 
 pub use axis::Axis;
 pub use error::{Error, Warning};

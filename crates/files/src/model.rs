@@ -2,22 +2,21 @@
 
 mod covariance;
 mod fault;
+mod read;
 
 use crate::error::Error;
 use crate::result::{CovarianceEntry, ParameterEntry, ResultFile};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::path::Path;
 use stiction_parameters::{LawKind, ParameterSet};
+
+pub use read::ReadModel;
 
 /// Name of the schema.
 pub const SCHEMA: &str = "stiction.model/1";
 
-/// Largest model file that is read, bytes.
-const MAX_BYTES: u64 = 1 << 20;
-
 /// The whole file.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ModelFile {
     /// `stiction.model/1`.
     pub schema: String,
@@ -31,7 +30,7 @@ pub struct ModelFile {
     pub asymmetric: bool,
     /// Unit of the force channel.
     pub force_unit: String,
-    /// Whether the identification stood by its numbers.
+    /// Whether the result of the identification is trustworthy.
     pub trustworthy: bool,
     /// Where the numbers came from.
     pub source: SourceEntry,
@@ -42,8 +41,7 @@ pub struct ModelFile {
 }
 
 /// Where the numbers came from.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SourceEntry {
     /// Version of stiction.
     pub version: String,
@@ -52,15 +50,14 @@ pub struct SourceEntry {
     /// Seed of the search.
     pub seed: u64,
     /// Largest speed of the logs that were fitted, m/s or rad/s; absent where it is not known.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub top_speed: Option<f64>,
     /// Paths and hashes of the logs.
     pub inputs: Vec<SourceInput>,
 }
 
 /// One log.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SourceInput {
     /// Path as given.
     pub path: String,
@@ -69,8 +66,7 @@ pub struct SourceInput {
 }
 
 /// One parameter.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ModelParameter {
     /// Name, such as `sigma0`.
     pub name: String,
@@ -144,19 +140,7 @@ impl ModelFile {
     /// # Errors
     /// When the file cannot be read, or its text is no model of this schema.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        let refuse = |found: String| Error::Config {
-            file: file.to_path_buf(),
-            place: String::new(),
-            found,
-            allowed: "give a model.toml as written by stiction identify, at most 1 MiB".into(),
-        };
-        let meta = std::fs::metadata(file).map_err(|e| refuse(format!("cannot be read ({e})")))?;
-        if !meta.is_file() || meta.len() > MAX_BYTES {
-            return Err(refuse("not a file of that size".into()));
-        }
-        let text =
-            std::fs::read_to_string(file).map_err(|e| refuse(format!("cannot be read ({e})")))?;
-        Self::parse(&text, file)
+        Ok(ReadModel::read(file)?.model)
     }
 
     /// The text of the file.
@@ -173,37 +157,7 @@ impl ModelFile {
     /// When the text is no model of this schema, or its parameters are none of its law: their names,
     /// units and values.
     pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
-        let refuse = |place: String, found: String, allowed: String| Error::Config {
-            file: file.to_path_buf(),
-            place,
-            found,
-            allowed,
-        };
-        let model: Self = toml::from_str(text).map_err(|e| {
-            let line = e.span().map(|s| {
-                text.as_bytes()[..s.start.min(text.len())]
-                    .iter()
-                    .filter(|&&b| b == b'\n')
-                    .count()
-            });
-            refuse(
-                line.map_or(String::new(), |l| format!("line {}: ", l + 1)),
-                e.message().trim().replace('\n', " "),
-                "a model.toml as written by stiction identify".into(),
-            )
-        })?;
-        if model.schema != SCHEMA {
-            let found = format!("schema {:?}", model.schema);
-            return Err(refuse(
-                "schema: ".into(),
-                found,
-                format!("this version reads {SCHEMA:?}"),
-            ));
-        }
-        match fault::fault(&model).or_else(|| fault::top_speed(&model)) {
-            Some((place, found, allowed)) => Err(refuse(place.into(), found, allowed)),
-            None => Ok(model),
-        }
+        Ok(ReadModel::parse(text, file)?.model)
     }
 
     /// Its parameters with their values; `None` for a law of no known name.

@@ -6,7 +6,6 @@ mod belief;
 mod grid;
 mod model;
 mod plan;
-mod raw;
 mod resolve;
 pub mod result;
 

@@ -8,6 +8,7 @@ use stiction_codes::Code;
 use stiction_export::{Model, Parameter, Provenance};
 use stiction_files::ModelFile;
 use stiction_files::Warning;
+use stiction_files::model::ReadModel;
 use stiction_files::{sha256_of, write_folder};
 use stiction_friction::ParamError;
 use stiction_friction::compensator::{Friction, Settings};
@@ -52,7 +53,7 @@ pub struct Exported {
     pub written: Vec<String>,
     /// What to know before it runs.
     pub warnings: Vec<Warning>,
-    /// Whether the identification stood by every number of the law.
+    /// Whether the identification found every number of the law trustworthy.
     pub trustworthy: bool,
 }
 
@@ -79,10 +80,11 @@ pub fn export(options: &ExportOptions, dir: &Path) -> Result<Exported, Error> {
             allowed: "a joint in MuJoCo has its whole friction".into(),
         });
     }
-    let file = ModelFile::read(&options.model)?;
+    let read = ReadModel::read(&options.model)?;
+    let file = &read.model;
     let bytes = std::fs::read(&options.model)
         .map_err(|e| stiction_files::Error::output(&options.model, e.to_string()))?;
-    let (mut model, mut warnings) = resolve(&file, &bytes, options)?;
+    let (mut model, mut warnings) = resolve(&read, &bytes, options)?;
     if options.limit.is_none() && options.target == Target::Tf5200 {
         model.settings.limit = stiction_export::largest_force_in_table(&model);
     }
@@ -127,35 +129,30 @@ pub fn export(options: &ExportOptions, dir: &Path) -> Result<Exported, Error> {
 }
 
 fn resolve(
-    file: &ModelFile,
+    read: &ReadModel,
     bytes: &[u8],
     options: &ExportOptions,
 ) -> Result<(Model, Vec<Warning>), Error> {
-    let refuse = |place: &str, found: String, allowed: &str| {
-        Error::File(stiction_files::Error::Config {
-            file: options.model.clone(),
-            place: place.into(),
-            found,
-            allowed: allowed.into(),
-        })
-    };
+    let file = &read.model;
     if let Some(p) = file.parameter.iter().find(|p| out_of_the_law(&p.name)) {
         let allowed = "the compensator has no such term; identify without it";
-        return Err(refuse("parameter: ", p.name.clone(), allowed));
+        return Err(read
+            .refuse_parameter(&p.name, p.name.as_str(), allowed)
+            .into());
     }
     let friction = friction(file).map_err(|e| match e {
-        Unfit::Law => refuse(
-            "law: ",
-            file.law.clone(),
+        Unfit::Law => read.refuse(
+            "law",
+            file.law.as_str(),
             "export coulomb-viscous, stribeck, dahl or lugre; identify with --law lugre",
         ),
-        Unfit::Missing(name) => refuse(
-            "parameter: ",
+        Unfit::Missing(name) => read.refuse(
+            "parameter",
             format!("no {name}"),
             "every parameter of the law",
         ),
-        Unfit::Value(e) => refuse(
-            "parameter: ",
+        Unfit::Value(e) => read.refuse_parameter(
+            e.name,
             format!("{} = {}", e.name, stiction_number::shortest(e.value)),
             e.allowed,
         ),
@@ -236,13 +233,13 @@ fn place(source: stiction_export::Error, options: &ExportOptions) -> Error {
     }
 }
 
-/// What the identification did not stand by, and what the code leaves out.
+/// What the identification flagged as not trustworthy, and what the code leaves out.
 fn doubts(file: &ModelFile) -> Vec<Warning> {
     let mut found = Vec::new();
     if !file.trustworthy {
         found.push(Warning::new(
             Code::ExportUntrusted,
-            "the identification did not stand by its numbers; a compensation with them may be too strong",
+            "the identification flagged this model as not trustworthy; a compensation with it may be too strong",
         ));
     }
     let beside = |name: &str| BESIDE.iter().any(|stem| name.starts_with(stem));
@@ -265,7 +262,7 @@ fn doubts(file: &ModelFile) -> Vec<Warning> {
         found.push(Warning::new(
             Code::ExportTerms,
             format!(
-                "{} is no friction and is not in the compensator; feed it forward apart",
+                "{} is not friction and not in the compensator; feed it forward separately",
                 left.join(", ")
             ),
         ));

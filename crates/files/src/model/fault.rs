@@ -5,8 +5,8 @@ use crate::symbols;
 use stiction_log::{Motion, Unit};
 use stiction_parameters::{LawKind, Name, Quantity, Side};
 
-/// Place, what was found, what is allowed.
-pub(super) type Fault = (&'static str, String, String);
+/// The key, what was found, what is allowed.
+pub(super) type Fault = (String, String, String);
 
 /// Numbers of a model stay within this size, and those above 0 above its inverse: no machine is
 /// near, and their products stay finite.
@@ -40,8 +40,11 @@ fn is_checked(quantity: Quantity) -> bool {
 fn stranger(name: &str) -> Option<(String, String)> {
     let Some(known) = parameter_of(name) else {
         let short: String = name.chars().take(60).collect();
-        let found = format!("{short:?}, which is no parameter of any law");
-        return Some((found, "names as stiction identify writes them".into()));
+        let found = format!("unknown parameter {short:?}");
+        return Some((
+            found,
+            "the names that stiction identify writes, such as sigma0 or coulomb_pos".into(),
+        ));
     };
     (known.side != Side::Both && !known.quantity.may_differ_by_side()).then(|| {
         let allowed = format!(
@@ -85,20 +88,20 @@ fn directions(model: &ModelFile) -> Option<Fault> {
                     .filter(|n| has(n))
                     .collect();
                 let allowed = format!("{stem}, or {stem}_pos and {stem}_neg");
-                return Some(("parameter: ", present.join(" and "), allowed));
+                return Some(("parameter".into(), present.join(" and "), allowed));
             }
         }
     }
     match (model.asymmetric, sided) {
         (false, Some(name)) => Some((
-            "asymmetric: ",
+            "asymmetric".into(),
             format!("false beside {name}"),
             "true".into(),
         )),
         (true, None) if SIDED.into_iter().any(|q| has(&q.stem())) => {
             let found = "true, and no parameter has a direction".into();
             Some((
-                "asymmetric: ",
+                "asymmetric".into(),
                 found,
                 "coulomb_pos and coulomb_neg and so on, or false".into(),
             ))
@@ -112,26 +115,29 @@ pub(super) fn fault(model: &ModelFile) -> Option<Fault> {
     let Some(law) = LawKind::from_name(&model.law) else {
         let laws: Vec<_> = LawKind::ALL.iter().map(|law| law.name()).collect();
         let allowed = format!("one of {}", laws.join(", "));
-        return Some(("law: ", format!("{:?}", model.law), allowed));
+        return Some(("law".into(), format!("{:?}", model.law), allowed));
     };
     let motion = match model.kind.as_str() {
         "linear" => Motion::Linear,
         "rotary" => Motion::Rotary,
-        other => return Some(("kind: ", format!("{other:?}"), "linear or rotary".into())),
+        other => {
+            return Some((
+                "kind".into(),
+                format!("{other:?}"),
+                "linear or rotary".into(),
+            ));
+        }
     };
     if let Some(fault) = force_unit(model, motion) {
         return Some(fault);
     }
     (0..model.parameter.len())
         .find_map(|i| parameter(model, law, motion, i))
-        .map(|(found, allowed)| ("parameter: ", found, allowed))
         .or_else(|| directions(model))
-        .or_else(|| {
-            covariance::fault(model).map(|(found, allowed)| ("covariance: ", found, allowed))
-        })
+        .or_else(|| covariance::fault(model))
 }
 
-/// A unit that is none, which would go into every text about the model: identification writes that of a force, or of what
+/// An unknown unit, which would go into every text about the model: identification writes that of a force, or of what
 /// drives the axis (`A`, `V`, `1`).
 fn force_unit(model: &ModelFile, motion: Motion) -> Option<Fault> {
     let unit = &model.force_unit;
@@ -144,30 +150,31 @@ fn force_unit(model: &ModelFile, motion: Motion) -> Option<Fault> {
         let force = crate::symbols::force_unit(motion);
         let allowed =
             format!("{force:?}, or the unit of what drives the axis: \"A\", \"V\", \"1\"");
-        ("force_unit: ", format!("{short:?}"), allowed)
+        ("force_unit".into(), format!("{short:?}"), allowed)
     })
 }
 
-/// What is wrong with one parameter: what was found, what is allowed.
-fn parameter(
-    model: &ModelFile,
-    law: LawKind,
-    motion: Motion,
-    i: usize,
-) -> Option<(String, String)> {
+/// What is wrong with one parameter.
+fn parameter(model: &ModelFile, law: LawKind, motion: Motion, i: usize) -> Option<Fault> {
     let p = &model.parameter[i];
+    let key = |field: &str| format!("parameter[{}].{field}", i + 1);
     let (name, value) = (&p.name, stiction_number::four_digits(p.value));
     if model.parameter[..i].iter().any(|other| other.name == *name) {
-        return Some((format!("{name} twice"), "each once".into()));
+        return Some((
+            key("name"),
+            format!("{name} a second time"),
+            "each parameter once".into(),
+        ));
     }
     if p.value.is_nan() || p.value.abs() > LARGEST {
         return Some((
+            key("value"),
             format!("{name} = {value}"),
             format!("from -{LARGEST:e} to {LARGEST:e}"),
         ));
     }
-    if let Some(fault) = stranger(name) {
-        return Some(fault);
+    if let Some((found, allowed)) = stranger(name) {
+        return Some((key("name"), found, allowed));
     }
     // An end that is not known is infinite.
     if let Some([low, high]) = p
@@ -175,10 +182,11 @@ fn parameter(
         .filter(|[low, high]| low.is_nan() || high.is_nan() || low > high)
     {
         let found = format!("{name}: ci95 = [{low:?}, {high:?}]");
-        return Some((found, "the lower end, then the upper".into()));
+        return Some((key("ci95"), found, "the lower end, then the upper".into()));
     }
     if let Some(std) = p.std.filter(|std| std.is_nan() || *std < 0.0) {
-        return Some((format!("{name}: std = {std:?}"), "0 or above".into()));
+        let found = format!("{name}: std = {std:?}");
+        return Some((key("std"), found, "0 or above".into()));
     }
     let quantity = parameter_of(name)?.quantity;
     if !is_checked(quantity) {
@@ -187,12 +195,14 @@ fn parameter(
     let unit = symbols::unit(quantity.dimension(), motion, &model.force_unit, "");
     if !same_unit(&p.unit, &unit) {
         return Some((
+            key("unit"),
             format!("{name} in {:?}", p.unit),
             format!("{unit:?}, with its value"),
         ));
     }
     if !law.has(quantity) {
         return Some((
+            key("name"),
             format!("{name} in a model of {law}"),
             "parameters of that law".into(),
         ));
@@ -205,15 +215,19 @@ fn parameter(
     } else {
         return None;
     };
-    Some((format!("{name} = {value}"), allowed.into()))
+    Some((key("value"), format!("{name} = {value}"), allowed.into()))
 }
 
-/// A top speed that is none.
+/// A top speed that cannot be.
 pub(super) fn top_speed(model: &ModelFile) -> Option<Fault> {
     let speed = model.source.top_speed?;
     let within = speed > 0.0 && speed <= LARGEST;
     (!within).then(|| {
         let found = stiction_number::shortest(speed);
-        ("source: top_speed = ", found, "above 0, or left out".into())
+        (
+            "source.top_speed".into(),
+            found,
+            "above 0, or left out".into(),
+        )
     })
 }

@@ -1,7 +1,7 @@
 //! The friction of the simulated axis: from a model file, or of a known axis.
 
 use crate::error::{Error, Warning};
-use crate::model::ModelFile;
+use crate::model::ReadModel;
 use crate::result::CovarianceEntry;
 use crate::symbols;
 use std::path::Path;
@@ -87,18 +87,13 @@ impl Model {
 
     /// A model file as identification wrote it.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        let model = ModelFile::read(file)?;
-        let refuse = |place: &str, found: String, allowed: &str| Error::Config {
-            file: file.to_path_buf(),
-            place: place.into(),
-            found,
-            allowed: allowed.into(),
-        };
+        let read = ReadModel::read(file)?;
+        let model = &read.model;
         let kind = match LawKind::from_name(&model.law) {
             Some(kind @ (LawKind::LuGre | LawKind::Dahl)) => kind,
             _ => {
                 let allowed = "a study simulates lugre and dahl; identify with --law lugre";
-                return Err(refuse("law: ", format!("{:?}", model.law), allowed));
+                return Err(read.refuse("law", format!("{:?}", model.law), allowed));
             }
         };
         let (motion, force) = match model.kind.as_str() {
@@ -110,21 +105,17 @@ impl Model {
                 "a study needs {force}: identify with the scale of the force column in the axis file"
             );
             let found = format!("{:?}", model.force_unit);
-            return Err(refuse("force_unit: ", found, &allowed));
+            return Err(read.refuse("force_unit", found, &allowed));
         }
         if let Some(missing) = model.values().and_then(|values| values.missing()) {
             let allowed = "a study needs every parameter of the law";
-            return Err(refuse(
-                "parameter: ",
-                format!("no {}", missing.stem()),
-                allowed,
-            ));
+            return Err(read.refuse("parameter", format!("no {}", missing.stem()), allowed));
         }
         let mut warnings = Vec::new();
         if !model.trustworthy {
             warnings.push(Warning::new(
                 Code::ModelInDoubt,
-                "the identification did not stand by this model: see its report",
+                "the identification flagged this model as not trustworthy: see its report",
             ));
         }
         let listed = |test: &dyn Fn(&crate::model::ModelParameter) -> bool| {
@@ -163,7 +154,7 @@ impl Model {
             kind,
             origin: format!("{name}, identified by {}", model.source.method),
             parameters: parameters.collect(),
-            covariance: Some(model.covariance),
+            covariance: Some(model.covariance.clone()),
             warnings,
         };
         // What the parameters of a file do not allow is said of that file.
@@ -171,13 +162,12 @@ impl Model {
             Ok(_) => Ok(model),
             Err(LawError::Value(e)) => {
                 let found = format!("{} = {}", e.name, stiction_number::four_digits(e.value));
-                Err(refuse("parameter: ", found, e.allowed))
+                Err(read.refuse_parameter(e.name, found, e.allowed))
             }
-            Err(e) => Err(refuse(
-                "parameter: ",
-                e.to_string(),
-                "every parameter of the law",
-            )),
+            Err(e) => {
+                let allowed = "every parameter of the law";
+                Err(read.refuse("parameter", e.to_string(), allowed))
+            }
         }
     }
 

@@ -12,7 +12,7 @@ mod paths;
 
 use super::belief::{Belief, Family};
 use super::plan::{Machine, Named, Study};
-use super::raw::{Source, Table};
+use crate::config::{Source, Table};
 use crate::error::Error;
 use entry::{few, once};
 use inputs::input;
@@ -27,16 +27,20 @@ impl Study {
     /// Reads and checks a study file, and the models that it names.
     ///
     /// # Errors
-    /// With file, line, key, what was found and what is allowed.
+    /// With file, line, column and key, what was found and what is allowed.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        let text = crate::typed::read(file, "a study file")?;
+        let text = crate::config::read(file, "a study file")?;
         resolve(&text, file)
     }
 }
 
 /// Checks a study file; `file` is named in messages and paths in it start from its folder.
 fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
-    let source = Source { file, text };
+    let source = Source {
+        file,
+        text,
+        page: "docs/study.md",
+    };
     let entries = source.parse()?;
     let root = Table::root(source, &entries);
     let name = match root.text("name")?.map(str::trim) {

@@ -160,7 +160,7 @@ fn gains_come_in_the_unit_of_the_force_or_of_the_file() {
         .unwrap_err();
     insta::assert_snapshot!(
         e.to_string(),
-        @r#"axis.toml: line 9, controller.speed_gain: "0.6 N s/m"; give it in N*m*s/rad, or in A/(rad/s), the unit of the log before scaling"#
+        @r#"axis.toml: line 9, column 14, controller.speed_gain: "0.6 N s/m"; give it in N*m*s/rad, or in A/(rad/s), the unit of the log before scaling"#
     );
     assert!(
         Axis::default()

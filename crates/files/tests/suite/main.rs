@@ -1,3 +1,4 @@
 //! The integration tests of `stiction-files` in one program, which is linked once: a new file is a module here.
 
 mod axis;
+mod model;

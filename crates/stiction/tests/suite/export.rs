@@ -324,13 +324,13 @@ fn doubts_are_said_and_written() {
     assert!(!exported.trustworthy);
     let said = stiction::text::exported(&exported, Path::new("out"));
     assert!(
-        said.contains("the data do not determine sigma0") && said.contains("mass is no friction"),
+        said.contains("the data do not determine sigma0") && said.contains("mass is not friction"),
         "{said}"
     );
     for (name, bytes) in contents(&bench.path("out")) {
         let text = String::from_utf8(bytes).unwrap();
         assert!(
-            text.contains("NOTE: the identification did not stand by its numbers"),
+            text.contains("NOTE: the identification flagged this model as not trustworthy"),
             "{name}"
         );
         assert!(text.contains("NOT determined by the data"), "{name}");

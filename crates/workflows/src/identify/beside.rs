@@ -4,19 +4,20 @@ use super::method::Method;
 use super::options::Options;
 use crate::error::Error;
 use crate::source::{Source, load_all};
-use stiction_files::{Axis, ModelFile};
+use stiction_files::Axis;
+use stiction_files::model::ReadModel;
 
 /// What stands beside the logs, read.
 pub(super) struct Beside {
     pub statics: Vec<Source>,
-    pub model: Option<ModelFile>,
+    pub model: Option<ReadModel>,
     pub break_away: Vec<Source>,
 }
 
 impl Beside {
     /// Refuses a model of another kind of axis than the logs.
     pub fn check_model(&self, options: &Options, first: &Source) -> Result<(), Error> {
-        let Some(model) = &self.model else {
+        let Some(ReadModel { model, .. }) = &self.model else {
             return Ok(());
         };
         let (kind, unit) = (first.log.motion.to_string(), &first.log.force_unit);
@@ -71,7 +72,7 @@ impl Beside {
             ));
         }
         let model = match &procedures.model {
-            Some(file) => Some(ModelFile::read(file)?),
+            Some(file) => Some(ReadModel::read(file)?),
             None => None,
         };
         Ok(Self {

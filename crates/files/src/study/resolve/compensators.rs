@@ -2,9 +2,9 @@
 
 use super::dimensions::Dimensions;
 use super::entry::name;
+use crate::config::Table;
 use crate::error::Error;
 use crate::study::plan::{ModelKind, ModelScheme, Named, Scheme, Study};
-use crate::study::raw::Table;
 use stiction_friction::compensator::{Adaptation, Settings, Source, Watchdog};
 use stiction_log::Dimension;
 use stiction_servo::learning::Learning;

@@ -2,9 +2,9 @@
 
 use super::dimensions::Dimensions;
 use super::entry::name;
+use crate::config::Table;
 use crate::error::Error;
 use crate::study::plan::{Machine, Named};
-use crate::study::raw::Table;
 use stiction_log::Dimension;
 use stiction_servo::cascade::Cascade;
 use stiction_servo::controller::Controller;

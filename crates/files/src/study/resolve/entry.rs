@@ -1,7 +1,7 @@
 //! What holds for every entry of a list in a study file: its name, and how long its motion is.
 
+use crate::config::Table;
 use crate::error::Error;
-use crate::study::raw::Table;
 use stiction_number::four_digits as short;
 use stiction_servo::run::sample_count;
 

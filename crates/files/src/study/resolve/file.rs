@@ -1,8 +1,8 @@
 //! Set points from a file: `kind = "file"` of a path or a contour.
 
 use super::entry::MOST_SAMPLES;
+use crate::config::Table;
 use crate::error::{Error, Warning};
-use crate::study::raw::Table;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 use stiction_log::{Column, Dimension, Limits, ReadOptions, Unit, read_table};

@@ -1,10 +1,10 @@
 //! `[axis]` and `[second_axis]`
 
 use super::dimensions::Dimensions;
+use crate::config::Table;
 use crate::error::{Error, Warning};
 use crate::study::model::Model;
 use crate::study::plan::Machine;
-use crate::study::raw::Table;
 use std::path::Path;
 use stiction_codes::Code;
 use stiction_friction::Damping;

@@ -3,9 +3,9 @@
 use super::dimensions::Dimensions;
 use super::entry::{name, sampled};
 use super::file;
+use crate::config::Table;
 use crate::error::Error;
 use crate::study::plan::{PathPlan, Study};
-use crate::study::raw::Table;
 use std::path::Path as FilePath;
 use stiction_friction::ParamError;
 use stiction_log::Dimension;

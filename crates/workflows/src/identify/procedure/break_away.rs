@@ -4,7 +4,6 @@ use super::curve;
 use crate::error::Error;
 use crate::identify::beside::Beside;
 use crate::identify::logs::{refused, samples};
-use stiction_files::ModelFile;
 use stiction_files::result::BreakAwayEntry;
 use stiction_identify::FittedLaw;
 use stiction_identify::procedure::{Run, break_away as find, predict_break_away};
@@ -23,7 +22,7 @@ pub(in crate::identify) fn break_away(
     let own = samples(sources)?;
     // A model that was given comes first: the method at hand may know no stiffness.
     let mut values = law.values();
-    let given = beside.model.as_ref().and_then(ModelFile::values);
+    let given = beside.model.as_ref().and_then(|read| read.model.values());
     for (name, value) in given.iter().flat_map(ParameterSet::iter) {
         values.insert(name, value);
     }

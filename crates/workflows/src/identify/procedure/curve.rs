@@ -9,6 +9,7 @@ use crate::source::Source;
 use stiction_files::Axis;
 use stiction_files::ModelFile;
 use stiction_files::Warning;
+use stiction_files::model::ReadModel;
 use stiction_files::result::StaticMapEntry;
 use stiction_friction::Direction;
 use stiction_identify::procedure::Statics;
@@ -33,7 +34,7 @@ pub(super) fn known(
     beside: &Beside,
 ) -> Result<Known, Error> {
     if let Some(model) = &beside.model {
-        return from_model(model, options);
+        return from_model(model);
     }
     let (logs, from) = if beside.statics.is_empty() {
         (sources, "logs")
@@ -53,7 +54,8 @@ pub(super) fn known(
     })
 }
 
-fn from_model(model: &ModelFile, options: &Options) -> Result<Known, Error> {
+fn from_model(read: &ReadModel) -> Result<Known, Error> {
+    let model = &read.model;
     let exponent = value(model, "stribeck_exponent").unwrap_or(2.0);
     // A model that was read names no parameter that is unknown.
     let parameters = model
@@ -74,14 +76,9 @@ fn from_model(model: &ModelFile, options: &Options) -> Result<Known, Error> {
         names: names.filter_map(|name| name.parse().ok()).collect(),
         matrix: model.covariance.matrix.clone(),
     };
-    let file = options.procedures.model.clone().unwrap_or_default();
     let statics = Statics::new(parameters, covariance, exponent).map_err(|e| {
-        stiction_files::Error::Config {
-            file,
-            place: "parameter: ".into(),
-            found: e.to_string(),
-            allowed: "a model with coulomb, static, stribeck_velocity and sigma2".into(),
-        }
+        let allowed = "a model with coulomb, static, stribeck_velocity and sigma2";
+        read.refuse("parameter", e.to_string(), allowed)
     })?;
     Ok(Known {
         statics,

@@ -89,7 +89,7 @@ fn settings(
         Mass::Fitted => beside
             .model
             .as_ref()
-            .and_then(|model| curve::value(model, "mass")),
+            .and_then(|model| curve::value(&model.model, "mass")),
         Mass::Absent => {
             return Err(Error::usage(
                 "mass = \"none\" beside --method presliding-step",

@@ -1,4 +1,4 @@
-//! Files that a user types: read whole, within bounds.
+//! A file that a user types: read whole, within bounds.
 
 use crate::error::Error;
 use std::path::Path;

@@ -1,0 +1,90 @@
+//! `[columns]`: which column is what.
+
+use crate::config::{Given, Table};
+use crate::error::Error;
+use stiction_log::{Channel, Dimension, Mapping, Selector, Unit, Value};
+
+pub(super) fn columns(root: &Table<'_>, mapping: &mut Mapping) -> Result<(), Error> {
+    let Some(table) = root.table("columns")? else {
+        return Ok(());
+    };
+    let channel = |key| table.get(key).map(|given| channel(&given)).transpose();
+    mapping.time = channel("time")?;
+    mapping.position = channel("position")?;
+    mapping.velocity = channel("velocity")?;
+    mapping.reference = channel("reference")?;
+    mapping.temperature = channel("temperature")?;
+    mapping.load = channel("load")?;
+    // One column under any of three names.
+    let mut taken: Option<Given<'_>> = None;
+    for key in ["force", "torque", "current"] {
+        let Some(given) = table.get(key) else {
+            continue;
+        };
+        if let Some(before) = &taken {
+            let found = format!("a second column of the force, after {}", before.shown());
+            return Err(given.refuse(found, "one of force, torque, current"));
+        }
+        mapping.force = Some(self::channel(&given)?);
+        taken = Some(given);
+    }
+    table.end()
+}
+
+/// A column by name, by number, or with all that is known of it.
+fn channel(given: &Given<'_>) -> Result<Channel, Error> {
+    let Some(table) = given.as_table() else {
+        let allowed = "a column name, a column number from 1, or a table with column and, where needed, unit, scale and \
+                       invert, such as { column = \"qm\", unit = \"m\" }";
+        return Ok(Channel {
+            column: selector(given, allowed)?,
+            unit: None,
+            scale: None,
+            invert: false,
+        });
+    };
+    let column = table.get("column");
+    let column = table.required("column", column, "a column name or a column number from 1")?;
+    let unit = table.get("unit").map(|given| {
+        let text = given.text()?;
+        Unit::parse(text).map_err(|e| given.refuse(e.found, &e.allowed))
+    });
+    let scale = table.get("scale").map(|given| scale(&given));
+    let channel = Channel {
+        column: selector(&column, "a column name or a column number from 1")?,
+        unit: unit.transpose()?,
+        scale: scale.transpose()?,
+        invert: table.flag("invert")?.unwrap_or(false),
+    };
+    table.end()?;
+    Ok(channel)
+}
+
+fn selector(given: &Given<'_>, allowed: &str) -> Result<Selector, Error> {
+    if let Some(name) = given.as_text() {
+        return Ok(Selector::Name(name.to_string()));
+    }
+    match given.as_whole().map(usize::try_from) {
+        Some(Ok(number)) if number > 0 => Ok(Selector::Index(number)),
+        Some(_) => Err(given.refuse(
+            format!("column number {}", given.shown()),
+            "columns count from 1",
+        )),
+        None => Err(given.refused(allowed)),
+    }
+}
+
+/// A scale with its unit, or a plain number.
+fn scale(given: &Given<'_>) -> Result<Value, Error> {
+    if given.as_text().is_some() {
+        return given.quantity("\"35.15 N/V\"");
+    }
+    match given.as_number() {
+        Some(number) if number.is_finite() && number != 0.0 => Ok(Value {
+            number,
+            unit: Unit::si(Dimension::ONE),
+        }),
+        Some(_) => Err(given.refused("a finite number, not 0")),
+        None => Err(given.refused("a scale such as \"35.15 N/V\", or a plain number")),
+    }
+}

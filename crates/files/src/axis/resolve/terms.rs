@@ -1,0 +1,107 @@
+//! `mass` and `[terms]`: what is fitted beside the friction law.
+
+use super::{LENGTHS, Resolver};
+use crate::axis::Axis;
+use crate::config::{Given, Table};
+use crate::error::Error;
+use stiction_identify::{Delay, Dependence, GMS_FEWEST, GMS_MOST, Mass};
+use stiction_log::Dimension;
+
+/// Longest delay of either sign, s.
+const LONGEST_DELAY: f64 = 1.0;
+/// Exponents of a Stribeck curve.
+const EXPONENTS: [f64; 2] = [0.1, 10.0];
+/// Most pitches of cogging, and of friction along the axis.
+const MOST_PITCHES: usize = 4;
+
+impl Resolver {
+    pub(super) fn terms(&self, root: &Table<'_>, axis: &mut Axis) -> Result<(), Error> {
+        if let Some(given) = root.get("mass") {
+            axis.terms.mass = match given.as_text() {
+                Some("fit") => Mass::Fitted,
+                Some("none") => Mass::Absent,
+                _ => {
+                    let allowed = [Dimension::MASS, Dimension::INERTIA];
+                    Mass::Given(self.above_zero(&given, &allowed)?)
+                }
+            };
+        } else {
+            axis.terms.mass = Mass::Fitted;
+        }
+        axis.terms.delay = Delay::Fitted;
+        let Some(table) = root.table("terms")? else {
+            return Ok(());
+        };
+        axis.offset = table.flag("offset")?;
+        axis.terms.gravity = table.flag("gravity")?.unwrap_or(false);
+        axis.terms.cogging = self.pitches(table.get("cogging"))?;
+        axis.terms.quadratic_viscous = table.flag("quadratic_viscous")?.unwrap_or(false);
+        axis.terms.dependences = self.dependences(&table)?;
+        if let Some(given) = table.get("delay") {
+            axis.terms.delay = delay(&given)?;
+        }
+        if let Some(given) = table.get("stribeck_exponent") {
+            let [least, most] = EXPONENTS;
+            match (given.as_text(), given.as_number()) {
+                (Some("fit"), _) => axis.exponent_fitted = true,
+                (_, Some(exponent)) if (least..=most).contains(&exponent) => {
+                    axis.stribeck_exponent = exponent;
+                }
+                _ => {
+                    let allowed = format!("a number from {least} to {most}, or \"fit\"");
+                    return Err(given.refused(&allowed));
+                }
+            }
+        }
+        let elements = table.count("gms_elements", GMS_FEWEST as u64, GMS_MOST as u64)?;
+        axis.gms_elements = elements.map(|n| n as usize);
+        table.end()
+    }
+
+    /// What friction depends on, about references that the log will give.
+    fn dependences(&self, table: &Table<'_>) -> Result<Vec<Dependence>, Error> {
+        let mut out = Vec::new();
+        for (key, dependence) in [
+            ("coulomb_load", Dependence::CoulombLoad(0.0)),
+            ("coulomb_temperature", Dependence::CoulombTemperature(0.0)),
+            ("coulomb_position", Dependence::CoulombPosition(0.0)),
+            ("sigma2_temperature", Dependence::ViscousTemperature(0.0)),
+        ] {
+            if table.flag(key)? == Some(true) {
+                out.push(dependence);
+            }
+        }
+        let pitches = self.pitches(table.get("coulomb_pitch"))?;
+        out.extend(pitches.into_iter().map(Dependence::CoulombPitch));
+        Ok(out)
+    }
+
+    fn pitches(&self, given: Option<Given<'_>>) -> Result<Vec<f64>, Error> {
+        let Some(given) = given else {
+            return Ok(Vec::new());
+        };
+        let Some(list) = given.as_list() else {
+            return Err(given.refused("a list of lengths, such as [\"24 mm\"]"));
+        };
+        if list.len() > MOST_PITCHES {
+            let found = format!("{} pitches", list.len());
+            return Err(given.refuse(found, &format!("at most {MOST_PITCHES}")));
+        }
+        let pitches = list.iter().map(|pitch| self.above_zero(pitch, &LENGTHS));
+        pitches.collect()
+    }
+}
+
+/// A time of either sign.
+fn delay(given: &Given<'_>) -> Result<Delay, Error> {
+    match given.as_text() {
+        Some("fit") => return Ok(Delay::Fitted),
+        Some("none") => return Ok(Delay::NONE),
+        _ => {}
+    }
+    let (time, _) = given.value(&[Dimension::TIME])?;
+    if time.abs() <= LONGEST_DELAY {
+        return Ok(Delay::Given(time));
+    }
+    Err(given.refused("fit, none, or a time from -1 s to 1 s"))
+}

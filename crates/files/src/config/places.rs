@@ -1,0 +1,71 @@
+//! Where every value of a file stands, for what is found wrong after the file was read.
+
+use super::source::Source;
+use crate::error::Error;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use toml::de::{DeTable, DeValue};
+
+/// The places of a file by their keys, such as `parameter[3].unit`, counted from 1.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Places {
+    file: PathBuf,
+    text: String,
+    bytes: BTreeMap<String, usize>,
+}
+
+impl Places {
+    /// All places of a file.
+    pub fn of(source: &Source<'_>, entries: &DeTable<'_>) -> Self {
+        let mut bytes = BTreeMap::new();
+        table(entries, "", &mut bytes);
+        Places {
+            file: source.file.to_path_buf(),
+            text: source.text.into(),
+            bytes,
+        }
+    }
+
+    /// An error at a key, or where the table starts that lacks it.
+    pub fn refuse(&self, key: &str, found: String, allowed: &str) -> Error {
+        let source = Source {
+            file: &self.file,
+            text: &self.text,
+            page: "",
+        };
+        let mut known = key;
+        let place = loop {
+            if let Some(&byte) = self.bytes.get(known) {
+                break format!("{}, {key}: ", source.at(byte));
+            }
+            match known.rfind(['.', '[']) {
+                Some(end) => known = &known[..end],
+                None if key.is_empty() => break String::new(),
+                None => break format!("{key}: "),
+            }
+        };
+        source.error(place, found, allowed)
+    }
+}
+
+fn table(entries: &DeTable<'_>, prefix: &str, out: &mut BTreeMap<String, usize>) {
+    for (name, given) in entries.iter() {
+        let key = format!("{prefix}{}", name.get_ref());
+        out.insert(key.clone(), given.span().start);
+        value(given.get_ref(), &key, out);
+    }
+}
+
+fn value(found: &DeValue<'_>, key: &str, out: &mut BTreeMap<String, usize>) {
+    match found {
+        DeValue::Table(entries) => table(entries, &format!("{key}."), out),
+        DeValue::Array(list) => {
+            for (i, entry) in list.iter().enumerate() {
+                let key = format!("{key}[{}]", i + 1);
+                out.insert(key.clone(), entry.span().start);
+                value(entry.get_ref(), &key, out);
+            }
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,45 @@
+//! The text of a file that a user types, and the places in it.
+
+use super::syntax;
+use crate::error::Error;
+use std::path::Path;
+use toml::de::DeTable;
+
+/// A configuration file.
+#[derive(Clone, Copy)]
+pub(crate) struct Source<'a> {
+    /// For messages, and where paths in the file start from.
+    pub file: &'a Path,
+    pub text: &'a str,
+    /// The page that lists every key.
+    pub page: &'a str,
+}
+
+impl<'a> Source<'a> {
+    /// The tables of the text.
+    pub fn parse(&self) -> Result<DeTable<'a>, Error> {
+        match DeTable::parse(self.text) {
+            Ok(table) => Ok(table.into_inner()),
+            Err(error) => Err(syntax::refusal(self, &error)),
+        }
+    }
+
+    /// `line 3, column 8`, both counted from 1 as an editor shows them.
+    pub fn at(&self, byte: usize) -> String {
+        let before = self.text.get(..byte).unwrap_or(self.text);
+        let line = before.matches('\n').count() + 1;
+        let start = before.rfind('\n').map_or(0, |end| end + 1);
+        let column = before[start..].chars().count() + 1;
+        format!("line {line}, column {column}")
+    }
+
+    /// An error at a place that ends in `: `.
+    pub fn error(&self, place: String, found: String, allowed: &str) -> Error {
+        Error::Config {
+            file: self.file.to_path_buf(),
+            place,
+            found,
+            allowed: allowed.into(),
+        }
+    }
+}

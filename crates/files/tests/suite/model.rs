@@ -1,0 +1,111 @@
+//! What is refused of the text of a model file, each with line, column and key.
+
+use std::fmt::Write;
+use stiction_files::ModelFile;
+use stiction_files::model::ReadModel;
+
+const GOOD: &str = r#"schema = "stiction.model/1"
+name = "stage"
+kind = "linear"
+law = "dahl"
+asymmetric = false
+force_unit = "N"
+trustworthy = true
+
+[source]
+version = "0"
+method = "separable"
+seed = 0
+inputs = []
+
+[[parameter]]
+name = "sigma0"
+symbol = "σ₀"
+value = 2e6
+unit = "N/m"
+std = 1e3
+ci95 = [-inf, 2.1e6]
+identifiable = true
+origin = "identified"
+
+[[parameter]]
+name = "coulomb"
+symbol = "Fc"
+value = 12
+unit = "N"
+identifiable = true
+origin = "identified"
+
+[covariance]
+names = ["sigma0", "coulomb"]
+matrix = [[1e6, 0.0], [0.0, 0.01]]
+"#;
+
+fn refusal(text: &str) -> String {
+    let error = ModelFile::parse(text, "model.toml".as_ref()).expect_err(text);
+    assert_eq!(error.code().as_str(), "bad-config");
+    error.to_string()
+}
+
+#[test]
+fn a_model_is_read() {
+    let model = ModelFile::parse(GOOD, "model.toml".as_ref()).unwrap();
+    assert_eq!(model.parameter[1].value, 12.0);
+    assert_eq!(model.parameter[0].ci95, Some([f64::NEG_INFINITY, 2.1e6]));
+    let again = ModelFile::parse(&model.to_toml(), "model.toml".as_ref()).unwrap();
+    assert_eq!(again, model);
+}
+
+/// Each kind of fault: of the form, of a value, of values that do not go together.
+#[test]
+fn faults_have_line_column_and_key() {
+    let mut said = String::new();
+    for (from, to) in [
+        ("kind = \"linear\"", "kind = linear"),
+        ("model/1", "model/2"),
+        ("name = \"stage\"", "nmae = \"stage\""),
+        ("law = \"dahl\"\n", ""),
+        ("law = \"dahl\"", "law = \"dale\""),
+        ("trustworthy = true", "trustworthy = \"yes\""),
+        ("seed = 0", "seed = -1"),
+        ("seed = 0", "seed = 0\ntop_speed = -2.0"),
+        ("inputs = []", "inputs = [1]"),
+        ("inputs = []", "inputs = [{ path = \"a.csv\" }]"),
+        ("value = 2e6", "value = \"2e6\""),
+        ("value = 2e6", "value = -2e6"),
+        ("value = 12\n", ""),
+        ("unit = \"N/m\"", "unit = \"N\""),
+        ("ci95 = [-inf, 2.1e6]", "ci95 = [2.1e6]"),
+        ("ci95 = [-inf, 2.1e6]", "ci95 = [3e6, 2.1e6]"),
+        ("name = \"coulomb\"\nsym", "name = \"sigma0\"\nsym"),
+        ("[[1e6, 0.0], [0.0, 0.01]]", "[[1e6, 0.0]]"),
+        ("[[1e6, 0.0], [0.0, 0.01]]", "[[1e6, 0.0], [\"0\", 0.01]]"),
+        ("[covariance]", "[covariants]"),
+    ] {
+        assert_eq!(GOOD.matches(from).count(), 1, "{from}");
+        let message = refusal(&GOOD.replace(from, to));
+        assert!(message.starts_with("model.toml: line "), "{message}");
+        assert!(message.contains("column "), "{message}");
+        let _ = writeln!(said, "{message}");
+    }
+    insta::assert_snapshot!(said);
+}
+
+/// What is found wrong later, by whoever uses the model, has its place, too.
+#[test]
+fn places_are_known_after_reading() {
+    let read = ReadModel::parse(GOOD, "model.toml".as_ref()).unwrap();
+    let said = |e: stiction_files::Error| e.to_string();
+    assert_eq!(
+        said(read.refuse("law", "\"dahl\"", "lugre")),
+        "model.toml: line 4, column 7, law: \"dahl\"; lugre"
+    );
+    assert_eq!(
+        said(read.refuse_parameter("coulomb", "coulomb = 12", "less")),
+        "model.toml: line 28, column 9, parameter[2].value: coulomb = 12; less"
+    );
+    assert_eq!(
+        said(read.refuse_parameter("static", "no static", "one")),
+        "model.toml: line 15, column 1, parameter: no static; one"
+    );
+}
