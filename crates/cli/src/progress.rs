@@ -81,8 +81,9 @@ impl Observer for Bar {
                 Stage::Search => "searching",
                 Stage::Scan => "scanning the box",
                 Stage::Coarse => "first descents",
-                Stage::Fine => "least squares",
+                Stage::Fine | Stage::Finish => "least squares",
                 Stage::CrossValidation => "comparing laws",
+                Stage::Experiments => "simulating",
             });
         }
         self.bar.set_position((1000.0 * progress.fraction) as u64);

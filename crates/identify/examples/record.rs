@@ -129,7 +129,7 @@ fn main() {
     timed("batch-2", few, &mut || two.install(batch));
     timed("apart-2", few, &mut || apart());
     println!("evaluations {}", found.counts.total());
-    println!("thinned {}", found.counts.thinned);
+    println!("thinned {}", found.counts.coarse());
     println!("cost {:e}", found.evaluation.cost);
     for name in NAMES {
         let value = result.value(name).expect("a parameter");

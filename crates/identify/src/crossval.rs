@@ -8,11 +8,10 @@ use crate::conditioning::record::Record;
 use crate::estimate::{Estimate, predict};
 use crate::fit::Fit;
 use crate::law::Law;
-use crate::observe::Observer;
-use crate::separable::levenberg::Status;
 use crate::separable::objective::Objective;
 use crate::separable::refine;
 use crate::separable::search_box::SearchBox;
+use stiction_search::{Observer, Status};
 
 /// How a law does on held-out blocks.
 #[derive(Clone, Debug, PartialEq)]

@@ -21,15 +21,14 @@ use crate::law::Law;
 use crate::law::dependence::Dependence;
 use crate::law::physical::physical;
 use crate::law::terms::{ColumnKind, Delay, Mass, Terms};
-use crate::observe::Counts;
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
 use crate::parameter::physical::{Physical, propagate};
-use crate::separable::levenberg::Status;
 use crate::separable::objective::{Column, Objective};
 use crate::separable::optimum::Optimum;
 use std::ops::Deref;
 use stiction_parameters::{Dimension, Quantity};
+use stiction_search::{Counts, Status};
 
 /// A law fitted to the force of a record: what any fit states, and what it takes to predict the force of
 /// another record ([`predict`]).

@@ -5,11 +5,10 @@ use crate::error::Error;
 use crate::estimate::{Estimate, estimate};
 use crate::law::Law;
 use crate::law::terms::{Delay, Terms};
-use crate::observe::Observer;
-use crate::separable::levenberg::Status;
 use crate::separable::optimum::Optimum;
 use crate::separable::settings::Settings;
 use crate::separable::{follow, separable};
+use stiction_search::{Observer, Status};
 
 /// Fits a law by the separable method and states its parameters.
 ///

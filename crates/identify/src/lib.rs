@@ -38,7 +38,6 @@ mod fit;
 mod gms;
 mod identify;
 mod law;
-mod observe;
 mod output_error;
 mod parameter;
 pub mod procedure;
@@ -47,6 +46,7 @@ mod refit;
 mod replica;
 mod separable;
 mod tune;
+mod watch;
 
 pub use choice::{Standing, choose};
 pub use conditioning::channels::Channels;
@@ -66,14 +66,12 @@ pub use identify::{identify, identify_from};
 pub use law::Law;
 pub use law::dependence::Dependence;
 pub use law::terms::{Delay, Mass, Terms};
-pub use observe::{Control, Counts, Observer, Progress, Silent, Stage};
 pub use output_error::controller::Controller;
 pub use output_error::outcome::{Signals, SimulationFit, Unseen, simulate_unseen};
 pub use output_error::run::{Hold, Recording};
 pub use output_error::{Simulation, output_error};
 pub use parameter::covariance::Covariance;
 pub use parameter::{IDENTIFIABLE, IntervalKind, Parameter};
-pub use separable::levenberg::Status;
 pub use separable::objective::{Evaluation, Objective};
 pub use separable::optimum::Optimum;
 pub use separable::search_box::SearchBox;
@@ -82,4 +80,5 @@ pub use separable::settings::Settings;
 pub use stiction_parameters::{
     Dimension, LawKind, Name, ParameterSet, Quantity, Side, SteadyCurve,
 };
+pub use stiction_search::{Control, Counts, Observer, Progress, Silent, Stage, Status};
 pub use tune::{Trial, Tuned, tune};

@@ -31,9 +31,8 @@ use crate::error::Error;
 use crate::estimate::Estimate;
 use crate::law::terms::{Mass, Terms};
 use crate::law::{Law, LawKind};
-use crate::observe::{Counts, Observer, Stage};
 use crate::output_error::controller::Controller;
-use crate::output_error::descent::{Bounds, Descent, descend};
+use crate::output_error::descent::{Descent, descend};
 use crate::output_error::outcome::SimulationFit;
 use crate::output_error::plant::Axis;
 use crate::output_error::problem::{Point, Problem};
@@ -41,7 +40,9 @@ use crate::output_error::run::{Hold, Recording, Run};
 use crate::output_error::simulate::{Drive, simulate};
 use crate::output_error::start::Scale;
 use crate::output_error::unknowns::Layout;
-use crate::separable::levenberg::{Status, Watch};
+use crate::separable::search_box::SearchBox;
+use crate::watch::Watch;
+use stiction_search::{Observer, Stage, Status};
 
 /// How recordings are simulated and fitted.
 #[derive(Clone, Debug, Default)]
@@ -126,14 +127,7 @@ pub fn output_error(
         });
     }
     let scale = Scale::of(&runs, simulation.quantum).ok_or_else(|| nothing(&runs))?;
-    let mut watch = Watch {
-        observer,
-        stage: Stage::Scan,
-        fraction: 0.0,
-        counts: Counts::default(),
-        best: f64::INFINITY,
-        stopped: false,
-    };
+    let mut watch = Watch::new(observer, Stage::Scan);
     let search = Search {
         runs: &runs,
         layout: &layout,
@@ -196,7 +190,7 @@ pub(crate) struct Search<'a> {
 /// What a search found, with what it was found with.
 pub(crate) struct Found {
     pub base: Axis,
-    pub bounds: Bounds,
+    pub bounds: SearchBox,
     pub substeps: usize,
     pub weights: [f64; 2],
     pub descent: Descent,
@@ -317,7 +311,7 @@ impl Search<'_> {
                 starts: starts.clone(),
             };
             let cost = problem.cost(&at);
-            watch.counts.cost += 1;
+            watch.counts.costs += 1;
             watch.fraction = (i + 1) as f64 / total;
             watch.report(problem.relative(cost));
             ranked.push((cost, axis));

@@ -4,11 +4,12 @@ use crate::conditioning::record::Record;
 use crate::conditioning::{Conditioning, condition};
 use crate::estimate::Estimate;
 use crate::estimate::uncertainty::{Unknowns, unknowns};
-use crate::observe::{Counts, Silent, Stage};
 use crate::replica::{Replica, replica};
-use crate::separable::levenberg::{Watch, descend};
+use crate::separable::descent::descend;
 use crate::separable::objective::Objective;
 use crate::separable::search_box::SearchBox;
+use crate::watch::Watch;
+use stiction_search::{Counts, Silent, Stage};
 
 /// Seed of the replica without noise of the force.
 const SILENT: u64 = 999;
@@ -34,7 +35,7 @@ pub(crate) fn refitted(
     let mut p = replica.p.clone();
     for _ in 0..steps {
         let at = objective.evaluate(&p, true);
-        counts.sensitivities += 1;
+        counts.derivatives += 1;
         let step = at.hessian.cholesky()?.solve(&at.descent);
         if steps > 1 && step.iter().any(|d| d.abs() > FAR) {
             p = descended(&objective, &replica.p, counts)?;
@@ -46,9 +47,9 @@ pub(crate) fn refitted(
     }
     let at = objective.evaluate(&p, surety);
     if surety {
-        counts.sensitivities += 1;
+        counts.derivatives += 1;
     } else {
-        counts.cost += 1;
+        counts.costs += 1;
     }
     let unknowns = surety.then(|| unknowns(&objective, &at));
     let refit = Refit {
@@ -95,14 +96,8 @@ fn descended(objective: &Objective, start: &[f64], counts: &mut Counts) -> Optio
     if start.len() > objective.law().nonlinear() {
         bounds = bounds.with_delay();
     }
-    let mut watch = Watch {
-        observer: &mut Silent,
-        stage: Stage::Calibration,
-        fraction: 0.0,
-        counts: Counts::default(),
-        best: f64::INFINITY,
-        stopped: false,
-    };
+    let mut silent = Silent;
+    let mut watch = Watch::new(&mut silent, Stage::Calibration);
     let end = descend(objective, &bounds, start, TRIALS, &mut watch);
     counts.add(&watch.counts);
     Some(end.p)

@@ -2,10 +2,10 @@
 
 pub(crate) mod checked;
 pub(crate) mod coarse;
+pub(crate) mod descent;
 pub(crate) mod dual;
 pub(crate) mod elasto_plastic;
 pub(crate) mod in_lanes;
-pub(crate) mod levenberg;
 pub(crate) mod linear;
 pub(crate) mod nonnegative;
 pub(crate) mod objective;
@@ -21,14 +21,15 @@ use crate::error::Error;
 use crate::gms;
 use crate::law::Law;
 use crate::law::terms::{Delay, Terms};
-use crate::observe::{Counts, Observer, Stage};
 use crate::separable::checked::checked;
-use crate::separable::levenberg::{Status, Watch, descend};
+use crate::separable::descent::descend;
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
 use crate::separable::search::Search;
 use crate::separable::search_box::SearchBox;
 use crate::separable::settings::Settings;
+use crate::watch::Watch;
+use stiction_search::{Observer, Stage, Status};
 
 /// Fits a law to a record: the global least-squares optimum inside the box.
 ///
@@ -63,14 +64,7 @@ pub fn separable(
     }
     let full = checked(record, law, &still)?;
     let delayed = fitted.then(|| Objective::new(record, law, terms));
-    let mut watch = Watch {
-        observer,
-        stage: Stage::Scan,
-        fraction: 0.0,
-        counts: Counts::default(),
-        best: f64::INFINITY,
-        stopped: false,
-    };
+    let mut watch = Watch::new(observer, Stage::Scan);
     let thinned = record.thinned(settings.thin);
     let mut search = Search {
         full: &full,
@@ -123,14 +117,7 @@ pub(crate) fn follow(
         start.push(0.0);
     }
     let objective = checked(record, law, terms)?;
-    let mut watch = Watch {
-        observer,
-        stage: Stage::Fine,
-        fraction: 0.0,
-        counts: Counts::default(),
-        best: f64::INFINITY,
-        stopped: false,
-    };
+    let mut watch = Watch::new(observer, Stage::Fine);
     let found = descend(&objective, &bounds, &start, settings.steps, &mut watch);
     Ok(Optimum {
         law,
@@ -156,14 +143,7 @@ pub(crate) fn refine(
     observer: &mut dyn Observer,
 ) -> (Vec<f64>, Vec<f64>, Status) {
     let objective = Objective::new(record, law, terms);
-    let mut watch = Watch {
-        observer,
-        stage: Stage::CrossValidation,
-        fraction: 0.0,
-        counts: Counts::default(),
-        best: f64::INFINITY,
-        stopped: false,
-    };
+    let mut watch = Watch::new(observer, Stage::CrossValidation);
     let found = descend(&objective, bounds, start, 60, &mut watch);
     (
         found.p,

@@ -14,13 +14,12 @@ use crate::estimate::{Estimate, estimate};
 use crate::law::Law;
 use crate::law::physical::physical;
 use crate::law::terms::Terms;
-use crate::observe::{Control, Counts, Observer, Progress, Stage};
 use crate::refit::{force_noise, refitted};
 use crate::replica::{Replica, replica};
-use crate::separable::levenberg::Status;
 use crate::separable::separable;
 use crate::separable::settings::Settings;
 use stiction_parameters::Name;
+use stiction_search::{Control, Counts, Observer, Progress, Stage, Status};
 
 /// Replicas that each pair of cut-offs is tried on.
 const REPLICAS: u64 = 4;

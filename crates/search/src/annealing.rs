@@ -9,7 +9,8 @@ use crate::bits;
 use crate::error::{Error, require};
 use crate::points::Points;
 use crate::random::Dice;
-use crate::search::{Answers, Request, Search, Status};
+use crate::search::{Answers, Request, Search};
+use crate::status::Status;
 use serde::{Deserialize, Serialize};
 
 /// How strongly the steps adapt.

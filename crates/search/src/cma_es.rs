@@ -13,7 +13,8 @@ use crate::error::{Error, require};
 use crate::genetic::least;
 use crate::points::Points;
 use crate::random::Dice;
-use crate::search::{Answers, Request, Search, Status};
+use crate::search::{Answers, Request, Search};
+use crate::status::Status;
 use distribution::Distribution;
 use serde::{Deserialize, Serialize};
 

@@ -1,224 +1,229 @@
-//! One Levenberg-Marquardt descent in the unit cube, as a state machine.
+//! Levenberg-Marquardt inside a box, the only one of the workspace.
 //!
-//! Scaled by the diagonal of `J^T J` (More 1978, doi 10.1007/BFb0067700), damping by the gain ratio
-//! (Nielsen 1999, IMM-REP-1999-05, sec. 2). Unknowns at a bound with the descent pointing outward are frozen
-//! for the step; one whose step would leave the cube goes to its bound and the others are solved
-//! again for that.
+//! It minimises a sum of squares from what a [`LeastSquares`] problem says of a point: the cost, `J^T r` and
+//! `J^T J` ([`Derivatives`]), reduced to the unknowns that the descent moves. Steps are scaled by the
+//! diagonal of `J^T J` (Moré 1978, doi 10.1007/BFb0067700); the damping follows the ratio of the gain to
+//! what the quadratic model promised (Nielsen 1999, IMM-REP-1999-05, section 2). An unknown at a bound with
+//! the descent pointing outward is frozen for the step; one whose step would leave the box goes to its
+//! bound, and the others are solved again for that.
+//!
+//! [`descend`] runs one descent to its end. [`Descent`] is the same as a state machine, asked for its next
+//! trial and told what became of it, for callers that evaluate the trials of many descents together.
+
+mod follow;
+mod settings;
+mod step;
+
+pub use follow::{LeastSquares, descend};
+pub use settings::Settings;
+pub use step::{Region, damped_step, difference, largest, predicted_gain};
 
 use crate::bits;
-use crate::linear::cholesky_solve;
 use crate::problem::Derivatives;
-use crate::search::Status;
+use crate::status::Status;
 use serde::{Deserialize, Serialize};
 
-/// Relative fall of the cost below which a step counts as none.
-const FLAT: f64 = 1e-13;
-/// Relative fall below which a few steps in a row end the descent.
-const VALLEY: f64 = 1e-9;
-/// How many.
-const IN_A_ROW: usize = 5;
-/// Step, in widths of the box, below which the unknowns count as settled.
-const SETTLED: f64 = 1e-9;
-/// Longest step of one unknown, in widths of the box: the quadratic model means little further off.
-const REACH: f64 = 0.5;
+/// Damping up to which a short step is short because the minimum is near, not because it was damped.
+const UNDAMPED: f64 = 1.0;
+/// Least part of the damping that is left after a good step (Nielsen 1999).
+const LEAST_SHRINK: f64 = 1.0 / 3.0;
+/// Growth of the damping after a first failed step; it doubles with each further one (Nielsen 1999).
+const FIRST_GROWTH: f64 = 2.0;
 
-/// A descent: where it is, what it wants to try, how it ended.
+/// What is known where a descent stands.
+#[derive(Clone, Copy, Debug)]
+pub struct Sums<'a> {
+    /// Cost and derivatives, reduced to the unknowns of the descent.
+    pub derivatives: &'a Derivatives,
+    /// What the damping of each unknown is relative to; `None` for the diagonal of `J^T J`.
+    pub scale: Option<&'a [f64]>,
+    /// Fall of the cost that the unknowns which the problem has eliminated promise by themselves, for the
+    /// damping of the coming step. Where it is not zero, small steps of the others are tried all the same.
+    pub beside: f64,
+}
+
+impl<'a> From<&'a Derivatives> for Sums<'a> {
+    fn from(derivatives: &'a Derivatives) -> Self {
+        Self {
+            derivatives,
+            scale: None,
+            beside: 0.0,
+        }
+    }
+}
+
+/// A descent: where it stands, how it steps, how it ended.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Descent {
+pub struct Descent {
     #[serde(with = "bits")]
     point: Vec<f64>,
-    now: Option<Derivatives>,
-    /// What is asked for; empty once it has ended.
+    /// At the point, as of the last proposal.
     #[serde(with = "bits")]
-    trial: Vec<f64>,
+    cost: f64,
     #[serde(with = "bits")]
     damping: f64,
     #[serde(with = "bits")]
-    grow: f64,
+    growth: f64,
+    /// Steps in a row that gained little.
     slow: usize,
-    steps: usize,
-    most: usize,
+    trials: usize,
+    /// Fall of the cost that the last proposal promised.
+    #[serde(with = "bits")]
+    promised: f64,
     status: Option<Status>,
 }
 
 impl Descent {
-    /// From a point of the unit cube, for at most so many steps.
-    pub fn new(start: &[f64], most: usize) -> Self {
-        let point: Vec<f64> = start.iter().map(|x| x.clamp(0.0, 1.0)).collect();
+    /// A descent from a point of the box.
+    pub fn new(point: Vec<f64>, settings: &Settings) -> Self {
         Self {
-            trial: point.clone(),
             point,
-            now: None,
-            damping: 1e-3,
-            grow: 2.0,
+            cost: f64::INFINITY,
+            damping: settings.first_damping,
+            growth: FIRST_GROWTH,
             slow: 0,
-            steps: 0,
-            most,
+            trials: 0,
+            promised: 0.0,
             status: None,
         }
     }
 
+    /// The same with trials that were spent on the way to its start.
+    #[must_use]
+    pub fn after(mut self, trials: usize) -> Self {
+        self.trials = trials;
+        self
+    }
+
+    /// How it ended; `None` while it goes on.
     pub fn status(&self) -> Option<Status> {
         self.status
     }
 
-    /// Where to evaluate next.
-    pub fn ask(&self) -> Option<&[f64]> {
-        self.status.is_none().then_some(&self.trial)
-    }
-
-    /// The best so far.
+    /// Where it stands: the best so far.
     pub fn point(&self) -> &[f64] {
         &self.point
     }
 
-    pub fn cost(&self) -> f64 {
-        self.now.as_ref().map_or(f64::INFINITY, |d| d.cost)
+    /// The same, kept.
+    pub fn into_point(self) -> Vec<f64> {
+        self.point
     }
 
-    pub fn tell(&mut self, next: &Derivatives) {
-        match self.now.take() {
-            None if next.cost.is_finite() => self.now = Some(next.clone()),
-            None => self.status = Some(Status::Stalled),
-            Some(now) => self.judge(now, next),
-        }
-        if self.status.is_none() {
-            self.propose();
-        }
+    /// Trials so far.
+    pub fn trials(&self) -> usize {
+        self.trials
     }
 
-    /// Accepts or rejects the trial.
-    fn judge(&mut self, now: Derivatives, next: &Derivatives) {
-        let step: Vec<f64> = difference(&self.trial, &self.point);
-        let predicted = predicted_gain(&now, &step);
-        let gained = now.cost - next.cost;
-        if gained > 0.0 {
-            let ratio = if predicted > 0.0 {
-                gained / predicted
-            } else {
-                1.0
-            };
-            let valley = gained <= VALLEY * now.cost;
-            self.slow = if valley { self.slow + 1 } else { 0 };
-            let t = 2.0 * ratio - 1.0;
-            self.damping = (self.damping * (1.0 - t * t * t).max(1.0 / 3.0)).max(1e-14);
-            self.grow = 2.0;
-            self.point.clone_from(&self.trial);
-            if gained <= FLAT * now.cost || self.slow >= IN_A_ROW || next.cost == 0.0 {
-                self.status = Some(Status::Converged);
-            }
-            self.now = Some(next.clone());
-        } else {
-            if predicted.abs() <= FLAT * now.cost {
-                self.status = Some(Status::Converged);
-            } else if self.damping > 1e12 {
-                self.status = Some(Status::Stalled);
-            }
-            self.damping *= self.grow;
-            self.grow *= 2.0;
-            self.now = Some(now);
-        }
+    /// Damping of the next step, relative to the diagonal of `J^T J`.
+    pub fn damping(&self) -> f64 {
+        self.damping
     }
 
-    /// The next trial, or the end.
-    fn propose(&mut self) {
-        let Some(now) = &self.now else { return };
-        if self.steps >= self.most {
-            self.status = Some(Status::Exhausted);
-            return;
+    /// Fall of the cost that the last proposal promised.
+    pub fn promised(&self) -> f64 {
+        self.promised
+    }
+
+    /// Ends it from outside.
+    pub fn end(&mut self, status: Status) {
+        self.status = Some(status);
+    }
+
+    /// The next trial, from what is known where it stands; `None` at its end. Without unknowns it has
+    /// converged.
+    pub fn propose(&mut self, settings: &Settings, region: Region, now: Sums) -> Option<Vec<f64>> {
+        if self.status.is_some() {
+            return None;
         }
-        self.steps += 1;
-        let Some(step) = damped_step(now, &self.point, self.damping) else {
+        let Sums {
+            derivatives: now,
+            scale,
+            beside,
+        } = now;
+        if self.point.is_empty() && beside == 0.0 {
             self.status = Some(Status::Converged);
-            return;
-        };
-        for ((t, x), d) in self.trial.iter_mut().zip(&self.point).zip(&step) {
-            *t = (x + d).clamp(0.0, 1.0);
+            return None;
         }
-        let taken = difference(&self.trial, &self.point);
-        let length = taken.iter().fold(0.0f64, |a, d| a.max(d.abs()));
-        if length < SETTLED {
-            let flat = length == 0.0 || predicted_gain(now, &taken) <= 1e-9 * length * now.cost;
-            self.status = Some(if self.damping <= 1.0 || flat {
+        if self.trials >= settings.most_trials {
+            self.status = Some(Status::Budget);
+            return None;
+        }
+        self.trials += 1;
+        self.cost = now.cost;
+        if now.cost <= settings.exact_cost {
+            self.status = Some(Status::Converged);
+            return None;
+        }
+        let longest = settings.longest_step;
+        let solved = damped_step(now, scale, &self.point, region, self.damping, longest);
+        let step = match solved {
+            Some(step) => step,
+            None if beside > 0.0 => vec![0.0; self.point.len()],
+            None => {
+                self.status = Some(Status::Converged);
+                return None;
+            }
+        };
+        let trial = region.moved(&self.point, &step);
+        let length = largest(&trial, &self.point);
+        if length < settings.settled_step && beside == 0.0 {
+            let flat = length == 0.0
+                || predicted_gain(now, &difference(&trial, &self.point)) / length
+                    <= settings.flat_slope * now.cost;
+            self.status = Some(if self.damping <= UNDAMPED || flat {
                 Status::Converged
             } else {
                 Status::Stalled
             });
+            return None;
         }
+        self.promised = beside + predicted_gain(now, &difference(&trial, &self.point));
+        let nothing = (settings.trusted_gain * now.cost).max(settings.cost_rounding);
+        let trusted = length < settings.trusted_step && self.damping <= UNDAMPED && beside == 0.0;
+        if trusted && self.promised.abs() <= nothing {
+            if settings.take_untried {
+                self.point = trial;
+            }
+            self.status = Some(Status::Converged);
+            return None;
+        }
+        Some(trial)
     }
-}
 
-fn difference(to: &[f64], from: &[f64]) -> Vec<f64> {
-    to.iter().zip(from).map(|(a, b)| a - b).collect()
-}
-
-/// Fall of the cost that the quadratic model promises for a step.
-fn predicted_gain(now: &Derivatives, step: &[f64]) -> f64 {
-    let n = step.len();
-    let mut gain = 0.0;
-    for i in 0..n {
-        let row = &now.normal[i * n..(i + 1) * n];
-        let pulled: f64 = row.iter().zip(step).map(|(a, d)| a * d).sum();
-        gain -= step[i] * (2.0 * now.gradient[i] + pulled);
-    }
-    gain
-}
-
-/// The damped Gauss-Newton step inside the cube; `None` if nothing is free to move.
-fn damped_step(now: &Derivatives, point: &[f64], damping: f64) -> Option<Vec<f64>> {
-    let n = point.len();
-    let mut free: Vec<usize> = (0..n)
-        .filter(|&i| {
-            let down = -now.gradient[i];
-            let pushes = (down > 0.0 && point[i] >= 1.0) || (down < 0.0 && point[i] <= 0.0);
-            !pushes && now.normal[i * n + i] > 0.0
-        })
-        .collect();
-    let mut step = vec![0.0; n];
-    while !free.is_empty() {
-        let solved = solve_free(now, &free, &step, damping)?;
-        let before = free.len();
-        let mut kept = Vec::new();
-        for (&i, &d) in free.iter().zip(&solved) {
-            if point[i] + d > 1.0 {
-                step[i] = 1.0 - point[i];
-            } else if point[i] + d < 0.0 {
-                step[i] = -point[i];
+    /// What the trial last proposed costs; whether it is where the descent now stands.
+    pub fn take(&mut self, settings: &Settings, trial: Vec<f64>, cost: f64) -> bool {
+        let gained = self.cost - cost;
+        if cost.is_finite() && gained > 0.0 {
+            let ratio = if self.promised > 0.0 {
+                gained / self.promised
             } else {
-                kept.push((i, d));
+                1.0
+            };
+            let slow = gained <= settings.small_gain * self.cost;
+            self.slow = if slow { self.slow + 1 } else { 0 };
+            if gained <= settings.no_gain * self.cost || self.slow >= settings.small_gains {
+                self.status = Some(Status::Converged);
             }
+            self.point = trial;
+            self.cost = cost;
+            let shrink = match settings.damping_by_gain {
+                true => (1.0 - (2.0 * ratio - 1.0).powi(3)).max(LEAST_SHRINK),
+                false => LEAST_SHRINK,
+            };
+            self.damping = (self.damping * shrink).max(settings.least_damping);
+            self.growth = FIRST_GROWTH;
+            return true;
         }
-        if kept.len() == before {
-            for (i, d) in kept {
-                step[i] = d;
-            }
-            return Some(step);
+        // A step that a bound cut short may promise a rise: a shorter one follows the gradient.
+        let nothing = (settings.no_gain * self.cost).max(settings.cost_rounding);
+        if self.promised.abs() <= nothing {
+            self.status = Some(Status::Converged);
+        } else if self.damping > settings.most_damping {
+            self.status = Some(Status::Stalled);
         }
-        free = kept.into_iter().map(|(i, _)| i).collect();
+        self.damping *= self.growth;
+        self.growth *= 2.0;
+        false
     }
-    step.iter().any(|d| *d != 0.0).then_some(step)
-}
-
-/// Steps of the free unknowns when the others take the given steps.
-fn solve_free(now: &Derivatives, free: &[usize], others: &[f64], damping: f64) -> Option<Vec<f64>> {
-    let (n, m) = (others.len(), free.len());
-    // To a unit diagonal: the unknowns differ in effect by many decades.
-    let scale: Vec<f64> = free
-        .iter()
-        .map(|&i| 1.0 / (now.normal[i * n + i] * (1.0 + damping)).sqrt())
-        .collect();
-    let mut matrix = vec![0.0; m * m];
-    let mut rhs = vec![0.0; m];
-    for (a, &i) in free.iter().enumerate() {
-        let row = &now.normal[i * n..(i + 1) * n];
-        for (b, &j) in free.iter().enumerate() {
-            matrix[a * m + b] = row[j] * scale[a] * scale[b];
-        }
-        matrix[a * m + a] = 1.0;
-        let pulled: f64 = row.iter().zip(others).map(|(a, d)| a * d).sum();
-        rhs[a] = (-now.gradient[i] - pulled) * scale[a];
-    }
-    let solved = cholesky_solve(matrix, rhs)?;
-    let steps = solved.iter().zip(&scale);
-    Some(steps.map(|(x, s)| (x * s).clamp(-REACH, REACH)).collect())
 }

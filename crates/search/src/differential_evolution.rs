@@ -8,7 +8,8 @@ use crate::error::{Error, require};
 use crate::genetic::least;
 use crate::points::Points;
 use crate::random::Dice;
-use crate::search::{Answers, Request, Search, Status};
+use crate::search::{Answers, Request, Search};
+use crate::status::Status;
 use serde::{Deserialize, Serialize};
 
 /// Settings of differential evolution.

@@ -1,12 +1,12 @@
 //! Any search followed by least squares from its best points.
 
-use crate::descent::Descent;
 use crate::error::{Error, require};
-use crate::levenberg::{ask_all, descents, status_of, tell_all};
+use crate::lockstep::{Waiting, ask_all, descents, status_of, tell_all};
 use crate::niches::Niches;
 use crate::points::Points;
 use crate::problem::{Fidelity, Kind};
-use crate::search::{Answers, Phase, Request, Search, Status};
+use crate::search::{Answers, Phase, Request, Search};
+use crate::status::Status;
 use serde::{Deserialize, Serialize};
 
 /// The least squares after a search.
@@ -68,7 +68,7 @@ pub struct Finished<S> {
     finish: Option<Finish>,
     niches: Niches,
     asked: Option<(Fidelity, Points)>,
-    descents: Option<Vec<Descent>>,
+    descents: Option<Vec<Waiting>>,
 }
 
 impl<S: Search> Finished<S> {

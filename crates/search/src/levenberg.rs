@@ -1,11 +1,11 @@
 //! `lm`: least squares from many starts, in lockstep.
 
-use crate::descent::Descent;
 use crate::error::{Error, require};
+use crate::lockstep::{Waiting, ask_all, descents, status_of, tell_all};
 use crate::points::Points;
-use crate::problem::Derivatives;
 use crate::random::sobol;
-use crate::search::{Answers, Request, Search, Status};
+use crate::search::{Answers, Request, Search};
+use crate::status::Status;
 use serde::{Deserialize, Serialize};
 
 /// Settings of the multi-start Levenberg-Marquardt method.
@@ -36,7 +36,7 @@ impl Default for Settings {
 pub struct Levenberg {
     settings: Settings,
     scanned: Option<Points>,
-    descents: Vec<Descent>,
+    descents: Vec<Waiting>,
 }
 
 impl Levenberg {
@@ -83,36 +83,6 @@ pub(crate) fn check(settings: &Settings) -> Result<(), Error> {
         steps as f64,
         allowed,
     )
-}
-
-pub(crate) fn descents<'a>(starts: impl Iterator<Item = &'a [f64]>, steps: usize) -> Vec<Descent> {
-    starts.map(|start| Descent::new(start, steps)).collect()
-}
-
-/// The trials of all descents that have not ended; `None` if all have.
-pub(crate) fn ask_all(descents: &[Descent]) -> Option<Points> {
-    let mut points = Points::new(descents.first()?.point().len());
-    for trial in descents.iter().filter_map(Descent::ask) {
-        points.push(trial);
-    }
-    (!points.is_empty()).then_some(points)
-}
-
-/// Gives each descent its answer.
-pub(crate) fn tell_all(descents: &mut [Descent], answers: &[Derivatives]) {
-    let going = descents.iter_mut().filter(|d| d.status().is_none());
-    for (descent, answer) in going.zip(answers) {
-        descent.tell(answer);
-    }
-}
-
-/// How the best descent ended; `None` while any goes on.
-pub(crate) fn status_of(descents: &[Descent]) -> Option<Status> {
-    if descents.iter().any(|d| d.status().is_none()) {
-        return None;
-    }
-    let best = descents.iter().min_by(|a, b| a.cost().total_cmp(&b.cost()));
-    Some(best.and_then(Descent::status).unwrap_or(Status::Stalled))
 }
 
 impl Search for Levenberg {

@@ -24,13 +24,34 @@ pub(crate) fn cholesky_solve(mut a: Vec<f64>, mut b: Vec<f64>) -> Option<Vec<f64
         }
         b[i] /= a[i * n + i];
     }
+    let mut column = vec![0.0; n];
     for i in (0..n).rev() {
         for k in i + 1..n {
-            b[i] -= a[k * n + i] * b[k];
+            column[k] = a[k * n + i];
         }
-        b[i] /= a[i * n + i];
+        b[i] = (b[i] - dot(&column[i + 1..], &b[i + 1..])) / a[i * n + i];
     }
     b.iter().all(|x| x.is_finite()).then_some(b)
+}
+
+/// Sum of products, in eight lanes and then the rest.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (wide_a, rest_a) = a.as_chunks::<8>();
+    let (wide_b, rest_b) = b.as_chunks::<8>();
+    let mut lanes = [0.0; 8];
+    for (x, y) in wide_a.iter().zip(wide_b) {
+        for lane in 0..8 {
+            lanes[lane] += x[lane] * y[lane];
+        }
+    }
+    let mut sum = 0.0;
+    for lane in 0..4 {
+        sum += lanes[lane] + lanes[lane + 4];
+    }
+    for (x, y) in rest_a.iter().zip(rest_b) {
+        sum += x * y;
+    }
+    sum
 }
 
 /// Eigenvalues and eigenvectors (in the columns) of a symmetric matrix, by cyclic Jacobi rotations

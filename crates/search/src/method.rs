@@ -11,7 +11,8 @@ use crate::levenberg::{self, Levenberg};
 use crate::nelder_mead::{self, NelderMead};
 use crate::niched::{self, NichedGa};
 use crate::particle_swarm::{self, ParticleSwarm};
-use crate::search::{Answers, Phase, Request, Search, Status};
+use crate::search::{Answers, Phase, Request, Search};
+use crate::status::Status;
 use serde::{Deserialize, Serialize};
 
 /// A method with its settings.

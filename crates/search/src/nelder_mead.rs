@@ -9,7 +9,8 @@ use crate::bits;
 use crate::error::{Error, require};
 use crate::points::Points;
 use crate::random::sobol;
-use crate::search::{Answers, Request, Search, Status};
+use crate::search::{Answers, Request, Search};
+use crate::status::Status;
 use serde::{Deserialize, Serialize};
 
 /// Settings of the simplex method.

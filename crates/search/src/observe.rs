@@ -1,4 +1,4 @@
-//! How a run tells of itself, where it stops, and what it has used.
+//! How long work tells of itself, how it is stopped, and what it has used.
 
 use crate::problem::{Fidelity, Kind};
 use crate::search::Phase;
@@ -18,7 +18,8 @@ pub struct Counts {
 }
 
 impl Counts {
-    pub(crate) fn add(&mut self, kind: Kind, fidelity: Fidelity, n: usize) {
+    /// Counts `n` evaluations.
+    pub fn count(&mut self, kind: Kind, fidelity: Fidelity, n: usize) {
         let slot = match (kind, fidelity) {
             (Kind::Costs, Fidelity::Full) => &mut self.costs,
             (Kind::Derivatives, Fidelity::Full) => &mut self.derivatives,
@@ -26,6 +27,34 @@ impl Counts {
             (Kind::Derivatives, Fidelity::Coarse) => &mut self.coarse_derivatives,
         };
         *slot += n as u64;
+    }
+
+    /// Adds those of another piece of work.
+    pub fn add(&mut self, more: &Counts) {
+        self.costs += more.costs;
+        self.derivatives += more.derivatives;
+        self.coarse_costs += more.coarse_costs;
+        self.coarse_derivatives += more.coarse_derivatives;
+    }
+
+    /// All evaluations, whatever their kind and on whatever record.
+    pub fn total(&self) -> usize {
+        self.without_derivatives() + self.with_derivatives()
+    }
+
+    /// Those of the cost alone, on whatever record.
+    pub fn without_derivatives(&self) -> usize {
+        (self.costs + self.coarse_costs) as usize
+    }
+
+    /// Those with derivatives, on whatever record.
+    pub fn with_derivatives(&self) -> usize {
+        (self.derivatives + self.coarse_derivatives) as usize
+    }
+
+    /// Those on a coarse record, of whatever kind.
+    pub fn coarse(&self) -> usize {
+        (self.coarse_costs + self.coarse_derivatives) as usize
     }
 
     /// Evaluations of one kind, in those of the full record; a coarse one counts `share`.
@@ -57,6 +86,17 @@ pub struct Limits {
     pub batch: usize,
 }
 
+impl Limits {
+    /// The part of the evaluations that is used up, 0 to 1; 0 without a limit.
+    pub(crate) fn fraction(&self, counts: &Counts, share: f64) -> f64 {
+        let part = |kind, most: u64| counts.of(kind, share) / most as f64;
+        let costs = part(Kind::Costs, self.costs);
+        costs
+            .max(part(Kind::Derivatives, self.derivatives))
+            .min(1.0)
+    }
+}
+
 impl Default for Limits {
     fn default() -> Self {
         Self {
@@ -68,14 +108,49 @@ impl Default for Limits {
     }
 }
 
-/// A look at a running search.
+/// What is being done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Cut-offs tried on replicas.
+    Tuning,
+    /// A search method.
+    Search,
+    /// The least squares after it.
+    Finish,
+    /// Low-discrepancy scan of the box.
+    Scan,
+    /// Least squares on a thinned record, from the best points of the scan.
+    Coarse,
+    /// Least squares on the full record.
+    Fine,
+    /// The bias measured on replicas.
+    Calibration,
+    /// Law comparison on held-out blocks.
+    CrossValidation,
+    /// Simulations and other experiments, one after the other.
+    Experiments,
+}
+
+impl From<Phase> for Stage {
+    fn from(phase: Phase) -> Self {
+        match phase {
+            Phase::Search => Stage::Search,
+            Phase::Finish => Stage::Finish,
+        }
+    }
+}
+
+/// A look at running work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// The method itself or the least squares after it.
-    pub phase: Phase,
+    /// What is being done.
+    pub stage: Stage,
+    /// Part of the stage that is done, 0 to 1; 0 where it is not known.
+    pub fraction: f64,
     /// Evaluations so far.
     pub counts: Counts,
-    /// Best cost so far on the full record; infinite before the first finite one.
+    /// Least so far of what is minimised: the cost of a [`Run`](crate::Run), and for an identification
+    /// rms(residual)/rms(measured). Infinite before the first evaluation.
     pub best: f64,
 }
 
@@ -88,9 +163,10 @@ pub enum Control {
     Stop,
 }
 
-/// Sees the progress of a search and may stop it.
-pub trait Observer {
-    /// Called after every batch.
+/// Sees the progress of long work and may stop it. It is called from one thread at a time, which need not be
+/// the one that started the work.
+pub trait Observer: Send {
+    /// Called after every batch or every few evaluations.
     fn progress(&mut self, progress: &Progress) -> Control;
 }
 
@@ -104,7 +180,7 @@ impl Observer for Silent {
     }
 }
 
-impl<F: FnMut(&Progress) -> Control> Observer for F {
+impl<F: FnMut(&Progress) -> Control + Send> Observer for F {
     fn progress(&mut self, progress: &Progress) -> Control {
         self(progress)
     }

@@ -8,7 +8,8 @@ use crate::bits;
 use crate::error::{Error, require};
 use crate::points::Points;
 use crate::random::Dice;
-use crate::search::{Answers, Request, Search, Status};
+use crate::search::{Answers, Request, Search};
+use crate::status::Status;
 use serde::{Deserialize, Serialize};
 
 /// Constriction `2/|2 - phi - sqrt(phi^2 - 4 phi)|` for `phi = 4.1`.

@@ -7,7 +7,8 @@ use crate::history::History;
 use crate::observe::{Control, Counts, Limits, Observer, Progress};
 use crate::points::Points;
 use crate::problem::{Derivatives, Fidelity, Kind, Problem};
-use crate::search::{Answers, Phase, Request, Search, Status};
+use crate::search::{Answers, Phase, Request, Search};
+use crate::status::Status;
 use serde::{Deserialize, Serialize};
 
 /// A point on the full record and what it costs.
@@ -21,19 +22,6 @@ pub struct Best {
     pub cost: f64,
     /// Evaluations until it was found, itself included.
     pub counts: Counts,
-}
-
-/// Why a run came back.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stop {
-    /// The search ended by itself.
-    Ended(Status),
-    /// The target cost is reached.
-    Target,
-    /// The evaluations are used up.
-    Budget,
-    /// The observer asked for it.
-    Interrupted,
 }
 
 /// A running search. All of its state is here and can be saved: a run that was interrupted, written
@@ -110,7 +98,7 @@ impl<S: Search> Run<S> {
         problem: &impl Problem,
         limits: &Limits,
         observer: &mut dyn Observer,
-    ) -> Result<Stop, Error> {
+    ) -> Result<Status, Error> {
         if *problem.bounds() != self.bounds {
             return Err(Error::OtherBox);
         }
@@ -119,11 +107,11 @@ impl<S: Search> Run<S> {
             if let (Some(best), Some(target)) = (&self.best, limits.target)
                 && best.cost <= target
             {
-                return Ok(Stop::Target);
+                return Ok(Status::Target);
             }
             let Some(pending) = self.pending.take().or_else(|| self.next()) else {
                 let status = self.search.status().unwrap_or(Status::Stalled);
-                return Ok(Stop::Ended(status));
+                return Ok(status);
             };
             let Pending { request, answers } = pending;
             if request.points.dimensions() != self.bounds.dimensions() {
@@ -138,16 +126,17 @@ impl<S: Search> Run<S> {
                     continue;
                 }
                 self.pending = Some(Pending { request, answers });
-                return Ok(Stop::Budget);
+                return Ok(Status::Budget);
             }
             self.evaluate(problem, request, answers, many)?;
             let progress = Progress {
-                phase: self.search.phase(),
+                stage: self.search.phase().into(),
+                fraction: limits.fraction(&self.counts, share),
                 counts: self.counts,
                 best: self.best.as_ref().map_or(f64::INFINITY, |b| b.cost),
             };
             if observer.progress(&progress) == Control::Stop {
-                return Ok(Stop::Interrupted);
+                return Ok(Status::Interrupted);
             }
         }
     }
@@ -214,7 +203,7 @@ impl<S: Search> Run<S> {
             _ => Fidelity::Full,
         };
         for (i, point) in points.rows().enumerate() {
-            self.counts.add(request.kind, fidelity, 1);
+            self.counts.count(request.kind, fidelity, 1);
             if fidelity == Fidelity::Full {
                 self.note(point, answers.cost(from + i), share);
             }

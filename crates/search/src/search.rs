@@ -2,6 +2,7 @@
 
 use crate::points::Points;
 use crate::problem::{Derivatives, Fidelity, Kind};
+use crate::status::Status;
 use serde::{Deserialize, Serialize};
 
 /// Points that a search wants to know about, in the unit cube.
@@ -78,28 +79,6 @@ impl Answers {
         match self {
             Answers::Costs(costs) => costs[i],
             Answers::Derivatives(all) => all[i].cost,
-        }
-    }
-}
-
-/// How a search ended by itself.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Status {
-    /// By its own criterion: nothing changes any more.
-    Converged,
-    /// Its generations, rounds, restarts, steps or evaluations are over.
-    Exhausted,
-    /// No step lowers the cost although the gradient is not small, or no point has a finite cost.
-    Stalled,
-}
-
-impl Status {
-    /// Name as written to files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Status::Converged => "converged",
-            Status::Exhausted => "exhausted",
-            Status::Stalled => "stalled",
         }
     }
 }

@@ -10,10 +10,10 @@ use crate::conditioning::condition;
 use crate::conditioning::record::Record;
 use crate::estimate::Estimate;
 use crate::law::physical::physical;
-use crate::observe::{Control, Counts, Observer, Progress, Stage};
 use crate::parameter::physical::Physical;
 use crate::refit::{Refit, force_noise, refitted};
 use crate::replica::{Replica, replica};
+use stiction_search::{Control, Counts, Observer, Progress, Stage};
 
 /// Replicas that the shift is averaged over.
 const REPLICAS: u64 = 10;

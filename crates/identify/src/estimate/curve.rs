@@ -7,11 +7,11 @@
 use crate::estimate::profile::{Held, fit_with};
 use crate::estimate::uncertainty::Unknowns;
 use crate::law::Law;
-use crate::observe::Counts;
 use crate::parameter::Parameter;
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
 use stiction_parameters::{Name, Quantity, Side};
+use stiction_search::Counts;
 
 /// Deviation of ln(Fs/Fc - 1) below which the curve is there without asking: ten deviations from none.
 const PLAIN: f64 = 0.1;

@@ -5,11 +5,10 @@ use crate::fit::Fit;
 use crate::gms::score::ElementsScore;
 use crate::law::Law;
 use crate::law::terms::Terms;
-use crate::observe::Counts;
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
-use crate::separable::levenberg::Status;
 use stiction_parameters::{Name, ParameterSet, Quantity};
+use stiction_search::{Counts, Status};
 
 /// A fitted law: its parameters with their uncertainty, how well it fits, and how the search went.
 #[derive(Clone, Debug)]

@@ -8,12 +8,12 @@ use crate::estimate::profile::{End, Held, Profile};
 use crate::estimate::sliding::stays_in_presliding;
 use crate::estimate::{Estimate, advice, levels, optimal};
 use crate::law::physical::physical;
-use crate::observe::{Counts, Observer};
 use crate::parameter::physical::Physical;
 use crate::parameter::{IntervalKind, Parameter, quantile};
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
 use stiction_parameters::{Name, Quantity};
+use stiction_search::{Counts, Observer};
 
 /// Relative standard deviation from which the profile is followed; below it the linear interval is
 /// right to a part of its width of the same size.

@@ -6,11 +6,12 @@
 //! interval is where the cost has risen by what the long-run noise makes of one standard deviation,
 //! squared times the quantile.
 
-use crate::observe::{Counts, Silent, Stage};
 use crate::parameter::WIDEST;
-use crate::separable::levenberg::{Descent, Watch, descend};
+use crate::separable::descent::{Descent, descend};
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
+use crate::watch::Watch;
+use stiction_search::{Counts, Silent, Stage};
 
 /// Trial values to each side, at most.
 const TRIALS: usize = 6;
@@ -146,14 +147,9 @@ pub(super) fn fit_with(
     start: &[f64],
     counts: &mut Counts,
 ) -> Descent {
-    let mut watch = Watch {
-        observer: &mut Silent,
-        stage: Stage::Fine,
-        fraction: 1.0,
-        counts: *counts,
-        best: f64::INFINITY,
-        stopped: false,
-    };
+    let mut silent = Silent;
+    let mut watch = Watch::new(&mut silent, Stage::Fine);
+    watch.counts = *counts;
     let bounds = &optimum.bounds;
     let found = match held {
         Held::Nonlinear(i) => {

@@ -5,9 +5,10 @@ use super::score::ElementsScore;
 use crate::conditioning::blocks::kept_order;
 use crate::conditioning::record::Record;
 use crate::law::terms::Terms;
-use crate::observe::Stage;
-use crate::separable::levenberg::{Watch, descend};
+use crate::separable::descent::descend;
 use crate::separable::objective::Objective;
+use crate::watch::Watch;
+use stiction_search::Stage;
 
 /// Contiguous blocks, each left out in turn.
 const BLOCKS: usize = 4;

@@ -4,10 +4,10 @@ use super::dictionary::{self, Atom};
 use super::ladder::Search;
 use crate::error::Error;
 use crate::law::{Law, Layout};
-use crate::observe::Control;
-use crate::separable::levenberg::Watch;
 use crate::separable::objective::Objective;
 use crate::separable::search_box::SearchBox;
+use crate::watch::Watch;
+use stiction_search::Control;
 
 /// Elements of the dictionary over the whole range of yield deflections.
 const WIDE: usize = 24;

@@ -5,9 +5,9 @@
 //! slopes of one side may lower nothing although the point is no minimum, or it is one although the
 //! slope is not small.
 
-use crate::separable::levenberg::Watch;
 use crate::separable::objective::Objective;
 use crate::separable::search_box::SearchBox;
+use crate::watch::Watch;
 
 /// Steps in the logarithms.
 const STEPS: [f64; 3] = [1e-4, 1e-3, 1e-2];

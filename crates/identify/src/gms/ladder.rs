@@ -3,7 +3,7 @@
 use crate::conditioning::record::Record;
 use crate::law::Law;
 use crate::law::terms::Terms;
-use crate::separable::levenberg::Descent;
+use crate::separable::descent::Descent;
 use crate::separable::search_box::SearchBox;
 use crate::separable::settings::Settings;
 

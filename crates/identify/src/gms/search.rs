@@ -7,13 +7,14 @@ use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::law::Law;
 use crate::law::terms::Terms;
-use crate::observe::{Counts, Observer, Stage};
 use crate::separable::checked::checked;
-use crate::separable::levenberg::{Status, Watch, descend};
+use crate::separable::descent::descend;
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
 use crate::separable::search_box::SearchBox;
 use crate::separable::settings::Settings;
+use crate::watch::Watch;
+use stiction_search::{Observer, Stage, Status};
 
 /// Elements of the dictionary from which the elements are taken.
 const FINE: usize = 40;
@@ -67,14 +68,7 @@ pub(crate) fn search(
     let wanted = law.elements;
     let law = |elements| Law { elements, ..law };
     checked(record, law(least), terms)?;
-    let mut watch = Watch {
-        observer,
-        stage: Stage::Scan,
-        fraction: 0.0,
-        counts: Counts::default(),
-        best: f64::INFINITY,
-        stopped: false,
-    };
+    let mut watch = Watch::new(observer, Stage::Scan);
     let mut search = Search {
         record,
         law: law(0),

@@ -1,35 +1,19 @@
-//! Levenberg-Marquardt on the shared unknowns and those of every run, inside a box.
+//! One descent on the shared unknowns and those of every run, inside a box.
 //!
-//! As `separable::levenberg`, with the starts of the runs eliminated from each step (Schur
-//! complement), so that many short runs cost no more than one long one.
+//! The starts of the runs are eliminated from each step (Schur complement), so that many short runs cost no
+//! more than one long one.
 
-use crate::observe::Control;
 use crate::output_error::problem::{Equations, Point, Problem};
 use crate::output_error::simulate::{Initial, LOCALS};
-use crate::separable::levenberg::{Status, Watch};
-use nalgebra::{DMatrix, DVector};
+use crate::separable::search_box::SearchBox;
+use crate::watch::Watch;
+use stiction_search::descent::{self, LeastSquares, Settings, Sums};
+use stiction_search::{Control, Derivatives, Status};
 
-/// Bounds of the shared unknowns, and of each run's bristle deflection over `Fc/s0`.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Bounds {
-    pub low: Vec<f64>,
-    pub high: Vec<f64>,
-}
-
-/// A deflection that a bristle could not have come to by itself is not started from.
+/// Bristle deflection, in units of `Fc/s0`, beyond which no run is started: a bristle comes to `Fs/Fc` by itself.
 const MOST_DEFLECTION: f64 = 4.0;
-
-impl Bounds {
-    fn clamp(&self, i: usize, x: f64) -> f64 {
-        x.max(self.low[i]).min(self.high[i])
-    }
-
-    /// Whether an unknown stands at a bound.
-    pub fn is_at(&self, i: usize, x: f64) -> bool {
-        let close = 1e-6 * (self.high[i] - self.low[i]);
-        x - self.low[i] <= close || self.high[i] - x <= close
-    }
-}
+/// Cost, as a part of the energy of what was measured, that is rounding only.
+const EXACT_COST: f64 = 1e-26;
 
 /// Where a descent ended.
 #[derive(Clone, Debug)]
@@ -42,186 +26,140 @@ pub(crate) struct Descent {
     pub history: Vec<(usize, f64)>,
 }
 
-/// Relative fall of the cost below which a step counts as none.
-const FLAT: f64 = 1e-13;
-/// Relative fall below which a few steps in a row end the search.
-const VALLEY: f64 = 1e-7;
-/// How many.
-const IN_A_ROW: usize = 4;
-/// Cost relative to the energy of what was measured that is rounding only.
-const EXACT: f64 = 1e-26;
-/// Damping above which no step is left that could lower the cost.
-const STUCK: f64 = 1e12;
+/// The rules of a descent for so many trials. Unknowns are in logarithms and in SI, so nothing is said of the
+/// length of a step.
+fn settings(energy: f64, most_trials: usize) -> Settings {
+    Settings {
+        most_trials,
+        longest_step: f64::INFINITY,
+        settled_step: 0.0,
+        damping_by_gain: false,
+        trusted_step: 0.0,
+        exact_cost: EXACT_COST * energy,
+        ..Settings::default()
+    }
+}
 
 /// Descends from `start` for at most `steps` trials.
 pub(crate) fn descend(
     problem: &Problem,
-    bounds: &Bounds,
+    bounds: &SearchBox,
     start: Point,
     steps: usize,
     watch: &mut Watch,
 ) -> Descent {
     let mut at = start;
-    for (i, x) in at.q.iter_mut().enumerate() {
-        *x = bounds.clamp(i, *x);
-    }
+    at.q = bounds.clamp(&at.q);
     let energy = problem.energy();
-    let relative = |cost: f64| {
-        if energy > 0.0 {
-            (cost / energy).sqrt()
+    let settings = settings(energy, steps);
+    let walk = descent::Descent::new(at.q.clone(), &settings);
+    let now = problem.equations(&at);
+    watch.counts.derivatives += 1;
+    let mut simulated = Simulated {
+        problem,
+        energy,
+        at,
+        now,
+        sums: Derivatives::zeros(0),
+        scale: Vec::new(),
+        tried: None,
+        history: Vec::new(),
+        watch,
+    };
+    simulated.note();
+    let walk = descent::descend(&mut simulated, walk, bounds.region(), &settings);
+    Descent {
+        cost: simulated.now.cost,
+        at: simulated.at,
+        status: walk.status().unwrap_or(Status::Budget),
+        iterations: walk.trials(),
+        history: simulated.history,
+    }
+}
+
+/// A problem and where its descent stands.
+struct Simulated<'a, 'w, 'o> {
+    problem: &'a Problem<'a>,
+    energy: f64,
+    at: Point,
+    now: Equations,
+    sums: Derivatives,
+    scale: Vec<f64>,
+    tried: Option<Point>,
+    history: Vec<(usize, f64)>,
+    watch: &'w mut Watch<'o>,
+}
+
+impl Simulated<'_, '_, '_> {
+    fn relative(&self) -> f64 {
+        if self.energy > 0.0 {
+            (self.now.cost / self.energy).sqrt()
         } else {
             f64::INFINITY
         }
-    };
-    let mut now = problem.equations(&at);
-    watch.counts.sensitivities += 1;
-    let mut history = vec![(watch.counts.total(), relative(now.cost))];
-    let mut lambda = 1e-3;
-    let mut grow = 2.0;
-    let mut slow = 0;
-    let mut status = Status::Budget;
-    let mut iterations = 0;
-    while status == Status::Budget && iterations < steps {
-        iterations += 1;
-        if now.cost <= EXACT * energy {
-            status = Status::Converged;
-            break;
-        }
-        let trial = step(&now, &at, bounds, lambda);
-        let cost = match &trial {
-            Some(trial) => {
-                watch.counts.cost += 1;
-                problem.cost(trial)
+    }
+
+    fn note(&mut self) {
+        let total = self.watch.counts.total();
+        self.history.push((total, self.relative()));
+    }
+
+    /// The point that a trial of the shared unknowns leads to; `None` where it leaves the numbers.
+    fn moved(&self, trial: &[f64], damping: f64) -> Option<Point> {
+        let own = self
+            .now
+            .own_steps(&descent::difference(trial, &self.at.q), damping);
+        let moved = |initial: &Initial, d: &[f64; LOCALS]| {
+            let mut out = *initial;
+            out.0.iter_mut().zip(d).for_each(|(x, d)| *x += d);
+            out.0[2] = out.0[2].clamp(-MOST_DEFLECTION, MOST_DEFLECTION);
+            out
+        };
+        let starts = self.at.starts.iter().zip(&own);
+        let next = Point {
+            q: trial.to_vec(),
+            starts: starts.map(|(s, d)| moved(s, d)).collect(),
+        };
+        let mut numbers = next.q.iter().chain(next.starts.iter().flat_map(|s| &s.0));
+        numbers.all(|x| x.is_finite()).then_some(next)
+    }
+}
+
+impl LeastSquares for Simulated<'_, '_, '_> {
+    fn sums(&mut self, damping: f64) -> Option<Sums<'_>> {
+        let (sums, beside) = self.now.reduced(damping);
+        self.sums = sums;
+        self.scale = (0..self.at.q.len())
+            .map(|i| self.now.shared[(i, i)])
+            .collect();
+        Some(Sums {
+            derivatives: &self.sums,
+            scale: Some(&self.scale),
+            beside,
+        })
+    }
+
+    fn cost(&mut self, trial: &[f64], damping: f64) -> f64 {
+        self.tried = self.moved(trial, damping);
+        match &self.tried {
+            Some(next) => {
+                self.watch.counts.costs += 1;
+                self.problem.cost(next)
             }
             None => f64::INFINITY,
-        };
-        if let Some(trial) = trial.filter(|_| cost < now.cost) {
-            let gained = now.cost - cost;
-            slow = if gained <= VALLEY * now.cost {
-                slow + 1
-            } else {
-                0
-            };
-            let settled = gained <= FLAT * now.cost || slow >= IN_A_ROW;
-            at = trial;
-            now = problem.equations(&at);
-            watch.counts.sensitivities += 1;
-            history.push((watch.counts.total(), relative(now.cost)));
-            lambda = (lambda / 3.0).max(1e-14);
-            grow = 2.0;
-            if settled {
-                status = Status::Converged;
-            }
-        } else {
-            lambda *= grow;
-            grow *= 2.0;
-            // A step that changes nothing but the last digits: this is the bottom.
-            if (cost - now.cost).abs() <= FLAT * now.cost {
-                status = Status::Converged;
-            }
-            if lambda > STUCK {
-                // At the bottom every step is too long by rounding alone.
-                let (_, descent) = now.reduced(0.0);
-                status = if is_flat(&now, &descent, &at, bounds) {
-                    Status::Converged
-                } else {
-                    Status::Stalled
-                };
-            }
-        }
-        if watch.report(relative(now.cost)) == Control::Stop {
-            status = Status::Interrupted;
         }
     }
-    Descent {
-        cost: now.cost,
-        at,
-        status,
-        iterations,
-        history,
-    }
-}
 
-/// Whether no free unknown could lower the cost by more than a millionth of it.
-fn is_flat(now: &Equations, descent: &DVector<f64>, at: &Point, bounds: &Bounds) -> bool {
-    (0..at.q.len())
-        .filter(|&i| !pushes_out(descent[i], at.q[i], bounds, i))
-        .all(|i| descent[i] * descent[i] <= 1e-6 * now.cost * now.shared[(i, i)])
-}
-
-fn pushes_out(descent: f64, x: f64, bounds: &Bounds, i: usize) -> bool {
-    (descent > 0.0 && x >= bounds.high[i]) || (descent < 0.0 && x <= bounds.low[i])
-}
-
-/// The damped step inside the box; `None` where the equations cannot be solved.
-fn step(now: &Equations, at: &Point, bounds: &Bounds, lambda: f64) -> Option<Point> {
-    let (matrix, rhs) = now.reduced(lambda);
-    let n = at.q.len();
-    let mut free: Vec<usize> = (0..n)
-        .filter(|&i| now.shared[(i, i)] > 0.0 && !pushes_out(rhs[i], at.q[i], bounds, i))
-        .collect();
-    let mut taken = DVector::zeros(n);
-    while !free.is_empty() {
-        let solved = solve_free(now, &matrix, &rhs, &free, &taken, lambda)?;
-        let before = free.len();
-        let mut kept = Vec::new();
-        for (&i, &d) in free.iter().zip(&solved) {
-            let to = bounds.clamp(i, at.q[i] + d);
-            if to == at.q[i] + d {
-                kept.push((i, d));
-            } else {
-                taken[i] = to - at.q[i];
-            }
+    fn accept(&mut self) {
+        if let Some(next) = self.tried.take() {
+            self.now = self.problem.equations(&next);
+            self.at = next;
+            self.watch.counts.derivatives += 1;
+            self.note();
         }
-        if kept.len() == before {
-            for (i, d) in kept {
-                taken[i] = d;
-            }
-            break;
-        }
-        free = kept.into_iter().map(|(i, _)| i).collect();
     }
-    let own = now.own_steps(&taken, lambda);
-    let moved = |initial: &Initial, d: &[f64; LOCALS]| {
-        let mut out = *initial;
-        out.0.iter_mut().zip(d).for_each(|(x, d)| *x += d);
-        out.0[2] = out.0[2].clamp(-MOST_DEFLECTION, MOST_DEFLECTION);
-        out
-    };
-    let next = Point {
-        q: at.q.iter().zip(taken.iter()).map(|(x, d)| x + d).collect(),
-        starts: at
-            .starts
-            .iter()
-            .zip(&own)
-            .map(|(s, d)| moved(s, d))
-            .collect(),
-    };
-    let numbers = next.q.iter().chain(next.starts.iter().flat_map(|s| &s.0));
-    numbers.clone().all(|x| x.is_finite()).then_some(next)
-}
 
-/// Steps of the free unknowns when the others take the given ones.
-fn solve_free(
-    now: &Equations,
-    matrix: &DMatrix<f64>,
-    rhs: &DVector<f64>,
-    free: &[usize],
-    others: &DVector<f64>,
-    lambda: f64,
-) -> Option<Vec<f64>> {
-    let pulled = matrix * others;
-    let scale: Vec<f64> = free
-        .iter()
-        .map(|&i| 1.0 / now.shared[(i, i)].sqrt())
-        .collect();
-    let m = DMatrix::from_fn(free.len(), free.len(), |a, b| {
-        let damping = if a == b { lambda } else { 0.0 };
-        matrix[(free[a], free[b])] * scale[a] * scale[b] + damping
-    });
-    let b = DVector::from_fn(free.len(), |a, _| {
-        (rhs[free[a]] - pulled[free[a]]) * scale[a]
-    });
-    let solved = m.cholesky()?.solve(&b);
-    Some(solved.iter().zip(&scale).map(|(x, s)| x * s).collect())
+    fn after_trial(&mut self) -> Control {
+        self.watch.report(self.relative())
+    }
 }

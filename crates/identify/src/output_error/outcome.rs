@@ -8,9 +8,8 @@ use crate::estimate::uncertainty;
 use crate::fit::Fit;
 use crate::law::Law;
 use crate::law::terms::{Mass, Terms};
-use crate::observe::{Counts, Silent, Stage};
 use crate::output_error::controller::Controller;
-use crate::output_error::descent::{Bounds, Descent, descend};
+use crate::output_error::descent::{Descent, descend};
 use crate::output_error::plant::Axis;
 use crate::output_error::problem::{Point, Problem};
 use crate::output_error::run::{self, Hold, Recording};
@@ -21,9 +20,11 @@ use crate::output_error::{Found, Search};
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
 use crate::parameter::physical::{Physical, propagate};
-use crate::separable::levenberg::Watch;
+use crate::separable::search_box::SearchBox;
+use crate::watch::Watch;
 use nalgebra::DMatrix;
 use stiction_parameters::{Name, Quantity};
+use stiction_search::{Counts, Silent, Stage};
 
 /// Measured and simulated signals at the samples that count.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -147,22 +148,13 @@ pub fn simulate_unseen(recordings: &[Recording], fitted: &SimulationFit) -> Resu
         },
         weights: fitted.weights,
     };
-    let nothing = Bounds {
-        low: Vec::new(),
-        high: Vec::new(),
-    };
+    let nothing = SearchBox::between(Vec::new(), Vec::new());
     let at = Point {
         q: Vec::new(),
         starts: rest(&runs, fitted.controller.as_ref()),
     };
-    let mut watch = Watch {
-        observer: &mut Silent,
-        stage: Stage::Fine,
-        fraction: 0.0,
-        counts: Counts::default(),
-        best: f64::INFINITY,
-        stopped: false,
-    };
+    let mut silent = Silent;
+    let mut watch = Watch::new(&mut silent, Stage::Fine);
     let found = descend(&problem, &nothing, at, 60, &mut watch);
     let signals = signals(&problem, &found.at);
     let position = signals
@@ -227,7 +219,7 @@ pub(crate) fn describe(
             let reason = match place {
                 Some(k) if held[k] => "held at zero: the data ask for a negative value".into(),
                 Some(k) if without[k] => "has no effect on this motion".into(),
-                Some(k) if found.bounds.is_at(k, at.q[k]) => {
+                Some(k) if found.bounds.at_bound(&at.q, k) => {
                     "stands at the bound of its search range".into()
                 }
                 _ => String::new(),
@@ -317,7 +309,7 @@ fn signals(problem: &Problem, at: &Point) -> Signals {
 fn covariance(problem: &Problem, at: &Point, held: &[bool]) -> (DMatrix<f64>, Vec<bool>) {
     let count = problem.layout.len();
     let equations = problem.equations(at);
-    let (matrix, _) = equations.reduced(0.0);
+    let (reduced, _) = equations.reduced(0.0);
     let without: Vec<bool> = (0..count)
         .map(|i| equations.shared[(i, i)] <= 0.0)
         .collect();
@@ -329,7 +321,7 @@ fn covariance(problem: &Problem, at: &Point, held: &[bool]) -> (DMatrix<f64>, Ve
         .map(|&i| 1.0 / equations.shared[(i, i)].sqrt())
         .collect();
     let scaled = DMatrix::from_fn(q, q, |a, b| {
-        matrix[(free[a], free[b])] * scale[a] * scale[b]
+        reduced.normal[free[a] * count + free[b]] * scale[a] * scale[b]
     });
     if q == 0 || scaled.iter().any(|x| !x.is_finite()) {
         out.fill(f64::INFINITY);

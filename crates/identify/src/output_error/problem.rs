@@ -5,6 +5,7 @@ use crate::output_error::run::Run;
 use crate::output_error::simulate::{Drive, Initial, LOCALS, MOST, simulate, simulate_with_slopes};
 use crate::output_error::unknowns::Layout;
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
+use stiction_search::Derivatives;
 
 /// Runs, what is sought, and how residuals count.
 #[derive(Clone, Debug)]
@@ -188,9 +189,9 @@ impl Sums {
 
 impl OwnPart {
     /// Inverse of the own part, damped; directions without any effect stay put.
-    pub fn inverse(&self, lambda: f64) -> Matrix4<f64> {
+    pub fn inverse(&self, damping: f64) -> Matrix4<f64> {
         let scale = Vector4::from_fn(|i, _| {
-            let d = self.own[(i, i)] * (1.0 + lambda);
+            let d = self.own[(i, i)] * (1.0 + damping);
             if d > 0.0 && d.is_finite() {
                 1.0 / d.sqrt()
             } else {
@@ -208,25 +209,40 @@ impl OwnPart {
 }
 
 impl Equations {
-    /// Equations of the shared unknowns alone, those of the runs eliminated: `J^T J` and `J^T r`.
-    pub fn reduced(&self, lambda: f64) -> (DMatrix<f64>, DVector<f64>) {
+    /// Equations of the shared unknowns alone, those of the runs eliminated with this damping, and the fall of
+    /// the cost that those of the runs promise by themselves.
+    pub fn reduced(&self, damping: f64) -> (Derivatives, f64) {
         let mut matrix = self.shared.clone();
         let mut rhs = self.descent.clone();
+        let mut beside = 0.0;
         for part in &self.runs {
-            let through = &part.mixed * part.inverse(lambda);
+            let inverse = part.inverse(damping);
+            let through = &part.mixed * inverse;
             matrix -= &through * part.mixed.transpose();
             rhs -= &through * part.descent;
+            let step = inverse * part.descent;
+            beside += 2.0 * part.descent.dot(&step) - (part.own * step).dot(&step);
         }
-        (matrix, rhs)
+        let n = rhs.len();
+        let mut out = Derivatives::zeros(n);
+        out.cost = self.cost;
+        for i in 0..n {
+            out.gradient[i] = -rhs[i];
+            for j in 0..n {
+                out.normal[i * n + j] = matrix[(i, j)];
+            }
+        }
+        (out, beside)
     }
 
     /// Steps of the runs' own unknowns when the shared ones take the given step.
-    pub fn own_steps(&self, step: &DVector<f64>, lambda: f64) -> Vec<[f64; LOCALS]> {
+    pub fn own_steps(&self, step: &[f64], damping: f64) -> Vec<[f64; LOCALS]> {
+        let step = DVector::from_column_slice(step);
         self.runs
             .iter()
             .map(|part| {
-                let left = part.descent - part.mixed.transpose() * step;
-                (part.inverse(lambda) * left).into()
+                let left = part.descent - part.mixed.transpose() * &step;
+                (part.inverse(damping) * left).into()
             })
             .collect()
     }

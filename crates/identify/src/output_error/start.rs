@@ -4,11 +4,11 @@ use crate::estimate::Estimate;
 use crate::law::terms::{Mass, Terms};
 use crate::law::{Law, LawKind};
 use crate::output_error::controller::Controller;
-use crate::output_error::descent::Bounds;
 use crate::output_error::plant::{Axis, Curve, Wave};
 use crate::output_error::run::Run;
 use crate::output_error::simulate::Initial;
 use crate::output_error::unknowns::{Layout, Unknown};
+use crate::separable::search_box::SearchBox;
 use stiction_parameters::{Name, Quantity, Side};
 
 /// Sizes of what the runs show, SI.
@@ -230,7 +230,7 @@ fn complete(axis: &mut Axis, law: &Law, scale: &Scale) {
 }
 
 /// How far the search may go from where it starts.
-pub(crate) fn bounds(layout: &Layout, axis: &Axis, scale: &Scale) -> Bounds {
+pub(crate) fn bounds(layout: &Layout, axis: &Axis, scale: &Scale) -> SearchBox {
     let ln = |x: f64| libm::log(x.max(f64::MIN_POSITIVE));
     let about = layout.read(axis);
     let critical = ln(2.0 * (axis.stiffness * axis.mass).sqrt());
@@ -253,7 +253,7 @@ pub(crate) fn bounds(layout: &Layout, axis: &Axis, scale: &Scale) -> Bounds {
         low.push(a.min(start));
         high.push(b.max(start));
     }
-    Bounds { low, high }
+    SearchBox::between(low, high)
 }
 
 /// Where each run starts if nothing better is known: where it was measured, the bristle undeflected, an

@@ -7,12 +7,11 @@ use crate::estimate::series::Series;
 use crate::fit::Fit;
 use crate::law::terms::{Mass, Terms};
 use crate::law::{Law, LawKind};
-use crate::observe::Counts;
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
-use crate::separable::levenberg::Status;
 use stiction_friction::Direction;
 use stiction_parameters::Quantity;
+use stiction_search::{Counts, Status};
 
 /// The fit is that of the series; parameters come in the order of tables.
 fn fitted_law(

@@ -16,16 +16,15 @@ use crate::estimate::{Estimate, estimate, uncertainty};
 use crate::law::physical::physical;
 use crate::law::terms::Terms;
 use crate::law::{Law, LawKind};
-use crate::observe::{Control, Counts, Observer, Progress, Stage};
 use crate::parameter::covariance::Covariance;
 use crate::parameter::physical::propagate;
-use crate::separable::levenberg::Status;
 use crate::separable::linear::{self, Solution, dot};
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
 use crate::separable::search_box::SearchBox;
 use nalgebra::{DMatrix, DVector};
 use stiction_parameters::{Name, Quantity};
+use stiction_search::{Control, Counts, Observer, Progress, Stage, Status};
 
 /// Starts over ln sigma0, spread over the whole range.
 const GRID: usize = 24;
@@ -172,7 +171,7 @@ impl Held<'_> {
             let x = low + (high - low) * i as f64 / (GRID - 1) as f64;
             let cost = self.solve(x).cost;
             grid.push((x, cost));
-            counts.cost += 1;
+            counts.costs += 1;
             if cost < best.0 {
                 best = (cost, x);
             }
@@ -206,7 +205,7 @@ impl Held<'_> {
                 best = (cost, x);
             }
         }
-        counts.cost += trials.get();
+        counts.costs += trials.get() as u64;
         let status = if best.0.is_finite() {
             Status::Converged
         } else {

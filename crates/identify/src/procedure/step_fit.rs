@@ -12,14 +12,13 @@ use super::step_model::{Response, Trial};
 use super::stretch::Run;
 use crate::error::Error;
 use crate::estimate::uncertainty;
-use crate::observe::{Control, Counts, Observer, Progress, Stage};
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
-use crate::separable::levenberg::Status;
 use crate::separable::linear::dot;
-use nalgebra::{DMatrix, DVector};
 use stiction_friction::Direction;
 use stiction_parameters::{Name, Quantity};
+use stiction_search::descent::{Descent, LeastSquares, Region, Settings, Sums, descend};
+use stiction_search::{Control, Counts, Derivatives, Observer, Progress, Stage, Status};
 
 /// Phase of the mass on its bristles in one sample, rad, beyond which the log cannot show its swing.
 const FASTEST: f64 = std::f64::consts::PI;
@@ -34,6 +33,8 @@ const DIFFERENCE: f64 = 1e-4;
 /// Relative gain and step at which a descent ends.
 const FLAT: f64 = 1e-10;
 const SETTLED: f64 = 1e-8;
+/// Longest step of one unknown, in its logarithm.
+const LONGEST_STEP: f64 = 1.0;
 /// Largest delay between force and position that is looked for, samples.
 const MOST_DELAY: f64 = 2.0;
 
@@ -261,7 +262,7 @@ impl Problem {
     /// Measured less simulated positions, the mean of each response taken off; not finite for a trial
     /// that is no law.
     pub fn residual(&mut self, p: &[f64]) -> Vec<f64> {
-        self.counts.cost += 1;
+        self.counts.costs += 1;
         let trial = self.trial(p);
         let mut out = Vec::new();
         for (response, steps) in self.responses.iter().zip(&self.steps) {
@@ -305,54 +306,40 @@ impl Problem {
             .collect()
     }
 
-    /// Levenberg-Marquardt with the gain ratio of Nielsen 1999.
+    /// Least squares from a start: where it ends, what it costs there, and how.
     fn descend(&mut self, start: Vec<f64>) -> (f64, Vec<f64>, Status) {
-        let mut p = start;
-        let mut r = self.residual(&p);
-        let mut cost = dot(&r, &r);
+        let residual = self.residual(&start);
+        let cost = dot(&residual, &residual);
         if !cost.is_finite() {
-            return (f64::INFINITY, p, Status::Stalled);
+            return (f64::INFINITY, start, Status::Stalled);
         }
-        let (mut lambda, mut grow) = (1e-3, 2.0);
-        let mut slopes = self.slopes(&p);
-        let n = p.len();
-        for _ in 0..STEPS {
-            let gram = DMatrix::from_fn(n, n, |i, j| dot(&slopes[i], &slopes[j]));
-            let pull = DVector::from_fn(n, |i, _| -dot(&slopes[i], &r));
-            let mut damped = gram.clone();
-            for i in 0..n {
-                damped[(i, i)] += lambda * gram[(i, i)].max(f64::MIN_POSITIVE);
-            }
-            let Some(factor) = damped.cholesky() else {
-                return (cost, p, Status::Stalled);
-            };
-            let step = factor.solve(&pull).map(|d| d.clamp(-1.0, 1.0));
-            let length = step.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
-            let trial: Vec<f64> = p.iter().zip(step.iter()).map(|(x, d)| x + d).collect();
-            let next = self.residual(&trial);
-            let gained = cost - dot(&next, &next);
-            let expected = 2.0 * step.dot(&pull) - (&gram * &step).dot(&step);
-            if gained > 0.0 {
-                let flat = gained <= FLAT * cost;
-                p = trial;
-                r = next;
-                cost -= gained;
-                if flat || length < SETTLED {
-                    return (cost, p, Status::Converged);
-                }
-                let x = 2.0 * gained / expected - 1.0;
-                lambda = (lambda * (1.0 - x * x * x).max(1.0 / 3.0)).max(1e-12);
-                grow = 2.0;
-                slopes = self.slopes(&p);
-            } else {
-                if length < SETTLED || expected.abs() <= FLAT * cost {
-                    return (cost, p, Status::Converged);
-                }
-                lambda *= grow;
-                grow *= 2.0;
-            }
-        }
-        (cost, p, Status::Budget)
+        let settings = Settings {
+            most_trials: STEPS,
+            longest_step: LONGEST_STEP,
+            settled_step: SETTLED,
+            // The slopes are differences, and what is left of one at the end is their error.
+            flat_slope: f64::INFINITY,
+            no_gain: FLAT,
+            ..Settings::default()
+        };
+        let n = start.len();
+        let (low, high) = (vec![f64::NEG_INFINITY; n], vec![f64::INFINITY; n]);
+        let nowhere = Region {
+            low: &low,
+            high: &high,
+        };
+        let walk = Descent::new(start.clone(), &settings);
+        let mut fitted = Fitted {
+            problem: self,
+            at: start,
+            residual,
+            sums: None,
+            tried: None,
+        };
+        let walk = descend(&mut fitted, walk, nowhere, &settings);
+        let cost = dot(&fitted.residual, &fitted.residual);
+        let status = walk.status().unwrap_or(Status::Budget);
+        (cost, walk.into_point(), status)
     }
 
     fn result(mut self, p: &[f64], status: Status) -> StepFit {
@@ -439,6 +426,53 @@ impl Problem {
             status,
             counts: self.counts,
             damping_ratio: (trial.sigma1 + trial.curve.viscous) / critical,
+        }
+    }
+}
+
+/// A descent on the positions, with derivatives from differences.
+struct Fitted<'a> {
+    problem: &'a mut Problem,
+    at: Vec<f64>,
+    residual: Vec<f64>,
+    /// At this point; `None` until they are asked for.
+    sums: Option<Derivatives>,
+    tried: Option<(Vec<f64>, Vec<f64>)>,
+}
+
+impl LeastSquares for Fitted<'_> {
+    fn sums(&mut self, _: f64) -> Option<Sums<'_>> {
+        if self.sums.is_none() {
+            let slopes = self.problem.slopes(&self.at);
+            let n = slopes.len();
+            let mut sums = Derivatives::zeros(n);
+            sums.cost = dot(&self.residual, &self.residual);
+            for i in 0..n {
+                sums.gradient[i] = dot(&slopes[i], &self.residual);
+                for j in 0..n {
+                    sums.normal[i * n + j] = dot(&slopes[i], &slopes[j]);
+                }
+            }
+            let mut numbers = sums.gradient.iter().chain(&sums.normal);
+            if !numbers.all(|x| x.is_finite()) {
+                return None;
+            }
+            self.sums = Some(sums);
+        }
+        self.sums.as_ref().map(Sums::from)
+    }
+
+    fn cost(&mut self, trial: &[f64], _: f64) -> f64 {
+        let residual = self.problem.residual(trial);
+        let cost = dot(&residual, &residual);
+        self.tried = Some((trial.to_vec(), residual));
+        cost
+    }
+
+    fn accept(&mut self) {
+        if let Some((at, residual)) = self.tried.take() {
+            (self.at, self.residual) = (at, residual);
+            self.sums = None;
         }
     }
 }

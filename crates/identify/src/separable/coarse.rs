@@ -1,12 +1,13 @@
 //! Starts for a law that the batch kernels know: scan and descents with many trials under way at once.
 
-use crate::observe::Stage;
+use crate::separable::descent::settings;
 use crate::separable::in_lanes::InLanes;
-use crate::separable::levenberg::{Status, Walk, Watch};
 use crate::separable::objective::Objective;
-use crate::separable::reduced::Reduced;
 use crate::separable::search::{LINE, same, sobol, valleys};
 use crate::separable::search_box::SearchBox;
+use crate::watch::Watch;
+use stiction_search::descent::{self, Descent};
+use stiction_search::{Derivatives, Stage, Status};
 
 /// Most steps of a descent. One more for all costs as much as a third of an evaluation of a long record, a
 /// start too many as much as five.
@@ -17,13 +18,29 @@ const BATCH: usize = 16;
 const RIGID: usize = 4;
 
 /// A start is good enough within this step in the logarithms, when it promises to lower the cost by no more
-/// than this part: the record itself goes on.
-const NEAR_ENOUGH: (f64, f64) = (0.1, 1e-3);
+/// than [`NEAR_GAIN`]: the record itself goes on.
+const NEAR_STEP: f64 = 0.1;
+/// That gain, as a part of the cost.
+const NEAR_GAIN: f64 = 1e-3;
 
 /// A point and what it came to.
 struct Point {
     p: Vec<f64>,
-    at: Reduced,
+    at: Derivatives,
+}
+
+/// A descent with what is known where it stands.
+struct Walk {
+    descent: Descent,
+    now: Derivatives,
+}
+
+impl Walk {
+    /// Whether it would not go on.
+    fn is_settled(&self) -> bool {
+        let status = self.descent.status();
+        status.is_some_and(|status| status != Status::Budget)
+    }
 }
 
 /// Where a descent has ended.
@@ -134,7 +151,7 @@ impl Coarse<'_> {
         Some(out)
     }
 
-    fn reduced(&self, trials: &[&[f64]]) -> Option<Vec<Reduced>> {
+    fn reduced(&self, trials: &[&[f64]]) -> Option<Vec<Derivatives>> {
         if self.few {
             return trials.iter().map(|p| self.sums.reduced(p)).collect();
         }
@@ -154,31 +171,31 @@ impl Coarse<'_> {
     /// Follows all points down together.
     fn descended(&self, points: Vec<Point>, watch: &mut Watch) -> Option<Minima> {
         watch.stage = Stage::Coarse;
-        let energy = self.objective.energy();
-        let mut walks: Vec<Walk> = points
-            .into_iter()
-            .map(|point| {
-                let mut walk = Walk::new(point.p, point.at, energy);
-                walk.near_enough = NEAR_ENOUGH;
-                walk.untried = true;
-                walk
-            })
-            .collect();
+        let settings = descent::Settings {
+            trusted_step: NEAR_STEP,
+            trusted_gain: NEAR_GAIN,
+            take_untried: true,
+            ..settings(self.objective.energy(), ROUNDS)
+        };
+        let walk = |point: Point| Walk {
+            descent: Descent::new(point.p, &settings),
+            now: point.at,
+        };
+        let mut walks: Vec<Walk> = points.into_iter().map(walk).collect();
         let mut steps = 0;
         let mut patience = self.patience;
         for round in 0..ROUNDS {
             watch.fraction = round as f64 / ROUNDS as f64;
             join(&mut walks);
-            let ended = walks
-                .first()
-                .is_some_and(|best| best.status != Status::Budget);
+            let ended = walks.first().is_some_and(Walk::is_settled);
             if watch.stopped || ended && patience == 0 {
                 break;
             }
             patience -= usize::from(ended);
             let mut trials = Vec::new();
             for (i, walk) in walks.iter_mut().enumerate() {
-                if let Some(p) = walk.propose(self.bounds, ROUNDS) {
+                let now = (&walk.now).into();
+                if let Some(p) = walk.descent.propose(&settings, self.bounds.region(), now) {
                     trials.push((i, p));
                 }
             }
@@ -190,14 +207,16 @@ impl Coarse<'_> {
             steps += trials.len();
             let costs: Vec<f64> = found.iter().map(|at| at.cost).collect();
             for ((i, p), at) in trials.into_iter().zip(found) {
-                walks[i].take(p, at);
+                if walks[i].descent.take(&settings, p, at.cost) {
+                    walks[i].now = at;
+                }
             }
             self.report(&costs, true, watch);
         }
         let end = |walk: Walk| End {
             cost: walk.now.cost,
-            settled: walk.status != Status::Budget,
-            p: walk.p,
+            settled: walk.is_settled(),
+            p: walk.descent.into_point(),
         };
         let mut ends: Vec<End> = walks.into_iter().map(end).collect();
         ends.sort_by(|a, b| a.cost.total_cmp(&b.cost));
@@ -222,7 +241,10 @@ fn join(walks: &mut Vec<Walk>) {
     let mut kept: Vec<Walk> = Vec::new();
     walks.sort_by(|a, b| a.now.cost.total_cmp(&b.now.cost));
     for walk in walks.drain(..) {
-        if !kept.iter().any(|better| same(&walk.p, &better.p)) {
+        if !kept
+            .iter()
+            .any(|better| same(walk.descent.point(), better.descent.point()))
+        {
             kept.push(walk);
         }
     }

@@ -4,13 +4,14 @@ use crate::conditioning::record::{self, Record};
 use crate::law::terms::{ColumnKind, LinearTerm};
 use crate::law::{Law, LawKind};
 use crate::separable::recursion::Trace;
-use crate::separable::reduced::{Products, Reduced};
+use crate::separable::reduced::{self, Products};
 use std::borrow::Cow;
 use std::sync::Arc;
 use stiction_lanes::{
     InstructionSet, Segment, Sums, Time, Track, Trial, levels, shared_sums, slopes, sums,
     sums_alone, trace,
 };
+use stiction_search::Derivatives;
 
 /// A record as the kernels read it.
 #[derive(Clone, Debug)]
@@ -200,7 +201,7 @@ impl InLanes {
 
     /// The reduced problem at a trial, samples in lanes; `None` for unknowns that the kernels refuse, or a
     /// record that was not made for it.
-    pub fn reduced(&self, p: &[f64]) -> Option<Reduced> {
+    pub fn reduced(&self, p: &[f64]) -> Option<Derivatives> {
         let summed = self.summed.as_ref()?;
         let found = sums_alone(&self.track, &self.trial(p), InstructionSet::best()).ok()?;
         Some(summed.reduce(&found, self.unknowns))
@@ -208,7 +209,7 @@ impl InLanes {
 
     /// The reduced problem at many trials, trials in lanes. To rounding what [`reduced`](Self::reduced) says
     /// of each; the bits of a trial do not depend on the others.
-    pub fn many(&self, trials: &[&[f64]]) -> Option<Vec<Reduced>> {
+    pub fn many(&self, trials: &[&[f64]]) -> Option<Vec<Derivatives>> {
         let summed = self.summed.as_ref()?;
         let trials: Vec<Trial> = trials.iter().map(|p| self.trial(p)).collect();
         let found = sums(&self.track, &trials, InstructionSet::best()).ok()?;
@@ -221,15 +222,15 @@ impl InLanes {
         let summed = self.summed.as_ref()?;
         let trials: Vec<Trial> = trials.iter().map(|p| self.trial(p)).collect();
         let found = levels(&self.track, &trials, InstructionSet::best()).ok()?;
-        let cost = |own| Reduced::cost(&Made { summed, own }, &summed.nonnegative, summed.held);
+        let cost = |own| reduced::cost(&Made { summed, own }, &summed.nonnegative, summed.held);
         Some(found.iter().map(cost).collect())
     }
 }
 
 impl Summed {
-    fn reduce(&self, own: &Sums, unknowns: usize) -> Reduced {
+    fn reduce(&self, own: &Sums, unknowns: usize) -> Derivatives {
         let products = Made { summed: self, own };
-        Reduced::from_products(&products, &self.nonnegative, unknowns, self.held)
+        reduced::from_products(&products, &self.nonnegative, unknowns, self.held)
     }
 }
 
@@ -351,18 +352,22 @@ mod tests {
         record
     }
 
-    fn near(found: &Reduced, right: &Reduced, energy: f64, what: &str) {
+    fn near(found: &Derivatives, right: &Derivatives, energy: f64, what: &str) {
         assert!(
             (found.cost - right.cost).abs() < 1e-12 * energy,
             "{what}: cost"
         );
-        let size = |k: usize| right.hessian[(k, k)].sqrt();
-        for k in 0..right.descent.len() {
-            let off = (found.descent[k] - right.descent[k]).abs();
-            assert!(off < 1e-11 * size(k) * energy.sqrt(), "{what}: descent {k}");
+        let n = right.gradient.len();
+        let size = |k: usize| right.normal[k * n + k].sqrt();
+        for k in 0..n {
+            let off = (found.gradient[k] - right.gradient[k]).abs();
+            assert!(
+                off < 1e-11 * size(k) * energy.sqrt(),
+                "{what}: gradient {k}"
+            );
             for l in 0..=k {
-                let off = (found.hessian[(k, l)] - right.hessian[(k, l)]).abs();
-                assert!(off < 1e-9 * size(k) * size(l), "{what}: hessian {k} {l}");
+                let off = (found.normal[k * n + l] - right.normal[k * n + l]).abs();
+                assert!(off < 1e-9 * size(k) * size(l), "{what}: normal {k} {l}");
             }
         }
     }
@@ -401,7 +406,7 @@ mod tests {
                 }
                 let one = sums.many(&points[1..2]).unwrap();
                 assert_eq!(one[0].cost.to_bits(), many[1].cost.to_bits());
-                assert_eq!(one[0].hessian, many[1].hessian);
+                assert_eq!(one[0].normal, many[1].normal);
             }
         }
     }

@@ -9,10 +9,10 @@ use crate::law::terms::{ColumnKind, Delay, LinearTerm, Mass, Side, Terms};
 use crate::separable::in_lanes::InLanes;
 use crate::separable::linear::{self, Solution, dot};
 use crate::separable::recursion::{Trace, trace};
-use crate::separable::reduced::Reduced;
 use nalgebra::{DMatrix, DVector};
 use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
+use stiction_search::Derivatives;
 
 /// A record, a law and the linear terms beside it.
 #[derive(Clone, Debug)]
@@ -95,11 +95,12 @@ impl Evaluation {
     }
 
     /// What a step of the search needs to know of it.
-    pub(crate) fn reduced(&self) -> Reduced {
-        Reduced {
+    pub(crate) fn reduced(&self) -> Derivatives {
+        Derivatives {
             cost: self.cost,
-            hessian: self.hessian.clone(),
-            descent: self.descent.clone(),
+            gradient: self.descent.iter().map(|d| -d).collect(),
+            // Symmetric to the bit, so rows are columns.
+            normal: self.hessian.as_slice().to_vec(),
         }
     }
 }

@@ -2,10 +2,9 @@
 
 use crate::gms::score::ElementsScore;
 use crate::law::Law;
-use crate::observe::Counts;
-use crate::separable::levenberg::Status;
 use crate::separable::objective::Evaluation;
 use crate::separable::search_box::SearchBox;
+use stiction_search::{Counts, Status};
 
 /// What a search found.
 #[derive(Clone, Debug)]

@@ -1,18 +1,8 @@
 //! The reduced problem at a trial: cost, gradient and curvature in the nonlinear unknowns alone.
 
 use crate::separable::linear::{Factor, Normal};
-use nalgebra::{DMatrix, DVector};
-
-/// What a step of the search needs to know of a trial.
-#[derive(Clone, Debug)]
-pub(crate) struct Reduced {
-    /// Sum of squares of the residual.
-    pub cost: f64,
-    /// `J^T J` (Kaufman).
-    pub hessian: DMatrix<f64>,
-    /// `-J^T r`: the direction of descent.
-    pub descent: DVector<f64>,
-}
+use nalgebra::DMatrix;
+use stiction_search::Derivatives;
 
 /// Products of the columns of a trial, none of which is at hand: from them the reduced problem follows.
 pub(super) trait Products {
@@ -31,57 +21,46 @@ pub(super) trait Products {
     fn slopes(&self, k: usize, l: usize, coefficients: &[f64]) -> f64;
 }
 
-impl Reduced {
-    /// From the products of `bounded.len()` linear columns and `unknowns` derivatives; `held` is a
-    /// coefficient that stands at a value.
-    ///
-    /// The cost has lost what is below about 1e-15 of the energy of the target.
-    pub(super) fn from_products(
-        products: &impl Products,
-        bounded: &[bool],
-        unknowns: usize,
-        held: Option<(usize, f64)>,
-    ) -> Self {
-        let m = bounded.len();
-        let (factor, c, cost) = linear(products, bounded, held);
-        let rows: Vec<Vec<f64>> = (0..unknowns)
-            .map(|k| (0..m).map(|i| products.slope_linear(k, i, &c)).collect())
-            .collect();
-        let descent = DVector::from_fn(unknowns, |k, _| {
-            let model: f64 = rows[k].iter().zip(&c).map(|(x, c)| x * c).sum();
-            products.slope_target(k, &c) - model
-        });
-        let mut hessian = DMatrix::zeros(unknowns, unknowns);
-        for k in 0..unknowns {
-            let own: Vec<f64> = factor.columns().iter().map(|&j| rows[k][j]).collect();
-            let inside = factor.solve(&own);
-            for l in 0..=k {
-                let explained: f64 = factor
-                    .columns()
-                    .iter()
-                    .zip(&inside)
-                    .map(|(&j, x)| rows[l][j] * x)
-                    .sum();
-                let outside = products.slopes(k, l, &c) - explained;
-                hessian[(k, l)] = outside;
-                hessian[(l, k)] = outside;
-            }
-        }
-        Self {
-            cost,
-            hessian,
-            descent,
+/// The reduced problem from the products of `bounded.len()` linear columns and `unknowns` derivatives; `held`
+/// is a coefficient that stands at a value. `J^T J` is that of Kaufman.
+///
+/// The cost has lost what is below about 1e-15 of the energy of the target.
+pub(super) fn from_products(
+    products: &impl Products,
+    bounded: &[bool],
+    unknowns: usize,
+    held: Option<(usize, f64)>,
+) -> Derivatives {
+    let m = bounded.len();
+    let (factor, c, cost) = linear(products, bounded, held);
+    let mut out = Derivatives::zeros(unknowns);
+    out.cost = cost;
+    let rows: Vec<Vec<f64>> = (0..unknowns)
+        .map(|k| (0..m).map(|i| products.slope_linear(k, i, &c)).collect())
+        .collect();
+    for (k, row) in rows.iter().enumerate() {
+        let model: f64 = row.iter().zip(&c).map(|(x, c)| x * c).sum();
+        out.gradient[k] = -(products.slope_target(k, &c) - model);
+        let own: Vec<f64> = factor.columns().iter().map(|&j| row[j]).collect();
+        let inside = factor.solve(&own);
+        for (l, other) in rows[..=k].iter().enumerate() {
+            let explained: f64 = factor
+                .columns()
+                .iter()
+                .zip(&inside)
+                .map(|(&j, x)| other[j] * x)
+                .sum();
+            let outside = products.slopes(k, l, &c) - explained;
+            out.normal[k * unknowns + l] = outside;
+            out.normal[l * unknowns + k] = outside;
         }
     }
+    out
+}
 
-    /// The cost alone.
-    pub(super) fn cost(
-        products: &impl Products,
-        bounded: &[bool],
-        held: Option<(usize, f64)>,
-    ) -> f64 {
-        linear(products, bounded, held).2
-    }
+/// The cost alone.
+pub(super) fn cost(products: &impl Products, bounded: &[bool], held: Option<(usize, f64)>) -> f64 {
+    linear(products, bounded, held).2
 }
 
 /// The linear problem: its factor, the coefficients, and the cost.

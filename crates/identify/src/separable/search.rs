@@ -3,12 +3,13 @@
 use crate::conditioning::record::Record;
 use crate::law::terms::Terms;
 use crate::law::{Law, LawKind};
-use crate::observe::{Control, Stage};
 use crate::separable::coarse::{Coarse, End};
-use crate::separable::levenberg::{Descent, Status, Watch, descend};
+use crate::separable::descent::{Descent, descend};
 use crate::separable::objective::Objective;
 use crate::separable::search_box::SearchBox;
 use crate::separable::settings::Settings;
+use crate::watch::Watch;
+use stiction_search::{Control, Stage, Status};
 
 /// Starts from the thinned record that go on to the full one.
 const MOST_FINE: usize = 3;

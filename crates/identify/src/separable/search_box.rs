@@ -3,6 +3,7 @@
 use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::law::{Law, Layout};
+use stiction_search::descent::Region;
 
 /// Longest delay between force and motion that is looked for, either way, in samples.
 const MOST_DELAY: f64 = 4.0;
@@ -165,12 +166,17 @@ impl SearchBox {
         out
     }
 
+    /// The same as a descent sees it.
+    pub(crate) fn region(&self) -> Region<'_> {
+        Region {
+            low: &self.low,
+            high: &self.high,
+        }
+    }
+
     /// The nearest point inside.
     pub fn clamp(&self, p: &[f64]) -> Vec<f64> {
-        p.iter()
-            .enumerate()
-            .map(|(i, x)| x.clamp(self.low[i], self.high[i]))
-            .collect()
+        self.region().clamp(p)
     }
 
     /// The point at a place in the unit cube.

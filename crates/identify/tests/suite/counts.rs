@@ -17,11 +17,11 @@ fn line(what: &str, record: &Record, law: Law, terms: &Terms) -> String {
     format!(
         "{what}: search {} cost, {} with sensitivities, {} of them on a thinned record; intervals {} \
          cost, {} with sensitivities",
-        search.cost,
-        search.sensitivities,
-        search.thinned,
-        e.counts.cost - search.cost,
-        e.counts.sensitivities - search.sensitivities
+        search.without_derivatives(),
+        search.with_derivatives(),
+        search.coarse(),
+        e.counts.without_derivatives() - search.without_derivatives(),
+        e.counts.with_derivatives() - search.with_derivatives()
     )
 }
 

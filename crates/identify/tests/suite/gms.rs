@@ -252,7 +252,11 @@ fn four_elements_are_found() {
     assert_eq!(tried, [7, 6, 5, 4, 3]);
     let counts = found.counts;
     assert_eq!(
-        (counts.cost, counts.sensitivities, counts.thinned),
+        (
+            counts.without_derivatives(),
+            counts.with_derivatives(),
+            counts.coarse(),
+        ),
         (45, 502, 351)
     );
     assert_eq!(found.status, Status::Converged);

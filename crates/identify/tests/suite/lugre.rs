@@ -43,7 +43,7 @@ fn noise_free(set: &Set) {
         };
         let found = separable(&record, law, &terms, &settings, &mut Silent).unwrap();
         assert_eq!(found.status, Status::Converged, "{} seed {seed}", set.name);
-        evaluations += found.counts.total() - found.counts.thinned;
+        evaluations += found.counts.total() - found.counts.coarse();
         let estimate = estimate(&record, law, &terms, &found, 0.0);
         for (name, truth) in set.truth() {
             let error = (estimate.value(name).unwrap() / truth - 1.0).abs();

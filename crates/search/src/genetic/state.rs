@@ -5,7 +5,8 @@ use crate::bits;
 use crate::error::Error;
 use crate::points::Points;
 use crate::random::Dice;
-use crate::search::{Answers, Request, Search, Status};
+use crate::search::{Answers, Request, Search};
+use crate::status::Status;
 use serde::{Deserialize, Serialize};
 
 /// What the outstanding answers are for.

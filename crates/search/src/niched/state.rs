@@ -2,15 +2,15 @@
 
 use super::Settings;
 use crate::bits;
-use crate::descent::Descent;
 use crate::error::Error;
 use crate::genetic::{Individual, Selection, costs_of, least};
-use crate::levenberg::{ask_all, descents, status_of, tell_all};
+use crate::lockstep::{Waiting, ask_all, descents, status_of, tell_all};
 use crate::niches::Niches;
 use crate::points::Points;
 use crate::problem::{Fidelity, Kind};
 use crate::random::{Dice, sobol};
-use crate::search::{Answers, Phase, Request, Search, Status};
+use crate::search::{Answers, Phase, Request, Search};
+use crate::status::Status;
 use serde::{Deserialize, Serialize};
 
 /// Draws of the first parent expected for the best, by rank.
@@ -55,7 +55,7 @@ pub struct NichedGa {
     over: usize,
     asked: Points,
     population: Vec<Individual>,
-    descents: Vec<Descent>,
+    descents: Vec<Waiting>,
     /// Where the descents of all rounds on the coarse record have ended.
     minima: Vec<Individual>,
     /// Best cost of the first draw.

@@ -3,7 +3,7 @@
 
 use crate::common;
 use crate::common::Function;
-use stiction_search::{Limits, Method, Plan, Run, Silent, Stop};
+use stiction_search::{Limits, Method, Plan, Run, Silent, Status};
 
 const SEEDS: u64 = 10;
 
@@ -21,7 +21,7 @@ fn measure(name: &str, function: &Function) -> (Vec<u64>, f64) {
             ..Limits::default()
         };
         let stop = run.advance(function, &limits, &mut Silent);
-        if stop == Ok(Stop::Target) {
+        if stop == Ok(Status::Target) {
             used.push(run.counts().costs + run.counts().derivatives);
         }
         own.push(run.own_best().expect("finite costs").cost);

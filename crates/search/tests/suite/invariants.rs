@@ -5,7 +5,7 @@ use crate::common::Function;
 use proptest::prelude::*;
 use stiction_search::{
     Bounds, Control, CostsOnly, Derivatives, Error, Fidelity, Finish, Finished, Kind, Limits,
-    Method, Plan, Points, Problem, Run, Searcher, Silent, Stop,
+    Method, Plan, Points, Problem, Run, Searcher, Silent, Status,
 };
 
 type Any = Run<Finished<Searcher>>;
@@ -64,7 +64,7 @@ proptest! {
                 if calls % after == 0 { Control::Stop } else { Control::Continue }
             };
             match run.advance(&function, &cut, &mut interrupt).expect("derivatives") {
-                Stop::Interrupted => run = serde_json::from_str(&text(&run)).expect("just written"),
+                Status::Interrupted => run = serde_json::from_str(&text(&run)).expect("just written"),
                 stop => break stop,
             }
         };
@@ -87,7 +87,7 @@ proptest! {
         prop_assert!(function.inside.get());
         prop_assert_eq!(counts.costs + counts.derivatives, function.asked.get());
         prop_assert!(counts.costs <= costs && counts.derivatives <= derivatives);
-        if stop == Stop::Budget {
+        if stop == Status::Budget {
             prop_assert!(counts.costs == costs || counts.derivatives == derivatives);
         }
         if let Some(best) = run.best() {

@@ -2,7 +2,7 @@
 //! script beside it with SciPy, pycma and pygmo.
 
 use crate::common;
-use stiction_search::{Limits, Method, Run, Silent, Stop};
+use stiction_search::{Limits, Method, Run, Silent, Status};
 use stiction_search::{cma_es, differential_evolution, nelder_mead};
 
 /// How many seeds of how many found the minimum, and their median evaluations.
@@ -42,7 +42,7 @@ fn ours(method: &Method, function: &str, seeds: u64) -> Found {
                 ..Limits::default()
             };
             let stop = run.advance(function, &limits, &mut Silent);
-            (stop == Ok(Stop::Target)).then(|| run.counts().costs)
+            (stop == Ok(Status::Target)).then(|| run.counts().costs)
         })
         .collect();
     used.sort_unstable();

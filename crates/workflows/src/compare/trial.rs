@@ -8,7 +8,7 @@ use std::time::Instant;
 use stiction_files::result::Evaluations;
 use stiction_identify::candidates::Named;
 use stiction_search::{
-    Best, Control, Finish, Generation, Improvement, Limits, Method, Plan, Progress, Run, Stop,
+    Best, Control, Finish, Generation, Improvement, Limits, Method, Plan, Progress, Run, Status,
     levenberg,
 };
 
@@ -96,10 +96,8 @@ impl Setting<'_> {
         };
         // A problem without derivatives is given to methods that need none.
         let status = match run.advance(&problem, &limits, &mut watch).ok()? {
-            Stop::Ended(status) => status.name(),
-            Stop::Target => "target",
-            Stop::Budget => "budget",
-            Stop::Interrupted => return None,
+            Status::Interrupted => return None,
+            status => status.name(),
         };
         let seconds = clock.elapsed().as_secs_f64();
         let share = self.problem.coarse_share();

@@ -111,8 +111,8 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         search: Search {
             status: estimate.status.name().into(),
             evaluations: estimate.counts.total(),
-            with_sensitivities: estimate.counts.sensitivities,
-            thinned: estimate.counts.thinned,
+            with_sensitivities: estimate.counts.with_derivatives(),
+            thinned: estimate.counts.coarse(),
             iterations: estimate.iterations,
             wall_s: asked.clock.elapsed().as_secs_f64(),
         },

@@ -147,9 +147,10 @@ pub(super) fn search(task: Task, observer: &mut dyn Observer) -> Result<Found, E
     .map_err(refused)?;
     let spent = &searched.entry.evaluations;
     estimate.count(&engine::Counts {
-        cost: (spent.costs + spent.coarse_costs) as usize,
-        sensitivities: (spent.derivatives + spent.coarse_derivatives) as usize,
-        thinned: (spent.coarse_costs + spent.coarse_derivatives) as usize,
+        costs: spent.costs,
+        derivatives: spent.derivatives,
+        coarse_costs: spent.coarse_costs,
+        coarse_derivatives: spent.coarse_derivatives,
     });
     if searched.ended == Ended::Interrupted {
         estimate = estimate.interrupted();

@@ -179,7 +179,7 @@ fn search_ended(estimate: &FittedLaw, warnings: &mut Vec<Warning>, reasons: &mut
             warnings.push(Warning::new(Code::Interrupted, text));
             reasons.push(text.to_string());
         }
-        Status::Budget | Status::Stalled => {
+        Status::Budget | Status::Stalled | Status::Exhausted | Status::Target => {
             let text = format!(
                 "the search did not converge (status {})",
                 estimate.status.name()

@@ -1,8 +1,7 @@
 //! What stops a search: its own end, its limits, the clock, the user.
 
 use std::time::{Duration, Instant};
-use stiction_identify as engine;
-use stiction_search::{Control, Kind, Limits, Observer, Progress, Stop};
+use stiction_search::{Control, Kind, Limits, Observer, Progress, Stage, Status};
 
 /// How often the state is kept.
 const EVERY: Duration = Duration::from_secs(5);
@@ -31,7 +30,7 @@ impl Ended {
 
 /// Passes progress on, and looks at the clock.
 pub(super) struct Watch<'o> {
-    observer: &'o mut dyn engine::Observer,
+    observer: &'o mut dyn Observer,
     start: Instant,
     time: Option<f64>,
     keeps: bool,
@@ -43,7 +42,7 @@ pub(super) struct Watch<'o> {
 
 impl<'o> Watch<'o> {
     pub fn new(
-        observer: &'o mut dyn engine::Observer,
+        observer: &'o mut dyn Observer,
         start: Instant,
         time: Option<f64>,
         keeps: bool,
@@ -61,18 +60,16 @@ impl<'o> Watch<'o> {
         }
     }
 
-    /// What a stop means; `None` where the state is to be kept and the search goes on.
-    pub fn ended(&mut self, stop: Stop) -> Option<Ended> {
-        match stop {
-            Stop::Ended(status) => Some(Ended::Itself(status.name())),
-            Stop::Target => Some(Ended::Itself("target")),
-            Stop::Budget => Some(Ended::Itself("budget")),
-            Stop::Interrupted if self.interrupted => Some(Ended::Interrupted),
-            Stop::Interrupted if self.late => Some(Ended::Time),
-            Stop::Interrupted => {
+    /// What an end means; `None` where the state is to be kept and the search goes on.
+    pub fn ended(&mut self, status: Status) -> Option<Ended> {
+        match status {
+            Status::Interrupted if self.interrupted => Some(Ended::Interrupted),
+            Status::Interrupted if self.late => Some(Ended::Time),
+            Status::Interrupted => {
                 self.kept = Instant::now();
                 None
             }
+            _ => Some(Ended::Itself(status.name())),
         }
     }
 }
@@ -81,17 +78,13 @@ impl Observer for Watch<'_> {
     fn progress(&mut self, progress: &Progress) -> Control {
         let counts = &progress.counts;
         let costs = counts.of(Kind::Costs, 0.0);
-        let control = self.observer.progress(&engine::Progress {
-            stage: engine::Stage::Search,
+        let control = self.observer.progress(&Progress {
+            stage: Stage::Search,
             fraction: (costs / self.most).min(1.0),
-            counts: engine::Counts {
-                cost: (counts.costs + counts.coarse_costs) as usize,
-                sensitivities: (counts.derivatives + counts.coarse_derivatives) as usize,
-                thinned: (counts.coarse_costs + counts.coarse_derivatives) as usize,
-            },
+            counts: *counts,
             best: progress.best.sqrt(),
         });
-        self.interrupted = control == engine::Control::Stop;
+        self.interrupted = control == Control::Stop;
         self.late = self
             .time
             .is_some_and(|time| self.start.elapsed().as_secs_f64() >= time);

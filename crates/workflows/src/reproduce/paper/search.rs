@@ -4,7 +4,7 @@ use super::budget::Budget;
 use super::fault::Fault;
 use crate::reproduce::watch::Watch;
 use stiction_identify::candidates::{Candidates, Named};
-use stiction_search::{Control, Finish, Limits, Method, Plan, Progress, Run, Stop, genetic};
+use stiction_search::{Control, Finish, Limits, Method, Plan, Progress, Run, Status, genetic};
 
 /// The three of Z25 Fig. 7.
 pub(super) const METHODS: [&str; 3] = ["ga", "adaptive-ga", "annealing-ga"];
@@ -57,9 +57,8 @@ pub(super) fn search<P: Candidates>(
         true => Control::Stop,
         false => Control::Continue,
     };
-    match run.advance(problem, &Limits::default(), &mut watched)? {
-        Stop::Interrupted => return Err(Fault::Stopped),
-        Stop::Ended(_) | Stop::Target | Stop::Budget => {}
+    if run.advance(problem, &Limits::default(), &mut watched)? == Status::Interrupted {
+        return Err(Fault::Stopped);
     }
     watch.done()?;
     let own = run.own_best().ok_or(Fault::Stopped)?;

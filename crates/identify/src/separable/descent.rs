@@ -1,0 +1,185 @@
+//! One descent on a record: led by sums as far as their digits go, finished on the columns.
+
+use crate::separable::in_lanes::InLanes;
+use crate::separable::objective::{Evaluation, Objective};
+use crate::separable::search_box::SearchBox;
+use crate::watch::Watch;
+use stiction_search::descent::{self, LeastSquares, Settings, Sums};
+use stiction_search::{Control, Derivatives, Status};
+
+/// Result of one descent.
+#[derive(Clone, Debug)]
+pub(crate) struct Descent {
+    pub p: Vec<f64>,
+    pub evaluation: Evaluation,
+    pub status: Status,
+    pub iterations: usize,
+    /// Relative residual after each accepted step, with the number of evaluations until then.
+    pub history: Vec<(usize, f64)>,
+}
+
+/// Cost, as a part of the energy of the force, that is rounding only: some ten times the square of the
+/// rounding of a number.
+const EXACT_COST: f64 = 1e-27;
+/// Change of a cost from sums of squares, as a part of the energy of the force, that may be rounding: such a
+/// cost is a difference of sums that hold some 15 digits of the energy.
+const SUMS_ROUNDING: f64 = 1e-13;
+/// Part of what a step promised that the next may at most, where costs are too coarse to say whether either
+/// was good.
+const FADING: f64 = 0.1;
+
+/// The rules of a descent on a record whose force has this energy (sum of squares), for so many trials.
+pub(super) fn settings(energy: f64, most_trials: usize) -> Settings {
+    Settings {
+        most_trials,
+        exact_cost: EXACT_COST * energy,
+        ..Settings::default()
+    }
+}
+
+/// Descends from `start` for at most `steps` trials.
+///
+/// Where the objective can be had from sums alone, they lead as far as their digits go, and the columns
+/// only finish.
+pub(crate) fn descend(
+    objective: &Objective,
+    bounds: &SearchBox,
+    start: &[f64],
+    steps: usize,
+    watch: &mut Watch,
+) -> Descent {
+    let mut history = Vec::new();
+    let led = objective
+        .sums()
+        .and_then(|sums| lead(objective, sums, bounds, start, steps, &mut history, watch));
+    let (start, done, interrupted) = led.unwrap_or((bounds.clamp(start), 0, false));
+    let evaluation = objective.evaluate(&start, true);
+    watch.count(objective, true);
+    history.push((watch.counts.total(), objective.relative(evaluation.cost)));
+    let settings = settings(objective.energy(), steps);
+    let mut walk = descent::Descent::new(start, &settings).after(done);
+    if interrupted {
+        walk.end(Status::Interrupted);
+    }
+    let mut columns = Columns {
+        objective,
+        sums: evaluation.reduced(),
+        now: evaluation,
+        tried: None,
+        history,
+        watch,
+    };
+    let walk = descent::descend(&mut columns, walk, bounds.region(), &settings);
+    Descent {
+        evaluation: columns.now,
+        status: walk.status().unwrap_or(Status::Budget),
+        iterations: walk.trials(),
+        history: columns.history,
+        p: walk.into_point(),
+    }
+}
+
+/// An objective evaluated with all of its columns.
+struct Columns<'a, 'w, 'o> {
+    objective: &'a Objective<'a>,
+    now: Evaluation,
+    sums: Derivatives,
+    tried: Option<Evaluation>,
+    history: Vec<(usize, f64)>,
+    watch: &'w mut Watch<'o>,
+}
+
+impl LeastSquares for Columns<'_, '_, '_> {
+    fn sums(&mut self, _: f64) -> Option<Sums<'_>> {
+        Some((&self.sums).into())
+    }
+
+    fn cost(&mut self, trial: &[f64], _: f64) -> f64 {
+        let next = self.objective.evaluate(trial, true);
+        self.watch.count(self.objective, true);
+        let cost = next.cost;
+        self.tried = Some(next);
+        cost
+    }
+
+    fn accept(&mut self) {
+        if let Some(next) = self.tried.take() {
+            self.sums = next.reduced();
+            self.now = next;
+            let relative = self.objective.relative(self.now.cost);
+            self.history.push((self.watch.counts.total(), relative));
+        }
+    }
+
+    fn after_trial(&mut self) -> Control {
+        self.watch.report(self.objective.relative(self.now.cost))
+    }
+}
+
+/// The descent on sums, and the steps that are too small for the digits of their costs: where it ends, the
+/// trials it took, and whether it was stopped. `None` where a trial is beyond what the sums can do.
+fn lead(
+    objective: &Objective,
+    sums: &InLanes,
+    bounds: &SearchBox,
+    start: &[f64],
+    steps: usize,
+    history: &mut Vec<(usize, f64)>,
+    watch: &mut Watch,
+) -> Option<(Vec<f64>, usize, bool)> {
+    let settings = Settings {
+        cost_rounding: SUMS_ROUNDING * objective.energy(),
+        take_untried: true,
+        ..settings(objective.energy(), steps)
+    };
+    let region = bounds.region();
+    let start = bounds.clamp(start);
+    let mut now = sums.reduced(&start)?;
+    watch.count(objective, true);
+    let mut walk = descent::Descent::new(start, &settings);
+    let mut before = 0.0;
+    while let Some(trial) = walk.propose(&settings, region, (&now).into()) {
+        before = walk.promised();
+        let next = sums.reduced(&trial)?;
+        watch.count(objective, true);
+        if walk.take(&settings, trial, next.cost) {
+            history.push((watch.counts.total(), objective.relative(next.cost)));
+            now = next;
+        }
+        if watch.report(objective.relative(now.cost)) == Control::Stop {
+            return Some((walk.point().to_vec(), walk.trials(), true));
+        }
+    }
+    let ended = walk.status();
+    let mut promised = walk.promised();
+    let mut trials = walk.trials();
+    let mut p = walk.into_point();
+    // The last step was not tried. The gradient that is left there is accurate below the rounding of the cost:
+    // it is followed as long as it promises less and less. As much less as a step promises than the one
+    // before, the next will promise than this.
+    let mut left = promised * (promised / before);
+    while ended == Some(Status::Converged)
+        && trials < steps
+        && promised > 0.0
+        && left > settings.no_gain * now.cost
+    {
+        let here = sums.reduced(&p)?;
+        watch.count(objective, true);
+        trials += 1;
+        let Some(step) = descent::damped_step(&here, None, &p, region, 0.0, settings.longest_step)
+        else {
+            break;
+        };
+        let trial = region.moved(&p, &step);
+        let promises = descent::predicted_gain(&here, &descent::difference(&trial, &p));
+        let fades = promises < FADING * promised;
+        if !fades || descent::largest(&trial, &p) > settings.trusted_step {
+            break;
+        }
+        p = trial;
+        left = promises * (promises / promised);
+        promised = promises;
+        now = here;
+    }
+    Some((p, trials, false))
+}
