@@ -194,6 +194,6 @@ fn errors_name_what_was_found_and_what_is_allowed() {
         .unwrap_err();
     assert_eq!(
         error.to_string(),
-        "a column has 99 samples where 100 belong"
+        "a column has 99 samples, expected 100"
     );
 }

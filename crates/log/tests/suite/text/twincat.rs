@@ -300,7 +300,7 @@ fn check(table: &Table, channels: &[Channel], dialog: Dialog, text: &str) {
                 .filter(|c| c.name.starts_with("time"))
                 .all(|c| c.unit.as_deref() == Some(unit))
         );
-        let said = "`time of bMoving` holds for `bMoving`, `ActTorque`".to_owned();
+        let said = "`time of bMoving` applies to `bMoving`, `ActTorque`".to_owned();
         assert!(table.detected.contains(&said), "{:?}", table.detected);
     }
     let said = |what: &str| table.detected.iter().any(|d| d == what);
@@ -314,8 +314,8 @@ fn check(table: &Table, channels: &[Channel], dialog: Dialog, text: &str) {
         "{:?}",
         table.detected
     );
-    assert_eq!(said("display Offset left alone: `ActTorque` 2"), full);
-    assert_eq!(said("display ScaleFactor left alone: `ActTorque` -1"), full);
+    assert_eq!(said("display Offset not applied: `ActTorque` 2"), full);
+    assert_eq!(said("display ScaleFactor not applied: `ActTorque` -1"), full);
     let periods: Vec<f64> = table.scalars.iter().map(|s| s.value).collect();
     let expected = if full {
         vec![0.5, 0.5, 2.0, 2.0]
