@@ -14,17 +14,37 @@ mod simulation;
 pub(crate) mod study;
 mod tables;
 
-pub use comparison::comparison;
-
+use crate::glossary::explained;
 use crate::names::{chosen_by, law_name};
-pub use reproduction::reproduction;
+use stiction_files::compare_file::CompareFile;
 use stiction_number::Percent;
 use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
 use stiction_workflows::identify::Outcome;
-pub use study::study;
+use stiction_workflows::reproduce::Reproduction;
+use stiction_workflows::study::StudyOutcome;
 
 /// The report of one identification.
 pub fn identification(outcome: &Outcome) -> Document {
+    explained(sections(outcome))
+}
+
+/// The report of a comparison of searches.
+pub fn comparison(file: &CompareFile) -> Document {
+    explained(comparison::comparison(file))
+}
+
+/// The report of a study.
+pub fn study(outcome: &StudyOutcome) -> Document {
+    explained(study::study(outcome))
+}
+
+/// The report of reproduced experiments.
+pub fn reproduction(outcome: &Reproduction) -> Document {
+    explained(reproduction::reproduction(outcome))
+}
+
+/// An identification, section by section.
+fn sections(outcome: &Outcome) -> Document {
     let result = &outcome.result;
     let name = result.axis.name.clone().unwrap_or_else(|| {
         result

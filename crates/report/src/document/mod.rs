@@ -1,6 +1,7 @@
 //! The document: a list of blocks that becomes one HTML file.
 
 mod html;
+mod plain;
 mod table;
 mod width;
 

@@ -192,8 +192,5 @@ fn errors_name_what_was_found_and_what_is_allowed() {
     let error = filter
         .zero_phase_columns(&mut [&mut long, &mut short])
         .unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "a column has 99 samples, expected 100"
-    );
+    assert_eq!(error.to_string(), "a column has 99 samples, expected 100");
 }

@@ -315,7 +315,10 @@ fn check(table: &Table, channels: &[Channel], dialog: Dialog, text: &str) {
         table.detected
     );
     assert_eq!(said("display Offset not applied: `ActTorque` 2"), full);
-    assert_eq!(said("display ScaleFactor not applied: `ActTorque` -1"), full);
+    assert_eq!(
+        said("display ScaleFactor not applied: `ActTorque` -1"),
+        full
+    );
     let periods: Vec<f64> = table.scalars.iter().map(|s| s.value).collect();
     let expected = if full {
         vec![0.5, 0.5, 2.0, 2.0]
