@@ -1,5 +1,29 @@
 //! Identification of friction laws from conditioned records, with uncertainty.
 //!
+//! Start with [`condition`] and [`identify()`]; [`intervals`] then adds what encoder and filters do to the intervals.
+//!
+//! ```
+//! use stiction_identify::{
+//!     Conditioning, Cutoff, Law, LawKind, Mass, Samples, Settings, Silent, Terms, condition, identify,
+//! };
+//!
+//! // 4 s at 1 kHz of an axis with 20 N of Coulomb and 60 N s/m of viscous friction, mass taken off.
+//! let time: Vec<f64> = (0..4000).map(|k| f64::from(k) * 1e-3).collect();
+//! let velocity: Vec<f64> = time.iter().map(|t| 0.1 * (6.0 * t + 0.1).sin()).collect();
+//! let force = velocity.iter().map(|v| 20.0 * v.signum() + 60.0 * v).collect();
+//! let samples = Samples { time, velocity: Some(velocity), force, ..Samples::default() };
+//!
+//! // Nothing to filter: there is no noise.
+//! let raw = Conditioning { source_cutoff: Cutoff::Off, common_cutoff: Cutoff::Off, ..Conditioning::default() };
+//! let record = condition(&[samples], &raw)?;
+//! let terms = Terms { mass: Mass::Absent, ..Terms::default() };
+//! let law = Law::new(LawKind::CoulombViscous);
+//! let (estimate, _) = identify(&record, law, &terms, 0.0, &Settings::default(), &mut Silent)?;
+//! let coulomb = estimate.value("coulomb").expect("a parameter of the law"); // N
+//! assert!((coulomb - 20.0).abs() < 0.1);
+//! # Ok::<(), stiction_identify::Error>(())
+//! ```
+//!
 //! The data flows one way:
 //!
 //! ```text

@@ -35,31 +35,6 @@ const FEW: usize = 4;
 /// Batches are spread over the threads of the current rayon pool. The bits of a cost depend on track,
 /// candidate and scheme only: not on the other candidates, their order or number, the threads or the
 /// instruction set.
-///
-/// ```
-/// use stiction_lanes::{Candidate, InstructionSet, Scheme, Segment, Time, Track, costs};
-///
-/// let velocity: Vec<f64> = (0..2000).map(|k| 0.02 * (k as f64 * 5e-3).sin()).collect();
-/// let truth = Candidate::gaussian([1.2e5, 600.0, 60.0, 20.0, 30.0, 5e-3]);
-/// let law = truth.law()?;
-/// let mut z = 0.0;
-/// let mut force = vec![law.force(z, velocity[0])];
-/// for v in velocity.windows(2) {
-///     z = law.step_record(z, 1e-3, v[0], v[1]);
-///     force.push(law.force(z, v[1]));
-/// }
-/// let track = Track::new(&[Segment {
-///     time: Time::Step(1e-3),
-///     velocity: &velocity,
-///     force: &force,
-///     keep: &[],
-///     columns: &[],
-/// }])?;
-/// let stiffer = Candidate { stiffness: 1.3e5, ..truth };
-/// let cost = costs(&track, &[truth, stiffer], Scheme::Explin, InstructionSet::best())?;
-/// assert!(cost[0] < 1e-18 && cost[1] > 1.0); // N^2
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 pub fn costs(
     track: &Track,
     candidates: &[Candidate],

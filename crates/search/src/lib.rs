@@ -7,6 +7,33 @@
 //!  settings)       unit cube)             history, limits)        derivatives)
 //! ```
 //!
+//! Start with a [`Problem`], a [`Plan`] and a [`Run`]:
+//!
+//! ```
+//! use stiction_search::{Bounds, Fidelity, Limits, Plan, Points, Problem, Run, Silent};
+//!
+//! struct Sphere(Bounds);
+//!
+//! impl Problem for Sphere {
+//!     fn bounds(&self) -> &Bounds {
+//!         &self.0
+//!     }
+//!     fn costs(&self, points: &Points, _: Fidelity, costs: &mut [f64]) {
+//!         for (x, cost) in points.rows().zip(costs) {
+//!             *cost = x.iter().map(|x| x * x).sum();
+//!         }
+//!     }
+//! }
+//!
+//! let problem = Sphere(Bounds::new(vec![-1.0; 3], vec![2.0; 3])?);
+//! let plan = Plan::named("cma-es").expect("a method");
+//! let mut run = Run::new(plan.start(3, 1)?, &problem);
+//! run.advance(&problem, &Limits { target: Some(1e-12), ..Limits::default() }, &mut Silent)?;
+//! assert!(run.best().expect("a finite cost").cost <= 1e-12);
+//! assert!(run.counts().costs < 1000);
+//! # Ok::<(), stiction_search::Error>(())
+//! ```
+//!
 //! | method | what | source |
 //! |---|---|---|
 //! | `ga`, `adaptive-ga`, `annealing-ga` | [`genetic`] algorithms | Zhang et al. 2025 |

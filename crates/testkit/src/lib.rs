@@ -1,5 +1,19 @@
 //! For tests only: where measured recordings are, what must hold on them, an interpreter of Structured Text, and the
 //! plain midpoint step.
+//!
+//! Start with [`recordings`] for a test on measured data, and with [`st::Library`] for one that runs Structured Text:
+//!
+//! ```
+//! let mut library = stiction_testkit::st::Library::default();
+//! library
+//!     .add("FUNCTION_BLOCK Twice VAR_INPUT x : LREAL; END_VAR VAR_OUTPUT y : LREAL; END_VAR y := 2.0 * x; END_FUNCTION_BLOCK")
+//!     .unwrap();
+//! let mut block = library.instance("Twice");
+//! let (x, y) = (block.slot("x"), block.slot("y"));
+//! block.set(x, 1.5);
+//! block.call();
+//! assert_eq!(block.get(y), 3.0);
+//! ```
 
 mod cases;
 mod mean_of_ends;
