@@ -9,10 +9,12 @@ use crate::progress::{Bar, Counter};
 use clap::ValueEnum;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use stiction::{
-    CompareOptions, Cost, CostKind, Error, Excitation, ExportOptions, FileError, Input, LawKind,
-    Method, Options, Outcome, Procedures, Scheme, Searching, Study, Target, bundle, check_folder,
+use stiction::commands::{
+    CompareOptions, Cost, Excitation, FileError, Input, Options, Outcome, Scheme, check_folder,
     check_folder_of, check_inputs, write_atomic,
+};
+use stiction::{
+    CostKind, Error, ExportOptions, LawKind, Method, Procedures, Searching, Study, Target, bundle,
 };
 
 /// Runs a command; every error is printed here, once.
@@ -73,7 +75,7 @@ fn procedure_logs(demo: &arguments::Demo, common: &Common) -> Result<Exit, Error
         let paths: Vec<_> = written.iter().map(|p| p.to_string_lossy()).collect();
         output::json(&serde_json::json!({ "written": paths }))?;
     } else if !common.quiet {
-        output::print(&stiction::text::procedure_commands(
+        output::print(&stiction::commands::text::procedure_commands(
             &demo.out,
             &written,
             &stiction::demo::truth_of_demo(),
@@ -87,13 +89,13 @@ fn check(check: &arguments::Check, common: &Common) -> Result<Exit, Error> {
         return init(check, file, common);
     }
     let mut bar = Bar::new(common.json || common.quiet);
-    let found = stiction::check::check(&check.logs, check.axis.as_deref(), &mut bar);
+    let found = stiction::commands::check::check(&check.logs, check.axis.as_deref(), &mut bar);
     bar.finish();
     let found = found?;
     if common.json {
         output::json(&found)?;
     } else if !common.quiet {
-        output::print(&stiction::text::check(&found))?;
+        output::print(&stiction::commands::text::check(&found))?;
     }
     if interrupt::asked() {
         return Ok(Exit::Interrupted);
@@ -112,7 +114,7 @@ fn init(check: &arguments::Check, file: &Path, common: &Common) -> Result<Exit, 
         let reason = "exists already and is kept; name another file: --init OTHER.toml";
         return Err(FileError::output(file, reason).into());
     }
-    let text = stiction::check::init(&check.logs[0])?;
+    let text = stiction::commands::check::init(&check.logs[0])?;
     write_atomic(file, text.as_bytes())?;
     if common.json {
         output::json(&serde_json::json!({ "written": file.to_string_lossy() }))?;
@@ -171,7 +173,7 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
         searching: searching(&identify.searching),
     };
     let mut bar = Bar::new(common.json || common.quiet);
-    let outcome = stiction::identify(&options, &mut bar);
+    let outcome = stiction::commands::identify(&options, &mut bar);
     bar.finish();
     finish(&outcome?, &identify.out, common)
 }
@@ -212,7 +214,7 @@ fn compare(compare: &arguments::Compare, common: &Common) -> Result<Exit, Error>
         }),
     };
     let mut bar = Bar::new(common.json || common.quiet);
-    let found = stiction::compare(&options, &mut bar);
+    let found = stiction::commands::compare(&options, &mut bar);
     bar.finish();
     let found = found?;
     bundle::comparison(&found).write(&compare.out)?;
@@ -221,7 +223,7 @@ fn compare(compare: &arguments::Compare, common: &Common) -> Result<Exit, Error>
     } else if !common.quiet {
         output::print(&format!(
             "{}\nwritten to {}: report.html, compare.json\n",
-            stiction::text::comparison(&found),
+            stiction::commands::text::comparison(&found),
             compare.out.display()
         ))?;
     }
@@ -257,7 +259,7 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
     if common.json {
         output::json(&outcome.result)?;
     } else if !common.quiet {
-        let text = stiction::text::outcome(outcome);
+        let text = stiction::commands::text::outcome(outcome);
         output::print(&format!("{text}\n{}", written_to(dir, &written)))?;
     }
     // An interrupt may also have come while laws were compared, after the search had converged.
@@ -273,7 +275,11 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
 
 fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Error> {
     let dir = &simulate.out;
-    check_folder_of(dir, stiction::study::result::SCHEMA, simulate.force)?;
+    check_folder_of(
+        dir,
+        stiction::commands::study::result::SCHEMA,
+        simulate.force,
+    )?;
     let study = Study::read(&simulate.study)?;
     let inputs: Vec<PathBuf> = study.inputs().map(PathBuf::from).collect();
     check_inputs(dir, &inputs)?;
@@ -284,7 +290,7 @@ fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Err
     if common.json {
         output::json(&outcome.file)?;
     } else if !common.quiet {
-        let text = stiction::text::study(&outcome);
+        let text = stiction::commands::text::study(&outcome);
         output::print(&format!("{text}\n{}", written_to(dir, &written)))?;
     }
     Ok(if outcome.file.status == "interrupted" {
@@ -295,29 +301,27 @@ fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Err
 }
 
 fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
-    let options = ExportOptions {
-        model: export.model.clone(),
-        target: match export.target {
-            arguments::Target::C => Target::C,
-            arguments::Target::St => Target::St,
-            arguments::Target::Tcpou => Target::TcPou,
-            arguments::Target::Plcopen => Target::PlcOpen,
-            arguments::Target::Rust => Target::Rust,
-            arguments::Target::Mujoco => Target::Mujoco,
-            arguments::Target::Hal => Target::Hal,
-            arguments::Target::Fmu => Target::Fmu,
-            arguments::Target::Tf5200 => Target::Tf5200,
-        },
-        name: export.name.clone(),
-        cycle_time: export.cycle_time,
-        limit: export.limit,
-        rated_force: export.rated_force,
+    let target = match export.target {
+        arguments::Target::C => Target::C,
+        arguments::Target::St => Target::St,
+        arguments::Target::Tcpou => Target::TcPou,
+        arguments::Target::Plcopen => Target::PlcOpen,
+        arguments::Target::Rust => Target::Rust,
+        arguments::Target::Mujoco => Target::Mujoco,
+        arguments::Target::Hal => Target::Hal,
+        arguments::Target::Fmu => Target::Fmu,
+        arguments::Target::Tf5200 => Target::Tf5200,
     };
-    let exported = stiction::export(&options, &export.out)?;
+    let mut options = ExportOptions::new(target, export.cycle_time);
+    options.name.clone_from(&export.name);
+    options.limit = export.limit;
+    options.rated_force = export.rated_force;
+    let exported = stiction::export_file(&export.model, &options)?;
+    exported.write(&export.out)?;
     if common.json {
         output::json(&exported)?;
     } else if !common.quiet {
-        output::print(&stiction::text::exported(&exported, &export.out))?;
+        output::print(&stiction::commands::text::exported(&exported, &export.out))?;
     }
     Ok(if exported.trustworthy {
         Exit::Done
@@ -328,14 +332,20 @@ fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
 
 fn reproduce(reproduce: &arguments::Reproduce, common: &Common) -> Result<Exit, Error> {
     let dir = &reproduce.out;
-    check_folder_of(dir, stiction::reproduce_file::SCHEMA, reproduce.force)?;
+    check_folder_of(
+        dir,
+        stiction::commands::reproduce_file::SCHEMA,
+        reproduce.force,
+    )?;
     let counter = Counter::new("reproducing", common.json || common.quiet);
     let mut watch = |done, all| counter.at(done, all);
     let outcome = match reproduce.publication {
-        arguments::Publication::Canudas1995 => stiction::reproduce::canudas_1995(&mut watch),
+        arguments::Publication::Canudas1995 => {
+            stiction::commands::reproduce::canudas_1995(&mut watch)
+        }
         arguments::Publication::Zhang2025 => {
-            let budget = stiction::reproduce::Budget::default();
-            stiction::reproduce::zhang_2025(budget, &mut watch)
+            let budget = stiction::commands::reproduce::Budget::default();
+            stiction::commands::reproduce::zhang_2025(budget, &mut watch)
         }
     };
     counter.finish();
@@ -343,7 +353,7 @@ fn reproduce(reproduce: &arguments::Reproduce, common: &Common) -> Result<Exit, 
     if common.json {
         output::json(&outcome.file)?;
     } else if !common.quiet {
-        let text = stiction::text::reproduction(&outcome.file);
+        let text = stiction::commands::text::reproduction(&outcome.file);
         output::print(&format!("{text}{}", written_to(dir, &written)))?;
     }
     Ok(if outcome.file.status == "interrupted" {

@@ -2,7 +2,8 @@
 
 use std::io::{ErrorKind, Write};
 use std::path::Path;
-use stiction::{Error, FileError};
+use stiction::Error;
+use stiction::commands::FileError;
 
 /// Prints a text as it is; a reader that has gone away has seen enough.
 ///

@@ -3,7 +3,7 @@
 use crate::interrupt;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
-use stiction::number::Percent;
+use stiction::commands::number::Percent;
 use stiction::{Control, Observer, Progress, Stage};
 
 /// Shows a bar with the best cost so far, and passes the user's interrupt on.

@@ -88,6 +88,14 @@ impl Model {
         Compensator::new(friction, Source::Reference, cast(settings)).map_err(refuse)
     }
 
+    /// The compensator that the exported code is, as a Rust value to be stepped once a cycle.
+    ///
+    /// # Errors
+    /// As [`export`](crate::export): for numbers or settings out of range.
+    pub fn in_rust(&self) -> Result<Compensator<f64>, Error> {
+        self.compensator(&self.settings, "f64")
+    }
+
     /// Unit of velocity.
     pub(crate) fn speed_unit(&self) -> &'static str {
         if self.rotary { "rad/s" } else { "m/s" }

@@ -3,8 +3,9 @@
 
 use std::fmt::Write;
 use std::time::Instant;
-use stiction::compare_file::{CompareFile, MethodEntry, Quartiles};
-use stiction::{CompareOptions, Cost, Excitation, Input, Scheme, Silent, compare};
+use stiction::Silent;
+use stiction::commands::compare_file::{CompareFile, MethodEntry, Quartiles};
+use stiction::commands::{CompareOptions, Cost, Excitation, Input, Scheme, compare};
 use stiction_testkit::workspace;
 
 const PAGE: &str = "docs/searches.md";
@@ -308,7 +309,7 @@ fn main() -> std::io::Result<()> {
         let clock = Instant::now();
         put(&mut page, name, &make(seeds));
         eprintln!("{name}: {:.0} s", clock.elapsed().as_secs_f64());
-        stiction::write_atomic(&file, page.as_bytes()).map_err(std::io::Error::other)?;
+        stiction::commands::write_atomic(&file, page.as_bytes()).map_err(std::io::Error::other)?;
     }
     Ok(())
 }

@@ -1,36 +1,81 @@
-//! Friction of servo axes: from a drive's log to a law with intervals, and to its compensation.
+//! Friction of servo axes: from a drive's log to a law with intervals, and on to its compensation.
 //!
-//! This crate puts the parts together: forms of files ([`axis`], [`result`], [`study`]), workflows ([`identify()`],
-//! [`simulate`], [`compare()`], [`reproduce`], [`export()`]), what people read of them ([`text`], [`report`]), and which
-//! files an outcome becomes ([`bundle`]).
+//! Begin with [`Log::open`] and [`identify()`]. A log in, a law out, with what may be said of each number:
+//!
+//! ```
+//! use stiction::{Axis, Input, Log, Options, demo, identify};
+//!
+//! # let folder = tempfile::tempdir()?;
+//! # std::env::set_current_dir(&folder)?;
+//! // A recording to begin with: a simulated axis, as a drive would log it. Your own file does as well.
+//! demo::write_log("run.csv", 1)?;
+//! demo::write_log("another.csv", 2)?;
+//!
+//! // Read. Columns and units are those in the file; `Axis::read("axis.toml")` states what it does not say.
+//! let axis = Axis::default();
+//! let log = Log::open_with("run.csv", &axis)?;
+//! println!("{} samples at {} Hz", log.samples(), log.rate_hz());
+//!
+//! // Identify LuGre, the default law; `options.law = None` lets the data choose.
+//! let fit = identify(&[log], &axis, &Options::default())?;
+//!
+//! // Look at an interval, and at what the log does not determine.
+//! let coulomb = fit.parameter("coulomb").expect("every law has a Coulomb level");
+//! println!("{} = {:.2} {}, 95 %: {:?}", coulomb.symbol(), coulomb.value(), coulomb.unit(), coulomb.interval());
+//! for p in fit.parameters().filter(|p| !p.is_identifiable()) {
+//!     println!("do not use {}: {} {}", p.name(), p.reason(), p.advice());
+//! }
+//! assert!(fit.is_trustworthy(), "{:?}", fit.reasons());
+//!
+//! // Predict another log; nothing is fitted again.
+//! let unseen = Log::open_with("another.csv", &axis)?;
+//! let error = fit.predict(&unseen)?.quality.relative_error_percent;
+//! assert!(error < 1.2);
+//!
+//! // Compensate at 4 kHz: the force to add while the reference creeps.
+//! let mut compensator = fit.compensator(250e-6)?;
+//! let input = Input { reference_velocity: 1e-3, enable: true, ..Input::default() };
+//! let force = (0..8000).fold(0.0, |_, _| compensator.step(input));
+//! println!("{force:.1} N, {:.0} % of the friction", 100.0 * compensator.settings().gain);
+//! # // Between Coulomb and static friction of that axis, 20 and 30 N, times the gain.
+//! # assert!((25.0..30.0).contains(&(force / compensator.settings().gain)), "{force}");
+//! # assert!((19.5..20.5).contains(&coulomb.value()));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | from | to | with |
+//! |---|---|---|
+//! | a file or columns in memory | [`Log`] | [`Log::open`], [`Log::from_columns`] |
+//! | what is known of the machine | [`Axis`] | [`Axis::read`], [`Axis::parse`] |
+//! | logs | [`Fit`] | [`identify()`], [`identify_observed`] |
+//! | a fit | law, prediction, compensator, files | [`Fit::law`], [`Fit::predict`], [`Fit::compensator`], [`Fit::write`] |
+//! | a model | code for a controller | [`export()`] |
+//! | a study file | tracking errors with and without compensation | [`Study::read`], [`simulate`] |
+//!
+//! SI throughout; a force that the log has in A or V stays in it. Results do not depend on the number of threads. A result
+//! that should not be trusted is no error: [`Fit::is_trustworthy`] says so, and [`Fit::reasons`] why.
+//!
+//! [`commands`] has what the command line is made of: the same work from paths to outcomes, and the texts and reports of it.
 
 pub mod bundle;
+pub mod commands;
+mod fit;
 mod fit_csv;
+mod identify;
+mod log;
+mod parameter;
 
-pub use stiction_files::Error as FileError;
+pub use fit::Fit;
+pub use identify::{Options, identify, identify_observed};
+pub use log::{Column, Finding, Log, Severity};
+pub use parameter::Parameter;
+pub use stiction_codes::Code;
 pub use stiction_files::study::Study;
-/// Forms of files.
-pub use stiction_files::{
-    Axis, Bundle, ModelFile, Warning, axis, check_folder, check_folder_of, check_inputs,
-    compare_file, model, reproduce_file, result, study, write_atomic,
-};
-/// Engine types that options and observers are made of.
-pub use stiction_identify::candidates::Scheme;
+pub use stiction_files::{Axis, ModelFile, Warning, model, result};
+pub use stiction_friction::compensator::{Compensator, Input};
 pub use stiction_identify::{Control, LawKind, Observer, Progress, Silent, Stage};
-/// Numbers as people read them.
-pub use stiction_number as number;
-/// Reports and text for a terminal.
-pub use stiction_pages::{report, text};
-pub use stiction_workflows::compare::{
-    CompareOptions, Cost, Excitation, Input, ONE_START, compare,
-};
-pub use stiction_workflows::export::{ExportOptions, Exported, Target, export};
-pub use stiction_workflows::identify::{
-    CostKind, Method, Options, Outcome, Procedures, Searching, Simulated, identify,
-};
-pub use stiction_workflows::source::{Source, load, table};
+pub use stiction_parameters::FrictionLaw;
+pub use stiction_workflows::export::{ExportOptions, Exported, Target, export, export_file};
+pub use stiction_workflows::identify::{CostKind, Method, Prediction, Procedures, Searching};
 pub use stiction_workflows::study::{StudyOutcome, simulate};
-/// Workflows.
-pub use stiction_workflows::{
-    Error, check, compare, demo, export, identify, reproduce, set_threads, source,
-};
+pub use stiction_workflows::{Error, demo, set_threads};

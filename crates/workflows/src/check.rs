@@ -1,7 +1,7 @@
 //! The check workflow: what was read and detected, and what a log can and cannot determine.
 
 use crate::error::Error;
-use crate::identify::{Asked, Options, Outcome, identify_logs};
+use crate::identify::{Asked, Options, Outcome, identify_asked};
 use crate::source;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -137,7 +137,7 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
         axis,
         clock,
     };
-    match identify_logs(asked, vec![source], Vec::new(), observer) {
+    match identify_asked(asked, vec![source], Vec::new(), observer) {
         Ok(outcome) => {
             out.refused = untrusted(&outcome);
             out.parameters = verdicts(&outcome);

@@ -3,7 +3,7 @@
 mod compile;
 
 use crate::error::Error;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use stiction_codes::Code;
 use stiction_export::{Model, Parameter, Provenance};
 use stiction_files::ModelFile;
@@ -11,16 +11,15 @@ use stiction_files::Warning;
 use stiction_files::model::ReadModel;
 use stiction_files::{sha256_of, write_folder};
 use stiction_friction::ParamError;
-use stiction_friction::compensator::{Friction, Settings};
+use stiction_friction::compensator::{Compensator, Friction, Settings};
 use stiction_parameters::{FrictionLaw, LawError, LawKind, Name};
 
-pub use stiction_export::Target;
+pub use stiction_export::{File, Target};
 
-/// What to export, as typed.
+/// The form to export, and what the compensator is to be.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct ExportOptions {
-    /// The model file.
-    pub model: PathBuf,
     /// The form to write.
     pub target: Target,
     /// Beginning of the names in the code; from the model's name if absent.
@@ -34,7 +33,20 @@ pub struct ExportOptions {
     pub rated_force: Option<f64>,
 }
 
-/// A compensator that was written.
+impl ExportOptions {
+    /// A form with the time between two calls, s; names from the model's, limit from its law.
+    pub fn new(target: Target, cycle_time: f64) -> Self {
+        Self {
+            target,
+            name: None,
+            cycle_time,
+            limit: None,
+            rated_force: None,
+        }
+    }
+}
+
+/// The code of a compensator.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Exported {
     /// The target.
@@ -49,8 +61,11 @@ pub struct Exported {
     pub limit: f64,
     /// Unit of the force.
     pub force_unit: String,
-    /// Files, in the folder named.
+    /// Paths of the files, relative to their folder.
     pub written: Vec<String>,
+    /// The files.
+    #[serde(skip)]
+    pub files: Vec<File>,
     /// What to know before it runs.
     pub warnings: Vec<Warning>,
     /// Whether the identification found every number of the law trustworthy.
@@ -63,11 +78,59 @@ const NOT_IN_THE_LAW: [&str; 3] = ["quadratic_viscous", "coulomb_", "sigma2_"];
 /// Feedforward of its own, beside friction.
 const BESIDE: [&str; 4] = ["mass", "delay", "gravity_", "cogging"];
 
-/// Writes the compensator of a model into `dir`, a folder that is new or empty: whole, or not at all.
+impl Exported {
+    /// Writes the files into `dir`, a folder that is new or empty: whole, or not at all.
+    ///
+    /// # Errors
+    /// When the folder is not free or cannot be written.
+    pub fn write(&self, dir: &Path) -> Result<(), Error> {
+        let files = self.files.iter();
+        Ok(write_folder(
+            dir,
+            files.map(|f| (f.path.as_str(), f.bytes.as_slice())),
+        )?)
+    }
+}
+
+/// What a model in memory is called in messages: the name of its file.
+const MODEL_FILE: &str = "model.toml";
+
+/// The compensator of a model in memory, as code.
 ///
 /// # Errors
-/// When the model cannot be read or exported, or the folder is not free.
-pub fn export(options: &ExportOptions, dir: &Path) -> Result<Exported, Error> {
+/// When the model cannot be exported in this form, or an option is out of range. A number of the model is named by its
+/// place in the file that it would be.
+pub fn export(model: &ModelFile, options: &ExportOptions) -> Result<Exported, Error> {
+    let (text, file) = (model.to_toml(), Path::new(MODEL_FILE));
+    let read = ReadModel::parse(&text, file)?;
+    code(&read, text.as_bytes(), file, options)
+}
+
+/// The compensator of a model file, as code.
+///
+/// # Errors
+/// As [`export`], and when the file cannot be read.
+pub fn export_file(file: &Path, options: &ExportOptions) -> Result<Exported, Error> {
+    check(options)?;
+    let read = ReadModel::read(file)?;
+    let bytes =
+        std::fs::read(file).map_err(|e| stiction_files::Error::output(file, e.to_string()))?;
+    code(&read, &bytes, file, options)
+}
+
+/// The compensator of a model as a Rust value: what [`export`] writes for [`Target::Rust`], to be stepped once a cycle.
+///
+/// # Errors
+/// As [`export`].
+pub fn compensator(model: &ModelFile, options: &ExportOptions) -> Result<Compensator<f64>, Error> {
+    let (text, file) = (model.to_toml(), Path::new(MODEL_FILE));
+    let read = ReadModel::parse(&text, file)?;
+    let (model, _) = resolve(&read, text.as_bytes(), options)?;
+    model.in_rust().map_err(|e| place(e, file, options))
+}
+
+/// Refuses options that the target has no use for.
+fn check(options: &ExportOptions) -> Result<(), Error> {
     if options.rated_force.is_some() && options.target != Target::Tf5200 {
         return Err(Error::Usage {
             found: format!("a rated force for the target {}", options.target.name()),
@@ -80,11 +143,18 @@ pub fn export(options: &ExportOptions, dir: &Path) -> Result<Exported, Error> {
             allowed: "a joint in MuJoCo has its whole friction".into(),
         });
     }
-    let read = ReadModel::read(&options.model)?;
-    let file = &read.model;
-    let bytes = std::fs::read(&options.model)
-        .map_err(|e| stiction_files::Error::output(&options.model, e.to_string()))?;
-    let (mut model, mut warnings) = resolve(&read, &bytes, options)?;
+    Ok(())
+}
+
+/// The code of a model whose file has these bytes.
+fn code(
+    read: &ReadModel,
+    bytes: &[u8],
+    file: &Path,
+    options: &ExportOptions,
+) -> Result<Exported, Error> {
+    check(options)?;
+    let (mut model, mut warnings) = resolve(read, bytes, options)?;
     if options.limit.is_none() && options.target == Target::Tf5200 {
         model.settings.limit = stiction_export::largest_force_in_table(&model);
     }
@@ -99,7 +169,7 @@ pub fn export(options: &ExportOptions, dir: &Path) -> Result<Exported, Error> {
                 whole &= library.is_some();
                 library
             })
-            .map_err(|e| place(e, options))?;
+            .map_err(|e| place(e, file, options))?;
             if !whole {
                 warnings.push(Warning::new(
                     Code::ExportSource,
@@ -109,20 +179,17 @@ pub fn export(options: &ExportOptions, dir: &Path) -> Result<Exported, Error> {
             }
             files
         }
-        target => stiction_export::export(&model, target).map_err(|e| place(e, options))?,
+        target => stiction_export::export(&model, target).map_err(|e| place(e, file, options))?,
     };
-    write_folder(
-        dir,
-        files.iter().map(|f| (f.path.as_str(), f.bytes.as_slice())),
-    )?;
     Ok(Exported {
         target: options.target.name(),
         name: model.identifier,
-        law: file.law.clone(),
+        law: read.model.law.clone(),
         cycle_time: model.settings.cycle_time,
         limit: model.settings.limit,
         force_unit: model.force_unit,
-        written: files.into_iter().map(|f| f.path).collect(),
+        written: files.iter().map(|f| f.path.clone()).collect(),
+        files,
         trustworthy: !warnings.iter().any(|w| w.code == Code::ExportUntrusted),
         warnings,
     })
@@ -217,7 +284,7 @@ fn out_of_the_law(name: &str) -> bool {
 }
 
 /// A refusal with the file it came from, where it is of a number in that file.
-fn place(source: stiction_export::Error, options: &ExportOptions) -> Error {
+fn place(source: stiction_export::Error, file: &Path, options: &ExportOptions) -> Error {
     use stiction_export::Error::{Number, Range};
     let name = match &source {
         Range { name, .. } => *name,
@@ -228,7 +295,7 @@ fn place(source: stiction_export::Error, options: &ExportOptions) -> Error {
         return source.into();
     }
     Error::ExportModel {
-        file: options.model.clone(),
+        file: file.to_path_buf(),
         source,
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use stiction_files::Axis;
 use stiction_files::result::Input;
 use stiction_identify::{Samples, Terms};
-use stiction_log::{Log, ReadOptions, Table, read_table};
+use stiction_log::{Column, Log, ReadOptions, Table, read_table};
 
 /// How a column that was not read is told among what was detected.
 const LEFT_OUT: &str = "left out: ";
@@ -41,12 +41,35 @@ pub fn table(path: &Path, axis: &Axis) -> Result<Table, Error> {
 /// As [`table`], and where columns or units are missing or ambiguous.
 pub fn load(path: &Path, axis: &Axis) -> Result<Source, Error> {
     let table = table(path, axis)?;
-    let log = Log::from_table(&table, &axis.mapping).map_err(|e| e.in_file(path))?;
+    mapped(path, || Ok(stiction_files::sha256(path)?), &table, axis)
+}
+
+/// Maps columns that are in memory by the axis. `name` stands in messages where a file has its path; the hash is that of
+/// the columns' names, units and samples.
+///
+/// # Errors
+/// Where columns or units are missing or ambiguous, or the samples are no record: with the column.
+pub fn in_memory(name: &str, columns: Vec<Column>, axis: &Axis) -> Result<Source, Error> {
+    let table = Table {
+        columns,
+        ..Table::default()
+    };
+    let hash = || Ok(stiction_files::sha256_of(&bytes(&table.columns)));
+    mapped(Path::new(name), hash, &table, axis)
+}
+
+fn mapped(
+    path: &Path,
+    sha256: impl FnOnce() -> Result<String, Error>,
+    table: &Table,
+    axis: &Axis,
+) -> Result<Source, Error> {
+    let log = Log::from_table(table, &axis.mapping).map_err(|e| e.in_file(path))?;
     let mut detected = log.detected.clone();
     detected.extend(table.skipped.iter().map(|s| format!("{LEFT_OUT}{s}")));
     Ok(Source {
         path: path.to_path_buf(),
-        sha256: stiction_files::sha256(path)?,
+        sha256: sha256()?,
         detected,
         log,
     })
@@ -55,6 +78,20 @@ pub fn load(path: &Path, axis: &Axis) -> Result<Source, Error> {
 /// Reads every file of a list and maps it by the axis.
 pub(crate) fn load_all(paths: &[PathBuf], axis: &Axis) -> Result<Vec<Source>, Error> {
     paths.iter().map(|path| load(path, axis)).collect()
+}
+
+/// Columns as bytes: each name and unit ended by a zero, then the number of samples and the samples, little-endian.
+fn bytes(columns: &[Column]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for column in columns {
+        for text in [&column.name, column.unit.as_ref().unwrap_or(&String::new())] {
+            bytes.extend(text.as_bytes());
+            bytes.push(0);
+        }
+        bytes.extend((column.values.len() as u64).to_le_bytes());
+        bytes.extend(column.values.iter().flat_map(|x| x.to_le_bytes()));
+    }
+    bytes
 }
 
 impl Source {

@@ -5,8 +5,9 @@ use crate::common::{Bench, noise, options};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::PathBuf;
+use stiction::commands::Outcome;
 use stiction::result::LawEntry;
-use stiction::{Control, LawKind, Observer, Outcome, Progress, Silent};
+use stiction::{Control, LawKind, Observer, Progress, Silent};
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 
 const SAMPLES: usize = 8000;
@@ -83,7 +84,7 @@ fn auto(log: PathBuf) -> Outcome {
     let mut options = options(&[&log], LawKind::LuGre);
     options.law = None;
     options.compare_laws = true;
-    stiction::identify(&options, &mut Silent).unwrap()
+    stiction::commands::identify(&options, &mut Silent).unwrap()
 }
 
 /// Every law, symmetric or not, is chosen on an axis that follows it.
@@ -138,7 +139,9 @@ fn a_chosen_law_is_the_same_as_an_asked_one() {
     let chosen = auto(file.clone()).result;
     let mut asked = options(&[&file], LawKind::Stribeck);
     asked.asymmetric = true;
-    let asked = stiction::identify(&asked, &mut Silent).unwrap().result;
+    let asked = stiction::commands::identify(&asked, &mut Silent)
+        .unwrap()
+        .result;
     assert_eq!(chosen.parameters, asked.parameters);
     assert_eq!(chosen.covariance, asked.covariance);
     assert_eq!(chosen.fit, asked.fit);
@@ -190,7 +193,7 @@ fn an_interrupted_choice_is_not_trusted() {
         let mut options = options(&[&file], LawKind::LuGre);
         options.law = None;
         options.compare_laws = true;
-        let outcome = stiction::identify(&options, &mut Patience(patience)).unwrap();
+        let outcome = stiction::commands::identify(&options, &mut Patience(patience)).unwrap();
         assert_eq!(outcome.result.search.status, "interrupted");
         assert!(outcome.result.laws.is_empty());
         assert!(!outcome.result.trust.trustworthy);
@@ -216,7 +219,9 @@ fn validation_data_choose() {
     options.law = None;
     options.compare_laws = true;
     options.validate = vec![b];
-    let result = stiction::identify(&options, &mut Silent).unwrap().result;
+    let result = stiction::commands::identify(&options, &mut Silent)
+        .unwrap()
+        .result;
     assert_eq!(result.law_chosen_by, "validation");
     assert_eq!(
         (result.law.as_str(), result.asymmetric),
@@ -229,7 +234,7 @@ fn validation_data_choose() {
         Some(validated.relative_error_percent)
     );
     options.asymmetric = true;
-    let refused = stiction::identify(&options, &mut Silent).unwrap_err();
+    let refused = stiction::commands::identify(&options, &mut Silent).unwrap_err();
     assert_eq!(refused.code().as_str(), "usage");
 }
 

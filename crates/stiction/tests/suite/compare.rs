@@ -1,9 +1,8 @@
 //! Comparisons in memory: every problem can be solved, and what cannot be compared is refused.
 
-use stiction::compare_file::CompareFile;
-use stiction::{
-    CompareOptions, Control, Cost, Excitation, Input, Progress, Scheme, Silent, compare,
-};
+use stiction::commands::compare_file::CompareFile;
+use stiction::commands::{CompareOptions, Cost, Excitation, Input, Scheme, compare};
+use stiction::{Control, Progress, Silent};
 
 fn options(problem: &str, methods: &[&str]) -> CompareOptions {
     CompareOptions {
@@ -186,7 +185,7 @@ fn what_was_complete_is_kept() {
     let file = compare(&long, &mut After(40)).unwrap();
     assert_eq!(file.status, "interrupted");
     assert!(file.methods[0].runs.len() < 5000);
-    assert!(stiction::text::comparison(&file).ends_with("are left out\n"));
+    assert!(stiction::commands::text::comparison(&file).ends_with("are left out\n"));
 }
 
 #[test]

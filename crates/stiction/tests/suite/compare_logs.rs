@@ -2,9 +2,10 @@
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use stiction::compare_file::CompareFile;
-use stiction::number;
-use stiction::{CompareOptions, Input, Scheme, Silent, compare};
+use stiction::Silent;
+use stiction::commands::compare_file::CompareFile;
+use stiction::commands::number;
+use stiction::commands::{CompareOptions, Input, Scheme, compare};
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_servo::noise::Noise;
 

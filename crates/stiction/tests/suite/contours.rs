@@ -1,7 +1,8 @@
 //! Studies of two axes: the circle that is known from elsewhere, wrong parameters on both axes, what is refused.
 
-use stiction::study::result::{ResultRow, StudyFile};
-use stiction::{Control, FileError, Study, StudyOutcome};
+use stiction::commands::FileError;
+use stiction::commands::study::result::{ResultRow, StudyFile};
+use stiction::{Control, Study, StudyOutcome};
 
 const AXES: &str = r#"
 [axis]
@@ -112,7 +113,7 @@ fn the_published_circle() {
     ] {
         assert!(html.contains(words), "{words}");
     }
-    let text = stiction::text::study(&outcome);
+    let text = stiction::commands::text::study(&outcome);
     assert!(text.contains("coupling"), "{text}");
     assert!(text.contains("second axis: Known axis machine"), "{text}");
 }

@@ -1,7 +1,7 @@
 //! `stiction export` from a model file: what is written, what is refused, what is said.
 
 use std::path::{Path, PathBuf};
-use stiction::{Error, ExportOptions, Exported, Target, export};
+use stiction::{Error, ExportOptions, Exported, Target, export_file};
 
 const LUGRE: [(&str, f64, &str); 6] = [
     ("sigma0", 1.2e5, "N/m"),
@@ -45,18 +45,18 @@ impl Bench {
 
     fn options(&self, model: &str) -> ExportOptions {
         std::fs::write(self.path("model.toml"), model).unwrap();
-        ExportOptions {
-            model: self.path("model.toml"),
-            target: Target::C,
-            name: None,
-            cycle_time: 1e-3,
-            limit: None,
-            rated_force: None,
-        }
+        ExportOptions::new(Target::C, 1e-3)
+    }
+
+    /// Exports the model that was written last.
+    fn export_to(&self, folder: &str, options: &ExportOptions) -> Result<Exported, Error> {
+        let exported = export_file(&self.path("model.toml"), options)?;
+        exported.write(&self.path(folder))?;
+        Ok(exported)
     }
 
     fn export(&self, model: &str) -> Result<Exported, Error> {
-        export(&self.options(model), &self.path("out"))
+        self.export_to("out", &self.options(model))
     }
 }
 
@@ -82,12 +82,10 @@ fn the_same_model_gives_the_same_bytes() {
     for target in Target::ALL {
         let (a, b) = (Bench::new(), Bench::new());
         for bench in [&a, &b] {
-            let options = ExportOptions {
-                target,
-                rated_force: (target == Target::Tf5200).then_some(221.0),
-                ..bench.options(&model)
-            };
-            let exported = export(&options, &bench.path("out")).unwrap();
+            let mut options = bench.options(&model);
+            options.target = target;
+            options.rated_force = (target == Target::Tf5200).then_some(221.0);
+            let exported = bench.export_to("out", &options).unwrap();
             // 20 N + 60 N s/m v is 60 N at 0.67 m/s, and 80 N at 1 m/s, where the table ends.
             let (codes, limit): (&[&str], f64) = match target {
                 Target::Mujoco => (&[], 60.0),
@@ -150,7 +148,9 @@ fn an_empty_folder_stays_the_same_folder() {
     let before = real.metadata().unwrap().ino();
     std::os::unix::fs::symlink(&real, &link).unwrap();
     for out in [link.clone(), real.join("."), real.clone()] {
-        let exported = export(&bench.options(&model), &out).unwrap();
+        bench.options(&model);
+        let exported = bench.export_to(out.to_str().unwrap(), &ExportOptions::new(Target::C, 1e-3));
+        let exported = exported.unwrap();
         assert_eq!(contents(&real).len(), exported.written.len(), "{out:?}");
         assert_eq!(std::fs::read_dir(&real).unwrap().count(), 6, "{out:?}");
         assert_eq!(real.metadata().unwrap().ino(), before, "{out:?}");
@@ -284,13 +284,11 @@ fn bad_models_are_refused() {
         ),
     ] {
         let bench = Bench::new();
-        let options = ExportOptions {
-            name: name.map(str::to_string),
-            cycle_time,
-            limit,
-            ..bench.options(&text("lugre", &LUGRE))
-        };
-        let error = export(&options, &bench.path("out")).unwrap_err();
+        let mut options = bench.options(&text("lugre", &LUGRE));
+        options.name = name.map(str::to_string);
+        options.cycle_time = cycle_time;
+        options.limit = limit;
+        let error = bench.export_to("out", &options).unwrap_err();
         assert_eq!(error.code().as_str(), "not-exported", "{error}");
         assert!(error.to_string().contains(says), "{error}");
         assert_eq!(contents(bench.0.path()).len(), 1);
@@ -310,7 +308,7 @@ fn doubts_are_said_and_written() {
     let bench = Bench::new();
     let mut options = bench.options(&model);
     options.limit = Some(10.0);
-    let exported = export(&options, &bench.path("out")).unwrap();
+    let exported = bench.export_to("out", &options).unwrap();
     let codes: Vec<_> = exported.warnings.iter().map(|w| w.code.as_str()).collect();
     let all = [
         "export-untrusted",
@@ -322,7 +320,7 @@ fn doubts_are_said_and_written() {
     ];
     assert_eq!(codes, all);
     assert!(!exported.trustworthy);
-    let said = stiction::text::exported(&exported, Path::new("out"));
+    let said = stiction::commands::text::exported(&exported, Path::new("out"));
     assert!(
         said.contains("the data do not determine sigma0") && said.contains("mass is not friction"),
         "{said}"
@@ -347,7 +345,7 @@ fn a_current_stays_one() {
         .replace("unit = \"N\"", "unit = \"A\"");
     let bench = Bench::new();
     let exported = bench.export(&model).unwrap();
-    let said = stiction::text::exported(&exported, Path::new("out"));
+    let said = stiction::commands::text::exported(&exported, Path::new("out"));
     assert!(said.contains("force at most 60.00 A"), "{said}");
     assert!(said.contains("limited to 60 A, which"), "{said}");
     for (name, bytes) in contents(&bench.path("out")) {
@@ -363,21 +361,16 @@ fn a_current_stays_one() {
         );
     }
     let bench = Bench::new();
-    let options = ExportOptions {
-        target: Target::Tf5200,
-        rated_force: Some(200.0),
-        ..bench.options(&model)
-    };
-    export(&options, &bench.path("out")).unwrap();
+    let mut options = bench.options(&model);
+    options.target = Target::Tf5200;
+    options.rated_force = Some(200.0);
+    bench.export_to("out", &options).unwrap();
     let (_, bytes) = contents(&bench.path("out")).swap_remove(0);
     let table = String::from_utf8(bytes).unwrap();
     assert!(table.contains("rated force of 200.0 A"), "{table}");
-    let options = ExportOptions {
-        target: Target::Mujoco,
-        rated_force: None,
-        ..options
-    };
-    let error = export(&options, &bench.path("other")).unwrap_err();
+    options.target = Target::Mujoco;
+    options.rated_force = None;
+    let error = bench.export_to("other", &options).unwrap_err();
     assert!(
         error
             .to_string()
@@ -543,7 +536,7 @@ fn what_is_said() {
         let mut options = bench.options(model);
         change(&mut options);
         said += &format!("{name}\n");
-        match export(&options, &bench.path("out")) {
+        match bench.export_to("out", &options) {
             Ok(exported) => {
                 assert!(bench.path("out").is_dir(), "{name}");
                 let none = exported.warnings.is_empty();
@@ -575,7 +568,7 @@ fn what_is_said() {
         ("below a file", "full/mine.txt/out"),
         ("the model itself", "model.toml"),
     ] {
-        let error = export(&options, &bench.path(out)).unwrap_err();
+        let error = bench.export_to(out, &options).unwrap_err();
         let place = bench.0.path().display().to_string();
         let error = error.to_string().replace(&place, "DIR");
         said += &format!("{name}\n  {error}\n");

@@ -2,8 +2,9 @@
 //! a covariance that comes back bit for bit and is one.
 
 use crate::common::{Bench, both_ways, friction, noise, options};
+use stiction::commands::Outcome;
 use stiction::result::CovarianceEntry;
-use stiction::{LawKind, ModelFile, Outcome, Silent};
+use stiction::{LawKind, ModelFile, Silent};
 
 fn stribeck(bench: &Bench, axis: &str, asymmetric: bool) -> Outcome {
     // A Stribeck curve of 8 N and 30 mm/s with exponent 1.4 on top of the friction of the other tests.
@@ -20,7 +21,7 @@ fn stribeck(bench: &Bench, axis: &str, asymmetric: bool) -> Outcome {
     let mut options = options(&[&log], LawKind::Stribeck);
     options.asymmetric = asymmetric;
     options.axis = Some(bench.write("axis.toml", axis));
-    stiction::identify(&options, &mut Silent).unwrap()
+    stiction::commands::identify(&options, &mut Silent).unwrap()
 }
 
 /// Whether a symmetric matrix has no negative eigenvalue, up to rounding: Cholesky of its correlation

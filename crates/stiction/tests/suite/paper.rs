@@ -2,8 +2,8 @@
 //! stop keeps what is done.
 
 use stiction::Control;
-use stiction::reproduce::{Budget, zhang_2025};
-use stiction::reproduce_file::ReproduceFile;
+use stiction::commands::reproduce::{Budget, zhang_2025};
+use stiction::commands::reproduce_file::ReproduceFile;
 
 /// A fraction of the searching; least squares make up for it.
 const SMALL: Budget = Budget {
@@ -95,6 +95,6 @@ fn a_stop_keeps_what_is_done() {
     assert_eq!(experiments, ["static"; 4]);
     assert!(file.claims.is_empty());
     assert_eq!(stiction::bundle::reproduction(&outcome).files().len(), 2);
-    let text = stiction::text::reproduction(file);
+    let text = stiction::commands::text::reproduction(file);
     assert!(text.contains("STOPPED EARLY"), "{text}");
 }

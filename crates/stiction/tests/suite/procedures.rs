@@ -2,8 +2,9 @@
 
 use crate::common::{Bench, options};
 use std::path::{Path, PathBuf};
+use stiction::commands::{Options, Outcome};
 use stiction::result::ResultFile;
-use stiction::{Error, LawKind, Method, ModelFile, Options, Outcome, Procedures, Silent};
+use stiction::{Error, LawKind, Method, ModelFile, Procedures, Silent};
 
 fn with(logs: &[&Path], procedures: Procedures) -> Options {
     Options {
@@ -20,7 +21,7 @@ fn method(method: Method) -> Procedures {
 }
 
 fn run(options: &Options) -> Result<Outcome, Error> {
-    stiction::identify(options, &mut Silent)
+    stiction::commands::identify(options, &mut Silent)
 }
 
 const TRUTH: [(&str, f64); 7] = [

@@ -33,7 +33,7 @@ fn damiao_reports_its_gaps() {
     };
     let axis = stiction::Axis::read(&stiction_testkit::workspace().join("validation/damiao.toml"))
         .unwrap();
-    let source = stiction::load(&data.join("damiao/motor_2.npz"), &axis).unwrap();
+    let source = stiction::commands::load(&data.join("damiao/motor_2.npz"), &axis).unwrap();
     let longest = source
         .log
         .gaps

@@ -4,7 +4,8 @@
 use crate::common::{Bench, options};
 use std::fmt::Write;
 use std::path::PathBuf;
-use stiction::{LawKind, Method, Options, Outcome, Silent};
+use stiction::commands::{Options, Outcome};
+use stiction::{LawKind, Method, Silent};
 use stiction_servo::cascade::{Cascade, CascadeState};
 use stiction_servo::known;
 use stiction_servo::path::Reference;
@@ -76,7 +77,7 @@ fn simulated(bench: &Bench, axis: &str, change: impl FnOnce(&mut Options)) -> Op
 }
 
 fn run(options: &Options) -> Result<Outcome, stiction::Error> {
-    stiction::identify(options, &mut Silent)
+    stiction::commands::identify(options, &mut Silent)
 }
 
 #[test]
@@ -148,7 +149,7 @@ fn a_closed_loop_is_identified_from_its_file() {
     ] {
         assert!(html.contains(words), "{words}");
     }
-    let text = stiction::text::outcome(&outcome);
+    let text = stiction::commands::text::outcome(&outcome);
     assert!(
         text.contains("simulation  closed loop, one run; force"),
         "{text}"

@@ -1,8 +1,9 @@
 //! Studies: numbers that are known from elsewhere, what a covariance does, what is refused, and that threads do not count.
 
 use std::path::PathBuf;
-use stiction::study::result::{ResultRow, StudyFile};
-use stiction::{Control, FileError, Study};
+use stiction::commands::FileError;
+use stiction::commands::study::result::{ResultRow, StudyFile};
+use stiction::{Control, Study};
 use tempfile::TempDir;
 
 /// A folder with a study in it.
@@ -339,7 +340,7 @@ fn a_watchdog_that_still_learns() {
     let html = String::from_utf8(stiction::bundle::study(&outcome).files()[0].1.clone()).unwrap();
     stiction_testkit::assert_tables_fit(&html);
     assert!(html.contains("exact, still learning") && html.contains("not every figure"));
-    assert!(stiction::text::study(&outcome).contains("still learning"));
+    assert!(stiction::commands::text::study(&outcome).contains("still learning"));
     // Half a second from the first turn, at 0.125 s; the force has come in 50 ms later.
     for (skip, still) in [("0.67 s", 1), ("0.68 s", 0)] {
         let outcome = run("watchdog_window = \"0.5 s\"\n", skip);

@@ -4,7 +4,8 @@ use crate::common;
 use crate::common::{Bench, both_ways, noise, options};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use stiction::{LawKind, ModelFile, Options, Outcome, Silent};
+use stiction::commands::{Options, Outcome};
+use stiction::{LawKind, ModelFile, Silent};
 
 const LOAD_MEAN: f64 = 100.0;
 
@@ -40,7 +41,7 @@ fn with_axis(bench: &Bench, log: &Path, text: &str, law: LawKind) -> Options {
 }
 
 fn run(options: &Options) -> Outcome {
-    stiction::identify(options, &mut Silent).unwrap()
+    stiction::commands::identify(options, &mut Silent).unwrap()
 }
 
 const TERMS: &str = "[terms]\ncoulomb_load = true\ncoulomb_temperature = true\n";
@@ -114,7 +115,8 @@ fn load_and_temperature_reach_every_file() {
     assert!(report.contains("Coulomb friction per normal load"));
     assert!(report.contains("<mi>L</mi>"), "the level in the formula");
     insta::assert_snapshot!(
-        stiction::text::outcome(&outcome).replace(&format!("{}/", bench.dir().display()), "")
+        stiction::commands::text::outcome(&outcome)
+            .replace(&format!("{}/", bench.dir().display()), "")
     );
 }
 
@@ -168,7 +170,7 @@ fn a_missing_column_is_named() {
         let mut validated = with_axis(&bench, &whole, &axis, LawKind::CoulombViscous);
         validated.validate = vec![bare.clone()];
         for options in [alone, validated] {
-            let error = stiction::identify(&options, &mut Silent).unwrap_err();
+            let error = stiction::commands::identify(&options, &mut Silent).unwrap_err();
             assert_eq!(error.code().as_str(), "log-missing");
             let message = error.to_string();
             let channel = key.rsplit_once('_').unwrap().1;
@@ -183,7 +185,7 @@ fn a_missing_column_is_named() {
         "[terms]\ncoulomb_pitch = [\"0 mm\"]\n",
         LawKind::CoulombViscous,
     );
-    let error = stiction::identify(&axis, &mut Silent).unwrap_err();
+    let error = stiction::commands::identify(&axis, &mut Silent).unwrap_err();
     assert_eq!(error.code().as_str(), "bad-config");
     assert!(error.to_string().contains("terms.coulomb_pitch"), "{error}");
 }

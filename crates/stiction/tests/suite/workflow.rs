@@ -5,14 +5,12 @@ use crate::common::{Bench, both_ways, friction, noise, options};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
+use stiction::commands::{Options, Outcome, check_folder};
 use stiction::result::ResultFile;
-use stiction::{
-    Axis, Control, LawKind, Method, ModelFile, Observer, Options, Outcome, Progress, Silent, Stage,
-    check_folder,
-};
+use stiction::{Axis, Control, LawKind, Method, ModelFile, Observer, Progress, Silent, Stage};
 
 fn run(options: &Options) -> Result<Outcome, stiction::Error> {
-    stiction::identify(options, &mut Silent)
+    stiction::commands::identify(options, &mut Silent)
 }
 
 fn value(outcome: &Outcome, name: &str) -> f64 {
@@ -264,7 +262,7 @@ fn the_fit_is_a_log() {
             .1;
         let file = bench.path("fit.csv");
         std::fs::write(&file, fit).unwrap();
-        let table = stiction::table(&file, &Axis::default()).unwrap();
+        let table = stiction::commands::table(&file, &Axis::default()).unwrap();
         let series = &outcome.law().series;
         assert_eq!(table.columns[0].name, "time");
         assert_eq!(table.columns[1].unit.as_deref(), Some("N"));
@@ -545,7 +543,7 @@ fn a_search_on_a_record_not_yet_chosen_keeps_no_state() {
     options.procedures.method = Method::Searched("niched-ga");
     options.searching.evaluations = Some(200);
     options.searching.checkpoint = Some(bench.path("c.json"));
-    let stopped = stiction::identify(&options, &mut StopAt(Stage::Tuning)).unwrap();
+    let stopped = stiction::commands::identify(&options, &mut StopAt(Stage::Tuning)).unwrap();
     let notes = stopped.result.axis.conditioning.join("\n");
     assert!(
         notes.contains("cut-offs not chosen: the run was stopped"),
@@ -575,7 +573,9 @@ fn zeros_for_missing_samples_are_not_fitted() {
             },
         );
         let options = options(&[&log], LawKind::CoulombViscous);
-        stiction::identify(&options, &mut Silent).unwrap().result
+        stiction::commands::identify(&options, &mut Silent)
+            .unwrap()
+            .result
     };
     let whole = fit("whole.csv", usize::MAX);
     for (name, nth) in [("third.csv", 3), ("half.csv", 2)] {

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use stiction_codes::Code;
 use stiction_files::{Axis, symbols};
 use stiction_identify as engine;
-use stiction_identify::{LawKind, Observer, Record, Settings, Terms};
+use stiction_identify::{Conditioning, LawKind, Observer, Record, Settings, Terms};
 use stiction_log::Motion;
 
 /// Fewest samples that a split may leave to validate on: fewer give an rms that says nothing.
@@ -17,6 +17,8 @@ const FEWEST_HELD_OUT_SAMPLES: usize = 20;
 
 /// What is fitted, and what it is validated on.
 pub(super) struct Conditioned {
+    /// How every log was conditioned.
+    pub conditioning: Conditioning,
     pub record: Record,
     /// Records that are not fitted.
     pub unseen: Vec<Record>,
@@ -91,6 +93,7 @@ pub(super) fn condition(
         unseen,
         unseen_names,
         low_speed,
+        conditioning: chosen.conditioning,
         note: chosen.note,
         repeatable: !chosen.interrupted,
     })

@@ -2,7 +2,7 @@
 
 use crate::source::Source;
 use stiction_files::result::ResultFile;
-use stiction_identify::{Estimate, FittedLaw, Series, SimulationFit, Unseen};
+use stiction_identify::{Conditioning, Estimate, FittedLaw, Series, SimulationFit, Unseen};
 use stiction_log::Motion;
 
 /// Everything that came out, in memory.
@@ -28,11 +28,20 @@ pub struct Outcome {
 #[derive(Clone, Debug)]
 pub enum Found {
     /// The force of a record, sample by sample: it can predict the force of another one.
-    Force(Box<Estimate>),
+    Force(Box<ForceFit>),
     /// The position of a simulated axis.
     Position(Box<Simulated>),
     /// Points of the steady curve, or force steps.
     Procedure(Box<FittedLaw>),
+}
+
+/// A law fitted to the force of a record.
+#[derive(Clone, Debug)]
+pub struct ForceFit {
+    /// The law.
+    pub estimate: Estimate,
+    /// How the logs became the record.
+    pub conditioning: Conditioning,
 }
 
 /// A simulated axis, and its simulations of unseen logs with their names.
@@ -66,7 +75,7 @@ impl Outcome {
     /// The fitted law with its signals.
     pub fn law(&self) -> &FittedLaw {
         match &self.found {
-            Found::Force(estimate) => estimate,
+            Found::Force(fit) => &fit.estimate,
             Found::Position(simulated) => &simulated.fit.fitted,
             Found::Procedure(law) => law,
         }

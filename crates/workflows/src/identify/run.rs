@@ -7,7 +7,7 @@ use super::judge::judge;
 use super::load::{Asked, Loaded, load};
 use super::method::Method;
 use super::options::Options;
-use super::outcome::{Found, Outcome};
+use super::outcome::{ForceFit, Found, Outcome};
 use super::procedure::{static_map, step};
 use super::simulate;
 use crate::error::Error;
@@ -35,11 +35,31 @@ pub fn identify(options: &Options, observer: &mut dyn Observer) -> Result<Outcom
         axis: &axis,
         clock,
     };
-    identify_logs(asked, sources, held_out, observer)
+    identify_asked(asked, sources, held_out, observer)
 }
 
-/// The same for logs that are in memory already.
-pub(crate) fn identify_logs(
+/// The same for logs that are in memory already, read with this axis; the paths to logs and axis among the options are
+/// passed over.
+///
+/// # Errors
+/// As [`identify`].
+pub fn identify_logs(
+    options: &Options,
+    axis: &Axis,
+    sources: Vec<Source>,
+    held_out: Vec<Source>,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, Error> {
+    let asked = Asked {
+        options,
+        axis,
+        clock: Instant::now(),
+    };
+    identify_asked(asked, sources, held_out, observer)
+}
+
+/// The same on a clock that started with the work.
+pub(crate) fn identify_asked(
     asked: Asked,
     sources: Vec<Source>,
     held_out: Vec<Source>,
@@ -90,7 +110,10 @@ fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Resul
     }
     Ok(Outcome::new(
         result,
-        Found::Force(Box::new(estimate)),
+        Found::Force(Box::new(ForceFit {
+            estimate,
+            conditioning: conditioned.conditioning,
+        })),
         validation,
         loaded.sources,
     ))

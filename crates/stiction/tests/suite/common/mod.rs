@@ -3,7 +3,8 @@
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use stiction::{LawKind, Options};
+use stiction::LawKind;
+use stiction::commands::Options;
 use tempfile::TempDir;
 
 /// Sample rate of every log here, Hz.

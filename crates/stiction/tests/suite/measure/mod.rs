@@ -1,7 +1,8 @@
 //! Identifies a measured recording as its case says and measures what must hold.
 
 use std::path::Path;
-use stiction::{LawKind, Method, Options, Outcome, Procedures, Silent, identify};
+use stiction::commands::{Options, Outcome, identify};
+use stiction::{LawKind, Method, Procedures, Silent};
 use stiction_testkit::{Case, Limit, Metric, workspace};
 
 /// A limit with what was measured.

@@ -1,0 +1,24 @@
+//! What the command line is made of: the same work from paths to outcomes, the texts and reports of it, and the rules of
+//! output folders.
+
+/// Forms of files, and how they are written.
+pub use stiction_files::{
+    Bundle, Error as FileError, axis, check_folder, check_folder_of, check_inputs, compare_file,
+    reproduce_file, study, write_atomic,
+};
+/// Integration steps of a simulated candidate.
+pub use stiction_identify::candidates::Scheme;
+/// Numbers as people read them.
+pub use stiction_number as number;
+/// Reports, and text for a terminal.
+pub use stiction_pages::{report, text};
+/// Searches beside each other.
+pub use stiction_workflows::compare::{
+    CompareOptions, Cost, Excitation, Input, ONE_START, compare,
+};
+/// An identification from paths.
+pub use stiction_workflows::identify::{Options, Outcome, Simulated, identify};
+/// Logs with the files they came from.
+pub use stiction_workflows::source::{Source, load, table};
+/// Further workflows.
+pub use stiction_workflows::{check, demo, export, reproduce};

@@ -1,0 +1,59 @@
+//! What a fitted law makes of another log.
+
+use super::conditioning::conditioned;
+use super::load::check_together;
+use super::outcome::{Found, Outcome};
+use crate::entries;
+use crate::error::Error;
+use crate::source::Source;
+use stiction_files::result::FitEntry;
+use stiction_identify as engine;
+use stiction_identify::{Fit, Series};
+
+/// What a fitted law makes of a log.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Prediction {
+    /// The signals at the samples that count: time in s, position, velocity, measured and modelled force.
+    pub series: Series,
+    /// How well the law predicts them.
+    pub quality: FitEntry,
+}
+
+/// Predicts the force along another log, conditioned as those that were fitted; nothing is fitted again.
+///
+/// # Errors
+/// Where the log is of another kind of axis or lacks a channel that the law needs, and after a method that does not model
+/// the force sample by sample.
+pub fn predict(outcome: &Outcome, log: &Source) -> Result<Prediction, Error> {
+    let Found::Force(fitted) = &outcome.found else {
+        return Err(Error::usage(
+            format!(
+                "--method {} does not model the force sample by sample",
+                outcome.result.method
+            ),
+            "predict with a fit of separable, static-then-dynamic or a search; output-error simulates other logs with \
+             --validate",
+        ));
+    };
+    // A log may be predicted that was fitted: only the kinds of axis must agree.
+    let first = &outcome.sources[0];
+    if first.sha256 != log.sha256 {
+        check_together(std::slice::from_ref(first), std::slice::from_ref(log))?;
+    }
+    log.check_channels(&fitted.estimate.terms)?;
+    let record = conditioned(std::slice::from_ref(log), &fitted.conditioning)?;
+    // A law with elements remembers its past: it is judged from where the motion has wiped that out.
+    let record = match fitted.estimate.law.kind.has_elements() {
+        true => record.settled(),
+        false => record,
+    };
+    let series = engine::predict(&record, &fitted.estimate);
+    let quality =
+        Fit::new(&series.measured, &series.residual()).ok_or_else(|| Error::Identify {
+            inputs: log.path.display().to_string(),
+            source: engine::Error::NoForce { value: 0.0 },
+        })?;
+    let quality = entries::fit(&quality, "force", &outcome.force_unit);
+    Ok(Prediction { series, quality })
+}
