@@ -4,27 +4,38 @@ use crate::shell::{self, Outcome, cargo};
 use crate::{instructions, licences, package, setup, tools};
 use std::thread;
 
+/// Every target that has tests; examples and benchmarks are only checked, with the lints.
+const TESTS: &str = "nextest run --workspace --tests --no-fail-fast";
+/// The one crate with features, without them.
+const BARE: &str =
+    "nextest run --package stiction-log --no-default-features --tests --no-fail-fast";
+
 /// Runs all checks and stops at the first that fails.
 pub fn run() -> Outcome {
     shell::run(cargo("fmt --all --check"))?;
-    // Installing waits for the network, the lints for the processor.
-    let installing = thread::spawn(setup);
-    let lints = shell::run(cargo("clippy --workspace --all-targets -- -D warnings"));
-    installing
+    // Installing waits for the network, and the counts are of a build of their own: neither is in the way of the rest.
+    let aside = thread::spawn(|| {
+        setup()?;
+        instructions::compare()
+    });
+    let built = build();
+    aside
         .join()
-        .unwrap_or_else(|_| Err("the set-up panicked".into()))?;
-    lints?;
-    licences::run()?;
-    package::run()?;
+        .unwrap_or_else(|_| Err("set-up or instruction counts panicked".into()))?;
+    built?;
+    shell::run(tools::command(&tools::NEXTEST, TESTS)?)?;
+    shell::run(tools::command(&tools::NEXTEST, BARE)?)?;
+    // nextest runs no doctests.
+    shell::run(cargo("test --quiet --workspace --doc"))
+}
+
+/// What needs the compiler alone.
+fn build() -> Outcome {
+    shell::run(cargo("clippy --workspace --all-targets -- -D warnings"))?;
     let mut doc = cargo("doc --workspace --no-deps");
     doc.env("RUSTDOCFLAGS", "-D warnings");
     shell::run(doc)?;
-    instructions::compare()?;
-    let tests = "nextest run --workspace --no-fail-fast";
-    shell::run(tools::command(&tools::NEXTEST, tests)?)?;
-    // The one crate with features. What it shares with the others was built above.
-    let bare = "nextest run --package stiction-log --no-default-features --no-fail-fast";
-    shell::run(tools::command(&tools::NEXTEST, bare)?)?;
-    // nextest runs no doctests.
-    shell::run(cargo("test --quiet --workspace --doc"))
+    licences::run()?;
+    package::run()?;
+    shell::run(cargo("test --workspace --tests --no-run"))
 }

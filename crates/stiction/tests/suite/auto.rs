@@ -4,6 +4,7 @@ use crate::common;
 use crate::common::{Bench, noise, options};
 use std::f64::consts::TAU;
 use std::fmt::Write;
+use std::ops::Range;
 use std::path::PathBuf;
 use stiction::commands::Outcome;
 use stiction::result::LawEntry;
@@ -87,22 +88,22 @@ fn auto(log: PathBuf) -> Outcome {
     stiction::commands::identify(&options, &mut Silent).unwrap()
 }
 
-/// Every law, symmetric or not, is chosen on an axis that follows it.
-#[test]
-fn the_data_choose_the_law_of_the_axis() {
+/// The families whose truth is simulated above; the others stand in the ladder beside them.
+const FAMILIES: [LawKind; 4] = [
+    LawKind::CoulombViscous,
+    LawKind::Stribeck,
+    LawKind::Dahl,
+    LawKind::LuGre,
+];
+
+/// Lets the data choose on axes of every family, symmetric and not, with these seeds; gives how many there were, and a
+/// line for each on which another law was chosen.
+fn wrongly_chosen(seeds: Range<u64>) -> (usize, Vec<String>) {
     let bench = Bench::new();
-    let mut wrong = String::new();
-    let (mut right, mut all) = (0, 0);
-    // The families whose truth is simulated above; the others stand in the ladder beside them.
-    let families = [
-        LawKind::CoulombViscous,
-        LawKind::Stribeck,
-        LawKind::Dahl,
-        LawKind::LuGre,
-    ];
-    for kind in families {
+    let (mut all, mut wrong) = (0, vec![]);
+    for kind in FAMILIES {
         for asymmetric in [false, true] {
-            for seed in 0..3 {
+            for seed in seeds.clone() {
                 let result = auto(log(&bench, kind, asymmetric, seed, 50e-9)).result;
                 assert_eq!(result.law_chosen_by, "cross-validation");
                 assert_eq!(result.laws.len(), 2 * LawKind::ALL.len());
@@ -113,22 +114,34 @@ fn the_data_choose_the_law_of_the_axis() {
                     (result.law.as_str(), result.asymmetric)
                 );
                 all += 1;
-                if result.law == kind.name() && result.asymmetric == asymmetric {
-                    right += 1;
-                } else {
-                    let _ = writeln!(
-                        wrong,
+                if result.law != kind.name() || result.asymmetric != asymmetric {
+                    wrong.push(format!(
                         "{kind} {asymmetric} seed {seed}: {} {}",
                         result.law, result.asymmetric
-                    );
+                    ));
                 }
             }
         }
     }
-    println!("{right} of {all} laws chosen rightly");
+    (all, wrong)
+}
+
+/// Every law, symmetric or not, is chosen on an axis that follows it.
+#[test]
+fn the_data_choose_the_law_of_the_axis() {
+    let (all, wrong) = wrongly_chosen(0..1);
+    assert_eq!((all, wrong.join("\n")), (8, String::new()));
+}
+
+/// The same over the seeds of decision 0012.
+#[test]
+#[ignore = "soak: four minutes"]
+fn the_data_choose_the_law_over_six_seeds() {
+    let (all, wrong) = wrongly_chosen(0..6);
+    println!("{} of {all} laws chosen rightly", all - wrong.len());
     // One in 24 is what a rule of one standard error may miss: an asymmetric Coulomb axis is taken for a
     // Stribeck one on one seed.
-    assert!(all - right <= 1, "{wrong}");
+    assert!(wrong.len() <= all / 24, "{}", wrong.join("\n"));
 }
 
 /// The law that was chosen is reported as if it had been asked for, bit for bit.
