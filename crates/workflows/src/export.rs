@@ -378,3 +378,56 @@ fn friction(file: &ModelFile) -> Result<Friction<f64>, Unfit> {
         FrictionLaw::ElastoPlastic(_) | FrictionLaw::MaxwellSlip(_) => Err(Unfit::Law),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use stiction_friction::{Damping, Shape};
+
+    /// What a study simulates and what is exported of one model is one law, whatever its exponent; only that sigma1 is
+    /// capped where the axis is simulated.
+    #[test]
+    fn a_study_and_an_export_have_one_law() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("model.toml");
+        for (exponent, shape) in [
+            (1.0, Shape::Exponential),
+            (1.3, Shape::Power(1.3)),
+            (2.0, Shape::Gaussian),
+        ] {
+            let mut text = String::from(
+                "schema = \"stiction.model/1\"\nkind = \"linear\"\nlaw = \"lugre\"\nasymmetric = true\n\
+                 force_unit = \"N\"\ntrustworthy = true\n[source]\nversion = \"0\"\nmethod = \"separable\"\n\
+                 seed = 0\ninputs = []\n",
+            );
+            for (name, value, unit) in [
+                ("sigma0", 2e6, "N/m"),
+                ("sigma1", 1500.0, "N*s/m"),
+                ("sigma2", 30.0, "N*s/m"),
+                ("coulomb_pos", 12.0, "N"),
+                ("coulomb_neg", 13.0, "N"),
+                ("static", 18.0, "N"),
+                ("stribeck_velocity", 3e-3, "m/s"),
+                ("stribeck_exponent", exponent, "1"),
+                ("offset", -1.0, "N"),
+                ("mass", 4.6, "kg"),
+            ] {
+                text += &format!(
+                    "[[parameter]]\nname = \"{name}\"\nsymbol = \"\"\nvalue = {value:?}\nunit = \"{unit}\"\n\
+                     identifiable = true\norigin = \"identified\"\n"
+                );
+            }
+            text += "[covariance]\nnames = []\nmatrix = []\n";
+            std::fs::write(&path, &text).unwrap();
+            let file = ModelFile::read(&path).unwrap();
+            let Ok(Friction::LuGre(exported)) = friction(&file) else {
+                panic!("no law is exported");
+            };
+            assert_eq!(exported.curve().shape(), shape);
+            assert_eq!(exported.curve().negative().coulomb, 13.0);
+            assert_eq!(exported.damping(), Damping::Constant(1500.0));
+            let study = stiction_files::study::Model::read(&path).unwrap();
+            assert_eq!(study.values().lugre().unwrap(), exported);
+        }
+    }
+}

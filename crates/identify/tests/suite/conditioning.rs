@@ -8,7 +8,7 @@ use stiction_servo::path::Path;
 use stiction_servo::plant::Plant;
 
 /// Every parameter of each log within `most` percent of the truth, and the intervals hold it as often as
-/// chance lets them: 17 of 20 at least.
+/// chance lets them: nine of ten at least.
 fn holds(logs: &[(&str, f64, f64)]) {
     let (mut inside, mut all) = (0, 0);
     for &(name, count, most) in logs {
@@ -36,7 +36,7 @@ fn holds(logs: &[(&str, f64, f64)]) {
         let delay = found.value("delay").unwrap();
         assert!((delay + 1.25e-4).abs() < 5e-5, "{name}: delay {delay}");
     }
-    assert!(20 * inside >= 17 * all, "{inside} of {all} intervals hold");
+    assert!(10 * inside >= 9 * all, "{inside} of {all} intervals hold");
 }
 
 #[test]

@@ -1,18 +1,8 @@
 //! How often the 95 % intervals hold the truth. `examples/coverage` counts the same over 200 runs.
 
+use crate::common::chance::at_most;
 use crate::common::trials::{Tally, autoregressive, coverage, quantised};
 use stiction_identify::{Conditioning, Cutoff};
-
-/// Probability of at most `k` hits in `n` runs of `p` each.
-fn binomial(k: usize, n: usize, p: f64) -> f64 {
-    let mut term = (1.0 - p).powi(n as i32);
-    let mut sum = term;
-    for i in 1..=k {
-        term *= (n - i + 1) as f64 / i as f64 * p / (1.0 - p);
-        sum += term;
-    }
-    sum
-}
 
 /// Refuses a parameter whose count would come about once in a thousand times if its intervals held
 /// the truth in 90 % of the runs, and a case in which all of them together hold it always.
@@ -26,7 +16,7 @@ fn holds(what: &str, tallies: &[Tally], least: usize) {
     for t in &counted {
         let n = t.values.len();
         println!("{what}: {} {} of {n}", t.name, t.inside);
-        let chance = binomial(t.inside, n, 0.90);
+        let chance = at_most(t.inside, n, 0.90);
         assert!(
             chance > 1e-3,
             "{what}: the intervals of {} held the truth in {} of {n} runs",

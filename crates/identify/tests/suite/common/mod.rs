@@ -2,6 +2,7 @@
 //! a far finer grid than the record.
 #![allow(dead_code)]
 
+pub mod chance;
 pub mod closed_loop;
 pub mod maxwell;
 pub mod trials;
