@@ -7,9 +7,9 @@ use stiction_log::{Dimension, Value};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// Largest value with a unit, SI, and the inverse of the smallest above 0: no machine is near, and products of a few stay
-/// finite.
-const LARGEST: f64 = 1e15;
+/// Largest value with a unit, in SI, and the inverse of the smallest above 0. No machine comes near; products of twenty of them
+/// stay finite (below 1e308).
+const LARGEST_SI: f64 = 1e15;
 /// Longest piece of the file that is quoted, characters.
 const QUOTED: usize = 60;
 
@@ -86,7 +86,7 @@ impl<'a> Given<'a> {
 
     fn table(&self, entries: &'a DeTable<'a>) -> Table<'a> {
         let prefix = format!("{}.", self.key);
-        Table::new(self.source, prefix, Some(self.value.span().start), entries)
+        Table::new(self.source, prefix, self.value.span().start, entries)
     }
 
     /// The entries of a list, where it is one.
@@ -192,9 +192,9 @@ impl<'a> Given<'a> {
         if !(x.is_finite() && good(x)) {
             return Err(self.refused(allowed));
         }
-        if x > LARGEST || (x > 0.0 && x < 1.0 / LARGEST) {
-            let (least, unit) = (1.0 / LARGEST, dimension.si_text());
-            let allowed = format!("from {least:e} to {LARGEST:e} {unit}");
+        if x > LARGEST_SI || (x > 0.0 && x < 1.0 / LARGEST_SI) {
+            let (least, unit) = (1.0 / LARGEST_SI, dimension.si_text());
+            let allowed = format!("from {least:e} to {LARGEST_SI:e} {unit}");
             return Err(self.refused(&allowed));
         }
         Ok((x, dimension))

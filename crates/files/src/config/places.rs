@@ -26,7 +26,7 @@ impl Places {
         }
     }
 
-    /// An error at a key, or where the table starts that lacks it.
+    /// An error at a key, or where the table (the file) starts that lacks it.
     pub fn refuse(&self, key: &str, found: String, allowed: &str) -> Error {
         let source = Source {
             file: &self.file,
@@ -40,8 +40,7 @@ impl Places {
             }
             match known.rfind(['.', '[']) {
                 Some(end) => known = &known[..end],
-                None if key.is_empty() => break String::new(),
-                None => break format!("{key}: "),
+                None => break format!("{}, {key}: ", source.at(0)),
             }
         };
         source.error(place, found, allowed)

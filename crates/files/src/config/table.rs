@@ -23,8 +23,8 @@ pub(crate) struct Table<'a> {
     source: Source<'a>,
     /// What stands before its keys in messages, such as `path[2].`.
     prefix: String,
-    /// Where it starts; the whole file has no such place.
-    start: Option<usize>,
+    /// Where it starts, bytes.
+    start: usize,
     entries: &'a DeTable<'a>,
     asked: RefCell<Vec<&'static str>>,
 }
@@ -32,13 +32,13 @@ pub(crate) struct Table<'a> {
 impl<'a> Table<'a> {
     /// The whole file.
     pub fn root(source: Source<'a>, entries: &'a DeTable<'a>) -> Self {
-        Table::new(source, String::new(), None, entries)
+        Table::new(source, String::new(), 0, entries)
     }
 
     pub(super) fn new(
         source: Source<'a>,
         prefix: String,
-        start: Option<usize>,
+        start: usize,
         entries: &'a DeTable<'a>,
     ) -> Self {
         Table {
@@ -226,10 +226,7 @@ impl<'a> Table<'a> {
 
     /// The place of this table, with a name that it is to have in messages.
     fn place(&self, name: &str) -> String {
-        match self.start {
-            Some(start) => format!("{}, {name}: ", self.source.at(start)),
-            None => format!("{name}: "),
-        }
+        format!("{}, {name}: ", self.source.at(self.start))
     }
 }
 

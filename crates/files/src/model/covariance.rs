@@ -5,8 +5,9 @@ use super::fault::Fault;
 use crate::result::CovarianceEntry;
 use stiction_number::four_digits as short;
 
-/// How far apart the two halves of a matrix may be, of the product of the standard deviations: rounding.
-const ROUNDING: f64 = 1e-9;
+/// Largest difference between the halves of a covariance, as a part of the product of the standard deviations: it only has to
+/// be above rounding, 1e-16 times the size of the matrix, and far below any correlation.
+const LARGEST_ASYMMETRY: f64 = 1e-9;
 
 /// What is wrong with the covariance.
 pub(super) fn fault(model: &ModelFile) -> Option<Fault> {
@@ -58,7 +59,7 @@ fn apart(entry: &CovarianceEntry, i: usize, j: usize) -> Option<Fault> {
         let found = format!("a covariance of {} for {pair}", short(worse));
         return Some((key, found, "finite numbers".into()));
     }
-    let allowed = ROUNDING * libm::sqrt(matrix[i][i]) * libm::sqrt(matrix[j][j]);
+    let allowed = LARGEST_ASYMMETRY * libm::sqrt(matrix[i][i]) * libm::sqrt(matrix[j][j]);
     ((low - high).abs() > allowed).then(|| {
         let found = format!("{} and {} for {pair}", short(high), short(low));
         let allowed = "the same on both sides of the diagonal".into();

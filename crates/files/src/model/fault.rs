@@ -8,9 +8,9 @@ use stiction_parameters::{LawKind, Name, Quantity, Side};
 /// The key, what was found, what is allowed.
 pub(super) type Fault = (String, String, String);
 
-/// Numbers of a model stay within this size, and those above 0 above its inverse: no machine is
-/// near, and their products stay finite.
-const LARGEST: f64 = 1e100;
+/// Largest magnitude of a number of a model, in its SI unit, and the inverse of the smallest above 0. No machine comes near;
+/// products of three of them stay finite (below 1e308).
+const LARGEST_NUMBER: f64 = 1e100;
 /// What an asymmetric model has for each direction.
 const SIDED: [Quantity; 4] = [
     Quantity::Coulomb,
@@ -166,11 +166,11 @@ fn parameter(model: &ModelFile, law: LawKind, motion: Motion, i: usize) -> Optio
             "each parameter once".into(),
         ));
     }
-    if p.value.is_nan() || p.value.abs() > LARGEST {
+    if p.value.is_nan() || p.value.abs() > LARGEST_NUMBER {
         return Some((
             key("value"),
             format!("{name} = {value}"),
-            format!("from -{LARGEST:e} to {LARGEST:e}"),
+            format!("from -{LARGEST_NUMBER:e} to {LARGEST_NUMBER:e}"),
         ));
     }
     if let Some((found, allowed)) = stranger(name) {
@@ -210,7 +210,7 @@ fn parameter(model: &ModelFile, law: LawKind, motion: Motion, i: usize) -> Optio
     let range = quantity.allowed();
     let allowed = if !range.admits(p.value) {
         range.words()
-    } else if range.is_never_negative() && p.value != 0.0 && p.value < 1.0 / LARGEST {
+    } else if range.is_never_negative() && p.value != 0.0 && p.value < 1.0 / LARGEST_NUMBER {
         "at least 1e-100"
     } else {
         return None;
@@ -221,7 +221,7 @@ fn parameter(model: &ModelFile, law: LawKind, motion: Motion, i: usize) -> Optio
 /// A top speed that cannot be.
 pub(super) fn top_speed(model: &ModelFile) -> Option<Fault> {
     let speed = model.source.top_speed?;
-    let within = speed > 0.0 && speed <= LARGEST;
+    let within = speed > 0.0 && speed <= LARGEST_NUMBER;
     (!within).then(|| {
         let found = stiction_number::shortest(speed);
         (

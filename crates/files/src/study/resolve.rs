@@ -19,8 +19,8 @@ use inputs::input;
 use std::path::Path;
 use stiction_log::Dimension;
 
-/// Most entries of a list.
-const MOST: usize = 32;
+/// Most entries of a list of a study: paths, contours, controllers, compensators, kinds of wrong parameters.
+const MOST_ENTRIES: usize = 32;
 /// Most runs of the whole grid.
 const MOST_RUNS: usize = 100_000;
 impl Study {
@@ -79,13 +79,13 @@ fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
         families: Vec::new(),
         machine,
     };
-    for table in root.tables("path", MOST)? {
+    for table in root.tables("path", MOST_ENTRIES)? {
         let path = paths::path(&table, folder, &mut study)?;
         few(&table, path.trajectory.duration(), study.machine.rate)?;
         once(&table, study.paths.iter().map(|p| &p.name), &path.name)?;
         study.paths.push(path);
     }
-    for table in root.tables("contour", MOST)? {
+    for table in root.tables("contour", MOST_ENTRIES)? {
         let contour = contours::contour(&table, folder, &mut study)?;
         few(&table, contour.motion.duration(), study.machine.rate)?;
         let paths = study.paths.iter().map(|p| &p.name);
@@ -93,14 +93,14 @@ fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
         once(&table, taken, &contour.name)?;
         study.contours.push(contour);
     }
-    for table in root.tables("controller", MOST)? {
+    for table in root.tables("controller", MOST_ENTRIES)? {
         contours::controller(&table, &mut study)?;
         let controller = controllers::controller(&table, &study.machine)?;
         once(&table, names(&study.controllers), &controller.name)?;
         study.controllers.push(controller);
     }
     study.compensators.push(compensators::none());
-    for table in root.tables("compensator", MOST)? {
+    for table in root.tables("compensator", MOST_ENTRIES)? {
         let compensator = compensators::compensator(&table, &study)?;
         once(&table, names(&study.compensators), &compensator.name)?;
         study.compensators.push(compensator);
@@ -135,7 +135,7 @@ fn families(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
     if let Some(second) = &study.second {
         others.push(Family::exact(second.machine.truth()).beliefs);
     }
-    for table in root.tables("parameter_error", MOST)? {
+    for table in root.tables("parameter_error", MOST_ENTRIES)? {
         let kind = table.choice("kind", &["corners", "covariance"])?;
         let family = match table.required("kind", kind, "\"corners\" or \"covariance\"")? {
             "corners" => {

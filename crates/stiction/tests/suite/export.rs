@@ -171,8 +171,8 @@ fn the_limit_is_said_where_the_log_reached_it() {
             "0.7",
             Some("at 0.6667 m/s with a gain of 1, at 1 m/s with 0.75, and the log goes to 0.7 m/s"),
         ),
-        ("0.0", Some("source: top_speed = 0; above 0")),
-        ("inf", Some("source: top_speed = inf; above 0")),
+        ("0.0", Some("source.top_speed: 0; above 0")),
+        ("inf", Some("source.top_speed: inf; above 0")),
     ] {
         let top = format!("seed = 0\ntop_speed = {top}\n");
         let bench = Bench::new();

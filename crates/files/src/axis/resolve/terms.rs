@@ -6,11 +6,10 @@ use crate::config::{Given, Table};
 use crate::error::Error;
 use stiction_identify::{Delay, Dependence, GMS_FEWEST, GMS_MOST, Mass};
 use stiction_log::Dimension;
+use stiction_parameters::Quantity;
 
 /// Longest delay of either sign, s.
 const LONGEST_DELAY: f64 = 1.0;
-/// Exponents of a Stribeck curve.
-const EXPONENTS: [f64; 2] = [0.1, 10.0];
 /// Most pitches of cogging, and of friction along the axis.
 const MOST_PITCHES: usize = 4;
 
@@ -41,14 +40,14 @@ impl Resolver {
             axis.terms.delay = delay(&given)?;
         }
         if let Some(given) = table.get("stribeck_exponent") {
-            let [least, most] = EXPONENTS;
+            let allowed = Quantity::StribeckExponent.allowed();
             match (given.as_text(), given.as_number()) {
                 (Some("fit"), _) => axis.exponent_fitted = true,
-                (_, Some(exponent)) if (least..=most).contains(&exponent) => {
+                (_, Some(exponent)) if allowed.admits(exponent) => {
                     axis.stribeck_exponent = exponent;
                 }
                 _ => {
-                    let allowed = format!("a number from {least} to {most}, or \"fit\"");
+                    let allowed = format!("a number {}, or \"fit\"", allowed.words());
                     return Err(given.refused(&allowed));
                 }
             }

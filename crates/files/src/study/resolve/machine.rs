@@ -20,8 +20,9 @@ use stiction_servo::plant::Plant;
 const PLANT_RATE: f64 = 1e4;
 /// Most plant steps of a control period.
 const MOST_SUBSTEPS: f64 = 100.0;
-/// `h sqrt(sigma0/M)` up to which a step shows how the axis swings on its bristles.
-const SHORT: f64 = 1.0;
+/// Longest step h of the plant as `h sqrt(sigma0/M)`, dimensionless: one radian of the swing on the bristles. Longer steps do
+/// not show that swing (`docs/codes/long-steps.md`).
+const LONGEST_STEP: f64 = 1.0;
 
 /// An axis; the control rate is that of the first axis where there is one.
 pub(super) fn machine(
@@ -71,16 +72,17 @@ pub(super) fn machine(
         return Err(table.refuse("rate", format!("{rate} Hz"), "10 Hz to 1 MHz"));
     }
     let swing = (law.stiffness() / mass).sqrt();
-    let substeps = (PLANT_RATE.max(swing / SHORT) / rate).ceil();
+    let substeps = (PLANT_RATE.max(swing / LONGEST_STEP) / rate).ceil();
     let substeps = substeps.clamp(1.0, MOST_SUBSTEPS.max(PLANT_RATE / rate).ceil());
     let long = swing / (rate * substeps);
-    if long > SHORT {
+    if long > LONGEST_STEP {
         model.warnings.push(Warning::new(
             Code::LongSteps,
             format!(
-                "the bristles are too stiff for a plant step of {:.3e} s: h sqrt(sigma0/M) = {long:.1}, above {SHORT}; \
+                "the bristles are too stiff for a plant step of {:.3e} s: h sqrt(sigma0/M) = {}, above {LONGEST_STEP}; \
                  what happens before break-away is not to be relied on; a higher rate makes the steps shorter",
-                1.0 / (rate * substeps)
+                1.0 / (rate * substeps),
+                stiction_number::short(long)
             ),
         ));
     }
