@@ -8,7 +8,7 @@ use std::fs;
 
 /// What is counted, by the name that `crates/identify/examples/instructions.rs` knows.
 const WHAT: [&str; 5] = ["friction-step", "costs", "sums", "sums-alone", "identify"];
-/// Counts may differ by this part: the C library picks its copying loops by processor.
+/// Largest relative difference of a count: the C library picks its copying loops by processor.
 const TOLERANCE: f64 = 0.02;
 const SNAPSHOT: &str = "bench/instructions.txt";
 

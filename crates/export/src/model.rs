@@ -4,6 +4,9 @@ use crate::{Error, range};
 use stiction_friction::compensator::{Compensator, Friction, Settings, Source};
 use stiction_friction::{Damping, LuGre, Real};
 
+/// Speed, m/s (rad/s), that stands for the limit of zero: the level at it is the static friction to rounding.
+pub(crate) const ALMOST_STANDSTILL: f64 = 1e-300;
+
 /// A friction law with the settings of its compensator, and where its numbers came from. The law is driven by the
 /// reference velocity.
 #[derive(Clone, Debug, PartialEq)]
@@ -144,7 +147,7 @@ impl Model {
 
     /// The larger steady force of the two directions at a speed, with the offset; at standstill the limit as the speed goes to 0.
     pub(crate) fn larger(&self, speed: f64) -> f64 {
-        let v = speed.max(1e-300);
+        let v = speed.max(ALMOST_STANDSTILL);
         self.steady(v).abs().max(self.steady(-v).abs())
     }
 

@@ -6,6 +6,7 @@
 
 mod spacing;
 
+use crate::model::ALMOST_STANDSTILL;
 use crate::number::{Literal, short};
 use crate::template::Fill;
 use crate::{Error, File, Model, header};
@@ -260,7 +261,11 @@ fn kinks(model: &Model, step: f64) -> Vec<f64> {
 
 /// The steady force at a velocity, at rest that of the least speed in its direction.
 fn steady(model: &Model, v: f64) -> f64 {
-    model.steady(if v == 0.0 { v.signum() * 1e-300 } else { v })
+    model.steady(if v == 0.0 {
+        v.signum() * ALMOST_STANDSTILL
+    } else {
+        v
+    })
 }
 
 /// The mean of both directions; the offset falls out.

@@ -167,12 +167,16 @@ impl<T: Real, const N: usize> Held<T> for Gms<T, N> {
     }
 }
 
+/// Step of that difference relative to the velocity, and the least velocity in Stribeck velocities: small against the scale on
+/// which sigma1 changes, large against rounding.
+const RELATIVE_STEP: f64 = 1e-6;
+
 /// Derivative of sigma1 with respect to velocity; a difference is enough, since it only guides Newton's method.
 fn damping_slope<T: Real>(law: &LuGre<T>, v: T) -> T {
     match law.damping() {
         Damping::Constant(_) => T::ZERO,
         _ => {
-            let part = T::from_f64(1e-6);
+            let part = T::from_f64(RELATIVE_STEP);
             let vs = law.curve().direction(v).stribeck_velocity;
             let d = part * v.abs().max(part * vs);
             (law.micro_damping(v + d) - law.micro_damping(v - d)) / (T::from_f64(2.0) * d)

@@ -2,7 +2,11 @@
 
 use crate::{Damping, LuGre, Real};
 
-/// What a running law remembers between samples. Start from [`LuGre::rest`].
+/// Margin above 1 from which on the passive cap is certainly not active, relative: above the rounding of `f32`, 6e-8, in the
+/// terms of the quotient.
+const QUOTIENT_MARGIN: f64 = 1e-6;
+
+/// The state of a running law between samples. Start from [`LuGre::rest`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct State<T> {
     /// Bristle deflection, m (rad).
@@ -102,7 +106,7 @@ impl<T: Real> LuGre<T> {
         let stored = self.stiffness() * (T::from_f64(0.5) * (z + end)) * rate;
         let left = taken - stored;
         // The quotient is hardly ever below s1. Where it is above by more than rounding it need not be computed.
-        if left > T::from_f64(1.0 + 1e-6) * (s1 * returned) {
+        if left > T::from_f64(1.0 + QUOTIENT_MARGIN) * (s1 * returned) {
             return s1;
         }
         (left / returned).min(s1)

@@ -12,6 +12,8 @@ const MAX_DROPPED_SHARE: f64 = 0.05;
 const MAX_STEPS_OVER_OVERFLOW: f64 = 10.0;
 /// Longest plausible recording, s (thirty years); longer ones have a wrong unit of time.
 const MAX_DURATION: f64 = 1e9;
+/// Tolerance of the ends of a crop, relative to them, so that decimal limits keep the samples that they name.
+const CROP_ROUNDING: f64 = 1e-9;
 /// Counts at which time counters overflow: 16 bits, 31 bits (signed), 32 bits.
 const COUNTER_SIZES: [f64; 3] = [65_536.0, 2_147_483_648.0, 4_294_967_296.0];
 
@@ -233,8 +235,7 @@ fn crop(
     let Some((from, to)) = mapping.crop else {
         return Ok(0..length);
     };
-    // A part in 1e9 of slack, so that decimal limits keep the samples they name.
-    let slack = 1e-9 * from.abs().max(to.abs()).min(1e9);
+    let slack = CROP_ROUNDING * from.abs().max(to.abs()).min(1e9);
     let start = (0..length).find(|&row| at(row) >= from - slack);
     let end = start.map(|s| {
         (s..length)

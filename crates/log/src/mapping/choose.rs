@@ -8,6 +8,8 @@ use crate::findings::{Finding, Severity, median, short};
 use crate::{Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;
 
+/// Sample times, s, that a file may give: those of the rates that an axis file may give.
+const PLAUSIBLE_SAMPLE_TIME: std::ops::RangeInclusive<f64> = 1e-9..=1e3;
 /// How much a given rate and that of the time stamps may differ, as a fraction.
 const MAX_RATE_DEVIATION: f64 = 0.01;
 
@@ -96,7 +98,10 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
 }
 
 fn stated_rate(table: &Table) -> Result<f64, Error> {
-    if let Some(step) = table.sample_time.filter(|dt| (1e-9..=1e3).contains(dt)) {
+    if let Some(step) = table
+        .sample_time
+        .filter(|dt| PLAUSIBLE_SAMPLE_TIME.contains(dt))
+    {
         return Ok(1.0 / step);
     }
     let found = format!(

@@ -41,6 +41,9 @@ const FILE_KEYS: [&str; 4] = [
     "StartRecord",
     "EndRecord",
 ];
+/// Difference of two spacings that is put down to rounding, relative.
+const SPACING_ROUNDING: f64 = 1e-6;
+
 /// Least FILETIME stamp (100 ns since 1601): those of this century and the last are above it, milliseconds of a log below.
 const MIN_FILETIME: i64 = 10_000_000_000_000_000;
 
@@ -298,10 +301,12 @@ impl Header<'_> {
         let ramp = match (&starts[..], stated) {
             ([a, b, c], Some(times)) => {
                 let step = number(times.get(1));
-                let near = |x: f64| (x - step).abs() < 1e-6 * step;
+                let near = |x: f64| (x - step).abs() < SPACING_ROUNDING * step;
                 near(b - a) && near(c - b)
             }
-            ([a, b, c], None) => *a == 0.0 && *b > 0.0 && ((c - b) - (b - a)).abs() < 1e-6 * b,
+            ([a, b, c], None) => {
+                *a == 0.0 && *b > 0.0 && ((c - b) - (b - a)).abs() < SPACING_ROUNDING * b
+            }
             _ => false,
         };
         if !ramp && starts[0] < MIN_FILETIME as f64 {
