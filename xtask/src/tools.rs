@@ -1,5 +1,5 @@
-//! Programs written in Rust that the tasks run: on the PATH, else as a wheel in `.venv`, since to build them
-//! from source takes longer than all the tests.
+//! Programs written in Rust that the tasks run: on the PATH, else as a wheel in `.venv`, since to build them from
+//! source would take minutes (decision 0043).
 
 use crate::python;
 use crate::shell::{self, Outcome};
