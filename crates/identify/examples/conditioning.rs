@@ -7,7 +7,7 @@ mod common;
 use common::closed_loop::{axis, encoder, error, identified, three_segments, truth};
 use stiction_identify::{
     Conditioning, Cutoff, Law, LawKind, Samples, Settings, Silent, Source, Terms, condition,
-    identify,
+    fit_law,
 };
 use stiction_servo::cascade::Cascade;
 use stiction_servo::closed_loop::{ClosedLoop, ForceLog, Record};
@@ -156,7 +156,7 @@ fn smoothed(log: &Record, window: usize) -> stiction_identify::Estimate {
     let record = condition(&[samples], &raw).unwrap();
     let law = Law::new(LawKind::LuGre);
     let settings = Settings::default();
-    identify(&record, law, &Terms::default(), 0.0, &settings, &mut Silent)
+    fit_law(&record, law, &Terms::default(), 0.0, &settings, &mut Silent)
         .unwrap()
         .0
 }

@@ -1,7 +1,8 @@
-//! A law fitted to a record: the search, the delay, the estimate.
+//! A law fitted to a record: the search, the delay, the estimate, its intervals.
 
 use crate::conditioning::record::Record;
 use crate::error::Error;
+use crate::estimate::intervals::intervals;
 use crate::estimate::{Estimate, estimate};
 use crate::law::Law;
 use crate::law::terms::{Delay, Terms};
@@ -10,7 +11,8 @@ use crate::separable::settings::Settings;
 use crate::separable::{follow, separable};
 use stiction_search::{Observer, Status};
 
-/// Fits a law by the separable method and states its parameters.
+/// Fits a law by the separable method and states its parameters, with intervals that count what encoder, filters and a
+/// curved cost do ([`intervals`]). An interrupted search gives the best found so far, with linear intervals.
 ///
 /// A fitted delay that comes to the end of its range is something else that the law does not explain:
 /// it is taken as none and the law fitted again, as the terms of the estimate then say.
@@ -24,20 +26,39 @@ pub fn identify(
     low_speed_bound: f64,
     settings: &Settings,
     observer: &mut dyn Observer,
+) -> Result<Estimate, Error> {
+    let (mut estimate, optimum) = fit_law(record, law, terms, low_speed_bound, settings, observer)?;
+    if estimate.status != Status::Interrupted {
+        intervals(record, &optimum, &mut estimate, observer);
+    }
+    Ok(estimate)
+}
+
+/// [`identify`] without the intervals in full, for laws that are compared: those of the estimate are linear and narrow
+/// until [`intervals`] has widened them.
+///
+/// # Errors
+/// Those of [`separable`].
+pub fn fit_law(
+    record: &Record,
+    law: Law,
+    terms: &Terms,
+    low_speed_bound: f64,
+    settings: &Settings,
+    observer: &mut dyn Observer,
 ) -> Result<(Estimate, Optimum), Error> {
     stated(record, law, terms, low_speed_bound, |terms| {
         separable(record, law, terms, settings, observer)
     })
 }
 
-/// Fits a law by least squares from where another search has led, and states its parameters, as
-/// [`identify`] does.
+/// [`fit_law`] by least squares from where another search has led.
 ///
 /// `start` holds the nonlinear unknowns in the order of the law, without the delay.
 ///
 /// # Errors
 /// Those of [`separable`], and for another number of unknowns.
-pub fn identify_from(
+pub fn fit_law_from(
     start: &[f64],
     record: &Record,
     law: Law,

@@ -1,6 +1,6 @@
 //! Identification of friction laws from conditioned records, with uncertainty.
 //!
-//! Start with [`condition`] and [`identify()`]; [`intervals`] then adds what encoder and filters do to the intervals.
+//! Start with [`condition`] and [`identify()`].
 //!
 //! ```
 //! use stiction_identify::{
@@ -18,7 +18,7 @@
 //! let record = condition(&[samples], &raw)?;
 //! let terms = Terms { mass: Mass::Absent, ..Terms::default() };
 //! let law = Law::new(LawKind::CoulombViscous);
-//! let (estimate, _) = identify(&record, law, &terms, 0.0, &Settings::default(), &mut Silent)?;
+//! let estimate = identify(&record, law, &terms, 0.0, &Settings::default(), &mut Silent)?;
 //! let coulomb = estimate.value("coulomb").expect("a parameter of the law"); // N
 //! assert!((coulomb - 20.0).abs() < 0.1);
 //! # Ok::<(), stiction_identify::Error>(())
@@ -45,7 +45,7 @@
 //! the same form with fewer nonlinear unknowns, the elasto-plastic law with one more, the part of the
 //! steady deflection at which it breaks away.
 //!
-//! Other searches see the same costs through [`candidates`], and end in [`identify_from`].
+//! Other searches see the same costs through [`candidates`], and end in [`fit_law_from`].
 //!
 //! Where the force is the input, or made by a known controller, [`output_error`] simulates the axis
 //! instead and fits its position.
@@ -86,7 +86,7 @@ pub use estimate::{Estimate, estimate, predict};
 pub use fit::{Fit, low_speed_bound};
 pub use gms::score::ElementsScore;
 pub use gms::{FEWEST as GMS_FEWEST, MOST as GMS_MOST};
-pub use identify::{identify, identify_from};
+pub use identify::{fit_law, fit_law_from, identify};
 pub use law::Law;
 pub use law::dependence::Dependence;
 pub use law::terms::{Delay, Mass, Terms};

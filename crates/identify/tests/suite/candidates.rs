@@ -9,7 +9,7 @@ use stiction_identify::candidates::{
 };
 use stiction_identify::{
     Conditioning, Cutoff, Law, LawKind, Mass, Record, Samples, SearchBox, Settings, Silent, Terms,
-    condition, identify, identify_from,
+    condition, fit_law, fit_law_from,
 };
 use stiction_search::{Bounds, Derivatives, Fidelity, Limits, Plan, Points, Problem, Run};
 
@@ -184,7 +184,7 @@ fn gradients_are_slopes_whatever_stands_beside_the_law() {
 fn searches_end_where_the_separable_method_does() {
     let record = plain();
     let (terms, settings) = (bare(), Settings::default());
-    let (best, optimum) = identify(&record, lugre(), &terms, 0.0, &settings, &mut Silent).unwrap();
+    let (best, optimum) = fit_law(&record, lugre(), &terms, 0.0, &settings, &mut Silent).unwrap();
     let energy: f64 = record.segments[0].force.iter().map(|u| u * u).sum();
     let least = optimum.evaluation.cost / energy;
     let bounds = box_of_six(&record).unwrap();
@@ -197,7 +197,7 @@ fn searches_end_where_the_separable_method_does() {
     let (p, found) = searched(&three);
     assert!((found / least - 1.0).abs() < 1e-6, "{found} {least}");
     for start in [SixParameters::nonlinear(&point), p] {
-        let (estimate, _) = identify_from(
+        let (estimate, _) = fit_law_from(
             &start,
             &record,
             lugre(),
@@ -274,7 +274,7 @@ fn what_cannot_be_searched_is_refused_by_name() {
     let wide = Bounds::new(vec![-100.0; 6], vec![100.0; 6]).unwrap();
     assert!(SixParameters::new(&record, lugre(), &bare(), wide, Scheme::Explin).is_err());
     let settings = Settings::default();
-    let start = identify_from(
+    let start = fit_law_from(
         &[0.0],
         &record,
         lugre(),

@@ -66,8 +66,8 @@ pub(super) fn subject(
         (None, _) => box_of_six(&record).map_err(refused)?,
         (Some(decades), _) => {
             let settings = Settings::default();
-            let (estimate, _) = engine::identify(&record, law, &terms, 0.0, &settings, observer)
-                .map_err(refused)?;
+            let (estimate, _) =
+                engine::fit_law(&record, law, &terms, 0.0, &settings, observer).map_err(refused)?;
             let found: Vec<(String, f64)> = (estimate.parameters.iter())
                 .map(|p| (p.name.to_string(), p.value))
                 .collect();

@@ -85,7 +85,7 @@ impl Ladder<'_> {
         observer: &mut dyn Observer,
     ) -> Result<(Estimate, Optimum), engine::Error> {
         let terms = self.terms(&law);
-        engine::identify(self.record, law, terms, self.low_speed, settings, observer)
+        engine::fit_law(self.record, law, terms, self.low_speed, settings, observer)
     }
 
     fn rung(

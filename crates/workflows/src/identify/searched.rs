@@ -135,7 +135,7 @@ pub(super) fn search(task: Task, observer: &mut dyn Observer) -> Result<Found, E
         let start = searched.point.clone();
         (searched, start)
     };
-    let (mut estimate, mut optimum) = engine::identify_from(
+    let (mut estimate, mut optimum) = engine::fit_law_from(
         &start,
         task.record,
         task.law,

@@ -234,7 +234,7 @@ fn separable(
     let record = conditioned(sources, &wanted).ok()?;
     let settings = settings(seed);
     let low_speed = engine::low_speed_bound(&record);
-    let (found, _) = engine::identify(&record, law, terms, low_speed, &settings, observer).ok()?;
+    let (found, _) = engine::fit_law(&record, law, terms, low_speed, &settings, observer).ok()?;
     (found.status == Status::Converged && found.fit.r2 >= GOOD_START_R2).then_some(found)
 }
 

@@ -2,7 +2,7 @@
 
 use stiction_identify::{
     Conditioning, Delay, Estimate, Law, LawKind, Parameter, Samples, Settings, Silent, Terms,
-    Tuned, condition, identify, intervals, low_speed_bound, tune,
+    Tuned, condition, identify, low_speed_bound, tune,
 };
 use stiction_servo::cascade::Cascade;
 use stiction_servo::closed_loop::{ClosedLoop, ForceLog, Record};
@@ -70,9 +70,7 @@ pub fn identified(log: &Record, count: f64) -> (Tuned, Estimate) {
     let tuned = tune(&samples, &wanted, law, &terms, &settings, &mut Silent).unwrap();
     let record = condition(&samples, &tuned.conditioning).unwrap();
     let bound = low_speed_bound(&record);
-    let (mut found, optimum) =
-        identify(&record, law, &terms, bound, &settings, &mut Silent).unwrap();
-    intervals(&record, &optimum, &mut found, &mut Silent);
+    let found = identify(&record, law, &terms, bound, &settings, &mut Silent).unwrap();
     (tuned, found)
 }
 

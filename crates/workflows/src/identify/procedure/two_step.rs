@@ -64,7 +64,7 @@ pub(in crate::identify) fn two_step(
         ..Law::new(LawKind::LuGre)
     };
     let low_speed = parts.low_speed;
-    let (joint, _) = engine::identify(
+    let (joint, _) = engine::fit_law(
         parts.record,
         law,
         terms,
