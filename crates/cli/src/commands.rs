@@ -36,7 +36,7 @@ pub fn run(arguments: &Arguments) -> Exit {
         Command::Man(wanted) => text(&brought::manual(wanted.command.as_deref()), common),
     };
     result.unwrap_or_else(|e| {
-        // Where nobody listens, the exit code has to do.
+        // With standard error closed only the exit code is left to tell.
         let _ = writeln!(std::io::stderr(), "stiction: [{}] {e}", e.code());
         if common.json {
             let error =
@@ -100,12 +100,7 @@ fn check(check: &arguments::Check, common: &Common) -> Result<Exit, Error> {
     if interrupt::asked() {
         return Ok(Exit::Interrupted);
     }
-    let refused = found.logs.iter().any(|log| log.refused.is_some());
-    Ok(if refused {
-        Exit::NotTrustworthy
-    } else {
-        Exit::Done
-    })
+    Ok(found.verdict().into())
 }
 
 fn init(check: &arguments::Check, file: &Path, common: &Common) -> Result<Exit, Error> {
@@ -227,10 +222,7 @@ fn compare(compare: &arguments::Compare, common: &Common) -> Result<Exit, Error>
             compare.out.display()
         ))?;
     }
-    Ok(match found.status.as_str() {
-        "interrupted" => Exit::Interrupted,
-        _ => Exit::Done,
-    })
+    Ok(stiction::commands::verdict::of_comparison(&found).into())
 }
 
 /// The method under the name that it has on the command line.
@@ -263,14 +255,10 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
         output::print(&format!("{text}\n{}", written_to(dir, &written)))?;
     }
     // An interrupt may also have come while laws were compared, after the search had converged.
-    if outcome.result.search.status == "interrupted" || interrupt::asked() {
+    if interrupt::asked() {
         return Ok(Exit::Interrupted);
     }
-    Ok(if outcome.result.trust.trustworthy {
-        Exit::Done
-    } else {
-        Exit::NotTrustworthy
-    })
+    Ok(outcome.verdict().into())
 }
 
 fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Error> {
@@ -293,11 +281,7 @@ fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Err
         let text = stiction::commands::text::study(&outcome);
         output::print(&format!("{text}\n{}", written_to(dir, &written)))?;
     }
-    Ok(if outcome.file.status == "interrupted" {
-        Exit::Interrupted
-    } else {
-        Exit::Done
-    })
+    Ok(outcome.verdict().into())
 }
 
 fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
@@ -323,11 +307,7 @@ fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
     } else if !common.quiet {
         output::print(&stiction::commands::text::exported(&exported, &export.out))?;
     }
-    Ok(if exported.trustworthy {
-        Exit::Done
-    } else {
-        Exit::NotTrustworthy
-    })
+    Ok(exported.verdict().into())
 }
 
 fn reproduce(reproduce: &arguments::Reproduce, common: &Common) -> Result<Exit, Error> {
@@ -356,13 +336,7 @@ fn reproduce(reproduce: &arguments::Reproduce, common: &Common) -> Result<Exit, 
         let text = stiction::commands::text::reproduction(&outcome.file);
         output::print(&format!("{text}{}", written_to(dir, &written)))?;
     }
-    Ok(if outcome.file.status == "interrupted" {
-        Exit::Interrupted
-    } else if outcome.file.all_within {
-        Exit::Done
-    } else {
-        Exit::NotTrustworthy
-    })
+    Ok(outcome.verdict().into())
 }
 
 /// The line that says which files are where.

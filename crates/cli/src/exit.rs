@@ -1,5 +1,7 @@
 //! What the process says with its exit code.
 
+use stiction::Verdict;
+
 /// The exit codes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
@@ -13,4 +15,14 @@ pub enum Exit {
     Internal = 3,
     /// Interrupted; what was found so far is saved.
     Interrupted = 130,
+}
+
+impl From<Verdict> for Exit {
+    fn from(verdict: Verdict) -> Self {
+        match verdict {
+            Verdict::Trustworthy => Exit::Done,
+            Verdict::NotTrustworthy => Exit::NotTrustworthy,
+            Verdict::Interrupted => Exit::Interrupted,
+        }
+    }
 }

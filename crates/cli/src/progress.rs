@@ -13,7 +13,7 @@ pub struct Bar {
 }
 
 impl Bar {
-    /// A bar, hidden where nobody would see it or nobody wants it.
+    /// A bar, hidden where standard error is no terminal or the user wants none.
     pub fn new(hidden: bool) -> Self {
         Self {
             bar: bar(1000, hidden),
@@ -27,7 +27,7 @@ impl Bar {
     }
 }
 
-/// A bar, hidden where nobody would see it or nobody wants it.
+/// A bar, hidden where standard error is no terminal or the user wants none.
 fn bar(length: u64, hidden: bool) -> ProgressBar {
     let bar = ProgressBar::new(length);
     if hidden || !std::io::stderr().is_terminal() {

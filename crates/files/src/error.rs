@@ -9,7 +9,7 @@ pub enum Error {
     /// A recording was refused.
     #[error("{0}")]
     Log(#[from] stiction_log::Error),
-    /// A file of our own form was refused.
+    /// An axis, model or study file was refused.
     #[error("{}: {place}{found}; {allowed}", .file.display())]
     Config {
         /// The file.

@@ -20,5 +20,5 @@ pub use stiction_workflows::compare::{
 pub use stiction_workflows::identify::{Options, Outcome, Simulated, identify};
 /// Logs with the files they came from.
 pub use stiction_workflows::source::{Source, load, table};
-/// Further workflows.
-pub use stiction_workflows::{check, demo, export, reproduce};
+/// Further workflows, and what an outcome is worth.
+pub use stiction_workflows::{check, demo, export, reproduce, verdict};

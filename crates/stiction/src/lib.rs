@@ -78,4 +78,4 @@ pub use stiction_parameters::FrictionLaw;
 pub use stiction_workflows::export::{ExportOptions, Exported, Target, export, export_file};
 pub use stiction_workflows::identify::{CostKind, Method, Prediction, Procedures, Searching};
 pub use stiction_workflows::study::{StudyOutcome, simulate};
-pub use stiction_workflows::{Error, demo, set_threads};
+pub use stiction_workflows::{Error, Verdict, demo, set_threads};

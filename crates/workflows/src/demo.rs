@@ -1,33 +1,19 @@
 //! The demo: a known axis, a realistic log of it, its identification, and the truth beside it.
 
+mod axis;
 mod procedures;
 
 use crate::error::Error;
 use crate::identify::{self, Options, Outcome};
+use axis::{AXIS, csv, simulate};
 pub use procedures::procedures;
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use stiction_files::write_atomic;
-use stiction_friction::ParamError;
 use stiction_identify::{LawKind, Observer};
-use stiction_servo::cascade::Cascade;
-use stiction_servo::closed_loop::{ClosedLoop, ForceLog, Record};
-use stiction_servo::encoder::Encoder;
 use stiction_servo::known::{self, KnownAxis};
-use stiction_servo::path::Path as Reference;
-use stiction_servo::plant::Plant;
 
 /// Name of the log that the demo writes.
 pub const LOG: &str = "demo.csv";
-/// The axis that is simulated.
-const AXIS: &str = "machine";
-/// One encoder count, m.
-const COUNT: f64 = 50e-9;
-/// Noise of the force (motor current times force constant), N rms.
-const NOISE: f64 = 1.0;
-/// Control and log rate, Hz.
-const RATE: f64 = 4000.0;
-
 /// Simulates the axis, writes its log into `dir`, and identifies it from that file.
 ///
 /// # Errors
@@ -64,37 +50,6 @@ pub fn write_log(file: impl AsRef<Path>, seed: u64) -> Result<(), Error> {
     let axis = known::find(AXIS).expect("the demo axis is in the library");
     let record = simulate(&axis, seed).expect("the demo settings are valid");
     Ok(write_atomic(file.as_ref(), csv(&record).as_bytes())?)
-}
-
-fn simulate(axis: &KnownAxis, seed: u64) -> Result<Record, ParamError> {
-    ClosedLoop {
-        plant: Plant::new(axis.mass, axis.law)?,
-        controller: Cascade::tuned(axis.mass, 60.0, 500.0)?,
-        path: Reference::three_segments(0.196, 9.0)?,
-        encoder: Encoder::new(COUNT)?,
-        rate: RATE,
-        substeps: 5,
-        force_noise: NOISE,
-        force_log: ForceLog::Centred,
-        seed,
-    }
-    .run()
-}
-
-/// The log as a drive would write it: position in whole encoder steps, force with its noise.
-fn csv(record: &Record) -> String {
-    let mut out = String::from("Time [s],Reference [mm],Position [mm],Force [N]\n");
-    for i in 0..record.time.len() {
-        let _ = writeln!(
-            out,
-            "{:.6},{:.6},{:.6},{:.4}",
-            record.time[i],
-            1e3 * record.reference[i],
-            1e3 * record.position[i],
-            record.force[i]
-        );
-    }
-    out
 }
 
 /// Names and values of the parameters of the axis that the demo simulates.

@@ -6,7 +6,7 @@ use stiction_codes::Code;
 /// A workflow that could not be carried out.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// A recording or a file of our own form was refused, or one cannot be written.
+    /// A recording, or an axis, model or study file, was refused; or a file cannot be written.
     #[error("{0}")]
     File(#[from] stiction_files::Error),
     /// A record cannot be identified.

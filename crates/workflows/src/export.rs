@@ -68,7 +68,7 @@ pub struct Exported {
     pub files: Vec<File>,
     /// What to know before it runs.
     pub warnings: Vec<Warning>,
-    /// Whether the identification found every number of the law trustworthy.
+    /// Whether the identification flagged the result as trustworthy and determined every parameter of the law.
     pub trustworthy: bool,
 }
 
@@ -140,7 +140,7 @@ fn check(options: &ExportOptions) -> Result<(), Error> {
     if options.limit.is_some() && options.target == Target::Mujoco {
         return Err(Error::Usage {
             found: "a limit for the target mujoco".into(),
-            allowed: "a joint in MuJoCo has its whole friction".into(),
+            allowed: "the friction of a joint in MuJoCo is not limited".into(),
         });
     }
     Ok(())
@@ -235,7 +235,7 @@ fn resolve(
         warnings.push(Warning::new(
             Code::ExportName,
             format!(
-                "the names in the code begin with {identifier}, which is not all of the axis' name '{title}': another axis may get the same; give one with --name"
+                "the names in the code begin with {identifier}, only a part of the axis name '{title}': another axis may get the same; give one with --name"
             ),
         ));
     }
@@ -300,7 +300,7 @@ fn place(source: stiction_export::Error, file: &Path, options: &ExportOptions) -
     }
 }
 
-/// What the identification flagged as not trustworthy, and what the code leaves out.
+/// What is not trustworthy or not determined, and what the code leaves out.
 fn doubts(file: &ModelFile) -> Vec<Warning> {
     let mut found = Vec::new();
     if !file.trustworthy {
@@ -319,7 +319,7 @@ fn doubts(file: &ModelFile) -> Vec<Warning> {
         found.push(Warning::new(
             Code::ExportUntrusted,
             format!(
-                "the data do not determine {}; the compensation rests on a guess there",
+                "the data do not determine {}; the compensation relies on guesses there",
                 loose.join(", ")
             ),
         ));

@@ -22,8 +22,10 @@ pub mod reproduce;
 pub mod source;
 mod spread;
 pub mod study;
+pub mod verdict;
 
 pub use error::Error;
+pub use verdict::Verdict;
 
 /// Limits the threads of the whole process; the first call counts. Results do not depend on it.
 pub fn set_threads(threads: usize) {

@@ -7,12 +7,12 @@ use stiction_search::{Bounds, CostsOnly, Derivatives, Fidelity, Points, Problem}
 /// with, so the result does not depend on how many threads there are.
 pub(crate) struct Spread<'a, P: ?Sized>(pub &'a P);
 
-/// Points that a thread takes at a time: what fills the lanes.
-const SHARE: usize = 16;
+/// Points that a thread takes at a time: two fills of the widest lanes (`stiction-lanes`).
+const POINTS_PER_TASK: usize = 16;
 
 fn part(points: &Points, from: usize) -> Points {
     let mut out = Points::new(points.dimensions());
-    for row in points.rows().skip(from).take(SHARE) {
+    for row in points.rows().skip(from).take(POINTS_PER_TASK) {
         out.push(row);
     }
     out
@@ -24,9 +24,10 @@ impl<P: Problem + Sync + ?Sized> Problem for Spread<'_, P> {
     }
 
     fn costs(&self, points: &Points, fidelity: Fidelity, costs: &mut [f64]) {
-        let parts = costs.par_chunks_mut(SHARE).enumerate();
+        let parts = costs.par_chunks_mut(POINTS_PER_TASK).enumerate();
         parts.for_each(|(i, costs)| {
-            self.0.costs(&part(points, i * SHARE), fidelity, costs);
+            self.0
+                .costs(&part(points, i * POINTS_PER_TASK), fidelity, costs);
         });
     }
 
@@ -36,9 +37,12 @@ impl<P: Problem + Sync + ?Sized> Problem for Spread<'_, P> {
         fidelity: Fidelity,
         out: &mut [Derivatives],
     ) -> Result<(), CostsOnly> {
-        let parts = out.par_chunks_mut(SHARE).enumerate();
+        let parts = out.par_chunks_mut(POINTS_PER_TASK).enumerate();
         parts
-            .map(|(i, out)| self.0.derivatives(&part(points, i * SHARE), fidelity, out))
+            .map(|(i, out)| {
+                self.0
+                    .derivatives(&part(points, i * POINTS_PER_TASK), fidelity, out)
+            })
             .collect()
     }
 

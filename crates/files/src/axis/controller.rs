@@ -1,32 +1,10 @@
-//! The known controller of an axis: as typed, then in the units of the log.
+//! The known controller of an axis in the units of the log.
 
-use super::Axis;
+use super::gain::Gain;
+use super::values::Axis;
 use crate::error::Error;
 use stiction_identify::Controller;
-use stiction_log::{Dimension, Log, Unit, Value};
-
-/// A gain with the place where it stands; its unit must suit the force of the log.
-#[derive(Clone, Debug)]
-pub(super) struct Gain {
-    /// Line and key, as errors begin.
-    pub place: String,
-    /// The value as typed.
-    pub value: Value,
-}
-
-/// `[controller]`, checked as far as that goes without a log.
-#[derive(Clone, Debug)]
-pub(super) struct ControllerValues {
-    /// 1/s.
-    pub position_gain: f64,
-    pub speed_gain: Gain,
-    pub integral_gain: Option<Gain>,
-    pub velocity_feedforward: f64,
-    pub mass_feedforward: Option<Gain>,
-    pub force_limit: Option<Gain>,
-    /// Hz.
-    pub rate: Option<f64>,
-}
+use stiction_log::{Dimension, Log, Unit};
 
 impl Axis {
     /// The controller in the units of a log: gains in the unit of its force after scaling.

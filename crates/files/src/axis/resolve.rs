@@ -1,33 +1,43 @@
 //! From the axis file as typed to SI values that the libraries take.
 
 mod columns;
+mod resolver;
 mod simulation;
 mod terms;
 
-use super::Axis;
-use super::tied::Tied;
+use super::values::Axis;
 use crate::config::{Given, Source, Table};
 use crate::error::Error;
-use std::cell::RefCell;
+use resolver::{FORCES, LENGTHS, Resolver, SPEEDS};
 use std::path::Path;
 use stiction_identify::{Conditioning, Cutoff, Source as Signal};
 use stiction_log::text::{Decimal, Separator, TextOptions};
 use stiction_log::{Dimension, Mapping, Motion, Wrap};
 
-const LENGTHS: [Dimension; 2] = [Dimension::LENGTH, Dimension::ANGLE];
-const SPEEDS: [Dimension; 2] = [Dimension::LINEAR_VELOCITY, Dimension::ANGULAR_VELOCITY];
-const FORCES: [Dimension; 4] = [
-    Dimension::FORCE,
-    Dimension::TORQUE,
-    Dimension::CURRENT,
-    Dimension::VOLTAGE,
-];
-
 /// Largest decimation: 10 kHz down to 1 Hz.
 const MAX_DECIMATE: u64 = 10_000;
 
+impl Axis {
+    /// Reads and checks an axis file.
+    ///
+    /// # Errors
+    /// With file, line, column and key, what was found and what is allowed.
+    pub fn read(file: &Path) -> Result<Self, Error> {
+        let text = crate::config::read(file, "an axis file")?;
+        Self::parse(&text, file)
+    }
+
+    /// Checks the text of an axis file; `file` is named in errors.
+    ///
+    /// # Errors
+    /// As [`Axis::read`].
+    pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
+        resolve(text, file)
+    }
+}
+
 /// Checks the text of an axis file; `file` is for messages.
-pub(super) fn resolve(text: &str, file: &Path) -> Result<Axis, Error> {
+fn resolve(text: &str, file: &Path) -> Result<Axis, Error> {
     let source = Source {
         file,
         text,
@@ -35,9 +45,7 @@ pub(super) fn resolve(text: &str, file: &Path) -> Result<Axis, Error> {
     };
     let entries = source.parse()?;
     let root = Table::root(source, &entries);
-    let resolver = Resolver {
-        tied: RefCell::default(),
-    };
+    let resolver = Resolver::default();
     let mut axis = Axis {
         file: file.to_path_buf(),
         ..Axis::default()
@@ -46,11 +54,6 @@ pub(super) fn resolve(text: &str, file: &Path) -> Result<Axis, Error> {
     root.end()?;
     axis.tied = resolver.tied.into_inner();
     Ok(axis)
-}
-
-struct Resolver {
-    /// Values that are to be checked when the log says what kind of axis it is.
-    tied: RefCell<Vec<Tied>>,
 }
 
 impl Resolver {
@@ -128,31 +131,6 @@ impl Resolver {
                 .above_zero(&given, &[Dimension::FREQUENCY])
                 .map(Cutoff::Hz),
         }
-    }
-
-    /// A value above 0, if it is given.
-    fn positive(
-        &self,
-        given: Option<Given<'_>>,
-        dimensions: &[Dimension],
-    ) -> Result<Option<f64>, Error> {
-        given
-            .map(|given| self.above_zero(&given, dimensions))
-            .transpose()
-    }
-
-    /// A value above 0 whose unit may have to fit the kind of axis.
-    fn above_zero(&self, given: &Given<'_>, dimensions: &[Dimension]) -> Result<f64, Error> {
-        let (value, dimension) = given.positive(dimensions)?;
-        let free = [Dimension::TIME, Dimension::FREQUENCY, Dimension::ONE];
-        if !free.contains(&dimension) {
-            self.tied.borrow_mut().push(Tied {
-                place: given.place(),
-                text: given.shown(),
-                dimension,
-            });
-        }
-        Ok(value)
     }
 }
 

@@ -1,7 +1,7 @@
 //! What cannot be of the covariance of a model.
 
-use super::ModelFile;
-use super::fault::Fault;
+use super::form::ModelFile;
+use super::refusal::Fault;
 use crate::result::CovarianceEntry;
 use stiction_number::four_digits as short;
 

@@ -1,12 +1,11 @@
 //! What cannot be of a model file that parsed: its numbers, units and names against its law.
 
-use super::{ModelFile, covariance};
+use super::covariance;
+use super::form::ModelFile;
+use super::refusal::Fault;
 use crate::symbols;
 use stiction_log::{Motion, Unit};
 use stiction_parameters::{LawKind, Name, Quantity, Side};
-
-/// The key, what was found, what is allowed.
-pub(super) type Fault = (String, String, String);
 
 /// Largest magnitude of a number of a model, in its SI unit, and the inverse of the smallest above 0. No machine comes near;
 /// products of three of them stay finite (below 1e308).

@@ -1,6 +1,7 @@
 //! A model file as text: every key asked for, and where each stands.
 
-use super::{ModelFile, ModelParameter, SCHEMA, SourceEntry, SourceInput, fault};
+use super::fault;
+use super::form::{ModelFile, ModelParameter, SCHEMA, SourceEntry, SourceInput};
 use crate::config::{Given, Places, Source, Table};
 use crate::error::Error;
 use crate::result::CovarianceEntry;
@@ -183,4 +184,23 @@ fn each<'a, T>(
         read(&table.ok_or_else(|| given.refused("a table"))?)
     };
     list.iter().map(read).collect()
+}
+
+impl ModelFile {
+    /// Reads a model file from disk.
+    ///
+    /// # Errors
+    /// When the file cannot be read, or its text is no model of this schema.
+    pub fn read(file: &Path) -> Result<Self, Error> {
+        Ok(ReadModel::read(file)?.model)
+    }
+
+    /// Reads a model file.
+    ///
+    /// # Errors
+    /// When the text is no model of this schema, or its parameters are none of its law: their names,
+    /// units and values.
+    pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
+        Ok(ReadModel::parse(text, file)?.model)
+    }
 }

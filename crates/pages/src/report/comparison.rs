@@ -14,8 +14,8 @@ use stiction_report::{
 /// The genetic algorithms of Zhang et al. 2025, in the order of its figures.
 const PAPER: [&str; 3] = ["ga", "adaptive-ga", "annealing-ga"];
 
-/// Excess over the optimum below which two costs are the same.
-const ROUNDING: f64 = 1e-9;
+/// Cost over the optimum, less 1, up to which two costs count as the same, dimensionless: rounding.
+const SAME_COST_EXCESS: f64 = 1e-9;
 
 /// The report.
 pub fn comparison(file: &CompareFile) -> Document {
@@ -138,7 +138,7 @@ fn shown(values: &Quartiles, digits: usize) -> String {
     values.map_or("–".into(), |v| number::sig(v[1], digits))
 }
 
-/// A number that somebody gave, without zeros that nobody wrote.
+/// A number as it was typed, without trailing zeros.
 fn plain(value: f64) -> String {
     let text = number::sig(value, 5);
     match text.contains('.') && !text.contains('×') {
@@ -147,10 +147,10 @@ fn plain(value: f64) -> String {
     }
 }
 
-/// Excess over the optimum; what is rounding only is none.
+/// Excess over the optimum; rounding counts as none.
 fn excess(values: &Quartiles) -> String {
     match values {
-        Some([_, x, _]) if x.abs() < ROUNDING => "0".into(),
+        Some([_, x, _]) if x.abs() < SAME_COST_EXCESS => "0".into(),
         _ => shown(values, 2),
     }
 }

@@ -7,11 +7,11 @@ use stiction_report::{Axis, Color, Dash, Figure, Heatmap, Layer, Panel, Text};
 use stiction_signal::autocorrelation as correlate;
 use stiction_workflows::identify::Outcome;
 
-/// Lags of the autocorrelation, at most.
-const LAGS: usize = 200;
+/// Most lags of the autocorrelation that are drawn, samples.
+const MOST_LAGS: usize = 200;
 
-/// Fewer samples than this make no picture.
-const FEW: usize = 10;
+/// Fewest samples that are drawn: fewer show nothing.
+const FEWEST_SAMPLES_DRAWN: usize = 10;
 
 /// What drives the axis: force, torque, current. The signal of a fit may be the position.
 fn driver(outcome: &Outcome) -> &'static str {
@@ -159,7 +159,7 @@ pub(super) fn low_speed(outcome: &Outcome) -> Option<Figure> {
     let series = &outcome.law().series;
     let bound = 2.0 * outcome.law().low_speed_bound;
     let near: Vec<bool> = series.velocity.iter().map(|v| v.abs() <= bound).collect();
-    if near.iter().filter(|&&n| n).count() < FEW {
+    if near.iter().filter(|&&n| n).count() < FEWEST_SAMPLES_DRAWN {
         return None;
     }
     // A gap breaks the line, so that two passes are not joined.
@@ -197,7 +197,7 @@ pub(super) fn presliding(outcome: &Outcome) -> Option<Figure> {
     let series = &outcome.law().series;
     let length = symbols::length_unit(outcome.motion);
     let window = reversal(outcome, series);
-    if window.len() < FEW || !outcome.law().law.kind.has_bristle() {
+    if window.len() < FEWEST_SAMPLES_DRAWN || !outcome.law().law.kind.has_bristle() {
         return None;
     }
     let origin = series.position.get(window.start).copied().unwrap_or(0.0);
@@ -301,7 +301,7 @@ pub(super) fn clock(series: &Series) -> Vec<f64> {
 /// Autocorrelation of the residual with the band of white noise.
 pub(super) fn autocorrelation(outcome: &Outcome) -> Figure {
     let residual = outcome.law().series.residual();
-    let lags = LAGS.min(residual.len().saturating_sub(1));
+    let lags = MOST_LAGS.min(residual.len().saturating_sub(1));
     let acf = correlate(&residual, lags).unwrap_or_default();
     let band = 1.96 / (residual.len().max(1) as f64).sqrt();
     let x: Vec<f64> = (0..acf.len()).map(|i| i as f64).collect();

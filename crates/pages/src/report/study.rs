@@ -16,8 +16,8 @@ use stiction_workflows::study::StudyOutcome;
 use stiction_workflows::study::doubt::CODES;
 use stiction_workflows::study::{Course, Trace};
 
-/// Sections with figures; the rows of the others stand in their tables.
-const MOST_FIGURES: usize = 12;
+/// Most sections with figures: the rows of the others are in their tables only.
+const MOST_SECTIONS_WITH_FIGURES: usize = 12;
 
 /// The report of a study.
 pub fn study(outcome: &StudyOutcome) -> Document {
@@ -52,7 +52,7 @@ pub fn study(outcome: &StudyOutcome) -> Document {
     document = document.block(Block::KeyFigures(
         cells
             .iter()
-            .take(MOST_FIGURES)
+            .take(MOST_SECTIONS_WITH_FIGURES)
             .filter_map(|c| best(c))
             .collect(),
     ));
@@ -63,11 +63,11 @@ pub fn study(outcome: &StudyOutcome) -> Document {
                 true => contour::table(rows),
                 false => table(rows),
             });
-        if i < MOST_FIGURES && contour::is_contour(rows) {
+        if i < MOST_SECTIONS_WITH_FIGURES && contour::is_contour(rows) {
             let figures = contour::figures(outcome, rows);
             document = figures.into_iter().fold(document, |d, f| d.block(f));
             document = wrong(rows).into_iter().fold(document, |d, f| d.block(f));
-        } else if i < MOST_FIGURES {
+        } else if i < MOST_SECTIONS_WITH_FIGURES {
             let figures = in_time(outcome, rows).into_iter().chain(wrong(rows));
             document = figures.fold(document, |d, f| d.block(f));
         }

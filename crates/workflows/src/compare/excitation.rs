@@ -3,7 +3,7 @@
 use libm::sin;
 use std::f64::consts::TAU;
 
-/// Duration of every one, s.
+/// Duration of every motion, s.
 pub(super) const DURATION: f64 = 3.0;
 
 /// How the axis moves.

@@ -5,8 +5,9 @@ use crate::error::Error;
 use std::f64::consts::LN_10;
 use stiction_search::Bounds;
 
-/// Decades by which the middle of a box is off the truth, in turn; less in boxes of less than a decade.
-const OFF: [f64; 6] = [0.31, -0.27, 0.23, -0.35, 0.29, -0.33];
+/// By how many decades the middle of a box is away from the truth, gene by gene in turn, so that no search profits from
+/// starting in the middle; less in boxes of less than a decade.
+const BOX_OFFSETS: [f64; 6] = [0.31, -0.27, 0.23, -0.35, 0.29, -0.33];
 
 /// What a parameter that is zero counts as: so little that no record shows it, since its logarithm needs
 /// a place.
@@ -81,7 +82,7 @@ pub(super) fn about(middle: &[f64], decades: f64) -> Result<Bounds, Error> {
             "decades to each side, above 0 and up to 6",
         ));
     }
-    let off = OFF.map(|x| x * decades.min(1.0));
+    let off = BOX_OFFSETS.map(|x| x * decades.min(1.0));
     let ends = |side: f64| -> Vec<f64> {
         let each = middle.iter().zip(off.iter().cycle());
         each.map(|(x, off)| x + (off + side * decades) * LN_10)

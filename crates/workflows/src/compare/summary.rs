@@ -3,16 +3,17 @@
 use super::trial::{Point, Trial};
 use stiction_files::compare_file::{Course, MethodEntry, ParameterError, RunEntry, Stage};
 
-/// How far above the optimum, relative, a cost may be and count as it.
-const HIT: f64 = 1e-4;
-/// How far off each parameter may be without noise.
-const OFF: f64 = 0.01;
-/// Cost above the optimum below which a noise-free run has come: a relative error of 1e-4.
-const EXACT: f64 = 1e-8;
-/// Cost below which there is nothing but rounding.
-const ROUNDING: f64 = 1e-14;
-/// Points of a curve.
-const GRID: usize = 60;
+/// Cost over that of the optimum, less 1, up to which a run with noise counts as a success, dimensionless.
+const SUCCESS_EXCESS: f64 = 1e-4;
+/// Error of each parameter, as a part of its true value, up to which a run without noise counts as a success,
+/// dimensionless.
+const SUCCESS_PARAMETER_ERROR: f64 = 0.01;
+/// Cost J above the optimum up to which a run without noise counts as arrived, dimensionless: a relative error of 1e-4.
+const EXACT_COST: f64 = 1e-8;
+/// Cost J below which only rounding is left, dimensionless.
+const ROUNDING_COST: f64 = 1e-14;
+/// Points of a convergence curve.
+const CURVE_POINTS: usize = 60;
 
 /// What success means.
 pub(super) struct Judge<'a> {
@@ -43,14 +44,14 @@ impl Judge<'_> {
 
     fn threshold(&self) -> f64 {
         match self.by_parameters {
-            true => self.least + EXACT,
-            false => self.least * (1.0 + HIT),
+            true => self.least + EXACT_COST,
+            false => self.least * (1.0 + SUCCESS_EXCESS),
         }
     }
 
     /// Cost over the optimum, less 1; no number where the optimum is nothing but rounding.
     fn excess(&self, cost: f64) -> f64 {
-        if self.least < ROUNDING {
+        if self.least < ROUNDING_COST {
             return f64::NAN;
         }
         cost / self.least - 1.0
@@ -59,9 +60,10 @@ impl Judge<'_> {
     /// Whether every parameter whose true value is not zero is near it.
     fn within(&self, point: &Point) -> bool {
         let known = self.truth.iter().filter(|(_, value)| *value != 0.0);
-        known
-            .into_iter()
-            .all(|(name, _)| self.error(point, name).is_some_and(|error| error <= OFF))
+        known.into_iter().all(|(name, _)| {
+            self.error(point, name)
+                .is_some_and(|error| error <= SUCCESS_PARAMETER_ERROR)
+        })
     }
 
     /// Relative error of a parameter.
@@ -188,8 +190,8 @@ fn course(runs: &[Steps], whole: bool) -> Course {
     if !(first > 0.0 && first.is_finite()) {
         return out;
     }
-    let ratio = libm::log(last / first) / (GRID - 1) as f64;
-    for i in 0..GRID {
+    let ratio = libm::log(last / first) / (CURVE_POINTS - 1) as f64;
+    for i in 0..CURVE_POINTS {
         let x = first * libm::exp(ratio * i as f64);
         let x = if whole { x.round() } else { x };
         if out.at.last().is_some_and(|before| x <= *before) {

@@ -122,7 +122,7 @@ fn stated(
 }
 
 /// The best law, or if the log does not determine it, the best of those that it determines and that
-/// leave not much more: numbers that nobody may use are of no use for a little less error.
+/// leave not much more: parameters that may not be used are of no use for a slightly smaller error.
 fn determined(climb: &Climb, laws: &[LawEntry], best: usize) -> usize {
     if laws[best].determined {
         return best;

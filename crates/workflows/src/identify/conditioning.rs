@@ -74,7 +74,7 @@ pub(super) fn choose(
         dependences: Vec::new(),
         ..terms.clone()
     };
-    // What cannot be fitted at all is told by the fit that was asked for.
+    // What cannot be fitted at all is reported by the fit itself.
     let Ok(tuned) = engine::tune(&samples, wanted, law, &plain, settings, observer) else {
         return Ok(Chosen::stated(*wanted));
     };

@@ -13,7 +13,7 @@ use stiction_files::result::{BreakAwayEntry, SearchedEntry};
 use stiction_identify as engine;
 use stiction_identify::{Law, LawKind, Observer};
 
-/// A fitted law, and how it was come by.
+/// A fitted law, and how it was found.
 pub(super) struct Fitted {
     /// The law, and those it was compared with.
     pub choice: Choice,

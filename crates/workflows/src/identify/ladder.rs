@@ -9,8 +9,9 @@ use stiction_identify::{
 };
 use stiction_parameters::Quantity;
 
-/// Blocks of the cross-validation where no validation data are given.
-const BLOCKS: usize = 4;
+/// Blocks that a record is cut into for cross-validation where no validation data are given: each law is fitted four
+/// times, to three quarters of the record.
+const CROSS_VALIDATION_BLOCKS: usize = 4;
 
 /// What the laws are compared on.
 pub(super) struct Ladder<'a> {
@@ -101,7 +102,13 @@ impl Ladder<'_> {
             None => self.fit(law, settings, &mut relay)?,
         };
         let score = if self.held_out.is_empty() {
-            engine::cross_validate(self.record, &estimate, &optimum.bounds, BLOCKS, &mut relay)
+            engine::cross_validate(
+                self.record,
+                &estimate,
+                &optimum.bounds,
+                CROSS_VALIDATION_BLOCKS,
+                &mut relay,
+            )
         } else {
             LawScore::on(self.held_out, &estimate)
         };

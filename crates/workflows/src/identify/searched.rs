@@ -25,7 +25,7 @@ use watch::{Ended, Watch};
 /// publication to end by themselves on most logs.
 const USUAL_EVALUATIONS: u64 = 20_000;
 
-/// Refuses limits of a search beside another method, and limits that are none.
+/// Refuses limits of a search beside another method, and limits that are not positive.
 pub(super) fn check(options: &Options) -> Result<(), Error> {
     let method = options.procedures.method;
     let given = &options.searching;

@@ -28,7 +28,7 @@ pub(super) const RICHER_LAW_WINS_BELOW: f64 = 0.8;
 /// The same ratio below which this law is not trusted, dimensionless: another law leaves less than half.
 const UNTRUSTED_BELOW: f64 = 0.5;
 /// Independent samples that the residual is worth, as a part of all, below which it is said to be systematic,
-/// dimensionless. Residuals of measured axes with a law that fits are worth more (`docs/validation.md`).
+/// dimensionless; see `docs/codes/correlated-residual.md`.
 const SYSTEMATIC_BELOW_SHARE: f64 = 0.05;
 /// Shift of a parameter by encoder, filters and noise, as a part of its value, above which it is named, dimensionless.
 const NAMED_SHIFT: f64 = 0.05;
@@ -250,8 +250,8 @@ fn unidentifiable(
         warnings.push(Warning::new(Code::NotIdentifiable, text));
         if parameter.name.quantity == Quantity::Coulomb {
             reasons.push(format!(
-                "{} is not determined by this log: the law may predict such motion, its parameters \
-                 do not stand for the machine",
+                "{} is not determined by this log: the law may predict motion like this, but its \
+                 parameters are not constants of the machine",
                 parameter.name
             ));
         }
@@ -260,8 +260,8 @@ fn unidentifiable(
         warnings.push(Warning::new(
             Code::NotIdentifiable,
             format!(
-                "{}: the data determine what the elements do together, not each of them. Record slow \
-                 reversals of several depths, or ask for fewer elements ([terms] gms_elements)",
+                "{}: the data determine the sum of the elements, not each of them. Record slow \
+                 reversals of several amplitudes, or ask for fewer elements ([terms] gms_elements)",
                 elements.join(", ")
             ),
         ));
@@ -287,7 +287,7 @@ fn another_wins(
     };
     let side = if best.asymmetric { " --asymmetric" } else { "" };
     let errors = format!(
-        "on held-out samples --law {}{side} leaves {}, this law {}",
+        "on held-out samples --law {}{side} has an error of {}, this law of {}",
         best.law,
         Percent::error(least).decimals(2),
         Percent::error(mine).decimals(2)
@@ -308,7 +308,7 @@ fn another_wins(
     }
 }
 
-/// Names the parameters that encoder, filters and noise shift far.
+/// Names the parameters with a large bias by encoder, filters and noise.
 fn shifted(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
     let far = |p: &&stiction_identify::Parameter| {
         let part = p.bias.map_or(0.0, |bias| (bias / p.value).abs());
@@ -330,24 +330,24 @@ fn shifted(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
         warnings.push(Warning::new(
             Code::LargeShift,
             format!(
-                "encoder steps, filters and noise shift {}: taken off, but a shift of this size is known \
-                 in size only",
+                "encoder steps, filters and noise bias {}: the bias was subtracted, but one of this size \
+                 is known only roughly",
                 names.join(", ")
             ),
         ));
     }
 }
 
-/// A residual that resembles itself over many samples is not noise.
+/// A residual that is autocorrelated over many samples is not noise.
 fn systematic(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
     let fit = &estimate.fit;
     if fit.effective_samples < SYSTEMATIC_BELOW_SHARE * fit.samples as f64 {
         warnings.push(Warning::new(
             Code::CorrelatedResidual,
             format!(
-                "the residual is worth {:.0} independent samples of {}: something systematic is left \
-                 (another law, cogging, gravity, force and position logged at different instants); it \
-                 may bias the parameters by more than their intervals",
+                "the residual is strongly autocorrelated: {:.0} effective samples of {}. An effect that the \
+                 law does not describe is left (another law, cogging, gravity, force and position \
+                 logged at different instants); it may bias the parameters by more than their intervals",
                 fit.effective_samples, fit.samples
             ),
         ));
@@ -370,7 +370,7 @@ fn open_loop(found: &SimulationFit, warnings: &mut Vec<Warning>, reasons: &mut V
         return;
     }
     let worth = format!(
-        "the residual is worth {:.0} independent samples for {unknowns} unknowns, the starts of the runs \
+        "the residual has {:.0} effective samples for {unknowns} unknowns, the starts of the runs \
          included",
         fit.effective_samples
     );
@@ -379,13 +379,13 @@ fn open_loop(found: &SimulationFit, warnings: &mut Vec<Warning>, reasons: &mut V
         Code::CorrelatedResidual,
         format!(
             "{worth}: the logged force drives the simulated axis, so its noise, and any force that is \
-             not in it, adds up to a slow error of the position and shifts the parameters by more than \
+             not in it, adds up to a slow error of the position and biases the parameters by more than \
              their intervals. Cut the log into shorter runs ([simulation] segment in the axis file), or \
              record a closed loop and give its controller ([controller]), which no force noise drives"
         ),
     ));
     reasons.push(format!(
-        "{worth}: noise of the logged force is in the parameters and not in their intervals"
+        "{worth}: noise of the logged force biases the parameters, and their intervals do not include that"
     ));
 }
 
@@ -402,8 +402,8 @@ fn static_at_rest(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warni
         warnings.push(Warning::new(
             Code::StaticLawAtRest,
             format!(
-                "{:.0} % of the samples are slower than {:.3e} {}, where a static law says nothing and \
-                 most of the residual is: leave them out with [conditioning] min_speed in the axis \
+                "{:.0} % of the samples are slower than {:.3e} {}, where a static law does not \
+                 describe friction and most of the residual is: leave them out with [conditioning] min_speed in the axis \
                  file, or use --law lugre",
                 100.0 * part,
                 estimate.low_speed_bound,

@@ -2,8 +2,8 @@
 
 use stiction_servo::two_axes::PlaneSample;
 
-/// Points of a trace that are kept.
-const KEPT: usize = 3000;
+/// Most points of a course that are kept: more than a figure can show.
+const MOST_POINTS_KEPT: usize = 3000;
 
 /// The course of a run on a contour with exact parameters, for figures.
 pub struct ContourTrace {
@@ -38,7 +38,7 @@ impl ContourTrace {
             left: Vec::new(),
             deviation: Vec::new(),
         };
-        for stretch in samples.chunks(samples.len().div_ceil(KEPT).max(1)) {
+        for stretch in samples.chunks(samples.len().div_ceil(MOST_POINTS_KEPT).max(1)) {
             let most = stretch
                 .iter()
                 .max_by(|a, b| a.deviation.abs().total_cmp(&b.deviation.abs()));

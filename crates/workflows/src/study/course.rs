@@ -7,15 +7,16 @@ use stiction_log::Motion;
 use stiction_servo::axis::Sample;
 use stiction_servo::two_axes::PlaneSample;
 
-/// Most rows of a run, and of all together: every so-manieth sample is written.
-const MOST: usize = 5_000;
-const MOST_OF_ALL: usize = 200_000;
+/// Most rows of one run: of more samples every n-th is written.
+const MOST_ROWS_OF_A_RUN: usize = 5_000;
+/// Most rows of all runs together.
+const MOST_ROWS: usize = 200_000;
 
 /// How many rows a run may have.
 pub(super) fn rows_of_a_run(study: &Study) -> usize {
     let paths = study.paths.len() + study.contours.len();
     let runs = paths * study.controllers.len() * study.compensators.len();
-    (MOST_OF_ALL / runs.max(1)).clamp(10, MOST)
+    (MOST_ROWS / runs.max(1)).clamp(10, MOST_ROWS_OF_A_RUN)
 }
 
 /// The header for paths.

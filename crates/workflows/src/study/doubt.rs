@@ -8,11 +8,11 @@ use stiction_files::study::result::ResultRow;
 use stiction_files::study::{Scheme, Study};
 use stiction_number::quantity;
 
-/// Share of the samples at the limit of the force from which on a run is warned of.
-const MUCH: f64 = 0.01;
-/// Rms change of the command from sample to sample, as a part of the largest force, from which on it shakes: a loop that
-/// swings between the limits in 64 samples or fewer.
-const SHAKES: f64 = 0.1;
+/// Part of the samples at the limit of the force above which a run is warned of, dimensionless.
+const WARNED_SHARE_AT_LIMIT: f64 = 0.01;
+/// Rms change of the command from sample to sample, as a part of the largest force, above which it is warned of,
+/// dimensionless: a loop that swings between its limits in 64 samples or fewer.
+const WARNED_COMMAND_CHANGE: f64 = 0.1;
 
 /// Codes of the warnings that are made here.
 pub const CODES: [Code; 3] = [
@@ -53,9 +53,9 @@ fn still_learning(study: &Study, row: &ResultRow) -> Option<Warning> {
     Some(Warning::new(
         Code::StillLearning,
         format!(
-            "{}, {}: the watchdog lets no force through until it has learnt the error without, from the first turn of \
-             the motion over {} and two strokes at least; of {} what counts begins at {}. Give a longer run and a \
-             skip beyond the learning, a shorter watchdog_window (a cycle of the motion), or watchdog = false",
+            "{}, {}: the watchdog lets no force through until it has learned the error without compensation, from \
+             the first reversal of the motion over {} and at least two strokes; the run lasts {} and is evaluated from \
+             {} on. Give a longer run and a skip beyond the learning, a shorter watchdog_window (a cycle of the motion), or watchdog = false",
             row.path,
             row.compensator,
             quantity(window, "s"),
@@ -82,12 +82,12 @@ fn worst<'r>(
 
 fn at_limit(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
     let (row, share) = worst(rows, "saturation", &|_| 1.0)?;
-    (share > MUCH).then(|| {
+    (share > WARNED_SHARE_AT_LIMIT).then(|| {
         Warning::new(
             Code::AtForceLimit,
             format!(
-                "{}, {}: with {} the command is at its limit of {} in {:.0} % of the samples: what counts is then the \
-                 limit, neither the controller nor the compensation",
+                "{}, {}: with {} the command is at its limit of {} in {:.0} % of the samples: the result then shows \
+                 the limit, not the controller or the compensation",
                 row.path,
                 row.controller,
                 row.scheme(),
@@ -101,7 +101,7 @@ fn at_limit(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
 fn shaking(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
     let limits = force_limits(study, &rows.first()?.controller)?;
     let (row, share) = worst(rows, "command_change", &|axis| limits[axis])?;
-    (share > SHAKES).then(|| {
+    (share > WARNED_COMMAND_CHANGE).then(|| {
         Warning::new(
             Code::UnsteadyCommand,
             format!(

@@ -15,12 +15,12 @@ use stiction_servo::metrics::{Tracking, ripple_at_constant_velocity, share_at_li
 use stiction_servo::run::{follow, follow_sampled, sample_count};
 use stiction_servo::sampled::Sampled;
 
-/// Samples of references that are kept for all runs, of all paths together: a hundred megabytes.
-const MOST_SHARED: usize = 4_000_000;
+/// Most reference samples that are kept for all runs, of all paths together: a hundred megabytes.
+const MOST_SHARED_SAMPLES: usize = 4_000_000;
 
 /// The reference of each path at the control rate, for all runs along it; `None` where that would be too much to keep.
 pub(super) fn sampled(study: &Study) -> Vec<Option<Sampled>> {
-    let mut left = MOST_SHARED;
+    let mut left = MOST_SHARED_SAMPLES;
     let sampled = study.paths.iter().map(|path| {
         let count = sample_count(path.trajectory.duration(), study.machine.rate).ok()?;
         left = left.checked_sub(count)?;

@@ -3,8 +3,8 @@
 use stiction_servo::axis::Sample;
 use stiction_servo::metrics::reversals;
 
-/// Points of a trace that are kept: more than a figure can show.
-const KEPT: usize = 2000;
+/// Most points of a course that are kept: more than a figure can show.
+const MOST_POINTS_KEPT: usize = 2000;
 
 /// The course of the run with exact parameters, for figures.
 pub struct Trace {
@@ -59,7 +59,7 @@ impl Course {
     /// Of each stretch the least and the largest error.
     fn of(samples: &[Sample]) -> Self {
         let mut course = Course::default();
-        for stretch in samples.chunks(samples.len().div_ceil(KEPT / 2).max(1)) {
+        for stretch in samples.chunks(samples.len().div_ceil(MOST_POINTS_KEPT / 2).max(1)) {
             let (mut low, mut high) = (0, 0);
             for (i, sample) in stretch.iter().enumerate() {
                 if sample.error() < stretch[low].error() {

@@ -1,8 +1,8 @@
 //! `[simulation]` and `[controller]`: what `--method output-error` needs to know.
 
-use super::Resolver;
-use crate::axis::Axis;
-use crate::axis::controller::{ControllerValues, Gain};
+use super::resolver::Resolver;
+use crate::axis::gain::{ControllerValues, Gain};
+use crate::axis::values::Axis;
 use crate::config::{Given, Table};
 use crate::error::Error;
 use stiction_identify::Hold;

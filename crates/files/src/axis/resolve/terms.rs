@@ -1,7 +1,7 @@
 //! `mass` and `[terms]`: what is fitted beside the friction law.
 
-use super::{LENGTHS, Resolver};
-use crate::axis::Axis;
+use super::resolver::{LENGTHS, Resolver};
+use crate::axis::values::Axis;
 use crate::config::{Given, Table};
 use crate::error::Error;
 use stiction_identify::{Delay, Dependence, GMS_FEWEST, GMS_MOST, Mass};

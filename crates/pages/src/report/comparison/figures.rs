@@ -3,8 +3,8 @@
 use stiction_files::compare_file::{CompareFile, Course, MethodEntry, Stage};
 use stiction_report::{Axis, Color, Dash, Figure, Layer, Panel};
 
-/// Least excess over the optimum that a logarithmic axis shows.
-const LEAST: f64 = 1e-6;
+/// Cost over the optimum, less 1, that a logarithmic axis shows at least, dimensionless; less is drawn there.
+const SMALLEST_EXCESS_DRAWN: f64 = 1e-6;
 
 /// Success rates as a picture.
 pub(super) fn rates(file: &CompareFile) -> Figure {
@@ -153,7 +153,10 @@ pub(super) fn population(m: &MethodEntry) -> Figure {
 pub(super) fn beside(file: &CompareFile, paper: &[&MethodEntry]) -> Figure {
     let least = file.reference.cost;
     let excess = |costs: &[f64]| -> Vec<f64> {
-        costs.iter().map(|c| (c / least - 1.0).max(LEAST)).collect()
+        costs
+            .iter()
+            .map(|c| (c / least - 1.0).max(SMALLEST_EXCESS_DRAWN))
+            .collect()
     };
     let mut panel = Panel::new(
         Axis::new("Evaluations of the full record", "").log(),

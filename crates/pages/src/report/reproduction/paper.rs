@@ -48,7 +48,7 @@ pub(super) fn report(file: &ReproduceFile, paper: &Paper) -> Document {
     }
     document
         .heading(2, "Assumptions")
-        .paragraph("What the paper gives no number for, and what was taken.")
+        .paragraph("Where the paper gives no number, and what was assumed.")
         .block(Block::List(
             file.assumptions
                 .iter()

@@ -10,10 +10,10 @@ use stiction_report::{
 };
 use stiction_workflows::study::{ContourTrace, StudyOutcome};
 
-/// Part of the contour's size that the largest deviation is drawn as.
-const SHOWN: f64 = 0.12;
+/// Size of the largest deviation in the picture, as a part of the size of the contour, dimensionless.
+const LARGEST_DEVIATION_DRAWN: f64 = 0.12;
 /// Height of the picture of the contour, and of the deviation beside it, px.
-const HEIGHT: f64 = 340.0;
+const PICTURE_HEIGHT: f64 = 340.0;
 
 /// Whether rows are of a contour.
 pub(super) fn is_contour(rows: &[ResultRow]) -> bool {
@@ -88,8 +88,8 @@ pub(super) fn figures(outcome: &StudyOutcome, rows: &[ResultRow]) -> Option<Bloc
     });
     let largest = first.deviation.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
     let frame = Frame::of(first)?;
-    let magnified = magnification(SHOWN * frame.size / largest);
-    let mut plane = Panel::new(frame.axis(0, length), frame.axis(1, length)).height(HEIGHT);
+    let magnified = magnification(LARGEST_DEVIATION_DRAWN * frame.size / largest);
+    let mut plane = Panel::new(frame.axis(0, length), frame.axis(1, length)).height(PICTURE_HEIGHT);
     let side = |i: usize| first.reference.iter().map(|p| p[i]).collect::<Vec<_>>();
     plane = plane.layer(
         Layer::line(side(0), side(1))
@@ -98,7 +98,7 @@ pub(super) fn figures(outcome: &StudyOutcome, rows: &[ResultRow]) -> Option<Bloc
             .label("Reference"),
     );
     let time = Axis::new("Time", "s");
-    let mut course = Panel::new(time, Axis::new("Contour error", length)).height(HEIGHT);
+    let mut course = Panel::new(time, Axis::new("Contour error", length)).height(PICTURE_HEIGHT);
     for ((name, trace), color) in traces.iter().zip(COLORS) {
         let [x, y] = drawn_off(trace, magnified);
         plane = plane.layer(Layer::line(x, y).color(color).label(name.as_str()));

@@ -188,7 +188,7 @@ fn entry(
                 warnings.push(Warning::new(
                     Code::NoOvershoot,
                     format!(
-                        "{}: the published inversion has no sigma1, since the axis does not overshoot; \
+                        "{}: the published inversion gives no sigma1, since the axis does not overshoot; \
                          the fit by simulation needs no overshoot",
                         path_of(sources, k)
                     ),

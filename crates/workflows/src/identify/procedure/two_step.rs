@@ -22,7 +22,7 @@ use stiction_parameters::{Name, Quantity};
 /// Difference of a parameter between the two ways, in standard deviations of the joint fit, above which it is explained:
 /// two, as the 95 % intervals.
 const EXPLAINED_DIFFERENCE: f64 = 2.0;
-/// Correlation of two parameters in the joint fit, 0 to 1, from which they are said to stand for each other.
+/// Correlation of two parameters in the joint fit, 0 to 1, from which they are named as hard to tell apart.
 const CONFUSED_CORRELATION: f64 = 0.9;
 
 /// What the two steps work on.
@@ -137,8 +137,8 @@ impl TwoSteps {
         let (two, one) = (law.fit.rmse, self.joint.fit.rmse);
         out.push(format!(
             "On this record the two steps leave {} {unit} rms and the joint fit {} {unit}: the joint \
-             fit may move every parameter and so always leaves the least; what is between the two is \
-             the price of static parameters that were not made for this motion.",
+             fit may change every parameter, so its residual is always the smaller one; the difference is \
+             the cost of static parameters that were found on another motion.",
             stiction_number::four_digits(two),
             stiction_number::four_digits(one)
         ));
@@ -171,16 +171,16 @@ impl TwoSteps {
             out.push(
                 "The static map is made at constant velocity: no acceleration, no lag and no \
                  break-away are in it, so neither mass nor delay can bias it. The joint fit sees \
-                 friction as it is in motion, with the motion's own temperature and lubrication. If \
-                 the two disagree, the steady curve is not the same in both, or force and position of \
-                 the log do not belong to the same instants."
+                 friction as it is in this motion, at its temperature and lubrication. If the two \
+                 disagree, the steady curve is not the same in both, or force and position of the log \
+                 do not belong to the same instants."
                     .into(),
             );
         }
         for (a, b) in self.confused() {
             out.push(format!(
-                "In the joint fit {} and {} stand for each other (correlation {:+.2}): a difference \
-                 in one is paid back by the other. The constant velocities tell them apart.",
+                "In the joint fit {} and {} can hardly be told apart (correlation {:+.2}): a change of \
+                 one is compensated by the other. The constant velocities tell them apart.",
                 a.0.symbol(),
                 a.1.symbol(),
                 b
@@ -192,9 +192,8 @@ impl TwoSteps {
         };
         if wider("sigma1") == Some(true) || wider("sigma0") == Some(true) {
             out.push(
-                "σ₀ and σ₁ are less sure in two steps: whatever the static map is off by ends in \
-                 them, and their intervals count that. More and longer runs at low speeds narrow \
-                 them."
+                "σ₀ and σ₁ are less certain in two steps: errors of the static map add to theirs, \
+                 and their intervals include that. More and longer runs at low speeds narrow them."
                     .into(),
             );
         }

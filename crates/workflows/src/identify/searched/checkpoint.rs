@@ -10,8 +10,8 @@ use stiction_search::{Finished, Run, Searcher};
 
 /// Name of the schema.
 const SCHEMA: &str = "stiction.checkpoint/1";
-/// Longest file that is read, bytes; a state is a few thousand points.
-const LONGEST: u64 = 1 << 28;
+/// Largest checkpoint file that is read, bytes; a state is a few thousand points.
+const LARGEST_CHECKPOINT: u64 = 1 << 28;
 
 /// What the course of a search depends on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -139,9 +139,9 @@ fn text(file: &Path) -> Result<String, String> {
     }
     let mut text = String::new();
     let file = std::fs::File::open(file).map_err(describe)?;
-    let many = file.take(LONGEST + 1).read_to_string(&mut text);
+    let many = file.take(LARGEST_CHECKPOINT + 1).read_to_string(&mut text);
     match many.map_err(describe)? {
-        n if n as u64 > LONGEST => Err("too long".into()),
+        n if n as u64 > LARGEST_CHECKPOINT => Err("too long".into()),
         _ => Ok(text),
     }
 }

@@ -3,8 +3,8 @@
 use std::time::{Duration, Instant};
 use stiction_search::{Control, Kind, Limits, Observer, Progress, Stage, Status};
 
-/// How often the state is kept.
-const EVERY: Duration = Duration::from_secs(5);
+/// Time between two checkpoints: what a crash may cost.
+const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(5);
 
 /// How a search ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,7 +88,7 @@ impl Observer for Watch<'_> {
         self.late = self
             .time
             .is_some_and(|time| self.start.elapsed().as_secs_f64() >= time);
-        let keep = self.keeps && self.kept.elapsed() >= EVERY;
+        let keep = self.keeps && self.kept.elapsed() >= CHECKPOINT_INTERVAL;
         if self.interrupted || self.late || keep {
             return Control::Stop;
         }

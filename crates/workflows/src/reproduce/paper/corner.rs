@@ -20,8 +20,8 @@ const LIMITS: Limits = Limits {
     jerk: 200.0,
 };
 
-/// How long before and after the corner counts, s.
-const ABOUT: f64 = 0.2;
+/// How long before and after the corner is evaluated, s.
+const EVALUATED_ABOUT_CORNER: f64 = 0.2;
 
 /// One run.
 #[derive(Clone, Debug)]
@@ -58,8 +58,8 @@ fn one(fed: Fed, law: &LuGre<f64>) -> Result<Cornered, ParamError> {
     // Both edges are the same.
     let turns = 0.5 * corner.duration();
     let time = |s: &PlaneSample| s.axes[0].time;
-    let from = samples.partition_point(|s| time(s) < turns - ABOUT);
-    let to = samples.partition_point(|s| time(s) <= turns + ABOUT);
+    let from = samples.partition_point(|s| time(s) < turns - EVALUATED_ABOUT_CORNER);
+    let to = samples.partition_point(|s| time(s) <= turns + EVALUATED_ABOUT_CORNER);
     Ok(Cornered {
         fed,
         contour: Contour::of(&samples[from..to]),

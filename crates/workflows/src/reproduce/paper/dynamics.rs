@@ -18,12 +18,12 @@ use stiction_servo::motion::Sine;
 const AMPLITUDE: f64 = 0.5e-3;
 const FREQUENCY: f64 = 2.0;
 const CYCLES: f64 = 3.0;
-/// One sample in so many is fitted.
-const EVERY: usize = 2;
+/// One sample in so many is fitted: 5 kHz of 10 kHz.
+const FITTED_SAMPLE: usize = 2;
 
 /// The box of the six parameters `[sigma0, sigma1, sigma2, Fc, Fs - Fc, vs]`, SI.
-const LOW: [f64; 6] = [1e4, 10.0, 0.1, 0.1, 0.1, 1e-4];
-const HIGH: [f64; 6] = [1e8, 1e5, 1e3, 100.0, 100.0, 0.1];
+const BOX_LOW: [f64; 6] = [1e4, 10.0, 0.1, 0.1, 0.1, 1e-4];
+const BOX_HIGH: [f64; 6] = [1e8, 1e5, 1e3, 100.0, 100.0, 0.1];
 
 /// Both identifications.
 #[derive(Clone, Debug)]
@@ -38,7 +38,7 @@ pub(super) fn run(statics: &Named, budget: Budget, watch: &Watch) -> Result<Dyna
     let record = record()?;
     watch.done()?;
     let held = Held {
-        bounds: bounds(&LOW[..2], &HIGH[..2])?,
+        bounds: bounds(&BOX_LOW[..2], &BOX_HIGH[..2])?,
         all: cost(&record)?,
         statics: logarithms(statics),
     };
@@ -61,7 +61,7 @@ fn record() -> Result<Record, Fault> {
     let samples = along(&settings()?, &Sine::new(AMPLITUDE, FREQUENCY, CYCLES)?)?;
     let mut log = Samples::default();
     let mut velocity = Vec::new();
-    for three in samples.windows(3).step_by(EVERY) {
+    for three in samples.windows(3).step_by(FITTED_SAMPLE) {
         let [before, now, after] = three else {
             continue;
         };
@@ -93,7 +93,7 @@ fn cost(record: &Record) -> Result<SixParameters, Fault> {
         ..Terms::default()
     };
     let law = Law::new(LawKind::LuGre);
-    let bounds = bounds(&LOW, &HIGH)?;
+    let bounds = bounds(&BOX_LOW, &BOX_HIGH)?;
     Ok(SixParameters::new(
         record,
         law,

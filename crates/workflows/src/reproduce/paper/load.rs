@@ -10,9 +10,10 @@ use stiction_servo::load::{LoadEstimator, LoadSettings};
 use stiction_servo::motion::Sine;
 use stiction_servo::trajectory::{Lookahead, Trajectory};
 
-/// The mass after the change, kg, and when it comes, s.
+/// The mass after the change, kg.
 pub(super) const HEAVIER: f64 = 6.9;
-pub(super) const CHANGE: f64 = 2.0;
+/// When the change comes, s.
+pub(super) const CHANGE_AT: f64 = 2.0;
 /// m, Hz, and cycles of the motion.
 const SINE: (f64, f64, f64) = (15e-3, 1.5, 6.0);
 
@@ -48,7 +49,7 @@ pub(super) fn run(law: &LuGre<f64>, watch: &Watch) -> Result<LoadFound, Fault> {
         mass: [Vec::new(), Vec::new()],
         level: Vec::new(),
     };
-    let change = (CHANGE * RATE) as usize;
+    let change = (CHANGE_AT * RATE) as usize;
     for k in 0..(sine.duration() * RATE) as usize {
         if k == change {
             axis.set_mass(HEAVIER)?;

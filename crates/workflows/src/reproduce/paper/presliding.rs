@@ -13,10 +13,12 @@ use stiction_identify::{Samples, Silent};
 use stiction_servo::integrator::{Integrator, Ode4};
 use stiction_servo::plant::{Load, Motion};
 
-/// Height of the step, V; when it comes and when the record ends, s.
+/// Height of the step, V.
 pub(super) const VOLTS: f64 = 0.02;
-const FROM: f64 = 0.01;
-const UNTIL: f64 = 0.1;
+/// When the step comes, s.
+const STEP_AT: f64 = 0.01;
+/// When the record ends, s.
+const RECORD_END: f64 = 0.1;
 
 /// The response and what two methods make of it.
 #[derive(Clone, Debug)]
@@ -43,9 +45,9 @@ pub(super) fn run(identified: &Named, watch: &Watch) -> Result<Presliding, Fault
     let mut ode4 = Ode4::new(1)?;
     let mut log = Samples::default();
     let (mut motion, mut position) = (Motion::default(), Vec::new());
-    for k in 0..=(UNTIL * RATE) as usize {
+    for k in 0..=(RECORD_END * RATE) as usize {
         let time = k as f64 / RATE;
-        let force = if time < FROM { 0.0 } else { height };
+        let force = if time < STEP_AT { 0.0 } else { height };
         log.time.push(time);
         log.force.push(force);
         position.push(motion.position);

@@ -16,9 +16,11 @@ pub(super) const SPEEDS: [f64; 16] = [
     0.2, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0, 50.0, 75.0, 100.0,
 ];
 
-/// Time to reach a velocity, to settle there, and over which the force is averaged, s.
+/// Time to reach a velocity, s.
 const RAMP: f64 = 0.1;
+/// Time to settle there, s.
 const SETTLE: f64 = 0.3;
+/// Time over which the force is averaged, s.
 const MEAN: f64 = 0.3;
 
 /// The map and what was made of it.

@@ -223,7 +223,7 @@ fn loops(runs: &[Tracked]) -> Figure {
 }
 
 /// Height of the pictures of the corner, px.
-const CORNER: f64 = 320.0;
+const CORNER_PICTURE_HEIGHT: f64 = 320.0;
 
 /// How far beyond the corner its picture reaches, m.
 const ABOUT_CORNER: f64 = 12e-6;
@@ -241,7 +241,7 @@ fn corner(runs: &[Cornered]) -> Figure {
         Axis::new("x less the corner", "m").range(x.0 - at, x.1 - at),
         Axis::new("y", "m").range(y.0, y.1),
     )
-    .height(CORNER)
+    .height(CORNER_PICTURE_HEIGHT)
     .layer(
         Layer::line(vec![-1.0, 0.0, 0.0], vec![0.0, 0.0, 1.0])
             .color(Color::Green)
@@ -262,7 +262,7 @@ fn corner(runs: &[Cornered]) -> Figure {
 }
 
 fn deviation(runs: &[Cornered]) -> Figure {
-    let panel = over_time("Contour error", "m").height(CORNER);
+    let panel = over_time("Contour error", "m").height(CORNER_PICTURE_HEIGHT);
     let panel = runs.iter().fold(panel, |panel, run| {
         let time: Vec<f64> = run.samples.iter().map(|s| s.axes[0].time).collect();
         let error: Vec<f64> = run.samples.iter().map(|s| s.deviation).collect();

@@ -1,0 +1,144 @@
+//! The form of a model file, and how it is written.
+
+use crate::result::{CovarianceEntry, ParameterEntry, ResultFile};
+use serde::Serialize;
+use stiction_parameters::{LawKind, ParameterSet};
+
+/// Name of the schema.
+pub const SCHEMA: &str = "stiction.model/1";
+
+/// The whole file.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ModelFile {
+    /// `stiction.model/1`.
+    pub schema: String,
+    /// Name of the axis.
+    pub name: Option<String>,
+    /// `linear` or `rotary`.
+    pub kind: String,
+    /// Family of the law.
+    pub law: String,
+    /// Whether each direction has parameters of its own.
+    pub asymmetric: bool,
+    /// Unit of the force channel.
+    pub force_unit: String,
+    /// Whether the result of the identification is trustworthy.
+    pub trustworthy: bool,
+    /// Where the numbers came from.
+    pub source: SourceEntry,
+    /// Parameters of the law.
+    pub parameter: Vec<ModelParameter>,
+    /// Covariance of the identified parameters.
+    pub covariance: CovarianceEntry,
+}
+
+/// Where the numbers came from.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SourceEntry {
+    /// Version of stiction.
+    pub version: String,
+    /// Search method.
+    pub method: String,
+    /// Seed of the search.
+    pub seed: u64,
+    /// Largest speed of the logs that were fitted, m/s or rad/s; absent where it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub top_speed: Option<f64>,
+    /// Paths and hashes of the logs.
+    pub inputs: Vec<SourceInput>,
+}
+
+/// One log.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SourceInput {
+    /// Path as given.
+    pub path: String,
+    /// SHA-256 of the file.
+    pub sha256: String,
+}
+
+/// One parameter.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ModelParameter {
+    /// Name, such as `sigma0`.
+    pub name: String,
+    /// Symbol for people.
+    pub symbol: String,
+    /// Value in `unit`.
+    pub value: f64,
+    /// SI unit.
+    pub unit: String,
+    /// Standard deviation; absent where the data say nothing.
+    pub std: Option<f64>,
+    /// 95 % interval; absent where the data bound it on no side, an infinite end where on one side
+    /// only.
+    pub ci95: Option<[f64; 2]>,
+    /// `linear` or `profile`; absent without an interval.
+    pub interval: Option<String>,
+    /// Whether the data determine it.
+    pub identifiable: bool,
+    /// `identified` or `given`.
+    pub origin: String,
+}
+
+impl From<&ParameterEntry> for ModelParameter {
+    fn from(p: &ParameterEntry) -> Self {
+        Self {
+            name: p.name.clone(),
+            symbol: p.symbol.clone(),
+            value: p.value,
+            unit: p.unit.clone(),
+            std: p.std,
+            ci95: p.range().map(|(low, high)| [low, high]),
+            interval: p.interval.clone(),
+            identifiable: p.identifiable,
+            origin: p.origin.clone(),
+        }
+    }
+}
+
+impl ModelFile {
+    /// The model that a result holds.
+    pub fn from_result(result: &ResultFile) -> Self {
+        Self {
+            schema: SCHEMA.into(),
+            name: result.axis.name.clone(),
+            kind: result.axis.kind.clone(),
+            law: result.law.clone(),
+            asymmetric: result.asymmetric,
+            force_unit: result.axis.force_unit.clone(),
+            trustworthy: result.trust.trustworthy,
+            source: SourceEntry {
+                version: result.version.clone(),
+                method: result.method.clone(),
+                seed: result.seed,
+                top_speed: result.top_speed,
+                inputs: result
+                    .inputs
+                    .iter()
+                    .map(|i| SourceInput {
+                        path: i.path.clone(),
+                        sha256: i.sha256.clone(),
+                    })
+                    .collect(),
+            },
+            parameter: result.parameters.iter().map(ModelParameter::from).collect(),
+            covariance: result.covariance.clone(),
+        }
+    }
+
+    /// The text of the file.
+    pub fn to_toml(&self) -> String {
+        let body = toml::to_string(self).expect("a model has only tables, numbers and text");
+        format!(
+            "# Friction model identified by stiction. Units are SI; ci95 is the 95 % interval.\n{body}"
+        )
+    }
+
+    /// Its parameters with their values; `None` for a law of no known name.
+    pub fn values(&self) -> Option<ParameterSet> {
+        let kind = LawKind::from_name(&self.law)?;
+        let values = self.parameter.iter().map(|p| (p.name.as_str(), p.value));
+        Some(ParameterSet::from_text(kind, values))
+    }
+}

@@ -1,0 +1,70 @@
+//! What the outcome of a workflow is worth, in one word.
+
+use crate::check::Check;
+use crate::export::Exported;
+use crate::identify::Outcome;
+use crate::reproduce::Reproduction;
+use crate::study::StudyOutcome;
+use stiction_files::compare_file::CompareFile;
+
+/// Whether an outcome may be used. What a process exits with follows from it, and from nothing else.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It may be used.
+    Trustworthy,
+    /// It is complete, and flagged as not trustworthy; the outcome says why.
+    NotTrustworthy,
+    /// The user stopped the work; what was done until then is there.
+    Interrupted,
+}
+
+impl Verdict {
+    fn new(interrupted: bool, trustworthy: bool) -> Self {
+        match (interrupted, trustworthy) {
+            (true, _) => Verdict::Interrupted,
+            (false, true) => Verdict::Trustworthy,
+            (false, false) => Verdict::NotTrustworthy,
+        }
+    }
+}
+
+impl Outcome {
+    /// What the identification is worth.
+    pub fn verdict(&self) -> Verdict {
+        let interrupted = self.result.search.status == "interrupted";
+        Verdict::new(interrupted, self.result.trust.trustworthy)
+    }
+}
+
+impl Check {
+    /// Whether each log determines a law that may be trusted.
+    pub fn verdict(&self) -> Verdict {
+        Verdict::new(false, self.logs.iter().all(|log| log.refused.is_none()))
+    }
+}
+
+impl StudyOutcome {
+    /// Whether all runs were made.
+    pub fn verdict(&self) -> Verdict {
+        Verdict::new(self.file.status == "interrupted", true)
+    }
+}
+
+impl Reproduction {
+    /// Whether all numbers are there and within their tolerance.
+    pub fn verdict(&self) -> Verdict {
+        Verdict::new(self.file.status == "interrupted", self.file.all_within)
+    }
+}
+
+impl Exported {
+    /// Whether the identification trusts every number of the law.
+    pub fn verdict(&self) -> Verdict {
+        Verdict::new(false, self.trustworthy)
+    }
+}
+
+/// Whether all runs of a comparison were made.
+pub fn of_comparison(file: &CompareFile) -> Verdict {
+    Verdict::new(file.status == "interrupted", true)
+}
