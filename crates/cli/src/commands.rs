@@ -5,7 +5,7 @@ use crate::brought;
 use crate::exit::Exit;
 use crate::interrupt;
 use crate::output;
-use crate::progress::{Bar, Counter};
+use crate::progress::Bar;
 use clap::ValueEnum;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -271,9 +271,9 @@ fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Err
     let study = Study::read(&simulate.study)?;
     let inputs: Vec<PathBuf> = study.inputs().map(PathBuf::from).collect();
     check_inputs(dir, &inputs)?;
-    let counter = Counter::new("simulating", common.json || common.quiet);
-    let outcome = stiction::simulate(&study, &mut |done, all| counter.at(done, all));
-    counter.finish();
+    let mut bar = Bar::new(common.json || common.quiet);
+    let outcome = stiction::simulate(&study, &mut bar);
+    bar.finish();
     let written = bundle::study(&outcome).write(dir)?;
     if common.json {
         output::json(&outcome.file)?;
@@ -317,18 +317,17 @@ fn reproduce(reproduce: &arguments::Reproduce, common: &Common) -> Result<Exit, 
         stiction::commands::reproduce_file::SCHEMA,
         reproduce.force,
     )?;
-    let counter = Counter::new("reproducing", common.json || common.quiet);
-    let mut watch = |done, all| counter.at(done, all);
+    let mut bar = Bar::new(common.json || common.quiet);
     let outcome = match reproduce.publication {
         arguments::Publication::Canudas1995 => {
-            stiction::commands::reproduce::canudas_1995(&mut watch)
+            stiction::commands::reproduce::canudas_1995(&mut bar)
         }
         arguments::Publication::Zhang2025 => {
             let budget = stiction::commands::reproduce::Budget::default();
-            stiction::commands::reproduce::zhang_2025(budget, &mut watch)
+            stiction::commands::reproduce::zhang_2025(budget, &mut bar)
         }
     };
-    counter.finish();
+    bar.finish();
     let written = bundle::reproduction(&outcome).write(dir)?;
     if common.json {
         output::json(&outcome.file)?;

@@ -3,6 +3,7 @@
 use crate::interrupt;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
+use std::mem::discriminant;
 use stiction::commands::number::Percent;
 use stiction::{Control, Observer, Progress, Stage};
 
@@ -41,38 +42,10 @@ fn bar(length: u64, hidden: bool) -> ProgressBar {
     bar
 }
 
-/// Counts runs, and passes the user's interrupt on.
-pub struct Counter(ProgressBar);
-
-impl Counter {
-    /// A counter of `what` is done, hidden as a bar is.
-    pub fn new(what: &'static str, hidden: bool) -> Self {
-        let bar = bar(0, hidden);
-        bar.set_prefix(what);
-        Self(bar)
-    }
-
-    /// So many of all are done.
-    pub fn at(&self, done: usize, all: usize) -> Control {
-        self.0.set_length(all as u64);
-        self.0.set_position(done as u64);
-        self.0.set_message(format!("{done} of {all}"));
-        if interrupt::asked() {
-            Control::Stop
-        } else {
-            Control::Continue
-        }
-    }
-
-    /// Takes the counter away.
-    pub fn finish(&self) {
-        self.0.finish_and_clear();
-    }
-}
-
 impl Observer for Bar {
     fn progress(&mut self, progress: &Progress) -> Control {
-        if self.stage != Some(progress.stage) {
+        let same = |stage: &Stage| discriminant(stage) == discriminant(&progress.stage);
+        if !self.stage.as_ref().is_some_and(same) {
             self.stage = Some(progress.stage);
             self.bar.reset();
             self.bar.set_prefix(match progress.stage {
@@ -83,10 +56,13 @@ impl Observer for Bar {
                 Stage::Coarse => "first descents",
                 Stage::Fine | Stage::Finish => "least squares",
                 Stage::CrossValidation => "comparing laws",
-                Stage::Experiments => "simulating",
+                Stage::Experiments { .. } => "simulating",
             });
         }
         self.bar.set_position((1000.0 * progress.fraction) as u64);
+        if let Stage::Experiments { done, all } = progress.stage {
+            self.bar.set_message(format!("{done} of {all}"));
+        }
         if progress.best.is_finite() {
             self.bar.set_message(format!(
                 "error {}",

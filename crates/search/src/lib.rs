@@ -75,6 +75,7 @@ mod problem;
 mod random;
 mod run;
 mod search;
+mod shared;
 mod status;
 
 pub use bounds::{Bounds, MOST_DIMENSIONS};
@@ -87,4 +88,5 @@ pub use points::Points;
 pub use problem::{CostsOnly, Derivatives, Fidelity, Kind, Problem};
 pub use run::{Best, Run};
 pub use search::{Answers, Phase, Request, Search};
+pub use shared::{Relay, Shared};
 pub use status::Status;

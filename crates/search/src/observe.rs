@@ -127,8 +127,13 @@ pub enum Stage {
     Calibration,
     /// Law comparison on held-out blocks.
     CrossValidation,
-    /// Simulations and other experiments, one after the other.
-    Experiments,
+    /// Simulations and other experiments.
+    Experiments {
+        /// How many are done.
+        done: usize,
+        /// Of how many.
+        all: usize,
+    },
 }
 
 impl From<Phase> for Stage {
@@ -152,6 +157,18 @@ pub struct Progress {
     /// Least so far of what is minimised: the cost of a [`Run`](crate::Run), and for an identification
     /// rms(residual)/rms(measured). Infinite before the first evaluation.
     pub best: f64,
+}
+
+impl Progress {
+    /// A stage without evaluations, so far done.
+    pub fn of(stage: Stage, fraction: f64) -> Self {
+        Self {
+            stage,
+            fraction,
+            counts: Counts::default(),
+            best: f64::INFINITY,
+        }
+    }
 }
 
 /// Whether to go on.

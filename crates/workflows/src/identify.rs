@@ -19,7 +19,6 @@ mod options;
 mod outcome;
 mod predict;
 mod procedure;
-mod relay;
 mod run;
 mod searched;
 mod simulate;

@@ -2,7 +2,7 @@
 
 use stiction::commands::FileError;
 use stiction::commands::study::result::{ResultRow, StudyFile};
-use stiction::{Control, Study, StudyOutcome};
+use stiction::{Silent, Study, StudyOutcome};
 
 const AXES: &str = r#"
 [axis]
@@ -57,7 +57,7 @@ fn read(text: &str) -> Result<Study, FileError> {
 }
 
 fn run(text: &str) -> StudyOutcome {
-    stiction::simulate(&read(text).unwrap(), &mut |_, _| Control::Continue)
+    stiction::simulate(&read(text).unwrap(), &mut Silent)
 }
 
 fn row<'f>(
@@ -137,7 +137,7 @@ fn a_contour_from_a_file() {
     let file = folder.path().join("study.toml");
     std::fs::write(&file, [AXES, contour, CONTROLLER, WHOLE].concat()).unwrap();
     let study = Study::read(&file).unwrap();
-    let outcome = stiction::simulate(&study, &mut |_, _| Control::Continue);
+    let outcome = stiction::simulate(&study, &mut Silent);
     assert!(
         outcome.file.warnings.is_empty(),
         "{:?}",
@@ -254,7 +254,7 @@ fn contours_beside_paths() {
         let outcome = pool
             .build()
             .unwrap()
-            .install(|| stiction::simulate(&study, &mut |_, _| Control::Continue));
+            .install(|| stiction::simulate(&study, &mut Silent));
         serde_json::to_string(&outcome.file).unwrap()
     };
     let one = with(1);

@@ -1,9 +1,10 @@
 //! The experiments of Zhang et al. 2025: the axis that was simulated is found, compensation reduces what it should, and a
 //! stop keeps what is done.
 
-use stiction::Control;
+use crate::common::counted;
 use stiction::commands::reproduce::{Budget, zhang_2025};
 use stiction::commands::reproduce_file::ReproduceFile;
+use stiction::{Control, Progress};
 
 /// A fraction of the searching; least squares make up for it.
 const SMALL: Budget = Budget {
@@ -15,8 +16,8 @@ const SMALL: Budget = Budget {
 #[test]
 fn the_simulated_axis_is_found_and_compensated() {
     let mut steps = (0, 0);
-    let outcome = zhang_2025(SMALL, &mut |done, all| {
-        steps = (done, all);
+    let outcome = zhang_2025(SMALL, &mut |progress: &Progress| {
+        steps = counted(progress);
         Control::Continue
     });
     assert_eq!(steps, (11, 11));
@@ -85,10 +86,13 @@ fn the_simulated_axis_is_found_and_compensated() {
 
 #[test]
 fn a_stop_keeps_what_is_done() {
-    let outcome = zhang_2025(SMALL, &mut |done, _| match done {
-        ..3 => Control::Continue,
-        _ => Control::Stop,
-    });
+    let outcome = zhang_2025(
+        SMALL,
+        &mut |progress: &Progress| match counted(progress).0 {
+            ..3 => Control::Continue,
+            _ => Control::Stop,
+        },
+    );
     let file = &outcome.file;
     assert_eq!(file.status, "interrupted");
     let experiments: Vec<&str> = file.checks.iter().map(|c| c.experiment.as_str()).collect();

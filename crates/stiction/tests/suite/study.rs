@@ -1,9 +1,10 @@
 //! Studies: numbers that are known from elsewhere, what a covariance does, what is refused, and that threads do not count.
 
+use crate::common::counted;
 use std::path::PathBuf;
 use stiction::commands::FileError;
 use stiction::commands::study::result::{ResultRow, StudyFile};
-use stiction::{Control, Study};
+use stiction::{Control, Progress, Silent, Study};
 use tempfile::TempDir;
 
 /// A folder with a study in it.
@@ -40,7 +41,7 @@ impl Desk {
 }
 
 fn run(study: &Study) -> StudyFile {
-    stiction::simulate(study, &mut |_, _| Control::Continue).file
+    stiction::simulate(study, &mut Silent).file
 }
 
 fn row<'f>(file: &'f StudyFile, compensator: &str, parameters: &str) -> &'f ResultRow {
@@ -155,7 +156,8 @@ fn threads_do_not_count_and_an_interrupt_keeps_what_is_done() {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1);
     let mut seen = 0;
     let cut = pool.build().unwrap().install(|| {
-        stiction::simulate(&study, &mut |done, all| {
+        stiction::simulate(&study, &mut |progress: &Progress| {
+            let (done, all) = counted(progress);
             seen = done;
             assert_eq!(all, 4 * (1 + 65 + 1));
             match done {
@@ -318,7 +320,7 @@ fn a_watchdog_that_still_learns() {
         let path = SHORT.replace("cycles    = 2", &format!("cycles = 4\nskip = \"{skip}\""));
         let text = together(&[AXIS, &path, CASCADE, supplied, more]);
         let study = Desk::new().study(&text).unwrap();
-        stiction::simulate(&study, &mut |_, _| Control::Continue)
+        stiction::simulate(&study, &mut Silent)
     };
     let outcome = run("", "0.5 s");
     let file = &outcome.file;
@@ -447,7 +449,7 @@ fn what_the_report_does_not_draw_it_says() {
     let study = Desk::new()
         .study(&together(&[AXIS, SHORT, CASCADE, &gains, corners]))
         .unwrap();
-    let outcome = stiction::simulate(&study, &mut |_, _| Control::Continue);
+    let outcome = stiction::simulate(&study, &mut Silent);
     let html = String::from_utf8(stiction::bundle::study(&outcome).files()[0].1.clone()).unwrap();
     stiction_testkit::assert_tables_fit(&html);
     assert!(html.contains("7 of 9: without compensation, and those that leave the least"));
@@ -462,7 +464,7 @@ fn courses_beside_the_report() {
     let study = Desk::new()
         .study(&together(&[AXIS, &path, CASCADE, WHOLE, corners]))
         .unwrap();
-    let outcome = stiction::simulate(&study, &mut |_, _| Control::Continue);
+    let outcome = stiction::simulate(&study, &mut Silent);
     let bundle = stiction::bundle::study(&outcome);
     let (name, rows) = &bundle.files()[1];
     assert_eq!(*name, "trajectories.csv");
@@ -564,7 +566,8 @@ fn learning_stops_between_passes() {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1);
     let mut asked = 0;
     let outcome = pool.build().unwrap().install(|| {
-        stiction::simulate(&study, &mut |done, _| {
+        stiction::simulate(&study, &mut |progress: &Progress| {
+            let (done, _) = counted(progress);
             // The run without compensation, then three passes.
             asked += 1;
             assert_eq!(done, 1);

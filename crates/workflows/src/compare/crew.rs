@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
-use stiction_identify::{Control, Counts, Observer, Progress, Stage};
+use stiction_search::{Control, Observer, Progress, Stage};
 
 /// Does every task and returns what came of each, in their order, and whether it was stopped.
 ///
@@ -43,12 +43,7 @@ pub(super) fn run<T: Sync, R: Send>(
             .collect();
         while workers.iter().any(|worker| !worker.is_finished()) {
             let fraction = done.load(Ordering::SeqCst) as f64 / tasks.len().max(1) as f64;
-            let control = observer.progress(&Progress {
-                stage: Stage::Search,
-                fraction,
-                counts: Counts::default(),
-                best: f64::INFINITY,
-            });
+            let control = observer.progress(&Progress::of(Stage::Search, fraction));
             if control == Control::Stop {
                 stop.store(true, Ordering::SeqCst);
             }

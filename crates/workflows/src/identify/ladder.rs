@@ -1,6 +1,5 @@
 //! Laws beside each other, on samples that none of them was fitted to.
 
-use super::relay::Shared;
 use rayon::prelude::*;
 use stiction_files::result::LawEntry;
 use stiction_identify as engine;
@@ -8,6 +7,7 @@ use stiction_identify::{
     Estimate, Law, LawKind, LawScore, Observer, Optimum, Record, Settings, Terms,
 };
 use stiction_parameters::Quantity;
+use stiction_search::{Shared, Stage};
 
 /// Blocks that a record is cut into for cross-validation where no validation data are given: each law is fitted four
 /// times, to three quarters of the record.
@@ -65,7 +65,7 @@ impl Ladder<'_> {
         found.reverse();
         Climb {
             rungs: found.into_iter().flatten().collect(),
-            stopped: shared.stopped(),
+            stopped: shared.is_stopped(),
         }
     }
 
@@ -96,7 +96,7 @@ impl Ladder<'_> {
         settings: &Settings,
         shared: &Shared,
     ) -> Result<Rung, engine::Error> {
-        let mut relay = shared.relay();
+        let mut relay = shared.relay(Stage::CrossValidation);
         let (estimate, optimum) = match fitted {
             Some((estimate, optimum)) => (estimate.clone(), optimum.clone()),
             None => self.fit(law, settings, &mut relay)?,

@@ -4,13 +4,13 @@ use super::outcome::{Body, Reproduction};
 use super::watch::Watch;
 use rayon::prelude::*;
 use stiction_files::reproduce_file::{CheckEntry, ReproduceFile};
-use stiction_identify::Control;
+use stiction_search::Observer;
 use stiction_servo::c95::{self, Experiment};
 
-/// The experiments B to G of Canudas de Wit et al. 1995 (doi 10.1109/9.376053). `watch` is told how many of how many are
-/// done, also within the longest, and may stop the work: those that are done by then are kept.
-pub fn canudas_1995(watch: &mut (dyn FnMut(usize, usize) -> Control + Send)) -> Reproduction {
-    let watch = Watch::new(c95::ALL.len(), watch);
+/// The experiments B to G of Canudas de Wit et al. 1995 (doi 10.1109/9.376053). The observer is told how many of how
+/// many are done, also within the longest, and may stop the work: those that are done by then are kept.
+pub fn canudas_1995(observer: &mut dyn Observer) -> Reproduction {
+    let watch = Watch::new(c95::ALL.len(), observer);
     let experiments: Vec<Option<Experiment>> = c95::ALL
         .par_iter()
         .map(|run| {

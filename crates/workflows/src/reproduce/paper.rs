@@ -32,7 +32,7 @@ use super::watch::Watch;
 use fault::Fault;
 use law::law;
 use stiction_files::reproduce_file::ReproduceFile;
-use stiction_identify::Control;
+use stiction_search::Observer;
 
 /// What is assumed where the paper gives no number, each with what is known.
 const ASSUMPTIONS: [&str; 12] = [
@@ -56,15 +56,12 @@ const ASSUMPTIONS: [&str; 12] = [
     "Change of load: from 4.6 to 6.9 kg after 2 s of a sine of ±15 mm at 1.5 Hz.",
 ];
 
-/// The experiments with so much searching. `watch` is told how many steps of how many are done, and may stop the work: the
+/// The experiments with so much searching. The observer is told how many steps of how many are done, and may stop the work: the
 /// experiments that are done by then are kept.
-pub fn zhang_2025(
-    budget: Budget,
-    watch: &mut (dyn FnMut(usize, usize) -> Control + Send),
-) -> Reproduction {
+pub fn zhang_2025(budget: Budget, observer: &mut dyn Observer) -> Reproduction {
     const EXPERIMENTS: usize = 8;
     let searches = search::METHODS.len() * budget.seeds as usize;
-    let watch = Watch::new(EXPERIMENTS + searches, watch);
+    let watch = Watch::new(EXPERIMENTS + searches, observer);
     let mut paper = Paper {
         truth: stage::truth().expect("the axis of the experiments"),
         statics: None,

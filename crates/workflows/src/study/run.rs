@@ -6,46 +6,31 @@ use super::outcome::StudyOutcome;
 use super::rows::rows;
 use super::{contour, course, doubt, machine, path};
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
 use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::study::result::{SCHEMA, StudyFile};
 use stiction_files::study::{Job, Study};
 use stiction_friction::ParamError;
-use stiction_identify::Control;
 use stiction_number::four_digits as short;
+use stiction_search::{Observer, Shared};
 use stiction_servo::sampled::Sampled;
 
-/// Runs the whole grid on all threads. `watch` is told how many runs of how many are done, from one thread at a
-/// time, also between the passes of learning, and may stop the work: what is done then is kept. Results do not depend on the number of threads.
-pub fn simulate(
-    study: &Study,
-    watch: &mut (dyn FnMut(usize, usize) -> Control + Send),
-) -> StudyOutcome {
+/// Runs the whole grid on all threads. The observer is told how many runs of how many are done, also between the
+/// passes of learning, and may stop the work: what is done then is kept. Results do not depend on the number of threads.
+pub fn simulate(study: &Study, observer: &mut dyn Observer) -> StudyOutcome {
     let jobs = study.jobs();
-    let stopped = AtomicBool::new(false);
-    let count = Mutex::new((0, watch));
-    // Tells of `more` runs that are done, and notes whether the work is to stop.
-    let go_on = |more: usize| {
-        let mut count = count.lock().unwrap_or_else(PoisonError::into_inner);
-        count.0 += more;
-        let so_far = count.0;
-        if (count.1)(so_far, jobs.len()) == Control::Stop {
-            stopped.store(true, Ordering::SeqCst);
-        }
-        !stopped.load(Ordering::SeqCst)
-    };
+    let watch = Shared::new(observer, jobs.len());
     let mut warnings = study.warnings.clone();
     let sampled = path::sampled(study);
     let done: Vec<Option<Result<Done, (Job, ParamError)>>> = jobs
         .par_iter()
         .map(|&job| {
-            if stopped.load(Ordering::SeqCst) {
+            if watch.is_stopped() {
                 return None;
             }
-            let done = one(study, job, &sampled, &|| go_on(0)).transpose()?;
-            go_on(1);
+            let done = one(study, job, &sampled, &|| watch.go_on()).transpose()?;
+            watch.one_more();
+            watch.go_on();
             Some(done.map_err(|e| (job, e)))
         })
         .collect();

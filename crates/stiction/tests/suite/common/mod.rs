@@ -3,8 +3,8 @@
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use stiction::LawKind;
 use stiction::commands::Options;
+use stiction::{LawKind, Progress, Stage};
 use tempfile::TempDir;
 
 /// Sample rate of every log here, Hz.
@@ -35,6 +35,14 @@ pub fn both_ways(t: f64) -> [f64; 3] {
 /// Force of an axis of 9 kg with 20 N of Coulomb and 60 N s/m of viscous friction, 1 N offset.
 pub fn friction([_, v, a]: [f64; 3]) -> f64 {
     20.0 * f64::from(i8::from(v > 0.0) - i8::from(v < 0.0)) + 60.0 * v + 9.0 * a + 1.0
+}
+
+/// How many experiments of how many are done.
+pub fn counted(progress: &Progress) -> (usize, usize) {
+    match progress.stage {
+        Stage::Experiments { done, all } => (done, all),
+        stage => panic!("{stage:?} is not counted"),
+    }
 }
 
 /// A folder with logs.
