@@ -48,7 +48,7 @@ impl Family {
         let beliefs = known::corners(&truth.law, by).map(|law| Belief { law, ..truth });
         Family {
             kind: "corners",
-            name: format!("±{} %", 100.0 * by),
+            name: format!("±{} %", stiction_number::short(100.0 * by)),
             beliefs: beliefs.collect(),
         }
     }

@@ -162,9 +162,10 @@ pub(super) fn laws(outcome: &Outcome) -> Table {
     );
     let above = |l: &LawEntry| match (l.held_out_excess_percent, l.held_out_excess_std_percent) {
         (Some(0.0), _) => "least".into(),
-        (Some(mean), Some(std)) => {
+        (Some(mean), Some(std)) if Percent::error(mean.max(std)).is_bounded() => {
             format!("{} ± {} %", number::sig(mean, 2), number::sig(std, 2))
         }
+        (Some(mean), Some(std)) => Percent::error(mean.max(std)).digits(2),
         _ => "–".into(),
     };
     let criterion = |x: Option<f64>| x.map_or("–".into(), |x| number::sig(x, 3));

@@ -6,6 +6,7 @@ use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::study::result::ResultRow;
 use stiction_files::study::{Scheme, Study};
+use stiction_number::Percent;
 use stiction_number::quantity;
 
 /// Part of the samples at the limit of the force above which a run is warned of, dimensionless.
@@ -105,12 +106,12 @@ fn shaking(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
         Warning::new(
             Code::UnsteadyCommand,
             format!(
-                "{}, {}: with {} the command changes by {:.0} % of the largest force from sample to sample (rms): the \
+                "{}, {}: with {} the command changes by {} of the largest force from sample to sample (rms): the \
                  loop is not stable, or its gains are too high for the encoder and the noise",
                 row.path,
                 row.controller,
                 row.scheme(),
-                100.0 * share
+                Percent::error(100.0 * share).decimals(0)
             ),
         )
     })
