@@ -36,13 +36,13 @@ use stiction_parameters::{Name, Quantity};
 use stiction_search::Bounds;
 
 /// One sample in so many makes the coarse stand-in.
-const EVERY: usize = 8;
+const COARSE_EVERY: usize = 8;
 /// It never has fewer samples than this.
-const FEWEST: usize = 500;
+const FEWEST_COARSE: usize = 500;
 
 /// A coarse stand-in for a record, for searches that begin on one; `None` where it is not to be had.
 pub fn thinned(record: &Record) -> Option<Record> {
-    record.thinned((record.len() / EVERY).max(FEWEST))
+    record.thinned((record.len() / COARSE_EVERY).max(FEWEST_COARSE))
 }
 
 /// Parameters by name, with the values of a point.
@@ -73,7 +73,7 @@ fn named([s0, s1, s2, fc, fs, vs]: [f64; 6]) -> Named {
 }
 
 /// Largest magnitude of a logarithm: numbers from 1e-40 to 1e40.
-const LARGEST: f64 = 92.0;
+const LARGEST_LOGARITHM: f64 = 92.0;
 
 /// Refuses a box in which candidates would overflow, or with another number of dimensions.
 fn checked(bounds: Bounds, dimensions: usize) -> Result<Bounds, Error> {
@@ -85,7 +85,7 @@ fn checked(bounds: Bounds, dimensions: usize) -> Result<Bounds, Error> {
         });
     }
     let ends = bounds.low().iter().chain(bounds.high());
-    match ends.copied().find(|x| x.abs() > LARGEST) {
+    match ends.copied().find(|x| x.abs() > LARGEST_LOGARITHM) {
         None => Ok(bounds),
         Some(found) => Err(Error::Setting {
             name: "logarithm in the box",

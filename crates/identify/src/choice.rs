@@ -1,16 +1,15 @@
 //! Which of several laws the data support: held-out error within its noise, AIC and BIC beside it.
 
 use crate::crossval::LawScore;
+use crate::fit::MOST_LAGS;
 use stiction_signal::effective_sample_size;
 
-/// Lags that the noise of a difference looks at, at most.
-const MOST_LAGS: usize = 2000;
 /// A law counts as equal to the best while its held-out error is above the least by no more than this
 /// many standard errors of the difference (the one-standard-error rule of Breiman, Friedman, Olshen
 /// and Stone 1984, section 3.4.3).
-const WITHIN: f64 = 1.0;
+const EQUAL_STANDARD_ERRORS: f64 = 1.0;
 /// Or by no more than this factor. Less is of no use to anyone, however sure.
-const EQUAL: f64 = 1.01;
+const EQUAL_ERROR_RATIO: f64 = 1.01;
 
 /// How a law stands among others.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,7 +80,11 @@ fn simplest(scores: &[LawScore], excess: &[Option<(f64, f64)>]) -> Option<usize>
         .enumerate()
         .filter_map(|(i, (s, e))| {
             let (ratio, std) = (*e)?;
-            (ratio <= (WITHIN * std).max(libm::log(EQUAL))).then_some((i, s.parameters, ratio))
+            (ratio <= (EQUAL_STANDARD_ERRORS * std).max(libm::log(EQUAL_ERROR_RATIO))).then_some((
+                i,
+                s.parameters,
+                ratio,
+            ))
         })
         .min_by(|a, b| a.1.cmp(&b.1).then(a.2.total_cmp(&b.2)))
         .map(|(i, ..)| i)

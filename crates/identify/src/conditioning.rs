@@ -22,7 +22,7 @@ use stiction_signal::{Sos, gradient, gradient_sixth_order};
 
 /// Missing samples up to this many in a row are bridged by a straight line (and do not count in the
 /// fit); longer gaps split the log.
-pub(crate) const BRIDGE: f64 = 5.0;
+pub(crate) const MOST_BRIDGED: f64 = 5.0;
 /// Order of both low-pass filters.
 const ORDER: usize = 4;
 
@@ -339,7 +339,7 @@ pub(crate) fn stretches(log: &Samples, step: f64) -> Vec<std::ops::Range<usize>>
     let mut out = Vec::new();
     let mut start = 0;
     for i in 1..log.time.len() {
-        let gap = log.time[i] - log.time[i - 1] > (BRIDGE + 1.5) * step;
+        let gap = log.time[i] - log.time[i - 1] > (MOST_BRIDGED + 1.5) * step;
         if gap || log.breaks.binary_search(&i).is_ok() {
             out.push(start..i);
             start = i;

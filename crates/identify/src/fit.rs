@@ -3,8 +3,9 @@
 use crate::conditioning::record::Record;
 use stiction_signal::effective_sample_size;
 
-/// Lags that the effective sample size looks at, at most.
-const MOST_LAGS: usize = 2000;
+/// Lags of an autocorrelation that are looked at, at most: with more, a long record costs more than its search, and an
+/// error that lasts so long is the law's.
+pub(crate) const MOST_LAGS: usize = 2000;
 
 /// Size of the residual on one set of samples.
 #[derive(Clone, Copy, Debug, PartialEq)]

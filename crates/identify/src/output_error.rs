@@ -60,20 +60,24 @@ pub struct Simulation<'a> {
 }
 
 /// Guesses that are followed by a short descent.
-const FOLLOWED: usize = 6;
+const MOST_FOLLOWED: usize = 6;
 /// Samples of the pieces of an open loop that starting points are looked for on.
-const PIECE: usize = 250;
-/// Steps of a short descent, of one on pieces that a whole run is to start from, and of the last one.
-const SHORT: usize = 15;
-const MIDDLE: usize = 60;
-const LONG: usize = 200;
+const PIECE_SAMPLES: usize = 250;
+/// Steps of a short descent, from a guess.
+const SHORT_STEPS: usize = 15;
+/// Steps of a descent on pieces that a whole run is to start from.
+const PIECE_STEPS: usize = 60;
+/// Steps of a last descent.
+const LAST_STEPS: usize = 200;
 /// Largest `h sqrt(s0/M)` that a plant step is given at the start.
-const STIFFEST: f64 = 0.7;
+const MOST_STEP_PHASE: f64 = 0.7;
 /// Most plant steps in one control period.
 const MOST_SUBSTEPS: usize = 16;
-/// Rounds of weighing position against force, and the change of a weight that ends them.
-const ROUNDS: usize = 10;
-const SETTLED: f64 = 0.02;
+/// Most rounds of weighing position against force.
+const MOST_WEIGHINGS: usize = 10;
+/// Change of a weight, as a part of it, that ends them: it moves the parameters by far less than their
+/// deviations.
+const SETTLED_WEIGHT: f64 = 0.02;
 
 /// Fits a law with its mass and terms by simulation.
 ///
@@ -139,7 +143,10 @@ pub fn output_error(
         .and_then(|found| start::from_estimate(found, &law, terms, &layout, &scale));
     let pieces: Vec<Run> = match simulation.controller {
         Some(_) => Vec::new(),
-        None => runs.iter().flat_map(|run| run.clone().cut(PIECE)).collect(),
+        None => runs
+            .iter()
+            .flat_map(|run| run.clone().cut(PIECE_SAMPLES))
+            .collect(),
     };
     let pieces = if pieces.len() > runs.len() {
         pieces
@@ -266,7 +273,7 @@ impl Search<'_> {
             .as_ref()
             .map_or(1, |c| c.periods(self.scale.step).unwrap_or(1));
         let h = self.scale.step / periods as f64;
-        let needed = (h * (axis.stiffness / axis.mass).sqrt() / STIFFEST).ceil();
+        let needed = (h * (axis.stiffness / axis.mass).sqrt() / MOST_STEP_PHASE).ceil();
         (needed.max(1.0) as usize).min(MOST_SUBSTEPS)
     }
 
@@ -317,7 +324,7 @@ impl Search<'_> {
             ranked.push((cost, axis));
         }
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
-        ranked.truncate(FOLLOWED);
+        ranked.truncate(MOST_FOLLOWED);
 
         watch.stage = Stage::Coarse;
         let mut out: Vec<Found> = Vec::new();
@@ -328,7 +335,7 @@ impl Search<'_> {
             }
             watch.fraction = i as f64 / followed;
             let n = self.substeps(&base);
-            out.push(self.descend(base, starts.clone(), n, weights, SHORT, watch));
+            out.push(self.descend(base, starts.clone(), n, weights, SHORT_STEPS, watch));
         }
         out.sort_by(|a, b| a.descent.cost.total_cmp(&b.descent.cost));
         out.truncate(keep);
@@ -368,7 +375,8 @@ impl Search<'_> {
                     .map(|f| {
                         let base = self.layout.write(&f.base, &f.descent.at.q);
                         let starts = f.descent.at.starts;
-                        let f = short.descend(base, starts, f.substeps, f.weights, MIDDLE, watch);
+                        let f =
+                            short.descend(base, starts, f.substeps, f.weights, PIECE_STEPS, watch);
                         self.layout.write(&f.base, &f.descent.at.q)
                     })
                     .collect();
@@ -380,12 +388,12 @@ impl Search<'_> {
         let mut weights = best.weights;
         let mut substeps = best.substeps;
         let mut iterations = best.descent.iterations;
-        for round in 0..ROUNDS {
+        for round in 0..MOST_WEIGHINGS {
             if watch.stopped {
                 best.descent.status = Status::Interrupted;
                 break;
             }
-            watch.fraction = round as f64 / ROUNDS as f64;
+            watch.fraction = round as f64 / MOST_WEIGHINGS as f64;
             let new = if self.is_closed() {
                 self.balance(&best)
             } else {
@@ -394,7 +402,7 @@ impl Search<'_> {
             let balanced = weights
                 .iter()
                 .zip(&new)
-                .all(|(a, b)| (a / b - 1.0).abs() < SETTLED);
+                .all(|(a, b)| (a / b - 1.0).abs() < SETTLED_WEIGHT);
             let fine = round > 0 && (substeps >= MOST_SUBSTEPS || self.is_fine_enough(&best));
             if round > 0 && balanced && fine {
                 break;
@@ -404,7 +412,14 @@ impl Search<'_> {
                 substeps = (2 * substeps).min(MOST_SUBSTEPS);
             }
             let base = self.layout.write(&best.base, &best.descent.at.q);
-            best = self.descend(base, best.descent.at.starts, substeps, weights, LONG, watch);
+            best = self.descend(
+                base,
+                best.descent.at.starts,
+                substeps,
+                weights,
+                LAST_STEPS,
+                watch,
+            );
             iterations += best.descent.iterations;
         }
         best.descent.iterations = iterations;

@@ -5,7 +5,7 @@ pub(crate) mod physical;
 mod quantile;
 
 use physical::Physical;
-pub(crate) use quantile::quantile;
+pub(crate) use quantile::{NORMAL_Q95, quantile};
 use stiction_number::{LARGEST_PERCENT, Percent};
 use stiction_parameters::{Dimension, Name};
 
@@ -142,11 +142,12 @@ impl Parameter {
             if p.is_share() {
                 // Normal in the logarithm of the odds, so that it stays between 0 and 1.
                 let r = reach / (p.value * (1.0 - p.value));
-                (r.is_finite() && r <= WIDEST).then(|| (share_at(value, -r), share_at(value, r)))
+                (r.is_finite() && r <= WIDEST_INTERVAL)
+                    .then(|| (share_at(value, -r), share_at(value, r)))
             } else if p.is_positive() {
                 // Wider than a factor of e^4 to each side, the data bound it on no side.
                 let r = reach / p.value;
-                (r.is_finite() && r <= WIDEST)
+                (r.is_finite() && r <= WIDEST_INTERVAL)
                     .then(|| (value * libm::exp(-r), value * libm::exp(r)))
             } else {
                 Some((value - reach, value + reach))
@@ -174,4 +175,4 @@ fn share_at(share: f64, odds: f64) -> f64 {
 }
 
 /// Half-width in the logarithm beyond which an interval says nothing.
-pub(crate) const WIDEST: f64 = 4.0;
+pub(crate) const WIDEST_INTERVAL: f64 = 4.0;

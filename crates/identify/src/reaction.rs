@@ -11,18 +11,18 @@ use stiction_signal::Sos;
 
 /// Samples that an answer may last: the difference of positions over a sample is over after two, one
 /// that the drive filters or computes late after a few more.
-const LAGS: usize = 6;
+const ANSWER_LAGS: usize = 6;
 /// Cut-off between what the axis can follow and encoder steps, parts of the sample rate.
-const SLOW: f64 = 0.05;
+const AXIS_CUTOFF: f64 = 0.05;
 /// Highest cut-off that noise is taken off with, parts of the sample rate.
-const HIGHEST: f64 = 0.2;
+const HIGHEST_NOISE_CUTOFF: f64 = 0.2;
 /// Octaves below it.
-const OCTAVES: u32 = 5;
+const OCTAVES_BELOW: u32 = 5;
 /// Standard deviations of the noise in an octave that a sample of it must exceed.
-const OUTSTANDING: f64 = 4.0;
+const OUTSTANDING_SAMPLE: f64 = 4.0;
 /// How much smaller than its variance without an answer the fast part of the force must be for an
 /// answer to be there, in units of what chance explains.
-const CERTAIN: f64 = 4.0;
+const CERTAIN_ANSWER: f64 = 4.0;
 
 /// How a force that is held from sample to sample was logged: as the mean of two neighbours where it
 /// stands late by a part of a sample (half for a force centred about its instant).
@@ -61,15 +61,15 @@ impl Logging {
 /// The force that a reading calls for, N/m (N m/rad) by lag.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reaction {
-    by_lag: [f64; LAGS],
+    by_lag: [f64; ANSWER_LAGS],
 }
 
 impl Reaction {
     /// The answer that a record shows; `None` where there is none to be seen.
     pub fn of(record: &Record, logging: Logging) -> Option<Self> {
-        let slow = Sos::butterworth_low_pass(4, SLOW, 1.0).ok()?;
-        let mut square = SMatrix::<f64, LAGS, LAGS>::zeros();
-        let mut product = SVector::<f64, LAGS>::zeros();
+        let slow = Sos::butterworth_low_pass(4, AXIS_CUTOFF, 1.0).ok()?;
+        let mut square = SMatrix::<f64, ANSWER_LAGS, ANSWER_LAGS>::zeros();
+        let mut product = SVector::<f64, ANSWER_LAGS>::zeros();
         let (mut power, mut samples) = (0.0, 0_usize);
         for segment in &record.segments {
             if segment.reading.is_empty() {
@@ -83,8 +83,8 @@ impl Reaction {
                 .collect();
             // The filter has to settle at both ends.
             let trim = slow.settling_samples();
-            for k in trim + LAGS - 1..force.len().saturating_sub(trim) {
-                let x = SVector::<f64, LAGS>::from_fn(|lag, _| reading[k - lag]);
+            for k in trim + ANSWER_LAGS - 1..force.len().saturating_sub(trim) {
+                let x = SVector::<f64, ANSWER_LAGS>::from_fn(|lag, _| reading[k - lag]);
                 square += x * x.transpose();
                 product += x * force[k];
                 power += force[k] * force[k];
@@ -93,8 +93,9 @@ impl Reaction {
         }
         let by_lag = square.cholesky()?.solve(&product);
         let explained = by_lag.dot(&product);
-        let chance = LAGS as f64 * (power - explained) / (samples.saturating_sub(LAGS)) as f64;
-        (explained > CERTAIN * chance).then(|| Self {
+        let chance =
+            ANSWER_LAGS as f64 * (power - explained) / (samples.saturating_sub(ANSWER_LAGS)) as f64;
+        (explained > CERTAIN_ANSWER * chance).then(|| Self {
             by_lag: by_lag.into(),
         })
     }
@@ -122,7 +123,9 @@ impl Reaction {
 
     /// The force that answers the last readings, `reading(lag)` being that of `lag` samples ago.
     pub fn force(&self, reading: impl Fn(usize) -> f64) -> f64 {
-        (0..LAGS).map(|lag| self.by_lag[lag] * reading(lag)).sum()
+        (0..ANSWER_LAGS)
+            .map(|lag| self.by_lag[lag] * reading(lag))
+            .sum()
     }
 }
 
@@ -140,14 +143,14 @@ fn without_noise(x: &[f64]) -> Option<Vec<f64>> {
         let low_pass = Sos::butterworth_low_pass(4, cutoff, 1.0).ok()?;
         low_pass.zero_phase(x).ok()
     };
-    let mut fine = below(HIGHEST)?;
+    let mut fine = below(HIGHEST_NOISE_CUTOFF)?;
     let lost: f64 = x.iter().zip(&fine).map(|(x, s)| (x - s) * (x - s)).sum();
-    let density = lost / (x.len() as f64 * (0.5 - HIGHEST));
+    let density = lost / (x.len() as f64 * (0.5 - HIGHEST_NOISE_CUTOFF));
     let mut kept = vec![0.0; x.len()];
-    for octave in 1..=OCTAVES {
-        let width = HIGHEST / f64::from(1 << octave);
+    for octave in 1..=OCTAVES_BELOW {
+        let width = HIGHEST_NOISE_CUTOFF / f64::from(1 << octave);
         let coarse = below(width)?;
-        let least = OUTSTANDING * (density * width).sqrt();
+        let least = OUTSTANDING_SAMPLE * (density * width).sqrt();
         for (kept, (fine, coarse)) in kept.iter_mut().zip(fine.iter().zip(&coarse)) {
             let band = fine - coarse;
             if band.abs() > least {

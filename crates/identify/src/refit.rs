@@ -12,11 +12,11 @@ use crate::watch::Watch;
 use stiction_search::{Counts, Silent, Stage};
 
 /// Seed of the replica without noise of the force.
-const SILENT: u64 = 999;
-/// A step in the logarithms that is not taken at its word.
-const FAR: f64 = 1.0;
+const SILENT_SEED: u64 = 999;
+/// Step in the logarithms, an e-fold, that is not believed (decision 0014).
+const LONGEST_STEP: f64 = 1.0;
 /// Most trials of a descent.
-const TRIALS: usize = 60;
+const MOST_TRIALS: usize = 60;
 
 /// Unknowns and coefficients that a fit of a replica finds, from its truth in `steps` Gauss-Newton
 /// steps: the errors are small, so one shows them to first order, two all but exactly. Where two would
@@ -37,12 +37,12 @@ pub(crate) fn refitted(
         let at = objective.evaluate(&p, true);
         counts.derivatives += 1;
         let step = at.hessian.cholesky()?.solve(&at.descent);
-        if steps > 1 && step.iter().any(|d| d.abs() > FAR) {
+        if steps > 1 && step.iter().any(|d| d.abs() > LONGEST_STEP) {
             p = descended(&objective, &replica.p, counts)?;
             break;
         }
         for (x, d) in p.iter_mut().zip(step.iter()) {
-            *x += d.clamp(-FAR, FAR);
+            *x += d.clamp(-LONGEST_STEP, LONGEST_STEP);
         }
     }
     let at = objective.evaluate(&p, surety);
@@ -83,7 +83,7 @@ pub(crate) fn force_noise(
     fitted: &Estimate,
     counts: &mut Counts,
 ) -> Option<f64> {
-    let quiet = replica(record, fitted, 0.0, SILENT)?;
+    let quiet = replica(record, fitted, 0.0, SILENT_SEED)?;
     let refit = refitted(&quiet, conditioning, fitted, 1, false, counts)?;
     let left = (fitted.fit.rmse * fitted.fit.rmse - refit.square).max(0.0);
     Some((left / record.noise_gain()).sqrt())
@@ -98,7 +98,7 @@ fn descended(objective: &Objective, start: &[f64], counts: &mut Counts) -> Optio
     }
     let mut silent = Silent;
     let mut watch = Watch::new(&mut silent, Stage::Calibration);
-    let end = descend(objective, &bounds, start, TRIALS, &mut watch);
+    let end = descend(objective, &bounds, start, MOST_TRIALS, &mut watch);
     counts.add(&watch.counts);
     Some(end.p)
 }

@@ -18,12 +18,12 @@ use stiction_servo::noise::Noise;
 use stiction_servo::plant::{Load, Motion, Plant};
 
 /// Delay of a force that is logged where it is held, from its sample to the next, samples.
-const HELD: f64 = -0.5;
+const HELD_DELAY: f64 = -0.5;
 /// The spring that keeps the simulated axis on the recorded motion: its frequency over the sample rate.
-const TRACKING: f64 = 0.01;
+const TRACKING_FREQUENCY: f64 = 0.01;
 /// The same where the controller's own answer keeps it there: a stiff spring with its damper would calm
 /// what an encoder step stirs up.
-const DRIFT: f64 = 0.0005;
+const ANSWERED_TRACKING_FREQUENCY: f64 = 0.0005;
 
 /// Logs of a known axis.
 pub(crate) struct Replica {
@@ -46,7 +46,7 @@ pub(crate) fn replica(
     seed: u64,
 ) -> Option<Replica> {
     let plant = plant(fitted)?;
-    let logging = Logging::new(fitted.delay_samples() - HELD);
+    let logging = Logging::new(fitted.delay_samples() - HELD_DELAY);
     let axis = Axis {
         record,
         substeps: substeps(&plant, record.step()),
@@ -62,7 +62,7 @@ pub(crate) fn replica(
         reaction?;
         axis.logs(None, seed)
     })?;
-    let delay = HELD + logging.part;
+    let delay = HELD_DELAY + logging.part;
     let mut p = fitted.unknowns().to_vec();
     let mut terms = fitted.terms.clone();
     match (terms.delay, p.last_mut()) {
@@ -137,7 +137,11 @@ impl Axis<'_> {
         let h = segment.step;
         let fine = h / f64::from(self.substeps);
         let n = segment.position.len();
-        let tracking = if reaction.is_some() { DRIFT } else { TRACKING };
+        let tracking = if reaction.is_some() {
+            ANSWERED_TRACKING_FREQUENCY
+        } else {
+            TRACKING_FREQUENCY
+        };
         let omega = std::f64::consts::TAU * tracking / h;
         let spring = self.plant.mass() * omega * omega;
         let damper = 1.4 * self.plant.mass() * omega;

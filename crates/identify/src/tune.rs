@@ -22,11 +22,11 @@ use stiction_parameters::Name;
 use stiction_search::{Control, Counts, Observer, Progress, Stage, Status};
 
 /// Replicas that each pair of cut-offs is tried on.
-const REPLICAS: u64 = 4;
+const REPLICA_COUNT: u64 = 4;
 /// Most times the choice is repeated from a better fit.
-const ROUNDS: usize = 4;
+const MOST_ROUNDS: usize = 4;
 /// Cut-offs on the position that are tried: the sample rate over 2.5 times a power of the root of two.
-const STEPS: i32 = 14;
+const CUTOFF_STEPS: i32 = 14;
 /// Where the search begins, on that scale.
 const START: (i32, i32) = (6, 2);
 /// Cut-off of the common filter below that of the position, in the same steps.
@@ -34,7 +34,7 @@ const BELOW: std::ops::RangeInclusive<i32> = 1..=6;
 
 /// Thinned samples that cut-offs must leave, or as many as the default ones leave if that is fewer: a
 /// slow filter takes most of a short log, and a law with many elements asks for ten for each unknown.
-const ENOUGH: usize = 300;
+const FEWEST_SAMPLES: usize = 300;
 
 /// Cut-offs and how they did.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,9 +90,9 @@ pub fn tune(
     }
     let untuned = condition(logs, wanted)?;
     let rate = 1.0 / untuned.step();
-    let least = untuned.kept().min(ENOUGH);
+    let least = untuned.kept().min(FEWEST_SAMPLES);
     let mut at = START;
-    for round in 0..ROUNDS {
+    for round in 0..MOST_ROUNDS {
         let trial = cutoffs(wanted, rate, at);
         let Ok(record) = condition(logs, &trial) else {
             break;
@@ -107,7 +107,7 @@ pub fn tune(
         let Some(noise) = force_noise(&record, &trial, &fitted, &mut tuned.counts) else {
             break;
         };
-        let replicas: Option<Vec<Replica>> = (0..REPLICAS)
+        let replicas: Option<Vec<Replica>> = (0..REPLICA_COUNT)
             .map(|seed| replica(&record, &fitted, noise, seed))
             .collect();
         let Some(replicas) = replicas else { break };
@@ -194,7 +194,7 @@ impl Walk<'_> {
                 (s, b - 1),
                 (s, b + 1),
             ] {
-                if !(0..=STEPS).contains(&next.0) || !BELOW.contains(&next.1) {
+                if !(0..=CUTOFF_STEPS).contains(&next.0) || !BELOW.contains(&next.1) {
                     continue;
                 }
                 let error = self.error(next);
@@ -203,7 +203,7 @@ impl Walk<'_> {
                 }
                 let progress = Progress {
                     stage: Stage::Tuning,
-                    fraction: (round as f64 + 0.5) / ROUNDS as f64,
+                    fraction: (round as f64 + 0.5) / MOST_ROUNDS as f64,
                     counts: self.counts,
                     best: best.1,
                 };

@@ -26,8 +26,9 @@ pub enum Scheme {
 
 /// Candidates that share the lanes of a batch.
 const LANES: usize = 16;
-/// Candidates that are faster one by one than in half-empty lanes.
-const FEW: usize = 4;
+/// Candidates up to which they are faster one by one than in half-empty lanes (`cargo bench -p
+/// stiction-lanes`).
+const MOST_ALONE: usize = 4;
 
 /// Sum of squares of measured minus model force over the samples that count, N^2 (N^2 m^2), for each
 /// candidate; infinite where a candidate explodes or overflows, never NaN.
@@ -56,7 +57,7 @@ pub fn costs(
 fn explin(track: &Track, group: &[Candidate], instructions: InstructionSet) -> Vec<f64> {
     let power = group.iter().any(|c| c.exponent != 2.0);
     match (group.len(), power) {
-        (..=FEW, _) => group
+        (..=MOST_ALONE, _) => group
             .iter()
             .map(|c| match c.exponent == 2.0 {
                 true => instructions.run(alone::Alone::<false>::new(track, c)),

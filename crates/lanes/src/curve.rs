@@ -12,7 +12,7 @@
 //! What a node contributes depends on its speed only, never on w: levels and decays of many nodes or many
 //! candidates are computed side by side, and the recursion is left with one fused multiply-add.
 
-use crate::exp::{LONGEST, at_least, at_most, decays, exp, fma};
+use crate::exp::{LONGEST_DECAY, at_least, at_most, decays, exp, fma};
 
 /// Nonlinear parameters of one candidate.
 #[derive(Clone, Copy, Debug)]
@@ -59,7 +59,7 @@ pub(crate) struct Node {
 pub(crate) const START: Node = Node { g: 1.0, q: 0.0 };
 
 /// Added wherever a deviation could die away into the numbers below the normal range, which are slow.
-pub(crate) const FLOOR: f64 = 1e-140;
+pub(crate) const SUBNORMAL_GUARD: f64 = 1e-140;
 
 /// The weights of an interval: `w+ = keep w + add`.
 #[derive(Clone, Copy)]
@@ -111,11 +111,11 @@ impl Curve {
 /// Two intervals with one division, each between two nodes; half steps in s.
 #[inline(always)]
 pub(crate) fn intervals(half: [f64; 2], ends: [[Node; 2]; 2]) -> [Interval; 2] {
-    let x = |i: usize| at_least(half[i] * (ends[i][0].q + ends[i][1].q), LONGEST);
+    let x = |i: usize| at_least(half[i] * (ends[i][0].q + ends[i][1].q), LONGEST_DECAY);
     let decays = decays([x(0), x(1)]);
     let interval = |i: usize| Interval {
         keep: decays[i].keep,
-        add: fma(ends[i][0].g - ends[i][1].g, decays[i].mean, FLOOR),
+        add: fma(ends[i][0].g - ends[i][1].g, decays[i].mean, SUBNORMAL_GUARD),
     };
     [interval(0), interval(1)]
 }

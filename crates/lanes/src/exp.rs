@@ -5,11 +5,11 @@
 
 /// Exponents are held above this: nothing that is added to a number near one is smaller than
 /// `exp(-700)`, and numbers below the normal range are slow.
-pub(crate) const LOWEST: f64 = -700.0;
+pub(crate) const LOWEST_ARGUMENT: f64 = -700.0;
 
 /// Adding this to a number rounds it to an integer; the lowest bits of the sum are then that integer
 /// with the bias of an exponent already on it.
-const ROUND: f64 = 1.5 * (1_u64 << 52) as f64 + 1023.0;
+const ROUND_TO_INTEGER: f64 = 1.5 * (1_u64 << 52) as f64 + 1023.0;
 
 /// `(exp(r) - 1 - r)/r^2` on |r| <= ln2/2 to 2.4e-16 of its value: interpolation at the ten Chebyshev
 /// points in seventy digits (`tests/exp/polynomial.py`), even and odd powers apart.
@@ -58,8 +58,8 @@ impl Reduced {
     /// For `x` in -700..=700.
     #[inline(always)]
     fn of(x: f64) -> Self {
-        let shifted = fma(x, std::f64::consts::LOG2_E, ROUND);
-        let n = shifted - ROUND;
+        let shifted = fma(x, std::f64::consts::LOG2_E, ROUND_TO_INTEGER);
+        let n = shifted - ROUND_TO_INTEGER;
         // The rounding of ln2 shifts the exponent by 2.3e-17 n, which only numbers far below one feel.
         let r = fma(n, -std::f64::consts::LN_2, x);
         Reduced {
@@ -133,7 +133,7 @@ impl Parts {
 /// 1.2e-16 in all.
 #[inline(always)]
 pub(crate) fn exp(x: f64) -> f64 {
-    Parts::of(at_least(x, LOWEST)).exp()
+    Parts::of(at_least(x, LOWEST_ARGUMENT)).exp()
 }
 
 /// [`exp`] of several numbers, step by step side by side: as written one after the other, the chain of operations
@@ -146,7 +146,7 @@ pub(crate) fn exps<const K: usize>(x: [f64; K]) -> [f64; K] {
         square: 0.0,
     }; K];
     for k in 0..K {
-        reduced[k] = Reduced::of(at_least(x[k], LOWEST));
+        reduced[k] = Reduced::of(at_least(x[k], LOWEST_ARGUMENT));
     }
     let mut q = [0.0; K];
     for k in 0..K {
@@ -185,9 +185,12 @@ pub(crate) struct Decay {
 /// below 5e-15, of the exponential as for [`exp`].
 #[inline(always)]
 pub(crate) fn decays(x: [f64; 2]) -> [Decay; 2] {
-    let part = |x: f64| Parts::of(at_least(x, LOWEST));
+    let part = |x: f64| Parts::of(at_least(x, LOWEST_ARGUMENT));
     let parts = [part(x[0]), part(x[1])];
-    let far = [at_most(x[0], NEAR), at_most(x[1], NEAR)];
+    let far = [
+        at_most(x[0], POLYNOMIAL_ALONE),
+        at_most(x[1], POLYNOMIAL_ALONE),
+    ];
     let inverse = 1.0 / (far[0] * far[1]);
     let decay = |i: usize| {
         let keep = parts[i].exp();
@@ -204,9 +207,9 @@ pub(crate) fn decays(x: [f64; 2]) -> [Decay; 2] {
 }
 
 /// Above this the polynomial needs no power of two.
-pub(crate) const NEAR: f64 = -0.34;
+pub(crate) const POLYNOMIAL_ALONE: f64 = -0.34;
 /// Two of these can be multiplied.
-pub(crate) const LONGEST: f64 = -1e150;
+pub(crate) const LONGEST_DECAY: f64 = -1e150;
 
 #[cfg(test)]
 mod tests {

@@ -97,7 +97,7 @@ pub enum Stepping {
 /// Axes that share the lanes of the midpoint.
 const LANES: usize = 16;
 /// Of the semi-implicit step, which has one long chain of operations a step: more axes fill the gaps in it.
-const WIDE: usize = 64;
+const SEMI_IMPLICIT_LANES: usize = 64;
 
 /// Simulates every axis under the drive. Keep `h sqrt(sigma0/M)` below about 2.
 ///
@@ -138,13 +138,17 @@ pub fn plants(
                 false => instructions.run(Midpoint::<LANES, false>::new(drive, group)),
             })
             .collect(),
-        Stepping::SemiImplicit => axes
-            .par_chunks(WIDE)
-            .map(|group| match power(group) {
-                true => instructions.run(SemiImplicit::<WIDE, true>::new(drive, group)),
-                false => instructions.run(SemiImplicit::<WIDE, false>::new(drive, group)),
-            })
-            .collect(),
+        Stepping::SemiImplicit => {
+            axes.par_chunks(SEMI_IMPLICIT_LANES)
+                .map(|group| match power(group) {
+                    true => instructions
+                        .run(SemiImplicit::<SEMI_IMPLICIT_LANES, true>::new(drive, group)),
+                    false => instructions.run(SemiImplicit::<SEMI_IMPLICIT_LANES, false>::new(
+                        drive, group,
+                    )),
+                })
+                .collect()
+        }
     };
     Ok(groups.into_iter().flatten().collect())
 }

@@ -7,15 +7,15 @@
 //! W+ = exp(-A) W - (dgb/dp - dga/dp) mean - M dA/dp
 //! ```
 
-use crate::curve::{Curve, FLOOR, Speed};
-use crate::exp::{LONGEST, at_least, decays, exp, fma};
+use crate::curve::{Curve, SUBNORMAL_GUARD, Speed};
+use crate::exp::{LONGEST_DECAY, at_least, decays, exp, fma};
 
 /// Unknowns of the trial.
 pub(crate) const UNKNOWNS: usize = 3;
 
 /// Exponents of the Stribeck curve are held above this: what is left of the excess is no part of the level,
 /// and its square is still a normal number.
-const LEAST: f64 = -80.0;
+const LOWEST_STRIBECK_EXPONENT: f64 = -80.0;
 
 /// A node: its level, speed over level, and the derivatives of the level; `kappa` has none.
 #[derive(Clone, Copy)]
@@ -84,7 +84,7 @@ impl Interval {
 /// Two nodes with one division.
 #[inline(always)]
 pub(crate) fn nodes<const POWER: bool>(curve: &Curve, v: [Speed; 2]) -> [Node; 2] {
-    let exponent = |v: Speed| at_least(curve.exponent::<POWER>(v), LEAST);
+    let exponent = |v: Speed| at_least(curve.exponent::<POWER>(v), LOWEST_STRIBECK_EXPONENT);
     let exponents = [exponent(v[0]), exponent(v[1])];
     let falls = [
         curve.excess * exp(exponents[0]),
@@ -109,7 +109,7 @@ pub(crate) fn nodes<const POWER: bool>(curve: &Curve, v: [Speed; 2]) -> [Node; 2
 #[inline(always)]
 pub(crate) fn intervals(curve: &Curve, half: [f64; 2], ends: [[Node; 2]; 2]) -> [Interval; 2] {
     let scale = [half[0] * curve.rate, half[1] * curve.rate];
-    let x = |i: usize| at_least(scale[i] * (ends[i][0].q + ends[i][1].q), LONGEST);
+    let x = |i: usize| at_least(scale[i] * (ends[i][0].q + ends[i][1].q), LONGEST_DECAY);
     let x = [x(0), x(1)];
     let decays = decays(x);
     let interval = |i: usize| {
@@ -119,12 +119,12 @@ pub(crate) fn intervals(curve: &Curve, half: [f64; 2], ends: [[Node; 2]; 2]) -> 
         let length = |k: usize| scale[i] * fma(a.q, a.relative[k], b.q * b.relative[k]);
         Interval {
             keep: decay.keep,
-            add: fma(fall, decay.mean, FLOOR),
+            add: fma(fall, decay.mean, SUBNORMAL_GUARD),
             bend: -(fall * decay.slope),
             length_slope: [-x[i], length(0), length(1)],
             add_slope: [
-                fma(a.slope[0] - b.slope[0], decay.mean, FLOOR),
-                fma(a.slope[1] - b.slope[1], decay.mean, FLOOR),
+                fma(a.slope[0] - b.slope[0], decay.mean, SUBNORMAL_GUARD),
+                fma(a.slope[1] - b.slope[1], decay.mean, SUBNORMAL_GUARD),
             ],
         }
     };
@@ -136,7 +136,7 @@ pub(crate) fn intervals(curve: &Curve, half: [f64; 2], ends: [[Node; 2]; 2]) -> 
 pub(crate) fn slope_adds(w: f64, step: &Interval) -> [f64; UNKNOWNS] {
     let moved = fma(step.keep, w, step.bend);
     [
-        fma(-moved, step.length_slope[0], FLOOR),
+        fma(-moved, step.length_slope[0], SUBNORMAL_GUARD),
         fma(-moved, step.length_slope[1], step.add_slope[0]),
         fma(-moved, step.length_slope[2], step.add_slope[1]),
     ]

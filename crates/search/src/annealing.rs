@@ -13,8 +13,10 @@ use crate::search::{Answers, Request, Search};
 use crate::status::Status;
 use serde::{Deserialize, Serialize};
 
-/// How strongly the steps adapt.
-const ADAPT: f64 = 2.0;
+/// Least step, in widths of the box: below it a move changes nothing but rounding.
+const LEAST_STEP: f64 = 1e-12;
+/// How strongly the steps adapt: Corana et al. 1987, c = 2.
+const STEP_ADAPTATION: f64 = 2.0;
 
 /// Settings of simulated annealing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -188,11 +190,11 @@ impl Chain {
         for (step, accepted) in self.steps.iter_mut().zip(&mut self.accepted) {
             let rate = *accepted as f64 / moves as f64;
             if rate > 0.6 {
-                *step *= 1.0 + ADAPT * (rate - 0.6) / 0.4;
+                *step *= 1.0 + STEP_ADAPTATION * (rate - 0.6) / 0.4;
             } else if rate < 0.4 {
-                *step /= 1.0 + ADAPT * (0.4 - rate) / 0.4;
+                *step /= 1.0 + STEP_ADAPTATION * (0.4 - rate) / 0.4;
             }
-            *step = step.clamp(1e-12, 1.0);
+            *step = step.clamp(LEAST_STEP, 1.0);
             *accepted = 0;
         }
     }

@@ -45,7 +45,7 @@ impl Default for Settings {
 }
 
 /// Most points of a generation.
-const MOST: usize = 10_000;
+const MOST_POINTS: usize = 10_000;
 
 /// A distribution and the generation drawn from it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -72,7 +72,7 @@ impl CmaEs {
         let name = "cma-es";
         let usual = 4 + libm::floor(3.0 * libm::log(dimensions as f64)) as usize;
         let size = settings.population.unwrap_or(usual);
-        let within = (4..=MOST).contains(&size);
+        let within = (4..=MOST_POINTS).contains(&size);
         require(within, name, "population", size as f64, "4 to 10000")?;
         let deviation = settings.deviation;
         let within = deviation > 0.0 && deviation <= 1.0;
@@ -133,7 +133,7 @@ impl CmaEs {
     fn restart(&mut self) {
         self.run += 1;
         self.of_run = 0;
-        self.size = (2 * self.size).min(MOST);
+        self.size = (2 * self.size).min(MOST_POINTS);
         self.recent.clear();
         let mean = self.dice.point(self.drawn.dimensions());
         self.distribution = Distribution::new(mean, self.settings.deviation, self.size);

@@ -4,7 +4,7 @@ use crate::bits;
 use serde::{Deserialize, Serialize};
 
 /// Entries of one curve at which every second is dropped.
-const MOST: usize = 1024;
+const MOST_ENTRIES: usize = 1024;
 
 /// A new best.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,7 +51,7 @@ impl History {
     }
 
     pub(crate) fn improve(&mut self, evaluations: f64, cost: f64) {
-        if self.improvements.len() == MOST {
+        if self.improvements.len() == MOST_ENTRIES {
             let mut i = 0;
             self.improvements.retain(|_| {
                 i += 1;
@@ -66,7 +66,7 @@ impl History {
         if costs.is_empty() || !generation.is_multiple_of(self.every) {
             return;
         }
-        if self.generations.len() == MOST {
+        if self.generations.len() == MOST_ENTRIES {
             self.every *= 2;
             let every = self.every;
             self.generations
@@ -98,7 +98,7 @@ mod tests {
             history.generation(i as usize, f64::from(i), vec![3.0, 1.0, 2.0, 5.0, 4.0]);
         }
         let (bests, generations) = (history.improvements(), history.generations());
-        assert!(bests.len() <= MOST && generations.len() <= MOST);
+        assert!(bests.len() <= MOST_ENTRIES && generations.len() <= MOST_ENTRIES);
         assert_eq!(bests[0].evaluations, 0.0);
         assert_eq!(bests[bests.len() - 1].evaluations, 9999.0);
         assert!(

@@ -54,6 +54,11 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     sum
 }
 
+/// Most sweeps of the rotations: they converge quadratically, a handful do for 64 dimensions.
+const MOST_SWEEPS: usize = 40;
+/// Sum of squares beside the diagonal, over that on it, that is rounding only: the square of 1e-17.
+const OFF_DIAGONAL_REST: f64 = 1e-34;
+
 /// Eigenvalues and eigenvectors (in the columns) of a symmetric matrix, by cyclic Jacobi rotations
 /// (Golub and Van Loan, Matrix Computations, 4th ed., alg. 8.5.3).
 pub(crate) fn symmetric_eigen(mut a: Vec<f64>, n: usize) -> (Vec<f64>, Vec<f64>) {
@@ -61,8 +66,7 @@ pub(crate) fn symmetric_eigen(mut a: Vec<f64>, n: usize) -> (Vec<f64>, Vec<f64>)
     for i in 0..n {
         v[i * n + i] = 1.0;
     }
-    // Quadratic at the end: a handful of sweeps do for 64 dimensions.
-    for _ in 0..40 {
+    for _ in 0..MOST_SWEEPS {
         let mut off = 0.0;
         let mut on = 0.0;
         for i in 0..n {
@@ -71,7 +75,7 @@ pub(crate) fn symmetric_eigen(mut a: Vec<f64>, n: usize) -> (Vec<f64>, Vec<f64>)
                 off += a[i * n + j] * a[i * n + j];
             }
         }
-        if off <= 1e-34 * on {
+        if off <= OFF_DIAGONAL_REST * on {
             break;
         }
         for p in 0..n {

@@ -13,6 +13,10 @@ use crate::search::{Answers, Request, Search};
 use crate::status::Status;
 use serde::{Deserialize, Serialize};
 
+/// Width of a simplex, in those at which it is done, below which it has collapsed whatever its costs: no move
+/// changes them any more.
+const COLLAPSED_WIDTH: f64 = 1e-6;
+
 /// Settings of the simplex method.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
@@ -211,7 +215,7 @@ impl NelderMead {
         // A simplex of worst points only has nowhere to go.
         self.costs[0].is_infinite()
             || (width <= self.settings.width && rise <= self.settings.spread * self.costs[0].abs())
-            || width <= 1e-6 * self.settings.width
+            || width <= COLLAPSED_WIDTH * self.settings.width
     }
 }
 

@@ -13,9 +13,10 @@ use crate::status::Status;
 use serde::{Deserialize, Serialize};
 
 /// Constriction `2/|2 - phi - sqrt(phi^2 - 4 phi)|` for `phi = 4.1`.
-const CHI: f64 = 0.729_843_788_127_783_6;
-/// Each half of `phi`.
-const PULL: f64 = 2.05;
+const CONSTRICTION: f64 = 0.729_843_788_127_783_6;
+/// Each half of `phi`: the attraction of a particle by its own best and by that of its neighbours (Clerc and
+/// Kennedy 2002).
+const ATTRACTION: f64 = 2.05;
 
 /// Settings of the particle swarm.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -103,9 +104,9 @@ impl ParticleSwarm {
             let leader = self.neighbour(i);
             for j in 0..self.places.dimensions() {
                 let x = self.places.row(i)[j];
-                let own = PULL * self.dice.unit() * (self.bests.row(i)[j] - x);
-                let social = PULL * self.dice.unit() * (self.bests.row(leader)[j] - x);
-                let mut v = CHI * (self.velocities.row(i)[j] + own + social);
+                let own = ATTRACTION * self.dice.unit() * (self.bests.row(i)[j] - x);
+                let social = ATTRACTION * self.dice.unit() * (self.bests.row(leader)[j] - x);
+                let mut v = CONSTRICTION * (self.velocities.row(i)[j] + own + social);
                 let mut to = x + v;
                 if !(0.0..=1.0).contains(&to) {
                     // Stays at the wall.

@@ -24,6 +24,9 @@ pub struct Best {
     pub counts: Counts,
 }
 
+/// Part of an evaluation that is rounding: shares of coarse evaluations add up to whole ones with an error.
+const EVALUATION_ROUNDING: f64 = 1e-9;
+
 /// A running search. All of its state is here and can be saved: a run that was interrupted, written
 /// out and read back goes on with the same bits as one that never stopped. Only what a run wrote may
 /// be read back; who keeps it in a file checks that the file is whole.
@@ -140,8 +143,7 @@ impl<S: Search> Run<S> {
             Fidelity::Coarse => share,
         };
         let left = most as f64 - self.counts.of(request.kind, share);
-        // Shares add up with rounding; a billionth of an evaluation is none.
-        (left / each + 1e-9).max(0.0) as usize
+        (left / each + EVALUATION_ROUNDING).max(0.0) as usize
     }
 
     /// Evaluates the next `many` points, and tells the search once all are there.

@@ -1,11 +1,12 @@
 //! How noisy a channel is, without knowing the signal.
 
 /// Order of the differences.
-const ORDER: usize = 6;
-/// Sum of the squared weights of a sixth difference.
-const GAIN: f64 = 924.0;
-/// Largest part of the differences that is left out: jumps and gaps are not noise.
-const OUTLIERS: f64 = 0.01;
+const DIFFERENCE_ORDER: usize = 6;
+/// Sum of the squared weights of a sixth difference: the binomial coefficient of 12 over 6.
+const DIFFERENCE_GAIN: f64 = 924.0;
+/// Largest part of the differences that is left out: jumps and gaps are not noise. Chosen: a log with more of
+/// them is bad in other ways.
+const OUTLIER_SHARE: f64 = 0.01;
 
 /// Standard deviation of the white noise of channels that are smooth between samples, from their
 /// sixth differences. Encoder steps passed at speed count as noise, of step/sqrt(12); whatever the
@@ -13,7 +14,7 @@ const OUTLIERS: f64 = 0.01;
 pub(crate) fn deviation<'a>(channels: impl Iterator<Item = &'a [f64]>) -> f64 {
     let mut squares: Vec<f64> = Vec::new();
     for channel in channels {
-        let differences = channel.windows(ORDER + 1).map(|x| {
+        let differences = channel.windows(DIFFERENCE_ORDER + 1).map(|x| {
             let pairs = (x[0] + x[6]) - 6.0 * (x[1] + x[5]) + 15.0 * (x[2] + x[4]);
             pairs - 20.0 * x[3]
         });
@@ -22,7 +23,7 @@ pub(crate) fn deviation<'a>(channels: impl Iterator<Item = &'a [f64]>) -> f64 {
     if squares.is_empty() {
         return 0.0;
     }
-    let most = ((1.0 - OUTLIERS) * squares.len() as f64) as usize;
+    let most = ((1.0 - OUTLIER_SHARE) * squares.len() as f64) as usize;
     let most = most.clamp(1, squares.len());
     if most < squares.len() {
         squares.select_nth_unstable_by(most, f64::total_cmp);
@@ -30,7 +31,7 @@ pub(crate) fn deviation<'a>(channels: impl Iterator<Item = &'a [f64]>) -> f64 {
         // A fixed order of summation, whatever the selection left.
         squares.sort_unstable_by(f64::total_cmp);
     }
-    (squares.iter().sum::<f64>() / (GAIN * most as f64)).sqrt()
+    (squares.iter().sum::<f64>() / (DIFFERENCE_GAIN * most as f64)).sqrt()
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! A channel read between its samples: what a delay between force and motion asks for.
 
-/// Points of the interpolation.
-const POINTS: usize = 6;
+/// Points of the Lagrange interpolation (docs/identification.md).
+const INTERPOLATION_POINTS: usize = 6;
 
 /// A shift by a fraction of a sample: reads a channel `samples` earlier.
 ///
@@ -11,7 +11,7 @@ const POINTS: usize = 6;
 pub(crate) struct Shift {
     /// First of the samples that the interpolation reads, relative to the one asked for.
     first: isize,
-    weights: [f64; POINTS],
+    weights: [f64; INTERPOLATION_POINTS],
     /// Where no weight but one counts, the sample that it stands for: the shift is whole.
     whole: Option<isize>,
 }
@@ -53,11 +53,14 @@ impl Shift {
             return read(whole);
         }
         let start = at as isize + self.first;
-        if start >= 0 && start + (POINTS as isize) <= last + 1 {
+        if start >= 0 && start + (INTERPOLATION_POINTS as isize) <= last + 1 {
             let start = start as usize;
-            return crate::separable::linear::dot(&full[start..start + POINTS], &self.weights);
+            return crate::separable::linear::dot(
+                &full[start..start + INTERPOLATION_POINTS],
+                &self.weights,
+            );
         }
-        (0..POINTS)
+        (0..INTERPOLATION_POINTS)
             .map(|i| self.weights[i] * read(self.first + i as isize))
             .sum()
     }
@@ -76,7 +79,7 @@ fn split(samples: f64) -> (isize, f64) {
 }
 
 /// Lagrange weights of the samples at -2..=3 for a point at `t`, 0 <= t < 1.
-fn weights(t: f64) -> [f64; POINTS] {
+fn weights(t: f64) -> [f64; INTERPOLATION_POINTS] {
     std::array::from_fn(|i| {
         let node = i as f64 - 2.0;
         others(node).map(|x| (t - x) / (node - x)).product()
@@ -84,7 +87,7 @@ fn weights(t: f64) -> [f64; POINTS] {
 }
 
 /// Derivatives of [`weights`] with respect to `t`.
-fn slopes(t: f64) -> [f64; POINTS] {
+fn slopes(t: f64) -> [f64; INTERPOLATION_POINTS] {
     std::array::from_fn(|i| {
         let node = i as f64 - 2.0;
         others(node)

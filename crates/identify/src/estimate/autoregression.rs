@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 
 /// Longest memory that is looked for, samples. After the common filter the regression keeps 2.5
 /// samples a period of the cut-off, so 20 reach over 8 of its periods.
-const MOST: usize = 20;
+const MOST_ORDER: usize = 20;
 
 /// `sum_k a_k r_{t-k} = e_t` with `a_0 = 1`.
 #[derive(Clone, Debug)]
@@ -29,7 +29,7 @@ impl Autoregression {
     /// makes every order stable.
     pub fn fit(residual: &[f64], breaks: &[usize]) -> Self {
         let n = residual.len();
-        let most = MOST.min(n / 20);
+        let most = MOST_ORDER.min(n / 20);
         let covariance: Vec<f64> = (0..=most)
             .map(|lag| {
                 segments(n, breaks)

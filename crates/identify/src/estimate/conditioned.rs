@@ -15,18 +15,18 @@ use crate::refit::{Refit, force_noise, refitted};
 use crate::replica::{Replica, replica};
 use stiction_search::{Control, Counts, Observer, Progress, Stage};
 
-/// Replicas that the shift is averaged over.
-const REPLICAS: u64 = 10;
+/// Replicas that the shift is averaged over (decision 0014).
+const REPLICA_COUNT: u64 = 10;
 /// Seeds of these replicas begin here: not those that the cut-offs were chosen on.
-const SEED: u64 = 1000;
+const FIRST_SEED: u64 = 1000;
 /// What a variance from ten replicas must be larger by to stand for that of many: the square of Student's
 /// 97.5 % quantile of 9 degrees of freedom over the normal one.
-const FEW: f64 = 1.332;
+const TEN_REPLICAS_FACTOR: f64 = 1.332;
 /// Seeds of the replicas of replicas begin here.
-const SECOND: u64 = 2000;
+const FIRST_SECOND_SEED: u64 = 2000;
 /// Part of the shift that counts as one standard deviation of its own error: on simulated closed loops
 /// the replicas show the shift to about a tenth.
-const DOUBT: f64 = 0.1;
+const SHIFT_DOUBT: f64 = 0.1;
 
 /// Shift of each parameter, SI, and how the fits of the replicas scatter.
 #[derive(Clone, Debug)]
@@ -52,15 +52,15 @@ impl Shift {
     /// replicas to replicas of them (a bootstrap iterated: Hall 1992, doi 10.1007/978-1-4612-4384-7,
     /// section 1.4).
     pub fn total(&self, i: usize, residual: f64) -> f64 {
-        let calibration = FEW * self.scatter[i] / self.stated[i];
+        let calibration = TEN_REPLICAS_FACTOR * self.scatter[i] / self.stated[i];
         let calibrated = residual
             * if calibration.is_finite() {
                 calibration
             } else {
                 1.0
             };
-        let doubt = DOUBT * self.bias[i];
-        calibrated + self.scatter[i] / REPLICAS as f64 + doubt * doubt + self.change[i]
+        let doubt = SHIFT_DOUBT * self.bias[i];
+        calibrated + self.scatter[i] / REPLICA_COUNT as f64 + doubt * doubt + self.change[i]
     }
 }
 
@@ -78,11 +78,11 @@ pub(super) fn shift(
     let mut first = Shifts::default();
     let mut second = Shifts::default();
     let mut stated = vec![0.0; raw.len()];
-    for i in 0..REPLICAS {
-        let (found, replica) = once(record, fitted, noise, SEED + i, counts)?;
+    for i in 0..REPLICA_COUNT {
+        let (found, replica) = once(record, fitted, noise, FIRST_SEED + i, counts)?;
         let surety = &found.refit.unknowns.as_ref()?.covariance;
         for (sum, p) in stated.iter_mut().zip(&found.parameters) {
-            *sum += p.variance(surety) / REPLICAS as f64;
+            *sum += p.variance(surety) / REPLICA_COUNT as f64;
         }
         first.0.push(found.shift.clone());
         // One that cannot be simulated has nothing to say.
@@ -91,7 +91,7 @@ pub(super) fn shift(
                 &again,
                 &found.as_fitted(fitted, &replica),
                 noise,
-                SECOND + i,
+                FIRST_SECOND_SEED + i,
                 counts,
             )
         {
@@ -99,7 +99,7 @@ pub(super) fn shift(
         }
         let progress = Progress {
             stage: Stage::Calibration,
-            fraction: (i + 1) as f64 / REPLICAS as f64,
+            fraction: (i + 1) as f64 / REPLICA_COUNT as f64,
             counts: *counts,
             best: f64::INFINITY,
         };

@@ -14,11 +14,11 @@ use stiction_parameters::{Name, Quantity, Side};
 use stiction_search::Counts;
 
 /// Deviation of ln(Fs/Fc - 1) below which the curve is there without asking: ten deviations from none.
-const PLAIN: f64 = 0.1;
+const PLAIN_EXCESS_DEVIATION: f64 = 0.1;
 /// Rise of the cost without the curve below which it may be noise, in squared deviations. The two
 /// unknowns of a curve were searched for over decades, so chance makes more of them than of one unknown
 /// at a known place: 12 comes about less than once in a hundred times.
-const CHANCE: f64 = 12.0;
+const CHANCE_RISE: f64 = 12.0;
 
 /// For each direction (the same twice for a symmetric law) whether the cost is hardly higher with the
 /// Stribeck velocity, or the excess of the static friction, at the lower end of its range.
@@ -36,7 +36,7 @@ pub(super) fn missing(
         let variance = unknowns.covariance[(e, e)];
         let rise = variance / unknowns.bread[e];
         // A rise that is no number belongs to an unknown that is flagged already.
-        if variance.sqrt() < PLAIN || !rise.is_finite() {
+        if variance.sqrt() < PLAIN_EXCESS_DEVIATION || !rise.is_finite() {
             return false;
         }
         [v, e].into_iter().any(|i| {
@@ -49,7 +49,7 @@ pub(super) fn missing(
                 &optimum.p,
                 counts,
             );
-            found.evaluation.cost - optimum.evaluation.cost < CHANCE * rise
+            found.evaluation.cost - optimum.evaluation.cost < CHANCE_RISE * rise
         })
     };
     let first = of_side(0);

@@ -17,7 +17,7 @@ use stiction_search::{Counts, Observer};
 
 /// Relative standard deviation from which the profile is followed; below it the linear interval is
 /// right to a part of its width of the same size.
-const CURVED: f64 = 0.03;
+const PROFILED_DEVIATION: f64 = 0.03;
 
 /// States the intervals of an estimate in full: counts what encoder steps, filters and derivatives
 /// shift, and replaces linear intervals of the Stribeck velocity and exponent, static friction and
@@ -148,7 +148,7 @@ fn profiled(
     let bread = estimate.unknowns.bread[index];
     let std = estimate.unknowns.covariance[(index, index)].sqrt();
     let relative = variance.sqrt() / p.value;
-    if !(relative > CURVED && relative.is_finite() && std.is_finite() && bread > 0.0) {
+    if !(relative > PROFILED_DEVIATION && relative.is_finite() && std.is_finite() && bread > 0.0) {
         return;
     }
     let Some(now) = estimate.parameter(p.name) else {

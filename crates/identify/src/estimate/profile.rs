@@ -6,7 +6,7 @@
 //! interval is where the cost has risen by what the long-run noise makes of one standard deviation,
 //! squared times the quantile.
 
-use crate::parameter::WIDEST;
+use crate::parameter::WIDEST_INTERVAL;
 use crate::separable::descent::{Descent, descend};
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
@@ -14,11 +14,12 @@ use crate::watch::Watch;
 use stiction_search::{Counts, Silent, Stage};
 
 /// Trial values to each side, at most.
-const TRIALS: usize = 6;
+const MOST_TRIALS: usize = 6;
 /// Steps of each descent; it starts where the last one ended.
-const STEPS: usize = 6;
-/// How near the wanted rise is near enough, relative in the root of the rise.
-const NEAR: f64 = 0.02;
+const DESCENT_STEPS: usize = 6;
+/// How far the root of the rise may be off the wanted one, as a part of it: an end is then right to 2 % of
+/// the width.
+const RISE_TOLERANCE: f64 = 0.02;
 
 /// What is held at a value while all else is fitted.
 #[derive(Clone, Copy, Debug)]
@@ -67,9 +68,9 @@ impl Profile<'_> {
                 let bounds = &self.optimum.bounds;
                 let at = self.optimum.p[i];
                 let far = if side < 0.0 {
-                    bounds.low(i).max(at - WIDEST)
+                    bounds.low(i).max(at - WIDEST_INTERVAL)
                 } else {
-                    bounds.high(i).min(at + WIDEST)
+                    bounds.high(i).min(at + WIDEST_INTERVAL)
                 };
                 (at, far)
             }
@@ -78,7 +79,7 @@ impl Profile<'_> {
                 let far = if side < 0.0 {
                     0.0
                 } else {
-                    at * libm::exp(WIDEST)
+                    at * libm::exp(WIDEST_INTERVAL)
                 };
                 (at, far)
             }
@@ -95,7 +96,7 @@ impl Profile<'_> {
         let mut start = self.optimum.p.clone();
         let (mut inner, mut outer) = ((0.0, 0.0), None::<(f64, f64)>);
         let mut distance = (self.quantile * self.std).min(reach);
-        for _ in 0..TRIALS {
+        for _ in 0..MOST_TRIALS {
             let value = at + side * distance;
             let found = fit_with(
                 self.objective,
@@ -111,7 +112,7 @@ impl Profile<'_> {
             }
             let deviations = (risen.max(0.0) / self.rise).sqrt();
             start.clone_from(&found.p);
-            if (deviations / self.quantile - 1.0).abs() <= NEAR {
+            if (deviations / self.quantile - 1.0).abs() <= RISE_TOLERANCE {
                 return Some(End::At(found.p, found.evaluation.solution.coefficients));
             }
             if deviations < self.quantile {
@@ -154,11 +155,11 @@ pub(super) fn fit_with(
     let found = match held {
         Held::Nonlinear(i) => {
             let bounds = bounds.holding(i, value);
-            descend(objective, &bounds, start, STEPS, &mut watch)
+            descend(objective, &bounds, start, DESCENT_STEPS, &mut watch)
         }
         Held::Linear(j) => {
             let objective = objective.holding(j, value);
-            descend(&objective, bounds, start, STEPS, &mut watch)
+            descend(&objective, bounds, start, DESCENT_STEPS, &mut watch)
         }
     };
     *counts = watch.counts;

@@ -17,8 +17,8 @@ use crate::separable::linear::dot;
 use crate::separable::objective::{Evaluation, Objective};
 use nalgebra::{DMatrix, SymmetricEigen};
 
-/// Relative size of an eigenvalue of the scaled `J^T J` that is rounding only.
-const ROUNDING: f64 = 1e-15;
+/// Eigenvalue of a normal matrix scaled to a unit diagonal, over the largest, that is rounding only.
+pub(crate) const ROUNDED_EIGENVALUE: f64 = 1e-15;
 
 /// How sure the unknowns `(p, c)` are.
 #[derive(Clone, Debug)]
@@ -108,7 +108,7 @@ pub(crate) fn inverse(matrix: DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
     let q = matrix.nrows();
     let eigen = SymmetricEigen::new(matrix);
     let most = eigen.eigenvalues.iter().fold(0.0_f64, |m, x| m.max(*x));
-    let floor = ROUNDING * most;
+    let floor = ROUNDED_EIGENVALUE * most;
     let sum = |wanted: &dyn Fn(f64) -> bool| {
         DMatrix::from_fn(q, q, |i, j| {
             (0..q)

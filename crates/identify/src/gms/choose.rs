@@ -11,11 +11,12 @@ use crate::watch::Watch;
 use stiction_search::Stage;
 
 /// Contiguous blocks, each left out in turn.
-const BLOCKS: usize = 4;
+const HELD_OUT_BLOCKS: usize = 4;
 /// Steps with which a fit settles when a block is left out.
-const STEPS: usize = 3;
-/// Held-out errors within this factor of the least count as equal, and the fewest elements win.
-const EQUAL: f64 = 1.01;
+const REFIT_STEPS: usize = 3;
+/// Held-out errors within this factor of the least count as equal, and the fewest elements win: less is of no
+/// use to anyone, as in the choice of laws.
+const EQUAL_ERROR_RATIO: f64 = 1.01;
 
 /// Scores every rung, in the order given.
 pub(super) fn scores(
@@ -48,7 +49,7 @@ pub(super) fn best(scores: &[ElementsScore]) -> usize {
         .iter()
         .filter_map(error)
         .fold(f64::INFINITY, f64::min);
-    let alike = |s: &ElementsScore| error(s).is_some_and(|e| e <= EQUAL * least);
+    let alike = |s: &ElementsScore| error(s).is_some_and(|e| e <= EQUAL_ERROR_RATIO * least);
     let any = scores.iter().any(alike);
     (0..scores.len())
         .filter(|&i| !any || alike(&scores[i]))
@@ -67,18 +68,24 @@ fn held_out(
     let record = full.record();
     let total = record.kept();
     let unknowns = rung.law.nonlinear() + full.linear().len();
-    if total < BLOCKS * 10 * unknowns {
+    if total < HELD_OUT_BLOCKS * 10 * unknowns {
         return None;
     }
     let mut cost = 0.0;
-    for block in 0..BLOCKS {
+    for block in 0..HELD_OUT_BLOCKS {
         if watch.stopped {
             return None;
         }
-        let inside = |k: usize| k * BLOCKS / total == block;
+        let inside = |k: usize| k * HELD_OUT_BLOCKS / total == block;
         let train = record.masked(|i| !order[i].is_some_and(inside));
         let objective = Objective::new(&train, rung.law, terms);
-        let found = descend(&objective, &rung.bounds, &rung.descent.p, STEPS, watch);
+        let found = descend(
+            &objective,
+            &rung.bounds,
+            &rung.descent.p,
+            REFIT_STEPS,
+            watch,
+        );
         let model = full.model(&found.p, &found.evaluation.solution.coefficients);
         for (k, (u, y)) in full.force().iter().zip(&model).enumerate() {
             if inside(k) {

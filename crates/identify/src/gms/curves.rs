@@ -10,16 +10,17 @@ use crate::watch::Watch;
 use stiction_search::Control;
 
 /// Elements of the dictionary over the whole range of yield deflections.
-const WIDE: usize = 24;
+const ELEMENTS_ANYWHERE: usize = 24;
 /// Elements of the dictionary over the range that matters.
-const CLOSE: usize = 12;
+const ELEMENTS_IN_RANGE: usize = 12;
 /// Curves that are followed from each third of the range of Stribeck velocities.
-const FOLLOWED: usize = 2;
+const FOLLOWED_PER_THIRD: usize = 2;
 /// Part of the yield force that an element must have to widen that range.
-const MATTERS: f64 = 0.01;
-/// How far the range reaches beyond its elements, in logarithms: the limit at rest may be some times
-/// that of a curve that hardly falls.
-const REACH: (f64, f64) = (0.3, 1.0);
+const LEAST_FORCE_SHARE: f64 = 0.01;
+/// How far the range of yield deflections reaches below its elements, in logarithms.
+const RANGE_BELOW: f64 = 0.3;
+/// And above: the limit at rest may be some times that of a curve that hardly falls.
+const RANGE_ABOVE: f64 = 1.0;
 
 /// Scans the curves of a symmetric law, each with the elements that suit it best; those that leave
 /// least, best first, for the law that is asked for.
@@ -38,9 +39,9 @@ pub(super) fn curves(search: &Search, watch: &mut Watch) -> Result<Vec<Vec<f64>>
     if from.count == 0 {
         return Ok(vec![vec![0.0; to.count]]);
     }
-    let wide = law(WIDE);
+    let wide = law(ELEMENTS_ANYWHERE);
     let bounds = SearchBox::from_record(search.record, &wide)?;
-    let places = dictionary::places(&bounds, &wide.layout(), WIDE);
+    let places = dictionary::places(&bounds, &wide.layout(), ELEMENTS_ANYWHERE);
     let flat = flat(&bounds, &from);
     let p = dictionary::unknowns(&flat, places.iter().copied());
     let objective = Objective::new(search.record, wide, search.terms);
@@ -48,10 +49,10 @@ pub(super) fn curves(search: &Search, watch: &mut Watch) -> Result<Vec<Vec<f64>>
     watch.count(&objective, false);
     let (low, high) = range(&dictionary::atoms(&wide, &p, &at));
     let first = wide.layout().yields().start;
-    let low = (low - REACH.0).clamp(bounds.low(first), bounds.high(first));
-    let high = (high + REACH.1).clamp(bounds.low(first), bounds.high(first));
-    let places = dictionary::steps(low, high, CLOSE);
-    let objective = Objective::new(search.record, law(CLOSE), search.terms);
+    let low = (low - RANGE_BELOW).clamp(bounds.low(first), bounds.high(first));
+    let high = (high + RANGE_ABOVE).clamp(bounds.low(first), bounds.high(first));
+    let places = dictionary::steps(low, high, ELEMENTS_IN_RANGE);
+    let objective = Objective::new(search.record, law(ELEMENTS_IN_RANGE), search.terms);
     let seed = (search.settings.seed ^ (search.settings.seed >> 32)) as u32;
     let many = search.settings.scan / 2;
     let mut found: Vec<(f64, Vec<f64>)> = Vec::new();
@@ -88,7 +89,7 @@ pub(super) fn curves(search: &Search, watch: &mut Watch) -> Result<Vec<Vec<f64>>
     found.retain(|(_, p)| {
         let third = third(p);
         taken[third] += 1;
-        taken[third] <= FOLLOWED
+        taken[third] <= FOLLOWED_PER_THIRD
     });
     let best = found.iter();
     Ok(best.map(|(_, p)| both_ways(p, &from, &to)).collect())
@@ -112,7 +113,7 @@ fn range(atoms: &[Atom]) -> (f64, f64) {
     let total: f64 = atoms.iter().map(|a| a.force).sum();
     atoms
         .iter()
-        .filter(|a| a.force >= MATTERS * total)
+        .filter(|a| a.force >= LEAST_FORCE_SHARE * total)
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), a| {
             (low.min(a.place), high.max(a.place))
         })

@@ -9,10 +9,11 @@ use crate::separable::objective::Objective;
 use crate::separable::search_box::SearchBox;
 use crate::watch::Watch;
 
-/// Steps in the logarithms.
-const STEPS: [f64; 3] = [1e-4, 1e-3, 1e-2];
-/// Relative fall of the cost below which a step counts as none.
-const FLAT: f64 = 1e-7;
+/// Steps that are tried, in logarithms: a kink is passed at once or not at all, so decades are enough.
+const STEPS_TRIED: [f64; 3] = [1e-4, 1e-3, 1e-2];
+/// Fall of the cost, as a part of it, below which a step has gained nothing; well above the 1e-9 of the
+/// descents, so that it is worth another.
+const LEAST_GAIN: f64 = 1e-7;
 
 /// The best point that lowers the cost by moving one unknown alone, either way; `None` if there is
 /// none and the point is a minimum as far as such steps can tell.
@@ -23,10 +24,10 @@ pub(super) fn way_out(
     cost: f64,
     watch: &mut Watch,
 ) -> Option<Vec<f64>> {
-    let mut least = (1.0 - FLAT) * cost;
+    let mut least = (1.0 - LEAST_GAIN) * cost;
     let mut best = None;
     for i in 0..p.len() {
-        for step in STEPS.into_iter().flat_map(|s| [s, -s]) {
+        for step in STEPS_TRIED.into_iter().flat_map(|s| [s, -s]) {
             let mut trial = p.to_vec();
             trial[i] += step;
             let trial = bounds.clamp(&trial);

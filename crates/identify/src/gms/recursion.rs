@@ -21,7 +21,7 @@
 
 use super::limit::{Curve, Limit, limit};
 use crate::law::{Law, Layout};
-use crate::separable::recursion::{LONGEST, phi};
+use crate::separable::recursion::{LONGEST_DECAY, phi};
 use libm::{expm1, fabs};
 
 /// One element along the record.
@@ -217,7 +217,7 @@ impl<'a, const K: usize> Part<'a, K> {
     ) -> Self {
         let half = 0.5 * time * curve.attraction;
         let (qa, qb) = (half / from.value, half / to.value);
-        let a = (qa + qb).min(LONGEST);
+        let a = (qa + qb).min(LONGEST_DECAY);
         let e = expm1(-a);
         let (ph, ph_slope) = phi(a, e);
         let keep = 1.0 + e;
@@ -320,7 +320,7 @@ impl<'a, const K: usize> Part<'a, K> {
         let left = 1.0 - t;
         let half = 0.5 * self.time * self.attraction;
         let (qa, qb) = (half / level, half / self.to.value);
-        let exponent = (left * (qa + qb)).min(LONGEST);
+        let exponent = (left * (qa + qb)).min(LONGEST_DECAY);
         let e = expm1(-exponent);
         let (ph, ph_slope) = phi(exponent, e);
         // By how much a later meeting moves the level, the exponent and so the end.

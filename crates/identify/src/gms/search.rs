@@ -17,30 +17,30 @@ use crate::watch::Watch;
 use stiction_search::{Observer, Stage, Status};
 
 /// Elements of the dictionary from which the elements are taken.
-const FINE: usize = 40;
+const DICTIONARY_ELEMENTS: usize = 40;
 /// Steps of a descent before it is compared with others.
-const SHORT: usize = 12;
+const SHORT_STEPS: usize = 12;
 /// Relative difference of the costs below which two descents are on the way to one minimum.
-const ALIKE: f64 = 2e-3;
+const SAME_MINIMUM_COST: f64 = 2e-3;
 /// Of the others, how many are followed further.
-const RIVALS: usize = 3;
+const MOST_RIVALS: usize = 3;
 /// Elements above the wanted number from which the way down begins.
-const ABOVE: usize = 3;
+const ELEMENTS_ABOVE: usize = 3;
 
 /// Steps of a descent on the way down, at most.
-const RUNG: usize = 30;
+const RUNG_STEPS: usize = 30;
 /// Steps after which a descent on the way is looked at.
-const STRIDE: usize = 10;
+const STRIDE_STEPS: usize = 10;
 /// Relative fall of the cost over a stride below which it ends.
-const SETTLED: f64 = 1e-5;
+const SETTLED_GAIN: f64 = 1e-5;
 
 /// Times the dictionary is asked again.
-const REFILLS: usize = 3;
+const MOST_REFILLS: usize = 3;
 /// Relative fall of the cost for which it is asked once more.
-const WORTH: f64 = 1e-3;
+const WORTHWHILE_GAIN: f64 = 1e-3;
 
 /// Times a stalled descent is started again.
-const KINKS: usize = 8;
+const MOST_RESTARTS: usize = 8;
 
 /// A curve, and elements that suit it.
 type Start = (Vec<f64>, Vec<Atom>);
@@ -63,7 +63,7 @@ pub(crate) fn search(
     }
     let (top, least) = match law.elements {
         0 => (MOST, FEWEST),
-        given => ((given + ABOVE).min(MOST), given),
+        given => ((given + ELEMENTS_ABOVE).min(MOST), given),
     };
     let wanted = law.elements;
     let law = |elements| Law { elements, ..law };
@@ -115,7 +115,7 @@ impl Search<'_> {
                 self.iterations += search.iterations;
                 watch.best = f64::INFINITY;
                 let (curve, atoms) = self.split(&rung);
-                self.fit(&curve, &atoms, RUNG, watch)?
+                self.fit(&curve, &atoms, RUNG_STEPS, watch)?
             }
         };
         let mut out = Vec::new();
@@ -127,7 +127,7 @@ impl Search<'_> {
                 return Ok(out);
             }
             let (curve, atoms) = self.split(&rung);
-            let next = self.fit(&curve, &dictionary::join(atoms, n - 1), RUNG, watch)?;
+            let next = self.fit(&curve, &dictionary::join(atoms, n - 1), RUNG_STEPS, watch)?;
             out.push(std::mem::replace(&mut rung, next));
         }
     }
@@ -143,14 +143,14 @@ impl Search<'_> {
                 break;
             }
             watch.fraction = i as f64 / starts.len() as f64;
-            rivals.push(self.fit(curve, atoms, SHORT, watch)?);
+            rivals.push(self.fit(curve, atoms, SHORT_STEPS, watch)?);
         }
         rivals.sort_by(|a, b| a.cost().total_cmp(&b.cost()));
-        rivals.dedup_by(|b, a| b.cost() <= (1.0 + ALIKE) * a.cost());
+        rivals.dedup_by(|b, a| b.cost() <= (1.0 + SAME_MINIMUM_COST) * a.cost());
         // Minima with different curves may lie close together: the best are followed further.
         watch.stage = Stage::Fine;
         let mut best: Option<Rung> = None;
-        for rival in rivals.into_iter().take(RIVALS) {
+        for rival in rivals.into_iter().take(MOST_RIVALS) {
             if watch.stopped && best.is_some() {
                 break;
             }
@@ -165,7 +165,7 @@ impl Search<'_> {
     /// Follows a fit to the end.
     pub fn finish(&mut self, mut rung: Rung, watch: &mut Watch) -> Result<Optimum, Error> {
         watch.stage = Stage::Fine;
-        for _ in 0..KINKS {
+        for _ in 0..MOST_RESTARTS {
             if watch.stopped {
                 break;
             }
@@ -224,19 +224,19 @@ impl Search<'_> {
     /// Asks the dictionary again with the curve of a fit, which may have moved far since, and goes on
     /// from there while that helps.
     fn refill(&mut self, mut rung: Rung, most: usize, watch: &mut Watch) -> Result<Rung, Error> {
-        for _ in 0..REFILLS {
+        for _ in 0..MOST_REFILLS {
             rung = self.settle(rung, watch)?;
             let (curve, own) = self.split(&rung);
             if own.len() >= most || watch.stopped {
                 break;
             }
             let atoms = self.elements_for(&curve, &own, watch)?;
-            let next = self.fit(&curve, &dictionary::join(atoms, most), RUNG, watch)?;
+            let next = self.fit(&curve, &dictionary::join(atoms, most), RUNG_STEPS, watch)?;
             let gain = 1.0 - next.cost() / rung.cost();
             if gain > 0.0 {
                 rung = next;
             }
-            if gain.is_nan() || gain < WORTH {
+            if gain.is_nan() || gain < WORTHWHILE_GAIN {
                 break;
             }
         }
@@ -251,12 +251,12 @@ impl Search<'_> {
         watch: &mut Watch,
     ) -> Result<Vec<Atom>, Error> {
         let law = Law {
-            elements: FINE + own.len(),
+            elements: DICTIONARY_ELEMENTS + own.len(),
             ..self.law
         };
         let bounds = SearchBox::from_record(self.record, &law)?;
         let objective = Objective::new(self.record, law, self.terms);
-        let places = dictionary::places(&bounds, &law.layout(), FINE);
+        let places = dictionary::places(&bounds, &law.layout(), DICTIONARY_ELEMENTS);
         let places = own.iter().map(|atom| atom.place).chain(places);
         let p = dictionary::unknowns(curve, places);
         let at = objective.evaluate(&p, false);
@@ -276,7 +276,7 @@ impl Search<'_> {
             if done || watch.stopped {
                 break;
             }
-            rung = self.fit(&curve, &atoms, RUNG, watch)?;
+            rung = self.fit(&curve, &atoms, RUNG_STEPS, watch)?;
         }
         Ok(rung)
     }
@@ -307,12 +307,12 @@ impl Search<'_> {
     ) -> Result<Rung, Error> {
         let bounds = SearchBox::from_record(self.record, &law)?;
         let objective = Objective::new(self.record, law, self.terms);
-        let mut descent = descend(&objective, &bounds, start, steps.min(STRIDE), watch);
+        let mut descent = descend(&objective, &bounds, start, steps.min(STRIDE_STEPS), watch);
         self.iterations += descent.iterations;
-        let mut left = steps.saturating_sub(STRIDE);
+        let mut left = steps.saturating_sub(STRIDE_STEPS);
         let rough = steps < self.settings.steps;
         while left > 0 && descent.status == Status::Budget && !watch.stopped {
-            let stride = if rough { left.min(STRIDE) } else { left };
+            let stride = if rough { left.min(STRIDE_STEPS) } else { left };
             let mut next = descend(&objective, &bounds, &descent.p, stride, watch);
             self.iterations += next.iterations;
             left -= stride;
@@ -320,7 +320,7 @@ impl Search<'_> {
             descent.history.append(&mut next.history);
             next.history = descent.history;
             descent = next;
-            if rough && (gain.is_nan() || gain < SETTLED) {
+            if rough && (gain.is_nan() || gain < SETTLED_GAIN) {
                 break;
             }
         }

@@ -2,10 +2,10 @@
 
 use crate::conditioning::record::{Record, Segment};
 
-/// Part of the range of a stretch that must have been run through.
-const RUN_THROUGH: f64 = 0.95;
+/// Part of the range of a stretch that must have been run through for its elements to be settled.
+const RUN_THROUGH_SHARE: f64 = 0.95;
 /// Part of a stretch that may be lost to it.
-const MOST_LOST: f64 = 0.5;
+const MOST_LOST_SHARE: f64 = 0.5;
 
 impl Record {
     /// The same record without the start of each stretch, until the position has once run through its
@@ -49,8 +49,8 @@ fn start(segment: &Segment) -> usize {
             high - low
         })
         .collect();
-    let whole = RUN_THROUGH * (high - low);
-    let most = (MOST_LOST * segment.velocity.len() as f64) as usize;
+    let whole = RUN_THROUGH_SHARE * (high - low);
+    let most = (MOST_LOST_SHARE * segment.velocity.len() as f64) as usize;
     ranges
         .iter()
         .position(|&range| range >= whole)

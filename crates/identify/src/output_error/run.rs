@@ -48,7 +48,7 @@ const MOST_SAMPLES: usize = 2_000_000;
 /// Most stretches: each has unknowns of its own.
 const MOST_RUNS: usize = 20_000;
 /// Fewest samples of a stretch.
-const LEAST: usize = 10;
+const FEWEST_SAMPLES: usize = 10;
 
 /// What became of the samples of recordings that no run keeps, given how many runs hold and keep.
 pub(crate) fn losses(recordings: &[Recording], held: usize, kept: usize) -> Losses {
@@ -137,7 +137,7 @@ pub(crate) fn runs(
             let length = match (controller, segment) {
                 // A controller keeps the axis where it was; its memory must not be cut.
                 (Some(_), _) | (_, None) => whole.time.len(),
-                (None, Some(s)) => (s / step).clamp(LEAST as f64, 1e9) as usize,
+                (None, Some(s)) => (s / step).clamp(FEWEST_SAMPLES as f64, 1e9) as usize,
             };
             out.extend(whole.cut(length));
             if out.len() > MOST_RUNS {
@@ -149,7 +149,7 @@ pub(crate) fn runs(
             }
         }
     }
-    out.retain(|run| run.keep.iter().filter(|&&k| k).count() >= LEAST);
+    out.retain(|run| run.keep.iter().filter(|&&k| k).count() >= FEWEST_SAMPLES);
     Ok(out)
 }
 
@@ -222,7 +222,7 @@ impl Run {
 
     /// Velocity at the start, from a line through the first samples.
     pub fn first_velocity(&self) -> f64 {
-        let n = self.position.len().min(LEAST);
+        let n = self.position.len().min(FEWEST_SAMPLES);
         let mean = 0.5 * (n as f64 - 1.0);
         let (mut above, mut below) = (0.0, 0.0);
         for (i, x) in self.position.iter().take(n).enumerate() {

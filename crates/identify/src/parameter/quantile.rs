@@ -1,7 +1,7 @@
 //! Quantiles of normal errors with a bias.
 
 /// Two-sided 95 % quantile of the normal distribution.
-pub(super) const Q95: f64 = 1.959_963_984_540_054;
+pub(crate) const NORMAL_Q95: f64 = 1.959_963_984_540_054;
 
 /// Half-width of a 95 % interval about an estimate with this bias and standard deviation, in
 /// deviations: the 95 % quantile of |N(bias/std, 1)|, which is 1.96 without bias. An estimate that
@@ -10,11 +10,11 @@ pub(super) const Q95: f64 = 1.959_963_984_540_054;
 pub(crate) fn quantile(bias: f64, std: f64) -> f64 {
     let t = (bias / std).abs();
     if !(t > 0.0 && t.is_finite()) {
-        return Q95;
+        return NORMAL_Q95;
     }
     let inside = |c: f64| normal(c - t) - normal(-c - t);
     // Between 1.96 and 1.96 + t, whatever t.
-    let (mut low, mut high) = (Q95, Q95 + t);
+    let (mut low, mut high) = (NORMAL_Q95, NORMAL_Q95 + t);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
         if inside(middle) < 0.95 {
@@ -47,7 +47,7 @@ mod tests {
             let found = quantile(2.0 * t, 2.0);
             assert!((found * found / chi - 1.0).abs() < 1e-9, "{t}: {found}");
         }
-        assert_eq!(quantile(0.0, 1.0), Q95);
-        assert_eq!(quantile(1.0, 0.0), Q95);
+        assert_eq!(quantile(0.0, 1.0), NORMAL_Q95);
+        assert_eq!(quantile(1.0, 0.0), NORMAL_Q95);
     }
 }

@@ -15,15 +15,15 @@ use crate::error::Error;
 use stiction_servo::plant::{Load, Motion, Plant};
 
 /// Fewest samples of a ramp.
-const LEAST: usize = 50;
+const FEWEST_SAMPLES: usize = 50;
 /// Share of the ramp over which the velocity is taken.
-const WINDOW: f64 = 0.01;
+const WINDOW_SHARE: f64 = 0.01;
 /// Steps of the position (or deviations of its noise) within the window that stand out.
-const CLEAR: f64 = 5.0;
+const CLEAR_MOTION: f64 = 5.0;
 /// Where no threshold is given: share of the top speed on the ramp.
-const SHARE: f64 = 1e-3;
+const THRESHOLD_SHARE: f64 = 1e-3;
 /// Largest deviation of the force from a line until break-away, relative to its rise.
-const STRAIGHT: f64 = 0.1;
+const MOST_BEND: f64 = 0.1;
 /// Most steps of a prediction.
 const MOST_STEPS: f64 = 2e6;
 
@@ -78,10 +78,10 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
     let start = (0..top)
         .rposition(|i| force[i] * sign <= 0.05 * force[top].abs())
         .unwrap_or(0);
-    if top - start < LEAST {
+    if top - start < FEWEST_SAMPLES {
         return Err(none("the ramp has fewer than 50 samples"));
     }
-    let window = (((top - start) as f64 * WINDOW) as usize).max(4);
+    let window = (((top - start) as f64 * WINDOW_SHARE) as usize).max(4);
     let moved = Moments::new(time, position);
     let width = time[(start + window).min(top)] - time[start];
     let rest = &position[start.saturating_sub(window)..start + window];
@@ -91,13 +91,13 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
     let noise = run.resolution.unwrap_or((high - low) / 4.0);
     let speed = |i: usize| sign * moved.slope(i - window / 2, i - window / 2 + window);
     let range = (start + window)..(top.saturating_sub(window));
-    if range.len() < LEAST / 2 {
+    if range.len() < FEWEST_SAMPLES / 2 {
         return Err(none("the ramp is too short for the noise of its position"));
     }
     let fastest = range.clone().map(speed).fold(0.0, f64::max);
     let threshold = threshold
-        .unwrap_or(SHARE * fastest)
-        .max(CLEAR * noise / width);
+        .unwrap_or(THRESHOLD_SHARE * fastest)
+        .max(CLEAR_MOTION * noise / width);
     if fastest <= threshold {
         return Err(none(
             "the axis does not break away: it stays slower than the threshold",
@@ -125,7 +125,7 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
         .sum::<f64>();
     let scatter = (off / (i + 1 - start) as f64).sqrt();
     let at = line(instant);
-    if scatter.is_nan() || scatter > STRAIGHT * at.abs() {
+    if scatter.is_nan() || scatter > MOST_BEND * at.abs() {
         return Err(none("the force does not rise in a line until break-away"));
     }
     Ok(BreakAway {

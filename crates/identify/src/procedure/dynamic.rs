@@ -16,6 +16,7 @@ use crate::estimate::{Estimate, estimate, uncertainty};
 use crate::law::physical::physical;
 use crate::law::terms::Terms;
 use crate::law::{Law, LawKind};
+use crate::parameter::NORMAL_Q95;
 use crate::parameter::covariance::Covariance;
 use crate::parameter::physical::propagate;
 use crate::separable::linear::{self, Solution, dot};
@@ -27,12 +28,14 @@ use stiction_parameters::{Name, Quantity};
 use stiction_search::{Control, Counts, Observer, Progress, Stage, Status};
 
 /// Starts over ln sigma0, spread over the whole range.
-const GRID: usize = 24;
+const GRID_POINTS: usize = 24;
 /// Minima of the grid that are followed, and the width in ln sigma0 at which that ends.
 const FOLLOWED: usize = 3;
-const FINE: f64 = 1e-7;
-/// Step of the differences that give sensitivities, in logarithms.
-const STEP: f64 = 1e-4;
+/// Width in ln sigma0 at which following a minimum ends: far below any interval, far above the rounding of
+/// the cost.
+const SETTLED_WIDTH: f64 = 1e-7;
+/// Step of the central differences that give sensitivities, in logarithms: their error is about the square.
+const DIFFERENCE_STEP: f64 = 1e-4;
 
 /// Fits the dynamic parameters of LuGre to a record, the steady curve held.
 ///
@@ -165,10 +168,10 @@ impl Held<'_> {
     fn search(&self, bounds: &SearchBox, observer: &mut dyn Observer) -> (f64, Status, Counts) {
         let (low, high) = (bounds.low(self.kappa), bounds.high(self.kappa));
         let mut counts = Counts::default();
-        let mut grid = Vec::with_capacity(GRID);
+        let mut grid = Vec::with_capacity(GRID_POINTS);
         let mut best = (f64::INFINITY, low);
-        for i in 0..GRID {
-            let x = low + (high - low) * i as f64 / (GRID - 1) as f64;
+        for i in 0..GRID_POINTS {
+            let x = low + (high - low) * i as f64 / (GRID_POINTS - 1) as f64;
             let cost = self.solve(x).cost;
             grid.push((x, cost));
             counts.costs += 1;
@@ -177,7 +180,7 @@ impl Held<'_> {
             }
             let control = observer.progress(&Progress {
                 stage: Stage::Scan,
-                fraction: (i + 1) as f64 / GRID as f64,
+                fraction: (i + 1) as f64 / GRID_POINTS as f64,
                 counts,
                 best: self.objective.relative(best.0),
             });
@@ -185,18 +188,21 @@ impl Held<'_> {
                 return (best.1, Status::Interrupted, counts);
             }
         }
-        let mut minima: Vec<usize> = (0..GRID)
+        let mut minima: Vec<usize> = (0..GRID_POINTS)
             .filter(|&i| {
                 (i == 0 || grid[i].1 <= grid[i - 1].1)
-                    && (i + 1 == GRID || grid[i].1 <= grid[i + 1].1)
+                    && (i + 1 == GRID_POINTS || grid[i].1 <= grid[i + 1].1)
             })
             .collect();
         minima.sort_by(|&a, &b| grid[a].1.total_cmp(&grid[b].1));
         minima.truncate(FOLLOWED);
         let trials = std::cell::Cell::new(0);
         for i in minima {
-            let ends = (grid[i.saturating_sub(1)].0, grid[(i + 1).min(GRID - 1)].0);
-            let x = golden(ends, FINE, |x| {
+            let ends = (
+                grid[i.saturating_sub(1)].0,
+                grid[(i + 1).min(GRID_POINTS - 1)].0,
+            );
+            let x = golden(ends, SETTLED_WIDTH, |x| {
                 trials.set(trials.get() + 1);
                 self.solve(x).cost
             });
@@ -223,10 +229,10 @@ impl Held<'_> {
                     p[i] += by;
                     self.objective.model(&p, c)
                 };
-                let (up, down) = (moved(STEP), moved(-STEP));
+                let (up, down) = (moved(DIFFERENCE_STEP), moved(-DIFFERENCE_STEP));
                 up.iter()
                     .zip(&down)
-                    .map(|(a, b)| (a - b) / (2.0 * STEP))
+                    .map(|(a, b)| (a - b) / (2.0 * DIFFERENCE_STEP))
                     .collect()
             })
             .collect();
@@ -281,7 +287,7 @@ impl Held<'_> {
                         variance: matrix[(i, i)],
                         reason,
                     }
-                    .parameter(level, 1.959_963_984_540_054)
+                    .parameter(level, NORMAL_Q95)
                 }
             };
             if let Some(place) = out.parameters.iter_mut().find(|p| p.name == found.name) {

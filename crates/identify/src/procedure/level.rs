@@ -9,9 +9,9 @@ use stiction_signal::effective_sample_size;
 /// Samples that are known to be held, from which the rest is found.
 pub(super) const BLOCK: usize = 50;
 /// How far a block may be off the level of those beside it, in standard errors.
-const FAR: f64 = 4.0;
+const MOST_BLOCK_OFFSET: f64 = 4.0;
 /// The same for a force without noise, relative: rounding.
-const ROUNDING: f64 = 1e-12;
+const ROUNDED_LEVEL: f64 = 1e-12;
 
 /// A constant force.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,8 +46,8 @@ impl Level {
         let mut joins = |next: Range<usize>| {
             let mean = force[next].iter().sum::<f64>() / block as f64;
             let level = sum / blocks;
-            let far = FAR * own.error * (1.0_f64 + 1.0 / blocks).sqrt();
-            let joins = (mean - level).abs() <= far + ROUNDING * level.abs();
+            let far = MOST_BLOCK_OFFSET * own.error * (1.0_f64 + 1.0 / blocks).sqrt();
+            let joins = (mean - level).abs() <= far + ROUNDED_LEVEL * level.abs();
             if joins {
                 sum += mean;
                 blocks += 1.0;

@@ -1,18 +1,18 @@
 //! A value and its variance as a parameter with interval and flag.
 
-use crate::parameter::{IDENTIFIABLE, Parameter, too_uncertain};
+use crate::parameter::{IDENTIFIABLE, NORMAL_Q95, Parameter, too_uncertain};
 use stiction_parameters::Name;
 
 /// Two-sided 95 % quantile of Student's t for `free` degrees of freedom, by the expansion of
 /// Abramowitz and Stegun, 26.7.5; within 1 % from 3 degrees on.
 pub(super) fn quantile(free: f64) -> f64 {
-    const Z: f64 = 1.959_963_984_540_054;
+    let z = NORMAL_Q95;
     let n = free.max(3.0);
-    let z2 = Z * Z;
-    let g1 = Z * (z2 + 1.0) / 4.0;
-    let g2 = Z * ((5.0 * z2 + 16.0) * z2 + 3.0) / 96.0;
-    let g3 = Z * (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / 384.0;
-    Z + g1 / n + g2 / (n * n) + g3 / (n * n * n)
+    let z2 = z * z;
+    let g1 = z * (z2 + 1.0) / 4.0;
+    let g2 = z * ((5.0 * z2 + 16.0) * z2 + 3.0) / 96.0;
+    let g3 = z * (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / 384.0;
+    z + g1 / n + g2 / (n * n) + g3 / (n * n * n)
 }
 
 /// What is known of one parameter.

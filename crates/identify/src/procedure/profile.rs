@@ -3,17 +3,17 @@
 use super::robust::{ROUNDS, Rows, Solved};
 
 /// Points of the grid of vs.
-const GRID: usize = 64;
+const GRID_POINTS: usize = 64;
 /// Rounds of reweighting on the grid.
-const ROUGH: usize = 12;
+const GRID_ROUNDS: usize = 12;
 /// Minima of the grid that are followed.
 const FOLLOWED: usize = 3;
-/// Width in ln vs at which the refinement ends.
-const FINE: f64 = 1e-7;
+/// Width in ln vs at which the refinement ends: far below any interval, far above the rounding of the loss.
+const SETTLED_WIDTH: f64 = 1e-7;
 /// Exponents that are tried where the exponent is an unknown, and the width at which it ends.
-const EXPONENTS: [f64; 6] = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0];
+const EXPONENTS_TRIED: [f64; 6] = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0];
 pub(super) const EXPONENT_RANGE: (f64, f64) = (0.4, 4.0);
-const EXPONENT_FINE: f64 = 1e-5;
+const EXPONENT_SETTLED_WIDTH: f64 = 1e-5;
 
 /// Points that share one Stribeck velocity: all of a symmetric map, or those of one direction.
 #[derive(Clone, Debug)]
@@ -98,13 +98,16 @@ impl Block {
     /// ln vs and the least absolute residual there.
     fn grid(&self, exponent: f64) -> Vec<(f64, Solved)> {
         let Some((low, high)) = self.range else {
-            return vec![(0.0, self.solve(1.0, exponent, |rows| rows.absolute(ROUGH)))];
+            return vec![(
+                0.0,
+                self.solve(1.0, exponent, |rows| rows.absolute(GRID_ROUNDS)),
+            )];
         };
         let (low, high) = (libm::log(low), libm::log(high));
-        (0..GRID)
+        (0..GRID_POINTS)
             .map(|i| {
-                let p = low + (high - low) * i as f64 / (GRID - 1) as f64;
-                let solved = self.solve(libm::exp(p), exponent, |rows| rows.absolute(ROUGH));
+                let p = low + (high - low) * i as f64 / (GRID_POINTS - 1) as f64;
+                let solved = self.solve(libm::exp(p), exponent, |rows| rows.absolute(GRID_ROUNDS));
                 (p, solved)
             })
             .collect()
@@ -124,9 +127,10 @@ impl Block {
             };
         };
         let cost = |i: usize| grid[i].1.cost;
-        let mut minima: Vec<usize> = (0..GRID)
+        let mut minima: Vec<usize> = (0..GRID_POINTS)
             .filter(|&i| {
-                (i == 0 || cost(i) <= cost(i - 1)) && (i + 1 == GRID || cost(i) <= cost(i + 1))
+                (i == 0 || cost(i) <= cost(i - 1))
+                    && (i + 1 == GRID_POINTS || cost(i) <= cost(i + 1))
             })
             .collect();
         minima.sort_by(|&a, &b| cost(a).total_cmp(&cost(b)));
@@ -139,8 +143,11 @@ impl Block {
                     rows.tukey(scale, start, ROUNDS)
                 })
             };
-            let ends = (grid[i.saturating_sub(1)].0, grid[(i + 1).min(GRID - 1)].0);
-            let p = golden(ends, FINE, |p| at(p).cost);
+            let ends = (
+                grid[i.saturating_sub(1)].0,
+                grid[(i + 1).min(GRID_POINTS - 1)].0,
+            );
+            let p = golden(ends, SETTLED_WIDTH, |p| at(p).cost);
             let found = at(p);
             if best.as_ref().is_none_or(|(_, b)| found.cost < b.cost) {
                 best = Some((p, found));
@@ -152,7 +159,7 @@ impl Block {
             .iter()
             .map(|(p, start)| {
                 let here = self.solve(libm::exp(*p), exponent, |rows| {
-                    rows.tukey(scale, &start.weights, ROUGH)
+                    rows.tukey(scale, &start.weights, GRID_ROUNDS)
                 });
                 (libm::exp(*p), here.cost)
             })
@@ -174,31 +181,34 @@ pub(super) fn best_exponent(blocks: &[Block], scale: f64) -> f64 {
             .map(|b| b.best(delta, scale).solved.cost)
             .sum()
     };
-    let costs = EXPONENTS.map(cost);
+    let costs = EXPONENTS_TRIED.map(cost);
     let best = (0..costs.len())
         .min_by(|&a, &b| costs[a].total_cmp(&costs[b]))
         .unwrap_or(0);
     let low = best
         .checked_sub(1)
-        .map_or(EXPONENT_RANGE.0, |i| EXPONENTS[i]);
-    let high = EXPONENTS.get(best + 1).copied().unwrap_or(EXPONENT_RANGE.1);
-    golden((low, high), EXPONENT_FINE, cost)
+        .map_or(EXPONENT_RANGE.0, |i| EXPONENTS_TRIED[i]);
+    let high = EXPONENTS_TRIED
+        .get(best + 1)
+        .copied()
+        .unwrap_or(EXPONENT_RANGE.1);
+    golden((low, high), EXPONENT_SETTLED_WIDTH, cost)
 }
 
 /// Least of a function with one minimum between two ends, by golden section.
 pub(super) fn golden(ends: (f64, f64), width: f64, f: impl Fn(f64) -> f64) -> f64 {
-    const SHARE: f64 = 0.618_033_988_749_894_9;
+    const GOLDEN_SECTION: f64 = 0.618_033_988_749_894_9;
     let (mut a, mut b) = ends;
-    let (mut c, mut d) = (b - SHARE * (b - a), a + SHARE * (b - a));
+    let (mut c, mut d) = (b - GOLDEN_SECTION * (b - a), a + GOLDEN_SECTION * (b - a));
     let (mut fc, mut fd) = (f(c), f(d));
     while b - a > width {
         if fc <= fd {
             (b, d, fd) = (d, c, fc);
-            c = b - SHARE * (b - a);
+            c = b - GOLDEN_SECTION * (b - a);
             fc = f(c);
         } else {
             (a, c, fc) = (c, d, fd);
-            d = a + SHARE * (b - a);
+            d = a + GOLDEN_SECTION * (b - a);
             fd = f(d);
         }
     }

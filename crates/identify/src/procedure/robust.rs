@@ -3,12 +3,12 @@
 use crate::separable::linear;
 
 /// Tukey's constant for 95 % efficiency on normal residuals.
-const TUKEY: f64 = 4.685;
+const TUKEY_BIWEIGHT: f64 = 4.685;
 /// Factor from the median absolute residual to the standard deviation of normal residuals.
-const MAD: f64 = 1.482_602_218_505_602;
+const MAD_TO_DEVIATION: f64 = 1.482_602_218_505_602;
 /// Most rounds of reweighting, and the relative change of the cost that ends them.
 pub(super) const ROUNDS: usize = 50;
-const SETTLED: f64 = 1e-12;
+const SETTLED_CHANGE: f64 = 1e-12;
 
 /// A linear problem: columns, which coefficients must not be negative, what is to be explained, and
 /// the standard deviation that each row is expected to have.
@@ -41,7 +41,7 @@ impl Rows<'_> {
 
     /// Least Tukey loss for residuals of `scale` deviations, from given weights.
     pub fn tukey(&self, scale: f64, start: &[f64], rounds: usize) -> Solved {
-        let limit = TUKEY * scale;
+        let limit = TUKEY_BIWEIGHT * scale;
         let inside = |u: f64| (1.0 - (u / limit) * (u / limit)).max(0.0);
         let weight = |u: f64| inside(u) * inside(u);
         let cost = |u: f64| limit * limit / 6.0 * (1.0 - inside(u) * inside(u) * inside(u));
@@ -67,7 +67,7 @@ impl Rows<'_> {
             let mut next = self.weighted(weights);
             next.cost = self.sum(&next.residual, &cost);
             let gained = best.cost - next.cost;
-            let done = gained.is_nan() || gained <= SETTLED * best.cost;
+            let done = gained.is_nan() || gained <= SETTLED_CHANGE * best.cost;
             if gained >= 0.0 {
                 best = next;
             }
@@ -118,7 +118,7 @@ pub(super) fn scale(residual: impl Iterator<Item = f64>, unknowns: usize) -> f64
     }
     let (_, median, _) = sizes.select_nth_unstable_by(n / 2, f64::total_cmp);
     let free = (n as f64 / n.saturating_sub(unknowns).max(1) as f64).sqrt();
-    MAD * *median * free
+    MAD_TO_DEVIATION * *median * free
 }
 
 /// Factor from `scale^2 (X^T X)^-1` to the covariance of an estimate with Tukey's loss (Huber 1981,
@@ -127,7 +127,7 @@ pub(super) fn widening(standardised: &[f64], unknowns: usize) -> f64 {
     let n = standardised.len() as f64;
     let (mut squares, mut slopes) = (0.0, 0.0);
     for u in standardised {
-        let x = u / TUKEY;
+        let x = u / TUKEY_BIWEIGHT;
         let inside = (1.0 - x * x).max(0.0);
         squares += (u * inside * inside).powi(2);
         slopes += inside * (1.0 - 5.0 * x * x);

@@ -13,6 +13,7 @@ use super::robust;
 use super::stretch::StaticPoint;
 use crate::error::Error;
 use crate::estimate::advice;
+use crate::estimate::uncertainty::ROUNDED_EIGENVALUE;
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
 use nalgebra::{DMatrix, SymmetricEigen};
@@ -20,17 +21,16 @@ use stiction_parameters::{Name, Quantity, Side};
 
 /// No force channel resolves more than this part of its range; noise-free points would otherwise
 /// determine what no measurement could.
-const RESOLUTION: f64 = 1e-6;
+const FORCE_RESOLUTION: f64 = 1e-6;
 /// The Stribeck velocity is looked for from this share of the slowest speed to the top speed: at the
 /// slowest speed nothing is left of the rise of a lower one.
-const BELOW_SLOWEST: f64 = 0.2;
-/// Relative size of an eigenvalue of the scaled normal matrix that is rounding only.
-const ROUNDING: f64 = 1e-15;
+const LEAST_VELOCITY_SHARE: f64 = 0.2;
+/// Rise of static friction, as a part of the Coulomb level, below which there is none: it stands for none where a
+/// logarithm is needed, far below any that a log determines.
+pub(super) const LEAST_RISE: f64 = 1e-9;
 /// Deviations by which the loss must rise towards either end of the range of vs for it to count as
 /// bounded: somewhere on a whole grid noise alone does better than two or three.
-const BOUNDED: f64 = 3.5;
-/// A rise of less than this part of the Coulomb level is none.
-const NO_RISE: f64 = 1e-9;
+const BOUNDED_RISE: f64 = 3.5;
 
 /// The Stribeck exponent.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -214,7 +214,9 @@ fn blocks(points: &[StaticPoint], settings: &StaticSettings) -> Result<Vec<Block
             .iter()
             .fold((f64::INFINITY, 0.0_f64), |(a, b), v| (a.min(*v), b.max(*v)));
         out.push(Block {
-            range: settings.stribeck.then_some((BELOW_SLOWEST * slowest, top)),
+            range: settings
+                .stribeck
+                .then_some((LEAST_VELOCITY_SHARE * slowest, top)),
             target: own.iter().map(|p| turn * p.force).collect(),
             deviation: vec![1.0; own.len()],
             speed,
@@ -244,7 +246,7 @@ fn standardised<'a>(residual: &'a [f64], block: &'a Block) -> impl Iterator<Item
 /// standard errors: cogging that was not averaged out, temperature, a curve of another shape.
 fn expect(blocks: &mut [Block], points: &[StaticPoint], exponent: f64, unknowns: usize) -> f64 {
     let top = points.iter().fold(0.0_f64, |m, p| m.max(p.force.abs()));
-    let floor = (RESOLUTION * top).max(f64::MIN_POSITIVE.sqrt());
+    let floor = (FORCE_RESOLUTION * top).max(f64::MIN_POSITIVE.sqrt());
     let mut residual = Vec::new();
     for block in blocks.iter_mut() {
         block.deviation.fill(floor);
@@ -461,8 +463,8 @@ impl Fitted<'_> {
             }
             if self.settings.stribeck {
                 let rise = block.columns.len();
-                let none = c[rise] <= NO_RISE * c[0];
-                let most = 0.5 * (BOUNDED * self.scale).powi(2);
+                let none = c[rise] <= LEAST_RISE * c[0];
+                let most = 0.5 * (BOUNDED_RISE * self.scale).powi(2);
                 let open = best.at_bound || best.within(most).is_some_and(|(.., open)| open);
                 let curve = match (none, open) {
                     (true, _) => "the force does not rise towards low speeds",
@@ -517,7 +519,7 @@ fn inverse(gram: DMatrix<f64>) -> DMatrix<f64> {
     DMatrix::from_fn(n, n, |i, j| {
         (0..n)
             .map(|k| {
-                let size = eigen.eigenvalues[k].max(ROUNDING * most);
+                let size = eigen.eigenvalues[k].max(ROUNDED_EIGENVALUE * most);
                 eigen.eigenvectors[(i, k)] * eigen.eigenvectors[(j, k)] / size
             })
             .sum::<f64>()

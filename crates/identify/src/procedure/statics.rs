@@ -1,6 +1,6 @@
 //! The steady curve as a procedure takes it over: from a static map, or from an earlier model.
 
-use super::static_map::StaticMap;
+use super::static_map::{LEAST_RISE, StaticMap};
 use crate::error::Error;
 use crate::law::Law;
 use crate::law::terms::LinearTerm;
@@ -9,9 +9,6 @@ use crate::parameter::covariance::Covariance;
 use nalgebra::DMatrix;
 use stiction_friction::Direction;
 use stiction_parameters::{Name, Quantity, Side};
-
-/// A rise that counts as none stands for this part of the Coulomb level, so that it has a logarithm.
-const LEAST_RISE: f64 = 1e-9;
 
 /// Steady friction that is known, with what is known of its uncertainty.
 #[derive(Clone, Debug)]

@@ -15,13 +15,14 @@ use crate::error::Error;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// Fewest samples before the step and after it.
-const BEFORE: usize = 5;
-const AFTER: usize = 30;
+/// Fewest samples before the step.
+const FEWEST_BEFORE: usize = 5;
+/// And after it.
+const FEWEST_AFTER: usize = 30;
 /// How much higher than the scatter of the force a step must be.
-const CLEAR: f64 = 6.0;
+const CLEAR_STEP: f64 = 6.0;
 /// How far the position may still move over the last tenth of the record, relative to the step.
-const SETTLED: f64 = 0.05;
+const SETTLED_MOTION: f64 = 0.05;
 
 /// A step response, read off the log.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,24 +78,24 @@ impl StepResponse {
         ))?;
         let time = &run.samples.time;
         let n = force.len();
-        if n < BEFORE + AFTER {
+        if n < FEWEST_BEFORE + FEWEST_AFTER {
             return Err(none(
                 "too few samples: 5 before the step and 30 after it are needed",
             ));
         }
         let onset =
             onset(force).ok_or(none("the force has no step that stands out of its noise"))?;
-        if onset < BEFORE {
+        if onset < FEWEST_BEFORE {
             return Err(none(
                 "fewer than 5 samples before the step: its level at rest is not known",
             ));
         }
-        let level = mean(&force[onset..(onset + BEFORE).min(n)]);
+        let level = mean(&force[onset..(onset + FEWEST_BEFORE).min(n)]);
         let base = Level::held(force, 0..onset, onset);
         let end = (onset..n)
             .find(|&i| (force[i] - level).abs() > 0.5 * (level - base.mean).abs())
             .unwrap_or(n);
-        if end - onset < AFTER {
+        if end - onset < FEWEST_AFTER {
             return Err(none("fewer than 30 samples before the force changes again"));
         }
         let start = onset.saturating_sub(BLOCK);
@@ -115,7 +116,7 @@ impl StepResponse {
         if !(settled > 3.0 * step && settled > 0.0) {
             return Err(none("the position hardly moves with the force"));
         }
-        if (last - previous).abs() > SETTLED * settled + step {
+        if (last - previous).abs() > SETTLED_MOTION * settled + step {
             return Err(none(
                 "the axis is still moving at its end: the step exceeds break-away, or the record is \
                  too short",
@@ -171,7 +172,7 @@ impl StepResponse {
 
 /// First sample after the first jump that is at least half as high as the highest.
 fn onset(force: &[f64]) -> Option<usize> {
-    let w = BEFORE;
+    let w = FEWEST_BEFORE;
     let n = force.len();
     let jump = |k: usize| mean(&force[k..k + w]) - mean(&force[k - w..k]);
     let jumps: Vec<f64> = (w..=n - w).map(|k| jump(k).abs()).collect();
@@ -179,7 +180,7 @@ fn onset(force: &[f64]) -> Option<usize> {
     let mut steps: Vec<f64> = force.windows(2).map(|f| (f[1] - f[0]).abs()).collect();
     let middle = steps.len() / 2;
     let (_, usual, _) = steps.select_nth_unstable_by(middle, f64::total_cmp);
-    if !(highest > CLEAR * *usual && highest > 0.0) {
+    if !(highest > CLEAR_STEP * *usual && highest > 0.0) {
         return None;
     }
     let first = jumps.iter().position(|j| *j >= 0.5 * highest)?;

@@ -20,19 +20,21 @@ use stiction_parameters::{Name, Quantity};
 use stiction_search::descent::{Descent, LeastSquares, Region, Settings, Sums, descend};
 use stiction_search::{Control, Counts, Derivatives, Observer, Progress, Stage, Status};
 
-/// Phase of the mass on its bristles in one sample, rad, beyond which the log cannot show its swing.
-const FASTEST: f64 = std::f64::consts::PI;
+/// Phase of the mass on its bristles in one sample, rad, beyond which the log cannot show its swing: two
+/// samples a period (Nyquist).
+const MOST_PHASE_PER_SAMPLE: f64 = std::f64::consts::PI;
 /// Starts: shares of the inversion's sigma0, and damping ratios.
-const STIFFER: [f64; 4] = [1.0, 1.3, 2.0, 4.0];
-const RATIOS: [f64; 4] = [0.03, 0.1, 0.3, 0.9];
+const STIFFNESS_SHARES: [f64; 4] = [1.0, 1.3, 2.0, 4.0];
+const DAMPING_RATIOS: [f64; 4] = [0.03, 0.1, 0.3, 0.9];
 /// Starts that are followed, and most steps of each.
 const FOLLOWED: usize = 3;
-const STEPS: usize = 60;
-/// Step of the differences that give sensitivities.
-const DIFFERENCE: f64 = 1e-4;
-/// Relative gain and step at which a descent ends.
-const FLAT: f64 = 1e-10;
-const SETTLED: f64 = 1e-8;
+const MOST_TRIALS: usize = 60;
+/// Step of the central differences that give sensitivities, in logarithms: their error is about the square.
+const DIFFERENCE_STEP: f64 = 1e-4;
+/// Gain, as a part of the cost, at which a descent ends; slopes from differences lead no further.
+const NO_GAIN: f64 = 1e-10;
+/// Step in the logarithms at which a descent ends, likewise.
+const SETTLED_STEP: f64 = 1e-8;
 /// Longest step of one unknown, in its logarithm.
 const LONGEST_STEP: f64 = 1.0;
 /// Largest delay between force and position that is looked for, samples.
@@ -162,7 +164,10 @@ pub fn fit_steps(
         inverted.sigma0 * rise * rise
     });
     let steepest = 2.0 * (inverted.sigma0 / mass).sqrt();
-    if let Some(found) = settings.mass.filter(|_| 0.5 * steepest * step > FASTEST) {
+    if let Some(found) = settings
+        .mass
+        .filter(|_| 0.5 * steepest * step > MOST_PHASE_PER_SAMPLE)
+    {
         return Err(Error::Setting {
             name: "mass",
             found,
@@ -178,8 +183,8 @@ pub fn fit_steps(
         counts: Counts::default(),
     };
     let mut starts = Vec::new();
-    for share in STIFFER {
-        for ratio in RATIOS {
+    for share in STIFFNESS_SHARES {
+        for ratio in DAMPING_RATIOS {
             let sigma0 = share * inverted.sigma0;
             let sigma1 = 2.0 * ratio * (sigma0 * mass).sqrt();
             let mut p = vec![libm::log(sigma0), libm::log(sigma1), 0.0];
@@ -297,10 +302,10 @@ impl Problem {
                     p[i] += by;
                     self.residual(&p)
                 };
-                let (up, down) = (moved(DIFFERENCE), moved(-DIFFERENCE));
+                let (up, down) = (moved(DIFFERENCE_STEP), moved(-DIFFERENCE_STEP));
                 up.iter()
                     .zip(&down)
-                    .map(|(a, b)| (a - b) / (2.0 * DIFFERENCE))
+                    .map(|(a, b)| (a - b) / (2.0 * DIFFERENCE_STEP))
                     .collect()
             })
             .collect()
@@ -314,12 +319,12 @@ impl Problem {
             return (f64::INFINITY, start, Status::Stalled);
         }
         let settings = Settings {
-            most_trials: STEPS,
+            most_trials: MOST_TRIALS,
             longest_step: LONGEST_STEP,
-            settled_step: SETTLED,
+            settled_step: SETTLED_STEP,
             // The slopes are differences, and what is left of one at the end is their error.
             flat_slope: f64::INFINITY,
-            no_gain: FLAT,
+            no_gain: NO_GAIN,
             ..Settings::default()
         };
         let n = start.len();

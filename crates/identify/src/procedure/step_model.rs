@@ -11,7 +11,7 @@ const MOST_SAMPLES: usize = 4000;
 const MOST_STEPS: u32 = 64;
 /// Phase of the axis' own oscillation that one step may take: the error of its frequency is a twelfth
 /// of the square, relative.
-const PHASE: f64 = 0.03;
+const PHASE_STEP: f64 = 0.03;
 
 /// What a trial gives the axis.
 #[derive(Clone, Copy, Debug)]
@@ -84,7 +84,7 @@ impl Response {
             .windows(2)
             .map(|t| t[1] - t[0])
             .fold(0.0, f64::max);
-        (longest * omega / PHASE)
+        (longest * omega / PHASE_STEP)
             .ceil()
             .clamp(1.0, f64::from(MOST_STEPS)) as u32
     }

@@ -4,35 +4,36 @@ use super::moments::Moments;
 use super::settle::transient;
 use crate::conditioning::record::Samples;
 use crate::error::Error;
+use crate::fit::MOST_LAGS;
 use stiction_signal::effective_sample_size;
 
 /// How far a quarter of a stretch may be off its mean velocity while it is looked for, relative.
-const STEADY: f64 = 0.03;
+const STEADY_VELOCITY: f64 = 0.03;
 /// How much the velocity may change from the first quarter of a stretch to its last, relative. A
-/// piece of a ramp grows until a quarter is off by `STEADY` at either end, and so drifts more.
+/// piece of a ramp grows until a quarter is off by `STEADY_VELOCITY` at either end, and so drifts more.
 pub const MOST_DRIFT: f64 = 0.015;
 /// Fewest samples of a stretch, before and after its transient is dropped.
-const LEAST: usize = 40;
+const FEWEST_SAMPLES: usize = 40;
 /// Fewest counts of the position in a quarter of a stretch: with fewer its slope is that of the steps.
-const COUNTS: f64 = 5.0;
+const FEWEST_COUNTS: f64 = 5.0;
 /// Most parts of a stretch that are looked at for standstill.
-const PARTS: usize = 128;
+const MOST_PARTS: usize = 128;
 /// Share of a stretch that is cut off at either end: a corner is rounded off by as much.
-const CORNER: f64 = 0.03;
+const CORNER_SHARE: f64 = 0.03;
 /// A stretch this much shorter than one near it in time and velocity is a piece of the way to it.
-const PIECE: f64 = 0.2;
+const PIECE_LENGTH: f64 = 0.2;
 /// Points before and after one that may be what it leads to.
-const NEIGHBOURS: usize = 32;
-/// How near in velocity, relative, and in time, in lengths of the longer one.
-const NEAR: (f64, f64) = (0.4, 0.5);
+const MOST_NEIGHBOURS: usize = 32;
+/// How near a neighbour is in velocity, as a part of its own.
+const NEIGHBOUR_VELOCITY: f64 = 0.4;
+/// And in time, in lengths of the longer one.
+const NEIGHBOUR_GAP: f64 = 0.5;
 /// A part slower than this share of the mean is a standstill.
-const STOPPED: f64 = 0.25;
+const STANDSTILL_SPEED: f64 = 0.25;
 /// Fewest independent samples of each half that tell a slow ripple from a drift.
-const FEWEST: f64 = 4.0;
+const FEWEST_INDEPENDENT: f64 = 4.0;
 /// Difference of the halves that is no matter, relative to their sum: a percent of the force.
-const NEGLIGIBLE: f64 = 5e-3;
-/// Lags of the autocorrelation of the force, at most.
-const LAGS: usize = 2000;
+const NEGLIGIBLE_DRIFT: f64 = 5e-3;
 
 /// One log as a procedure sees it: unfiltered, with what it was asked to do where that is known.
 #[derive(Clone, Copy, Debug)]
@@ -76,9 +77,9 @@ impl StaticPoint {
         let seconds = |time: (f64, f64)| time.1 - time.0;
         let longer = seconds(other.time);
         let gap = (other.time.0 - self.time.1).max(self.time.0 - other.time.1);
-        seconds(self.time) < PIECE * longer
-            && gap < NEAR.1 * longer
-            && (self.velocity / other.velocity - 1.0).abs() < NEAR.0
+        seconds(self.time) < PIECE_LENGTH * longer
+            && gap < NEIGHBOUR_GAP * longer
+            && (self.velocity / other.velocity - 1.0).abs() < NEIGHBOUR_VELOCITY
     }
 }
 
@@ -202,7 +203,7 @@ impl<'a> Search<'a> {
         let mut length = n;
         let first = out.points.len();
         let first_rejected = out.rejected.len();
-        while length >= LEAST {
+        while length >= FEWEST_SAMPLES {
             let hop = (length / 8).max(1);
             let mut from = 0;
             while from + length <= n {
@@ -228,7 +229,9 @@ impl<'a> Search<'a> {
         }
         let mut own = out.points.split_off(first);
         own.sort_by(|a, b| a.time.0.total_cmp(&b.time.0));
-        let near = |i: usize| &own[i.saturating_sub(NEIGHBOURS)..(i + NEIGHBOURS).min(own.len())];
+        let near = |i: usize| {
+            &own[i.saturating_sub(MOST_NEIGHBOURS)..(i + MOST_NEIGHBOURS).min(own.len())]
+        };
         let kept = (0..own.len()).filter(|&i| !near(i).iter().any(|q| own[i].leads_to(q)));
         out.points.extend(kept.map(|i| own[i]));
         // A short piece of what lies between two speeds is not worth a word.
@@ -241,7 +244,7 @@ impl<'a> Search<'a> {
             let mut index = 0;
             out.rejected.retain(|r| {
                 index += 1;
-                index <= first_rejected || seconds(r.time) >= PIECE * shortest
+                index <= first_rejected || seconds(r.time) >= PIECE_LENGTH * shortest
             });
         }
         out.rejected[first_rejected..].sort_by(|a, b| a.time.0.total_cmp(&b.time.0));
@@ -269,12 +272,12 @@ impl<'a> Search<'a> {
         let mean = self.asked.slope(from, to);
         let seconds = self.samples.time[to - 1] - self.samples.time[from];
         let travel = mean.abs() * seconds / 4.0;
-        if !(travel > COUNTS * self.asked_step && travel > 0.0) {
+        if !(travel > FEWEST_COUNTS * self.asked_step && travel > 0.0) {
             return false;
         }
         // A line in steps is off its slope by the square of the steps it has.
         let counts = travel / self.asked_step;
-        let allowed = mean.abs() * (STEADY + 2.0 / (counts * counts));
+        let allowed = mean.abs() * (STEADY_VELOCITY + 2.0 / (counts * counts));
         (0..4).all(|k| {
             let a = from + k * quarter;
             (self.asked.slope(a, a + quarter) - mean).abs() <= allowed
@@ -319,13 +322,13 @@ impl<'a> Search<'a> {
         let at = self.asked.instant(added.0, added.1) - self.asked.instant(core.0, core.1);
         let line = self.asked.mean(core.0, core.1) + slope * at;
         let added_time = self.samples.time[added.1 - 1] - self.samples.time[added.0];
-        let allowed = STEADY * slope.abs() * added_time.max(0.0) + self.asked_step;
+        let allowed = STEADY_VELOCITY * slope.abs() * added_time.max(0.0) + self.asked_step;
         (self.asked.mean(added.0, added.1) - line).abs() <= allowed
     }
 
     /// The point of a stretch, or why it is none; `None` where it is not worth a word.
     fn point(&self, from: usize, to: usize) -> Result<StaticPoint, Option<Unsteady>> {
-        let corner = (CORNER * (to - from) as f64) as usize;
+        let corner = (CORNER_SHARE * (to - from) as f64) as usize;
         let to = to - corner;
         // The axis may approach a speed that was asked for at once.
         let from = self.after_drift(&self.asked, from, to).ok_or(None)?;
@@ -333,7 +336,7 @@ impl<'a> Search<'a> {
             .after_drift(&self.moved, from, to)
             .ok_or(Some(Unsteady::StickSlip))?;
         let start = from + corner;
-        if to < start + LEAST {
+        if to < start + FEWEST_SAMPLES {
             return Err(None);
         }
         let mean = self.moved.slope(start, to);
@@ -344,14 +347,14 @@ impl<'a> Search<'a> {
         }
         let (a, b) = self.settled(start, to).ok_or(Some(Unsteady::Unsettled))?;
         let (a, b, pitches) = self.whole_pitches(a, b);
-        if b - a < LEAST {
+        if b - a < FEWEST_SAMPLES {
             return Err(None);
         }
         let force = &self.samples.force[a..b];
         let n = force.len() as f64;
         let level = force.iter().sum::<f64>() / n;
         let variance = force.iter().map(|f| (f - level) * (f - level)).sum::<f64>() / (n - 1.0);
-        let effective = effective_sample_size(force, LAGS.min(force.len() / 4))
+        let effective = effective_sample_size(force, MOST_LAGS.min(force.len() / 4))
             .map_or(n, |e| e.size)
             .max(1.0);
         Ok(StaticPoint {
@@ -390,14 +393,14 @@ impl<'a> Search<'a> {
         } else {
             f64::INFINITY
         };
-        let parts = PARTS.min((to - from) / 8).min(told as usize);
+        let parts = MOST_PARTS.min((to - from) / 8).min(told as usize);
         if parts < 4 {
             return false;
         }
         let part = (to - from) / parts;
         (0..parts).any(|k| {
             let a = from + k * part;
-            self.moved.slope(a, a + part) / mean < STOPPED
+            self.moved.slope(a, a + part) / mean < STANDSTILL_SPEED
         })
     }
 
@@ -453,13 +456,14 @@ fn drifts(signal: &[f64]) -> bool {
         let n = x.len() as f64;
         let mean = x.iter().sum::<f64>() / n;
         let variance = x.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / n;
-        let size = effective_sample_size(x, LAGS.min(x.len() / 2)).map_or(1.0, |e| e.size);
+        let size = effective_sample_size(x, MOST_LAGS.min(x.len() / 2)).map_or(1.0, |e| e.size);
         (mean, variance / size.max(1.0), size)
     };
     let (first, second) = (of(a), of(b));
     let apart = (first.0 - second.0).abs();
-    let told = apart > 3.0 * (first.1 + second.1).sqrt() || first.2.min(second.2) < FEWEST;
-    told && apart > NEGLIGIBLE * (first.0 + second.0).abs()
+    let told =
+        apart > 3.0 * (first.1 + second.1).sqrt() || first.2.min(second.2) < FEWEST_INDEPENDENT;
+    told && apart > NEGLIGIBLE_DRIFT * (first.0 + second.0).abs()
 }
 
 fn integral(time: &[f64], velocity: &[f64]) -> Vec<f64> {

@@ -11,11 +11,11 @@ use stiction_search::{Derivatives, Stage, Status};
 
 /// Most steps of a descent. One more for all costs as much as a third of an evaluation of a long record, a
 /// start too many as much as five.
-const ROUNDS: usize = 30;
+const MOST_ROUNDS: usize = 30;
 /// Trials under way at once; the observer is asked between.
-const BATCH: usize = 16;
+const BATCH_TRIALS: usize = 16;
 /// Points of a scan with the stiffest bristle, for one of the whole box.
-const RIGID: usize = 4;
+const RIGID_SCAN_DIVISOR: usize = 4;
 
 /// A start is good enough within this step in the logarithms, when it promises to lower the cost by no more
 /// than [`NEAR_GAIN`]: the record itself goes on.
@@ -94,7 +94,7 @@ impl Coarse<'_> {
             .collect();
         if !watch.stopped && self.bounds.len() > 1 {
             let stiff = self.bounds.holding(kappa, self.bounds.high(kappa));
-            let points = (0..(scan / RIGID).max(1)).map(|i| sobol(&stiff, i, seed));
+            let points = (0..(scan / RIGID_SCAN_DIVISOR).max(1)).map(|i| sobol(&stiff, i, seed));
             let curves = self.tried(points.collect(), watch)?;
             let curve = &curves[best_first(&curves)[0]].0;
             let line = (0..LINE).map(|i| {
@@ -120,7 +120,7 @@ impl Coarse<'_> {
     /// Points and their costs, in the order given; fewer where the observer stops it.
     fn tried(&self, points: Vec<Vec<f64>>, watch: &mut Watch) -> Option<Vec<(Vec<f64>, f64)>> {
         let mut out: Vec<(Vec<f64>, f64)> = Vec::with_capacity(points.len());
-        for batch in points.chunks(BATCH) {
+        for batch in points.chunks(BATCH_TRIALS) {
             if watch.stopped && !out.is_empty() {
                 break;
             }
@@ -136,7 +136,7 @@ impl Coarse<'_> {
     /// Points in the order given, whatever they come to; fewer where the observer stops it.
     fn evaluated(&self, points: Vec<Vec<f64>>, watch: &mut Watch) -> Option<Vec<Point>> {
         let mut out: Vec<Point> = Vec::with_capacity(points.len());
-        for batch in points.chunks(BATCH) {
+        for batch in points.chunks(BATCH_TRIALS) {
             if watch.stopped && !out.is_empty() {
                 break;
             }
@@ -175,7 +175,7 @@ impl Coarse<'_> {
             trusted_step: NEAR_STEP,
             trusted_gain: NEAR_GAIN,
             take_untried: true,
-            ..settings(self.objective.energy(), ROUNDS)
+            ..settings(self.objective.energy(), MOST_ROUNDS)
         };
         let walk = |point: Point| Walk {
             descent: Descent::new(point.p, &settings),
@@ -184,8 +184,8 @@ impl Coarse<'_> {
         let mut walks: Vec<Walk> = points.into_iter().map(walk).collect();
         let mut steps = 0;
         let mut patience = self.patience;
-        for round in 0..ROUNDS {
-            watch.fraction = round as f64 / ROUNDS as f64;
+        for round in 0..MOST_ROUNDS {
+            watch.fraction = round as f64 / MOST_ROUNDS as f64;
             join(&mut walks);
             let ended = walks.first().is_some_and(Walk::is_settled);
             if watch.stopped || ended && patience == 0 {

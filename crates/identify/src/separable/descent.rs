@@ -26,7 +26,7 @@ const EXACT_COST: f64 = 1e-27;
 const SUMS_ROUNDING: f64 = 1e-13;
 /// Part of what a step promised that the next may at most, where costs are too coarse to say whether either
 /// was good.
-const FADING: f64 = 0.1;
+const FADING_PROMISE: f64 = 0.1;
 
 /// The rules of a descent on a record whose force has this energy (sum of squares), for so many trials.
 pub(super) fn settings(energy: f64, most_trials: usize) -> Settings {
@@ -172,7 +172,7 @@ fn lead(
         };
         let trial = region.moved(&p, &step);
         let promises = descent::predicted_gain(&here, &descent::difference(&trial, &p));
-        let fades = promises < FADING * promised;
+        let fades = promises < FADING_PROMISE * promised;
         if !fades || descent::largest(&trial, &p) > settings.trusted_step {
             break;
         }

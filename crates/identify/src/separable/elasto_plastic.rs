@@ -11,7 +11,7 @@
 
 use crate::law::{Layout, share_of_odds};
 use crate::separable::dual::Dual;
-use crate::separable::recursion::{Curve, LONGEST, Trace, level};
+use crate::separable::recursion::{Curve, LONGEST_DECAY, Trace, level};
 use libm::{fabs, sin, sqrt};
 
 /// How the pull of a bristle depends on its distance from steady deflection, `e = 1 - |eta|/gh`.
@@ -70,7 +70,7 @@ struct Way<const K: usize> {
 impl<const K: usize> Way<K> {
     /// Change of `y` over a part of the way at the pull `m`.
     fn change(&self, y: Dual<K>, part: f64, m: Dual<K>) -> Dual<K> {
-        let a = (self.stretched * m).scaled(part).limited(LONGEST);
+        let a = (self.stretched * m).scaled(part).limited(LONGEST_DECAY);
         let (e, follows) = a.relaxation();
         (y - self.from) * e + (self.to - self.from).scaled(part) * follows
     }

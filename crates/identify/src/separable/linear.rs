@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// Columns whose part outside the span of those before is below this (relative, squared) cannot be
 /// told apart from them and are left out.
-const DEPENDENT: f64 = 1e-13;
+const DEPENDENT_REMAINDER: f64 = 1e-13;
 /// Bounded columns of which every subset is tried.
 const MOST_TRIED: usize = 6;
 
@@ -95,7 +95,7 @@ impl Factor {
                 row[k] = x / lower[(k, k)];
                 pivot -= row[k] * row[k];
             }
-            if pivot <= DEPENDENT {
+            if pivot <= DEPENDENT_REMAINDER {
                 dropped.push(j);
                 continue;
             }

@@ -9,7 +9,7 @@ use super::linear::Factor;
 use nalgebra::DMatrix;
 
 /// Cosine between a column and the residual below which freeing the column gains nothing.
-const FLAT: f64 = 1e-10;
+const LEAST_COSINE: f64 = 1e-10;
 
 /// Which bounded columns are held at zero at the optimum. Free columns are never held.
 pub(crate) fn held(
@@ -34,7 +34,7 @@ pub(crate) fn held(
                 .max(1e-20 * energy);
             let gain = |j: usize| residual[j] / (gram[(j, j)] * left).sqrt();
             let next = (0..m)
-                .filter(|&j| held[j] && !refused[j] && gain(j) > FLAT)
+                .filter(|&j| held[j] && !refused[j] && gain(j) > LEAST_COSINE)
                 .max_by(|&a, &b| gain(a).total_cmp(&gain(b)));
             let Some(next) = next else {
                 break;

@@ -85,9 +85,9 @@ pub(super) fn level<const K: usize>(
 }
 
 /// Intervals are held below this, so that their derivatives stay finite.
-pub(crate) const LONGEST: f64 = 1e150;
+pub(crate) const LONGEST_DECAY: f64 = 1e150;
 /// Derivatives below this are none: they would die away into numbers below the normal range, which are slow.
-const NONE: f64 = 1e-140;
+const LEAST_DERIVATIVE: f64 = 1e-140;
 
 /// `(1 - exp(-a)) / a` and its derivative.
 #[inline(always)]
@@ -305,7 +305,7 @@ fn advance<const K: usize>(
     eta_slope: &mut [f64; K],
 ) {
     let (qa, qb) = (half * fabs(va) / ga.value, half * fabs(vb) / gb.value);
-    let a = (qa + qb).min(LONGEST);
+    let a = (qa + qb).min(LONGEST_DECAY);
     let e = expm1(-a);
     let (ph, ph_slope) = phi(a, e);
     let (ea, eb) = (s * ga.value, s * gb.value);
@@ -321,7 +321,11 @@ fn advance<const K: usize>(
             - gap * (1.0 + e) * a_slope
             - (db - da) * ph
             - rise * ph_slope * a_slope;
-        *d = if fabs(next) < NONE { 0.0 } else { next };
+        *d = if fabs(next) < LEAST_DERIVATIVE {
+            0.0
+        } else {
+            next
+        };
     }
     *eta = eb + gap * (1.0 + e) - rise * ph;
 }

@@ -14,22 +14,23 @@ use stiction_search::{Control, Stage, Status};
 /// Starts from the thinned record that go on to the full one.
 const MOST_FINE: usize = 3;
 /// Steps on the full record before the starts are compared.
-const SHORT: usize = 12;
+const SHORT_STEPS: usize = 12;
 /// Minima of the symmetric law that are paired for an asymmetric one.
 const MOST_PAIRED: usize = 3;
 /// Distance in the logarithms within which two minima are one.
-const SAME: f64 = 1e-2;
-/// How far a start's cost may be above that of the best start and still be tried.
-const FAR: f64 = 3.0;
-/// The same where its cost has been followed down on thousands of samples, which tell costs apart better than this.
-const NEARLY: f64 = 1.3;
+const SAME_MINIMUM_DISTANCE: f64 = 1e-2;
+/// Cost of a start over that of the best above which it is not tried (decision 0036: three times).
+const HOPELESS_COST_RATIO: f64 = 3.0;
+/// The same where costs were followed down on thousands of samples, which tell them apart better (decision
+/// 0036).
+const RIVAL_COST_RATIO: f64 = 1.3;
 /// Rounds that starts have left once the best of them has ended, on the record of the scan and on the thinned one:
 /// a round of the second costs as much as four of the first.
-const PATIENCE: [usize; 2] = [6, 2];
-/// How much worse a start may then be and still be followed to the end.
-const CLOSE: f64 = 1.05;
+const ROUNDS_AFTER_BEST: [usize; 2] = [6, 2];
+/// Cost of the second minimum over that of the best below which it is followed to the end, too.
+const LAST_RIVAL_COST_RATIO: f64 = 1.05;
 /// Of the samples of the thinned record, the scan sees one in this many.
-const ROUGHER: usize = 4;
+const SCAN_THINNING: usize = 4;
 /// Stiffnesses tried with the curve of the static law.
 pub(super) const LINE: usize = 16;
 
@@ -88,7 +89,7 @@ impl<'a> Search<'a> {
                 break;
             }
             watch.fraction = i as f64 / many as f64;
-            let descent = descend(&objective, bounds, start, SHORT, watch);
+            let descent = descend(&objective, bounds, start, SHORT_STEPS, watch);
             self.iterations += descent.iterations;
             found.push(descent);
         }
@@ -111,7 +112,7 @@ impl<'a> Search<'a> {
         bounds: &SearchBox,
         watch: &mut Watch,
     ) -> Option<Vec<Vec<f64>>> {
-        let rough = self.near().thinned(self.settings.thin / ROUGHER);
+        let rough = self.near().thinned(self.settings.thin / SCAN_THINNING);
         let rough = rough
             .as_ref()
             .map(|record| Objective::new(record, self.law, self.terms));
@@ -122,7 +123,7 @@ impl<'a> Search<'a> {
             sums: first.sums()?,
             bounds,
             few: false,
-            patience: PATIENCE[0],
+            patience: ROUNDS_AFTER_BEST[0],
         };
         let mut minima = coarse.minima(
             self.seed(),
@@ -137,17 +138,17 @@ impl<'a> Search<'a> {
                 sums,
                 bounds,
                 few: true,
-                patience: PATIENCE[1],
+                patience: ROUNDS_AFTER_BEST[1],
             };
             self.iterations += minima.steps;
-            let most = FAR * minima.ends.first()?.cost;
+            let most = HOPELESS_COST_RATIO * minima.ends.first()?.cost;
             let ends = minima.ends.into_iter();
             let points = ends.filter(|end| !end.settled || end.cost <= most);
             let points = points.map(|end| end.p).collect();
             minima = coarse.followed(points, watch)?;
         }
         self.iterations += minima.steps;
-        let most = NEARLY * minima.ends.first()?.cost;
+        let most = RIVAL_COST_RATIO * minima.ends.first()?.cost;
         let mut starts: Vec<Vec<f64>> = Vec::new();
         for End { p, cost, .. } in minima.ends {
             let counts = starts.is_empty() || cost <= most;
@@ -226,7 +227,7 @@ impl<'a> Search<'a> {
             watch.count(self.full, false);
         }
         costs.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let most = FAR * costs[0].0;
+        let most = HOPELESS_COST_RATIO * costs[0].0;
         costs
             .into_iter()
             .filter(|(cost, _)| *cost <= most)
@@ -253,7 +254,7 @@ impl<'a> Search<'a> {
             let steps = if watch.stopped {
                 0
             } else {
-                SHORT.min(self.settings.steps)
+                SHORT_STEPS.min(self.settings.steps)
             };
             let descent = descend(self.full, bounds, start, steps, watch);
             self.iterations += descent.iterations;
@@ -271,7 +272,7 @@ impl<'a> Search<'a> {
     ) -> (Descent, Status) {
         let mut minima = minima.into_iter();
         let mut best = minima.next().expect("there is always a start");
-        let close = CLOSE * best.evaluation.cost;
+        let close = LAST_RIVAL_COST_RATIO * best.evaluation.cost;
         let rival = minima
             .next()
             .filter(|r| r.status == Status::Budget && r.evaluation.cost < close)
@@ -424,7 +425,9 @@ pub(super) fn valleys(costs: &[f64]) -> Vec<usize> {
 
 /// Whether two minima are one.
 pub(super) fn same(a: &[f64], b: &[f64]) -> bool {
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() < SAME)
+    a.iter()
+        .zip(b)
+        .all(|(a, b)| (a - b).abs() < SAME_MINIMUM_DISTANCE)
 }
 
 /// Best first, without those that stand where a better one stands.

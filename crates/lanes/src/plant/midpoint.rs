@@ -3,7 +3,7 @@
 use super::{Axis, Drive, Measured, Motion, Outcome};
 use crate::curve::{Curve, Speed};
 use crate::dispatch::Kernel;
-use crate::exp::{LOWEST, at_least, at_most, exp, expm1, fma};
+use crate::exp::{LOWEST_ARGUMENT, at_least, at_most, exp, expm1, fma};
 use crate::lane_array::{Aligned, lanes, read, write};
 
 /// Bisection alone would need about sixty.
@@ -95,13 +95,13 @@ impl Lane {
         let ln = if POWER { libm::log(speed) } else { 0.0 };
         let exponent = at_least(
             self.curve.exponent::<POWER>(Speed { value: speed, ln }),
-            LOWEST,
+            LOWEST_ARGUMENT,
         );
         let fall = self.curve.excess * exp(exponent);
         let g = 1.0 + fall;
         let inverse = 1.0 / g;
         let rate = self.rate * inverse;
-        let e = expm1(at_least(-(rate * speed), LOWEST));
+        let e = expm1(at_least(-(rate * speed), LOWEST_ARGUMENT));
         // Told in the direction of motion.
         let gaussian = 2.0 * self.curve.fall * speed;
         let falls = if POWER && self.curve.exponent != 2.0 {

@@ -5,8 +5,9 @@ use crate::Error;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-/// Squares and products of what is below this stay finite.
-const MOST: f64 = 1e100;
+/// Largest magnitude of a velocity, force or column: squares and products of two of them, summed over any
+/// record, stay finite.
+const LARGEST_INPUT: f64 = 1e100;
 
 /// One node before it is written to the channels of the track.
 struct Node {
@@ -87,10 +88,10 @@ fn check(index: usize, segment: &Segment, columns: usize) -> Result<(), Error> {
         same("column", column.len(), n)?;
     }
     let bounded = |channel, values: &[f64], counts: &dyn Fn(usize) -> bool| {
-        if values.iter().all(|x| x.abs() < MOST) {
+        if values.iter().all(|x| x.abs() < LARGEST_INPUT) {
             return Ok(());
         }
-        let wrong = |(i, x): &(usize, &f64)| counts(*i) && (x.is_nan() || x.abs() >= MOST);
+        let wrong = |(i, x): &(usize, &f64)| counts(*i) && (x.is_nan() || x.abs() >= LARGEST_INPUT);
         match values.iter().enumerate().find(wrong) {
             None => Ok(()),
             Some((sample, &found)) => Err(Error::Sample {
@@ -232,7 +233,7 @@ fn step(index: usize, segment: &Segment, i: usize) -> Result<f64, Error> {
         Time::Step(step) => step,
         Time::At(time) => time[i] - time[i - 1],
     };
-    if step > 0.0 && step < MOST {
+    if step > 0.0 && step < LARGEST_INPUT {
         return Ok(step);
     }
     Err(match segment.time {

@@ -7,6 +7,13 @@ use crate::points::Points;
 use crate::random::Dice;
 use serde::{Deserialize, Serialize};
 
+/// Shortest axis of the distribution over its longest below which the covariance cannot be computed with: a condition of
+/// 1e14 (Hansen 2016, section B.3).
+const LEAST_AXIS_RATIO: f64 = 1e-7;
+/// Deviation of a step, in widths of the box, below which it changes nothing any more (Hansen 2016: 1e-12 of the
+/// first).
+const LEAST_STEP: f64 = 1e-12;
+
 /// Mean, step length, covariance `B D^2 B^T` and the two paths, named as in the tutorial.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Distribution {
@@ -167,7 +174,7 @@ impl Distribution {
             .map(|i| self.covariance[i * n + i].sqrt().max(self.p_c[i].abs()))
             .fold(0.0, f64::max);
         // Written so that what is no number counts too.
-        !(low > 1e-7 * high && self.sigma * widest > 1e-12)
+        !(low > LEAST_AXIS_RATIO * high && self.sigma * widest > LEAST_STEP)
     }
 }
 

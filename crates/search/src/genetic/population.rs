@@ -12,12 +12,13 @@ pub(crate) struct Individual {
     pub cost: f64,
 }
 
-/// So that a perfect fit has a finite fitness.
-const EPSILON: f64 = 1e-30;
+/// Added to a cost before its inverse is taken, so that a perfect fit has a finite fitness: below any cost of
+/// a fit in numbers of 16 digits (1e-32 of the energy).
+const FITNESS_COST_FLOOR: f64 = 1e-30;
 
 /// Fitness 1/(J + eps) of a cost J, Z25 eq. (22); 0 for the worst.
 pub(crate) fn fitness(cost: f64) -> f64 {
-    1.0 / (cost.max(0.0) + EPSILON)
+    1.0 / (cost.max(0.0) + FITNESS_COST_FLOOR)
 }
 
 pub(crate) fn costs_of(population: &[Individual]) -> Vec<f64> {

@@ -13,22 +13,28 @@ use crate::search::{Answers, Phase, Request, Search};
 use crate::status::Status;
 use serde::{Deserialize, Serialize};
 
-/// Draws of the first parent expected for the best, by rank.
-const PRESSURE: f64 = 1.7;
-/// Part of the line through two parents that lies beyond either end.
-const BEYOND: f64 = 0.25;
-/// Deviation of the step along the difference of two others.
-const JUMP: f64 = 0.5;
-/// Relative difference of cost within which two descents have reached the same minimum.
-const SAME: f64 = 1e-6;
-/// The same for perfect fits: in units of the best cost that was drawn first.
-const EXACT: f64 = 1e-12;
-/// Minima that descend on the full record, and their least distance.
-const LAST: (usize, f64) = (2, 0.01);
+/// Draws of the first parent expected for the best, by rank (linear ranking, 1 to 2; chosen, as the mean of
+/// the two ends and a little more).
+const RANK_PRESSURE: f64 = 1.7;
+/// Part of the line through two parents that lies beyond either end (line crossover, Mühlenbein and
+/// Schlierkamp-Voosen 1993: 0.25).
+const LINE_BEYOND_PARENTS: f64 = 0.25;
+/// Deviation of the step along the difference of two others, in lengths of it. Chosen; what generations do at
+/// all is measured in decision 0019.
+const JUMP_DEVIATION: f64 = 0.5;
+/// Difference of two costs, as a part of the least, within which two descents have reached the same minimum.
+/// Chosen between the 1e-9 at which descents end and the differences of minima.
+const SAME_MINIMUM_COST: f64 = 1e-6;
+/// The same for perfect fits, whose costs are rounding: as a part of the best cost that was drawn first.
+const SAME_EXACT_COST: f64 = 1e-12;
+/// Minima that descend on the full record (decision 0019: the best one or two).
+const LAST_MINIMA: usize = 2;
+/// Their least distance, greatest over the dimensions, in widths of the box: nearer ones are one minimum.
+const LAST_APART: f64 = 0.01;
 
-/// A minimum whose cost on the coarse record is above the least by more than this part of it is not
-/// followed.
-const CLOSE: f64 = 0.5;
+/// A minimum whose cost on the coarse record is above the least by more than this part of it is not followed:
+/// decision 0019, which limits the descents on the full record so.
+const FOLLOWED_COST_EXCESS: f64 = 0.5;
 
 /// What the outstanding answers are for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -98,15 +104,19 @@ impl NichedGa {
     /// As many children as there are individuals.
     fn vary(&mut self) -> Points {
         let n = self.population.len();
-        let rank = Selection::Rank { pressure: PRESSURE };
+        let rank = Selection::Rank {
+            pressure: RANK_PRESSURE,
+        };
         let parents = rank.draw(&costs_of(&self.population), n, &mut self.dice);
         let mut points = Points::new(self.dimensions);
         for a in parents {
             let b = self.dice.other(n, &[a]);
             let c = self.dice.other(n, &[a, b]);
             let d = self.dice.other(n, &[a, b, c]);
-            let along = self.dice.between(-BEYOND, 1.0 + BEYOND);
-            let jump = JUMP * self.dice.normal();
+            let along = self
+                .dice
+                .between(-LINE_BEYOND_PARENTS, 1.0 + LINE_BEYOND_PARENTS);
+            let jump = JUMP_DEVIATION * self.dice.normal();
             let [a, b, c, d] = [a, b, c, d].map(|i| &self.population[i].point);
             let mut child = a.clone();
             for (j, x) in child.iter_mut().enumerate() {
@@ -180,7 +190,7 @@ impl NichedGa {
     fn minima_within(&self, part: f64) -> Vec<Individual> {
         let costs = self.minima.iter().map(|x| x.cost);
         let best = costs.fold(f64::INFINITY, f64::min);
-        let bound = best + part * best + EXACT * self.scale;
+        let bound = best + part * best + SAME_EXACT_COST * self.scale;
         let within = self.minima.iter().filter(|x| x.cost <= bound);
         within.cloned().collect()
     }
@@ -196,12 +206,12 @@ impl NichedGa {
             }
         }
         self.round += 1;
-        let agreed = self.minima_within(SAME).len() >= 2;
+        let agreed = self.minima_within(SAME_MINIMUM_COST).len() >= 2;
         if !agreed && self.round < self.settings.rounds {
             self.stage = Stage::Draw;
         } else {
-            let minima = self.minima_within(CLOSE);
-            self.descend(&minima, LAST.0, LAST.1, Stage::Full);
+            let minima = self.minima_within(FOLLOWED_COST_EXCESS);
+            self.descend(&minima, LAST_MINIMA, LAST_APART, Stage::Full);
         }
     }
 }
