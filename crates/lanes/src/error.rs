@@ -27,7 +27,7 @@ pub enum Error {
         /// What is allowed.
         allowed: &'static str,
     },
-    /// A time step that is none.
+    /// A time step that is not finite and above zero.
     #[error("segment {segment}: time step = {found} s; allowed: finite and > 0")]
     Step {
         /// Which segment, counted from 0.

@@ -25,8 +25,8 @@ const FORCE_RESOLUTION: f64 = 1e-6;
 /// The Stribeck velocity is looked for from this share of the slowest speed to the top speed: at the
 /// slowest speed nothing is left of the rise of a lower one.
 const LEAST_VELOCITY_SHARE: f64 = 0.2;
-/// Rise of static friction, as a part of the Coulomb level, below which there is none: it stands for none where a
-/// logarithm is needed, far below any that a log determines.
+/// Rise of static friction, as a part of the Coulomb level, below which the curve has no rise. It
+/// also stands for no rise where a logarithm is needed; it is far below any rise that a log determines.
 pub(super) const LEAST_RISE: f64 = 1e-9;
 /// Deviations by which the loss must rise towards either end of the range of vs for it to count as
 /// bounded: somewhere on a whole grid noise alone does better than two or three.

@@ -32,7 +32,7 @@ const NEIGHBOUR_GAP: f64 = 0.5;
 const STANDSTILL_SPEED: f64 = 0.25;
 /// Fewest independent samples of each half that tell a slow ripple from a drift.
 const FEWEST_INDEPENDENT: f64 = 4.0;
-/// Difference of the halves that is no matter, relative to their sum: a percent of the force.
+/// Difference of the halves that is negligible, relative to their sum: one percent of the force.
 const NEGLIGIBLE_DRIFT: f64 = 5e-3;
 
 /// One log as a procedure sees it: unfiltered, with what it was asked to do where that is known.
@@ -326,7 +326,7 @@ impl<'a> Search<'a> {
         (self.asked.mean(added.0, added.1) - line).abs() <= allowed
     }
 
-    /// The point of a stretch, or why it is none; `None` where it is not worth a word.
+    /// The point of a stretch, or why it is rejected; `None` where it is too short to be reported.
     fn point(&self, from: usize, to: usize) -> Result<StaticPoint, Option<Unsteady>> {
         let corner = (CORNER_SHARE * (to - from) as f64) as usize;
         let to = to - corner;
