@@ -38,11 +38,7 @@ impl Candidate {
 
     /// The law itself; an error names the parameter that is out of its range.
     pub fn law(&self) -> Result<LuGre<f64>, ParamError> {
-        let shape = if self.exponent == 2.0 {
-            Shape::Gaussian
-        } else {
-            Shape::Power(self.exponent)
-        };
+        let shape = Shape::with_exponent(self.exponent);
         let both = Direction {
             coulomb: self.coulomb,
             static_friction: self.static_friction,

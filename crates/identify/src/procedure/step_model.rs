@@ -92,11 +92,7 @@ impl Response {
     /// Positions at the samples from rest under the force before the step, each force held until the
     /// next sample; `None` where the trial is no law.
     pub fn simulate(&self, trial: &Trial, steps: u32) -> Option<Vec<f64>> {
-        let shape = if trial.exponent == 2.0 {
-            Shape::Gaussian
-        } else {
-            Shape::Power(trial.exponent)
-        };
+        let shape = Shape::with_exponent(trial.exponent);
         let curve = Stribeck::symmetric(shape, trial.curve, 0.0).ok()?;
         let law = LuGre::new(trial.sigma0, Damping::Constant(trial.sigma1), curve).ok()?;
         let plant = Plant::new(trial.mass, law).ok()?;

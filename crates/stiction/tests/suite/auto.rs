@@ -114,6 +114,10 @@ fn wrongly_chosen(seeds: Range<u64>) -> (usize, Vec<String>) {
                     (result.law.as_str(), result.asymmetric)
                 );
                 all += 1;
+                println!(
+                    "{kind} {asymmetric} seed {seed}: {} {}",
+                    result.law, result.asymmetric
+                );
                 if result.law != kind.name() || result.asymmetric != asymmetric {
                     wrong.push(format!(
                         "{kind} {asymmetric} seed {seed}: {} {}",
@@ -125,6 +129,9 @@ fn wrongly_chosen(seeds: Range<u64>) -> (usize, Vec<String>) {
     }
     (all, wrong)
 }
+
+/// Every axis of six seeds on which another law is chosen: what a rule of one standard error misses.
+const KNOWN_MISSES: &str = "";
 
 /// Every law, symmetric or not, is chosen on an axis that follows it.
 #[test]
@@ -139,9 +146,7 @@ fn the_data_choose_the_law_of_the_axis() {
 fn the_data_choose_the_law_over_six_seeds() {
     let (all, wrong) = wrongly_chosen(0..6);
     println!("{} of {all} laws chosen rightly", all - wrong.len());
-    // One in 24 is what a rule of one standard error may miss: an asymmetric Coulomb axis is taken for a
-    // Stribeck one on one seed.
-    assert!(wrong.len() <= all / 24, "{}", wrong.join("\n"));
+    assert_eq!((all, wrong.join("\n").as_str()), (48, KNOWN_MISSES));
 }
 
 /// The law that was chosen is reported as if it had been asked for, bit for bit.
