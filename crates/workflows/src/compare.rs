@@ -57,7 +57,7 @@ pub fn compare(
     if options.cost == Some(Cost::Separable) && options.integrator != Scheme::Explin {
         return Err(Error::usage(
             format!(
-                "--integrator {} beside --cost separable",
+                "--integrator {} together with --cost separable",
                 integrator_name(options.integrator)
             ),
             "explin, or --cost six: the separable cost is solved with its own recursion",

@@ -268,7 +268,7 @@ fn limits_of_a_search_belong_to_a_search() {
         ),
         (
             "--method de --law auto",
-            "--law auto beside --method de; one law",
+            "--law auto together with --method de; one law",
         ),
     ] {
         let options = options.replace("--target -", "--target=-");

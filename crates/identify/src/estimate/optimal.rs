@@ -21,7 +21,7 @@ fn at_its_end(p: &Physical, optimum: &Optimum) -> String {
     let solution = &optimum.evaluation.solution;
     if let Some(j) = p.linear {
         if solution.dependent[j] {
-            return "cannot be told apart from the other terms on this motion".into();
+            return "cannot be separated from the other terms on this motion".into();
         }
         if !solution.active[j] {
             return "held at zero: the data ask for a negative value".into();
@@ -29,7 +29,7 @@ fn at_its_end(p: &Physical, optimum: &Optimum) -> String {
     }
     match p.nonlinear {
         Some(i) if optimum.bounds.at_bound(&optimum.p, i) => {
-            "stands at the bound of its search range".into()
+            "is at the bound of its search range".into()
         }
         _ => String::new(),
     }

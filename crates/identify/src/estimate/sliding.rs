@@ -45,6 +45,8 @@ pub(super) fn stays_in_presliding(stroke: f64, parameters: &mut [Parameter]) {
         .filter(|p| p.identifiable && SLIDING.contains(&p.name.quantity))
     {
         p.identifiable = false;
-        p.reason = "the stroke is shorter than the bristles' way from one side to the other".into();
+        p.reason =
+            "the stroke is shorter than the travel of the bristles from one side to the other"
+                .into();
     }
 }

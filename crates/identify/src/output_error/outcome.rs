@@ -220,7 +220,7 @@ pub(crate) fn describe(
                 Some(k) if held[k] => "held at zero: the data ask for a negative value".into(),
                 Some(k) if without[k] => "has no effect on this motion".into(),
                 Some(k) if found.bounds.at_bound(&at.q, k) => {
-                    "stands at the bound of its search range".into()
+                    "is at the bound of its search range".into()
                 }
                 _ => String::new(),
             };

@@ -126,7 +126,7 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
     let scatter = (off / (i + 1 - start) as f64).sqrt();
     let at = line(instant);
     if scatter.is_nan() || scatter > MOST_BEND * at.abs() {
-        return Err(none("the force does not rise in a line until break-away"));
+        return Err(none("the force does not rise linearly until break-away"));
     }
     Ok(BreakAway {
         time: instant,

@@ -273,10 +273,10 @@ impl Held<'_> {
                         position(found.name).map(|j| (solved.active[j], solved.dependent[j]));
                     let reason = match (found.name.quantity, held) {
                         (Quantity::Sigma0, _) if bounds.at_bound(p, self.kappa) => {
-                            "stands at the bound of its search range"
+                            "is at the bound of its search range"
                         }
                         (_, Some((_, true))) => {
-                            "cannot be told apart from the other terms on this motion"
+                            "cannot be separated from the other terms on this motion"
                         }
                         (_, Some((false, _))) => "held at zero: the data ask for a negative value",
                         _ => "",

@@ -44,7 +44,7 @@ impl Found {
                 Some(r) if r < 1e3 => {
                     reason = too_uncertain(r, "its value");
                 }
-                _ => reason = "the data say nothing of it".into(),
+                _ => reason = "the data do not determine it".into(),
             }
         }
         let ci95 = std.and_then(|s| {

@@ -444,7 +444,7 @@ impl Fitted<'_> {
             };
             let offset = block.columns.len() > 2;
             let mixed = if offset && one_way {
-                "cannot be told from a constant force: the axis moves in one direction only"
+                "cannot be separated from a constant force: the axis moves in one direction only"
             } else {
                 ""
             };
@@ -493,7 +493,7 @@ impl Fitted<'_> {
                     reason: if inside {
                         ""
                     } else {
-                        "stands at the bound of its search range"
+                        "is at the bound of its search range"
                     },
                 },
                 slope,

@@ -83,8 +83,7 @@ impl StepResponse {
                 "too few samples: 5 before the step and 30 after it are needed",
             ));
         }
-        let onset =
-            onset(force).ok_or(none("the force has no step that stands out of its noise"))?;
+        let onset = onset(force).ok_or(none("the force has no step above its noise"))?;
         if onset < FEWEST_BEFORE {
             return Err(none(
                 "fewer than 5 samples before the step: its level at rest is not known",

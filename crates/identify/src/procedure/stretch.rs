@@ -96,7 +96,7 @@ impl Unsteady {
     /// The reason in words.
     pub fn name(self) -> &'static str {
         match self {
-            Unsteady::StickSlip => "the axis stops and goes on",
+            Unsteady::StickSlip => "the axis stops and starts again",
             Unsteady::Unsettled => "the force does not settle",
         }
     }

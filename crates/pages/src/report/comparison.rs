@@ -69,8 +69,8 @@ pub fn comparison(file: &CompareFile) -> Document {
         .collect();
     if !paper.is_empty() {
         document = document.heading(2, "The genetic algorithms of Zhang et al. 2025").paragraph(
-            "Our pictures of what its figures 4 to 7 show: how the cost falls in each of the three \
-             algorithms, and the three beside each other. The numbers are those of this comparison, \
+            "The same kind of pictures as its figures 4 to 7: how the cost falls in each of the three \
+             algorithms, and the three side by side. The numbers are those of this comparison; \
              the publication's problem is not known.",
         );
         let each = paper.iter().map(|m| population(m).into()).collect();

@@ -345,6 +345,7 @@ pub(super) fn correlation(outcome: &Outcome) -> Heatmap {
         .map(|n| Text::from(n.symbol()))
         .collect();
     let values: Vec<f64> = covariance.correlation().into_iter().flatten().collect();
-    Heatmap::square("Correlation of the parameters", names, values)
-        .caption("Pairs near ±1 move together: the log tells their combination, not each of them.")
+    Heatmap::square("Correlation of the parameters", names, values).caption(
+        "Pairs near ±1 move together: the log determines their combination, not each of them.",
+    )
 }

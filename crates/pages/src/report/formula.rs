@@ -75,11 +75,11 @@ pub(super) fn with_numbers(outcome: &Outcome) -> Block {
         "gms" => {
             "Generalised Maxwell slip (Al-Bender, Lampaert, Swevers 2005): an element sticks until it \
              reaches the limit, then slips until the velocity changes its sign. The k and d of each \
-             element stand in the table."
+             element are in the table."
         }
         "maxwell-slip" => {
             "Maxwell slip: an element sticks until it reaches its limit, then slips until the velocity \
-             changes its sign. The k and d of each element stand in the table."
+             changes its sign. The k and d of each element are in the table."
         }
         _ => "Coulomb and viscous friction.",
     };

@@ -42,7 +42,7 @@ pub(super) fn figure(outcome: &Outcome) -> Figure {
                 .label("On held-out samples"),
         )
         .height(28.0 * laws.len() as f64 + 20.0);
-    Figure::new("Laws beside each other").panel(panel).caption(
+    Figure::new("Laws side by side").panel(panel).caption(
         "A law that is too simple leaves more everywhere; one that is too rich leaves less where it \
          was fitted and not on held-out samples.",
     )

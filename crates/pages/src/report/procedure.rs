@@ -315,7 +315,7 @@ fn break_away_table(outcome: &Outcome, runs: &[BreakAwayEntry]) -> Table {
     .caption(
         "The axis has broken away at the last instant at which it is slower than the threshold. \
          Predicted is the force of a simulated ramp of the same rate at the same speed; the largest \
-         friction before it is what no sensor sees. Break-away is no point of the static map: the \
+         friction before it is what no sensor sees. Break-away is not a point of the static map: the \
          faster the force rises, the lower it is.",
     );
     let plain = |x: Option<f64>| x.map_or("–".into(), |x| number::sig(x, 4));

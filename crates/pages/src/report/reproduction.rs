@@ -70,7 +70,7 @@ fn figure(experiment: &Experiment) -> Figure {
             'B' => "Loaded to 95 % of the static level either way, the block returns to where it was.",
             'C' => "Friction is larger while the velocity grows than while it falls, the more so the \
                     quicker it changes.",
-            'D' => "The quicker the force grows, the less of the static level has time to build up.",
+            'D' => "The faster the force grows, the less of the static level has time to build up.",
             'E' => "The spring is pulled at 0.1 m/s.",
             'F' => "The integral of a PID works against friction and never comes to rest; with the \
                     observer of friction it does.",

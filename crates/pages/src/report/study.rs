@@ -140,7 +140,7 @@ fn verdict(file: &StudyFile) -> Callout {
         (Severity::Warning, text)
     } else if file.warnings.iter().any(|w| CODES.contains(&w.code)) {
         let text = format!(
-            "{} runs. No compensator made the error that counts larger, but not every figure is what it seems: \
+            "{} runs. No compensator made the error that counts larger, but some figures are misleading: \
              see the warnings.",
             number::count(runs as u64)
         );

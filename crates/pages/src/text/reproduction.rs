@@ -38,7 +38,7 @@ pub fn reproduction(file: &ReproduceFile) -> String {
         out.push('\n');
         out.push_str(&claims(&file.claims));
         out.push_str(
-            "\nClaims are of another experiment; what was assumed stands in the report.\n",
+            "\nClaims are of another experiment; the assumptions are listed in the report.\n",
         );
     }
     if file.status == "interrupted" {

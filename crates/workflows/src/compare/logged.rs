@@ -28,7 +28,7 @@ pub(super) fn subject(
     ];
     if let Some((name, _)) = made.iter().find(|(_, given)| *given) {
         return Err(Error::usage(
-            format!("{name} beside a log"),
+            format!("{name} together with a log"),
             "only a --problem is made; a log is what it is",
         ));
     }

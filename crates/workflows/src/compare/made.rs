@@ -30,7 +30,7 @@ pub(super) fn from_curve(options: &CompareOptions, curve: &KnownCurve) -> Result
     ];
     if let Some((name, _)) = other.iter().find(|(_, given)| *given) {
         return Err(Error::usage(
-            format!("{name} beside --problem {}", curve.name),
+            format!("{name} together with --problem {}", curve.name),
             "a steady curve has no motion, no memory and one cost",
         ));
     }
@@ -108,7 +108,7 @@ pub(super) fn from_axis(options: &CompareOptions, axis: &KnownAxis) -> Result<Su
     let (data, motion) = if cost == Cost::Position {
         if options.excitation.is_some() || options.integrator != Scheme::Explin {
             return Err(Error::usage(
-                "--excitation or --integrator beside --cost position",
+                "--excitation or --integrator together with --cost position",
                 "the motion is what the force makes of it",
             ));
         }

@@ -188,7 +188,7 @@ pub(super) fn correction_note(estimate: &FittedLaw) -> Option<String> {
 pub(super) fn delay_note(estimate: &FittedLaw) -> Option<String> {
     let without = estimate.law.kind.has_elements() && estimate.terms.delay == Delay::Fitted;
     without.then(|| {
-        "delay between force and motion: not fitted beside a Maxwell-slip law; state it, such as the \
+        "delay between force and motion: not fitted with a Maxwell-slip law; give it, such as the \
          one that lugre finds"
             .into()
     })

@@ -40,7 +40,7 @@ impl Beside {
         let procedures = &options.procedures;
         if !procedures.statics.is_empty() && procedures.model.is_some() {
             return Err(Error::usage(
-                "--static beside --model",
+                "--static together with --model",
                 "the static parameters come from one of the two",
             ));
         }
@@ -50,13 +50,19 @@ impl Beside {
         );
         if procedures.model.is_some() && !takes_curve && procedures.break_away.is_empty() {
             return Err(Error::usage(
-                format!("--model beside --method {}", procedures.method.name()),
+                format!(
+                    "--model together with --method {}",
+                    procedures.method.name()
+                ),
                 "only static-then-dynamic, presliding-step and --break-away take anything from a model",
             ));
         }
         if !procedures.statics.is_empty() && !takes_curve {
             return Err(Error::usage(
-                format!("--static beside --method {}", procedures.method.name()),
+                format!(
+                    "--static together with --method {}",
+                    procedures.method.name()
+                ),
                 "only static-then-dynamic and presliding-step take static parameters from other logs",
             ));
         }
@@ -65,7 +71,7 @@ impl Beside {
         {
             return Err(Error::usage(
                 format!(
-                    "--validate or --split beside --method {}",
+                    "--validate or --split together with --method {}",
                     procedures.method.name()
                 ),
                 "validation needs a law for every sample: separable or static-then-dynamic",

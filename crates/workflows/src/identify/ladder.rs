@@ -1,4 +1,4 @@
-//! Laws beside each other, on samples that none of them was fitted to.
+//! Laws side by side, on samples that none of them was fitted to.
 
 use rayon::prelude::*;
 use stiction_files::result::LawEntry;

@@ -88,7 +88,7 @@ impl Options {
         }
         let law = self.law.map_or("auto", LawKind::name);
         let method = self.procedures.method.name();
-        let found = format!("--law {law} beside --method {method}");
+        let found = format!("--law {law} together with --method {method}");
         Err(Error::usage(found, allowed))
     }
 }

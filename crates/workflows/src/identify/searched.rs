@@ -35,7 +35,7 @@ pub(super) fn check(options: &Options) -> Result<(), Error> {
         }
         return Err(Error::usage(
             format!(
-                "--cost, --evaluations, --target, --time, --checkpoint or --resume beside --method {}",
+                "--cost, --evaluations, --target, --time, --checkpoint or --resume together with --method {}",
                 method.name()
             ),
             format!(
@@ -46,7 +46,7 @@ pub(super) fn check(options: &Options) -> Result<(), Error> {
     }
     if options.law.is_none() {
         return Err(Error::usage(
-            format!("--law auto beside --method {}", method.name()),
+            format!("--law auto together with --method {}", method.name()),
             "one law, or --method separable, which compares them",
         ));
     }

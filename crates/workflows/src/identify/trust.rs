@@ -156,7 +156,7 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
     search_ended(law, warnings, reasons);
     explains_little(law, warnings, reasons);
     if !evidence.moves_both_ways {
-        let text = "the axis moves in one direction only: friction cannot be told from a constant \
+        let text = "the axis moves in one direction only: friction cannot be separated from a constant \
                     force";
         if !warnings.iter().any(|w| w.code == Code::OneDirection) {
             warnings.push(Warning::new(Code::OneDirection, text));

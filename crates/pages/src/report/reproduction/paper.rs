@@ -29,7 +29,7 @@ pub(super) fn report(file: &ReproduceFile, paper: &Paper) -> Document {
     document = document.paragraph(
         "The numbers that are checked are those of the simulated axis: the experiments have to find them to \
          1 %, the mass of a changed load to 2 %. The paper's own friction parameters, gains and search boxes \
-         are not to be had as text, so the axis is one of ours and nothing here repeats the paper's run; what \
+         are not available as text, so the axis is one of this project and nothing here repeats the paper's run; what \
          was assumed is listed at the end. Everything is simulated with ode4 at 0.1 ms, as there. FIG. n names \
          the figure of the paper that a picture stands for.",
     );
@@ -40,8 +40,8 @@ pub(super) fn report(file: &ReproduceFile, paper: &Paper) -> Document {
             .heading(2, "Beside the paper's claims")
             .paragraph(
                 "Not the same experiment: the paper gives neither baseline nor metric for its two figures, and \
-                 concludes from simulation. Ours are of an axis whose friction follows the law and was identified \
-                 to a few tenths of a percent; a machine does worse. What wrong parameters leave is told by a \
+                 concludes from simulation. Those here are of an axis whose friction follows the law and was identified \
+                 to a few tenths of a percent; a machine does worse. The effect of wrong parameters is shown by a \
                  study with parameter errors.",
             )
             .block(claims(&file.claims));

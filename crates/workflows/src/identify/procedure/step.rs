@@ -92,7 +92,7 @@ fn settings(
             .and_then(|model| curve::value(&model.model, "mass")),
         Mass::Absent => {
             return Err(Error::usage(
-                "mass = \"none\" beside --method presliding-step",
+                "mass = \"none\" together with --method presliding-step",
                 "the step response is that of a mass on its bristles; give the mass, or \"fit\"",
             ));
         }

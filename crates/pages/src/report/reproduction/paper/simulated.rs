@@ -105,7 +105,7 @@ fn sine(run: &Tracked) -> Figure {
                 .layer(line(Sample::error, Color::Vermilion)),
         )
         .shared_x()
-        .caption("Friction turns round with the velocity, and the error with it.")
+        .caption("Friction reverses with the velocity, and the error with it.")
 }
 
 fn friction(run: &Tracked) -> Figure {
@@ -281,7 +281,7 @@ fn deviation(runs: &[Cornered]) -> Figure {
 fn mass(load: &LoadFound) -> Figure {
     let [true_mass, found] = &load.mass;
     let line = |y: &[f64]| Layer::line(load.time.clone(), y);
-    Figure::new("Mass and level of friction found while running (FIG. 14)")
+    Figure::new("Load estimation: mass and friction level (FIG. 14)")
         .panel(
             over_time("Mass", "kg")
                 .layer(line(true_mass).color(Color::Grey).label("True"))
