@@ -4,6 +4,7 @@ use crate::{Error, Model, c, check, fmu, hal, mujoco, rust, st, tf5200};
 
 /// A form in which the compensator is exported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Target {
     /// C99, in double and single precision.
     C,

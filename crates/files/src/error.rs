@@ -5,6 +5,7 @@ use stiction_codes::Code;
 
 /// A file that cannot be read, understood or written.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum Error {
     /// A recording was refused.
     #[error("{0}")]

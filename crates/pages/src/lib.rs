@@ -2,6 +2,20 @@
 //!
 //! Every report explains the terms that it uses, from the table in [`glossary`].
 //!
+//! Begin with [`text::outcome`] and [`report::identification`]:
+//!
+//! ```
+//! use stiction_pages::{report, text};
+//! use stiction_workflows::identify::Outcome;
+//!
+//! fn show(outcome: &Outcome) -> String {
+//!     println!("{}", text::outcome(outcome)); // tables for a terminal
+//!     report::identification(outcome).to_html() // one file, without scripts
+//! }
+//! # let page = stiction_pages::glossary::page();
+//! # assert!(page.contains("Stribeck velocity"));
+//! ```
+//!
 //! A page reads what a workflow found and calls neither a workflow nor an engine.
 
 pub mod glossary;

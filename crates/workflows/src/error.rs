@@ -5,6 +5,7 @@ use stiction_codes::Code;
 
 /// A workflow that could not be carried out.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum Error {
     /// A recording, or an axis, model or study file, was refused; or a file cannot be written.
     #[error("{0}")]

@@ -48,6 +48,7 @@ impl ExportOptions {
 
 /// The code of a compensator.
 #[derive(Clone, Debug, serde::Serialize)]
+#[non_exhaustive]
 pub struct Exported {
     /// The target.
     pub target: &'static str,

@@ -8,7 +8,31 @@
 //! - [`export`](export::export): a model as code for a target.
 //! - [`demo`](demo::demo): a known axis, simulated, identified and held against the truth.
 //!
-//! Begin with [`identify`](identify::identify). Forms of files are those of `stiction-files`; what people read is made
+//! Begin with [`identify`](identify::identify), which goes from paths to an outcome, or with
+//! [`source`] for logs in memory:
+//!
+//! ```
+//! use stiction_files::Axis;
+//! use stiction_log::Column;
+//! use stiction_workflows::{Error, source};
+//!
+//! let column = |name: &str, unit: &str, values: Vec<f64>| Column {
+//!     name: name.into(),
+//!     unit: Some(unit.into()),
+//!     values,
+//! };
+//! let time: Vec<f64> = (0..100).map(|k| 1e-3 * f64::from(k)).collect();
+//! let position = time.iter().map(|t| 5.0 * (6.0 * t).sin()).collect();
+//! let columns = vec![column("time", "s", time), column("position", "mm", position)];
+//!
+//! let log = source::in_memory("run 3", columns, &Axis::default())?;
+//! assert_eq!(log.log.position.as_ref().map(Vec::len), Some(100)); // now in m
+//! let refused = log.samples().unwrap_err(); // nothing to identify without a force
+//! assert!(refused.to_string().contains("no force column"));
+//! # Ok::<(), Error>(())
+//! ```
+//!
+//! Forms of files are those of `stiction-files`; what people read is made
 //! by `stiction-pages`; nothing here prints.
 
 pub mod check;

@@ -2,6 +2,7 @@
 
 /// How the parameters are found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Method {
     /// All at once, motion in and force out, by separable least squares.
     #[default]
