@@ -17,16 +17,17 @@ pub struct Arguments {
     pub common: Common,
 }
 
+/// Options of every command, behind its own in the help.
 #[derive(Clone, Debug, Args)]
 pub struct Common {
     /// Print the result as JSON on standard output, and nothing else there.
-    #[arg(long, global = true)]
+    #[arg(long, global = true, display_order = 100)]
     pub json: bool,
     /// Print errors only.
-    #[arg(long, global = true)]
+    #[arg(long, global = true, display_order = 101)]
     pub quiet: bool,
     /// Threads to use [default: one a core]; results do not depend on it.
-    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, global = true, display_order = 102, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
 }
 

@@ -1,7 +1,5 @@
 //! Numbers in messages and terminal text: ASCII, the same width rules everywhere.
 
-use crate::typeset::exponent;
-
 /// At most four digits, without zeros at the end: `7.41`, `12346`, `7.41e6`.
 pub fn short(x: f64) -> String {
     let size = x.abs();
@@ -34,13 +32,16 @@ pub fn short(x: f64) -> String {
 
 /// Four digits, zeros at the end included, so that a column lines up: `7.410`, `0.01200`, `7.410e6`.
 pub fn four_digits(x: f64) -> String {
+    let scientific = format!("{x:.3e}");
     if x == 0.0 {
         "0".into()
     } else if (1e-3..1e5).contains(&x.abs()) {
-        let decimals = (3 - exponent(x)).clamp(0, 7) as usize;
+        // The power after rounding: .099999999 is written as .1 is.
+        let power = scientific.split_once('e').and_then(|(_, p)| p.parse().ok());
+        let decimals = (3 - power.unwrap_or(0)).clamp(0, 7) as usize;
         format!("{x:.decimals$}")
     } else {
-        format!("{x:.3e}")
+        scientific
     }
 }
 
@@ -93,7 +94,8 @@ mod tests {
             (0.0, "0", "0"),
             (7.41, "7.41", "7.410"),
             (-0.012, "-0.012", "-0.01200"),
-            (9.99961, "10", "10.000"),
+            (9.99961, "10", "10.00"),
+            (0.099_999_999, "0.1", "0.1000"),
             (1000.0, "1000", "1000"),
             (12345.6, "12346", "12346"),
             (7.41e6, "7.41e6", "7.410e6"),

@@ -123,7 +123,7 @@ fn a_rated_force_is_needed() {
         (Some(f64::NAN), "rated_force = NaN"),
         (Some(f64::INFINITY), "rated_force = inf"),
         // 42 N at 1 m/s, of which 1.31 N are a 32nd; 18 N is ten steps of 0.1 per mille of 18 kN.
-        (Some(1.31), "range of the drive's 60B2h"),
+        (Some(1.31), "range of the drive's object 60B2h"),
         (Some(18_001.0), "too coarse"),
     ] {
         model.rated_force = rated;
