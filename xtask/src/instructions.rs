@@ -59,9 +59,9 @@ fn counts() -> Result<Option<Vec<u64>>, String> {
     }
     debian::install()?;
     shell::run(shell::cargo(
-        "build --quiet --release -p stiction-identify --example instructions",
+        "build --quiet --profile counts -p stiction-identify --example instructions",
     ))?;
-    let program = shell::target().join("release/examples/instructions");
+    let program = shell::target().join("counts/examples/instructions");
     let program = program.to_string_lossy();
     let out = shell::target().join("instructions.callgrind");
     let file = format!("--callgrind-out-file={}", out.display());
