@@ -84,7 +84,8 @@ impl Fit {
     }
 
     /// The compensator that [`export`](crate::export()) writes, as a value to be stepped every `cycle_time` seconds, driven
-    /// by the reference velocity, with its limit and watchdog. Other settings:
+    /// by the reference velocity, with its limit and watchdog. Until the watchdog has seen the axis reverse without it, the
+    /// force is 0. Other settings:
     /// [`Compensator::new`] with [`law`](Self::law).
     ///
     /// # Errors

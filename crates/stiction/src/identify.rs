@@ -3,7 +3,12 @@
 use crate::{Axis, Error, Fit, LawKind, Log, Observer, Procedures, Searching, Silent};
 use stiction_workflows::identify as workflow;
 
-/// What to identify, and how; change what differs from [`Options::default`].
+/// What to identify, and how; change what differs from the default, which is that of the command line:
+///
+/// ```
+/// let mut options = stiction::Options::default();
+/// options.law = None; // the data choose
+/// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Options {
@@ -32,7 +37,7 @@ impl Default for Options {
             asymmetric: false,
             validate: Vec::new(),
             split: None,
-            seed: 1,
+            seed: 0,
             compare_laws: true,
             procedures: Procedures::default(),
             searching: Searching::default(),

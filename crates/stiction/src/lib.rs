@@ -32,13 +32,19 @@
 //! let error = fit.predict(&unseen)?.quality.relative_error_percent;
 //! assert!(error < 1.2);
 //!
-//! // Compensate at 4 kHz: the force to add while the reference creeps.
+//! // Compensate at 4 kHz, along a reference that goes to and fro. The force comes in once the watchdog has seen the axis
+//! // reverse without it.
 //! let mut compensator = fit.compensator(250e-6)?;
-//! let input = Input { reference_velocity: 1e-3, enable: true, ..Input::default() };
-//! let force = (0..8000).fold(0.0, |_, _| compensator.step(input));
-//! println!("{force:.1} N, {:.0} % of the friction", 100.0 * compensator.settings().gain);
-//! # // Between Coulomb and static friction of that axis, 20 and 30 N, times the gain.
-//! # assert!((25.0..30.0).contains(&(force / compensator.settings().gain)), "{force}");
+//! for k in 0..80_000 {
+//!     let t = f64::from(k) * 250e-6; // s
+//!     let reference_velocity = 0.02 * (6.0 * t).sin(); // m/s
+//!     let force = compensator.step(Input { reference_velocity, enable: true, ..Input::default() });
+//!     if k % 8000 == 0 {
+//!         println!("{t:4.1} s: {force:6.2} N");
+//!     }
+//! }
+//! # let share = compensator.state().share;
+//! # assert!((share - compensator.settings().gain).abs() < 1e-9, "{share}");
 //! # assert!((19.5..20.5).contains(&coulomb.value()));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
