@@ -255,7 +255,7 @@ fn limits_of_a_search_belong_to_a_search() {
     for (options, words) in [
         (
             "--evaluations 10",
-            "beside --method separable; one of the searches: ga, ",
+            "together with --method separable; one of the searches: ga, ",
         ),
         ("--method de --evaluations 0", "--evaluations 0; at least 1"),
         (

@@ -341,7 +341,7 @@ fn a_watchdog_that_still_learns() {
     );
     let html = String::from_utf8(stiction::bundle::study(&outcome).files()[0].1.clone()).unwrap();
     stiction_testkit::assert_tables_fit(&html);
-    assert!(html.contains("exact, still learning") && html.contains("not every figure"));
+    assert!(html.contains("exact, still learning") && html.contains("some figures are misleading"));
     assert!(stiction::commands::text::study(&outcome).contains("still learning"));
     // Half a second from the first turn, at 0.125 s; the force has come in 50 ms later.
     for (skip, still) in [("0.67 s", 1), ("0.68 s", 0)] {
