@@ -1,11 +1,12 @@
 //! Gaps and jitter of the time stamps, which are increasing by now.
 
-use super::{
-    Finding, MAX_BRIDGED_SAMPLES, MISSING_SHARE_FOR_WARNING, Severity, count, median, place, short,
+use super::finding::{
+    Finding, MAX_BRIDGED_SAMPLES, MISSING_SHARE_FOR_WARNING, Severity, median, place,
 };
 use crate::log::{Gap, Log};
 use stiction_codes::Code;
 use stiction_number::Percent;
+use stiction_number::{counted as count, short};
 
 /// Time step from which on samples are missing in it, in median time steps.
 const MIN_GAP_STEPS: f64 = 1.5;

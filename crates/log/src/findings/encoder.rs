@@ -1,9 +1,10 @@
 //! Encoder steps, and jumps of the position that no motion explains.
 
-use super::{Finding, Severity, count, extremes, place, short};
+use super::finding::{Finding, Severity, extremes, place};
 use crate::log::Log;
 use crate::mapping::Mapping;
 use stiction_codes::Code;
+use stiction_number::{counted as count, short};
 
 /// Fewest encoder steps of the whole travel; with fewer presliding is hardly resolved.
 const MIN_TRAVEL_STEPS: f64 = 50.0;

@@ -1,11 +1,12 @@
 //! A force that saturates, and a force with the wrong sign.
 
-use super::{Finding, Severity, count, extremes, place, short};
+use super::finding::{Finding, Severity, extremes, place};
 use crate::log::Log;
 use crate::mapping::Mapping;
 use std::ops::Range;
 use stiction_codes::Code;
 use stiction_number::Percent;
+use stiction_number::{counted as count, short};
 
 /// Shortest constant stretch at the largest or smallest force that can be saturation, in samples.
 const MIN_FLAT_SAMPLES: usize = 5;

@@ -1,9 +1,10 @@
 //! Whether the motion is informative: too short, none, noise, one direction, one speed.
 
-use super::{Finding, Severity, count, extremes, short};
+use super::finding::{Finding, Severity, extremes};
 use crate::log::Log;
 use std::borrow::Cow;
 use stiction_codes::Code;
+use stiction_number::{counted as count, short};
 
 /// Fewest samples on which an interval can be based.
 const MIN_USEFUL_SAMPLES: usize = 100;

@@ -11,11 +11,12 @@
 //! 3. or it is frozen to the end of the record while the reference still covers half its range,
 //!    though the position had followed it before.
 
+use super::finding::{Finding, Severity, extremes, place};
 use super::motion::MIN_NEIGHBOUR_CORRELATION;
-use super::{Finding, Severity, count, extremes, place, short};
 use crate::log::Log;
 use std::ops::Range;
 use stiction_codes::Code;
+use stiction_number::{counted as count, short};
 
 /// Shortest stretch of equal positions that is checked, in samples.
 const MIN_FLAT_SAMPLES: usize = 10;

@@ -1,8 +1,9 @@
 //! Whether velocity and position describe the same motion.
 
-use super::{Finding, Severity, short};
+use super::finding::{Finding, Severity};
 use crate::log::Log;
 use stiction_codes::Code;
+use stiction_number::short;
 
 /// Window over which the travel of both is compared, in samples: long enough that noise and delay matter little.
 const WINDOW_SAMPLES: usize = 32;
