@@ -1,6 +1,6 @@
 //! D: the break-away force falls with the rate at which the force grows.
 
-use super::{Check, Curve, Experiment, block};
+use super::experiment::{Check, Curve, Experiment, block};
 use crate::plant::{Load, Motion};
 use stiction_friction::ParamError;
 

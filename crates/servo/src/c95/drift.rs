@@ -1,7 +1,7 @@
 //! G: under a force that oscillates below break-away a LuGre block drifts; an elasto-plastic one does not (the subject of
 //! Dupont et al. 2002, doi 10.1109/TAC.2002.1000274).
 
-use super::{Check, Curve, Experiment, TOLERANCE, axis, block};
+use super::experiment::{Check, Curve, Experiment, TOLERANCE, axis, block};
 use crate::plant::{Load, Motion, Plant};
 use stiction_friction::{ElastoPlastic, Held, ParamError};
 

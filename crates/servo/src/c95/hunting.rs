@@ -1,6 +1,6 @@
 //! F: under PID control the block hunts about its target; with a friction observer it does not.
 
-use super::{Check, Curve, Experiment, TOLERANCE, axis, largest};
+use super::experiment::{Check, Curve, Experiment, TOLERANCE, axis, largest};
 use crate::axis::{Axis, AxisSettings, Correction};
 use crate::controller::Controller;
 use crate::drive::Drive;
@@ -93,7 +93,7 @@ fn positioning(
         )?),
     };
     let settings = AxisSettings {
-        plant: super::block()?,
+        plant: super::experiment::block()?,
         drive: Drive::ideal(),
         encoder: Encoder::new(0.0)?,
         controller: Controller::Pid(Pid {

@@ -1,6 +1,6 @@
 //! C: friction lags behind the velocity.
 
-use super::{Check, Curve, Experiment, TOLERANCE, axis, largest};
+use super::experiment::{Check, Curve, Experiment, TOLERANCE, axis, largest};
 use stiction_friction::ParamError;
 
 const TURN: f64 = 2.0 * std::f64::consts::PI;

@@ -1,6 +1,6 @@
 //! B: below break-away the block is a spring with hysteresis.
 
-use super::{Check, Curve, Experiment, TOLERANCE, block};
+use super::experiment::{Check, Curve, Experiment, TOLERANCE, block};
 use crate::plant::{Load, Motion};
 use stiction_friction::ParamError;
 

@@ -1,6 +1,6 @@
 //! E: pulled slowly through a spring, the block sticks and slips.
 
-use super::{Check, Curve, Experiment, TOLERANCE, block};
+use super::experiment::{Check, Curve, Experiment, TOLERANCE, block};
 use crate::plant::{Load, Motion};
 use stiction_friction::ParamError;
 
