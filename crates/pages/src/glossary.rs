@@ -1,24 +1,11 @@
 //! The terms of reports and messages, explained: in a section of each report, since those are read without the rest of the
 //! documentation, and on the page `docs/glossary.md`. Both come from one table.
 
+mod term;
 mod terms;
 
 use stiction_report::{Block, Document, Text};
-
-/// A term of the field, as stiction uses it.
-#[derive(Clone, Copy, Debug)]
-pub struct Term {
-    /// The term.
-    pub name: &'static str,
-    /// Its symbol; may be empty.
-    pub symbol: &'static str,
-    /// Its unit for a linear axis, `1` for a plain number; empty where it is not a quantity.
-    pub unit: &'static str,
-    /// Other names.
-    pub others: &'static [&'static str],
-    /// What it is, in a sentence or two.
-    pub meaning: &'static str,
-}
+pub use term::Term;
 
 /// All terms, by topic.
 pub const TOPICS: [(&str, &[Term]); 5] = [
@@ -69,34 +56,6 @@ pub fn page() -> String {
         }
     }
     page
-}
-
-impl Term {
-    /// The term with symbol and unit.
-    fn head(&self) -> Text {
-        let head = Text::new().bold(self.name);
-        match (self.symbol, self.unit) {
-            ("", "" | "1") => head,
-            ("", unit) => head.plain(format!(" ({unit})")),
-            (symbol, "" | "1") => head.plain(format!(" {symbol}")),
-            (symbol, unit) => head.plain(format!(" {symbol} ({unit})")),
-        }
-    }
-
-    /// Whether a text in lower case has the term or another name of it as a word, in singular or plural.
-    fn is_in(&self, text: &str) -> bool {
-        let mut names = std::iter::once(&self.name).chain(self.others);
-        names.any(|name| {
-            let name = name.to_lowercase();
-            text.match_indices(&name).any(|(at, _)| {
-                let before = text[..at].chars().next_back();
-                let rest = &text[at + name.len()..];
-                let after = rest.strip_prefix('s').unwrap_or(rest).chars().next();
-                let apart = |c: Option<char>| !c.is_some_and(char::is_alphanumeric);
-                apart(before) && apart(after)
-            })
-        })
-    }
 }
 
 #[cfg(test)]

@@ -12,8 +12,6 @@ mod lag;
 mod presliding;
 mod stick_slip;
 
-use crate::known::{self, KnownAxis};
-use crate::plant::Plant;
 pub use experiment::{Check, Curve, Experiment};
 use stiction_friction::ParamError;
 

@@ -1,6 +1,6 @@
 //! The terms: the one table from which `docs/glossary.md` and the words of a report come.
 
-use super::Term;
+use super::term::Term;
 
 const fn term(
     name: &'static str,
