@@ -1,6 +1,6 @@
 //! The step MID as `stiction-servo` takes it but for the bend of the deflection within a step, axes in lanes.
 
-use super::{Axis, Drive, Measured, Motion, Outcome};
+use super::drive::{Axis, Drive, Measured, Motion, Outcome};
 use crate::curve::{Curve, Speed};
 use crate::dispatch::Kernel;
 use crate::exp::{LOWEST_ARGUMENT, at_least, at_most, exp, expm1, fma};

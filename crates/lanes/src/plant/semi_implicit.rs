@@ -1,6 +1,6 @@
 //! The semi-implicit step, axes in lanes: no equation to solve, one division.
 
-use super::{Axis, Drive, Measured, Motion, Outcome};
+use super::drive::{Axis, Drive, Measured, Motion, Outcome};
 use crate::curve::{Curve, Speed};
 use crate::dispatch::Kernel;
 use crate::exp::{exps, fma};
