@@ -1,6 +1,6 @@
 //! One candidate: nodes in lanes, then the recursion.
 
-use super::{Terms, residual};
+use super::terms::{Terms, residual};
 use crate::curve::{START, reversed};
 use crate::dispatch::Kernel;
 use crate::exp::fma;

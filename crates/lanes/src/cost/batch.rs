@@ -1,7 +1,7 @@
 //! Candidates in lanes, in tiles of nodes: levels, then intervals, then the recursion, so that many
 //! independent exponentials and divisions are under way at any time.
 
-use super::{Terms, residual};
+use super::terms::{Terms, residual};
 use crate::curve::{Node, START, Speed, intervals, reversed};
 use crate::dispatch::Kernel;
 use crate::exp::fma;

@@ -1,6 +1,6 @@
 //! The explicit schemes of [`stiction_friction::explicit`], candidates in lanes; for comparison.
 
-use super::Scheme;
+use super::terms::Scheme;
 use crate::dispatch::Kernel;
 use crate::exp::{at_most, exp};
 use crate::lane_array::lanes;
