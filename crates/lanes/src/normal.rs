@@ -4,7 +4,6 @@ use crate::curve::Curve;
 use crate::dispatch::{InstructionSet, Kernel};
 use crate::exp::fma;
 use crate::lane_array::chunk;
-use crate::sensitive::OWN;
 use crate::track::KEPT;
 use crate::{Error, Track};
 use rayon::prelude::*;
@@ -14,7 +13,10 @@ pub(crate) mod alone;
 mod batch;
 mod gram;
 mod levels;
+mod sums;
 
+pub use sums::Sums;
+use sums::shared;
 /// The nonlinear unknowns of the separable form of the LuGre law, as logarithms.
 ///
 /// ```text
@@ -50,29 +52,6 @@ impl Trial {
             self.exponent,
         ))
     }
-}
-
-/// Sums of products over the samples that count, of the columns that a trial makes with each other and with
-/// those that all trials share.
-///
-/// A trial's own columns are, in this order, `eta`; `rate`, that is `v - |v| eta/gh`; the derivatives of eta
-/// with respect to `ln kappa`, `ln(r - 1)`, `ln vs`; and those of rate. Shared are the measured force, the
-/// velocity, and the further columns of the track.
-///
-/// With the linear coefficients c of eta and rate, column k of the Jacobian is
-/// `c[0] own[2 + k] + c[1] own[5 + k]`: its products with anything are sums of rows of these arrays, and so
-/// are the normal equations of the linear problem and the Jacobian of Kaufman 1975 (doi 10.1007/BF01932995).
-///
-/// A residual that is taken from sums of squares has lost what is small beside the measured force: its sum
-/// of squares is good to about 1e-15 of that of the force.
-///
-/// Without the derivatives there are two own columns.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sums<const C: usize = OWN> {
-    /// `own[i][j]`: own column i times own column j; symmetric.
-    pub own: [[f64; C]; C],
-    /// `shared[s][i]`: shared column s times own column i.
-    pub shared: Vec<[f64; C]>,
 }
 
 /// Sums for each of many trials, which advance together in lanes.
@@ -202,11 +181,4 @@ fn product(marks: &[u8], a: &[f64], b: &[f64]) -> f64 {
         }
     }
     sums.iter().sum()
-}
-
-/// The shared columns in the direction of motion.
-fn shared(track: &Track) -> Vec<&[f64]> {
-    let known: [&[f64]; 2] = [&track.force, &track.speed];
-    let further = track.columns.iter().map(Vec::as_slice);
-    known.into_iter().chain(further).collect()
 }

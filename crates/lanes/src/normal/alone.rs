@@ -1,7 +1,7 @@
 //! One trial: samples in lanes.
 
 use super::gram::{Columns, Gram, LANES};
-use super::{Sums, shared};
+use super::sums::{Sums, shared};
 use crate::Track;
 use crate::curve::{Curve, START, Speed, reversed};
 use crate::dispatch::Kernel;

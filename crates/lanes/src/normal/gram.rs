@@ -1,6 +1,6 @@
 //! Products of columns, added up lane by lane.
 
-use super::Sums;
+use super::sums::Sums;
 use crate::exp::fma;
 use crate::lane_array::Aligned;
 

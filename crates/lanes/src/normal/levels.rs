@@ -2,7 +2,7 @@
 
 use super::batch::Curves;
 use super::gram::LANES;
-use super::{Sums, shared};
+use super::sums::{Sums, shared};
 use crate::Track;
 use crate::curve::{Curve, Node, START, Speed, intervals, reversed};
 use crate::dispatch::Kernel;
