@@ -1,6 +1,6 @@
 //! Where the six parameters are looked for, if nobody says.
 
-use super::checked;
+use super::problem::checked;
 use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::law::{Law, LawKind};

@@ -1,6 +1,6 @@
 //! A steady curve from points of speed and force: no memory, no record.
 
-use super::{Candidates, Named, checked};
+use super::problem::{Candidates, Named, checked};
 use crate::error::Error;
 use stiction_parameters::{Name, Quantity, Side};
 use stiction_search::{Bounds, CostsOnly, Derivatives, Fidelity, Points, Problem};

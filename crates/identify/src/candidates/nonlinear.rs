@@ -1,6 +1,6 @@
 //! The nonlinear unknowns of the separable method, everything linear solved.
 
-use super::{Candidates, Named, checked};
+use super::problem::{Candidates, Named, checked};
 use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::law::Law;
@@ -19,7 +19,7 @@ pub struct Nonlinear<'a> {
 }
 
 impl<'a> Nonlinear<'a> {
-    /// The cost of a record, with its [`thinned`](super::thinned) stand-in where there is one.
+    /// The cost of a record, with its [`thinned`](super::problem::thinned) stand-in where there is one.
     ///
     /// # Errors
     /// For a law without nonlinear unknowns or of Maxwell slip, and for a record that nothing can be

@@ -1,6 +1,6 @@
 //! The six parameters of LuGre, force in and position out.
 
-use super::{Candidates, Named, checked, named, physical};
+use super::problem::{Candidates, Named, checked, named, physical};
 use crate::error::Error;
 use stiction_lanes::{Axis, Candidate, Drive, InstructionSet, Measured, Motion, Stepping, plants};
 use stiction_search::{Bounds, Fidelity, Points, Problem};

@@ -1,8 +1,9 @@
 //! The six parameters of a symmetric LuGre law, motion in and force out.
 
+use super::Scheme;
 use super::algebra::Products;
+use super::problem::{Candidates, Named, checked, named, physical, thinned};
 use super::sums::Sampled;
-use super::{Candidates, Named, Scheme, checked, named, physical, thinned};
 use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::law::terms::Terms;
