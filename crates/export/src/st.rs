@@ -3,12 +3,14 @@
 
 mod plcopen;
 mod twincat;
+mod unit;
 
 use crate::model::cast;
 use crate::number::Literal;
 use crate::template::Fill;
 use crate::vectors::{DOUBLE_TOLERANCE, SINGLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, header, law};
+use unit::Unit;
 
 const DECLARATION: &str = include_str!("../templates/st/block.declaration.in");
 const BODY: &str = include_str!("../templates/st/block.body.in");
@@ -46,25 +48,6 @@ const REAL: Precision = Precision {
     terms: 7,
     tolerance: SINGLE_TOLERANCE,
 };
-
-/// A program organisation unit: head with variables, then statements.
-struct Unit {
-    name: String,
-    program: bool,
-    declaration: String,
-    body: String,
-}
-
-impl Unit {
-    fn text(&self) -> String {
-        let end = if self.program {
-            "END_PROGRAM"
-        } else {
-            "END_FUNCTION_BLOCK"
-        };
-        format!("{}{}{end}\n", self.declaration, self.body)
-    }
-}
 
 /// Plain text, one file per unit.
 pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {

@@ -1,6 +1,6 @@
 //! PLCopen TC6 XML, version 2.01: the variables as elements, the statements as text.
 
-use super::Unit;
+use super::unit::Unit;
 use crate::Model;
 use std::fmt::Write;
 

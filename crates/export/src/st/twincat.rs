@@ -1,6 +1,6 @@
 //! TwinCAT 3: a `.TcPOU` for each unit.
 
-use super::Unit;
+use super::unit::Unit;
 use crate::File;
 use crate::guid::guid;
 
