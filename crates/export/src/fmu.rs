@@ -7,6 +7,7 @@ mod archive;
 mod description;
 mod unit;
 mod variables;
+mod version;
 
 use crate::guid::guid;
 use crate::number::Literal;
@@ -14,6 +15,7 @@ use crate::template::Fill;
 use crate::vectors::{DOUBLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, c, check, header, law};
 use variables::Variables;
+use version::{Version, escape};
 
 const CORE: &str = include_str!("../templates/fmu/core.c.in");
 const FMI2: &str = include_str!("../templates/fmu/fmi2.c.in");
@@ -34,30 +36,6 @@ pub const GCC: [&str; 9] = [
     "-Wl,--build-id=none",
     "-o",
 ];
-
-/// A version of the standard.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Version {
-    Two,
-    Three,
-}
-
-impl Version {
-    fn number(self) -> &'static str {
-        match self {
-            Version::Two => "2",
-            Version::Three => "3",
-        }
-    }
-
-    /// Folder of the binary for x86-64 Linux.
-    fn binaries(self) -> &'static str {
-        match self {
-            Version::Two => "binaries/linux64",
-            Version::Three => "binaries/x86_64-linux",
-        }
-    }
-}
 
 /// The FMUs of a model and their self-test. `compile` gives the shared library for x86-64 Linux of a C source ([`GCC`]), or
 /// nothing where there is no compiler for it: the FMU then holds its source only, and a tool has to compile it.
@@ -137,11 +115,4 @@ fn own_text(model: &Model) -> Result<String, Error> {
         header::comment(model, ""),
         c::inside(model)?
     ))
-}
-
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
 }

@@ -2,7 +2,7 @@
 
 use super::unit::Unit;
 use super::variables::{Role, Start, Variable, Variables};
-use super::{Version, escape};
+use super::version::{Version, escape};
 use crate::Model;
 use crate::header::plain;
 use crate::number::Literal;
