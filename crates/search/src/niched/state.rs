@@ -1,6 +1,6 @@
 //! The niched GA as a state machine.
 
-use super::Settings;
+use super::settings::Settings;
 use crate::bits;
 use crate::error::Error;
 use crate::genetic::{Individual, Selection, costs_of, least};
