@@ -8,49 +8,18 @@
 //! | [`Ode4`] | 4 | fixed | unstable above a step that [`Ode4::check`] gives | LuGre |
 
 mod flow;
+mod mid;
 mod ode4;
 mod quick;
 mod rodas3;
 
+pub use mid::{Integrator, Mid};
 pub use ode4::{Ode4, Unstable};
 pub use quick::Quick;
 pub use rodas3::{Rodas3, Work};
 
 use crate::plant::{Load, Motion, Plant};
-use stiction_friction::{Held, LuGre, ParamError};
-
-/// Advances a plant whose law is `L`.
-pub trait Integrator<L: Held<f64>> {
-    /// The motion after `span` > 0 seconds under `load`, whose force rises by `rate` N/s (N m/s).
-    fn advance(
-        &mut self,
-        plant: &Plant<L>,
-        from: Motion<L::State>,
-        span: f64,
-        load: Load,
-        rate: f64,
-    ) -> Motion<L::State>;
-
-    /// May be called before a step with the force of the load in the step after it, N (N m), where it is known by then.
-    fn expect(&mut self, _next: f64) {}
-
-    /// To be called when the plant is no longer that of the call before: whatever was kept of it is dropped.
-    fn forget(&mut self) {}
-}
-
-/// The implicit midpoint of [`Plant::step`] in equal steps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Mid {
-    steps: u32,
-}
-
-impl Mid {
-    /// `steps` >= 1 in each call.
-    pub fn new(steps: u32) -> Result<Self, ParamError> {
-        at_least_one(steps)?;
-        Ok(Mid { steps })
-    }
-}
+use stiction_friction::{Held, LuGre};
 
 impl<L: Held<f64>> Integrator<L> for Mid {
     #[inline]
@@ -106,11 +75,4 @@ impl Integrator<LuGre<f64>> for Choice {
             Integrator::<LuGre<f64>>::forget(quick);
         }
     }
-}
-
-fn at_least_one(steps: u32) -> Result<(), ParamError> {
-    if steps == 0 {
-        return Err(ParamError::new("steps", 0.0, ">= 1"));
-    }
-    Ok(())
 }

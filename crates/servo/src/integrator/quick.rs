@@ -1,6 +1,6 @@
 //! MID for LuGre with a good initial guess: one evaluation of the law in most steps.
 
-use super::{Integrator, at_least_one};
+use super::mid::{Integrator, at_least_one};
 use crate::plant::{Load, Motion, Plant};
 use stiction_friction::{LuGre, ParamError, Sweep, Sweeps};
 
@@ -10,7 +10,7 @@ use stiction_friction::{LuGre, ParamError, Sweep, Sweeps};
 ///
 /// Where a Newton step from there is so small that its square is negligible, velocity and deflection take
 /// that step by their derivatives, and no further evaluation is needed. Where it is not after four evaluations, as in a
-/// reversal, the safeguarded solution is taken. The motion is that of [`Mid`](super::Mid) to some 1e-10 of the velocity.
+/// reversal, the safeguarded solution is taken. The motion is that of [`Mid`](super::mid::Mid) to some 1e-10 of the velocity.
 ///
 /// The law is evaluated a step ahead where that step's velocity can be predicted: the processor overlaps this with the
 /// current step, and the axis and its controller do not wait for exponentials. Where the load of the next step is known
