@@ -25,52 +25,23 @@
 mod adaptation;
 mod disturbance;
 mod friction;
+mod input;
 mod preview;
 mod safety;
 mod settings;
+mod state;
 mod watchdog;
 
 pub use adaptation::Adaptation;
 pub use disturbance::{DisturbanceObserver, DisturbanceState};
 pub use friction::{Friction, Source};
+pub use input::Input;
 pub use preview::ahead;
 pub use settings::Settings;
+pub use state::State;
 pub use watchdog::{Watch, Watchdog};
 
 use crate::{ParamError, Real};
-
-/// What the drive knows in a sample.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Input<T> {
-    /// Reference velocity, m/s (rad/s); where it is known, that of the instant at which the force will act
-    /// ([`ahead`]).
-    pub reference_velocity: T,
-    /// Measured velocity, m/s (rad/s).
-    pub measured_velocity: T,
-    /// Reference position less measured position, m (rad).
-    pub tracking_error: T,
-    /// Whether to compensate.
-    pub enable: bool,
-}
-
-/// The state of a running compensator.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State<T> {
-    /// The law's state; only `force` is used by laws without memory.
-    pub law: crate::State<T>,
-    /// Correction of the bristles by an observer, m (rad), beside the law's own deflection.
-    pub correction: T,
-    /// The force of that correction, N (N m).
-    pub corrected: T,
-    /// Share of the friction that is let through, 0 off, up to the gain.
-    pub share: T,
-    /// Factor on the law's force, 1 unless adapted or set.
-    pub level: T,
-    /// The watchdog.
-    pub watch: Watch<T>,
-    /// The force last returned, N (N m).
-    pub output: T,
-}
 
 /// A friction law as a feedforward force.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -191,27 +162,5 @@ impl<T: Real> Compensator<T> {
         let on = good && input.enable && allowed;
         let wanted = self.state.level * self.state.law.force + self.state.corrected;
         self.settings.limit(&mut self.state, h, on, wanted)
-    }
-}
-
-impl<T: Real> State<T> {
-    fn rest(friction: &Friction<T>) -> Self {
-        State {
-            law: friction.rest(),
-            correction: T::ZERO,
-            corrected: T::ZERO,
-            share: T::ZERO,
-            level: T::ONE,
-            watch: Watch::default(),
-            output: T::ZERO,
-        }
-    }
-}
-
-impl<T: Real> Input<T> {
-    fn is_finite(&self) -> bool {
-        self.reference_velocity.is_finite()
-            && self.measured_velocity.is_finite()
-            && self.tracking_error.is_finite()
     }
 }

@@ -1,6 +1,6 @@
 //! The law of a compensator, and the velocity that drives it.
 
-use super::Input;
+use super::input::Input;
 use crate::error::require;
 use crate::record::one_plus_ratio;
 use crate::{CoulombViscous, LuGre, ParamError, Real, State, Stribeck};

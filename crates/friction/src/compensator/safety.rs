@@ -1,6 +1,7 @@
 //! From the law's force to the force that is applied.
 
-use super::{Settings, State};
+use super::Settings;
+use super::state::State;
 use crate::Real;
 
 impl<T: Real> Settings<T> {

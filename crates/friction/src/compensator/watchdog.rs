@@ -1,6 +1,6 @@
 //! Switches off a compensation that makes tracking worse.
 
-use super::Input;
+use super::input::Input;
 use crate::{ParamError, Real};
 
 /// Largest single error with compensation that is allowed, over `ratio` times the largest one without (decision 0035).

@@ -1,0 +1,38 @@
+//! What a compensator keeps from step to step.
+
+use super::friction::Friction;
+use super::watchdog::Watch;
+use crate::Real;
+
+/// The state of a running compensator.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State<T> {
+    /// The law's state; only `force` is used by laws without memory.
+    pub law: crate::State<T>,
+    /// Correction of the bristles by an observer, m (rad), beside the law's own deflection.
+    pub correction: T,
+    /// The force of that correction, N (N m).
+    pub corrected: T,
+    /// Share of the friction that is let through, 0 off, up to the gain.
+    pub share: T,
+    /// Factor on the law's force, 1 unless adapted or set.
+    pub level: T,
+    /// The watchdog.
+    pub watch: Watch<T>,
+    /// The force last returned, N (N m).
+    pub output: T,
+}
+
+impl<T: Real> State<T> {
+    pub(super) fn rest(friction: &Friction<T>) -> Self {
+        State {
+            law: friction.rest(),
+            correction: T::ZERO,
+            corrected: T::ZERO,
+            share: T::ZERO,
+            level: T::ONE,
+            watch: Watch::default(),
+            output: T::ZERO,
+        }
+    }
+}
