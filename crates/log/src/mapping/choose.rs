@@ -1,9 +1,10 @@
 //! Columns for what a mapping leaves open, by name and by unit.
 
+use super::channel::{Channel, Role, Selector};
 use super::convert::is_force;
 use super::names::{self, Hint};
 use super::select::{distinct, select};
-use super::{Channel, Detected, Role, Selector, describe};
+use super::{Detected, describe};
 use crate::findings::{Finding, Severity, median, short};
 use crate::{Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;

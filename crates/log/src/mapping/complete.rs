@@ -1,8 +1,9 @@
 //! Filling in what a mapping leaves open: columns first, then units, then the kind of motion.
 
+use super::channel::{Channel, Motion, Role};
 use super::convert::{Source, is_force};
 use super::select::select;
-use super::{Channel, Detected, Mapping, Motion, Role, choose, describe, motion, names};
+use super::{Detected, Mapping, choose, describe, motion, names};
 use crate::findings::{Finding, Severity};
 use crate::{Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;

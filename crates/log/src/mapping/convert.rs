@@ -1,7 +1,8 @@
 //! One channel with its column found and its units settled: numbers of the file in, SI out.
 
+use super::channel::{Channel, Motion, Role};
 use super::select::select;
-use super::{Channel, Mapping, Motion, Role, describe};
+use super::{Mapping, describe};
 use crate::{Dimension, Error, Kind, Table, Unit};
 
 /// Largest number that can be a measurement, in SI units (for time stamps in the unit of the file). Larger ones mark

@@ -1,6 +1,6 @@
 //! Columns in words, for what was detected and for errors.
 
-use super::Role;
+use super::channel::Role;
 use crate::Table;
 
 /// `column 5 "Torque [N m]"`, or `column 5` where it has no name.

@@ -1,6 +1,7 @@
 //! Linear or rotary, from what is known of the columns.
 
-use super::{Motion, Role, names};
+use super::channel::{Motion, Role};
+use super::names;
 use crate::{Dimension, Error, Kind};
 
 /// The kind of motion that a dimension in a role tells.

@@ -1,6 +1,6 @@
 //! What a column's name says: the words in it, and the role they point to.
 
-use super::{Motion, Role};
+use super::channel::{Motion, Role};
 
 /// What a name says about its column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! From a selector to a column.
 
+use super::channel::{Role, Selector};
 use super::describe::{columns, key, listed};
-use super::{Role, Selector};
 use crate::unit::nearest;
 use crate::{Error, Kind, Table};
 
