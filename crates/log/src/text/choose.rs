@@ -3,6 +3,7 @@
 use super::cell::{self, Cell};
 use super::fit::Fit;
 use super::header::Title;
+use super::limits::{MAX_COLUMNS, MAX_PREAMBLE_LINES};
 use super::lines::{self, Line};
 use super::options::{Decimal, Separator, TextOptions};
 use super::problem;
@@ -12,7 +13,6 @@ use super::scope::Scope;
 use super::source::Source;
 use super::split::{self, Ends};
 use super::twincat;
-use super::{MAX_COLUMNS, MAX_PREAMBLE_LINES};
 use crate::{Error, Kind};
 
 /// Lines of samples from which the dialect is decided.

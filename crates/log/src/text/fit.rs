@@ -1,7 +1,7 @@
 //! How well the head of a file reads with one separator.
 
-use super::MAX_COLUMNS;
 use super::cell::{self, Cell};
+use super::limits::MAX_COLUMNS;
 use super::lines::Line;
 use super::options::{Decimal, Separator, TextOptions};
 use super::problem;

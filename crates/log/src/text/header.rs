@@ -1,6 +1,6 @@
 //! Names and units of columns from the lines that hold them.
 
-use super::MAX_COLUMNS;
+use super::limits::MAX_COLUMNS;
 use super::lines::Line;
 use super::options::Separator;
 use super::problem;

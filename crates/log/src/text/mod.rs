@@ -45,6 +45,7 @@ mod clock;
 mod column;
 mod fit;
 mod header;
+mod limits;
 mod lines;
 mod options;
 mod problem;
@@ -57,6 +58,7 @@ mod twincat;
 mod unit;
 mod utf16;
 
+pub use limits::{MAX_COLUMNS, MAX_PREAMBLE_LINES, MAX_ROW_BYTES, MAX_SAMPLES};
 pub use options::{Decimal, Separator, TextOptions};
 
 use crate::{Error, Kind, Table};
@@ -64,15 +66,6 @@ use source::Source;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
-
-/// Most columns a file may have.
-pub const MAX_COLUMNS: usize = 4096;
-/// Most bytes in one row, 1 MiB.
-pub const MAX_ROW_BYTES: usize = 1 << 20;
-/// Most lines before the first row of numbers.
-pub const MAX_PREAMBLE_LINES: usize = 1000;
-/// Most samples over all columns (8 GiB in memory).
-pub const MAX_SAMPLES: usize = 1 << 30;
 
 /// Reads a text recording from any source of bytes.
 ///

@@ -89,11 +89,14 @@ impl TextOptions {
                 "only one of the two can be a comma",
             ));
         }
-        if self.preamble.is_some_and(|n| n > super::MAX_PREAMBLE_LINES) {
+        if self
+            .preamble
+            .is_some_and(|n| n > super::limits::MAX_PREAMBLE_LINES)
+        {
             return Err(Error::new(
                 Kind::Value,
                 format!("{} preamble lines are stated", self.preamble.unwrap_or(0)),
-                format!("at most {}", super::MAX_PREAMBLE_LINES),
+                format!("at most {}", super::limits::MAX_PREAMBLE_LINES),
             ));
         }
         Ok(())

@@ -156,7 +156,7 @@ pub(super) fn wrong_moment(text: &[u8], dated: bool) -> Error {
 pub(super) fn long_row() -> Error {
     Error::new(
         Kind::Limit,
-        format!("a row of more than {} bytes", super::MAX_ROW_BYTES),
+        format!("a row of more than {} bytes", super::limits::MAX_ROW_BYTES),
         "shorter rows; is this a text table with one sample in each row?",
     )
 }
@@ -170,15 +170,15 @@ pub(super) fn open_quote() -> Error {
 }
 
 pub(super) fn too_many_columns(width: usize) -> Error {
-    let width = if width > super::MAX_COLUMNS {
-        format!("more than {}", super::MAX_COLUMNS)
+    let width = if width > super::limits::MAX_COLUMNS {
+        format!("more than {}", super::limits::MAX_COLUMNS)
     } else {
         width.to_string()
     };
     Error::new(
         Kind::Limit,
         format!("{width} columns"),
-        format!("at most {} columns", super::MAX_COLUMNS),
+        format!("at most {} columns", super::limits::MAX_COLUMNS),
     )
 }
 

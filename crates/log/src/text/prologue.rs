@@ -1,9 +1,9 @@
 //! The lines above the samples: preamble, header, units.
 
-use super::MAX_COLUMNS;
 use super::cell::{self, Cell};
 use super::fit::{Fit, Row, Whole};
 use super::header::{self, Title};
+use super::limits::MAX_COLUMNS;
 use super::lines::Line;
 use super::options::{Decimal, Separator, TextOptions};
 use super::problem;

@@ -1,8 +1,8 @@
 //! Blocks of rows turned into columns of numbers, by a rule that is settled.
 
-use super::MAX_ROW_BYTES;
 use super::cell::{self, Cell};
 use super::clock;
+use super::limits::MAX_ROW_BYTES;
 use super::options::Decimal;
 use super::problem;
 use super::split::{self, Ends, Field};

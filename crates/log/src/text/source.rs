@@ -1,6 +1,6 @@
 //! The bytes of a file: byte order marks, the head that is looked at, then block after block.
 
-use super::MAX_ROW_BYTES;
+use super::limits::MAX_ROW_BYTES;
 use super::problem;
 use super::split::Ends;
 use super::utf16::Utf16;

@@ -7,13 +7,13 @@
 use super::cell::{self, Cell};
 use super::choose::Layout;
 use super::header::Title;
+use super::limits::{MAX_COLUMNS, MAX_PREAMBLE_LINES};
 use super::lines::Line;
 use super::options::{Decimal, Separator, TextOptions};
 use super::problem;
 use super::row::{self, Role, Rule, Seen, State};
 use super::scope::{Group, Scope};
 use super::split::{self, Ends};
-use super::{MAX_COLUMNS, MAX_PREAMBLE_LINES};
 use crate::{Error, Kind};
 
 /// Keys of the rows above the samples that only a Scope export has.
