@@ -14,18 +14,16 @@
 //! convex problem, says where they are.
 
 mod choose;
+mod count;
 mod curves;
 mod dictionary;
 mod kink;
 mod ladder;
 mod limit;
+
+pub use count::{FEWEST, MOST};
 pub(crate) mod physical;
 pub(crate) mod recursion;
 pub(crate) mod score;
 pub(crate) mod search;
 mod settled;
-
-/// Fewest elements that are tried where the data choose.
-pub const FEWEST: usize = 3;
-/// Most elements.
-pub const MOST: usize = 10;

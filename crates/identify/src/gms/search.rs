@@ -1,8 +1,9 @@
 //! From a dictionary of elements to few of them, and from many of those to fewer.
 
+use super::count::{FEWEST, MOST};
 use super::dictionary::{self, Atom};
 use super::ladder::{Rung, Search};
-use super::{FEWEST, MOST, choose, curves, kink};
+use super::{choose, curves, kink};
 use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::law::Law;
