@@ -62,7 +62,9 @@ fn counts() -> Result<Option<Vec<u64>>, String> {
     }
     debian::install()?;
     // Of the whole workspace, or features of the dependencies would differ and all of them be built again.
-    shell::run(shell::cargo("build --quiet --workspace --example instructions"))?;
+    shell::run(shell::cargo(
+        "build --quiet --workspace --example instructions",
+    ))?;
     let program = shell::target().join("debug/examples/instructions");
     let program = program.to_string_lossy();
     let out = shell::target().join("instructions.callgrind");

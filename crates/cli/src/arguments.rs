@@ -27,7 +27,7 @@ pub struct Common {
     #[arg(long, global = true, display_order = 101)]
     pub quiet: bool,
     /// Threads to use [default: one a core]; results do not depend on it.
-    #[arg(long, global = true, display_order = 102, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, global = true, display_order = 102, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
     pub threads: Option<u16>,
 }
 
@@ -51,6 +51,12 @@ pub enum Command {
     Completions(Completions),
     /// Print the manual page, or that of a command.
     Man(Man),
+}
+
+/// A whole number that is not negative.
+fn whole(text: &str) -> Result<u64, String> {
+    let number = text.parse();
+    number.map_err(|_| format!("a whole number from 0 to {} is allowed", u64::MAX))
 }
 
 /// The names of all commands.
@@ -86,7 +92,7 @@ pub struct Demo {
     #[arg(long, value_name = "DIR", default_value = "stiction-demo")]
     pub out: PathBuf,
     /// Seed of the simulated noise and of the search.
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole)]
     pub seed: u64,
     /// Write into a folder that holds something else.
     #[arg(long)]
@@ -143,10 +149,10 @@ pub struct Identify {
     #[arg(long, value_name = "LOG", num_args = 1.., conflicts_with = "split")]
     pub validate: Vec<PathBuf>,
     /// Fit this first part of the samples and validate on the rest, such as 0.5.
-    #[arg(long, value_name = "PART")]
+    #[arg(long, value_name = "PART", allow_negative_numbers = true)]
     pub split: Option<f64>,
     /// Seed of the search.
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole)]
     pub seed: u64,
     /// Folder for result.json, model.toml, report.html and fit.csv.
     #[arg(long, value_name = "DIR")]
@@ -226,13 +232,13 @@ pub struct Searching {
     #[arg(long, value_enum, value_name = "COST")]
     pub cost: Option<Cost>,
     /// Most costs that a search may evaluate, and as many with derivatives [default: 20000].
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
     pub evaluations: Option<u64>,
     /// Stop a search at this cost: the square of the relative error.
-    #[arg(long, value_name = "J")]
+    #[arg(long, value_name = "J", allow_negative_numbers = true)]
     pub target: Option<f64>,
     /// Stop a search this long after the start, in s.
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub time: Option<f64>,
     /// Keep the state of a search here, every few seconds and at the end.
     #[arg(long, value_name = "FILE")]
@@ -263,26 +269,26 @@ pub struct Compare {
     #[arg(long, value_name = "A,B,..", value_delimiter = ',')]
     pub methods: Vec<String>,
     /// Seeds of each method.
-    #[arg(long, value_name = "N", default_value_t = 30)]
+    #[arg(long, value_name = "N", default_value_t = 30, allow_negative_numbers = true, value_parser = whole)]
     pub seeds: u64,
     /// Most costs that a run may evaluate, and as many with derivatives.
-    #[arg(long, value_name = "N", default_value_t = 20_000)]
+    #[arg(long, value_name = "N", default_value_t = 20_000, allow_negative_numbers = true, value_parser = whole)]
     pub evaluations: u64,
     /// Noise of a problem: deviation over the largest force [default: 0.01].
-    #[arg(long, value_name = "PART")]
+    #[arg(long, value_name = "PART", allow_negative_numbers = true)]
     pub noise: Option<f64>,
     /// Motion of a problem [default: sine].
     #[arg(long, value_enum)]
     pub excitation: Option<Excitation>,
     /// Sample rate of a problem, for 3 s of motion [default: 1000].
-    #[arg(long, value_name = "HZ")]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     pub rate: Option<f64>,
     /// Make the data of a problem by another law than the one that is fitted.
     #[arg(long)]
     pub other_law: bool,
     /// Decades of the box to each side of a point off the answer [default: 1 for a problem, the box of
     /// identify for a log].
-    #[arg(long = "box", value_name = "DECADES")]
+    #[arg(long = "box", value_name = "DECADES", allow_negative_numbers = true)]
     pub decades: Option<f64>,
     /// What integrates the candidates.
     #[arg(long, value_enum, default_value_t = Integrator::Explin)]
@@ -378,13 +384,18 @@ pub struct Export {
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Time between two calls of the compensator, s.
-    #[arg(long, value_name = "S", default_value_t = 1e-3)]
+    #[arg(
+        long,
+        value_name = "S",
+        default_value_t = 1e-3,
+        allow_negative_numbers = true
+    )]
     pub cycle_time: f64,
     /// Largest force, in the unit of the model's force [default: twice static friction and offset].
-    #[arg(long, value_name = "FORCE")]
+    #[arg(long, value_name = "FORCE", allow_negative_numbers = true)]
     pub limit: Option<f64>,
     /// Rated force of the motor, in the unit of the model's force; for tf5200.
-    #[arg(long, value_name = "FORCE")]
+    #[arg(long, value_name = "FORCE", allow_negative_numbers = true)]
     pub rated_force: Option<f64>,
     /// What the names in the code begin with [default: from the name of the axis].
     #[arg(long, value_name = "NAME")]

@@ -37,7 +37,8 @@ pub fn run(arguments: &Arguments) -> Exit {
     };
     result.unwrap_or_else(|e| {
         // With standard error closed only the exit code is left to tell.
-        let _ = writeln!(std::io::stderr(), "stiction: [{}] {e}", e.code());
+        let message = output::line(&e.to_string());
+        let _ = writeln!(std::io::stderr(), "stiction: [{}] {message}", e.code());
         if common.json {
             let error =
                 serde_json::json!({ "error": { "code": e.code(), "message": e.to_string() } });
@@ -53,7 +54,7 @@ fn text(text: &str, common: &Common) -> Result<Exit, Error> {
     if common.json {
         output::json(&serde_json::json!({ "text": text }))?;
     } else {
-        output::print(text)?;
+        output::print_as_it_is(text)?;
     }
     Ok(Exit::Done)
 }

@@ -22,13 +22,17 @@ fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(e) => {
-            let _ = e.print();
-            // Help and version are no errors.
-            return ExitCode::from(if e.use_stderr() {
-                Exit::BadInput as u8
-            } else {
-                0
-            });
+            let printed = e.print().and_then(|()| std::io::stdout().flush());
+            // Help and version are no errors, unless they do not reach their reader.
+            let exit = match output::written(printed) {
+                _ if e.use_stderr() => Exit::BadInput,
+                Ok(()) => Exit::Done,
+                Err(e) => {
+                    let _ = writeln!(std::io::stderr(), "stiction: [{}] {e}", e.code());
+                    Exit::BadInput
+                }
+            };
+            return ExitCode::from(exit as u8);
         }
     };
     // A panic is a fault of ours: say so in a sentence, not with a trace alone.

@@ -6,6 +6,7 @@
 //! when others are known.
 
 mod given;
+mod name;
 mod places;
 mod source;
 mod syntax;

@@ -22,6 +22,20 @@ pub enum Error {
         /// What is allowed.
         allowed: String,
     },
+    /// A value of an axis file that does not go with a recording.
+    #[error("{}: {place}{found}; {allowed}", .file.display())]
+    Misfit {
+        /// The axis file.
+        file: PathBuf,
+        /// Line and key, ending in `: `.
+        place: String,
+        /// What was found, with the recording.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+        /// What is wrong with it.
+        code: Code,
+    },
     /// The output folder cannot be used.
     #[error("{}: {reason}", .path.display())]
     Output {
@@ -38,6 +52,7 @@ impl Error {
         match self {
             Error::Log(e) => e.kind.code(),
             Error::Config { .. } => Code::BadConfig,
+            Error::Misfit { code, .. } => *code,
             Error::Output { .. } => Code::Output,
         }
     }

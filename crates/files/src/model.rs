@@ -1,10 +1,11 @@
 //! `model.toml`: a friction law with parameters, units, intervals, and where they came from.
 
-mod covariance;
+pub(crate) mod covariance;
 mod fault;
 mod form;
 mod read;
 mod refusal;
 
 pub use form::{ModelFile, ModelParameter, SCHEMA, SourceEntry, SourceInput};
+pub(crate) use read::MODEL;
 pub use read::ReadModel;

@@ -1,7 +1,7 @@
 //! A mass with friction under a given force: many candidates at a time.
 
-use crate::dispatch::InstructionSet;
 use crate::Error;
+use crate::dispatch::InstructionSet;
 use midpoint::Midpoint;
 use rayon::prelude::*;
 use semi_implicit::SemiImplicit;

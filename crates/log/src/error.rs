@@ -83,6 +83,8 @@ pub struct Error {
     pub found: String,
     /// What is allowed, or what to do; empty where nothing useful can be said.
     pub allowed: String,
+    /// The key of the axis file whose value this is about, such as `log.crop`; `None` where it is about the recording alone.
+    pub setting: Option<&'static str>,
 }
 
 impl Error {
@@ -94,7 +96,15 @@ impl Error {
             place: Place::default(),
             found: found.into(),
             allowed: allowed.into(),
+            setting: None,
         }
+    }
+
+    /// The same problem, about the value of this key of the axis file.
+    #[must_use]
+    pub fn of_setting(mut self, key: &'static str) -> Self {
+        self.setting = Some(key);
+        self
     }
 
     /// The same problem, in this file.

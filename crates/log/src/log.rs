@@ -126,7 +126,7 @@ impl Log {
                 .position()
                 .si_text();
             if let Some(position) = columns.get_mut(Role::Position) {
-                findings.extend(unwrap::unwrap(position, wrap.period, &unit));
+                findings.push(unwrap::unwrap(position, wrap.period, &unit));
             }
         }
         let mended = columns.mend(&mut time)?;

@@ -36,6 +36,7 @@ mod choose;
 mod complete;
 mod convert;
 mod describe;
+mod limits;
 mod motion;
 mod names;
 mod select;
@@ -44,6 +45,7 @@ use crate::findings::{Finding, full};
 use crate::{Error, Kind, Table};
 pub use channel::{Channel, Motion, Role, Selector};
 pub(crate) use convert::{LARGEST_VALUE, Source};
+pub use limits::{FORCE_LIMITS, RATES, RESOLUTIONS, SCALES, WRAPS};
 
 /// A position that wraps after some travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -140,41 +142,38 @@ impl Mapping {
 
     fn check_numbers(&self) -> Result<(), Error> {
         // Wide enough for any machine, narrow enough that no sum overflows.
+        let wrap = self.wrap.map(|w| w.period);
         let bounded = [
-            ("rate", self.rate_hz, 1e-3..=1e9, "Hz"),
+            ("rate", "rate", self.rate_hz, RATES, "Hz"),
+            ("wrap period", "log.wrap", wrap, WRAPS, "m or rad"),
             (
-                "wrap period",
-                self.wrap.map(|w| w.period),
-                1e-9..=1e9,
+                "resolution",
+                "log.resolution",
+                self.resolution,
+                RESOLUTIONS,
                 "m or rad",
             ),
-            ("resolution", self.resolution, 1e-15..=1e9, "m or rad"),
             (
                 "force limit",
+                "log.force_limit",
                 self.force_limit,
-                1e-15..=1e15,
+                FORCE_LIMITS,
                 "the unit of the force",
             ),
         ];
-        for (name, value, range, unit) in bounded {
+        for (name, key, value, range, unit) in bounded {
             if let Some(value) = value.filter(|x| !range.contains(x)) {
                 let (low, high) = (range.start(), range.end());
+                let found = format!("{name} is {}", full(value));
                 let allowed = format!("it has to be from {low:e} to {high:e}, in {unit}");
-                return Err(Error::new(
-                    Kind::Value,
-                    format!("{name} is {}", full(value)),
-                    allowed,
-                ));
+                return Err(Error::new(Kind::Value, found, allowed).of_setting(key));
             }
         }
-        if let Some((from, to)) = self.crop.filter(|(a, b)| !(a.is_finite() && a < b)) {
-            let allowed =
-                "crop takes two times in s from the first sample, the first less than the second";
-            return Err(Error::new(
-                Kind::Value,
-                format!("crop is {} to {}", full(from), full(to)),
-                allowed,
-            ));
+        let good = |a: f64, b: f64| a.is_finite() && a >= 0.0 && a < b;
+        if let Some((from, to)) = self.crop.filter(|(a, b)| !good(*a, *b)) {
+            let found = format!("crop is {} to {}", full(from), full(to));
+            let allowed = "crop takes two times in s from the first sample, from 0 on, the first less than the second";
+            return Err(Error::new(Kind::Value, found, allowed).of_setting("log.crop"));
         }
         Ok(())
     }

@@ -63,6 +63,11 @@ impl Zeros {
     }
 }
 
+/// A limit in as many digits as the margin needs: what a message says is what is allowed.
+fn rounded(x: f64) -> f64 {
+    format!("{x:.6e}").parse().unwrap_or(x)
+}
+
 fn design(order: usize, cutoff: f64, rate: f64, zeros: Zeros) -> Result<Sos, SignalError> {
     if !(1..=8).contains(&order) {
         return Err(SignalError::Parameter {
@@ -74,14 +79,14 @@ fn design(order: usize, cutoff: f64, rate: f64, zeros: Zeros) -> Result<Sos, Sig
     check::positive("sample rate in Hz", rate)?;
     let nyquist = 0.5 * rate;
     let (lowest, highest) = (
-        MIN_CUTOFF_MARGIN * nyquist,
-        (1.0 - MIN_CUTOFF_MARGIN) * nyquist,
+        rounded(MIN_CUTOFF_MARGIN * nyquist),
+        rounded((1.0 - MIN_CUTOFF_MARGIN) * nyquist),
     );
     if !(lowest..=highest).contains(&cutoff) {
         return Err(SignalError::Parameter {
             parameter: "cut-off frequency in Hz",
             found: cutoff,
-            allowed: format!("above 0 and below half the sample rate, {nyquist:.6}"),
+            allowed: format!("from {lowest} to {highest}, below half the sample rate"),
         });
     }
     // The analogue prototype, its cut-off warped so that the bilinear transform lands on `cutoff`.

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 use stiction_codes::Code;
+use stiction_files::Axis;
+use stiction_number::shortest;
 
 /// A workflow that could not be carried out.
 #[derive(Debug, thiserror::Error)]
@@ -32,10 +34,12 @@ pub enum Error {
     #[error("{0}")]
     Export(#[from] stiction_export::Error),
     /// A model cannot be exported because of a number in its file.
-    #[error("{}: parameter: {source}", .file.display())]
+    #[error("{}: {place}{source}", .file.display())]
     ExportModel {
         /// The file.
         file: PathBuf,
+        /// Line and key, ending in `: `.
+        place: String,
         /// Why.
         source: stiction_export::Error,
     },
@@ -73,6 +77,39 @@ impl Error {
             Error::Checkpoint { .. } => Code::BadCheckpoint,
             Error::Export(_) | Error::ExportModel { .. } => Code::NotExported,
             Error::Usage { .. } => Code::Usage,
+        }
+    }
+
+    /// The same at the key of the axis file whose value the engine refused, where the file has it.
+    pub(crate) fn at_axis(self, axis: &Axis) -> Self {
+        use stiction_identify::Error as Fit;
+        let Error::Identify { inputs, source } = &self else {
+            return self;
+        };
+        let (name, found, allowed) = match source {
+            Fit::Setting {
+                name,
+                found,
+                allowed,
+            } => (*name, shortest(*found), *allowed),
+            Fit::Filter { name, reason } => match reason.split_once("; ") {
+                Some((found, allowed)) => (*name, found.to_string(), allowed),
+                None => return self,
+            },
+            _ => return self,
+        };
+        let key = match name {
+            "source_cutoff" | "common_cutoff" | "decimate" | "min_speed" => {
+                format!("conditioning.{name}")
+            }
+            "mass" => name.into(),
+            "stribeck_exponent" => format!("terms.{name}"),
+            _ if name.starts_with("controller.") => name.into(),
+            _ => return self,
+        };
+        match axis.refuse(&key, format!("{inputs}: {found}"), allowed, self.code()) {
+            Some(error) => error.into(),
+            None => self,
         }
     }
 

@@ -127,7 +127,7 @@ pub fn compensator(model: &ModelFile, options: &ExportOptions) -> Result<Compens
     let (text, file) = (model.to_toml(), Path::new(MODEL_FILE));
     let read = ReadModel::parse(&text, file)?;
     let (model, _) = resolve(&read, text.as_bytes(), options)?;
-    model.in_rust().map_err(|e| place(e, file, options))
+    model.in_rust().map_err(|e| place(e, &read, file, options))
 }
 
 /// Refuses options that the target has no use for.
@@ -170,7 +170,7 @@ fn code(
                 whole &= library.is_some();
                 library
             })
-            .map_err(|e| place(e, file, options))?;
+            .map_err(|e| place(e, read, file, options))?;
             if !whole {
                 warnings.push(Warning::new(
                     Code::ExportSource,
@@ -180,7 +180,9 @@ fn code(
             }
             files
         }
-        target => stiction_export::export(&model, target).map_err(|e| place(e, file, options))?,
+        target => {
+            stiction_export::export(&model, target).map_err(|e| place(e, read, file, options))?
+        }
     };
     Ok(Exported {
         target: options.target.name(),
@@ -284,19 +286,32 @@ fn out_of_the_law(name: &str) -> bool {
         )
 }
 
-/// A refusal with the file it came from, where it is of a number in that file.
-fn place(source: stiction_export::Error, file: &Path, options: &ExportOptions) -> Error {
-    use stiction_export::Error::{Number, Range};
-    let name = match &source {
-        Range { name, .. } => *name,
-        Number { source, .. } => source.name,
+/// A refusal with the file it came from and the place in it, where it is of something in that file.
+fn place(
+    source: stiction_export::Error,
+    read: &ReadModel,
+    file: &Path,
+    options: &ExportOptions,
+) -> Error {
+    use stiction_export::Error::{ForceUnit, Law, Number, Range};
+    let place = match &source {
+        Law { .. } => read.place("law"),
+        ForceUnit { .. } => read.place("force_unit"),
+        Range { name, .. }
+        | Number {
+            source: ParamError { name, .. },
+            ..
+        } => {
+            if (*name == "limit" && options.limit.is_some()) || *name == "rated_force" {
+                return source.into();
+            }
+            read.place_of_parameter(name)
+        }
         _ => return source.into(),
     };
-    if (name == "limit" && options.limit.is_some()) || name == "rated_force" {
-        return source.into();
-    }
     Error::ExportModel {
         file: file.to_path_buf(),
+        place,
         source,
     }
 }

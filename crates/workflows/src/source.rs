@@ -32,7 +32,7 @@ pub fn table(path: &Path, axis: &Axis) -> Result<Table, Error> {
         text: axis.text,
         ..ReadOptions::default()
     };
-    Ok(read_table(path, &options)?)
+    read_table(path, &options).map_err(|e| axis.at_key(e).into())
 }
 
 /// Reads a file and maps it by the axis.
@@ -64,7 +64,8 @@ fn mapped(
     table: &Table,
     axis: &Axis,
 ) -> Result<Source, Error> {
-    let log = Log::from_table(table, &axis.mapping).map_err(|e| e.in_file(path))?;
+    let log = Log::from_table(table, &axis.mapping);
+    let log = log.map_err(|e| axis.at_key(e.in_file(path)))?;
     let mut detected = log.detected.clone();
     detected.extend(table.skipped.iter().map(|s| format!("{LEFT_OUT}{s}")));
     Ok(Source {
@@ -111,22 +112,39 @@ impl Source {
     /// # Errors
     /// When one is missing, with the term that needs it.
     pub fn check_channels(&self, terms: &Terms) -> Result<(), Error> {
-        for term in &terms.dependences {
-            let channel = term.channel();
-            let column = match channel {
-                "load" => &self.log.load,
-                "temperature" => &self.log.temperature,
-                _ => &self.log.position,
-            };
-            if column.is_none() {
-                let found = format!("no {channel} column, and [terms] {} needs one", term.name());
-                let allowed = format!("name it in the axis file: [columns] {channel} = \"...\"");
-                let kind = stiction_log::Kind::Missing;
-                let error = stiction_log::Error::new(kind, found, allowed);
-                return Err(error.in_file(&self.path).into());
-            }
+        match self.missing_channel(terms) {
+            Some((_, error)) => Err(error.into()),
+            None => Ok(()),
         }
+    }
+
+    /// Whether the log has what the axis file names, in units that fit: columns of its terms, terms, gains.
+    ///
+    /// # Errors
+    /// With the key of the axis file.
+    pub fn check_axis(&self, axis: &Axis) -> Result<(), Error> {
+        if let Some((term, error)) = self.missing_channel(&axis.terms) {
+            return Err(axis.at(&format!("terms.{term}"), error).into());
+        }
+        axis.terms_for(&self.log, false)?;
+        axis.controller_for(&self.log)?;
         Ok(())
+    }
+
+    /// The first term that lacks its column, and what to say of it.
+    fn missing_channel(&self, terms: &Terms) -> Option<(&'static str, stiction_log::Error)> {
+        let lacks = |channel: &str| match channel {
+            "load" => self.log.load.is_none(),
+            "temperature" => self.log.temperature.is_none(),
+            _ => self.log.position.is_none(),
+        };
+        let mut terms = terms.dependences.iter();
+        let term = terms.find(|term| lacks(term.channel()))?;
+        let (name, channel) = (term.name(), term.channel());
+        let found = format!("no {channel} column, and [terms] {name} needs one");
+        let allowed = format!("name it in the axis file: [columns] {channel} = \"...\"");
+        let error = stiction_log::Error::new(stiction_log::Kind::Missing, found, allowed);
+        Some((name, error.in_file(&self.path)))
     }
 
     /// Columns of the file that were not read, and why.

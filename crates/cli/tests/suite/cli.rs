@@ -91,6 +91,95 @@ fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {
     PLAIN.iter().chain(more).copied().collect()
 }
 
+/// Help that does not reach its reader is an error, as a result is.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_said() {
+    let bench = Bench::new();
+    for arguments in [&["--help"][..], &["--version"], &["man"]] {
+        let full = std::fs::File::create("/dev/full").unwrap();
+        let output = bench.command(arguments).stdout(full).output().unwrap();
+        let (code, _, err) = split(output);
+        assert_eq!(code, 2, "{arguments:?}: {err}");
+        assert!(
+            err.starts_with("stiction: [output] standard output: "),
+            "{err}"
+        );
+    }
+}
+
+/// A number out of range is told what is allowed, with its sign.
+#[test]
+fn a_negative_number_is_a_number() {
+    let bench = Bench::new();
+    bench.log("log.csv", 1000);
+    for (option, said) in [
+        (
+            "--seed",
+            "invalid value '-1' for '--seed <N>': a whole number from 0 to 18446744073709551615 is allowed",
+        ),
+        ("--threads", "-1 is not in 1..=1024"),
+        ("--split", "--split -1; a number between 0 and 1"),
+    ] {
+        let (code, _, err) = bench.run(&with(&[option, "-1", "--out", "a"]));
+        assert_eq!(code, 2, "{err}");
+        assert!(err.contains(said), "{err}");
+        assert!(!err.contains("-- -1"), "{err}");
+    }
+}
+
+/// What would steer a terminal, in a file, does not reach it.
+#[test]
+fn control_characters_of_files_are_written_out() {
+    let bench = Bench::new();
+    bench.log("log.csv", 4000);
+    let axis = "[columns]\nforce = \"a\\u001b]0;x\\u0007\\u009b2J\\nb\"\n";
+    std::fs::write(bench.path("axis.toml"), axis).unwrap();
+    let (code, _, err) = bench.run(&["check", "log.csv", "--axis", "axis.toml"]);
+    assert_eq!(code, 2, "{err}");
+    assert_eq!(
+        err.trim_end().chars().find(|c| c.is_control()),
+        None,
+        "{err:?}"
+    );
+    assert!(err.contains("u{1b}]0;x"), "{err}");
+}
+
+/// What an axis file names and its log does not have is an error of that file, with any method.
+#[test]
+fn an_axis_file_that_does_not_fit_the_log() {
+    let bench = Bench::new();
+    bench.log("log.csv", 900);
+    for (text, said) in [
+        (
+            "[terms]\ncoulomb_load = true",
+            "line 2, column 16, terms.coulomb_load: log.csv: no load column",
+        ),
+        (
+            "[controller]\nkind = \"p-p\"\nposition_gain = \"40 1/s\"\nspeed_gain = \"3 kg\"",
+            "line 4, column 14, controller.speed_gain: \"3 kg\"; give it in ",
+        ),
+        (
+            "[conditioning]\nsource_cutoff = \"499.999 Hz\"",
+            "line 2, column 17, conditioning.source_cutoff: log.csv: cut-off frequency in Hz is 499.999; \
+             allowed: from 0.005 to 499.995, below half the sample rate",
+        ),
+        (
+            "[log]\ncrop = [\"5 s\", \"6 s\"]",
+            "line 2, column 8, log.crop: log.csv: crop from 5 to 6 s keeps no sample",
+        ),
+        (
+            "[text]\npreamble = 1000",
+            "line 2, column 12, text.preamble: log.csv: ",
+        ),
+    ] {
+        std::fs::write(bench.path("axis.toml"), text).unwrap();
+        let (code, _, err) = bench.run(&["check", "log.csv", "--axis", "axis.toml"]);
+        assert_eq!(code, 2, "{text}: {err}");
+        assert!(err.contains(&format!("] axis.toml: {said}")), "{err}");
+    }
+}
+
 #[test]
 fn exit_codes() {
     let bench = Bench::new();

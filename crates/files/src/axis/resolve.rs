@@ -6,12 +6,13 @@ mod simulation;
 mod terms;
 
 use super::values::Axis;
-use crate::config::{Given, Source, Table};
+use crate::config::{Given, Places, Source, Table};
 use crate::error::Error;
 use resolver::{FORCES, LENGTHS, Resolver, SPEEDS};
 use std::path::Path;
 use stiction_identify::{Conditioning, Cutoff, Source as Signal};
-use stiction_log::text::{Decimal, Separator, TextOptions};
+use stiction_log::mapping::{FORCE_LIMITS, RATES, RESOLUTIONS, WRAPS};
+use stiction_log::text::{Decimal, MAX_PREAMBLE_LINES, Separator, TextOptions};
 use stiction_log::{Dimension, Mapping, Motion, Wrap};
 
 /// Largest decimation: 10 kHz down to 1 Hz.
@@ -53,12 +54,13 @@ fn resolve(text: &str, file: &Path) -> Result<Axis, Error> {
     resolver.axis(&root, &mut axis)?;
     root.end()?;
     axis.tied = resolver.tied.into_inner();
+    axis.places = Places::of(&source, &entries);
     Ok(axis)
 }
 
 impl Resolver {
     fn axis(&self, root: &Table<'_>, axis: &mut Axis) -> Result<(), Error> {
-        let name = root.text("name")?.map(str::to_string);
+        let name = root.line("name")?.map(str::to_string);
         axis.name = name.filter(|name| !name.trim().is_empty());
         self.mapping(root, &mut axis.mapping)?;
         text_options(root, &mut axis.text)?;
@@ -80,15 +82,20 @@ impl Resolver {
             Some("linear") => Some(Motion::Linear),
             Some(_) => Some(Motion::Rotary),
         };
-        mapping.rate_hz = self.positive(root.get("rate"), &[Dimension::FREQUENCY])?;
+        let within = |given: Option<Given<'_>>, dimensions: &[Dimension], range| {
+            given
+                .map(|given| self.within(&given, dimensions, range))
+                .transpose()
+        };
+        mapping.rate_hz = within(root.get("rate"), &[Dimension::FREQUENCY], &RATES)?;
         columns::columns(root, mapping)?;
         let Some(log) = root.table("log")? else {
             return Ok(());
         };
-        let wrap = self.positive(log.get("wrap"), &LENGTHS)?;
+        let wrap = within(log.get("wrap"), &LENGTHS, &WRAPS)?;
         mapping.wrap = wrap.map(|period| Wrap { period });
-        mapping.resolution = self.positive(log.get("resolution"), &LENGTHS)?;
-        mapping.force_limit = self.positive(log.get("force_limit"), &FORCES)?;
+        mapping.resolution = within(log.get("resolution"), &LENGTHS, &RESOLUTIONS)?;
+        mapping.force_limit = within(log.get("force_limit"), &FORCES, &FORCE_LIMITS)?;
         if let Some(given) = log.get("crop") {
             mapping.crop = Some(crop(&given)?);
         }
@@ -124,10 +131,10 @@ impl Resolver {
         let Some(given) = given else {
             return Ok(Cutoff::Auto);
         };
-        match given.as_text() {
-            Some("auto") => Ok(Cutoff::Auto),
-            Some("off") => Ok(Cutoff::Off),
-            _ => self
+        match given.or_word(&["auto", "off"]) {
+            (_, Some("auto")) => Ok(Cutoff::Auto),
+            (_, Some(_)) => Ok(Cutoff::Off),
+            (given, None) => self
                 .above_zero(&given, &[Dimension::FREQUENCY])
                 .map(Cutoff::Hz),
         }
@@ -136,13 +143,12 @@ impl Resolver {
 
 /// Two times from the first sample, s.
 fn crop(given: &Given<'_>) -> Result<(f64, f64), Error> {
-    let allowed =
-        "two times from the first sample, the first before the second, such as [\"1 s\", \"20 s\"]";
+    let allowed = "two times from the first sample, from 0 s on, the first before the second, such as [\"1 s\", \"20 s\"]";
     let list = given.as_list().unwrap_or_default();
     let [from, to] = list.as_slice() else {
         return Err(given.refused(allowed));
     };
-    let time = |given: &Given<'_>| Ok::<f64, Error>(given.value(&[Dimension::TIME])?.0);
+    let time = |given: &Given<'_>| Ok::<f64, Error>(given.not_negative(&[Dimension::TIME])?.0);
     let (a, b) = (time(from)?, time(to)?);
     if a >= b {
         let found = format!("{} to {}", from.shown(), to.shown());
@@ -157,7 +163,7 @@ fn text_options(root: &Table<'_>, out: &mut TextOptions) -> Result<(), Error> {
     };
     out.header = table.flag("header")?;
     out.preamble = table
-        .count("preamble", 0, u64::from(u32::MAX))?
+        .count("preamble", 0, MAX_PREAMBLE_LINES as u64)?
         .map(|n| n as usize);
     if let Some(given) = table.get("separator") {
         out.separator = Some(match given.as_text() {
@@ -166,15 +172,22 @@ fn text_options(root: &Table<'_>, out: &mut TextOptions) -> Result<(), Error> {
             Some("," | "comma") => Separator::Comma,
             Some("|" | "pipe") => Separator::Pipe,
             Some(" " | "blanks") => Separator::Blanks,
-            _ => return Err(given.refused("tab, semicolon, comma, pipe or blanks")),
+            _ => {
+                let allowed = "tab, semicolon (;), comma (,), pipe (|) or blanks";
+                return Err(given.refused(allowed));
+            }
         });
     }
     if let Some(given) = table.get("decimal") {
         out.decimal = Some(match given.as_text() {
             Some("." | "point") => Decimal::Point,
             Some("," | "comma") => Decimal::Comma,
-            _ => return Err(given.refused("point or comma")),
+            _ => return Err(given.refused("point (.) or comma (,)")),
         });
+        if out.separator == Some(Separator::Comma) && out.decimal == Some(Decimal::Comma) {
+            let found = "a comma, and the separator is one too".into();
+            return Err(given.refuse(found, "only one of the two can be a comma"));
+        }
     }
     table.end()
 }

@@ -2,11 +2,14 @@
 
 use super::gain::ControllerValues;
 use super::tied::Tied;
+use crate::config::Places;
 use crate::error::Error;
 use std::path::PathBuf;
-use stiction_identify::{Conditioning, Delay, Hold, Terms};
+use stiction_codes::Code;
+use stiction_identify::{Conditioning, Delay, Dependence, Hold, Terms};
 use stiction_log::text::TextOptions;
 use stiction_log::{Log, Mapping, Motion};
+use stiction_number::short;
 
 /// Everything an axis file says, resolved; `Axis::default()` leaves all to detection.
 #[derive(Clone, Debug)]
@@ -40,6 +43,8 @@ pub struct Axis {
     /// Values whose unit fits one kind of axis only, checked when the log says which it is.
     pub(super) tied: Vec<Tied>,
     pub(super) file: PathBuf,
+    /// Where each key stands.
+    pub(super) places: Places,
 }
 
 impl Default for Axis {
@@ -63,6 +68,7 @@ impl Default for Axis {
             offset: None,
             tied: Vec::new(),
             file: PathBuf::new(),
+            places: Places::default(),
         }
     }
 }
@@ -85,11 +91,85 @@ impl Axis {
         if self.terms.gravity && log.motion == Motion::Linear {
             let allowed = "sin q and cos q need the angle of a rotary axis; gravity on a linear axis is \
                            the constant force";
-            return Err(self.misfit("terms.gravity: ", "true on a linear axis", allowed.into()));
+            let found = "true on a linear axis".into();
+            return Err(self.places.refuse("terms.gravity", found, allowed));
         }
+        self.check_pitches(log)?;
         let mut terms = self.terms.clone();
         terms.offset = self.offset.unwrap_or(!asymmetric);
         Ok(terms)
+    }
+
+    /// Refuses a pitch that the encoder cannot show.
+    fn check_pitches(&self, log: &Log) -> Result<(), Error> {
+        let Some(step) = self.mapping.resolution.or(log.quantum) else {
+            return Ok(());
+        };
+        let along = self.terms.dependences.iter().filter_map(|term| match term {
+            Dependence::CoulombPitch(pitch) => Some(*pitch),
+            _ => None,
+        });
+        let along: Vec<f64> = along.collect();
+        for (key, pitches) in [("cogging", &self.terms.cogging), ("coulomb_pitch", &along)] {
+            if let Some(i) = pitches.iter().position(|pitch| *pitch < step) {
+                let key = format!("terms.{key}[{}]", i + 1);
+                let unit = log.motion.position().si_text();
+                let found = format!("{} {unit}", short(pitches[i]));
+                let allowed = format!("at least the encoder step, {} {unit}", short(step));
+                return Err(self.places.refuse(&key, found, &allowed));
+            }
+        }
+        Ok(())
+    }
+
+    /// An error of this code about the value of a key, such as `log.crop`; `None` where the file does not give it.
+    pub fn refuse(
+        &self,
+        key: &str,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+        code: Code,
+    ) -> Option<Error> {
+        let key = self.written(key)?;
+        Some(Error::Misfit {
+            file: self.file.clone(),
+            place: self.places.place(&key),
+            found: found.into(),
+            allowed: allowed.into(),
+            code,
+        })
+    }
+
+    /// The refusal of a recording, at the key of this file that it is about, where it is about one.
+    pub fn at_key(&self, error: stiction_log::Error) -> Error {
+        match error.setting {
+            Some(key) => self.at(key, error),
+            None => error.into(),
+        }
+    }
+
+    /// The refusal of a recording, at this key, where the file has it.
+    pub fn at(&self, key: &str, error: stiction_log::Error) -> Error {
+        let mut found = error.clone();
+        let allowed = std::mem::take(&mut found.allowed);
+        let refused = self.refuse(key, found.to_string(), allowed, error.kind.code());
+        refused.unwrap_or_else(|| error.into())
+    }
+
+    /// A key as it stands in the file: itself, or the column whose part it is, under the name that the file has for it.
+    fn written(&self, key: &str) -> Option<String> {
+        let names = ["columns.force", "columns.torque", "columns.current"];
+        let under: Vec<String> = match key.strip_prefix(names[0]) {
+            Some(part) => names.iter().map(|name| format!("{name}{part}")).collect(),
+            None => vec![key.into()],
+        };
+        let column = |key: &String| match key.rsplit_once('.') {
+            Some((column, _)) if column.starts_with("columns.") => Some(column.to_string()),
+            _ => None,
+        };
+        let columns = under.iter().filter_map(column);
+        let mut all = under.iter().cloned().chain(columns);
+        all.find(|key| self.places.has(key))
     }
 
     pub(super) fn misfit(&self, place: &str, found: &str, allowed: String) -> Error {

@@ -2,7 +2,10 @@
 
 use super::source::Source;
 use super::table::Table;
+use super::typed;
 use crate::error::Error;
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
 use stiction_log::{Dimension, Value};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -20,11 +23,25 @@ pub(crate) struct Given<'a> {
     /// The key with the tables that it is in, such as `path[2].amplitude`.
     pub(super) key: String,
     value: &'a Spanned<DeValue<'a>>,
+    /// Words that are allowed too, for messages.
+    words: &'static [&'static str],
 }
 
 impl<'a> Given<'a> {
     pub(super) fn new(source: Source<'a>, key: String, value: &'a Spanned<DeValue<'a>>) -> Self {
-        Given { source, key, value }
+        Given {
+            source,
+            key,
+            value,
+            words: &[],
+        }
+    }
+
+    /// The same where these words are allowed besides what is asked for next: the word, if it is one of them.
+    pub fn or_word(mut self, words: &'static [&'static str]) -> (Self, Option<&'static str>) {
+        self.words = words;
+        let word = words.iter().find(|word| self.as_text() == Some(word));
+        (self, word.copied())
     }
 
     /// Where it stands, as errors begin: `line 3, column 8, mass: `.
@@ -43,7 +60,15 @@ impl<'a> Given<'a> {
 
     /// A value that makes no sense: what was found, what is allowed.
     pub fn refuse(&self, found: String, allowed: &str) -> Error {
-        self.source.error(self.place(), found, allowed)
+        let words: Vec<String> = self.words.iter().map(|w| format!("{w:?}")).collect();
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        match words.as_slice() {
+            [] => self.source.error(self.place(), found, allowed),
+            words => {
+                let allowed = format!("{allowed}; or {}", either(words));
+                self.source.error(self.place(), found, &allowed)
+            }
+        }
     }
 
     /// The same where the value as typed is all there is to say.
@@ -101,6 +126,27 @@ impl<'a> Given<'a> {
     /// Text in quotes.
     pub fn text(&self) -> Result<&'a str, Error> {
         self.as_text().ok_or_else(|| self.refused("text in quotes"))
+    }
+
+    /// The file that this names, from a folder, with its text; `what` it is to be, such as "an axis file", is for messages.
+    pub fn file(&self, folder: &Path, what: &str) -> Result<(PathBuf, String), Error> {
+        let name = self.path(what)?;
+        let file = folder.join(name);
+        match typed::text(&file, what) {
+            Ok(text) => Ok((file, text)),
+            Err((found, allowed)) => {
+                let found = format!("{}: {found}", file.display());
+                Err(self.refuse(found, &allowed))
+            }
+        }
+    }
+
+    /// The name of a file.
+    pub fn path(&self, what: &str) -> Result<&'a str, Error> {
+        match self.as_text() {
+            Some(name) if !name.trim().is_empty() => Ok(name),
+            _ => Err(self.refused(&format!("the path of {what}, in quotes"))),
+        }
     }
 
     /// True or false.
@@ -180,6 +226,21 @@ impl<'a> Given<'a> {
     /// The same of 0 or more.
     pub fn not_negative(&self, dimensions: &[Dimension]) -> Result<(f64, Dimension), Error> {
         self.within(dimensions, |x| x >= 0.0, "a finite value from 0")
+    }
+
+    /// A value with a unit of one of these dimensions within a range in SI.
+    pub fn among(
+        &self,
+        dimensions: &[Dimension],
+        range: &RangeInclusive<f64>,
+    ) -> Result<(f64, Dimension), Error> {
+        let (x, dimension) = self.positive(dimensions)?;
+        if range.contains(&x) {
+            return Ok((x, dimension));
+        }
+        let (low, high) = (range.start(), range.end());
+        let allowed = format!("from {low:e} to {high:e} {}", dimension.si_text());
+        Err(self.refused(&allowed))
     }
 
     fn within(

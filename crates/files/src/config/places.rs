@@ -26,24 +26,36 @@ impl Places {
         }
     }
 
+    /// Whether the file gives a key.
+    pub fn has(&self, key: &str) -> bool {
+        self.bytes.contains_key(key)
+    }
+
     /// An error at a key, or where the table (the file) starts that lacks it.
     pub fn refuse(&self, key: &str, found: String, allowed: &str) -> Error {
-        let source = Source {
-            file: &self.file,
-            text: &self.text,
-            page: "",
-        };
+        self.source().error(self.place(key), found, allowed)
+    }
+
+    /// The place of a key, or of the table (the file) that lacks it, as errors begin: `line 3, column 8, mass: `.
+    pub fn place(&self, key: &str) -> String {
         let mut known = key;
-        let place = loop {
+        loop {
             if let Some(&byte) = self.bytes.get(known) {
-                break format!("{}, {key}: ", source.at(byte));
+                return format!("{}, {key}: ", self.source().at(byte));
             }
             match known.rfind(['.', '[']) {
                 Some(end) => known = &known[..end],
-                None => break format!("{}, {key}: ", source.at(0)),
+                None => return format!("{}, {key}: ", self.source().at(0)),
             }
-        };
-        source.error(place, found, allowed)
+        }
+    }
+
+    fn source(&self) -> Source<'_> {
+        Source {
+            file: &self.file,
+            text: &self.text,
+            page: "",
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! A table of a configuration file, whose keys are asked for one by one. A key that nobody asked for is refused.
 
 use super::given::Given;
+use super::name::cut;
 use super::source::Source;
 use crate::error::Error;
 use std::cell::RefCell;
@@ -9,11 +10,12 @@ use stiction_log::Dimension;
 use toml::de::DeTable;
 
 /// Parameters of the engines that have another name in the files.
-const ALIASES: [(&str, &str); 6] = [
+const ALIASES: [(&str, &str); 7] = [
     ("peak_current", "peak_force"),
     ("current_lag", "current_loop"),
     ("resolution", "encoder"),
     ("adaptation_rate", "rate"),
+    ("adaptation_range", "range"),
     ("half_width", "width"),
     ("half_height", "height"),
 ];
@@ -100,6 +102,15 @@ impl<'a> Table<'a> {
     /// Text.
     pub fn text(&self, key: &'static str) -> Result<Option<&'a str>, Error> {
         self.get(key).map(|given| given.text()).transpose()
+    }
+
+    /// Text on one line, which tables and terminals can show.
+    pub fn line(&self, key: &'static str) -> Result<Option<&'a str>, Error> {
+        let text = self.text(key)?;
+        match text.filter(|text| text.trim().contains(char::is_control)) {
+            Some(_) => Err(self.refused(key, "text on one line, without control characters")),
+            None => Ok(text),
+        }
     }
 
     /// One of a few words.
@@ -210,6 +221,27 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// The same where the value as typed is all there is to say.
+    pub fn refused(&self, key: &str, allowed: &str) -> Error {
+        match self.find(key) {
+            Some(given) => given.refused(allowed),
+            None => self.refuse(key, "is missing".into(), allowed),
+        }
+    }
+
+    /// File and place of a key, within a message about another file.
+    pub fn where_is(&self, key: &str) -> String {
+        let place = match self.find(key) {
+            Some(given) => given.place(),
+            None => self.place(&format!("{}{key}", self.prefix)),
+        };
+        format!(
+            "{}: {}",
+            self.source.file.display(),
+            place.trim_end_matches(": ")
+        )
+    }
+
     /// Values that do not go together, as a constructor says it: at the key that it names, where the file has it.
     pub fn together(&self, error: &ParamError) -> Error {
         let alias = ALIASES.iter().find(|(name, _)| *name == error.name);
@@ -227,15 +259,6 @@ impl<'a> Table<'a> {
     /// The place of this table, with a name that it is to have in messages.
     fn place(&self, name: &str) -> String {
         format!("{}, {name}: ", self.source.at(self.start))
-    }
-}
-
-/// A key of a message is not longer than a line.
-fn cut(name: &str) -> String {
-    let name = name.escape_debug().to_string();
-    match name.char_indices().nth(60) {
-        Some((end, _)) => format!("{}...", &name[..end]),
-        None => name,
     }
 }
 

@@ -8,15 +8,19 @@ const MAX_BYTES: u64 = 1 << 20;
 
 /// The text of a file; `what` it is to be, such as "an axis file", is for messages.
 pub(crate) fn read(file: &Path, what: &str) -> Result<String, Error> {
-    let refuse = |found: String, allowed: String| Error::Config {
+    text(file, what).map_err(|(found, allowed)| Error::Config {
         file: file.to_path_buf(),
         place: String::new(),
         found,
         allowed,
-    };
+    })
+}
+
+/// The same; `Err` has what was found, and what is allowed.
+pub(super) fn text(file: &Path, what: &str) -> Result<String, (String, String)> {
     let unreadable = |e: std::io::Error| {
         let found = format!("cannot be read ({e})");
-        refuse(found, format!("give the path of {what}"))
+        (found, format!("give the path of {what}"))
     };
     let meta = std::fs::metadata(file).map_err(unreadable)?;
     if !meta.is_file() || meta.len() > MAX_BYTES {
@@ -25,12 +29,9 @@ pub(crate) fn read(file: &Path, what: &str) -> Result<String, Error> {
         } else {
             "not a file".into()
         };
-        return Err(refuse(
-            found,
-            format!("{what} is a text file of at most 1 MiB"),
-        ));
+        let allowed = format!("{what} is a text file of at most 1 MiB");
+        return Err((found, allowed));
     }
     let bytes = std::fs::read(file).map_err(unreadable)?;
-    String::from_utf8(bytes)
-        .map_err(|_| refuse("is not UTF-8 text".into(), "save it as UTF-8".into()))
+    String::from_utf8(bytes).map_err(|_| ("is not UTF-8 text".into(), "save it as UTF-8".into()))
 }

@@ -9,6 +9,14 @@ use stiction_number::four_digits as short;
 /// be above rounding, 1e-16 times the size of the matrix, and far below any correlation.
 const LARGEST_ASYMMETRY: f64 = 1e-9;
 
+/// Largest ratio of a standard deviation and the root of its variance, either way: both are the same number, widened in
+/// some procedures.
+const MOST_APART: f64 = 2.0;
+/// Part of a correlation that rounding may leave, dimensionless.
+const LEAST_PART: f64 = 1e-6;
+/// Correlation that may be left with a parameter that has no part of its own: the root of [`LEAST_PART`].
+const LARGEST_REST: f64 = 1e-3;
+
 /// What is wrong with the covariance.
 pub(super) fn fault(model: &ModelFile) -> Option<Fault> {
     let CovarianceEntry { names, matrix } = &model.covariance;
@@ -43,7 +51,85 @@ pub(super) fn fault(model: &ModelFile) -> Option<Fault> {
             return Some((element(i, i), found, allowed));
         }
     }
-    (0..names.len()).find_map(|i| (0..i).find_map(|j| apart(&model.covariance, i, j)))
+    (0..names.len())
+        .find_map(|i| (0..i).find_map(|j| apart(&model.covariance, i, j)))
+        .or_else(|| (0..names.len()).find_map(|i| against_deviation(model, i)))
+        .or_else(|| {
+            let (i, j) = root(matrix).err()?;
+            let found = match i == j {
+                true => format!("no covariance, seen at {}", names[i]),
+                false => format!("no covariance, seen at {} and {}", names[j], names[i]),
+            };
+            let allowed = "a matrix without negative eigenvalues".into();
+            Some((element(i, j), found, allowed))
+        })
+}
+
+/// Whether a variance says another thing than the standard deviation of its parameter. A zero row is allowed for what the
+/// data do not determine at all.
+fn against_deviation(model: &ModelFile, i: usize) -> Option<Fault> {
+    let CovarianceEntry { names, matrix } = &model.covariance;
+    let parameter = model.parameter.iter().find(|p| p.name == names[i])?;
+    let (name, variance) = (&names[i], matrix[i][i]);
+    let fits = |std: f64| {
+        let ratio = libm::sqrt(variance) / std;
+        (1.0 / MOST_APART..=MOST_APART).contains(&ratio)
+    };
+    let identified = parameter.identifiable && parameter.origin == "identified";
+    let found = match parameter.std {
+        _ if variance == 0.0 && identified => {
+            format!("a variance of 0 for {name}, which was identified")
+        }
+        Some(std) if variance > 0.0 && std > 0.0 && !fits(std) => {
+            let (variance, std) = (short(variance), short(std));
+            format!("a variance of {variance} for {name}, whose std is {std}")
+        }
+        _ => return None,
+    };
+    let allowed = "the square of its standard deviation".into();
+    Some((element(i, i), found, allowed))
+}
+
+/// A lower triangular square root of a covariance, or the row and column where it shows that the matrix is none.
+///
+/// Cholesky on the correlations, so that units do not count. A parameter that hangs on those before it, or that the data do
+/// not determine, has no part of its own.
+pub(crate) fn root(matrix: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, (usize, usize)> {
+    let n = matrix.len();
+    let size: Vec<f64> = (0..n).map(|i| libm::sqrt(matrix[i][i])).collect();
+    let mut lower = vec![vec![0.0; n]; n];
+    for i in 0..n {
+        for j in 0..=i {
+            let scale = size[i] * size[j];
+            if scale == 0.0 {
+                if matrix[i][j] != 0.0 {
+                    return Err((i, j));
+                }
+                continue;
+            }
+            let sum: f64 = (0..j).map(|k| lower[i][k] * lower[j][k]).sum();
+            let left = matrix[i][j] / scale - sum;
+            let own = lower[j][j] > LEAST_PART;
+            let none = match i == j {
+                true => left < -LEAST_PART,
+                false => !own && left.abs() > LARGEST_REST,
+            };
+            if none || !left.is_finite() {
+                return Err((i, j));
+            }
+            lower[i][j] = if i == j {
+                libm::sqrt(left.max(0.0))
+            } else if own {
+                left / lower[j][j]
+            } else {
+                0.0
+            };
+        }
+    }
+    for (row, size) in lower.iter_mut().zip(&size) {
+        row.iter_mut().for_each(|x| *x *= size);
+    }
+    Ok(lower)
 }
 
 /// Whether an element is no number, or not that on the other side of the diagonal.

@@ -1,7 +1,7 @@
 //! What cannot be of a model file that parsed: its numbers, units and names against its law.
 
 use super::covariance;
-use super::form::ModelFile;
+use super::form::{ModelFile, ModelParameter};
 use super::refusal::Fault;
 use crate::symbols;
 use stiction_log::{Motion, Unit};
@@ -131,7 +131,7 @@ pub(super) fn fault(model: &ModelFile) -> Option<Fault> {
         return Some(fault);
     }
     (0..model.parameter.len())
-        .find_map(|i| parameter(model, law, motion, i))
+        .find_map(|i| parameter(model, law, motion, i).or_else(|| contradiction(model, i)))
         .or_else(|| directions(model))
         .or_else(|| covariance::fault(model))
 }
@@ -215,6 +215,52 @@ fn parameter(model: &ModelFile, law: LawKind, motion: Motion, i: usize) -> Optio
         return None;
     };
     Some((key("value"), format!("{name} = {value}"), allowed.into()))
+}
+
+/// What of a parameter contradicts the rest of it.
+fn contradiction(model: &ModelFile, i: usize) -> Option<Fault> {
+    let p = &model.parameter[i];
+    let (field, found, allowed) = against_itself(p)?;
+    let key = format!("parameter[{}].{field}", i + 1);
+    Some((key, format!("{}: {found}", p.name), allowed.into()))
+}
+
+/// The same with the key within its table.
+fn against_itself(p: &ModelParameter) -> Option<(&'static str, String, &'static str)> {
+    let shown = |text: &str| format!("{:?}", text.chars().take(60).collect::<String>());
+    if !["identified", "given"].contains(&p.origin.as_str()) {
+        let found = format!("origin = {}", shown(&p.origin));
+        return Some(("origin", found, "\"identified\" or \"given\""));
+    }
+    let kinds = ["linear", "profile"];
+    if let Some(kind) = p.interval.as_deref().filter(|kind| !kinds.contains(kind)) {
+        let found = format!("interval = {}", shown(kind));
+        return Some(("interval", found, "\"linear\" or \"profile\""));
+    }
+    if p.interval.is_some() && p.ci95.is_none() {
+        let found = "interval without ci95".into();
+        return Some(("interval", found, "both, or neither"));
+    }
+    if p.origin == "given" {
+        let measured = [("std", p.std.is_some()), ("ci95", p.ci95.is_some())];
+        let (field, _) = measured.into_iter().find(|(_, has)| *has)?;
+        let found = format!("{field} of a parameter that was given");
+        return Some((field, found, "none: only what was identified has one"));
+    }
+    let [low, high] = p.ci95?;
+    if !(low..=high).contains(&p.value) {
+        let found = format!("ci95 = [{low:?}, {high:?}] without its value {:?}", p.value);
+        return Some(("ci95", found, "an interval that holds the value"));
+    }
+    // A profile follows the cost, a linear interval the deviation: to each side nearly twice that.
+    let linear = p.interval.as_deref() != Some("profile");
+    let std = p.std.filter(|std| linear && high - low < *std)?;
+    let found = format!("ci95 = [{low:?}, {high:?}], narrower than std = {std:?}");
+    Some((
+        "ci95",
+        found,
+        "an interval that fits the standard deviation",
+    ))
 }
 
 /// A top speed that cannot be.

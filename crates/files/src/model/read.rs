@@ -7,6 +7,9 @@ use crate::error::Error;
 use crate::result::CovarianceEntry;
 use std::path::Path;
 
+/// What a model file is, for messages.
+pub(crate) const MODEL: &str = "a model.toml as stiction identify writes it";
+
 /// A model that was read from a file, for messages about its values.
 pub struct ReadModel {
     /// The model.
@@ -20,7 +23,7 @@ impl ReadModel {
     /// # Errors
     /// As [`ModelFile::read`].
     pub fn read(file: &Path) -> Result<Self, Error> {
-        let text = crate::config::read(file, "a model.toml as stiction identify writes it")?;
+        let text = crate::config::read(file, MODEL)?;
         Self::parse(&text, file)
     }
 
@@ -50,12 +53,27 @@ impl ReadModel {
 
     /// The same of a parameter by its name, or of all of them where the model has no such parameter.
     pub fn refuse_parameter(&self, name: &str, found: impl Into<String>, allowed: &str) -> Error {
-        let index = self.model.parameter.iter().position(|p| p.name == name);
-        let key = match index {
+        self.refuse(&self.value_key(name), found, allowed)
+    }
+
+    /// Where a key stands, or the table that lacks it, as errors begin: `line 4, column 7, law: `.
+    pub fn place(&self, key: &str) -> String {
+        self.places.place(key)
+    }
+
+    /// Where the value of a parameter stands, or all of them where the model has no such parameter, as errors begin:
+    /// `line 28, column 9, parameter[2].value: `.
+    pub fn place_of_parameter(&self, name: &str) -> String {
+        self.places.place(&self.value_key(name))
+    }
+
+    fn value_key(&self, name: &str) -> String {
+        let sided = format!("{name}_pos");
+        let of = |name: &str| self.model.parameter.iter().position(|p| p.name == name);
+        match of(name).or_else(|| of(&sided)) {
             Some(i) => format!("parameter[{}].value", i + 1),
             None => "parameter".into(),
-        };
-        self.refuse(&key, found, allowed)
+        }
     }
 }
 

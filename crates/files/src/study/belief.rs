@@ -1,6 +1,7 @@
 //! Wrong parameters: what a compensator is given instead of those of the axis.
 
 use super::model::Model;
+use crate::model::covariance::root;
 use crate::result::CovarianceEntry;
 use stiction_friction::{Damping, LuGre};
 use stiction_number::four_digits as short;
@@ -33,6 +34,15 @@ const MOST_TRIES: u64 = 1000;
 /// Largest standard deviation of what is drawn, of its value.
 const MOST_SPREAD: f64 = 1e6;
 
+/// Why nothing can be drawn.
+#[derive(Debug)]
+pub(super) struct Undrawn {
+    /// The key of the model file; `None` for a known axis, which has no file.
+    pub key: Option<String>,
+    /// In words.
+    pub found: String,
+}
+
 impl Family {
     /// The parameters of the axis itself.
     pub fn exact(truth: Belief) -> Self {
@@ -48,7 +58,7 @@ impl Family {
         let beliefs = known::corners(&truth.law, by).map(|law| Belief { law, ..truth });
         Family {
             kind: "corners",
-            name: format!("±{} %", stiction_number::short(100.0 * by)),
+            name: format!("±{} %", percent(by)),
             beliefs: beliefs.collect(),
         }
     }
@@ -56,17 +66,30 @@ impl Family {
     /// Parameters drawn from the normal distribution of the estimate, cut to what a law can have, with sigma1 capped or
     /// constant as `truth` has it. `mass` is the one to believe where the covariance knows none.
     ///
-    /// `Err` says in words why nothing can be drawn.
-    pub fn draws(
+    /// `Err` says why nothing can be drawn.
+    pub(super) fn draws(
         model: &Model,
         truth: Belief,
         mass: Option<f64>,
         count: u64,
         seed: u64,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, Undrawn> {
         let Some(covariance) = &model.covariance else {
-            return Err("a known axis has no covariance".into());
+            return Err(Undrawn {
+                key: None,
+                found: "a known axis has no covariance".into(),
+            });
         };
+        let refused = |key: &str, found: &str| {
+            Err(Undrawn {
+                key: Some(key.into()),
+                found: found.into(),
+            })
+        };
+        let varies = (0..covariance.names.len()).any(|i| covariance.matrix[i][i] > 0.0);
+        if !varies {
+            return refused("covariance.names", "the covariance knows of no error");
+        }
         determined(model, covariance)?;
         let spread = Spread::of(covariance)?;
         let names: Vec<Option<Name>> = covariance.names.iter().map(|n| n.parse().ok()).collect();
@@ -76,7 +99,7 @@ impl Family {
         let mut tries = 0;
         while (beliefs.len() as u64) < count {
             if tries == MOST_TRIES * count {
-                return Err("hardly a draw from the covariance is a law".into());
+                return refused("covariance.matrix", "hardly a draw from it is a law");
             }
             tries += 1;
             let off = spread.draw(&mut noise);
@@ -92,7 +115,7 @@ impl Family {
             });
             let Ok(law) = law else { continue };
             let Some(mass) = mass.or_else(|| values.get(Quantity::Mass)) else {
-                return Err("the model has no mass".into());
+                return refused("parameter", "no mass");
             };
             if mass > 0.0 {
                 beliefs.push(Belief { law, mass });
@@ -106,6 +129,14 @@ impl Family {
     }
 }
 
+/// A part below 1 in percent, in few digits; in all where few would make it the whole.
+fn percent(by: f64) -> String {
+    match stiction_number::short(100.0 * by) {
+        rounded if rounded == "100" => stiction_number::shortest(100.0 * by),
+        rounded => rounded,
+    }
+}
+
 /// The damping of this size in the form of another.
 fn like(form: Damping<f64>, sigma1: f64) -> Damping<f64> {
     match form {
@@ -116,7 +147,7 @@ fn like(form: Damping<f64>, sigma1: f64) -> Damping<f64> {
 
 /// Refuses a variance that makes nearly every draw absurd, as of a parameter that the data did not determine. What may
 /// be 0 is measured by the Coulomb friction, and that at the Stribeck velocity.
-fn determined(model: &Model, covariance: &CovarianceEntry) -> Result<(), String> {
+fn determined(model: &Model, covariance: &CovarianceEntry) -> Result<(), Undrawn> {
     let values = model.values();
     let of = |quantity| values.on(quantity, Side::Positive).map_or(0.0, f64::abs);
     let damping = match of(Quantity::StribeckVelocity) {
@@ -143,9 +174,12 @@ fn determined(model: &Model, covariance: &CovarianceEntry) -> Result<(), String>
         let std = libm::sqrt(covariance.matrix[i][i]);
         if std > MOST_SPREAD * size {
             let (value, std) = (short(value), short(std));
-            return Err(format!(
-                "{name} = {value} has a standard deviation of {std}: the data did not determine it"
-            ));
+            return Err(Undrawn {
+                key: Some(format!("covariance.matrix[{0}][{0}]", i + 1)),
+                found: format!(
+                    "{name} = {value} has a standard deviation of {std}: the data did not determine it"
+                ),
+            });
         }
     }
     Ok(())
@@ -157,38 +191,14 @@ struct Spread {
 }
 
 impl Spread {
-    /// Cholesky on the correlations, so that units do not count. A parameter that hangs on those before it, or that the
-    /// data do not determine, has no part of its own.
-    fn of(covariance: &CovarianceEntry) -> Result<Self, String> {
-        let matrix = &covariance.matrix;
-        let n = matrix.len();
-        let size: Vec<f64> = (0..n).map(|i| libm::sqrt(matrix[i][i])).collect();
-        let mut lower = vec![vec![0.0; n]; n];
-        for i in 0..n {
-            for j in 0..=i {
-                let scale = size[i] * size[j];
-                if scale == 0.0 {
-                    continue;
-                }
-                let sum: f64 = (0..j).map(|k| lower[i][k] * lower[j][k]).sum();
-                let left = matrix[i][j] / scale - sum;
-                if !left.is_finite() || (i == j && left < -1e-6) {
-                    let name = &covariance.names[i];
-                    return Err(format!("the matrix is no covariance, seen at {name}"));
-                }
-                lower[i][j] = if i == j {
-                    libm::sqrt(left.max(0.0))
-                } else if lower[j][j] > 1e-6 {
-                    left / lower[j][j]
-                } else {
-                    0.0
-                };
-            }
+    fn of(covariance: &CovarianceEntry) -> Result<Self, Undrawn> {
+        match root(&covariance.matrix) {
+            Ok(lower) => Ok(Spread { lower }),
+            Err((i, j)) => Err(Undrawn {
+                key: Some(format!("covariance.matrix[{}][{}]", i + 1, j + 1)),
+                found: format!("no covariance, seen at {}", covariance.names[i]),
+            }),
         }
-        for (row, size) in lower.iter_mut().zip(&size) {
-            row.iter_mut().for_each(|x| *x *= size);
-        }
-        Ok(Spread { lower })
     }
 
     fn draw(&self, noise: &mut Noise) -> Vec<f64> {

@@ -24,6 +24,8 @@ pub struct Model {
     pub covariance: Option<CovarianceEntry>,
     /// What to beware of.
     pub warnings: Vec<Warning>,
+    /// The file that it was read from, for messages about its values.
+    pub(super) read: Option<ReadModel>,
 }
 
 /// One parameter.
@@ -82,12 +84,21 @@ impl Model {
             parameters,
             covariance: None,
             warnings: Vec::new(),
+            read: None,
         })
     }
 
     /// A model file as identification wrote it.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        let read = ReadModel::read(file)?;
+        Self::of(ReadModel::read(file)?)
+    }
+
+    /// The same from its text; `file` is named in errors.
+    pub(super) fn parse(text: &str, file: &Path) -> Result<Self, Error> {
+        Self::of(ReadModel::parse(text, file)?)
+    }
+
+    fn of(read: ReadModel) -> Result<Self, Error> {
         let model = &read.model;
         let kind = match LawKind::from_name(&model.law) {
             Some(kind @ (LawKind::LuGre | LawKind::Dahl)) => kind,
@@ -149,17 +160,21 @@ impl Model {
             })
         });
         let name = model.name.as_deref().unwrap_or("an identified axis");
-        let model = Model {
+        let found = Model {
             motion,
             kind,
             origin: format!("{name}, identified by {}", model.source.method),
             parameters: parameters.collect(),
             covariance: Some(model.covariance.clone()),
             warnings,
+            read: None,
         };
         // What the parameters of a file do not allow is said of that file.
-        match model.values().lugre() {
-            Ok(_) => Ok(model),
+        match found.values().lugre() {
+            Ok(_) => Ok(Model {
+                read: Some(read),
+                ..found
+            }),
             Err(LawError::Value(e)) => {
                 let found = format!("{} = {}", e.name, stiction_number::four_digits(e.value));
                 Err(read.refuse_parameter(e.name, found, e.allowed))
@@ -168,6 +183,20 @@ impl Model {
                 let allowed = "every parameter of the law";
                 Err(read.refuse("parameter", e.to_string(), allowed))
             }
+        }
+    }
+
+    /// A value of a parameter that cannot be used, at its place in the file that it was read from.
+    pub(super) fn refuse_parameter(&self, name: &str, found: String, allowed: &str) -> Error {
+        match &self.read {
+            Some(read) => read.refuse_parameter(name, found, allowed),
+            // A known axis is right as it is.
+            None => Error::Config {
+                file: self.origin.clone().into(),
+                place: format!("{name}: "),
+                found,
+                allowed: allowed.into(),
+            },
         }
     }
 

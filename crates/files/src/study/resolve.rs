@@ -10,11 +10,11 @@ mod inputs;
 mod machine;
 mod paths;
 
-use super::belief::{Belief, Family};
+use super::belief::{Belief, Family, Undrawn};
 use super::plan::{Machine, Named, Study};
 use crate::config::{Source, Table};
 use crate::error::Error;
-use entry::{few, once};
+use entry::{few, once, seen};
 use inputs::input;
 use std::path::Path;
 use stiction_log::Dimension;
@@ -43,7 +43,7 @@ fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
     };
     let entries = source.parse()?;
     let root = Table::root(source, &entries);
-    let name = match root.text("name")?.map(str::trim) {
+    let name = match root.line("name")?.map(str::trim) {
         None | Some("") => file
             .file_stem()
             .map_or_else(String::new, |s| s.to_string_lossy().into_owned()),
@@ -81,13 +81,26 @@ fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
     };
     for table in root.tables("path", MOST_ENTRIES)? {
         let path = paths::path(&table, folder, &mut study)?;
-        few(&table, path.trajectory.duration(), study.machine.rate)?;
+        let (motion, machine) = (&path.trajectory, &study.machine);
+        let span = (motion.duration(), machine.rate);
+        few(&table, span.0, span.1)?;
+        let unit = machine.motion.position().si_text();
+        let step = machine.encoder.resolution();
+        seen(&table, span, step, &unit, |t| motion.at(t).position)?;
         once(&table, study.paths.iter().map(|p| &p.name), &path.name)?;
         study.paths.push(path);
     }
     for table in root.tables("contour", MOST_ENTRIES)? {
         let contour = contours::contour(&table, folder, &mut study)?;
-        few(&table, contour.motion.duration(), study.machine.rate)?;
+        let (motion, machine) = (&contour.motion, &study.machine);
+        let span = (motion.duration(), machine.rate);
+        few(&table, span.0, span.1)?;
+        let unit = machine.motion.position().si_text();
+        let second = study.second.as_ref().map(|second| &second.machine);
+        for (i, machine) in [Some(machine), second].into_iter().flatten().enumerate() {
+            let step = machine.encoder.resolution();
+            seen(&table, span, step, &unit, |t| motion.at(t).axes[i].position)?;
+        }
         let paths = study.paths.iter().map(|p| &p.name);
         let taken = paths.chain(study.contours.iter().map(|c| &c.name));
         once(&table, taken, &contour.name)?;
@@ -95,7 +108,7 @@ fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
     }
     for table in root.tables("controller", MOST_ENTRIES)? {
         contours::controller(&table, &mut study)?;
-        let controller = controllers::controller(&table, &study.machine)?;
+        let controller = controllers::controller(&table, &study.machine, study.second.is_some())?;
         once(&table, names(&study.controllers), &controller.name)?;
         study.controllers.push(controller);
     }
@@ -142,8 +155,7 @@ fn families(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
                 let by = table.value("by", Dimension::ONE)?;
                 let by = table.required("by", by, "a part such as \"10 %\"")?;
                 if !(by > 0.0 && by < 1.0) {
-                    let allowed = "above 0 and below 100 %";
-                    return Err(table.refuse("by", by.to_string(), allowed));
+                    return Err(table.refused("by", "above 0 and below 100 %"));
                 }
                 let of = |machine: &Machine| Family::corners(machine.truth(), by);
                 others.extend(study.second.as_ref().map(|s| of(&s.machine).beliefs));
@@ -151,8 +163,20 @@ fn families(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
             }
             _ => {
                 let draws = table.count("draws", 2, 10_000)?.unwrap_or(100);
-                let refused = |found| {
-                    table.refuse("kind", found, "a model with a covariance, or \"corners\"")
+                let refused = |machine: &Machine, e: Undrawn| {
+                    let allowed = "a model with a covariance, or \"corners\"";
+                    let asked = table.refuse("kind", e.found.clone(), allowed);
+                    match (e.key, &machine.model.read) {
+                        (Some(key), Some(model)) => {
+                            let found = format!(
+                                "{}, and draws from it are asked for in {}",
+                                e.found,
+                                table.where_is("kind")
+                            );
+                            model.refuse(&key, found, "a covariance as stiction identify writes it")
+                        }
+                        _ => asked,
+                    }
                 };
                 if let Some(second) = &study.second {
                     // Draws of its own; a known axis has no covariance and is believed as it is.
@@ -160,10 +184,15 @@ fn families(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
                     let machine = &second.machine;
                     others.push(match machine.model.covariance {
                         None => vec![machine.truth(); draws as usize],
-                        Some(_) => machine.draws(draws, seed).map_err(refused)?.beliefs,
+                        Some(_) => {
+                            let drawn = machine.draws(draws, seed);
+                            drawn.map_err(|e| refused(machine, e))?.beliefs
+                        }
                     });
                 }
-                study.machine.draws(draws, study.seed).map_err(refused)?
+                let machine = &study.machine;
+                let drawn = machine.draws(draws, study.seed);
+                drawn.map_err(|e| refused(machine, e))?
             }
         };
         table.end()?;
@@ -187,7 +216,7 @@ impl Machine {
     }
 
     /// Draws from the covariance of the model. A mass that the study gives is known.
-    fn draws(&self, count: u64, seed: u64) -> Result<Family, String> {
+    fn draws(&self, count: u64, seed: u64) -> Result<Family, Undrawn> {
         let given = self.given_mass.then_some(self.mass);
         Family::draws(&self.model, self.truth(), given, count, seed)
     }

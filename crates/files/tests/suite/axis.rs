@@ -184,8 +184,12 @@ fn documented_examples_are_accepted() {
     assert!(seen > 0, "no example in {}", file.display());
 }
 
+/// Lists within lists, in the second line.
+const DEEP: &str = "# [\"\nname = [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[";
+
 #[test]
 fn refusals() {
+    let deep_tables = format!("kind = \"linear\"\nx{} = 1", ".a".repeat(200));
     let cases: &[(&str, &str)] = &[
         ("unknown key", "nmae = \"X\""),
         ("unknown table", "[colums]\ntime = 1"),
@@ -299,6 +303,43 @@ fn refusals() {
         ("open text", "name = \"X"),
         ("sub-table", "[columns.force]\ncolumn = 4\nunit = \"mm/\""),
         ("dotted key", "columns.force = 0"),
+        (
+            "scale beyond any machine",
+            "[columns]\nforce = { column = 4, unit = \"V\", scale = 1e-170 }",
+        ),
+        (
+            "scale beyond any machine with its unit",
+            "[columns]\nforce = { column = 4, unit = \"V\", scale = \"-1e16 N/V\" }",
+        ),
+        (
+            "scale 0 with its unit",
+            "[columns]\nforce = { column = 4, unit = \"N\", scale = \"0 N/N\" }",
+        ),
+        (
+            "gain beyond any machine",
+            "[controller]\nkind = \"p-p\"\nposition_gain = \"1 1/s\"\nspeed_gain = \"1e-170 N s/m\"",
+        ),
+        ("rate beyond any log", "rate = \"1e-4 Hz\""),
+        ("wrap beyond any axis", "[log]\nwrap = \"1e10 m\""),
+        ("pitch beyond any axis", "[terms]\ncogging = [\"1e14 m\"]"),
+        (
+            "crop before the first sample",
+            "[log]\ncrop = [\"-1 s\", \"20 s\"]",
+        ),
+        ("preamble too long", "[text]\npreamble = 1001"),
+        (
+            "two commas",
+            "[text]\nseparator = \"comma\"\ndecimal = \",\"",
+        ),
+        ("cut-off 0", "[conditioning]\nsource_cutoff = \"0 Hz\""),
+        ("mass in words", "mass = \"known\""),
+        ("delay in words", "[terms]\ndelay = \"some\""),
+        ("delay too long", "[terms]\ndelay = \"2 s\""),
+        ("segment in words", "[simulation]\nsegment = \"all\""),
+        ("name that steers a terminal", "name = \"X\\u001b[2J\""),
+        ("table twice", "[log]\nwrap = \"1 m\"\n[ log ]"),
+        ("lists too deep in each other", DEEP),
+        ("tables too deep in each other", &deep_tables),
     ];
     let mut out = String::new();
     for (what, text) in cases {
@@ -310,6 +351,62 @@ fn refusals() {
         let _ = writeln!(out, "{what}\n    {message}");
     }
     insta::assert_snapshot!(out);
+}
+
+/// What only a log shows to be wrong is said at the key of the axis file.
+#[test]
+fn a_log_is_refused_at_the_key() {
+    let table = Table {
+        columns: ["t", "q", "F"]
+            .map(|name| Column {
+                name: name.into(),
+                unit: None,
+                values: (0..100).map(|i| f64::from(i) * 1e-3).collect(),
+            })
+            .to_vec(),
+        ..Table::default()
+    };
+    let columns = |force: &str, more: &str| {
+        format!(
+            "kind = \"linear\"\n[columns]\ntime = {{ column = \"t\", unit = \"s\" }}\n\
+             position = {{ column = \"q\", unit = \"m\" }}\n{force}\n{more}"
+        )
+    };
+    let force = "force = { column = \"F\", unit = \"N\" }";
+    let mut said = String::new();
+    for text in [
+        columns(force, "[log]\ncrop = [\"3 s\", \"4 s\"]"),
+        columns("torque = \"M\"", ""),
+        columns("current = { column = 9, unit = \"A\" }", ""),
+        columns(
+            "force = { column = \"F\", unit = \"A\", scale = \"2 m/A\" }",
+            "",
+        ),
+        columns("force = { column = \"F\", unit = \"K\" }", ""),
+        format!("rate = \"1 kHz\"\n{}", columns(force, "")),
+    ] {
+        let axis = parse(&text).unwrap();
+        let error = Log::from_table(&table, &axis.mapping).unwrap_err();
+        let error = axis.at_key(error.in_file("log.csv".as_ref()));
+        let _ = writeln!(said, "{error} [{}]", error.code());
+    }
+    for more in [
+        "[terms]\ngravity = true",
+        "[log]\nresolution = \"1 um\"\n[terms]\ncogging = [\"1 mm\", \"1 nm\"]",
+        "[log]\nresolution = \"1 um\"\n[terms]\ncoulomb_pitch = [\"1 nm\"]",
+    ] {
+        let axis = parse(&columns(force, more)).unwrap();
+        let log = Log::from_table(&table, &axis.mapping).unwrap();
+        let _ = writeln!(said, "{}", axis.terms_for(&log, false).unwrap_err());
+    }
+    insta::assert_snapshot!(said);
+    // What the file does not say is not of the file.
+    let crop = Mapping {
+        crop: Some((3.0, 4.0)),
+        ..parse(&columns(force, "")).unwrap().mapping
+    };
+    let error = Log::from_table(&table, &crop).unwrap_err();
+    assert_eq!(Axis::default().at_key(error).code().as_str(), "log-value");
 }
 
 /// A table with one row and these names and units.

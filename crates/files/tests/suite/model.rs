@@ -41,6 +41,9 @@ names = ["sigma0", "coulomb"]
 matrix = [[1e6, 0.0], [0.0, 0.01]]
 "#;
 
+/// The rest of the first parameter.
+const GIVEN: &str = "ci95 = [-inf, 2.1e6]\nidentifiable = true\norigin = \"identified\"";
+
 fn refusal(text: &str) -> String {
     let error = ModelFile::parse(text, "model.toml".as_ref()).expect_err(text);
     assert_eq!(error.code().as_str(), "bad-config");
@@ -81,6 +84,24 @@ fn faults_have_line_column_and_key() {
         ("[[1e6, 0.0], [0.0, 0.01]]", "[[1e6, 0.0]]"),
         ("[[1e6, 0.0], [0.0, 0.01]]", "[[1e6, 0.0], [\"0\", 0.01]]"),
         ("[covariance]", "[covariants]"),
+        (
+            GIVEN,
+            "ci95 = [-inf, 2.1e6]\nidentifiable = true\norigin = \"guessed\"",
+        ),
+        (GIVEN, "identifiable = true\norigin = \"given\""),
+        (
+            GIVEN,
+            "ci95 = [-inf, 2.1e6]\ninterval = \"bayes\"\nidentifiable = true\norigin = \"identified\"",
+        ),
+        (
+            GIVEN,
+            "interval = \"linear\"\nidentifiable = true\norigin = \"identified\"",
+        ),
+        ("ci95 = [-inf, 2.1e6]", "ci95 = [-inf, 1.9e6]"),
+        ("ci95 = [-inf, 2.1e6]", "ci95 = [1999900.0, 2000100.0]"),
+        ("[[1e6, 0.0], [0.0, 0.01]]", "[[0.0, 0.0], [0.0, 0.01]]"),
+        ("[[1e6, 0.0], [0.0, 0.01]]", "[[1e8, 0.0], [0.0, 0.01]]"),
+        ("[[1e6, 0.0], [0.0, 0.01]]", "[[1e6, 101.0], [101.0, 0.01]]"),
     ] {
         assert_eq!(GOOD.matches(from).count(), 1, "{from}");
         let message = refusal(&GOOD.replace(from, to));
@@ -89,6 +110,38 @@ fn faults_have_line_column_and_key() {
         let _ = writeln!(said, "{message}");
     }
     insta::assert_snapshot!(said);
+}
+
+/// A parameter that hangs on another has no variance of its own; one that the data do not determine has none at all.
+#[test]
+fn a_covariance_may_be_singular() {
+    let tied = GOOD.replace("[[1e6, 0.0], [0.0, 0.01]]", "[[1e6, 100.0], [100.0, 0.01]]");
+    ModelFile::parse(&tied, "model.toml".as_ref()).unwrap();
+    let unknown = GOOD.replace("[[1e6, 0.0], [0.0, 0.01]]", "[[1e6, 0.0], [0.0, 0.0]]");
+    assert!(refusal(&unknown).contains("covariance.matrix[2][2]"));
+    let last = unknown.rfind("identifiable = true").unwrap();
+    let unknown = format!(
+        "{}identifiable = false{}",
+        &unknown[..last],
+        &unknown[last + 19..]
+    );
+    ModelFile::parse(&unknown, "model.toml".as_ref()).unwrap();
+    // Neither two that hang on one another and differ in a third, nor one that varies with nothing.
+    let three = "[[1.0, 1.0, 0.0], [1.0, 1.0, 0.9], [0.0, 0.9, 1.0]]";
+    let text = GOOD.replace("[[1e6, 0.0], [0.0, 0.01]]", three).replace(
+        "names = [\"sigma0\", \"coulomb\"]",
+        "names = [\"sigma0\", \"coulomb\", \"offset\"]",
+    );
+    let text = text.replace("std = 1e3\n", "").replace(
+        "[covariance]",
+        "[[parameter]]\nname = \"offset\"\nsymbol = \"F0\"\nvalue = 0\nunit = \"N\"\nidentifiable = true\n\
+         origin = \"identified\"\n\n[covariance]",
+    );
+    assert!(
+        refusal(&text).contains("no covariance, seen at"),
+        "{}",
+        refusal(&text)
+    );
 }
 
 /// What is found wrong later, by whoever uses the model, has its place, too.

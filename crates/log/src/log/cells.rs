@@ -19,7 +19,7 @@ pub(super) struct Columns {
     beyond: Vec<Beyond>,
 }
 
-/// Numbers of a column that are too large to be measurements.
+/// Numbers of a column that are too large to be measurements, infinite ones among them.
 struct Beyond {
     role: Role,
     cells: usize,
@@ -46,7 +46,7 @@ impl Columns {
                 .clone()
                 .filter(|row| dropped.next_if_eq(&row).is_none());
             columns.push((*role, kept.map(|row| source.si(values[row])).collect()));
-            let large = |row: &usize| values[*row].is_finite() && source.si(values[*row]).is_nan();
+            let large = |row: &usize| !values[*row].is_nan() && source.si(values[*row]).is_nan();
             if let Some(row) = clock.range.clone().find(large) {
                 beyond.push(Beyond {
                     role: *role,
@@ -124,10 +124,12 @@ impl Columns {
                     format!("{short} interpolated and excluded, {long} dropped with their rows")
                 }
             };
+            let beyond = self.beyond.iter().find(|b| b.role == *role);
             let message = format!(
-                "{role}: {} of {rows} missing, first in row {} of the part that is kept; {done}",
+                "{role}: {} of {rows} missing, first in row {} of the part that is kept{}; {done}",
                 count(cells, "cell"),
-                first.start + 1
+                first.start + 1,
+                beyond.map_or(String::new(), Beyond::among)
             );
             let grave =
                 core && (long > 0 || cells as f64 > MISSING_SHARE_FOR_WARNING * rows as f64);
@@ -157,6 +159,14 @@ impl Columns {
 }
 
 impl Beyond {
+    /// How many of the missing cells hold such a number, in words.
+    fn among(&self) -> String {
+        format!(
+            ", {} of them beyond any measurement, as {} in data row {}",
+            self.cells, self.number, self.row
+        )
+    }
+
     fn refusal(&self, rows: usize) -> Error {
         let found = format!(
             "{} is {}, and {} of {} are implausibly large",

@@ -259,7 +259,7 @@ fn crop(
                 "the record runs from 0 to {} s, counted from its first sample",
                 short(last)
             );
-            Err(Error::new(Kind::Value, found, allowed))
+            Err(Error::new(Kind::Value, found, allowed).of_setting("log.crop"))
         }
     }
 }

@@ -5,7 +5,7 @@ use stiction_codes::Code;
 
 /// Adds whole periods so that no step is longer than half a period; missing samples are passed
 /// over. Turns made within a gap cannot be known.
-pub(super) fn unwrap(position: &mut [f64], period: f64, unit: &str) -> Option<Finding> {
+pub(super) fn unwrap(position: &mut [f64], period: f64, unit: &str) -> Finding {
     let mut turns = 0.0;
     let mut before: Option<f64> = None;
     let (mut wraps, mut first) = (0_usize, 0);
@@ -27,13 +27,16 @@ pub(super) fn unwrap(position: &mut [f64], period: f64, unit: &str) -> Option<Fi
         before = Some(*x);
         *x += turns * period;
     }
-    (wraps > 0).then(|| {
+    let period = short(period);
+    if wraps == 0 {
         let message = format!(
-            "position wrapped {}, first at sample {first}; unwrapped with a period of {} \
-             {unit}",
-            count(wraps, "time"),
-            short(period)
+            "position never wraps: no step is longer than half the wrap of {period} {unit}; nothing was unwrapped"
         );
-        Finding::new(Code::PositionWrap, Severity::Note, message).at(first)
-    })
+        return Finding::new(Code::PositionWrap, Severity::Note, message);
+    }
+    let message = format!(
+        "position wrapped {}, first at sample {first}; unwrapped with a period of {period} {unit}",
+        count(wraps, "time")
+    );
+    Finding::new(Code::PositionWrap, Severity::Note, message).at(first)
 }

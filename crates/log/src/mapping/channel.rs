@@ -92,6 +92,30 @@ impl Role {
     }
 }
 
+impl Role {
+    /// The key of the axis file for a part of this column, `column`, `unit` or `scale`.
+    pub(crate) fn key(self, part: &str) -> &'static str {
+        macro_rules! keys {
+            ($($role:ident $name:literal),*) => {
+                match (self, part) {
+                    $((Role::$role, "scale") => concat!("columns.", $name, ".scale"),
+                      (Role::$role, "unit") => concat!("columns.", $name, ".unit"),
+                      (Role::$role, _) => concat!("columns.", $name, ".column"),)*
+                }
+            };
+        }
+        keys!(
+            Time "time",
+            Position "position",
+            Velocity "velocity",
+            Force "force",
+            Reference "reference",
+            Temperature "temperature",
+            Load "load"
+        )
+    }
+}
+
 impl fmt::Display for Role {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())

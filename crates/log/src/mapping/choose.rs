@@ -38,16 +38,14 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
     };
     for role in Role::ALL {
         if let Some(channel) = given.channel(role) {
-            scan.used[select(table, &channel.column, role)?] = true;
+            let column = select(table, &channel.column, role);
+            scan.used[column.map_err(|e| e.of_setting(role.key("column")))?] = true;
         }
     }
     if given.time.is_some() && given.rate_hz.is_some() {
         let found = "both a time column and a rate are given";
-        return Err(Error::new(
-            Kind::Ambiguous,
-            found,
-            "give one of time and rate",
-        ));
+        let error = Error::new(Kind::Ambiguous, found, "give one of time and rate");
+        return Err(error.of_setting("rate"));
     }
     let nothing_told = given.position.is_none() && given.velocity.is_none();
     if nothing_told && describe::unnamed(table) {
@@ -279,7 +277,8 @@ impl Scan<'_> {
         );
         let allowed = "rate is for logs without time; take it out of axis.toml, or correct it";
         let place = describe::place(self.table, column);
-        Err(Error::new(Kind::Ambiguous, found, allowed).in_column(place))
+        let error = Error::new(Kind::Ambiguous, found, allowed);
+        Err(error.in_column(place).of_setting("rate"))
     }
 
     fn no_motion(&self) -> Error {

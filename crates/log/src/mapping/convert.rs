@@ -1,6 +1,7 @@
 //! One channel with its column found and its units settled: numbers of the file in, SI out.
 
 use super::channel::{Channel, Motion, Role};
+use super::limits::SCALES;
 use super::select::select;
 use super::{Mapping, describe};
 use crate::{Dimension, Error, Kind, Table, Unit};
@@ -37,13 +38,13 @@ impl Source {
             None => (sign, Some(unit_dimension)),
             Some(value) => {
                 let si = value.si();
-                if !(si.is_finite() && si != 0.0) {
+                if !SCALES.contains(&si.abs()) {
                     let found = format!("the scale of {role} is {value}");
-                    return Err(Error::new(
-                        Kind::Value,
-                        found,
-                        "a finite number other than 0",
-                    ));
+                    let (low, high) = (SCALES.start(), SCALES.end());
+                    let allowed = format!("a size from {low:e} to {high:e} in SI units");
+                    return Err(
+                        Error::new(Kind::Value, found, allowed).of_setting(role.key("scale"))
+                    );
                 }
                 (sign * si, unit_dimension.times(value.unit.dimension()))
             }
@@ -51,7 +52,13 @@ impl Source {
         let scale_text = channel.scale.as_ref().map(ToString::to_string);
         let dimension = dimension.ok_or_else(|| {
             let found = format!("{role} in {unit} times its scale has no plausible dimension");
-            Error::new(Kind::Unit, found, "").in_column(describe::place(table, column))
+            Error::new(
+                Kind::Unit,
+                found,
+                "a unit and a scale that make a force, a length or another quantity of the axis",
+            )
+            .in_column(describe::place(table, column))
+            .of_setting(role.key("scale"))
         })?;
         Ok(Self {
             column,
@@ -140,7 +147,16 @@ impl Source {
             "{kind} {} ({text}{also}); give the unit, or a scale such as \"2.5 {text}/{under}\"",
             wanted.name()
         );
-        Err(Error::new(Kind::Unit, found, allowed).in_column(describe::place(table, self.column)))
+        // Without a scale the unit is what is wrong; it may stand in the recording.
+        let key = role.key(if self.scale_text.is_some() {
+            "scale"
+        } else {
+            "unit"
+        });
+        let error = Error::new(Kind::Unit, found, allowed);
+        Err(error
+            .in_column(describe::place(table, self.column))
+            .of_setting(key))
     }
 }
 

@@ -247,7 +247,8 @@ fn nothing_fits(lines: &[Line], skip: usize, options: &TextOptions) -> Error {
         (None, None) => String::new(),
     };
     let count = problem::count(lines.len(), "line");
-    let shown = lines[skip..].iter().rfind(|l| !l.is_blank());
+    let below = lines.get(skip..).unwrap_or_default();
+    let shown = below.iter().rfind(|l| !l.is_blank());
     let found = match shown {
         Some(line) => format!(
             "no row of numbers in the first {count}{with}; line {} is {}",
@@ -256,9 +257,22 @@ fn nothing_fits(lines: &[Line], skip: usize, options: &TextOptions) -> Error {
         ),
         None => format!("no row of numbers in the first {count}{with}"),
     };
-    Error::new(
+    let error = Error::new(
         Kind::Format,
         found,
         "a text table with one sample in each row",
-    )
+    );
+    match options {
+        TextOptions {
+            preamble: Some(1..),
+            ..
+        } => error.of_setting("text.preamble"),
+        TextOptions {
+            separator: Some(_), ..
+        } => error.of_setting("text.separator"),
+        TextOptions {
+            decimal: Some(_), ..
+        } => error.of_setting("text.decimal"),
+        _ => error,
+    }
 }

@@ -87,7 +87,8 @@ impl TextOptions {
                 Kind::Value,
                 "the comma is stated both as separator and as decimal mark",
                 "only one of the two can be a comma",
-            ));
+            )
+            .of_setting("text.decimal"));
         }
         if self
             .preamble
@@ -97,7 +98,8 @@ impl TextOptions {
                 Kind::Value,
                 format!("{} preamble lines are stated", self.preamble.unwrap_or(0)),
                 format!("at most {}", super::limits::MAX_PREAMBLE_LINES),
-            ));
+            )
+            .of_setting("text.preamble"));
         }
         Ok(())
     }

@@ -257,6 +257,17 @@ fn a_wrapping_position_is_put_together() {
         .count();
     assert_eq!(log.segments.len(), jumps + 1);
     insta::assert_snapshot!([&stated, message(&log, "position-jump")].join("\n"));
+    // A wrap that is never reached is said, too.
+    let wrap = Some(Wrap::at(20.0));
+    let mapping = Mapping {
+        wrap,
+        ..Mapping::default()
+    };
+    let log = Log::from_table(&table, &mapping).unwrap();
+    assert_eq!(
+        message(&log, "position-wrap"),
+        "position never wraps: no step is longer than half the wrap of 40 m; nothing was unwrapped"
+    );
 }
 
 #[test]
@@ -533,6 +544,30 @@ fn numbers_too_large_for_a_measurement_are_named() {
     let error = Log::from_table(&table, &Mapping::default()).unwrap_err();
     said.push_str(&format!("{error}\n"));
     insta::assert_snapshot!(said);
+}
+
+/// An infinite number, and one that no `f64` holds, is counted among what is missing, and named.
+#[test]
+fn infinite_numbers_are_named() {
+    let mut table = axis(300).table();
+    table.columns[3].values[9] = f64::INFINITY;
+    table.columns[3].values[20] = f64::NAN;
+    let log = Log::from_table(&table, &Mapping::default()).unwrap();
+    let said = message(&log, "missing-cells");
+    assert!(
+        said.starts_with(
+            "force: 2 cells of 300 missing, first in row 10 of the part that is kept, 1 of them beyond any \
+             measurement, as inf N in data row 10; "
+        ),
+        "{said}"
+    );
+    table.columns[3].values[7..].fill(f64::NEG_INFINITY);
+    let error = Log::from_table(&table, &Mapping::default()).unwrap_err();
+    assert_eq!(error.place.row, Some(8));
+    assert!(
+        error.found.starts_with("force is -inf N, and 293 "),
+        "{error}"
+    );
 }
 
 /// Numbers of three hundred digits are written with a power of ten.

@@ -1,6 +1,6 @@
 //! A term of the field, and where a text uses it.
 
-use stiction_report::{Text};
+use stiction_report::Text;
 
 /// A term of the field, as stiction uses it.
 #[derive(Clone, Copy, Debug)]

@@ -163,7 +163,7 @@ fn errors_name_what_was_found_and_what_is_allowed() {
     assert!(message(low_pass(9, 1.0, 10.0)).contains("is 9"));
     assert_eq!(
         message(low_pass(2, 5.0, 10.0)),
-        "cut-off frequency in Hz is 5; allowed: above 0 and below half the sample rate, 5.000000"
+        "cut-off frequency in Hz is 5; allowed: from 0.00005 to 4.99995, below half the sample rate"
     );
     for cutoff in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(message(low_pass(2, cutoff, 10.0)).starts_with("cut-off frequency in Hz"));

@@ -228,13 +228,13 @@ fn bad_models_are_refused() {
             "single",
             text("lugre", &with("sigma0", 1e40)),
             "not-exported",
-            "model.toml: parameter: sigma0 = 1e40; allowed: from 1e-15 to 1e15 (as float)",
+            "value: sigma0 = 1e40; allowed: from 1e-15 to 1e15 (as float)",
         ),
         (
             "single, small",
             text("lugre", &with("sigma0", 1e-40)),
             "not-exported",
-            "model.toml: parameter: sigma0 = 1e-40; allowed",
+            "value: sigma0 = 1e-40; allowed",
         ),
         (
             "term",

@@ -147,6 +147,7 @@ fn what_is_refused_of_an_edited_model() {
         let mut parameter = good.parameter[0].clone();
         (parameter.name, parameter.unit) = (name.into(), unit.into());
         parameter.value = value;
+        (parameter.std, parameter.ci95, parameter.interval) = (None, None, None);
         good.parameter.push(parameter);
     }
     let read = |model: &ModelFile| ModelFile::parse(&model.to_toml(), "model.toml".as_ref());

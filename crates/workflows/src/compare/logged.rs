@@ -43,7 +43,8 @@ pub(super) fn subject(
         exponent: axis.stribeck_exponent,
         ..lugre()
     };
-    let (sources, record, terms) = record_of(logs, &axis, observer)?;
+    let (sources, record, terms) =
+        record_of(logs, &axis, observer).map_err(|e| e.at_axis(&axis))?;
     let name: Vec<String> = sources
         .iter()
         .map(|s| s.path.display().to_string())

@@ -116,7 +116,7 @@ pub(crate) fn record_of(
     let sources = load_all(logs, axis)?;
     check_together(&sources, &[])?;
     for source in &sources {
-        source.check_channels(&axis.terms)?;
+        source.check_axis(axis)?;
     }
     let terms = axis.terms_for(&sources[0].log, false)?;
     let wanted = conditioning::wanted(&sources, axis);

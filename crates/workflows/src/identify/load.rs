@@ -53,7 +53,7 @@ pub(super) fn load(
     check_together(&sources, &others)?;
     beside.check_model(options, &sources[0])?;
     for source in sources.iter().chain(&held_out) {
-        source.check_channels(&axis.terms)?;
+        source.check_axis(axis)?;
     }
     let elements = options.law.is_some_and(LawKind::has_elements);
     if axis.exponent_fitted && (elements || options.procedures.method != Method::Separable) {

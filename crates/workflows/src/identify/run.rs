@@ -66,14 +66,15 @@ pub(crate) fn identify_asked(
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
     let loaded = load(asked, sources, held_out)?;
-    match asked.options.procedures.method {
+    let outcome = match asked.options.procedures.method {
         Method::Static => static_map::run(asked, loaded),
         Method::PreslidingStep => step::run(asked, loaded, observer),
         Method::OutputError => simulate::run(asked, loaded, observer),
         Method::Separable | Method::StaticThenDynamic | Method::Searched(_) => {
             fit_force(asked, loaded, observer)
         }
-    }
+    };
+    outcome.map_err(|e| e.at_axis(asked.axis))
 }
 
 /// Fits the force of whole records.

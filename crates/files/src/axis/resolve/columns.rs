@@ -2,6 +2,7 @@
 
 use crate::config::{Given, Table};
 use crate::error::Error;
+use stiction_log::mapping::SCALES;
 use stiction_log::{Channel, Dimension, Mapping, Selector, Unit, Value};
 
 pub(super) fn columns(root: &Table<'_>, mapping: &mut Mapping) -> Result<(), Error> {
@@ -74,17 +75,22 @@ fn selector(given: &Given<'_>, allowed: &str) -> Result<Selector, Error> {
     }
 }
 
-/// A scale with its unit, or a plain number.
+/// A scale with its unit, or a plain number; of either sign.
 fn scale(given: &Given<'_>) -> Result<Value, Error> {
-    if given.as_text().is_some() {
-        return given.quantity("\"35.15 N/V\"");
-    }
-    match given.as_number() {
-        Some(number) if number.is_finite() && number != 0.0 => Ok(Value {
+    let scale = match (given.as_text(), given.as_number()) {
+        (Some(_), _) => given.quantity("\"35.15 N/V\"")?,
+        (None, Some(number)) => Value {
             number,
             unit: Unit::si(Dimension::ONE),
-        }),
-        Some(_) => Err(given.refused("a finite number, not 0")),
-        None => Err(given.refused("a scale such as \"35.15 N/V\", or a plain number")),
+        },
+        (None, None) => {
+            return Err(given.refused("a scale such as \"35.15 N/V\", or a plain number"));
+        }
+    };
+    if SCALES.contains(&scale.si().abs()) {
+        return Ok(scale);
     }
+    let (low, high) = (SCALES.start(), SCALES.end());
+    let allowed = format!("a size from {low:e} to {high:e} in SI units, of either sign");
+    Err(given.refused(&allowed))
 }

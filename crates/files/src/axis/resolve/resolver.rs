@@ -4,6 +4,7 @@ use crate::axis::tied::Tied;
 use crate::config::Given;
 use crate::error::Error;
 use std::cell::RefCell;
+use std::ops::RangeInclusive;
 use stiction_log::Dimension;
 
 /// Dimensions of a position.
@@ -39,7 +40,21 @@ impl Resolver {
 
     /// A value above 0 whose unit may have to fit the kind of axis.
     pub fn above_zero(&self, given: &Given<'_>, dimensions: &[Dimension]) -> Result<f64, Error> {
-        let (value, dimension) = given.positive(dimensions)?;
+        Ok(self.tie(given, given.positive(dimensions)?))
+    }
+
+    /// The same within a range in SI.
+    pub fn within(
+        &self,
+        given: &Given<'_>,
+        dimensions: &[Dimension],
+        range: &RangeInclusive<f64>,
+    ) -> Result<f64, Error> {
+        Ok(self.tie(given, given.among(dimensions, range)?))
+    }
+
+    /// Notes a value that has to fit the kind of axis.
+    fn tie(&self, given: &Given<'_>, (value, dimension): (f64, Dimension)) -> f64 {
         let free = [Dimension::TIME, Dimension::FREQUENCY, Dimension::ONE];
         if !free.contains(&dimension) {
             self.tied.borrow_mut().push(Tied {
@@ -48,6 +63,6 @@ impl Resolver {
                 dimension,
             });
         }
-        Ok(value)
+        value
     }
 }

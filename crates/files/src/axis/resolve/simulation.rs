@@ -7,6 +7,7 @@ use crate::config::{Given, Table};
 use crate::error::Error;
 use stiction_identify::Hold;
 use stiction_log::Dimension;
+use stiction_log::mapping::SCALES;
 
 impl Resolver {
     pub(super) fn simulation(&self, root: &Table<'_>, axis: &mut Axis) -> Result<(), Error> {
@@ -18,7 +19,7 @@ impl Resolver {
             _ => Hold::Held,
         };
         if let Some(given) = table.get("segment")
-            && given.as_text() != Some("whole")
+            && let (given, None) = given.or_word(&["whole"])
         {
             axis.segment = Some(self.above_zero(&given, &[Dimension::TIME])?);
         }
@@ -73,6 +74,10 @@ fn gain(given: &Given<'_>) -> Result<Gain, Error> {
     let value = given.quantity("\"300 N s/m\"")?;
     if value.number <= 0.0 {
         return Err(given.refused("a finite value above 0"));
+    }
+    if !SCALES.contains(&value.si()) {
+        let (low, high) = (SCALES.start(), SCALES.end());
+        return Err(given.refused(&format!("from {low:e} to {high:e} in SI units")));
     }
     Ok(Gain {
         place: given.place(),

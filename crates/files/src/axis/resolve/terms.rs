@@ -6,6 +6,7 @@ use crate::config::{Given, Table};
 use crate::error::Error;
 use stiction_identify::{Delay, Dependence, GMS_FEWEST, GMS_MOST, Mass};
 use stiction_log::Dimension;
+use stiction_log::mapping::WRAPS;
 use stiction_parameters::Quantity;
 
 /// Longest delay of either sign, s.
@@ -16,10 +17,10 @@ const MOST_PITCHES: usize = 4;
 impl Resolver {
     pub(super) fn terms(&self, root: &Table<'_>, axis: &mut Axis) -> Result<(), Error> {
         if let Some(given) = root.get("mass") {
-            axis.terms.mass = match given.as_text() {
-                Some("fit") => Mass::Fitted,
-                Some("none") => Mass::Absent,
-                _ => {
+            axis.terms.mass = match given.or_word(&["fit", "none"]) {
+                (_, Some("fit")) => Mass::Fitted,
+                (_, Some(_)) => Mass::Absent,
+                (given, None) => {
                     let allowed = [Dimension::MASS, Dimension::INERTIA];
                     Mass::Given(self.above_zero(&given, &allowed)?)
                 }
@@ -37,7 +38,7 @@ impl Resolver {
         axis.terms.quadratic_viscous = table.flag("quadratic_viscous")?.unwrap_or(false);
         axis.terms.dependences = self.dependences(&table)?;
         if let Some(given) = table.get("delay") {
-            axis.terms.delay = delay(&given)?;
+            axis.terms.delay = delay(given)?;
         }
         if let Some(given) = table.get("stribeck_exponent") {
             let allowed = Quantity::StribeckExponent.allowed();
@@ -86,21 +87,23 @@ impl Resolver {
             let found = format!("{} pitches", list.len());
             return Err(given.refuse(found, &format!("at most {MOST_PITCHES}")));
         }
-        let pitches = list.iter().map(|pitch| self.above_zero(pitch, &LENGTHS));
+        let pitches = list
+            .iter()
+            .map(|pitch| self.within(pitch, &LENGTHS, &WRAPS));
         pitches.collect()
     }
 }
 
 /// A time of either sign.
-fn delay(given: &Given<'_>) -> Result<Delay, Error> {
-    match given.as_text() {
-        Some("fit") => return Ok(Delay::Fitted),
-        Some("none") => return Ok(Delay::NONE),
-        _ => {}
-    }
+fn delay(given: Given<'_>) -> Result<Delay, Error> {
+    let given = match given.or_word(&["fit", "none"]) {
+        (_, Some("fit")) => return Ok(Delay::Fitted),
+        (_, Some(_)) => return Ok(Delay::NONE),
+        (given, None) => given,
+    };
     let (time, _) = given.value(&[Dimension::TIME])?;
     if time.abs() <= LONGEST_DELAY {
         return Ok(Delay::Given(time));
     }
-    Err(given.refused("fit, none, or a time from -1 s to 1 s"))
+    Err(given.refused("a time from -1 s to 1 s"))
 }

@@ -1,7 +1,7 @@
 //! `[[compensator]]`
 
 use super::dimensions::Dimensions;
-use super::entry::name;
+use super::entry::{below_half_the_rate, name};
 use crate::config::Table;
 use crate::error::Error;
 use crate::study::plan::{ModelKind, ModelScheme, Named, Scheme, Study};
@@ -35,7 +35,7 @@ pub(super) fn compensator(table: &Table<'_>, study: &Study) -> Result<Named<Sche
         "lugre" => Scheme::Model(model(table, study, ModelKind::LuGre)?),
         "learning" => learning(table, study)?,
         _ => {
-            let bandwidth = observer(table, "bandwidth", study)?;
+            let bandwidth = below_half_the_rate(table, "bandwidth", study.machine.rate)?;
             Scheme::Observer(table.required("bandwidth", bandwidth, "one such as \"60 Hz\"")?)
         }
     };
@@ -45,15 +45,6 @@ pub(super) fn compensator(table: &Table<'_>, study: &Study) -> Result<Named<Sche
     };
     table.end()?;
     Ok(named)
-}
-
-fn observer(table: &Table<'_>, key: &'static str, study: &Study) -> Result<Option<f64>, Error> {
-    let bandwidth = table.positive(key, Dimension::FREQUENCY)?;
-    if let Some(f) = bandwidth.filter(|f| *f >= 0.5 * study.machine.rate) {
-        let allowed = "below half the control rate";
-        return Err(table.refuse(key, format!("{f} Hz"), allowed));
-    }
-    Ok(bandwidth)
 }
 
 fn learning(table: &Table<'_>, study: &Study) -> Result<Scheme, Error> {
@@ -103,7 +94,7 @@ fn model(table: &Table<'_>, study: &Study, kind: ModelKind) -> Result<ModelSchem
             }),
         },
         preview: table.number("preview", 0.0, MAX_PREVIEW)?,
-        observer: observer(table, "observer_bandwidth", study)?,
+        observer: below_half_the_rate(table, "observer_bandwidth", study.machine.rate)?,
     };
     Ok(scheme)
 }

@@ -1,7 +1,7 @@
 //! `[[contour]]`, `[second_axis]` and `[coupling]`
 
 use super::dimensions::Dimensions;
-use super::entry::{name, sampled};
+use super::entry::{below_half_the_rate, name, sampled};
 use super::machine::machine;
 use super::{controllers, file};
 use crate::config::Table;
@@ -35,15 +35,15 @@ pub(super) fn second(
         machine,
         controllers: Vec::new(),
         families: Vec::new(),
-        coupling: coupling(root, &Dimensions::of(first.motion))?,
+        coupling: coupling(root, &Dimensions::of(first.motion), first.rate)?,
     })
 }
 
-fn coupling(root: &Table<'_>, is: &Dimensions) -> Result<Option<CrossCoupling>, Error> {
+fn coupling(root: &Table<'_>, is: &Dimensions, rate: f64) -> Result<Option<CrossCoupling>, Error> {
     let Some(table) = root.table("coupling")? else {
         return Ok(None);
     };
-    let bandwidth = table.positive("bandwidth", Dimension::FREQUENCY)?;
+    let bandwidth = below_half_the_rate(&table, "bandwidth", rate)?;
     let example = "the bandwidth of the slower axis, such as \"45 Hz\"";
     let bandwidth = table.required("bandwidth", bandwidth, example)?;
     let limit = table.positive("limit", is.speed)?;

@@ -1,7 +1,7 @@
 //! `[[controller]]`
 
 use super::dimensions::Dimensions;
-use super::entry::name;
+use super::entry::{below_half_the_rate, name};
 use crate::config::Table;
 use crate::error::Error;
 use crate::study::plan::{Machine, Named};
@@ -11,13 +11,21 @@ use stiction_servo::controller::Controller;
 use stiction_servo::fuzzy::FuzzyPid;
 use stiction_servo::pid::Pid;
 
-pub(super) fn controller(table: &Table<'_>, machine: &Machine) -> Result<Named<Controller>, Error> {
+pub(super) fn controller(
+    table: &Table<'_>,
+    machine: &Machine,
+    two_axes: bool,
+) -> Result<Named<Controller>, Error> {
     let is = Dimensions::of(machine.motion);
     let kind = table.choice("kind", &["cascade", "pid", "fuzzy-pid"])?;
     let kind = table.required("kind", kind, "\"cascade\", \"pid\" or \"fuzzy-pid\"")?;
-    let bandwidth = table.positive("bandwidth", Dimension::FREQUENCY)?;
-    // For the second axis, where there is one.
-    let _ = table.positive("second_bandwidth", Dimension::FREQUENCY)?;
+    let bandwidth = below_half_the_rate(table, "bandwidth", machine.rate)?;
+    let other = below_half_the_rate(table, "second_bandwidth", machine.rate)?;
+    if other.is_some() && !two_axes {
+        let allowed = "give a table [second_axis], or leave it out";
+        let found = "is for a second axis, and there is none".into();
+        return Err(table.refuse("second_bandwidth", found, allowed));
+    }
     let peak = machine.drive.peak_force();
     let limit = table.positive("force_limit", is.force)?;
     let limit = limit.or_else(|| Some(peak).filter(|f| f.is_finite()));
@@ -58,8 +66,8 @@ pub(super) fn controller(table: &Table<'_>, machine: &Machine) -> Result<Named<C
 
 /// The same kind of controller for a second axis, tuned for its mass.
 pub(super) fn second(table: &Table<'_>, machine: &Machine) -> Result<Controller, Error> {
-    let own = table.positive("second_bandwidth", Dimension::FREQUENCY)?;
-    let bandwidth = own.or(table.positive("bandwidth", Dimension::FREQUENCY)?);
+    let own = below_half_the_rate(table, "second_bandwidth", machine.rate)?;
+    let bandwidth = own.or(below_half_the_rate(table, "bandwidth", machine.rate)?);
     let example = "one such as \"60 Hz\": gains are for one axis";
     let bandwidth = table.required("bandwidth", bandwidth, example)?;
     let peak = Some(machine.drive.peak_force()).filter(|f| f.is_finite());

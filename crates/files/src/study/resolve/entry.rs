@@ -2,7 +2,8 @@
 
 use crate::config::Table;
 use crate::error::Error;
-use stiction_number::four_digits as short;
+use stiction_log::Dimension;
+use stiction_number::{four_digits as short, shortest};
 use stiction_servo::run::sample_count;
 
 /// Most samples of a run.
@@ -10,6 +11,9 @@ pub(super) const MOST_SAMPLES: usize = 1_000_000;
 
 /// Least samples of a period, a move, a turn: fewer do not show what it is.
 pub(super) const LEAST_SAMPLES: f64 = 10.0;
+
+/// Most samples at which a motion is looked at for how far it goes.
+const MOST_LOOKED_AT: f64 = 10_000.0;
 
 /// A path is not too long.
 pub(super) fn few(table: &Table<'_>, duration: f64, rate: f64) -> Result<(), Error> {
@@ -37,9 +41,49 @@ pub(super) fn sampled(
     Err(table.refuse(key, found, &allowed))
 }
 
+/// A motion goes at least one encoder step: the controller sees nothing of a smaller one. `position` at a time, s.
+pub(super) fn seen(
+    table: &Table<'_>,
+    (duration, rate): (f64, f64),
+    encoder: f64,
+    unit: &str,
+    position: impl Fn(f64) -> f64,
+) -> Result<(), Error> {
+    if encoder == 0.0 {
+        return Ok(());
+    }
+    let samples = (duration * rate).clamp(1.0, MOST_LOOKED_AT);
+    let times = (0..=samples as usize).map(|i| duration * i as f64 / samples);
+    let (low, high) = times
+        .map(position)
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+            (low.min(x), high.max(x))
+        });
+    if high - low >= encoder {
+        return Ok(());
+    }
+    let found = format!("goes over {} {unit}", short(high - low));
+    let allowed = format!("at least one encoder step, {} {unit}", short(encoder));
+    Err(table.refuse("kind", found, &allowed))
+}
+
+/// A frequency that the control rate can show.
+pub(super) fn below_half_the_rate(
+    table: &Table<'_>,
+    key: &'static str,
+    rate: f64,
+) -> Result<Option<f64>, Error> {
+    let frequency = table.positive(key, Dimension::FREQUENCY)?;
+    if frequency.is_some_and(|f| f >= 0.5 * rate) {
+        let allowed = format!("below half the control rate, {} Hz", shortest(0.5 * rate));
+        return Err(table.refused(key, &allowed));
+    }
+    Ok(frequency)
+}
+
 /// The name of an entry: given, or made of what it is.
 pub(super) fn name(table: &Table<'_>, default: String) -> Result<String, Error> {
-    match table.text("name")?.map(str::trim) {
+    match table.line("name")?.map(str::trim) {
         None => Ok(default),
         Some(name) if !name.is_empty() && name.chars().count() <= 60 => Ok(name.to_string()),
         Some(name) => Err(table.refuse("name", format!("{name:?}"), "1 to 60 characters")),

@@ -5,7 +5,7 @@ use crate::config::Table;
 use crate::error::{Error, Warning};
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
-use stiction_log::{Column, Dimension, Limits, ReadOptions, Unit, read_table};
+use stiction_log::{Column, Dimension, Kind, Limits, ReadOptions, Unit, read_table};
 
 /// Largest file, bytes.
 const MOST_BYTES: u64 = 256 << 20;
@@ -24,15 +24,21 @@ pub(super) fn points<const AXES: usize>(
     folder: &Path,
     length: Dimension,
 ) -> Result<Points<AXES>, Error> {
-    let name = table.text("file")?;
-    let name = table.required("file", name, "a file with columns such as `t [s],x [mm]`")?;
-    let file = folder.join(name);
+    let what = "a file with columns such as `t [s],x [mm]`";
+    let given = table.required("file", table.get("file"), what)?;
+    let file = folder.join(given.path(what)?);
     let mut options = ReadOptions::default();
     options.limits = Limits {
         file_bytes: MOST_BYTES,
         ..options.limits
     };
-    let read = read_table(&file, &options)?;
+    let read = read_table(&file, &options).map_err(|e| match e.kind {
+        Kind::Io => given.refuse(
+            format!("{}: {}", file.display(), e.found),
+            &format!("give the path of {what}"),
+        ),
+        _ => e.into(),
+    })?;
     let refuse = |place: String, found: String, allowed: &str| Error::Config {
         file: file.clone(),
         place,
@@ -60,7 +66,10 @@ pub(super) fn points<const AXES: usize>(
         let place = |row: usize| format!("data row {}, column {}: ", row + 1, named(column, i));
         let unit = match &column.unit {
             None => Unit::si(dimension),
-            Some(text) => Unit::parse(text)?,
+            Some(text) => Unit::parse(text).map_err(|e| {
+                let place = format!("column {}: ", named(column, i));
+                refuse(place, e.found, &e.allowed)
+            })?,
         };
         if unit.dimension() != dimension {
             let allowed = format!("a {} such as {}", dimension.name(), dimension.si_text());

@@ -3,12 +3,14 @@
 use super::dimensions::Dimensions;
 use crate::config::Table;
 use crate::error::{Error, Warning};
+use crate::model::MODEL;
 use crate::study::model::Model;
 use crate::study::plan::Machine;
 use std::path::Path;
 use stiction_codes::Code;
 use stiction_friction::Damping;
 use stiction_log::Dimension;
+use stiction_log::mapping::WRAPS;
 use stiction_parameters::Quantity;
 use stiction_servo::disturbance::Cogging;
 use stiction_servo::drive::Drive;
@@ -30,12 +32,16 @@ pub(super) fn machine(
     folder: &Path,
     first: Option<f64>,
 ) -> Result<Machine, Error> {
-    let mut model = match (table.text("model")?, table.text("known")?) {
-        (Some(file), None) => Model::read(&folder.join(file))?,
-        (None, Some(name)) => Model::known(name).ok_or_else(|| {
+    let mut model = match (table.get("model"), table.get("known")) {
+        (Some(given), None) => {
+            let (file, text) = given.file(folder, MODEL)?;
+            Model::parse(&text, &file)?
+        }
+        (None, Some(given)) => {
             let names: Vec<_> = known::all().map(|axis| axis.name).collect();
-            table.refuse("known", format!("{name:?}"), &names.join(", "))
-        })?,
+            let name = given.choice(&names)?;
+            Model::known(name).ok_or_else(|| given.refused(&names.join(", ")))?
+        }
         (None, None) => {
             let allowed = "give a model file, or known = \"motor\" for a known axis";
             return Err(table.refuse("model", "is missing".into(), allowed));
@@ -61,8 +67,17 @@ pub(super) fn machine(
     };
     let law = law.map_err(|e| table.together(&e))?;
     let given = table.positive("mass", is.mass)?;
-    let mass = given.or_else(|| model.value(Quantity::Mass).filter(|m| *m > 0.0));
-    let mass = table.required("mass", mass, "one such as \"4.6 kg\": the model has none")?;
+    let of_model = model.value(Quantity::Mass);
+    if given.is_none() && of_model.is_some_and(|mass| mass <= 0.0) {
+        let found = format!("{} {}", of_model.unwrap_or(0.0), is.mass.si_text());
+        let allowed = "a study needs a mass above 0: in the model, or as mass of its axis";
+        return Err(model.refuse_parameter("mass", found, allowed));
+    }
+    let mass = table.required(
+        "mass",
+        given.or(of_model),
+        "one such as \"4.6 kg\": the model has none",
+    )?;
     let rate = match first {
         None => table.positive("rate", Dimension::FREQUENCY)?,
         rate => rate,
@@ -86,6 +101,7 @@ pub(super) fn machine(
             ),
         ));
     }
+    let encoder = table.not_negative("encoder", is.length)?.unwrap_or(0.0);
     let machine = Machine {
         motion,
         law,
@@ -95,12 +111,11 @@ pub(super) fn machine(
         rate,
         substeps: substeps as u32,
         drive: drive(table, &is, rate)?,
-        encoder: Encoder::new(table.not_negative("encoder", is.length)?.unwrap_or(0.0))
-            .map_err(|e| table.together(&e))?,
+        encoder: Encoder::new(encoder).map_err(|e| table.together(&e))?,
         position_noise: table
             .not_negative("position_noise", is.length)?
             .unwrap_or(0.0),
-        cogging: cogging(table, &is)?,
+        cogging: cogging(table, &is, encoder)?,
         model,
     };
     table.end()?;
@@ -108,11 +123,11 @@ pub(super) fn machine(
 }
 
 fn drive(table: &Table<'_>, is: &Dimensions, rate: f64) -> Result<Drive, Error> {
-    let current_lag = match table.text("current_loop")? {
-        None | Some("none") => 0.0,
-        Some(_) => {
-            let bandwidth = table.positive("current_loop", Dimension::FREQUENCY)?;
-            bandwidth.map_or(0.0, |f| 1.0 / (2.0 * std::f64::consts::PI * f))
+    let current_lag = match table.get("current_loop").map(|g| g.or_word(&["none"])) {
+        None | Some((_, Some(_))) => 0.0,
+        Some((given, None)) => {
+            let (bandwidth, _) = given.positive(&[Dimension::FREQUENCY])?;
+            1.0 / (2.0 * std::f64::consts::PI * bandwidth)
         }
     };
     let drive = Drive {
@@ -129,7 +144,7 @@ fn drive(table: &Table<'_>, is: &Dimensions, rate: f64) -> Result<Drive, Error> 
     Ok(drive)
 }
 
-fn cogging(table: &Table<'_>, is: &Dimensions) -> Result<Option<Cogging>, Error> {
+fn cogging(table: &Table<'_>, is: &Dimensions, encoder: f64) -> Result<Option<Cogging>, Error> {
     let Some(table) = table.table("cogging")? else {
         return Ok(None);
     };
@@ -140,6 +155,14 @@ fn cogging(table: &Table<'_>, is: &Dimensions) -> Result<Option<Cogging>, Error>
         pitch: table.required("pitch", pitch, "a length such as \"24 mm\"")?,
         phase: 0.0,
     };
+    if !WRAPS.contains(&cogging.pitch) || cogging.pitch < encoder {
+        let (low, high) = (encoder.max(*WRAPS.start()), WRAPS.end());
+        let allowed = format!(
+            "from {low:e} to {high:e} {}, and not below the encoder step",
+            is.length.si_text()
+        );
+        return Err(table.refused("pitch", &allowed));
+    }
     table.end()?;
     Ok(Some(cogging))
 }
