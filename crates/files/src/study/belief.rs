@@ -212,6 +212,14 @@ impl Spread {
 mod tests {
     use super::*;
 
+    #[test]
+    fn a_part_is_not_rounded_to_the_whole() {
+        for (by, text) in [(0.1, "10"), (0.07, "7"), (1e-5, "0.001"), (0.9999, "99.99")] {
+            assert_eq!(percent(by), text);
+        }
+        assert!(percent(0.999_999_999_999_999).starts_with("99.9999"));
+    }
+
     /// The draws have the covariance that was asked for, a parameter tied to another stays tied, and one without
     /// variance stays where it is.
     #[test]
