@@ -2,8 +2,8 @@
 //!
 //! A *warning* may change what an identification finds; a *note* says what was assumed or seen.
 //! What no rule can mend is an [`Error`](crate::Error) instead. Thresholds stand as constants beside
-//! their check. They are this project's choices, held by tests: `tests/mapping_faults.rs` asks that random clean logs
-//! get no warning and that every fault put into them is found, `tests/mapping_recordings.rs` fixes what is found in
+//! their check. They are this project's choices, held by tests: `tests/suite/mapping_faults.rs` asks that random clean logs
+//! get no warning and that every fault put into them is found, `tests/suite/binary/mapping_recordings.rs` fixes what is found in
 //! measured recordings. In short:
 //!
 //! | code | found when | handled by |
