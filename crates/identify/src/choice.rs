@@ -1,15 +1,13 @@
 //! Which of several laws the data support: held-out error within its noise, AIC and BIC beside it.
 
 use crate::crossval::LawScore;
-use crate::fit::MOST_LAGS;
+use crate::fit::{EQUAL_ERROR_RATIO, MOST_LAGS};
 use stiction_signal::effective_sample_size;
 
 /// A law counts as equal to the best while its held-out error is above the least by no more than this
 /// many standard errors of the difference (the one-standard-error rule of Breiman, Friedman, Olshen
-/// and Stone 1984, section 3.4.3).
+/// and Stone 1984, section 3.4.3), or is within [`EQUAL_ERROR_RATIO`] of it.
 const EQUAL_STANDARD_ERRORS: f64 = 1.0;
-/// Or by no more than this factor. Less is of no use to anyone, however sure.
-const EQUAL_ERROR_RATIO: f64 = 1.01;
 
 /// How a law stands among others.
 #[derive(Clone, Copy, Debug, PartialEq)]

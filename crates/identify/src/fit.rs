@@ -6,6 +6,9 @@ use stiction_signal::effective_sample_size;
 /// Lags of an autocorrelation that are looked at, at most: with more, a long record costs more than its search, and an
 /// error that lasts so long is the law's.
 pub(crate) const MOST_LAGS: usize = 2000;
+/// Ratio of two held-out errors, dimensionless, up to which they count as equal, and the one with fewer parameters is taken.
+/// A choice: less than 1 % is of no use to anyone, however sure.
+pub(crate) const EQUAL_ERROR_RATIO: f64 = 1.01;
 
 /// Size of the residual on one set of samples.
 #[derive(Clone, Copy, Debug, PartialEq)]

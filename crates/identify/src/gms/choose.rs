@@ -4,6 +4,7 @@ use super::ladder::Rung;
 use super::score::ElementsScore;
 use crate::conditioning::blocks::kept_order;
 use crate::conditioning::record::Record;
+use crate::fit::EQUAL_ERROR_RATIO;
 use crate::law::terms::Terms;
 use crate::separable::descent::descend;
 use crate::separable::objective::Objective;
@@ -14,9 +15,6 @@ use stiction_search::Stage;
 const HELD_OUT_BLOCKS: usize = 4;
 /// Steps with which a fit settles when a block is left out.
 const REFIT_STEPS: usize = 3;
-/// Held-out errors within this factor of the least count as equal, and the fewest elements win: less is of no
-/// use to anyone, as in the choice of laws.
-const EQUAL_ERROR_RATIO: f64 = 1.01;
 
 /// Scores every rung, in the order given.
 pub(super) fn scores(
