@@ -70,6 +70,10 @@ impl fmt::Display for Place {
     }
 }
 
+/// A key of the axis file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Key(&'static str);
+
 /// A recording that was refused.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
@@ -83,8 +87,8 @@ pub struct Error {
     pub found: String,
     /// What is allowed, or what to do; empty where nothing useful can be said.
     pub allowed: String,
-    /// The key of the axis file whose value this is about, such as `log.crop`; `None` where it is about the recording alone.
-    pub setting: Option<&'static str>,
+    /// The key that it is about; boxed, so that an error stays small.
+    setting: Option<Box<Key>>,
 }
 
 impl Error {
@@ -103,8 +107,13 @@ impl Error {
     /// The same problem, about the value of this key of the axis file.
     #[must_use]
     pub fn of_setting(mut self, key: &'static str) -> Self {
-        self.setting = Some(key);
+        self.setting = Some(Box::new(Key(key)));
         self
+    }
+
+    /// The key of the axis file whose value this is about, such as `log.crop`; `None` where it is about the recording alone.
+    pub fn setting(&self) -> Option<&'static str> {
+        self.setting.as_ref().map(|key| key.0)
     }
 
     /// The same problem, in this file.

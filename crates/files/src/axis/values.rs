@@ -142,7 +142,7 @@ impl Axis {
 
     /// The refusal of a recording, at the key of this file that it is about, where it is about one.
     pub fn at_key(&self, error: stiction_log::Error) -> Error {
-        match error.setting {
+        match error.setting() {
             Some(key) => self.at(key, error),
             None => error.into(),
         }
