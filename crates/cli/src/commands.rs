@@ -6,15 +6,17 @@ use crate::exit::Exit;
 use crate::interrupt;
 use crate::output;
 use crate::progress::Bar;
+use crate::wording;
 use clap::ValueEnum;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use stiction::commands::{
-    CompareOptions, Cost, Excitation, FileError, Input, Options, Outcome, Scheme, check_folder,
+    CompareOptions, Cost, Excitation, FileError, Files, Input, Outcome, Scheme, check_folder,
     check_folder_of, check_inputs, write_atomic,
 };
 use stiction::{
-    CostKind, Error, ExportOptions, LawKind, Method, Procedures, Searching, Study, Target, bundle,
+    CostKind, Error, ExportOptions, LawKind, Method, Options, Procedures, Searching, Study, Target,
+    bundle,
 };
 
 /// Runs a command; every error is printed here, once.
@@ -37,11 +39,11 @@ pub fn run(arguments: &Arguments) -> Exit {
     };
     result.unwrap_or_else(|e| {
         // With standard error closed only the exit code is left to tell.
-        let message = output::line(&e.to_string());
-        let _ = writeln!(std::io::stderr(), "stiction: [{}] {message}", e.code());
+        let message = wording::message(&e);
+        let line = output::line(&message);
+        let _ = writeln!(std::io::stderr(), "stiction: [{}] {line}", e.code());
         if common.json {
-            let error =
-                serde_json::json!({ "error": { "code": e.code(), "message": e.to_string() } });
+            let error = serde_json::json!({ "error": { "code": e.code(), "message": message } });
             // The same was said on standard error; there is nowhere else to complain.
             let _ = output::json(&error);
         }
@@ -142,34 +144,34 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
             .chain(&identify.searching.resume)
             .chain(&identify.searching.checkpoint),
     )?;
-    let options = Options {
+    let files = Files {
         logs: identify.logs.clone(),
         axis: identify.axis.clone(),
-        law: match identify.law {
-            arguments::Law::Auto => None,
-            arguments::Law::CoulombViscous => Some(LawKind::CoulombViscous),
-            arguments::Law::Stribeck => Some(LawKind::Stribeck),
-            arguments::Law::Dahl => Some(LawKind::Dahl),
-            arguments::Law::Lugre => Some(LawKind::LuGre),
-            arguments::Law::ElastoPlastic => Some(LawKind::ElastoPlastic),
-            arguments::Law::MaxwellSlip => Some(LawKind::MaxwellSlip),
-            arguments::Law::Gms => Some(LawKind::Gms),
-        },
-        asymmetric: identify.asymmetric,
         validate: identify.validate.clone(),
-        split: identify.split,
-        seed: identify.seed,
-        compare_laws: true,
-        procedures: Procedures {
-            method: method(identify.method),
-            statics: identify.statics.clone(),
-            model: identify.model.clone(),
-            break_away: identify.break_away.clone(),
-        },
-        searching: searching(&identify.searching),
     };
+    let mut options = Options::default();
+    options.law = match identify.law {
+        arguments::Law::Auto => None,
+        arguments::Law::CoulombViscous => Some(LawKind::CoulombViscous),
+        arguments::Law::Stribeck => Some(LawKind::Stribeck),
+        arguments::Law::Dahl => Some(LawKind::Dahl),
+        arguments::Law::Lugre => Some(LawKind::LuGre),
+        arguments::Law::ElastoPlastic => Some(LawKind::ElastoPlastic),
+        arguments::Law::MaxwellSlip => Some(LawKind::MaxwellSlip),
+        arguments::Law::Gms => Some(LawKind::Gms),
+    };
+    options.asymmetric = identify.asymmetric;
+    options.split = identify.split;
+    options.seed = identify.seed;
+    options.procedures = Procedures {
+        method: method(identify.method),
+        statics: identify.statics.clone(),
+        model: identify.model.clone(),
+        break_away: identify.break_away.clone(),
+    };
+    options.searching = searching(&identify.searching);
     let mut bar = Bar::new(common.json || common.quiet);
-    let outcome = stiction::commands::identify(&options, &mut bar);
+    let outcome = stiction::commands::identify(&files, &options, &mut bar);
     bar.finish();
     finish(&outcome?, &identify.out, common)
 }

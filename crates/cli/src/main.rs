@@ -7,6 +7,7 @@ mod exit;
 mod interrupt;
 mod output;
 mod progress;
+mod wording;
 
 use arguments::Arguments;
 use clap::Parser;

@@ -95,7 +95,7 @@ fn limited(model: &Model, gain: f64, force: &dyn Fn(f64) -> f64) -> Option<Advic
         let until = by_gain.map_or(String::new(), |v| format!(" up to {}", speed(v)));
         format!(
             "{head}, not above the friction at standstill of {} {unit}: enough for a gain of {gain}{until}, but with a gain of 1 the rest stays \
-             uncompensated; give a higher --limit before raising the gain",
+             uncompensated; give a higher limit before raising the gain",
             short(rest)
         )
     } else {
@@ -109,10 +109,10 @@ fn limited(model: &Model, gain: f64, force: &dyn Fn(f64) -> f64) -> Option<Advic
         match model.top_speed {
             Some(top) if whole > top => return None,
             Some(top) => format!(
-                "{reached}, and the log goes to {}: give a higher --limit, or stay below that speed",
+                "{reached}, and the log goes to {}: give a higher limit, or stay below that speed",
                 speed(top)
             ),
-            None => format!("{reached}: if the axis moves faster, give a higher --limit"),
+            None => format!("{reached}: if the axis moves faster, give a higher limit"),
         }
     };
     Some(Advice {
@@ -133,7 +133,7 @@ fn rated(model: &Model) -> Option<Advice> {
     (most > rated).then(|| Advice {
         code: Code::ExportRatedForce,
         message: format!(
-            "{at}the table goes to {} {unit}, {:.0} percent of the rated force of {rated} {unit}: check that --rated-force is that of the motor, in {unit}",
+            "{at}the table goes to {} {unit}, {:.0} percent of the rated force of {rated} {unit}: check that it is that of the motor, in {unit}",
             short(most),
             100.0 * most / rated,
             unit = model.force_unit(),
@@ -201,7 +201,7 @@ fn unresolved(model: &Model, law: &LuGre<f64>, target: Target) -> Option<Advice>
     };
     let below = two_digits(length / vs);
     let remedy = if below > CYCLE_TIMES.0 {
-        format!("ask for a {cycle} below {below:.1e} s with --cycle-time")
+        format!("ask for a {cycle} below {below:.1e} s")
     } else {
         format!(
             "no allowed {cycle} ({:?} s or more) resolves it",

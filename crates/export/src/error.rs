@@ -17,10 +17,11 @@ pub enum Error {
     },
     /// A parameter that is too large or too small to be computed with in the number type of a file.
     #[error(
-        "{name} = {}; allowed: from {} to {} (as {number_type})",
+        "{name} = {}; allowed: from {} to {}{}",
         shortest(*value),
         shortest(range.0),
-        shortest(range.1)
+        shortest(range.1),
+        written_as(*number_type)
     )]
     Range {
         /// The parameter, or `limit`.
@@ -29,19 +30,20 @@ pub enum Error {
         value: f64,
         /// Least and largest size.
         range: (f64, f64),
-        /// `double`, `float`, `LREAL` or `REAL`.
-        number_type: &'static str,
+        /// `double`, `float`, `LREAL` or `REAL`; `None` for a value in memory.
+        number_type: Option<&'static str>,
     },
     /// A parameter or setting that the law or the compensator refuses.
     #[error(
-        "{} = {}; allowed: {} (as {number_type})",
+        "{} = {}; allowed: {}{}",
         source.name,
         shortest(source.value),
-        source.allowed
+        source.allowed,
+        written_as(*number_type)
     )]
     Number {
-        /// `double`, `float`, `LREAL` or `REAL`.
-        number_type: &'static str,
+        /// `double`, `float`, `LREAL` or `REAL`; `None` for a value in memory.
+        number_type: Option<&'static str>,
         /// What is wrong.
         source: ParamError,
     },
@@ -63,7 +65,7 @@ pub enum Error {
     },
     /// A target that needs the rated force of the motor.
     #[error(
-        "target {target} writes forces in per mille of the motor's rated force, which is not known; give it with --rated-force, in {unit}"
+        "target {target} writes forces in per mille of the motor's rated force, which is not known; give the rated force, in {unit}"
     )]
     RatedForce {
         /// The target.
@@ -92,10 +94,15 @@ pub enum Error {
 }
 
 impl Error {
-    pub(crate) fn number(number_type: &'static str, source: ParamError) -> Self {
+    pub(crate) fn number(number_type: impl Into<Option<&'static str>>, source: ParamError) -> Self {
         Error::Number {
-            number_type,
+            number_type: number_type.into(),
             source,
         }
     }
+}
+
+/// ` (as REAL)` where a number is to be written into a file.
+fn written_as(number_type: Option<&'static str>) -> String {
+    number_type.map_or(String::new(), |name| format!(" (as {name})"))
 }

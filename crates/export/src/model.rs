@@ -65,12 +65,14 @@ pub struct Provenance {
 }
 
 impl Model {
-    /// The compensator that the exported code is, in a number type. `number_type` is its name in the target.
+    /// The compensator that the exported code is, in a number type. `number_type` is its name in the target,
+    /// if there is one.
     pub(crate) fn compensator<T: Real>(
         &self,
         settings: &Settings<f64>,
-        number_type: &'static str,
+        number_type: impl Into<Option<&'static str>>,
     ) -> Result<Compensator<T>, Error> {
+        let number_type = number_type.into();
         range::check(self, settings.limit, number_type)?;
         let refuse = |e| Error::number(number_type, e);
         let friction = match &self.friction {
@@ -96,7 +98,7 @@ impl Model {
     /// # Errors
     /// As [`export`](crate::export): for numbers or settings out of range.
     pub fn in_rust(&self) -> Result<Compensator<f64>, Error> {
-        self.compensator(&self.settings, "f64")
+        self.compensator(&self.settings, None)
     }
 
     /// Unit of velocity.

@@ -25,16 +25,16 @@ struct Range {
 impl Range {
     /// The range of the number type of this name. Products of two parameters, and of those with the times and
     /// speeds of a test, stay well inside.
-    fn of(number_type: &str) -> Self {
+    fn of(number_type: Option<&str>) -> Self {
         match number_type {
             // No operation of the block overflows in REAL, at any speed that it accepts; the block's `valid` uses the same
             // bounds.
-            "REAL" | "LREAL" => Range {
+            Some("REAL" | "LREAL") => Range {
                 parameters: (1e-9, 1e9),
                 bristles: 1e15,
                 limit: (1e-15, 1e15),
             },
-            "float" => Range {
+            Some("float") => Range {
                 parameters: (1e-15, 1e15),
                 bristles: 1e15,
                 limit: (1e-30, 1e30),
@@ -50,7 +50,11 @@ impl Range {
 
 /// Refuses a law or a limit beyond the range of a number type, `number_type` in the target. Signs and relations between
 /// parameters are checked by the constructors.
-pub(crate) fn check(model: &Model, limit: f64, number_type: &'static str) -> Result<(), Error> {
+pub(crate) fn check(
+    model: &Model,
+    limit: f64,
+    number_type: Option<&'static str>,
+) -> Result<(), Error> {
     let range = Range::of(number_type);
     let refuse = |name, value, range: (f64, f64)| Error::Range {
         name,

@@ -44,6 +44,33 @@ pub enum Error {
         /// Why.
         reason: String,
     },
+    /// The output folder, or a file in it, is something that would be lost.
+    #[error("{}: {found}; {remedy}", .path.display())]
+    Taken {
+        /// The folder or file.
+        path: PathBuf,
+        /// What is there.
+        found: &'static str,
+        /// What to do.
+        remedy: Remedy,
+    },
+}
+
+/// What to do where an output folder is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Remedy {
+    /// Another folder is to be given.
+    #[error("choose another folder")]
+    AnotherFolder,
+    /// What is there may be deleted, too.
+    #[error("delete it or choose another folder")]
+    DeleteOrAnotherFolder,
+    /// It may be written into all the same, where that is asked for.
+    #[error("choose another folder, or ask for it to be written into all the same")]
+    AnotherFolderOrForce,
+    /// What is given must be a folder.
+    #[error("give a folder")]
+    Folder,
 }
 
 impl Error {
@@ -53,7 +80,7 @@ impl Error {
             Error::Log(e) => e.kind.code(),
             Error::Config { .. } => Code::BadConfig,
             Error::Misfit { code, .. } => *code,
-            Error::Output { .. } => Code::Output,
+            Error::Output { .. } | Error::Taken { .. } => Code::Output,
         }
     }
 
@@ -62,6 +89,14 @@ impl Error {
         Error::Output {
             path: path.to_path_buf(),
             reason: reason.into(),
+        }
+    }
+
+    pub(crate) fn taken(path: &Path, found: &'static str, remedy: Remedy) -> Self {
+        Error::Taken {
+            path: path.to_path_buf(),
+            found,
+            remedy,
         }
     }
 }

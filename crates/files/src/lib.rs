@@ -11,12 +11,11 @@
 //! Begin with [`Axis::read`] or [`ModelFile::read`]. An error names file, line, column, key, what was found and what is allowed:
 //!
 //! ```
-//! use std::path::Path;
 //! use stiction_files::Axis;
-//! let axis = Axis::parse("kind = \"linear\"\nmass = \"4.6 kg\"\n", Path::new("axis.toml")).unwrap();
+//! let axis = Axis::parse("kind = \"linear\"\nmass = \"4.6 kg\"\n").unwrap();
 //! assert_eq!(axis.name, None);
-//! let refused = Axis::parse("kind = \"round\"\n", Path::new("axis.toml")).unwrap_err();
-//! assert!(refused.to_string().starts_with("axis.toml: line 1, column 8, kind: "));
+//! let refused = Axis::parse("kind = \"round\"\n").unwrap_err();
+//! assert!(refused.to_string().starts_with("axis: line 1, column 8, kind: "));
 //! ```
 //!
 //! Nothing here runs a workflow, and nothing prints.
@@ -34,7 +33,7 @@ pub mod study;
 pub mod symbols;
 
 pub use axis::Axis;
-pub use error::{Error, Warning};
+pub use error::{Error, Remedy, Warning};
 pub use hash::{sha256, sha256_of};
 pub use model::ModelFile;
 pub use output::{

@@ -1,6 +1,6 @@
 //! Files on disk: a folder appears whole or not at all, and never on top of something else.
 
-use crate::error::Error;
+use crate::error::{Error, Remedy};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -36,7 +36,8 @@ impl Bundle {
     ///
     /// # Errors
     /// When the folder cannot be made or a file cannot be written.
-    pub fn write(&self, dir: &Path) -> Result<Vec<PathBuf>, Error> {
+    pub fn write(&self, dir: impl AsRef<Path>) -> Result<Vec<PathBuf>, Error> {
+        let dir = dir.as_ref();
         fs::create_dir_all(dir).map_err(|e| Error::output(dir, describe(&e)))?;
         let mut order: Vec<_> = self.files.iter().collect();
         order.sort_by_key(|(name, _)| MARKS.contains(name));
@@ -68,20 +69,27 @@ impl Bundle {
 /// # Errors
 /// When the folder holds something, a path leads out of it, or it cannot be written.
 pub fn write_folder<'f>(
-    dir: &Path,
+    dir: impl AsRef<Path>,
     files: impl IntoIterator<Item = (&'f str, &'f [u8])>,
 ) -> Result<(), Error> {
+    let dir = dir.as_ref();
     let fail = |e: std::io::Error| Error::output(dir, describe(&e));
     let there = dir.symlink_metadata().is_ok();
     if there {
         let free = dir.is_dir() && fs::read_dir(dir).map_err(fail)?.next().is_none();
         if !free {
-            let what = if dir.is_dir() {
-                "holds something, and an export never overwrites; delete it or choose another --out"
+            let (found, remedy) = if dir.is_dir() {
+                (
+                    "holds something, and an export never overwrites",
+                    Remedy::DeleteOrAnotherFolder,
+                )
             } else {
-                "exists and is no folder, and an export never overwrites; choose another --out"
+                (
+                    "exists and is no folder, and an export never overwrites",
+                    Remedy::AnotherFolder,
+                )
             };
-            return Err(Error::output(dir, what));
+            return Err(Error::taken(dir, found, remedy));
         }
     }
     let parent = match dir.parent() {
@@ -138,7 +146,8 @@ fn move_into(from: &Path, dir: &Path) -> std::io::Result<()> {
 ///
 /// # Errors
 /// When the folder is not writable or the disk is full.
-pub fn write_atomic(path: &Path, content: &[u8]) -> Result<(), Error> {
+pub fn write_atomic(path: impl AsRef<Path>, content: &[u8]) -> Result<(), Error> {
+    let path = path.as_ref();
     publish(stage(path, content)?, path)
 }
 
@@ -162,7 +171,8 @@ fn stage(path: &Path, content: &[u8]) -> Result<NamedTempFile, Error> {
 ///
 /// # Errors
 /// With the reason.
-pub fn check_writable(path: &Path) -> Result<(), Error> {
+pub fn check_writable(path: impl AsRef<Path>) -> Result<(), Error> {
+    let path = path.as_ref();
     let fail = |e: std::io::Error| Error::output(path, describe(&e));
     temporary_beside(path).map(drop).map_err(fail)
 }
@@ -201,22 +211,22 @@ const WRITTEN: [&str; 9] = [
 ///
 /// # Errors
 /// With the input that would be lost.
-pub fn check_inputs<'p>(
-    dir: &Path,
-    inputs: impl IntoIterator<Item = &'p PathBuf>,
+pub fn check_inputs(
+    dir: impl AsRef<Path>,
+    inputs: impl IntoIterator<Item = impl AsRef<Path>>,
 ) -> Result<(), Error> {
-    let Ok(out) = dir.canonicalize() else {
+    let Ok(out) = dir.as_ref().canonicalize() else {
         return Ok(());
     };
     for input in inputs {
+        let input = input.as_ref();
         let Some(real) = place_of(input) else {
             continue;
         };
         let name = real.file_name().and_then(|name| name.to_str());
         if real.parent() == Some(out.as_path()) && name.is_some_and(|n| WRITTEN.contains(&n)) {
-            let what =
-                "is an input, or a checkpoint, and would be overwritten; choose another --out";
-            return Err(Error::output(input, what));
+            let found = "is an input, or a checkpoint, and would be overwritten";
+            return Err(Error::taken(input, found, Remedy::AnotherFolder));
         }
     }
     Ok(())
@@ -241,7 +251,7 @@ fn place_of(file: &Path) -> Option<PathBuf> {
 ///
 /// # Errors
 /// With the reason and the way out.
-pub fn check_folder(dir: &Path, force: bool) -> Result<(), Error> {
+pub fn check_folder(dir: impl AsRef<Path>, force: bool) -> Result<(), Error> {
     check_folder_of(dir, crate::result::SCHEMA, force)
 }
 
@@ -250,7 +260,8 @@ pub fn check_folder(dir: &Path, force: bool) -> Result<(), Error> {
 ///
 /// # Errors
 /// As [`check_folder`].
-pub fn check_folder_of(dir: &Path, schema: &str, force: bool) -> Result<(), Error> {
+pub fn check_folder_of(dir: impl AsRef<Path>, schema: &str, force: bool) -> Result<(), Error> {
+    let dir = dir.as_ref();
     let kind = schema
         .trim_start_matches("stiction.")
         .split('/')
@@ -265,10 +276,10 @@ pub fn check_folder_of(dir: &Path, schema: &str, force: bool) -> Result<(), Erro
     if empty || force || is_ours(&dir.join(format!("{kind}.json")), kind) {
         return Ok(());
     }
-    Err(Error::output(
+    Err(Error::taken(
         dir,
-        "is not empty and holds no result of stiction; choose another --out or add --force to write \
-         into it all the same",
+        "is not empty and holds no result of stiction",
+        Remedy::AnotherFolderOrForce,
     ))
 }
 
@@ -287,10 +298,7 @@ fn writable_above(dir: &Path) -> Result<&Path, Error> {
         .find(|a| a.symlink_metadata().is_ok())
         .unwrap_or(Path::new("."));
     if !existing.is_dir() {
-        return Err(Error::output(
-            existing,
-            "is not a folder; --out takes a folder",
-        ));
+        return Err(Error::taken(existing, "is not a folder", Remedy::Folder));
     }
     temporary_beside(&existing.join("probe")).map_err(|e| Error::output(existing, describe(&e)))?;
     Ok(existing)

@@ -82,7 +82,7 @@ fn main() -> std::io::Result<()> {
             );
         }
     }
-    stiction::commands::write_atomic(&workspace().join("docs/validation.md"), out.as_bytes())
+    stiction::commands::write_atomic(workspace().join("docs/validation.md"), out.as_bytes())
         .map_err(std::io::Error::other)
 }
 

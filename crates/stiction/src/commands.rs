@@ -3,8 +3,8 @@
 
 /// Forms of files, and how they are written.
 pub use stiction_files::{
-    Bundle, Error as FileError, axis, check_folder, check_folder_of, check_inputs, compare_file,
-    reproduce_file, study, write_atomic,
+    Bundle, Error as FileError, Remedy, axis, check_folder, check_folder_of, check_inputs,
+    compare_file, reproduce_file, study, write_atomic,
 };
 /// Integration steps of a simulated candidate.
 pub use stiction_identify::candidates::Scheme;
@@ -17,8 +17,10 @@ pub use stiction_workflows::compare::{
     CompareOptions, Cost, Excitation, Input, ONE_START, compare,
 };
 /// An identification from paths.
-pub use stiction_workflows::identify::{Options, Outcome, Simulated, identify};
+pub use stiction_workflows::identify::{Files, Outcome, Simulated, identify};
 /// Logs with the files they came from.
 pub use stiction_workflows::source::{Source, load, table};
+/// How an error names options.
+pub use stiction_workflows::{Part, Setting, Wording};
 /// Further workflows, and what an outcome is worth.
 pub use stiction_workflows::{check, demo, export, reproduce, verdict};

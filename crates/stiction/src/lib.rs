@@ -49,11 +49,49 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! Columns in memory go the same way; here with other options, a log to validate on, and on to files and code:
+//!
+//! ```
+//! use stiction::{Axis, Column, ExportOptions, LawKind, Log, Options, Target, export, identify_validated};
+//! # let folder = tempfile::tempdir()?;
+//! # let folder = folder.path();
+//!
+//! // An axis of 9 kg with 20 N of Coulomb and 60 N s/m of viscous friction, moved to and fro.
+//! let axis = Axis::parse("name = \"X\"\nkind = \"linear\"\n")?;
+//! let run = |name: &str, stroke: f64| {
+//!     let time: Vec<f64> = (0..6000).map(|k| 1e-3 * f64::from(k)).collect();
+//!     let motion = |t: f64| (stroke * (6.0 * t).sin(), 6.0 * stroke * (6.0 * t).cos());
+//!     let force = |t: f64| 20.0 * motion(t).1.signum() + 60.0 * motion(t).1 - 9.0 * 36.0 * motion(t).0;
+//!     let column = |name: &str, unit: &str, values: Vec<f64>| Column {
+//!         name: name.into(),
+//!         unit: Some(unit.into()),
+//!         values,
+//!     };
+//!     let position = time.iter().map(|&t| 1e3 * motion(t).0).collect();
+//!     let force = time.iter().map(|&t| force(t)).collect();
+//!     let columns = vec![column("time", "s", time), column("position", "mm", position), column("force", "N", force)];
+//!     Log::from_columns(name, columns, &axis)
+//! };
+//!
+//! let mut options = Options::default();
+//! options.law = Some(LawKind::CoulombViscous);
+//! options.compare_laws = false; // with no other law
+//! let fit = identify_validated(&[run("run 1", 0.05)?], &[run("run 2", 0.08)?], &axis, &options)?;
+//! let mass = fit.parameter("mass").expect("a fitted mass");
+//! assert!((mass.value() - 9.0).abs() < 0.1, "{}", mass.value());
+//!
+//! fit.write(folder.join("result"))?; // result.json, model.toml, report.html, fit.csv
+//! let code = export(&fit.model(), &ExportOptions::new(Target::C, 1e-3))?; // called every millisecond
+//! code.write(folder.join("controller"))?;
+//! # assert!(code.written.iter().any(|name| name.ends_with(".c")), "{:?}", code.written);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! | from | to | with |
 //! |---|---|---|
 //! | a file or columns in memory | [`Log`] | [`Log::open`], [`Log::from_columns`] |
 //! | what is known of the machine | [`Axis`] | [`Axis::read`], [`Axis::parse`] |
-//! | logs | [`Fit`] | [`identify()`], [`identify_observed`] |
+//! | logs | [`Fit`] | [`identify()`], [`identify_validated`], [`identify_observed`] |
 //! | a fit | law, prediction, compensator, files | [`Fit::law`], [`Fit::predict`], [`Fit::compensator`], [`Fit::write`] |
 //! | a model | code for a controller | [`export()`] |
 //! | a study file | tracking errors with and without compensation | [`Study::read`], [`simulate`] |
@@ -72,7 +110,7 @@ mod log;
 mod parameter;
 
 pub use fit::Fit;
-pub use identify::{Options, identify, identify_observed};
+pub use identify::{Options, identify, identify_observed, identify_validated};
 pub use log::{Column, Finding, Log, Severity};
 pub use parameter::Parameter;
 pub use stiction_codes::Code;

@@ -29,7 +29,7 @@ impl Log {
     /// # Errors
     /// As [`Log::open`].
     pub fn open_with(path: impl AsRef<Path>, axis: &Axis) -> Result<Self, Error> {
-        let source = source::load(path.as_ref(), axis)?;
+        let source = source::load(path, axis)?;
         Ok(Self { source })
     }
 

@@ -9,7 +9,7 @@ use std::time::Instant;
 use stiction_codes::Code;
 use stiction_files::axis::{Axis, template};
 use stiction_files::result::Input;
-use stiction_identify::{LawKind, Observer};
+use stiction_identify::Observer;
 use stiction_log::{Mapping, Severity};
 use stiction_number::four_digits as short;
 
@@ -79,7 +79,7 @@ pub fn check(
     observer: &mut dyn Observer,
 ) -> Result<Check, Error> {
     if logs.is_empty() {
-        return Err(Error::usage("no log given", "name at least one log file"));
+        return Err(Error::usage("no log given", "at least one log"));
     }
     let read = match axis {
         Some(file) => Axis::read(file)?,
@@ -121,16 +121,8 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
         refused: None,
     };
     let options = Options {
-        logs: vec![path.to_path_buf()],
-        axis: None,
-        law: Some(LawKind::LuGre),
-        asymmetric: false,
-        validate: Vec::new(),
-        split: None,
-        seed: 0,
         compare_laws: false,
-        procedures: crate::identify::Procedures::default(),
-        searching: crate::identify::Searching::default(),
+        ..Options::default()
     };
     let asked = Asked {
         options: &options,

@@ -15,6 +15,7 @@ pub use excitation::Excitation;
 pub use options::{CompareOptions, Cost, Input, ONE_START, integrator_name};
 
 use crate::error::Error;
+use crate::wording::{Setting, TOGETHER_WITH};
 use known::Known;
 use options::USUAL_NOISE;
 use std::time::Instant;
@@ -45,22 +46,27 @@ pub fn compare(
     observer: &mut dyn Observer,
 ) -> Result<CompareFile, Error> {
     let clock = Instant::now();
-    for (name, found, most) in [
-        ("--seeds", options.seeds, 10_000),
-        ("--evaluations", options.evaluations, 100_000_000),
+    for (setting, found, most) in [
+        (Setting::Seeds, options.seeds, 10_000),
+        (Setting::Evaluations, options.evaluations, 100_000_000),
     ] {
         if !(1..=most).contains(&found) {
             let allowed = format!("1 to {most}");
-            return Err(Error::usage(format!("{name} {found}"), allowed));
+            return Err(Error::usage(setting.is(found), allowed));
         }
     }
     if options.cost == Some(Cost::Separable) && options.integrator != Scheme::Explin {
         return Err(Error::usage(
-            format!(
-                "--integrator {} together with --cost separable",
-                integrator_name(options.integrator)
-            ),
-            "explin, or --cost six: the separable cost is solved with its own recursion",
+            [
+                Setting::Integrator.is(integrator_name(options.integrator)),
+                TOGETHER_WITH.into(),
+                Setting::Cost.is(Cost::Separable.name()),
+            ],
+            [
+                "explin, or ".into(),
+                Setting::Cost.is(Cost::Six.name()),
+                ": the separable cost is solved with its own recursion".into(),
+            ],
         ));
     }
     let subject = subject(options, observer)?;
@@ -149,7 +155,7 @@ fn subject(options: &CompareOptions, observer: &mut dyn Observer) -> Result<Subj
             Some(Known::Axis(axis)) => made::from_axis(options, &axis),
             Some(Known::Curve(curve)) => made::from_curve(options, curve),
             None => Err(Error::usage(
-                format!("--problem {name}"),
+                Setting::Problem.is(name),
                 format!("one of {}", known::names().join(", ")),
             )),
         },

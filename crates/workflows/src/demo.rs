@@ -4,12 +4,12 @@ mod axis;
 mod procedures;
 
 use crate::error::Error;
-use crate::identify::{self, Options, Outcome};
+use crate::identify::{self, Files, Options, Outcome};
 use axis::{AXIS, csv, simulate};
 pub use procedures::procedures;
 use std::path::{Path, PathBuf};
 use stiction_files::write_atomic;
-use stiction_identify::{LawKind, Observer};
+use stiction_identify::Observer;
 use stiction_servo::known::{self, KnownAxis};
 
 /// Name of the log that the demo writes.
@@ -18,24 +18,25 @@ pub const LOG: &str = "demo.csv";
 ///
 /// # Errors
 /// When the folder cannot be written.
-pub fn demo(dir: &Path, seed: u64, observer: &mut dyn Observer) -> Result<Outcome, Error> {
+pub fn demo(
+    dir: impl AsRef<Path>,
+    seed: u64,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, Error> {
+    let dir = dir.as_ref();
     let axis = known::find(AXIS).expect("the demo axis is in the library");
     std::fs::create_dir_all(dir).map_err(|e| stiction_files::Error::output(dir, e.to_string()))?;
     let log: PathBuf = dir.join(LOG);
     write_log(&log, seed)?;
-    let options = Options {
+    let files = Files {
         logs: vec![log],
-        axis: None,
-        law: Some(LawKind::LuGre),
-        asymmetric: false,
-        validate: Vec::new(),
-        split: None,
-        seed,
-        compare_laws: true,
-        procedures: crate::identify::Procedures::default(),
-        searching: crate::identify::Searching::default(),
+        ..Files::default()
     };
-    let mut outcome = identify::identify(&options, observer)?;
+    let options = Options {
+        seed,
+        ..Options::default()
+    };
+    let mut outcome = identify::identify(&files, &options, observer)?;
     outcome.result.axis.name = Some("a simulated machine axis".into());
     outcome.truth = truth(&axis);
     Ok(outcome)

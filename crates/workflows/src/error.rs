@@ -1,5 +1,6 @@
 //! What goes wrong in a workflow, with a stable code.
 
+use crate::wording::Wording;
 use std::path::PathBuf;
 use stiction_codes::Code;
 use stiction_files::Axis;
@@ -28,7 +29,7 @@ pub enum Error {
         /// What was found.
         found: String,
         /// What is allowed.
-        allowed: String,
+        allowed: Wording,
     },
     /// A model cannot be exported.
     #[error("{0}")]
@@ -43,13 +44,13 @@ pub enum Error {
         /// Why.
         source: stiction_export::Error,
     },
-    /// The command as typed cannot be carried out.
+    /// The options do not go together with each other or with the logs.
     #[error("{found}; {allowed}")]
     Usage {
         /// What was found.
-        found: String,
+        found: Wording,
         /// What is allowed.
-        allowed: String,
+        allowed: Wording,
     },
 }
 
@@ -113,7 +114,7 @@ impl Error {
         }
     }
 
-    pub(crate) fn usage(found: impl Into<String>, allowed: impl Into<String>) -> Self {
+    pub(crate) fn usage(found: impl Into<Wording>, allowed: impl Into<Wording>) -> Self {
         Error::Usage {
             found: found.into(),
             allowed: allowed.into(),

@@ -9,12 +9,12 @@ use stiction_export::{Model, Parameter, Provenance};
 use stiction_files::ModelFile;
 use stiction_files::Warning;
 use stiction_files::model::ReadModel;
-use stiction_files::{sha256_of, write_folder};
+use stiction_files::write_folder;
 use stiction_friction::ParamError;
 use stiction_friction::compensator::{Compensator, Friction, Settings};
 use stiction_parameters::{FrictionLaw, LawError, LawKind, Name};
 
-pub use stiction_export::{File, Target};
+pub use stiction_export::{Error as ExportError, File, Target};
 
 /// The form to export, and what the compensator is to be.
 #[derive(Clone, Debug)]
@@ -84,39 +84,36 @@ impl Exported {
     ///
     /// # Errors
     /// When the folder is not free or cannot be written.
-    pub fn write(&self, dir: &Path) -> Result<(), Error> {
+    pub fn write(&self, dir: impl AsRef<Path>) -> Result<(), Error> {
         let files = self.files.iter();
         Ok(write_folder(
-            dir,
+            dir.as_ref(),
             files.map(|f| (f.path.as_str(), f.bytes.as_slice())),
         )?)
     }
 }
 
-/// What a model in memory is called in messages: the name of its file.
-const MODEL_FILE: &str = "model.toml";
+/// What a model in memory is called in messages.
+const IN_MEMORY: &str = "model";
 
 /// The compensator of a model in memory, as code.
 ///
 /// # Errors
 /// When the model cannot be exported in this form, or an option is out of range. A number of the model is named by its
-/// place in the file that it would be.
+/// key.
 pub fn export(model: &ModelFile, options: &ExportOptions) -> Result<Exported, Error> {
-    let (text, file) = (model.to_toml(), Path::new(MODEL_FILE));
-    let read = ReadModel::parse(&text, file)?;
-    code(&read, text.as_bytes(), file, options)
+    check(options)?;
+    code(&ReadModel::of(model)?, Path::new(IN_MEMORY), options)
 }
 
 /// The compensator of a model file, as code.
 ///
 /// # Errors
 /// As [`export`], and when the file cannot be read.
-pub fn export_file(file: &Path, options: &ExportOptions) -> Result<Exported, Error> {
+pub fn export_file(file: impl AsRef<Path>, options: &ExportOptions) -> Result<Exported, Error> {
     check(options)?;
-    let read = ReadModel::read(file)?;
-    let bytes =
-        std::fs::read(file).map_err(|e| stiction_files::Error::output(file, e.to_string()))?;
-    code(&read, &bytes, file, options)
+    let file = file.as_ref();
+    code(&ReadModel::read(file)?, file, options)
 }
 
 /// The compensator of a model as a Rust value: what [`export`] writes for [`Target::Rust`], to be stepped once a cycle.
@@ -124,38 +121,30 @@ pub fn export_file(file: &Path, options: &ExportOptions) -> Result<Exported, Err
 /// # Errors
 /// As [`export`].
 pub fn compensator(model: &ModelFile, options: &ExportOptions) -> Result<Compensator<f64>, Error> {
-    let (text, file) = (model.to_toml(), Path::new(MODEL_FILE));
-    let read = ReadModel::parse(&text, file)?;
-    let (model, _) = resolve(&read, text.as_bytes(), options)?;
-    model.in_rust().map_err(|e| place(e, &read, file, options))
+    let read = ReadModel::of(model)?;
+    let (model, _) = resolve(&read, options)?;
+    let placed = |e| place(e, &read, Path::new(IN_MEMORY), options);
+    model.in_rust().map_err(placed)
 }
 
 /// Refuses options that the target has no use for.
 fn check(options: &ExportOptions) -> Result<(), Error> {
     if options.rated_force.is_some() && options.target != Target::Tf5200 {
-        return Err(Error::Usage {
-            found: format!("a rated force for the target {}", options.target.name()),
-            allowed: "only tf5200 takes one".into(),
-        });
+        let found = format!("a rated force for the target {}", options.target.name());
+        return Err(Error::usage(found, "only tf5200 takes one"));
     }
     if options.limit.is_some() && options.target == Target::Mujoco {
-        return Err(Error::Usage {
-            found: "a limit for the target mujoco".into(),
-            allowed: "the friction of a joint in MuJoCo is not limited".into(),
-        });
+        return Err(Error::usage(
+            "a limit for the target mujoco",
+            "the friction of a joint in MuJoCo is not limited",
+        ));
     }
     Ok(())
 }
 
-/// The code of a model whose file has these bytes.
-fn code(
-    read: &ReadModel,
-    bytes: &[u8],
-    file: &Path,
-    options: &ExportOptions,
-) -> Result<Exported, Error> {
-    check(options)?;
-    let (mut model, mut warnings) = resolve(read, bytes, options)?;
+/// The code of a model; `file` is for messages.
+fn code(read: &ReadModel, file: &Path, options: &ExportOptions) -> Result<Exported, Error> {
+    let (mut model, mut warnings) = resolve(read, options)?;
     if options.limit.is_none() && options.target == Target::Tf5200 {
         model.settings.limit = stiction_export::largest_force_in_table(&model);
     }
@@ -198,11 +187,7 @@ fn code(
     })
 }
 
-fn resolve(
-    read: &ReadModel,
-    bytes: &[u8],
-    options: &ExportOptions,
-) -> Result<(Model, Vec<Warning>), Error> {
+fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warning>), Error> {
     let file = &read.model;
     if let Some(p) = file.parameter.iter().find(|p| out_of_the_law(&p.name)) {
         let allowed = "the compensator has no such term; identify without it";
@@ -214,7 +199,7 @@ fn resolve(
         Unfit::Law => read.refuse(
             "law",
             file.law.as_str(),
-            "export coulomb-viscous, stribeck, dahl or lugre; identify with --law lugre",
+            "export coulomb-viscous, stribeck, dahl or lugre; identify with one of them",
         ),
         Unfit::Missing(name) => read.refuse(
             "parameter",
@@ -238,7 +223,7 @@ fn resolve(
         warnings.push(Warning::new(
             Code::ExportName,
             format!(
-                "the names in the code begin with {identifier}, only a part of the axis name '{title}': another axis may get the same; give one with --name"
+                "the names in the code begin with {identifier}, only a part of the axis name '{title}': another axis may get the same; give a name"
             ),
         ));
     }
@@ -266,7 +251,7 @@ fn resolve(
         notes: vec![],
         provenance: Provenance {
             version: env!("CARGO_PKG_VERSION").into(),
-            model_sha256: sha256_of(bytes),
+            model_sha256: read.sha256.clone(),
             inputs: file
                 .source
                 .inputs
@@ -302,7 +287,8 @@ fn place(
             source: ParamError { name, .. },
             ..
         } => {
-            if (*name == "limit" && options.limit.is_some()) || *name == "rated_force" {
+            let asked = *name == "limit" && options.limit.is_some();
+            if asked || matches!(*name, "rated_force" | "cycle_time") {
                 return source.into();
             }
             read.place_of_parameter(name)

@@ -27,7 +27,7 @@ mod trust;
 pub(crate) use condition::record_of;
 pub(crate) use load::Asked;
 pub use method::Method;
-pub use options::{CostKind, Options, Procedures, Searching};
+pub use options::{CostKind, Files, Options, Procedures, Searching};
 pub use outcome::{ForceFit, Found, Outcome, Simulated};
 pub use predict::{Prediction, predict};
 pub(crate) use run::identify_asked;

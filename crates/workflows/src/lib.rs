@@ -47,9 +47,11 @@ pub mod source;
 mod spread;
 pub mod study;
 pub mod verdict;
+mod wording;
 
 pub use error::Error;
 pub use verdict::Verdict;
+pub use wording::{Part, Setting, Wording};
 
 /// Limits the threads of the whole process; the first call counts. Results do not depend on it.
 pub fn set_threads(threads: usize) {

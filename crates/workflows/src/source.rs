@@ -27,19 +27,20 @@ pub struct Source {
 ///
 /// # Errors
 /// With file, place, what was found and what is allowed.
-pub fn table(path: &Path, axis: &Axis) -> Result<Table, Error> {
+pub fn table(path: impl AsRef<Path>, axis: &Axis) -> Result<Table, Error> {
     let options = ReadOptions {
         text: axis.text,
         ..ReadOptions::default()
     };
-    read_table(path, &options).map_err(|e| axis.at_key(e).into())
+    read_table(path.as_ref(), &options).map_err(|e| axis.at_key(e).into())
 }
 
 /// Reads a file and maps it by the axis.
 ///
 /// # Errors
 /// As [`table`], and where columns or units are missing or ambiguous.
-pub fn load(path: &Path, axis: &Axis) -> Result<Source, Error> {
+pub fn load(path: impl AsRef<Path>, axis: &Axis) -> Result<Source, Error> {
+    let path = path.as_ref();
     let table = table(path, axis)?;
     mapped(path, || Ok(stiction_files::sha256(path)?), &table, axis)
 }

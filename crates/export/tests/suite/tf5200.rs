@@ -118,7 +118,7 @@ fn the_self_test_passes_and_notices() {
 fn a_rated_force_is_needed() {
     let mut model = model(laws().remove(0).1);
     for (rated, says) in [
-        (None, "give it with --rated-force"),
+        (None, "give the rated force"),
         (Some(0.0), "rated_force = 0"),
         (Some(f64::NAN), "rated_force = NaN"),
         (Some(f64::INFINITY), "rated_force = inf"),
@@ -170,7 +170,10 @@ fn a_limit_is_stated() {
     let from = stated(&text, "interpolated linearly, from 0 to");
     // 12 N + 30 N s/m v = 36 N at 0.8 m/s; 42 N at 1 m/s.
     assert_eq!(from, 0.8);
-    assert!(text.contains("limited to 36 N\n# (--limit)"), "{text}");
+    assert!(
+        text.contains("limited to 36 N\n# before scaling_factor"),
+        "{text}"
+    );
     assert!((stated(&text, "larger than the table, by up to") - 6.0).abs() < 0.05);
     let error = stated(&text, "against the mean of both directions");
     let points: Vec<[f64; 2]> = (0..value(&text, "table_entries") as usize)
@@ -199,7 +202,7 @@ fn a_limit_is_stated() {
         stated(&low, "against the mean of both directions") < 0.01 * 14.0,
         "{low}"
     );
-    assert!(low.contains("stays within 14 N (--limit)"), "{low}");
+    assert!(low.contains("stays within the limit of 14 N"), "{low}");
     assert_eq!(stated(&low, "The friction is larger, by"), 4.0);
     assert!((stated(&low, "# up to") - 3.2124e-3).abs() < 2e-6, "{low}");
     assert!(

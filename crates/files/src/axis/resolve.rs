@@ -15,6 +15,9 @@ use stiction_log::mapping::{FORCE_LIMITS, RATES, RESOLUTIONS, WRAPS};
 use stiction_log::text::{Decimal, MAX_PREAMBLE_LINES, Separator, TextOptions};
 use stiction_log::{Dimension, Mapping, Motion, Wrap};
 
+/// What the text of an axis is called in messages where it is in no file.
+const IN_MEMORY: &str = "axis";
+
 /// Largest decimation: 10 kHz down to 1 Hz.
 const MAX_DECIMATE: u64 = 10_000;
 
@@ -23,17 +26,17 @@ impl Axis {
     ///
     /// # Errors
     /// With file, line, column and key, what was found and what is allowed.
-    pub fn read(file: &Path) -> Result<Self, Error> {
-        let text = crate::config::read(file, "an axis file")?;
-        Self::parse(&text, file)
+    pub fn read(file: impl AsRef<Path>) -> Result<Self, Error> {
+        let file = file.as_ref();
+        resolve(&crate::config::read(file, "an axis file")?, file)
     }
 
-    /// Checks the text of an axis file; `file` is named in errors.
+    /// Checks the text of an axis file.
     ///
     /// # Errors
-    /// As [`Axis::read`].
-    pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
-        resolve(text, file)
+    /// With line, column and key, what was found and what is allowed.
+    pub fn parse(text: &str) -> Result<Self, Error> {
+        resolve(text, Path::new(IN_MEMORY))
     }
 }
 

@@ -142,7 +142,7 @@ pub fn template(table: &Table, detected: Result<&Mapping, &str>) -> String {
          # coulomb_load = true      # friction that changes with the load column\n\n\
          [report]\n\
          # low_speed = \"1 {length}/s\"   # what counts as near zero speed\n\n\
-         # For --method output-error, where the control law is known; else leave it out.\n\
+         # For the method output-error, where the control law is known; else leave it out.\n\
          # [controller]\n\
          # kind = \"p-p\"            # or \"p-pi\", with integral_gain\n\
          # position_gain = \"60 1/s\"\n\

@@ -10,25 +10,33 @@ use toml::de::{DeTable, DeValue};
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Places {
     file: PathBuf,
-    text: String,
-    bytes: BTreeMap<String, usize>,
+    /// The text and where in it each key stands; `None` for values that are in no file.
+    text: Option<(String, BTreeMap<String, usize>)>,
 }
 
 impl Places {
+    /// Values that are in no file: their keys are all that is known. `name` stands for the file in messages.
+    pub fn in_memory(name: &str) -> Self {
+        Places {
+            file: name.into(),
+            text: None,
+        }
+    }
+
     /// All places of a file.
     pub fn of(source: &Source<'_>, entries: &DeTable<'_>) -> Self {
         let mut bytes = BTreeMap::new();
         table(entries, "", &mut bytes);
         Places {
             file: source.file.to_path_buf(),
-            text: source.text.into(),
-            bytes,
+            text: Some((source.text.into(), bytes)),
         }
     }
 
     /// Whether the file gives a key.
     pub fn has(&self, key: &str) -> bool {
-        self.bytes.contains_key(key)
+        let bytes = self.text.as_ref().map(|(_, bytes)| bytes);
+        bytes.is_some_and(|bytes| bytes.contains_key(key))
     }
 
     /// An error at a key, or where the table (the file) starts that lacks it.
@@ -38,9 +46,12 @@ impl Places {
 
     /// The place of a key, or of the table (the file) that lacks it, as errors begin: `line 3, column 8, mass: `.
     pub fn place(&self, key: &str) -> String {
+        let Some((_, bytes)) = &self.text else {
+            return format!("{key}: ");
+        };
         let mut known = key;
         loop {
-            if let Some(&byte) = self.bytes.get(known) {
+            if let Some(&byte) = bytes.get(known) {
                 return format!("{}, {key}: ", self.source().at(byte));
             }
             match known.rfind(['.', '[']) {
@@ -53,7 +64,7 @@ impl Places {
     fn source(&self) -> Source<'_> {
         Source {
             file: &self.file,
-            text: &self.text,
+            text: self.text.as_ref().map_or("", |(text, _)| text.as_str()),
             page: "",
         }
     }

@@ -42,7 +42,7 @@ fn stranger(name: &str) -> Option<(String, String)> {
         let found = format!("unknown parameter {short:?}");
         return Some((
             found,
-            "the names that stiction identify writes, such as sigma0 or coulomb_pos".into(),
+            "the names that an identification writes, such as sigma0 or coulomb_pos".into(),
         ));
     };
     (known.side != Side::Both && !known.quantity.may_differ_by_side()).then(|| {

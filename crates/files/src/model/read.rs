@@ -4,16 +4,22 @@ use super::fault;
 use super::form::{ModelFile, ModelParameter, SCHEMA, SourceEntry, SourceInput};
 use crate::config::{Given, Places, Source, Table};
 use crate::error::Error;
+use crate::hash::sha256_of;
 use crate::result::CovarianceEntry;
 use std::path::Path;
 
 /// What a model file is, for messages.
-pub(crate) const MODEL: &str = "a model.toml as stiction identify writes it";
+pub(crate) const MODEL: &str = "a model file as an identification writes it";
 
-/// A model that was read from a file, for messages about its values.
+/// What the text of a model is called in messages where it is in no file.
+const IN_MEMORY: &str = "model";
+
+/// A model with the text it was read from, for messages about its values.
 pub struct ReadModel {
     /// The model.
     pub model: ModelFile,
+    /// SHA-256 of the text, hexadecimal.
+    pub sha256: String,
     places: Places,
 }
 
@@ -22,16 +28,34 @@ impl ReadModel {
     ///
     /// # Errors
     /// As [`ModelFile::read`].
-    pub fn read(file: &Path) -> Result<Self, Error> {
+    pub fn read(file: impl AsRef<Path>) -> Result<Self, Error> {
+        let file = file.as_ref();
         let text = crate::config::read(file, MODEL)?;
-        Self::parse(&text, file)
+        Self::named(&text, file)
     }
 
-    /// Reads the text of a model file; `file` is named in errors.
+    /// Reads the text of a model file.
     ///
     /// # Errors
     /// As [`ModelFile::parse`].
-    pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
+    pub fn parse(text: &str) -> Result<Self, Error> {
+        Self::named(text, Path::new(IN_MEMORY))
+    }
+
+    /// A model in memory, held against the same rules; messages have keys and no lines. The hash is that of the file that
+    /// it would be.
+    ///
+    /// # Errors
+    /// When its parameters are none of its law.
+    pub fn of(model: &ModelFile) -> Result<Self, Error> {
+        Self::checked(
+            model.clone(),
+            model.to_toml().as_bytes(),
+            Places::in_memory(IN_MEMORY),
+        )
+    }
+
+    pub(crate) fn named(text: &str, file: &Path) -> Result<Self, Error> {
         let source = Source {
             file,
             text,
@@ -39,10 +63,17 @@ impl ReadModel {
         };
         let entries = source.parse()?;
         let model = model(&Table::root(source, &entries))?;
-        let places = Places::of(&source, &entries);
+        Self::checked(model, text.as_bytes(), Places::of(&source, &entries))
+    }
+
+    fn checked(model: ModelFile, text: &[u8], places: Places) -> Result<Self, Error> {
         match fault::fault(&model).or_else(|| fault::top_speed(&model)) {
             Some((key, found, allowed)) => Err(places.refuse(&key, found, &allowed)),
-            None => Ok(ReadModel { model, places }),
+            None => Ok(ReadModel {
+                model,
+                sha256: sha256_of(text),
+                places,
+            }),
         }
     }
 
@@ -209,16 +240,16 @@ impl ModelFile {
     ///
     /// # Errors
     /// When the file cannot be read, or its text is no model of this schema.
-    pub fn read(file: &Path) -> Result<Self, Error> {
+    pub fn read(file: impl AsRef<Path>) -> Result<Self, Error> {
         Ok(ReadModel::read(file)?.model)
     }
 
-    /// Reads a model file.
+    /// Reads the text of a model file.
     ///
     /// # Errors
     /// When the text is no model of this schema, or its parameters are none of its law: their names,
     /// units and values.
-    pub fn parse(text: &str, file: &Path) -> Result<Self, Error> {
-        Ok(ReadModel::parse(text, file)?.model)
+    pub fn parse(text: &str) -> Result<Self, Error> {
+        Ok(ReadModel::parse(text)?.model)
     }
 }

@@ -95,7 +95,7 @@ impl Model {
 
     /// The same from its text; `file` is named in errors.
     pub(super) fn parse(text: &str, file: &Path) -> Result<Self, Error> {
-        Self::of(ReadModel::parse(text, file)?)
+        Self::of(ReadModel::named(text, file)?)
     }
 
     fn of(read: ReadModel) -> Result<Self, Error> {
@@ -103,7 +103,7 @@ impl Model {
         let kind = match LawKind::from_name(&model.law) {
             Some(kind @ (LawKind::LuGre | LawKind::Dahl)) => kind,
             _ => {
-                let allowed = "a study simulates lugre and dahl; identify with --law lugre";
+                let allowed = "a study simulates lugre and dahl; identify the law lugre";
                 return Err(read.refuse("law", format!("{:?}", model.law), allowed));
             }
         };

@@ -28,7 +28,8 @@ impl Study {
     ///
     /// # Errors
     /// With file, line, column and key, what was found and what is allowed.
-    pub fn read(file: &Path) -> Result<Self, Error> {
+    pub fn read(file: impl AsRef<Path>) -> Result<Self, Error> {
+        let file = file.as_ref();
         let text = crate::config::read(file, "a study file")?;
         resolve(&text, file)
     }

@@ -3,7 +3,6 @@
 
 use proptest::prelude::*;
 use std::fmt::Write;
-use std::path::Path;
 use stiction_files::axis::template;
 use stiction_files::{Axis, Error};
 use stiction_identify::{Cutoff, Hold, Source};
@@ -69,7 +68,7 @@ segment = "500 ms"
 "#;
 
 fn parse(text: &str) -> Result<Axis, Error> {
-    Axis::parse(text, Path::new("axis.toml"))
+    Axis::parse(text)
 }
 
 #[test]
@@ -160,7 +159,7 @@ fn gains_come_in_the_unit_of_the_force_or_of_the_file() {
         .unwrap_err();
     insta::assert_snapshot!(
         e.to_string(),
-        @r#"axis.toml: line 9, column 14, controller.speed_gain: "0.6 N s/m"; give it in N*m*s/rad, or in A/(rad/s), the unit of the log before scaling"#
+        @r#"axis: line 9, column 14, controller.speed_gain: "0.6 N s/m"; give it in N*m*s/rad, or in A/(rad/s), the unit of the log before scaling"#
     );
     assert!(
         Axis::default()
@@ -346,7 +345,7 @@ fn refusals() {
         let error = parse(text).expect_err(what);
         assert_eq!(error.code().as_str(), "bad-config", "{what}");
         let message = error.to_string();
-        assert!(message.starts_with("axis.toml: "), "{message}");
+        assert!(message.starts_with("axis: "), "{message}");
         assert!(!message.contains('\n'), "{message}");
         let _ = writeln!(out, "{what}\n    {message}");
     }
@@ -486,7 +485,7 @@ proptest! {
     #[test]
     fn arbitrary_text_is_read_or_refused(text in toml_like()) {
         if let Err(e) = parse(&text) {
-            prop_assert!(e.to_string().starts_with("axis.toml: "));
+            prop_assert!(e.to_string().starts_with("axis: "));
         }
     }
 
@@ -505,7 +504,7 @@ proptest! {
         }
         let text = String::from_utf8_lossy(&bytes);
         if let Err(e) = parse(&text) {
-            prop_assert!(e.to_string().starts_with("axis.toml: "));
+            prop_assert!(e.to_string().starts_with("axis: "));
         }
     }
 

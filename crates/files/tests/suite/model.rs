@@ -45,17 +45,17 @@ matrix = [[1e6, 0.0], [0.0, 0.01]]
 const GIVEN: &str = "ci95 = [-inf, 2.1e6]\nidentifiable = true\norigin = \"identified\"";
 
 fn refusal(text: &str) -> String {
-    let error = ModelFile::parse(text, "model.toml".as_ref()).expect_err(text);
+    let error = ModelFile::parse(text).expect_err(text);
     assert_eq!(error.code().as_str(), "bad-config");
     error.to_string()
 }
 
 #[test]
 fn a_model_is_read() {
-    let model = ModelFile::parse(GOOD, "model.toml".as_ref()).unwrap();
+    let model = ModelFile::parse(GOOD).unwrap();
     assert_eq!(model.parameter[1].value, 12.0);
     assert_eq!(model.parameter[0].ci95, Some([f64::NEG_INFINITY, 2.1e6]));
-    let again = ModelFile::parse(&model.to_toml(), "model.toml".as_ref()).unwrap();
+    let again = ModelFile::parse(&model.to_toml()).unwrap();
     assert_eq!(again, model);
 }
 
@@ -105,7 +105,7 @@ fn faults_have_line_column_and_key() {
     ] {
         assert_eq!(GOOD.matches(from).count(), 1, "{from}");
         let message = refusal(&GOOD.replace(from, to));
-        assert!(message.starts_with("model.toml: line "), "{message}");
+        assert!(message.starts_with("model: line "), "{message}");
         assert!(message.contains("column "), "{message}");
         let _ = writeln!(said, "{message}");
     }
@@ -116,7 +116,7 @@ fn faults_have_line_column_and_key() {
 #[test]
 fn a_covariance_may_be_singular() {
     let tied = GOOD.replace("[[1e6, 0.0], [0.0, 0.01]]", "[[1e6, 100.0], [100.0, 0.01]]");
-    ModelFile::parse(&tied, "model.toml".as_ref()).unwrap();
+    ModelFile::parse(&tied).unwrap();
     let unknown = GOOD.replace("[[1e6, 0.0], [0.0, 0.01]]", "[[1e6, 0.0], [0.0, 0.0]]");
     assert!(refusal(&unknown).contains("covariance.matrix[2][2]"));
     let last = unknown.rfind("identifiable = true").unwrap();
@@ -125,7 +125,7 @@ fn a_covariance_may_be_singular() {
         &unknown[..last],
         &unknown[last + 19..]
     );
-    ModelFile::parse(&unknown, "model.toml".as_ref()).unwrap();
+    ModelFile::parse(&unknown).unwrap();
     // Neither two that hang on one another and differ in a third, nor one that varies with nothing.
     let three = "[[1.0, 1.0, 0.0], [1.0, 1.0, 0.9], [0.0, 0.9, 1.0]]";
     let text = GOOD.replace("[[1e6, 0.0], [0.0, 0.01]]", three).replace(
@@ -147,18 +147,18 @@ fn a_covariance_may_be_singular() {
 /// What is found wrong later, by whoever uses the model, has its place, too.
 #[test]
 fn places_are_known_after_reading() {
-    let read = ReadModel::parse(GOOD, "model.toml".as_ref()).unwrap();
+    let read = ReadModel::parse(GOOD).unwrap();
     let said = |e: stiction_files::Error| e.to_string();
     assert_eq!(
         said(read.refuse("law", "\"dahl\"", "lugre")),
-        "model.toml: line 4, column 7, law: \"dahl\"; lugre"
+        "model: line 4, column 7, law: \"dahl\"; lugre"
     );
     assert_eq!(
         said(read.refuse_parameter("coulomb", "coulomb = 12", "less")),
-        "model.toml: line 28, column 9, parameter[2].value: coulomb = 12; less"
+        "model: line 28, column 9, parameter[2].value: coulomb = 12; less"
     );
     assert_eq!(
         said(read.refuse_parameter("static", "no static", "one")),
-        "model.toml: line 15, column 1, parameter: no static; one"
+        "model: line 15, column 1, parameter: no static; one"
     );
 }

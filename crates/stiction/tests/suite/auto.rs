@@ -85,7 +85,7 @@ fn auto(log: PathBuf) -> Outcome {
     let mut options = options(&[&log], LawKind::LuGre);
     options.law = None;
     options.compare_laws = true;
-    stiction::commands::identify(&options, &mut Silent).unwrap()
+    options.identify(&mut Silent).unwrap()
 }
 
 /// The families whose truth is simulated above; the others stand in the ladder beside them.
@@ -157,9 +157,7 @@ fn a_chosen_law_is_the_same_as_an_asked_one() {
     let chosen = auto(file.clone()).result;
     let mut asked = options(&[&file], LawKind::Stribeck);
     asked.asymmetric = true;
-    let asked = stiction::commands::identify(&asked, &mut Silent)
-        .unwrap()
-        .result;
+    let asked = asked.identify(&mut Silent).unwrap().result;
     assert_eq!(chosen.parameters, asked.parameters);
     assert_eq!(chosen.covariance, asked.covariance);
     assert_eq!(chosen.fit, asked.fit);
@@ -211,7 +209,7 @@ fn an_interrupted_choice_is_not_trusted() {
         let mut options = options(&[&file], LawKind::LuGre);
         options.law = None;
         options.compare_laws = true;
-        let outcome = stiction::commands::identify(&options, &mut Patience(patience)).unwrap();
+        let outcome = options.identify(&mut Patience(patience)).unwrap();
         assert_eq!(outcome.result.search.status, "interrupted");
         assert!(outcome.result.laws.is_empty());
         assert!(!outcome.result.trust.trustworthy);
@@ -236,10 +234,8 @@ fn validation_data_choose() {
     let mut options = options(&[&a], LawKind::LuGre);
     options.law = None;
     options.compare_laws = true;
-    options.validate = vec![b];
-    let result = stiction::commands::identify(&options, &mut Silent)
-        .unwrap()
-        .result;
+    options.files.validate = vec![b];
+    let result = options.identify(&mut Silent).unwrap().result;
     assert_eq!(result.law_chosen_by, "validation");
     assert_eq!(
         (result.law.as_str(), result.asymmetric),
@@ -252,7 +248,7 @@ fn validation_data_choose() {
         Some(validated.relative_error_percent)
     );
     options.asymmetric = true;
-    let refused = stiction::commands::identify(&options, &mut Silent).unwrap_err();
+    let refused = options.identify(&mut Silent).unwrap_err();
     assert_eq!(refused.code().as_str(), "usage");
 }
 

@@ -42,8 +42,9 @@ fn log(bench: &Bench) -> PathBuf {
 fn what_is_identified_takes_nine_tenths_off_the_reversal_peak() {
     let bench = Bench::new();
     let log = log(&bench);
-    let outcome =
-        stiction::commands::identify(&options(&[&log], LawKind::LuGre), &mut Silent).unwrap();
+    let outcome = options(&[&log], LawKind::LuGre)
+        .identify(&mut Silent)
+        .unwrap();
     assert!(
         outcome.result.trust.trustworthy,
         "{:?}",

@@ -7,6 +7,7 @@ mod compare;
 mod compare_logs;
 mod contours;
 mod export;
+mod library;
 mod measure;
 mod model;
 mod paper;

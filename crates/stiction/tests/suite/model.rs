@@ -20,8 +20,8 @@ fn stribeck(bench: &Bench, axis: &str, asymmetric: bool) -> Outcome {
     );
     let mut options = options(&[&log], LawKind::Stribeck);
     options.asymmetric = asymmetric;
-    options.axis = Some(bench.write("axis.toml", axis));
-    stiction::commands::identify(&options, &mut Silent).unwrap()
+    options.files.axis = Some(bench.write("axis.toml", axis));
+    options.identify(&mut Silent).unwrap()
 }
 
 /// Whether a symmetric matrix has no negative eigenvalue, up to rounding: Cholesky of its correlation
@@ -65,7 +65,7 @@ fn the_covariance_is_complete_and_comes_back() {
         let bench = Bench::new();
         let outcome = stribeck(&bench, axis, asymmetric);
         let model = ModelFile::from_result(&outcome.result);
-        let back = ModelFile::parse(&model.to_toml(), &bench.path("model.toml")).unwrap();
+        let back = ModelFile::parse(&model.to_toml()).unwrap();
         assert_eq!(back, model);
         let bits = |m: &ModelFile| -> Vec<u64> {
             let rows = m.covariance.matrix.iter().flatten();
@@ -118,7 +118,7 @@ fn an_open_interval_is_written_and_read() {
     let model = ModelFile::from_result(&result);
     let text = model.to_toml();
     assert!(text.contains("ci95 = [-inf, 0.5]"), "{text}");
-    assert_eq!(ModelFile::parse(&text, &bench.path("m")).unwrap(), model);
+    assert_eq!(ModelFile::parse(&text).unwrap(), model);
 }
 
 /// The exponent of the log comes out of the whole workflow, with the other parameters of the curve.
@@ -150,7 +150,7 @@ fn what_is_refused_of_an_edited_model() {
         (parameter.std, parameter.ci95, parameter.interval) = (None, None, None);
         good.parameter.push(parameter);
     }
-    let read = |model: &ModelFile| ModelFile::parse(&model.to_toml(), "model.toml".as_ref());
+    let read = |model: &ModelFile| ModelFile::parse(&model.to_toml());
     assert_eq!(read(&good).unwrap(), good);
     // Another spelling of the same unit is no fault.
     let mut spelt = good.clone();

@@ -1,16 +1,13 @@
 //! The procedures as whole workflows: on the logs of the demo, and what they refuse.
 
-use crate::common::{Bench, options};
+use crate::common::{Asked, Bench, options};
 use std::path::{Path, PathBuf};
-use stiction::commands::{Options, Outcome};
+use stiction::commands::Outcome;
 use stiction::result::ResultFile;
 use stiction::{Error, LawKind, Method, ModelFile, Procedures, Silent};
 
-fn with(logs: &[&Path], procedures: Procedures) -> Options {
-    Options {
-        procedures,
-        ..options(logs, LawKind::LuGre)
-    }
+fn with(logs: &[&Path], procedures: Procedures) -> Asked {
+    options(logs, LawKind::LuGre).but(|asked| asked.procedures = procedures)
 }
 
 fn method(method: Method) -> Procedures {
@@ -20,8 +17,8 @@ fn method(method: Method) -> Procedures {
     }
 }
 
-fn run(options: &Options) -> Result<Outcome, Error> {
-    stiction::commands::identify(options, &mut Silent)
+fn run(options: &Asked) -> Result<Outcome, Error> {
+    options.identify(&mut Silent)
 }
 
 const TRUTH: [(&str, f64); 7] = [
@@ -160,7 +157,7 @@ fn what_cannot_be_is_refused() {
     let bench = Bench::new();
     let log = bench.good("log.csv", 1);
     let other = bench.good("other.csv", 2);
-    let refused = |options: &Options, code: &str| {
+    let refused = |options: &Asked, code: &str| {
         let error = run(options)
             .err()
             .unwrap_or_else(|| panic!("{code}: accepted"));
@@ -193,15 +190,9 @@ fn what_cannot_be_is_refused() {
     };
     refused(&with(&[&log], twice), "usage");
     for m in [Method::Static, Method::PreslidingStep] {
-        let split = Options {
-            split: Some(0.5),
-            ..of(m)
-        };
+        let split = of(m).but(|asked| asked.split = Some(0.5));
         refused(&split, "usage");
-        let dahl = Options {
-            law: Some(LawKind::Dahl),
-            ..of(m)
-        };
+        let dahl = of(m).but(|asked| asked.law = Some(LawKind::Dahl));
         refused(&dahl, "usage");
     }
     let model = |text: &str| Procedures {
@@ -230,11 +221,10 @@ fn measured_recordings() {
             .collect(),
         ..Procedures::default()
     };
-    let servo = Options {
-        axis: axis("servo.toml"),
-        law: Some(LawKind::CoulombViscous),
-        ..with(&[&data.join("servo/sliding_1.txt")], ramps)
-    };
+    let servo = with(&[&data.join("servo/sliding_1.txt")], ramps).but(|asked| {
+        asked.files.axis = axis("servo.toml");
+        asked.law = Some(LawKind::CoulombViscous);
+    });
     for found in &run(&servo).unwrap().result.break_away {
         println!(
             "{}: {} N m at {} N m/s",
@@ -244,15 +234,10 @@ fn measured_recordings() {
         assert!((found.rate * 60.0 - 1.0).abs() < 0.01);
         assert_eq!(found.predicted_force, None);
     }
-    let emps = Options {
-        axis: axis("emps.toml"),
-        law: Some(LawKind::CoulombViscous),
-        ..with(&[&data.join("emps/DATA_EMPS.mat")], method(Method::Static))
-    };
-    let emps = Options {
-        asymmetric: true,
-        ..emps
-    };
+    let emps = with(&[&data.join("emps/DATA_EMPS.mat")], method(Method::Static)).but(|asked| {
+        asked.files.axis = axis("emps.toml");
+        (asked.law, asked.asymmetric) = (Some(LawKind::CoulombViscous), true);
+    });
     let emps = run(&emps).unwrap();
     let value = |name: &str| {
         let found = emps.result.parameters.iter().find(|p| p.name == name);

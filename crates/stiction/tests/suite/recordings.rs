@@ -31,9 +31,9 @@ fn damiao_reports_its_gaps() {
     let Some(data) = recordings() else {
         return;
     };
-    let axis = stiction::Axis::read(&stiction_testkit::workspace().join("validation/damiao.toml"))
-        .unwrap();
-    let source = stiction::commands::load(&data.join("damiao/motor_2.npz"), &axis).unwrap();
+    let axis =
+        stiction::Axis::read(stiction_testkit::workspace().join("validation/damiao.toml")).unwrap();
+    let source = stiction::commands::load(data.join("damiao/motor_2.npz"), &axis).unwrap();
     let longest = source
         .log
         .gaps

@@ -1,10 +1,10 @@
 //! `--method output-error` from files to files: a closed loop with a known controller, an open loop, what
 //! is refused.
 
-use crate::common::{Bench, options};
+use crate::common::{Asked, Bench, options};
 use std::fmt::Write;
 use std::path::PathBuf;
-use stiction::commands::{Options, Outcome};
+use stiction::commands::Outcome;
 use stiction::{LawKind, Method, Silent};
 use stiction_servo::cascade::{Cascade, CascadeState};
 use stiction_servo::known;
@@ -68,16 +68,16 @@ fn log(bench: &Bench, name: &str, n: usize, phase: f64) -> PathBuf {
     bench.write(name, &text)
 }
 
-fn simulated(bench: &Bench, axis: &str, change: impl FnOnce(&mut Options)) -> Options {
+fn simulated(bench: &Bench, axis: &str, change: impl FnOnce(&mut Asked)) -> Asked {
     let mut options = options(&[], LawKind::LuGre);
-    options.axis = Some(bench.write("axis.toml", axis));
+    options.files.axis = Some(bench.write("axis.toml", axis));
     options.procedures.method = Method::OutputError;
     change(&mut options);
     options
 }
 
-fn run(options: &Options) -> Result<Outcome, stiction::Error> {
-    stiction::commands::identify(options, &mut Silent)
+fn run(options: &Asked) -> Result<Outcome, stiction::Error> {
+    options.identify(&mut Silent)
 }
 
 #[test]
@@ -86,8 +86,8 @@ fn a_closed_loop_is_identified_from_its_file() {
     let first = log(&bench, "first.csv", 4000, 0.0);
     let second = log(&bench, "second.csv", 2000, 0.7);
     let options = simulated(&bench, &format!("{AXIS}{CONTROLLER}"), |o| {
-        o.logs = vec![first];
-        o.validate = vec![second];
+        o.files.logs = vec![first];
+        o.files.validate = vec![second];
     });
     let outcome = run(&options).unwrap();
     let result = &outcome.result;
@@ -162,7 +162,7 @@ fn the_same_log_is_split_and_driven_by_its_force() {
     let only = log(&bench, "only.csv", 3000, 0.0);
     let axis = format!("{AXIS}\n[simulation]\nsegment = \"0.5 s\"\n");
     let options = simulated(&bench, &axis, |o| {
-        o.logs = vec![only];
+        o.files.logs = vec![only];
         o.split = Some(0.7);
         o.law = Some(LawKind::Dahl);
     });
@@ -208,7 +208,7 @@ fn what_cannot_be_simulated_is_told() {
     ];
     for (axis, split, code) in cases {
         let options = simulated(&bench, &axis, |o| {
-            o.logs = vec![only.clone()];
+            o.files.logs = vec![only.clone()];
             o.split = split;
         });
         let e = run(&options).unwrap_err();

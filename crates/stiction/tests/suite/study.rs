@@ -22,7 +22,7 @@ impl Desk {
     }
 
     fn study(&self, text: &str) -> Result<Study, FileError> {
-        Study::read(&self.write("study.toml", text))
+        Study::read(self.write("study.toml", text))
     }
 
     fn run(&self, text: &str) -> StudyFile {

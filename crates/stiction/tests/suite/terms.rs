@@ -1,10 +1,10 @@
 //! Load, temperature and position in the axis file: from columns of a log to parameters in files.
 
 use crate::common;
-use crate::common::{Bench, both_ways, noise, options};
+use crate::common::{Asked, Bench, both_ways, noise, options};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use stiction::commands::{Options, Outcome};
+use stiction::commands::Outcome;
 use stiction::{LawKind, ModelFile, Silent};
 
 const LOAD_MEAN: f64 = 100.0;
@@ -34,14 +34,14 @@ fn log(bench: &Bench, name: &str, asymmetric: bool) -> PathBuf {
     bench.write(name, &text)
 }
 
-fn with_axis(bench: &Bench, log: &Path, text: &str, law: LawKind) -> Options {
+fn with_axis(bench: &Bench, log: &Path, text: &str, law: LawKind) -> Asked {
     let mut options = options(&[log], law);
-    options.axis = Some(bench.write("axis.toml", text));
+    options.files.axis = Some(bench.write("axis.toml", text));
     options
 }
 
-fn run(options: &Options) -> Outcome {
-    stiction::commands::identify(options, &mut Silent).unwrap()
+fn run(options: &Asked) -> Outcome {
+    options.identify(&mut Silent).unwrap()
 }
 
 const TERMS: &str = "[terms]\ncoulomb_load = true\ncoulomb_temperature = true\n";
@@ -105,7 +105,7 @@ fn load_and_temperature_reach_every_file() {
             .unwrap();
         std::str::from_utf8(bytes).unwrap().to_string()
     };
-    let model = ModelFile::parse(&text("model.toml"), Path::new("model.toml")).unwrap();
+    let model = ModelFile::parse(&text("model.toml")).unwrap();
     for name in ["coulomb_load", "load_reference", "temperature_reference"] {
         assert!(model.parameter.iter().any(|p| p.name == name), "{name}");
     }
@@ -168,9 +168,9 @@ fn a_missing_column_is_named() {
         let axis = format!("[terms]\n{key} = true\n");
         let alone = with_axis(&bench, &bare, &axis, LawKind::CoulombViscous);
         let mut validated = with_axis(&bench, &whole, &axis, LawKind::CoulombViscous);
-        validated.validate = vec![bare.clone()];
+        validated.files.validate = vec![bare.clone()];
         for options in [alone, validated] {
-            let error = stiction::commands::identify(&options, &mut Silent).unwrap_err();
+            let error = options.identify(&mut Silent).unwrap_err();
             assert_eq!(error.code().as_str(), "log-missing");
             let message = error.to_string();
             let channel = key.rsplit_once('_').unwrap().1;
@@ -185,7 +185,7 @@ fn a_missing_column_is_named() {
         "[terms]\ncoulomb_pitch = [\"0 mm\"]\n",
         LawKind::CoulombViscous,
     );
-    let error = stiction::commands::identify(&axis, &mut Silent).unwrap_err();
+    let error = axis.identify(&mut Silent).unwrap_err();
     assert_eq!(error.code().as_str(), "bad-config");
     assert!(error.to_string().contains("terms.coulomb_pitch"), "{error}");
 }

@@ -1,16 +1,16 @@
 //! Whole identifications on made logs: what is refused, what is flagged, what is written.
 
 use crate::common;
-use crate::common::{Bench, both_ways, friction, noise, options};
+use crate::common::{Asked, Bench, both_ways, friction, noise, options};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
-use stiction::commands::{Options, Outcome, check_folder};
+use stiction::commands::{Outcome, check_folder};
 use stiction::result::ResultFile;
 use stiction::{Axis, Control, LawKind, Method, ModelFile, Observer, Progress, Silent, Stage};
 
-fn run(options: &Options) -> Result<Outcome, stiction::Error> {
-    stiction::commands::identify(options, &mut Silent)
+fn run(options: &Asked) -> Result<Outcome, stiction::Error> {
+    options.identify(&mut Silent)
 }
 
 fn value(outcome: &Outcome, name: &str) -> f64 {
@@ -150,7 +150,7 @@ fn whole(outcome: &Outcome) {
                 assert_eq!(back, outcome.result);
             }
             "model.toml" => {
-                let back = ModelFile::parse(text, Path::new(name)).unwrap();
+                let back = ModelFile::parse(text).unwrap();
                 assert_eq!(back, ModelFile::from_result(&outcome.result));
             }
             "report.html" => {
@@ -229,7 +229,7 @@ fn the_axis_file_counts() {
         "name = \"<b>X & Y</b>\"\nmass = \"9 kg\"\n[log]\ncrop = [\"1 s\", \"5 s\"]\n[report]\nlow_speed = \"20 mm/s\"\n",
     );
     let mut options = options(&[&log], LawKind::CoulombViscous);
-    options.axis = Some(axis);
+    options.files.axis = Some(axis);
     let outcome = run(&options).unwrap();
     let mass = outcome
         .result
@@ -241,7 +241,7 @@ fn the_axis_file_counts() {
     assert_eq!(outcome.result.inputs[0].samples, 4001);
     assert_eq!(outcome.result.low_speed.as_ref().unwrap().bound, 0.02);
     whole(&outcome);
-    options.axis = Some(bench.write("wrong.toml", "mass = \"9 kg m2\"\n"));
+    options.files.axis = Some(bench.write("wrong.toml", "mass = \"9 kg m2\"\n"));
     let error = run(&options).unwrap_err();
     assert_eq!(error.code().as_str(), "bad-config");
 }
@@ -390,7 +390,7 @@ fn validation_and_split() {
     let bench = Bench::new();
     let (a, b) = (bench.good("a.csv", 7), bench.good("b.csv", 8));
     let mut with = options(&[&a], LawKind::CoulombViscous);
-    with.validate = vec![b.clone()];
+    with.files.validate = vec![b.clone()];
     let outcome = run(&with).unwrap();
     let held_out = &outcome.result.validation[0];
     assert_eq!(held_out.path, b.display().to_string());
@@ -437,7 +437,7 @@ fn a_validation_without_variance_can_be_read_back() {
     let good = log("good.csv", &|t| friction(both_ways(t)));
     let same = log("same.csv", &|_| 5.0);
     let mut options = options(&[&good], LawKind::CoulombViscous);
-    options.validate = vec![same];
+    options.files.validate = vec![same];
     whole(&run(&options).unwrap());
 }
 
@@ -457,7 +457,7 @@ fn logs_of_different_axes_are_not_mixed() {
         let mixed = options(&[&good, &other], LawKind::CoulombViscous);
         assert_eq!(run(&mixed).unwrap_err().code().as_str(), "usage");
         let mut validated = options(&[&good], LawKind::CoulombViscous);
-        validated.validate = vec![other.clone()];
+        validated.files.validate = vec![other.clone()];
         assert_eq!(run(&validated).unwrap_err().code().as_str(), "usage");
     }
     assert_eq!(
@@ -490,7 +490,7 @@ fn maxwell_slip_from_log_to_files() {
     });
     let axis = bench.write("axis.toml", "mass = \"none\"\n");
     let mut options = options(&[&log], LawKind::MaxwellSlip);
-    options.axis = Some(axis);
+    options.files.axis = Some(axis);
     options.compare_laws = true;
     let outcome = run(&options).unwrap();
     whole(&outcome);
@@ -543,7 +543,7 @@ fn a_search_on_a_record_not_yet_chosen_keeps_no_state() {
     options.procedures.method = Method::Searched("niched-ga");
     options.searching.evaluations = Some(200);
     options.searching.checkpoint = Some(bench.path("c.json"));
-    let stopped = stiction::commands::identify(&options, &mut StopAt(Stage::Tuning)).unwrap();
+    let stopped = options.identify(&mut StopAt(Stage::Tuning)).unwrap();
     let notes = stopped.result.axis.conditioning.join("\n");
     assert!(
         notes.contains("cut-offs not chosen: the run was stopped"),
@@ -573,9 +573,7 @@ fn zeros_for_missing_samples_are_not_fitted() {
             },
         );
         let options = options(&[&log], LawKind::CoulombViscous);
-        stiction::commands::identify(&options, &mut Silent)
-            .unwrap()
-            .result
+        options.identify(&mut Silent).unwrap().result
     };
     let whole = fit("whole.csv", usize::MAX);
     for (name, nth) in [("third.csv", 3), ("half.csv", 2)] {

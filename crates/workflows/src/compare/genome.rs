@@ -2,6 +2,7 @@
 
 use super::options::Cost;
 use crate::error::Error;
+use crate::wording::Setting;
 use std::f64::consts::LN_10;
 use stiction_search::Bounds;
 
@@ -78,7 +79,7 @@ pub(super) fn genome(truth: &[(String, f64)], cost: Cost, floor: Floor) -> Vec<f
 pub(super) fn about(middle: &[f64], decades: f64) -> Result<Bounds, Error> {
     if !(decades > 0.0 && decades <= 6.0) {
         return Err(Error::usage(
-            format!("--box {decades}"),
+            Setting::Decades.is(decades),
             "decades to each side, above 0 and up to 6",
         ));
     }

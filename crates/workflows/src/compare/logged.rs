@@ -5,6 +5,7 @@ use super::options::{CompareOptions, Cost};
 use super::subject::{Data, Subject, lugre};
 use crate::error::Error;
 use crate::identify::record_of;
+use crate::wording::Setting;
 use std::path::{Path, PathBuf};
 use stiction_files::Axis;
 use stiction_identify as engine;
@@ -20,16 +21,19 @@ pub(super) fn subject(
     observer: &mut dyn Observer,
 ) -> Result<Subject, Error> {
     let made = [
-        ("--noise", options.noise.is_some()),
-        ("--excitation", options.excitation.is_some()),
-        ("--rate", options.rate.is_some()),
-        ("--other-law", options.other_law),
-        ("--cost position", options.cost == Some(Cost::Position)),
+        (Setting::Noise.into(), options.noise.is_some()),
+        (Setting::Excitation.into(), options.excitation.is_some()),
+        (Setting::Rate.into(), options.rate.is_some()),
+        (Setting::OtherLaw.into(), options.other_law),
+        (
+            Setting::Cost.is(Cost::Position.name()),
+            options.cost == Some(Cost::Position),
+        ),
     ];
-    if let Some((name, _)) = made.iter().find(|(_, given)| *given) {
+    if let Some((setting, _)) = made.into_iter().find(|(_, given)| *given) {
         return Err(Error::usage(
-            format!("{name} together with a log"),
-            "only a --problem is made; a log is what it is",
+            [setting, " together with a log".into()],
+            "only a problem is made; a log is what it is",
         ));
     }
     let axis = axis.map_or_else(|| Ok(Axis::default()), Axis::read)?;

@@ -6,6 +6,7 @@ use super::known::{self, KnownCurve};
 use super::options::{CompareOptions, Cost, USUAL_NOISE, USUAL_RATE};
 use super::subject::{Data, Subject, lugre};
 use crate::error::Error;
+use crate::wording::{Setting, TOGETHER_WITH};
 use stiction_friction::{LuGre, ParamError};
 use stiction_identify as engine;
 use stiction_identify::candidates::{Scheme, thinned};
@@ -22,15 +23,19 @@ const NOISE_SEED: u64 = 1;
 
 pub(super) fn from_curve(options: &CompareOptions, curve: &KnownCurve) -> Result<Subject, Error> {
     let other = [
-        ("--cost", options.cost.is_some()),
-        ("--excitation", options.excitation.is_some()),
-        ("--integrator", options.integrator != Scheme::Explin),
-        ("--rate", options.rate.is_some()),
-        ("--other-law", options.other_law),
+        (Setting::Cost, options.cost.is_some()),
+        (Setting::Excitation, options.excitation.is_some()),
+        (Setting::Integrator, options.integrator != Scheme::Explin),
+        (Setting::Rate, options.rate.is_some()),
+        (Setting::OtherLaw, options.other_law),
     ];
-    if let Some((name, _)) = other.iter().find(|(_, given)| *given) {
+    if let Some((setting, _)) = other.into_iter().find(|(_, given)| *given) {
         return Err(Error::usage(
-            format!("{name} together with --problem {}", curve.name),
+            [
+                setting.into(),
+                TOGETHER_WITH.into(),
+                Setting::Problem.is(curve.name),
+            ],
             "a steady curve has no motion, no memory and one cost",
         ));
     }
@@ -63,7 +68,7 @@ fn noise_of(options: &CompareOptions) -> Result<f64, Error> {
         return Ok(noise);
     }
     Err(Error::usage(
-        format!("--noise {noise}"),
+        Setting::Noise.is(noise),
         "deviation over the largest force, 0 to 1",
     ))
 }
@@ -80,7 +85,7 @@ fn add_noise(values: &mut [f64], share: f64) {
 pub(super) fn from_axis(options: &CompareOptions, axis: &KnownAxis) -> Result<Subject, Error> {
     let rate = options.rate.unwrap_or(USUAL_RATE);
     if !(100.0..=100_000.0).contains(&rate) {
-        return Err(Error::usage(format!("--rate {rate}"), "100 to 100000 Hz"));
+        return Err(Error::usage(Setting::Rate.is(rate), "100 to 100000 Hz"));
     }
     let noise = noise_of(options)?;
     let cost = options.cost.unwrap_or(Cost::Six);
@@ -108,7 +113,13 @@ pub(super) fn from_axis(options: &CompareOptions, axis: &KnownAxis) -> Result<Su
     let (data, motion) = if cost == Cost::Position {
         if options.excitation.is_some() || options.integrator != Scheme::Explin {
             return Err(Error::usage(
-                "--excitation or --integrator together with --cost position",
+                [
+                    Setting::Excitation.into(),
+                    " or ".into(),
+                    Setting::Integrator.into(),
+                    TOGETHER_WITH.into(),
+                    Setting::Cost.is(Cost::Position.name()),
+                ],
                 "the motion is what the force makes of it",
             ));
         }

@@ -30,7 +30,8 @@ const OPEN_LOOP_FORCE_NOISE: f64 = 0.05;
 ///
 /// # Errors
 /// When the folder cannot be written.
-pub fn procedures(dir: &Path, seed: u64) -> Result<Vec<PathBuf>, Error> {
+pub fn procedures(dir: impl AsRef<Path>, seed: u64) -> Result<Vec<PathBuf>, Error> {
+    let dir = dir.as_ref();
     let axis = known::find(AXIS).expect("the demo axis is in the library");
     let mut logs = vec![
         ("speeds.csv".to_string(), speeds(&axis, seed)),

@@ -4,6 +4,7 @@ use super::method::Method;
 use super::options::Options;
 use crate::error::Error;
 use crate::source::{Source, load_all};
+use crate::wording::{Setting, TOGETHER_WITH};
 use stiction_files::Axis;
 use stiction_files::model::ReadModel;
 
@@ -36,11 +37,17 @@ impl Beside {
         ))
     }
 
-    pub fn load(options: &Options, axis: &Axis) -> Result<Self, Error> {
+    /// Reads what stands beside the logs, and refuses what the method has no use for; `held_out` are the logs to validate on.
+    pub fn load(options: &Options, axis: &Axis, held_out: &[Source]) -> Result<Self, Error> {
         let procedures = &options.procedures;
+        let method = || Setting::Method.is(procedures.method.name());
         if !procedures.statics.is_empty() && procedures.model.is_some() {
             return Err(Error::usage(
-                "--static together with --model",
+                [
+                    Setting::Statics.into(),
+                    TOGETHER_WITH.into(),
+                    Setting::Model.into(),
+                ],
                 "the static parameters come from one of the two",
             ));
         }
@@ -50,30 +57,29 @@ impl Beside {
         );
         if procedures.model.is_some() && !takes_curve && procedures.break_away.is_empty() {
             return Err(Error::usage(
-                format!(
-                    "--model together with --method {}",
-                    procedures.method.name()
-                ),
-                "only static-then-dynamic, presliding-step and --break-away take anything from a model",
+                [Setting::Model.into(), TOGETHER_WITH.into(), method()],
+                [
+                    "only static-then-dynamic, presliding-step and ".into(),
+                    Setting::BreakAway.into(),
+                    " take anything from a model".into(),
+                ],
             ));
         }
         if !procedures.statics.is_empty() && !takes_curve {
             return Err(Error::usage(
-                format!(
-                    "--static together with --method {}",
-                    procedures.method.name()
-                ),
+                [Setting::Statics.into(), TOGETHER_WITH.into(), method()],
                 "only static-then-dynamic and presliding-step take static parameters from other logs",
             ));
         }
-        if !procedures.method.fits_records()
-            && (!options.validate.is_empty() || options.split.is_some())
-        {
+        if !procedures.method.fits_records() && (!held_out.is_empty() || options.split.is_some()) {
             return Err(Error::usage(
-                format!(
-                    "--validate or --split together with --method {}",
-                    procedures.method.name()
-                ),
+                [
+                    Setting::Validate.into(),
+                    " or ".into(),
+                    Setting::Split.into(),
+                    TOGETHER_WITH.into(),
+                    method(),
+                ],
                 "validation needs a law for every sample: separable or static-then-dynamic",
             ));
         }

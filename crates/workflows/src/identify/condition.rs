@@ -5,6 +5,7 @@ use super::load::{Asked, Loaded, check_together};
 use super::logs::paths;
 use crate::error::Error;
 use crate::source::{Source, load_all};
+use crate::wording::Setting;
 use std::path::PathBuf;
 use stiction_codes::Code;
 use stiction_files::{Axis, symbols};
@@ -131,7 +132,7 @@ pub(crate) fn record_of(
 fn split(full: &Record, part: f64) -> Result<(Record, Record), Error> {
     if !(part > 0.0 && part < 1.0) {
         return Err(Error::usage(
-            format!("--split {part}"),
+            Setting::Split.is(part),
             "a number between 0 and 1, such as 0.5",
         ));
     }
@@ -139,10 +140,10 @@ fn split(full: &Record, part: f64) -> Result<(Record, Record), Error> {
     let rest = full.masked(|i| i >= at);
     if rest.kept() < FEWEST_HELD_OUT_SAMPLES {
         return Err(Error::usage(
-            format!(
-                "--split {part} leaves {} samples to validate on",
-                rest.kept()
-            ),
+            [
+                Setting::Split.is(part),
+                format!(" leaves {} samples to validate on", rest.kept()).into(),
+            ],
             format!(
                 "at least {FEWEST_HELD_OUT_SAMPLES} of the {} usable ones",
                 full.kept()

@@ -6,6 +6,7 @@ use super::options::Options;
 use super::searched;
 use crate::error::Error;
 use crate::source::Source;
+use crate::wording::Setting;
 use std::time::Instant;
 use stiction_files::Axis;
 use stiction_identify::LawKind;
@@ -44,11 +45,15 @@ pub(super) fn load(
     let Asked { options, axis, .. } = asked;
     if options.law.is_none() && options.asymmetric {
         return Err(Error::usage(
-            "--law auto with --asymmetric",
+            [
+                Setting::Law.is("auto"),
+                " with ".into(),
+                Setting::Asymmetric.into(),
+            ],
             "leave one out: auto tries every law symmetric and asymmetric",
         ));
     }
-    let beside = Beside::load(options, axis)?;
+    let beside = Beside::load(options, axis, &held_out)?;
     let others = [held_out.as_slice(), &beside.statics, &beside.break_away].concat();
     check_together(&sources, &others)?;
     beside.check_model(options, &sources[0])?;
@@ -73,7 +78,7 @@ pub(super) fn load(
 /// All logs must be of one kind of axis, with force in one unit, and no log may count twice.
 pub(super) fn check_together(sources: &[Source], held_out: &[Source]) -> Result<(), Error> {
     let Some(first) = sources.first() else {
-        return Err(Error::usage("no log given", "name at least one log file"));
+        return Err(Error::usage("no log given", "at least one log"));
     };
     let all: Vec<&Source> = sources.iter().chain(held_out).collect();
     for (i, log) in all.iter().enumerate() {

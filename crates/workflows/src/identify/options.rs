@@ -2,32 +2,63 @@
 
 use super::method::Method;
 use crate::error::Error;
+use crate::wording::{Setting, TOGETHER_WITH};
 use std::path::PathBuf;
 use stiction_identify::LawKind;
 
-/// An identification as it is asked for.
-#[derive(Clone, Debug)]
-pub struct Options {
+/// The files of an identification.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Files {
     /// Logs to fit together; all of one axis.
     pub logs: Vec<PathBuf>,
     /// Axis file; `None` leaves all to detection.
     pub axis: Option<PathBuf>,
-    /// Family of the law; `None` lets the data choose it, and whether it is asymmetric.
+    /// Logs to validate on.
+    pub validate: Vec<PathBuf>,
+}
+
+/// What to identify, and how; change what differs from the default, which is that of the command line:
+///
+/// ```
+/// use stiction_identify::LawKind;
+/// use stiction_workflows::identify::Options;
+///
+/// let mut options = Options::default();
+/// assert_eq!(options.law, Some(LawKind::LuGre));
+/// options.law = None; // the data choose
+/// options.split = Some(0.7); // fit the first 70 % of the samples, validate on the rest
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Options {
+    /// Family of the law, LuGre by default; `None` (`auto` in messages) lets the data choose it, and whether it is asymmetric.
     pub law: Option<LawKind>,
     /// Whether each direction has parameters of its own.
     pub asymmetric: bool,
-    /// Logs to validate on.
-    pub validate: Vec<PathBuf>,
     /// Fit the first part of the samples (0 to 1) and validate on the rest.
     pub split: Option<f64>,
-    /// Seed of the search.
+    /// Seed of the search; the same seed gives the same bits.
     pub seed: u64,
-    /// Whether simpler laws are fitted beside it and compared on held-out samples.
+    /// Whether simpler laws are fitted beside it and compared on held-out samples: about doubles the time.
     pub compare_laws: bool,
-    /// The method, and the logs and models that it takes beside the logs.
+    /// The method, separable least squares by default, and the files that it takes beside the logs.
     pub procedures: Procedures,
     /// How far a search goes, and where it keeps its state.
     pub searching: Searching,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            law: Some(LawKind::LuGre),
+            asymmetric: false,
+            split: None,
+            seed: 0,
+            compare_laws: true,
+            procedures: Procedures::default(),
+            searching: Searching::default(),
+        }
+    }
 }
 
 /// The method, and what it takes beside the logs.
@@ -82,13 +113,17 @@ pub struct Searching {
 
 impl Options {
     /// Refuses a law that the method is not for.
-    pub(super) fn require(&self, laws: &[LawKind], allowed: &str) -> Result<(), Error> {
+    pub(super) fn require(&self, laws: &[LawKind], allowed: &'static str) -> Result<(), Error> {
         if self.law.is_some_and(|law| laws.contains(&law)) {
             return Ok(());
         }
         let law = self.law.map_or("auto", LawKind::name);
         let method = self.procedures.method.name();
-        let found = format!("--law {law} together with --method {method}");
+        let found = [
+            Setting::Law.is(law),
+            TOGETHER_WITH.into(),
+            Setting::Method.is(method),
+        ];
         Err(Error::usage(found, allowed))
     }
 }

@@ -29,11 +29,11 @@ pub fn predict(outcome: &Outcome, log: &Source) -> Result<Prediction, Error> {
     let Found::Force(fitted) = &outcome.found else {
         return Err(Error::usage(
             format!(
-                "--method {} does not model the force sample by sample",
+                "the method {} does not model the force sample by sample",
                 outcome.result.method
             ),
-            "predict with a fit of separable, static-then-dynamic or a search; output-error simulates other logs with \
-             --validate",
+            "predict with a fit of separable, static-then-dynamic or a search; output-error simulates the logs that it is to be \
+             validated on",
         ));
     };
     // A log may be predicted that was fitted: only the kinds of axis must agree.

@@ -6,7 +6,7 @@ use super::fit::fit;
 use super::judge::judge;
 use super::load::{Asked, Loaded, load};
 use super::method::Method;
-use super::options::Options;
+use super::options::{Files, Options};
 use super::outcome::{ForceFit, Found, Outcome};
 use super::procedure::{static_map, step};
 use super::simulate;
@@ -22,14 +22,18 @@ use stiction_identify::{Observer, Series};
 /// # Errors
 /// Where an input cannot be read or nothing can be identified from it. A fit that should not be
 /// trusted is not an error: see [`ResultFile::trust`](stiction_files::result::ResultFile::trust).
-pub fn identify(options: &Options, observer: &mut dyn Observer) -> Result<Outcome, Error> {
+pub fn identify(
+    files: &Files,
+    options: &Options,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, Error> {
     let clock = Instant::now();
-    let axis = match &options.axis {
+    let axis = match &files.axis {
         Some(file) => Axis::read(file)?,
         None => Axis::default(),
     };
-    let sources = load_all(&options.logs, &axis)?;
-    let held_out = load_all(&options.validate, &axis)?;
+    let sources = load_all(&files.logs, &axis)?;
+    let held_out = load_all(&files.validate, &axis)?;
     let asked = Asked {
         options,
         axis: &axis,
@@ -38,8 +42,7 @@ pub fn identify(options: &Options, observer: &mut dyn Observer) -> Result<Outcom
     identify_asked(asked, sources, held_out, observer)
 }
 
-/// The same for logs that are in memory already, read with this axis; the paths to logs and axis among the options are
-/// passed over.
+/// The same for logs that are in memory already, read with this axis.
 ///
 /// # Errors
 /// As [`identify`].

@@ -10,6 +10,7 @@ use crate::entries;
 use crate::error::Error;
 use crate::source::Source;
 use crate::spread::Spread;
+use crate::wording::{Setting, TOGETHER_WITH};
 use checkpoint::Checkpoint;
 use std::time::Instant;
 use stiction_files::result::{SearchedEntry, SearchedParameter, SearchedPoint};
@@ -34,10 +35,21 @@ pub(super) fn check(options: &Options) -> Result<(), Error> {
             return Ok(());
         }
         return Err(Error::usage(
-            format!(
-                "--cost, --evaluations, --target, --time, --checkpoint or --resume together with --method {}",
-                method.name()
-            ),
+            [
+                Setting::Cost.into(),
+                ", ".into(),
+                Setting::Evaluations.into(),
+                ", ".into(),
+                Setting::Target.into(),
+                ", ".into(),
+                Setting::Time.into(),
+                ", ".into(),
+                Setting::Checkpoint.into(),
+                " or ".into(),
+                Setting::Resume.into(),
+                TOGETHER_WITH.into(),
+                Setting::Method.is(method.name()),
+            ],
             format!(
                 "one of the searches: {}",
                 stiction_search::Method::NAMES.join(", ")
@@ -46,21 +58,26 @@ pub(super) fn check(options: &Options) -> Result<(), Error> {
     }
     if options.law.is_none() {
         return Err(Error::usage(
-            format!("--law auto together with --method {}", method.name()),
-            "one law, or --method separable, which compares them",
+            [
+                Setting::Law.is("auto"),
+                TOGETHER_WITH.into(),
+                Setting::Method.is(method.name()),
+            ],
+            [
+                "one law, or ".into(),
+                Setting::Method.is(Method::Separable.name()),
+                ", which compares them".into(),
+            ],
         ));
     }
-    let limits = [("--target", given.target), ("--time", given.time)];
-    for (name, found) in limits {
+    let limits = [(Setting::Target, given.target), (Setting::Time, given.time)];
+    for (setting, found) in limits {
         if let Some(found) = found.filter(|x| !(*x > 0.0 && x.is_finite())) {
-            return Err(Error::usage(
-                format!("{name} {found}"),
-                "a finite number above 0",
-            ));
+            return Err(Error::usage(setting.is(found), "a finite number above 0"));
         }
     }
     if given.evaluations == Some(0) {
-        return Err(Error::usage("--evaluations 0", "at least 1"));
+        return Err(Error::usage(Setting::Evaluations.is(0), "at least 1"));
     }
     match &given.checkpoint {
         Some(file) => checkpoint::check_place(file),

@@ -10,6 +10,7 @@ use super::trust::{self, Evidence};
 use crate::entries;
 use crate::error::Error;
 use crate::source::Source;
+use crate::wording::Setting;
 use stiction_files::Axis;
 use stiction_files::result::{SimulationEntry, ValidationEntry};
 use stiction_files::symbols;
@@ -42,7 +43,11 @@ pub(super) fn run(
     let Some(kind) = options.law.filter(|law| is_simulated(*law)) else {
         let law = options.law.map_or("auto", LawKind::name);
         return Err(Error::usage(
-            format!("--method output-error with --law {law}"),
+            [
+                Setting::Method.is(options.procedures.method.name()),
+                " with ".into(),
+                Setting::Law.is(law),
+            ],
             "coulomb-viscous, stribeck, dahl or lugre",
         ));
     };
@@ -52,7 +57,10 @@ pub(super) fn run(
     let stated = axis.terms_for(first, options.asymmetric)?;
     if stated.quadratic_viscous || !stated.dependences.is_empty() {
         return Err(Error::usage(
-            "--method output-error with friction that depends on load, temperature, position or v|v|",
+            [
+                Setting::Method.is(options.procedures.method.name()),
+                " with friction that depends on load, temperature, position or v|v|".into(),
+            ],
             "offset, gravity and cogging beside the law",
         ));
     }
@@ -195,7 +203,7 @@ fn recordings(sources: &[Source]) -> Result<Vec<Recording>, Error> {
 fn split(recordings: &mut [Recording], part: f64) -> Result<Vec<Recording>, Error> {
     if !(part > 0.0 && part < 1.0) {
         return Err(Error::usage(
-            format!("--split {part}"),
+            Setting::Split.is(part),
             "a number between 0 and 1, such as 0.5",
         ));
     }

@@ -285,9 +285,9 @@ fn another_wins(
     else {
         return;
     };
-    let side = if best.asymmetric { " --asymmetric" } else { "" };
+    let side = if best.asymmetric { ", asymmetric," } else { "" };
     let errors = format!(
-        "on held-out samples --law {}{side} has an error of {}, this law of {}",
+        "on held-out samples the law {}{side} has an error of {}, this law of {}",
         best.law,
         Percent::error(least).decimals(2),
         Percent::error(mine).decimals(2)
@@ -404,7 +404,7 @@ fn static_at_rest(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warni
             format!(
                 "{:.0} % of the samples are slower than {:.3e} {}, where a static law does not \
                  describe friction and most of the residual is: leave them out with [conditioning] min_speed in the axis \
-                 file, or use --law lugre",
+                 file, or identify the law lugre",
                 100.0 * part,
                 estimate.low_speed_bound,
                 symbols::speed_unit(motion)

@@ -2,9 +2,10 @@
 #![allow(dead_code)]
 
 use std::fmt::Write;
+use std::ops::{Deref, DerefMut};
 use std::path::{Path, PathBuf};
-use stiction::commands::Options;
-use stiction::{LawKind, Progress, Stage};
+use stiction::commands::{Files, Outcome};
+use stiction::{Error, LawKind, Observer, Options, Progress, Stage};
 use tempfile::TempDir;
 
 /// Sample rate of every log here, Hz.
@@ -99,17 +100,46 @@ impl Bench {
     }
 }
 
-pub fn options(logs: &[&Path], law: LawKind) -> Options {
-    Options {
-        logs: logs.iter().map(|p| p.to_path_buf()).collect(),
-        axis: None,
-        law: Some(law),
-        asymmetric: false,
-        validate: Vec::new(),
-        split: None,
-        seed: 0,
-        compare_laws: false,
-        procedures: stiction::Procedures::default(),
-        searching: stiction::Searching::default(),
+/// An identification from files.
+#[derive(Clone)]
+pub struct Asked {
+    pub files: Files,
+    pub options: Options,
+}
+
+impl Asked {
+    pub fn identify(&self, observer: &mut dyn Observer) -> Result<Outcome, Error> {
+        stiction::commands::identify(&self.files, &self.options, observer)
     }
+
+    /// The same but for a change.
+    pub fn but(mut self, change: impl FnOnce(&mut Self)) -> Self {
+        change(&mut self);
+        self
+    }
+}
+
+impl Deref for Asked {
+    type Target = Options;
+
+    fn deref(&self) -> &Options {
+        &self.options
+    }
+}
+
+impl DerefMut for Asked {
+    fn deref_mut(&mut self) -> &mut Options {
+        &mut self.options
+    }
+}
+
+/// A law of some logs, compared with no others.
+pub fn options(logs: &[&Path], law: LawKind) -> Asked {
+    let files = Files {
+        logs: logs.iter().map(|p| p.to_path_buf()).collect(),
+        ..Files::default()
+    };
+    let mut options = Options::default();
+    (options.law, options.compare_laws) = (Some(law), false);
+    Asked { files, options }
 }

@@ -1,8 +1,8 @@
 //! Identifies a measured recording as its case says and measures what must hold.
 
 use std::path::Path;
-use stiction::commands::{Options, Outcome, identify};
-use stiction::{LawKind, Method, Procedures, Silent};
+use stiction::commands::{Files, Outcome, identify};
+use stiction::{LawKind, Method, Options, Silent};
 use stiction_testkit::{Case, Limit, Metric, workspace};
 
 /// A limit with what was measured.
@@ -24,22 +24,19 @@ pub fn run(case: &Case, data: &Path) -> Outcome {
 }
 
 fn with_law(case: &Case, data: &Path, law: &str) -> Outcome {
-    let options = Options {
+    let files = Files {
         logs: case.logs.iter().map(|log| data.join(log)).collect(),
         axis: Some(workspace().join("validation").join(case.axis)),
-        law: Some(LawKind::from_name(law).expect("a law of the cases exists")),
-        asymmetric: case.asymmetric,
         validate: case.validate.iter().map(|log| data.join(log)).collect(),
-        split: case.split,
-        seed: 0,
-        compare_laws: false,
-        procedures: Procedures {
-            method: Method::from_name(case.method).expect("a method of the cases exists"),
-            ..Procedures::default()
-        },
-        searching: stiction::Searching::default(),
     };
-    identify(&options, &mut Silent).unwrap_or_else(|e| panic!("{}: {e}", case.name))
+    let mut options = Options::default();
+    options.law = Some(LawKind::from_name(law).expect("a law of the cases exists"));
+    options.asymmetric = case.asymmetric;
+    options.split = case.split;
+    options.compare_laws = false;
+    options.procedures.method =
+        Method::from_name(case.method).expect("a method of the cases exists");
+    identify(&files, &options, &mut Silent).unwrap_or_else(|e| panic!("{}: {e}", case.name))
 }
 
 /// Measures one limit of a case.

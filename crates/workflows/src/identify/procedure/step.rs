@@ -11,6 +11,7 @@ use crate::identify::logs::{log_warnings, path_of, refused, run_of, samples};
 use crate::identify::outcome::{Found, Outcome};
 use crate::identify::trust;
 use crate::source::Source;
+use crate::wording::{Setting, TOGETHER_WITH};
 use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::result::{InversionEntry, PreslidingStepEntry, StaticMapEntry};
@@ -92,7 +93,11 @@ fn settings(
             .and_then(|model| curve::value(&model.model, "mass")),
         Mass::Absent => {
             return Err(Error::usage(
-                "mass = \"none\" together with --method presliding-step",
+                [
+                    "mass = \"none\"".into(),
+                    TOGETHER_WITH.into(),
+                    Setting::Method.is(options.procedures.method.name()),
+                ],
                 "the step response is that of a mass on its bristles; give the mass, or \"fit\"",
             ));
         }
@@ -106,7 +111,7 @@ fn settings(
     if beside.model.is_none() && beside.statics.is_empty() {
         warnings.push(Warning::new(
             Code::StaticsAssumed,
-            "neither --model nor --static gives the steady curve: its level is taken as constant and \
+            "neither a model nor logs of constant velocities give the steady curve: its level is taken as constant and \
              fitted, sigma2 as zero. sigma1 then stands for sigma1 + sigma2, and where the axis gets \
              near the Stribeck velocity all parameters are off by more than their intervals",
         ));

@@ -1,6 +1,7 @@
 //! The state of a search in a file: a line that says what it belongs to, and the state in a second.
 
 use crate::error::Error;
+use crate::wording::{Setting, Wording};
 use serde::{Deserialize, Serialize};
 use std::io::Read;
 use std::path::Path;
@@ -68,21 +69,27 @@ impl Checkpoint<'_> {
 
     /// Takes a state up again.
     pub fn read(&self, file: &Path) -> Result<State, Error> {
-        let refused = |found: String, allowed: &str| Error::Checkpoint {
+        let refused = |found: String, allowed: Wording| Error::Checkpoint {
             file: file.to_path_buf(),
             found,
-            allowed: allowed.into(),
+            allowed,
         };
-        let whole = "a file that --checkpoint wrote, unchanged";
-        let damaged = |what: &str| refused(what.into(), whole);
-        let text = text(file).map_err(|e| refused(e, whole))?;
+        let whole = || {
+            Wording::from([
+                "a file that ".into(),
+                Setting::Checkpoint.into(),
+                " wrote, unchanged".into(),
+            ])
+        };
+        let damaged = |what: &str| refused(what.into(), whole());
+        let text = text(file).map_err(|e| refused(e, whole()))?;
         let mut lines = text.lines();
         let head: Head = lines
             .next()
             .and_then(|line| serde_json::from_str(line).ok())
             .ok_or_else(|| damaged("no checkpoint"))?;
         if head.schema != SCHEMA {
-            return Err(refused(format!("schema {}", head.schema), SCHEMA));
+            return Err(refused(format!("schema {}", head.schema), SCHEMA.into()));
         }
         let state = lines.next().unwrap_or_default();
         if seal(&head.settings, state) != head.sha256 {
@@ -91,7 +98,14 @@ impl Checkpoint<'_> {
         if let Some((what, theirs, ours)) = differs(&head.settings, &self.settings) {
             return Err(refused(
                 format!("belongs to a search with {what} {theirs}, this one has {ours}"),
-                "the same command, but for --time, --target, --threads and the files written",
+                [
+                    "the same logs and options, but for ".into(),
+                    Setting::Time.into(),
+                    ", ".into(),
+                    Setting::Target.into(),
+                    ", the threads and the files written".into(),
+                ]
+                .into(),
             ));
         }
         serde_json::from_str(state).map_err(|_| damaged("the state cannot be read"))
@@ -105,7 +119,13 @@ pub(super) fn check_place(file: &Path) -> Result<(), Error> {
         Err(Error::Checkpoint {
             file: file.to_path_buf(),
             found: found.into(),
-            allowed: "--checkpoint takes a new file, or one that --checkpoint wrote".into(),
+            allowed: [
+                Setting::Checkpoint.into(),
+                " takes a new file, or one that ".into(),
+                Setting::Checkpoint.into(),
+                " wrote".into(),
+            ]
+            .into(),
         })
     };
     if let Ok(there) = file.symlink_metadata() {

@@ -1,0 +1,74 @@
+//! What an error says at the terminal: as the library says it, with options named as they are typed.
+
+use stiction::Error;
+use stiction::commands::export::ExportError;
+use stiction::commands::{FileError, Remedy, Setting};
+
+/// The message of an error.
+pub fn message(error: &Error) -> String {
+    match error {
+        Error::Usage { found, allowed } => {
+            format!("{}; {}", found.named(typed), allowed.named(typed))
+        }
+        Error::Checkpoint {
+            file,
+            found,
+            allowed,
+        } => format!("{}: {found}; {}", file.display(), allowed.named(typed)),
+        Error::File(FileError::Taken {
+            path,
+            found,
+            remedy,
+        }) => format!("{}: {found}; {}", path.display(), way_out(*remedy)),
+        Error::Export(ExportError::RatedForce { .. }) => format!("{error}, with --rated-force"),
+        _ => error.to_string(),
+    }
+}
+
+/// An option as it is typed, with its value where there is one.
+fn typed(setting: Setting, value: Option<&str>) -> String {
+    let name = match setting {
+        // Here the names differ from those of the library.
+        Setting::Statics => "static".into(),
+        Setting::Decades => "box".into(),
+        _ => setting.field().replace('_', "-"),
+    };
+    match value {
+        Some(value) => format!("--{name} {value}"),
+        None => format!("--{name}"),
+    }
+}
+
+fn way_out(remedy: Remedy) -> &'static str {
+    match remedy {
+        Remedy::AnotherFolder => "choose another --out",
+        Remedy::DeleteOrAnotherFolder => "delete it or choose another --out",
+        Remedy::AnotherFolderOrForce => {
+            "choose another --out or add --force to write into it all the same"
+        }
+        Remedy::Folder => "--out takes a folder",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::typed;
+    use crate::arguments::Arguments;
+    use clap::CommandFactory;
+    use stiction::commands::Setting;
+
+    #[test]
+    fn every_setting_is_an_option() {
+        let stiction = Arguments::command();
+        let options: Vec<String> = stiction
+            .get_subcommands()
+            .flat_map(|command| command.get_arguments())
+            .filter_map(|argument| argument.get_long())
+            .map(|name| format!("--{name}"))
+            .collect();
+        for setting in Setting::ALL {
+            assert!(options.contains(&typed(setting, None)), "{setting:?}");
+        }
+        assert_eq!(typed(Setting::Split, Some("2")), "--split 2");
+    }
+}
