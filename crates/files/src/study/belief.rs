@@ -31,7 +31,7 @@ pub struct Family {
 /// Draws that fit no law are drawn again, up to so many times for each one asked for.
 const MOST_TRIES: u64 = 1000;
 
-/// Largest standard deviation of what is drawn, of its value.
+/// Largest standard deviation of what is drawn, of its value: a choice; beyond it no draw means anything.
 const MOST_SPREAD: f64 = 1e6;
 
 /// Why nothing can be drawn.

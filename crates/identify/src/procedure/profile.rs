@@ -10,9 +10,12 @@ const GRID_ROUNDS: usize = 12;
 const FOLLOWED: usize = 3;
 /// Width in ln vs at which the refinement ends: far below any interval, far above the rounding of the loss.
 const SETTLED_WIDTH: f64 = 1e-7;
-/// Exponents that are tried where the exponent is an unknown, and the width at which it ends.
+/// Exponents that are tried where the exponent is an unknown.
 const EXPONENTS_TRIED: [f64; 6] = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0];
+/// Least and largest exponent: a choice, wider than the .5 to 2 of the literature.
 pub(super) const EXPONENT_RANGE: (f64, f64) = (0.4, 4.0);
+/// Width in the exponent at which its refinement ends: each trial of it is a whole search for vs, and no interval of an
+/// exponent is narrower than a thousand times this.
 const EXPONENT_SETTLED_WIDTH: f64 = 1e-5;
 
 /// Points that share one Stribeck velocity: all of a symmetric map, or those of one direction.
@@ -197,6 +200,7 @@ pub(super) fn best_exponent(blocks: &[Block], scale: f64) -> f64 {
 
 /// Least of a function with one minimum between two ends, by golden section.
 pub(super) fn golden(ends: (f64, f64), width: f64, f: impl Fn(f64) -> f64) -> f64 {
+    /// (√5 - 1)/2: of the two points inside the bracket one serves again in the next.
     const GOLDEN_SECTION: f64 = 0.618_033_988_749_894_9;
     let (mut a, mut b) = ends;
     let (mut c, mut d) = (b - GOLDEN_SECTION * (b - a), a + GOLDEN_SECTION * (b - a));

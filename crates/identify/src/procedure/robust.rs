@@ -6,8 +6,9 @@ use crate::separable::linear;
 const TUKEY_BIWEIGHT: f64 = 4.685;
 /// Factor from the median absolute residual to the standard deviation of normal residuals.
 const MAD_TO_DEVIATION: f64 = 1.482_602_218_505_602;
-/// Most rounds of reweighting, and the relative change of the cost that ends them.
+/// Most rounds of reweighting.
 pub(super) const ROUNDS: usize = 50;
+/// Relative change of the cost that ends them: near the rounding of a sum of a thousand residuals.
 const SETTLED_CHANGE: f64 = 1e-12;
 
 /// A linear problem: columns, which coefficients must not be negative, what is to be explained, and

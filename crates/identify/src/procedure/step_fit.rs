@@ -26,8 +26,9 @@ const MOST_PHASE_PER_SAMPLE: f64 = std::f64::consts::PI;
 /// Starts: shares of the inversion's sigma0, and damping ratios.
 const STIFFNESS_SHARES: [f64; 4] = [1.0, 1.3, 2.0, 4.0];
 const DAMPING_RATIOS: [f64; 4] = [0.03, 0.1, 0.3, 0.9];
-/// Starts that are followed, and most steps of each.
+/// Starts that are followed.
 const FOLLOWED: usize = 3;
+/// Most steps of each.
 const MOST_TRIALS: usize = 60;
 /// Step of the central differences that give sensitivities, in logarithms: their error is about the square.
 const DIFFERENCE_STEP: f64 = 1e-4;

@@ -6,8 +6,9 @@ use crate::conditioning::record::Samples;
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_servo::plant::{Load, Motion, Plant};
 
-/// Most samples that are simulated, and most steps within one.
+/// Most samples that are simulated.
 const MOST_SAMPLES: usize = 4000;
+/// Most steps within one.
 const MOST_STEPS: u32 = 64;
 /// Phase of the axis' own oscillation that one step may take: the error of its frequency is a twelfth
 /// of the square, relative.

@@ -9,6 +9,7 @@ use crate::{Column, Table};
 
 /// Half a day and a day in seconds.
 const HALF_DAY: f64 = 43_200.0;
+/// s.
 const DAY: f64 = 86_400.0;
 
 /// Puts the table together and says what was detected and what was left out.

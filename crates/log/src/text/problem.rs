@@ -25,6 +25,7 @@ pub(super) fn show(text: &[u8]) -> String {
 
 /// The first few items of a list, and how many more there are.
 pub(super) fn list(things: &[String]) -> String {
+    /// Items that a message names: a line of a terminal.
     const MAX_LISTED: usize = 8;
     let mut text = things[..things.len().min(MAX_LISTED)].join(", ");
     if things.len() > MAX_LISTED {

@@ -3,6 +3,7 @@
 use super::experiment::{Check, Curve, Experiment, TOLERANCE, axis, largest};
 use stiction_friction::ParamError;
 
+/// A whole turn, rad.
 const TURN: f64 = 2.0 * std::f64::consts::PI;
 /// Steps per period.
 const STEPS: usize = 400_000;

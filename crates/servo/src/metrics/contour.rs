@@ -126,6 +126,7 @@ fn narrowest(points: &[[f64; 2]], mut centre: [f64; 2], mut best: f64) -> ([f64;
 
 /// Directions that are tried, 30 degrees apart: along a crease of the width only few lead down.
 const DIRECTIONS: [[f64; 2]; 12] = {
+    /// cos 30°.
     const C: f64 = 0.866_025_403_784_438_6;
     [
         [1.0, 0.0],

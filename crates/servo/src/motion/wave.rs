@@ -4,6 +4,7 @@ use crate::path::Reference;
 use crate::trajectory::Trajectory;
 use stiction_friction::ParamError;
 
+/// A whole turn, rad.
 const TURN: f64 = 2.0 * std::f64::consts::PI;
 
 /// `amplitude (1 - cos(2 pi frequency t))`: a sine that begins and ends at rest, at a reversal.

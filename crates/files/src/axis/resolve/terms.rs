@@ -9,7 +9,7 @@ use stiction_log::Dimension;
 use stiction_log::mapping::WRAPS;
 use stiction_parameters::Quantity;
 
-/// Longest delay of either sign, s.
+/// Longest delay of either sign, s: a choice, far beyond any drive; what is longer is a typing error.
 const LONGEST_DELAY: f64 = 1.0;
 /// Most pitches of cogging, and of friction along the axis.
 const MOST_PITCHES: usize = 4;

@@ -18,9 +18,9 @@ use stiction_servo::encoder::Encoder;
 use stiction_servo::known;
 use stiction_servo::plant::Plant;
 
-/// Least rate at which the plant is stepped, Hz.
+/// Least rate at which the plant is stepped, Hz: that of the simulations of Zhang et al. (steps of 1e-4 s).
 const PLANT_RATE: f64 = 1e4;
-/// Most plant steps of a control period.
+/// Most plant steps of a control period: a choice that bounds the time of a study.
 const MOST_SUBSTEPS: f64 = 100.0;
 /// Longest step h of the plant as `h sqrt(sigma0/M)`, dimensionless: one radian of the swing on the bristles. Longer steps do
 /// not show that swing (`docs/codes/long-steps.md`).

@@ -14,9 +14,11 @@ use stiction_identify::{
 use stiction_search::{Bounds, CostsOnly, Derivatives, Fidelity, Points, Problem};
 use stiction_servo::motion::Sine;
 
-/// The motion, m, Hz: through presliding six times, up to twice the Stribeck velocity.
+/// Amplitude of the motion, m: through presliding six times, up to twice the Stribeck velocity.
 const AMPLITUDE: f64 = 0.5e-3;
+/// Hz.
 const FREQUENCY: f64 = 2.0;
+/// Whole cycles.
 const CYCLES: f64 = 3.0;
 /// One sample in so many is fitted: 5 kHz of 10 kHz.
 const FITTED_SAMPLE: usize = 2;

@@ -12,9 +12,11 @@ use stiction_servo::feedforward::Feedforward;
 use stiction_servo::metrics::Tracking;
 use stiction_servo::motion::Sine;
 
-/// m, Hz: 3.8 m/min at the most.
+/// m: 3.8 m/min at the most.
 const AMPLITUDE: f64 = 20e-3;
+/// Hz.
 const FREQUENCY: f64 = 0.5;
+/// Whole cycles, of which the last counts.
 const CYCLES: f64 = 2.0;
 
 /// Part of the force let through on the measured velocity: the whole of it would be all the positive feedback there is.
