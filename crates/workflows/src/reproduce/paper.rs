@@ -59,7 +59,7 @@ const ASSUMPTIONS: [&str; 12] = [
 /// The experiments with so much searching. The observer is told how many steps of how many are done, and may stop the work: the
 /// experiments that are done by then are kept.
 pub fn zhang_2025(budget: Budget, observer: &mut dyn Observer) -> Reproduction {
-    /// Statics, the record of the dynamics, presliding, tracking three times, corner, load.
+    /// Static map and its search, record of the dynamics and the search for two of them, presliding, tracking, corner, load.
     const EXPERIMENTS: usize = 8;
     let searches = search::METHODS.len() * budget.seeds as usize;
     let watch = Watch::new(EXPERIMENTS + searches, observer);
