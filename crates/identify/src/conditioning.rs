@@ -9,7 +9,6 @@ pub(crate) mod blocks;
 pub(crate) mod channels;
 pub(crate) mod grid;
 pub(crate) mod losses;
-pub(crate) mod noise;
 pub(crate) mod record;
 pub(crate) mod shift;
 
@@ -18,7 +17,7 @@ use crate::conditioning::grid::Grid;
 use crate::conditioning::losses::Losses;
 use crate::conditioning::record::{Record, Samples, Segment};
 use crate::error::{Error, full};
-use stiction_signal::{Sos, gradient, gradient_sixth_order};
+use stiction_signal::{Sos, gradient, gradient_sixth_order, noise_deviation};
 
 /// Missing samples up to this many in a row are bridged by a straight line (and do not count in the
 /// fit); longer gaps split the log.
@@ -236,7 +235,7 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
         segments,
         common: filters.common,
         decimate,
-        position_noise: noise::deviation(logs.iter().filter_map(|log| log.position.as_deref())),
+        position_noise: noise_deviation(logs.iter().filter_map(|log| log.position.as_deref())),
         common_hz,
         notes,
         resolution: conditioning.resolution,

@@ -1,6 +1,7 @@
 //! Why a record cannot be identified at all.
 
 use crate::conditioning::losses::Losses;
+use stiction_number::short;
 
 /// Input from which nothing can be identified. A search that ends badly is a
 /// [`Status`](crate::Status), not an error.
@@ -66,7 +67,7 @@ pub enum Error {
     },
     /// The axis does not move.
     #[error(
-        "the axis does not move in this log (|v| stays below {bound:.3e} {unit}): friction cannot be identified from it"
+        "the axis does not move in this log ({}): friction cannot be identified from it", slow(*bound, unit)
     )]
     NoMotion {
         /// Largest speed seen.
@@ -137,6 +138,15 @@ pub enum Error {
         /// What is needed.
         allowed: &'static str,
     },
+}
+
+/// How slow an axis stays that does not move.
+fn slow(bound: f64, unit: &str) -> String {
+    if bound > 0.0 {
+        format!("|v| stays below {} {unit}", short(bound))
+    } else {
+        "the velocity is zero throughout".into()
+    }
 }
 
 /// A number without the rounding of a filter.

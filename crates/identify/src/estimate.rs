@@ -9,7 +9,7 @@ pub(crate) mod intervals;
 mod optimal;
 mod profile;
 pub(crate) mod series;
-mod sliding;
+pub(crate) mod sliding;
 pub(crate) mod uncertainty;
 
 use crate::conditioning::record::Record;
@@ -139,7 +139,7 @@ pub fn estimate(
     }
     let covariance = Covariance::new(raw.iter().map(|p| p.name).collect(), &matrix);
     curve::stays_within(&law, optimum, &mut parameters);
-    sliding::stays_in_presliding(record.stroke(), &mut parameters);
+    sliding::flag_what_the_motion_hides(record, &mut parameters);
     advice::explain(&mut parameters, &covariance);
     let series = series(&objective, &optimum.p, c, &at.columns);
     let residual = at.residual();

@@ -103,16 +103,12 @@ impl Parameter {
         if reason.is_empty() && std.is_none() {
             reason = "its deviation is beyond the range of numbers".into();
         }
-        let size = if p.is_positive() {
-            p.value.abs()
-        } else {
-            p.value.abs().max(level)
-        };
-        let (size, of) = match p.name.dimension() {
-            _ if p.is_positive() => (size, "its value"),
+        let sized = |value: f64| match p.name.dimension() {
+            _ if p.is_positive() => (value.abs(), "its value"),
             Dimension::Time => (level, "the sample time"),
-            _ => (size, "its value or of the Coulomb level"),
+            _ => (value.abs().max(level), "its value or of the Coulomb level"),
         };
+        let (size, _) = sized(p.value);
         let shift = bias.filter(|b| known && b.is_finite()).unwrap_or(0.0);
         let corrected = shift.abs() <= IDENTIFIABLE * size;
         let value = if !corrected || shift == 0.0 {
@@ -128,6 +124,8 @@ impl Parameter {
         let left = if corrected { 0.0 } else { shift };
         let reach = std.map(|s| s * quantile(left, s));
         if let Some(std) = std {
+            // Of the value that is stated, so that a table of both says the same.
+            let (size, of) = sized(value);
             let relative = std / size;
             if relative > IDENTIFIABLE || relative.is_nan() {
                 reason = too_uncertain(relative, of);

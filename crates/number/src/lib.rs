@@ -2,7 +2,8 @@
 //!
 //! | where | function |
 //! |---|---|
-//! | messages and terminal text (ASCII) | [`short`], [`four_digits`], [`full`], [`shortest`], [`counted`] |
+//! | messages and terminal text (ASCII) | [`short`], [`four_digits`], [`full`], [`shortest`], [`counted`], [`r_squared`] |
+//! | units, everywhere but in files | [`unit`] |
 //! | reports (typeset: `×10⁶`, a true minus sign) | [`sig`], [`count`], [`concise`], [`plus_minus`], [`interval`], [`si`], [`quantity`] |
 //! | every percentage of something that was measured or fitted | [`Percent`] |
 //!
@@ -19,7 +20,7 @@ mod message;
 mod percent;
 mod typeset;
 
-pub use message::{counted, four_digits, full, short, shortest};
+pub use message::{counted, four_digits, full, r_squared, short, shortest, unit};
 pub use percent::{LARGEST_PERCENT, Percent};
 pub use typeset::{
     concise, count, exponent, interval, plain, plus_minus, prefixed, quantity, si, sig,

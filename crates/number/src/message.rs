@@ -67,6 +67,23 @@ pub fn shortest(x: f64) -> String {
     }
 }
 
+/// A unit as people write it: `N·s/m`, `kg·m²`. Files keep the form that is typed, `N*s/m`.
+pub fn unit(typed: &str) -> String {
+    typed.replace('*', "·").replace("^2", "²")
+}
+
+/// R², the part of the variance that is explained: five digits up to 1. Below -1 the residual is larger than the signal
+/// itself by far, and by how much is of no use.
+pub fn r_squared(r2: f64) -> String {
+    if r2 < -1.0 {
+        "below -1".into()
+    } else if r2.is_finite() {
+        format!("{r2:.5}")
+    } else {
+        "-".into()
+    }
+}
+
 /// `1 sample`, `3 samples`.
 pub fn counted(number: usize, noun: &str) -> String {
     if number == 1 {
@@ -110,6 +127,27 @@ mod tests {
         assert_eq!(full(1e300), "1e300");
         assert_eq!(counted(1, "sample"), "1 sample");
         assert_eq!(counted(3, "sample"), "3 samples");
+    }
+
+    #[test]
+    fn units_are_written_in_one_way() {
+        assert_eq!(unit("N*s/m"), "N·s/m");
+        assert_eq!(unit("kg*m^2"), "kg·m²");
+        assert_eq!(unit("N*s^2/m^2"), "N·s²/m²");
+        assert_eq!(unit("mm/s"), "mm/s");
+    }
+
+    #[test]
+    fn no_r_squared_far_below_zero() {
+        for (r2, text) in [
+            (0.999_917, "0.99992"),
+            (-0.25, "-0.25000"),
+            (-4e25, "below -1"),
+            (f64::NEG_INFINITY, "below -1"),
+            (f64::NAN, "-"),
+        ] {
+            assert_eq!(r_squared(r2), text);
+        }
     }
 
     #[test]

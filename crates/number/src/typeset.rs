@@ -109,11 +109,7 @@ pub fn quantity(x: f64, unit: &str) -> String {
         (a, "m/s" | "rad/s") if a < 0.9995 => (1e3, "m"),
         _ => (1.0, ""),
     };
-    format!(
-        "{} {prefix}{}",
-        sig(factor * x, 3),
-        unit.replace("N*m", "N m")
-    )
+    format!("{} {prefix}{}", sig(factor * x, 3), crate::unit(unit))
 }
 
 /// `unit` with the prefix for 10^`power`, where there is one and the unit takes prefixes.

@@ -5,7 +5,7 @@ use crate::conditioning::channels::Channels;
 use crate::conditioning::losses::Losses;
 use crate::conditioning::shift::Shift;
 use std::borrow::Cow;
-use stiction_signal::Sos;
+use stiction_signal::{Sos, Travel, noise_deviation};
 
 /// One log in SI units on its own time axis: m or rad, m/s or rad/s, N or N·m (or A, V).
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -160,11 +160,35 @@ impl Record {
             .fold(0.0, f64::max)
     }
 
-    /// Whether the axis moves in both directions, at speeds above a hundredth of the top speed.
+    /// Whether the axis moves in both directions while samples count; what does not move beyond the noise counts as such.
     pub fn moves_both_ways(&self) -> bool {
-        let bound = 0.01 * self.top_speed();
-        let speeds = self.pick(|s| &s.velocity);
-        speeds.iter().any(|&v| v > bound) && speeds.iter().any(|&v| v < -bound)
+        let has_position = |s: &Segment| !s.reading.is_empty() || !s.channels.position.is_empty();
+        let shortest = if self.segments.iter().all(has_position) {
+            Travel::shortest_movement(self.resolution.unwrap_or(0.0), self.position_noise)
+        } else {
+            // White noise of the velocity makes the position that it is integrated to walk at random.
+            let noise = noise_deviation(self.segments.iter().map(|s| &s.velocity[..]));
+            let longest = self.segments.iter().map(|s| s.velocity.len()).max();
+            let walk = noise * self.step() * (longest.unwrap_or(0) as f64).sqrt();
+            Travel::shortest_movement(0.0, walk)
+        };
+        let travel = self.segments.iter().map(|s| {
+            let position = match s.reading.is_empty() {
+                true => &s.position,
+                false => &s.reading,
+            };
+            // What the axis does while samples do not count is left out.
+            let counts = |i: &usize| s.keep.get(i / self.decimate) == Some(&true);
+            let moved = (1..position.len())
+                .filter(counts)
+                .map(|i| position[i] - position[i - 1]);
+            let along = moved.scan(0.0, |x, dx| {
+                *x += dx;
+                Some(*x)
+            });
+            Travel::of(std::iter::once(0.0).chain(along), shortest)
+        });
+        !travel.fold(Travel::default(), Travel::and).is_one_way()
     }
 
     /// The kept samples of a thinned channel, in order.

@@ -5,7 +5,7 @@ use crate::conditioning::record::Record;
 use crate::estimate::conditioned::shift;
 use crate::estimate::curve::{missing, stays_within};
 use crate::estimate::profile::{End, Held, Profile};
-use crate::estimate::sliding::stays_in_presliding;
+use crate::estimate::sliding::flag_what_the_motion_hides;
 use crate::estimate::{Estimate, advice, levels, optimal};
 use crate::law::physical::physical;
 use crate::parameter::physical::Physical;
@@ -53,7 +53,7 @@ pub fn intervals(
     estimate.fitted.counts.add(&counts);
     let fitted = &mut estimate.fitted;
     stays_within(&fitted.law, optimum, &mut fitted.parameters);
-    stays_in_presliding(record.stroke(), &mut fitted.parameters);
+    flag_what_the_motion_hides(record, &mut fitted.parameters);
     advice::explain(&mut fitted.parameters, &fitted.covariance);
 }
 

@@ -1,10 +1,11 @@
-//! Whether the axis slides at all.
+//! Whether the axis slides at all, and in both directions.
 //!
 //! Levels, and the curve between them, are what friction comes to once the bristles are bent. In a
 //! stroke that is shorter than their way from one side to the other, a search still finds levels that
 //! suit the bend of the presliding curve, encoder steps included, and their deviations say only how well
 //! those are known.
 
+use crate::conditioning::record::Record;
 use crate::parameter::Parameter;
 use stiction_parameters::{Quantity, Side};
 
@@ -16,9 +17,35 @@ const SLIDING: [Quantity; 4] = [
     Quantity::Sigma2,
 ];
 
+/// Flags what the motion of a record cannot show, whatever the deviations of the parameters are.
+pub(super) fn flag_what_the_motion_hides(record: &Record, parameters: &mut [Parameter]) {
+    stays_in_presliding(record.stroke(), parameters);
+    let offset_fitted = |p: &Parameter| p.name == Quantity::Offset && p.identified;
+    if parameters.iter().any(offset_fitted) && !record.moves_both_ways() {
+        moves_one_way(parameters);
+    }
+}
+
+/// Flags the Coulomb level and the constant force beside it, where the axis moves in one direction only: all that sliding
+/// shows is their sum.
+pub(crate) fn moves_one_way(parameters: &mut [Parameter]) {
+    for p in parameters.iter_mut().filter(|p| p.identified) {
+        let other = match p.name.quantity {
+            Quantity::Offset => "Coulomb friction",
+            Quantity::Coulomb => "the offset",
+            _ => continue,
+        };
+        if p.identifiable {
+            p.identifiable = false;
+            p.reason =
+                format!("cannot be separated from {other}: the axis moves in one direction only");
+        }
+    }
+}
+
 /// Flags what shows while the axis slides, where a stroke (m or rad) is shorter than the way of the
 /// bristles from one side to the other, the Coulomb levels over sigma0.
-pub(super) fn stays_in_presliding(stroke: f64, parameters: &mut [Parameter]) {
+fn stays_in_presliding(stroke: f64, parameters: &mut [Parameter]) {
     let of = |quantity: Quantity, side| {
         let mut known = parameters.iter();
         let found = known.find(|p| p.name.quantity == quantity && p.name.side == side);

@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::estimate::advice;
 use crate::estimate::fitted::FittedLaw;
 use crate::estimate::series::Series;
+use crate::estimate::sliding;
 use crate::estimate::uncertainty;
 use crate::fit::Fit;
 use crate::law::Law;
@@ -25,6 +26,7 @@ use crate::watch::Watch;
 use nalgebra::DMatrix;
 use stiction_parameters::{Name, Quantity};
 use stiction_search::{Counts, Silent, Stage};
+use stiction_signal::{Travel, noise_deviation};
 
 /// Measured and simulated signals at the samples that count.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -59,6 +61,33 @@ impl Signals {
             return None;
         }
         Fit::new(&self.force, &less(&self.force, &self.simulated_force))
+    }
+
+    /// Whether the axis moves in both directions, by its measured position; with the encoder step, m or rad, where it is
+    /// known.
+    pub fn moves_both_ways(&self, encoder_step: Option<f64>) -> bool {
+        let noise = noise_deviation(self.stretches());
+        let shortest = Travel::shortest_movement(encoder_step.unwrap_or(0.0), noise);
+        let travel = self
+            .stretches()
+            .map(|position| Travel::of(position.iter().copied(), shortest));
+        !travel.fold(Travel::default(), Travel::and).is_one_way()
+    }
+
+    /// Measured positions without gaps, each of one log.
+    fn stretches(&self) -> impl Iterator<Item = &[f64]> {
+        let steps = self.time.windows(2).map(|t| t[1] - t[0]);
+        let step = steps.filter(|s| *s > 0.0).fold(f64::INFINITY, f64::min);
+        let goes_on = move |i: usize| {
+            self.log[i] == self.log[i - 1] && (self.time[i] - self.time[i - 1]).abs() < 1.5 * step
+        };
+        let ends =
+            (1..=self.position.len()).filter(move |&i| i == self.position.len() || !goes_on(i));
+        ends.scan(0, |start, end| {
+            let stretch = &self.position[*start..end];
+            *start = end;
+            Some(stretch)
+        })
     }
 }
 
@@ -229,6 +258,10 @@ pub(crate) fn describe(
         .collect();
     insert_given(&mut parameters, &law, terms);
     let covariance = Covariance::new(raw.iter().map(|p| p.name).collect(), &matrix);
+    let offset_fitted = |p: &Parameter| p.name == Quantity::Offset && p.identified;
+    if parameters.iter().any(offset_fitted) && !signals.moves_both_ways(search.simulation.quantum) {
+        sliding::moves_one_way(&mut parameters);
+    }
     advice::explain(&mut parameters, &covariance);
     let top = signals.velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let fitted = FittedLaw {

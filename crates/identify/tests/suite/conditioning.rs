@@ -2,6 +2,7 @@
 
 use crate::common::closed_loop::{encoder, error, identified, three_segments, truth};
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
+use stiction_identify::{Conditioning, Samples, condition};
 use stiction_servo::cascade::Cascade;
 use stiction_servo::closed_loop::{ClosedLoop, ForceLog};
 use stiction_servo::path::Path;
@@ -89,4 +90,48 @@ fn a_stroke_within_presliding_determines_no_level() {
         println!("{name} {} {:?} {:?} {}", p.value, p.std, p.ci95, p.reason);
         assert!(!p.identifiable, "{name} = {}, truth {truth}", p.value);
     }
+}
+
+/// Samples of a position at 1 kHz, with the velocity where there is no position.
+fn moved(position: &[f64], as_velocity: bool) -> Samples {
+    let time: Vec<f64> = (0..position.len()).map(|i| i as f64 * 1e-3).collect();
+    let velocity = as_velocity.then(|| {
+        let after = |i: usize| position[(i + 1).min(position.len() - 1)];
+        (0..position.len())
+            .map(|i| (after(i) - position[i]) / 1e-3)
+            .collect()
+    });
+    Samples {
+        force: time.clone(),
+        position: (!as_velocity).then(|| position.to_vec()),
+        velocity,
+        time,
+        ..Samples::default()
+    }
+}
+
+/// Slow motion in both directions counts as such whatever else is in the log, and noise does not.
+#[test]
+fn both_directions_are_told_by_travel() {
+    let steps = |x: f64| (x / 1e-6).round() * 1e-6;
+    let noise = |i: usize| ((i * 7919 % 1000) as f64 / 1000.0 - 0.5) * 4e-6;
+    // Five periods of 2 mm, then 0.5 m in 50 ms: the slow motion is at 0.05 % of the top speed.
+    let slow_and_a_jump: Vec<f64> = (0..20_000)
+        .map(|i| {
+            let t = i as f64 * 1e-3;
+            let jump = 0.05 * ((t - 12.0) / 0.05).clamp(0.0, 1.0);
+            steps(1e-3 * (std::f64::consts::TAU * t / 4.0).sin() + jump)
+        })
+        .collect();
+    // So slow that noise of the position makes any velocity go to both sides.
+    let one_way_in_noise: Vec<f64> = (0..20_000).map(|i| 1e-6 * i as f64 + noise(i)).collect();
+    let both = |position: &[f64], as_velocity| {
+        let log = moved(position, as_velocity);
+        let record = condition(&[log], &Conditioning::default()).unwrap();
+        record.moves_both_ways()
+    };
+    assert!(both(&slow_and_a_jump, false));
+    assert!(both(&slow_and_a_jump, true));
+    assert!(!both(&one_way_in_noise, false));
+    assert!(!both(&one_way_in_noise, true));
 }

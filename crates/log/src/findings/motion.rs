@@ -5,6 +5,7 @@ use crate::log::Log;
 use std::borrow::Cow;
 use stiction_codes::Code;
 use stiction_number::{counted as count, short};
+use stiction_signal::{Travel, noise_deviation};
 
 /// Fewest samples on which an interval can be based.
 const MIN_USEFUL_SAMPLES: usize = 100;
@@ -12,10 +13,6 @@ const MIN_USEFUL_SAMPLES: usize = 100;
 const MAX_REST_STEPS: f64 = 2.0;
 /// Least correlation of neighbouring samples of a motion; that of noise is near 0.
 pub(super) const MIN_NEIGHBOUR_CORRELATION: f64 = 0.5;
-/// Least return travel that counts as motion in the other direction, as a fraction of the range ...
-const MIN_RETURN_SHARE_OF_RANGE: f64 = 0.02;
-/// ... and in encoder steps; the larger of the two.
-const MIN_RETURN_STEPS: f64 = 3.0;
 /// Windows whose mean velocities are compared to see whether the axis moves at one speed ...
 const SPEED_WINDOWS: usize = 50;
 /// ... and how much these may differ (largest less smallest), as a fraction of their mean.
@@ -69,10 +66,7 @@ fn judge(log: &Log) -> Vec<Finding> {
         return vec![warning(Code::NoiseOnly, message)];
     }
     let mut found = Vec::new();
-    if !turns_back(
-        &x,
-        (MIN_RETURN_SHARE_OF_RANGE * range).max(MIN_RETURN_STEPS * step),
-    ) {
+    if travel(log, &x, step).is_one_way() {
         let message = format!(
             "the axis moves in one direction only, over {} {unit}; friction in the other \
              direction and an offset of the force cannot be identified",
@@ -112,24 +106,21 @@ fn neighbour_correlation(values: &[f64]) -> f64 {
     if power > 0.0 { next / power } else { 1.0 }
 }
 
-/// Whether the signal goes up and comes down, each by more than `least`.
-fn turns_back(x: &[f64], least: f64) -> bool {
-    let (mut low, mut high) = (x[0], x[0]);
-    let (mut up, mut down) = (false, false);
-    for &value in x {
-        low = low.min(value);
-        high = high.max(value);
-        if value - low > least {
-            up = true;
+/// How far the axis travels each way, from jump to jump of the position.
+fn travel(log: &Log, x: &[f64], step: f64) -> Travel {
+    let stretches = || log.segments.iter().filter_map(|s| x.get(s.clone()));
+    let shortest = match &log.velocity {
+        Some(velocity) if log.position.is_none() => {
+            // White noise of the velocity makes the position that it is integrated to walk at random.
+            let samples = velocity.len() as f64;
+            let seconds = log.time[velocity.len() - 1] - log.time[0];
+            let noise = noise_deviation(std::iter::once(&velocity[..]));
+            Travel::shortest_movement(0.0, noise * seconds / samples.sqrt())
         }
-        if high - value > least {
-            down = true;
-        }
-        if up && down {
-            return true;
-        }
-    }
-    false
+        _ => Travel::shortest_movement(step, noise_deviation(stretches())),
+    };
+    let travel = stretches().map(|x| Travel::of(x.iter().copied(), shortest));
+    travel.fold(Travel::default(), Travel::and)
 }
 
 /// The speed, where windows over the whole record all have nearly the same.

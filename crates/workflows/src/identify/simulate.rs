@@ -126,7 +126,7 @@ pub(super) fn run(
 
     let evidence = Evidence {
         law: &found.fitted,
-        moves_both_ways: moves_both_ways(&found.signals),
+        moves_both_ways: found.signals.moves_both_ways(quantum),
         sources,
         laws: &[],
         motion,
@@ -244,13 +244,6 @@ fn separable(
     let low_speed = engine::low_speed_bound(&record);
     let (found, _) = engine::fit_law(&record, law, terms, low_speed, &settings, observer).ok()?;
     (found.status == Status::Converged && found.fit.r2 >= GOOD_START_R2).then_some(found)
-}
-
-/// Whether the axis moves in both directions, faster than a hundredth of its top speed.
-fn moves_both_ways(signals: &Signals) -> bool {
-    let top = signals.velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    let beyond = |sign: f64| signals.velocity.iter().any(|v| sign * v > 0.01 * top);
-    beyond(1.0) && beyond(-1.0)
 }
 
 fn series(signals: &Signals) -> Series {

@@ -9,7 +9,7 @@ use stiction_identify::Parameter;
 use stiction_identify::procedure::StepFit;
 use stiction_identify::{FittedLaw, SimulationFit, Status};
 use stiction_log::Motion;
-use stiction_number::Percent;
+use stiction_number::{Percent, short};
 use stiction_parameters::Quantity;
 
 /// Part of the variance of what was fitted that a law must explain, dimensionless: half. A law that leaves more than it
@@ -402,11 +402,11 @@ fn static_at_rest(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warni
         warnings.push(Warning::new(
             Code::StaticLawAtRest,
             format!(
-                "{:.0} % of the samples are slower than {:.3e} {}, where a static law does not \
+                "{:.0} % of the samples are slower than {} {}, where a static law does not \
                  describe friction and most of the residual is: leave them out with [conditioning] min_speed in the axis \
                  file, or identify the law lugre",
                 100.0 * part,
-                estimate.low_speed_bound,
+                short(estimate.low_speed_bound),
                 symbols::speed_unit(motion)
             ),
         ));

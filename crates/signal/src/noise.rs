@@ -11,7 +11,7 @@ const OUTLIER_SHARE: f64 = 0.01;
 /// Standard deviation of the white noise of channels that are smooth between samples, from their
 /// sixth differences. Encoder steps passed at speed count as noise, of step/sqrt(12); whatever the
 /// signal itself has near the Nyquist frequency counts too.
-pub(crate) fn deviation<'a>(channels: impl Iterator<Item = &'a [f64]>) -> f64 {
+pub fn noise_deviation<'a>(channels: impl Iterator<Item = &'a [f64]>) -> f64 {
     let mut squares: Vec<f64> = Vec::new();
     for channel in channels {
         let differences = channel.windows(DIFFERENCE_ORDER + 1).map(|x| {
@@ -36,21 +36,21 @@ pub(crate) fn deviation<'a>(channels: impl Iterator<Item = &'a [f64]>) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::deviation;
+    use super::noise_deviation;
 
     #[test]
     fn encoder_steps_at_speed_are_noise_of_a_step_over_the_root_of_twelve() {
         let steps: Vec<f64> = (0..20_000)
             .map(|i| (1e5 * (3e-3 * f64::from(i)).sin()).round())
             .collect();
-        let found = deviation(std::iter::once(&steps[..]));
+        let found = noise_deviation(std::iter::once(&steps[..]));
         assert!((found * 12.0_f64.sqrt() - 1.0).abs() < 0.1, "{found}");
     }
 
     #[test]
     fn a_smooth_signal_has_none_and_a_short_one_too() {
         let smooth: Vec<f64> = (0..1000).map(|i| (0.05 * f64::from(i)).sin()).collect();
-        assert!(deviation(std::iter::once(&smooth[..])) < 1e-9);
-        assert_eq!(deviation(std::iter::once(&smooth[..5])), 0.0);
+        assert!(noise_deviation(std::iter::once(&smooth[..])) < 1e-9);
+        assert_eq!(noise_deviation(std::iter::once(&smooth[..5])), 0.0);
     }
 }
