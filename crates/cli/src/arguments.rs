@@ -148,7 +148,8 @@ pub struct Identify {
     /// Logs to validate on; they are not fitted.
     #[arg(long, value_name = "LOG", num_args = 1.., conflicts_with = "split")]
     pub validate: Vec<PathBuf>,
-    /// Fit this first part of the samples and validate on the rest, such as 0.5.
+    /// Fit the first part of the samples and validate on the rest: a share between 0 and 1, such as 0.5 for the first
+    /// half [default: all are fitted].
     #[arg(long, value_name = "PART", allow_negative_numbers = true)]
     pub split: Option<f64>,
     /// Seed of the search.
@@ -231,13 +232,15 @@ pub struct Searching {
     /// LuGre law, else separable].
     #[arg(long, value_enum, value_name = "COST")]
     pub cost: Option<Cost>,
-    /// Most costs that a search may evaluate, and as many with derivatives [default: 20000].
+    /// End a search after N evaluations of its cost, 1 or more; evaluations with derivatives are counted apart, up to N as
+    /// well [default: 20000].
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole)]
     pub evaluations: Option<u64>,
-    /// Stop a search at this cost: the square of the relative error.
+    /// End a search when its cost is at most J, above 0: the square of the relative error, so 1e-4 is an error of 1 %
+    /// [default: none].
     #[arg(long, value_name = "J", allow_negative_numbers = true)]
     pub target: Option<f64>,
-    /// Stop a search this long after the start, in s.
+    /// End a search S seconds after it began, above 0; the least squares that follow it are not limited [default: no limit].
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub time: Option<f64>,
     /// Keep the state of a search here, every few seconds and at the end.
@@ -271,7 +274,7 @@ pub struct Compare {
     /// Seeds of each method.
     #[arg(long, value_name = "N", default_value_t = 30, allow_negative_numbers = true, value_parser = whole)]
     pub seeds: u64,
-    /// Most costs that a run may evaluate, and as many with derivatives.
+    /// End a run after N evaluations of its cost, 1 or more; evaluations with derivatives are counted apart, up to N as well.
     #[arg(long, value_name = "N", default_value_t = 20_000, allow_negative_numbers = true, value_parser = whole)]
     pub evaluations: u64,
     /// Noise of a problem: deviation over the largest force [default: 0.01].
@@ -380,9 +383,12 @@ pub struct Export {
     /// What to write.
     #[arg(long, value_enum)]
     pub target: Target,
-    /// Folder for the files; new or empty.
+    /// Folder for the files.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+    /// Write into a folder that holds something; files of the same names are replaced.
+    #[arg(long)]
+    pub force: bool,
     /// Time between two calls of the compensator, s.
     #[arg(
         long,

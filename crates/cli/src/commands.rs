@@ -42,6 +42,10 @@ pub fn run(arguments: &Arguments) -> Exit {
         let message = wording::message(&e);
         let line = output::line(&message);
         let _ = writeln!(std::io::stderr(), "stiction: [{}] {line}", e.code());
+        if let Some(next) = next(&e, &arguments.command) {
+            // As above.
+            let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&next));
+        }
         if common.json {
             let error = serde_json::json!({ "error": { "code": e.code(), "message": message } });
             // The same was said on standard error; there is nowhere else to complain.
@@ -49,6 +53,21 @@ pub fn run(arguments: &Arguments) -> Exit {
         }
         Exit::BadInput
     })
+}
+
+/// What to type where the columns of a log are not clear by themselves.
+fn next(error: &Error, command: &Command) -> Option<String> {
+    let (logs, axis) = match command {
+        Command::Check(check) if check.init.is_none() => (&check.logs, &check.axis),
+        Command::Identify(identify) => (&identify.logs, &identify.axis),
+        _ => return None,
+    };
+    let unclear = ["log-missing", "log-ambiguous", "log-unit"].contains(&error.code().as_str());
+    let log = logs.first().filter(|_| unclear && axis.is_none())?;
+    Some(format!(
+        "next: stiction check {} --init axis.toml writes an axis file with the columns that are clear filled in",
+        log.display()
+    ))
 }
 
 /// Prints a text that is asked for itself.
@@ -304,7 +323,10 @@ fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
     options.limit = export.limit;
     options.rated_force = export.rated_force;
     let exported = stiction::export_file(&export.model, &options)?;
-    exported.write(&export.out)?;
+    match export.force {
+        true => exported.write_over(&export.out)?,
+        false => exported.write(&export.out)?,
+    }
     if common.json {
         output::json(&exported)?;
     } else if !common.quiet {

@@ -42,7 +42,6 @@ fn typed(setting: Setting, value: Option<&str>) -> String {
 fn way_out(remedy: Remedy) -> &'static str {
     match remedy {
         Remedy::AnotherFolder => "choose another --out",
-        Remedy::DeleteOrAnotherFolder => "delete it or choose another --out",
         Remedy::AnotherFolderOrForce => {
             "choose another --out or add --force to write into it all the same"
         }

@@ -211,11 +211,13 @@ fn unresolved(model: &Model, law: &LuGre<f64>, target: Target) -> Option<Advice>
     (path > length).then(|| Advice {
         code: Code::ExportCycleTime,
         message: format!(
-            "at the Stribeck velocity of {} {} a {cycle} of {} s moves {path:.3e} {unit}, more than the whole presliding length of {length:.3e} {unit}: \
+            "at the Stribeck velocity of {} {} a {cycle} of {} s moves {} {unit}, more than the whole presliding length of {} {unit}: \
              the force stays bounded and follows the steady curve, but a reversal is not resolved; {remedy}",
             short(vs),
             model.speed_unit(),
             model.settings.cycle_time,
+            stiction_number::short(path),
+            stiction_number::short(length),
             unit = model.length_unit(),
         ),
     })

@@ -62,9 +62,6 @@ pub enum Remedy {
     /// Another folder is to be given.
     #[error("choose another folder")]
     AnotherFolder,
-    /// What is there may be deleted, too.
-    #[error("delete it or choose another folder")]
-    DeleteOrAnotherFolder,
     /// It may be written into all the same, where that is asked for.
     #[error("choose another folder, or ask for it to be written into all the same")]
     AnotherFolderOrForce,

@@ -79,15 +79,9 @@ pub fn write_folder<'f>(
         let free = dir.is_dir() && fs::read_dir(dir).map_err(fail)?.next().is_none();
         if !free {
             let (found, remedy) = if dir.is_dir() {
-                (
-                    "holds something, and an export never overwrites",
-                    Remedy::DeleteOrAnotherFolder,
-                )
+                ("is not empty", Remedy::AnotherFolderOrForce)
             } else {
-                (
-                    "exists and is no folder, and an export never overwrites",
-                    Remedy::AnotherFolder,
-                )
+                ("is not a folder", Remedy::Folder)
             };
             return Err(Error::taken(dir, found, remedy));
         }
@@ -106,10 +100,7 @@ pub fn write_folder<'f>(
     let whole = staged.path().join("whole");
     fs::create_dir(&whole).map_err(fail)?;
     for (name, content) in files {
-        let plain = |c| matches!(c, std::path::Component::Normal(_));
-        if !Path::new(name).components().all(plain) {
-            return Err(Error::output(&dir.join(name), "leads out of the folder"));
-        }
+        stays_inside(dir, name)?;
         let path = whole.join(name);
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder).map_err(fail)?;
@@ -122,6 +113,43 @@ pub fn write_folder<'f>(
         move_into(&whole, dir).map_err(fail)
     } else {
         fs::rename(&whole, dir).map_err(fail)
+    }
+}
+
+/// Writes files (relative path, content) into a folder that may hold something: files of the same name are replaced, others
+/// are kept. All are complete under temporary names before the first is renamed.
+///
+/// # Errors
+/// When a path leads out of the folder, a folder is in the place of a file, or it cannot be written.
+pub fn write_into_folder<'f>(
+    dir: &Path,
+    files: impl IntoIterator<Item = (&'f str, &'f [u8])>,
+) -> Result<(), Error> {
+    writable_above(dir)?;
+    let mut staged = Vec::new();
+    for (name, content) in files {
+        stays_inside(dir, name)?;
+        let path = dir.join(name);
+        if path.is_dir() {
+            let what = "is a folder; a file of this name is to be written";
+            return Err(Error::output(&path, what));
+        }
+        let folder = path.parent().unwrap_or(dir);
+        fs::create_dir_all(folder).map_err(|e| Error::output(folder, describe(&e)))?;
+        let file = stage(&path, content)?;
+        staged.push((path, file));
+    }
+    staged
+        .into_iter()
+        .try_for_each(|(path, file)| publish(file, &path))
+}
+
+/// Refuses a relative path that leads out of its folder.
+fn stays_inside(dir: &Path, name: &str) -> Result<(), Error> {
+    let plain = |c| matches!(c, std::path::Component::Normal(_));
+    match Path::new(name).components().all(plain) {
+        true => Ok(()),
+        false => Err(Error::output(&dir.join(name), "leads out of the folder")),
     }
 }
 

@@ -128,6 +128,12 @@ impl Mapping {
         Self::default().complete(table)
     }
 
+    /// The columns whose role is clear, each by itself, with the unit that the file gives it; for a table that
+    /// [`Mapping::detect`] refuses.
+    pub fn clear_columns(table: &Table) -> Self {
+        choose::clear(table)
+    }
+
     /// This mapping with everything it leaves open filled in from the table: every channel then has
     /// a unit, and the kind of motion is known.
     ///

@@ -200,6 +200,9 @@ pub fn init(path: &Path) -> Result<String, Error> {
     let detected = Mapping::detect(&table);
     Ok(match &detected {
         Ok(found) => template(&table, Ok(&found.mapping)),
-        Err(e) => template(&table, Err(&e.to_string())),
+        Err(e) => {
+            let clear = Mapping::clear_columns(&table);
+            template(&table, Err((&clear, &e.to_string())))
+        }
     })
 }

@@ -9,7 +9,7 @@ use stiction_export::{Model, Parameter, Provenance};
 use stiction_files::ModelFile;
 use stiction_files::Warning;
 use stiction_files::model::ReadModel;
-use stiction_files::write_folder;
+use stiction_files::{write_folder, write_into_folder};
 use stiction_friction::ParamError;
 use stiction_friction::compensator::{Compensator, Friction, Settings};
 use stiction_parameters::{FrictionLaw, LawError, LawKind, Name};
@@ -88,6 +88,18 @@ impl Exported {
         let files = self.files.iter();
         Ok(write_folder(
             dir.as_ref(),
+            files.map(|f| (f.path.as_str(), f.bytes.as_slice())),
+        )?)
+    }
+
+    /// Writes the files into `dir`, which may hold something: files of the same names are replaced, others are kept.
+    ///
+    /// # Errors
+    /// When the folder cannot be written.
+    pub fn write_over(&self, dir: &Path) -> Result<(), Error> {
+        let files = self.files.iter();
+        Ok(write_into_folder(
+            dir,
             files.map(|f| (f.path.as_str(), f.bytes.as_slice())),
         )?)
     }

@@ -216,6 +216,10 @@ fn exit_codes() {
     ]);
     assert_eq!((code, err.as_str()), (1, ""), "{out}");
     assert!(out.contains("NOT TRUSTWORTHY"), "{out}");
+    for parameter in ["coulomb", "offset"] {
+        let row = out.lines().find(|l| l.starts_with(parameter)).unwrap();
+        assert!(row.contains("NOT IDENTIFIABLE"), "{out}");
+    }
     assert_eq!(bench.names("b"), FOUR);
     let (code, out, err) = bench.run(&["identify", "rest.csv", "--out", "c"]);
     assert_eq!((code, out.as_str()), (2, ""));
@@ -546,4 +550,43 @@ fn the_demo_finds_the_truth() {
     let refused = bench.run(&["demo", "--out", "."]);
     assert_eq!(refused.0, 2, "{}", refused.2);
     assert!(Path::new(&bench.path("stiction-demo/demo.csv")).is_file());
+}
+
+/// A log whose columns are not clear leads to `--init`, which fills in those that are.
+#[test]
+fn unclear_columns_lead_to_an_axis_file() {
+    let bench = Bench::new();
+    let mut plain = String::new();
+    let mut counted = String::from("time,cnt,i_q\n");
+    for i in 0..300 {
+        let t = f64::from(i) * 1e-3;
+        let (x, force) = ((20.0 * t).sin(), (20.0 * t).cos());
+        let _ = writeln!(plain, "{t:.3},{x:.5},{force:.4}");
+        let _ = writeln!(counted, "{t:.3},{:.0},{force:.4}", 1e5 * x);
+    }
+    std::fs::write(bench.path("plain.csv"), plain).unwrap();
+    std::fs::write(bench.path("counted.csv"), counted).unwrap();
+    for command in ["check", "identify"] {
+        let mut arguments = vec![command, "plain.csv"];
+        if command == "identify" {
+            arguments.extend(["--out", "out"]);
+        }
+        let (code, _, err) = bench.run(&arguments);
+        assert_eq!(code, 2, "{err}");
+        assert!(
+            err.contains("next: stiction check plain.csv --init axis.toml"),
+            "{err}"
+        );
+    }
+    let (code, _, err) = bench.run(&["check", "counted.csv", "--init", "axis.toml"]);
+    assert_eq!(code, 0, "{err}");
+    let axis = std::fs::read_to_string(bench.path("axis.toml")).unwrap();
+    for line in [
+        "\ntime = { column = \"time\" }",
+        "\nposition = { column = \"cnt\", unit = \"counts\" }",
+        "\n# with the size of a count add, such as: scale = ",
+        "\nforce = { column = \"i_q\" }",
+    ] {
+        assert!(axis.contains(line), "{line}: {axis}");
+    }
 }

@@ -104,3 +104,25 @@ fn a_full_disk_leaves_nothing() {
     assert!(said(&output).contains("out: "), "{}", said(&output));
     assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 0);
 }
+
+/// As every other command with --out: a folder that holds something is left alone, unless --force.
+#[test]
+fn force_replaces_an_export() {
+    let dir = tempfile::tempdir().unwrap();
+    assert!(export("c", dir.path()).output().unwrap().status.success());
+    std::fs::write(dir.path().join("out/notes.txt"), "mine").unwrap();
+    let name = std::fs::read_dir(dir.path().join("out"))
+        .unwrap()
+        .map(|e| e.unwrap().path())
+        .find(|p| p.extension().is_some_and(|e| e == "h"))
+        .unwrap();
+    std::fs::write(&name, "old").unwrap();
+    let output = export("c", dir.path()).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(said(&output).contains("--force"), "{}", said(&output));
+    let output = export("c", dir.path()).arg("--force").output().unwrap();
+    assert!(output.status.success(), "{}", said(&output));
+    assert_ne!(std::fs::read_to_string(&name).unwrap(), "old");
+    let kept = std::fs::read_to_string(dir.path().join("out/notes.txt"));
+    assert_eq!(kept.unwrap(), "mine");
+}

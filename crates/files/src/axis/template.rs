@@ -33,22 +33,22 @@ const ROTARY: Words = Words {
     speed_gain: "0.5 N m s/rad",
 };
 
-/// Text of an axis file for a table: detected columns filled in, or why they could not be; everything
-/// else as comments that say what may stand there.
-pub fn template(table: &Table, detected: Result<&Mapping, &str>) -> String {
+/// Text of an axis file for a table: detected columns filled in, or those that are clear and why the others could not be;
+/// everything else as comments that say what may stand there.
+pub fn template(table: &Table, detected: Result<&Mapping, (&Mapping, &str)>) -> String {
     let mut out = String::from(
         "# Axis file for stiction. Values carry their unit: \"5 mm/s\", \"35.15 N/V\". Every key is\n\
          # described in docs/axis.md; lines that start with # are off.\n\n",
     );
-    if let Err(reason) = detected {
+    if let Err((_, reason)) = detected {
         let _ = writeln!(
             out,
             "# To decide: {}\n",
             reason.replace(char::is_control, " ")
         );
     }
-    let detected = detected.ok();
-    let kind = detected.and_then(|m| m.motion);
+    let detected = detected.unwrap_or_else(|(clear, _)| clear);
+    let kind = detected.motion;
     let words = match kind {
         Some(Motion::Rotary) => &ROTARY,
         _ => &LINEAR,
@@ -65,8 +65,7 @@ pub fn template(table: &Table, detected: Result<&Mapping, &str>) -> String {
         "# mass = \"{}\"     # known mass or inertia; \"fit\" (default) or \"none\"",
         words.mass
     );
-    let has_time = detected.is_some_and(|m| m.time.is_some());
-    if !has_time {
+    if detected.time.is_none() {
         out.push_str("# rate = \"1 kHz\"      # where there is no time column\n");
     }
     out.push_str("\n[columns]\n# The file has:\n");
@@ -86,7 +85,7 @@ pub fn template(table: &Table, detected: Result<&Mapping, &str>) -> String {
         let _ = writeln!(out, "#   {}: {line}", i + 1);
     }
     for role in Role::ALL {
-        match detected.and_then(|m| m.channel(role)) {
+        match detected.channel(role) {
             Some(channel) => {
                 let _ = writeln!(out, "{role} = {}", entry(channel));
                 let unit = channel.unit.as_ref().map(|u| u.dimension());
@@ -98,6 +97,11 @@ pub fn template(table: &Table, detected: Result<&Mapping, &str>) -> String {
                         out,
                         "# with a force constant add, such as: scale = \"{}\"",
                         words.scale
+                    );
+                }
+                if unit == Some(Dimension::COUNTS) && channel.scale.is_none() {
+                    out.push_str(
+                        "# with the size of a count add, such as: scale = \"0.1 um/count\" or scale = \"0.01 deg/count\"\n",
                     );
                 }
             }

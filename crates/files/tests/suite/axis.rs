@@ -532,7 +532,8 @@ proptest! {
         force in name(),
     ) {
         let table = table(&names);
-        parse(&template(&table, Err("two columns\nfit"))).unwrap();
+        let clear = Mapping::clear_columns(&table);
+        parse(&template(&table, Err((&clear, "two columns\nfit")))).unwrap();
         let mut mapping = Mapping::detect(&table).map(|d| d.mapping).unwrap_or_default();
         parse(&template(&table, Ok(&mapping))).unwrap();
         mapping.motion = Some(Motion::Rotary);

@@ -4,7 +4,7 @@ use super::channel::{Channel, Role, Selector};
 use super::convert::is_force;
 use super::names::{self, Hint};
 use super::select::{distinct, select};
-use super::{Detected, describe};
+use super::{Detected, Mapping, describe};
 use crate::findings::{Finding, Severity, median, short};
 use crate::{Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;
@@ -25,17 +25,7 @@ struct Scan<'a> {
 /// Fills in the columns that are left open.
 pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
     let given = out.mapping.clone();
-    let unit = |text: &String| Unit::parse(text).ok();
-    let mut scan = Scan {
-        table,
-        hints: table.columns.iter().map(|c| names::hint(&c.name)).collect(),
-        units: table
-            .columns
-            .iter()
-            .map(|c| c.unit.as_ref().and_then(unit))
-            .collect(),
-        used: vec![false; table.columns.len()],
-    };
+    let mut scan = Scan::new(table);
     for role in Role::ALL {
         if let Some(channel) = given.channel(role) {
             let column = select(table, &channel.column, role);
@@ -96,6 +86,29 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
     Ok(())
 }
 
+/// The columns whose role is clear, whatever is wrong with the others.
+pub(super) fn clear(table: &Table) -> Mapping {
+    let mut out = Mapping::default();
+    let mut scan = Scan::new(table);
+    for role in Role::ALL {
+        if let Ok(Some(column)) = scan.pick(role) {
+            let unit = scan.units[column].clone();
+            let channel = scan.take(column);
+            *out.slot(role) = Some(Channel { unit, ..channel });
+        }
+    }
+    if out.position.is_none() && out.velocity.is_none() {
+        let counts = |c: &usize| !scan.used[*c] && names::says_counts(&table.columns[*c].name);
+        let mut counted = (0..table.columns.len()).filter(counts);
+        if let (Some(column), None) = (counted.next(), counted.next()) {
+            let unit = Unit::parse("counts").ok();
+            let channel = scan.take(column);
+            out.position = Some(Channel { unit, ..channel });
+        }
+    }
+    out
+}
+
 fn stated_rate(table: &Table) -> Result<f64, Error> {
     if let Some(step) = table
         .sample_time
@@ -137,7 +150,18 @@ fn no_force(table: &Table) -> Finding {
     Finding::new(Code::NoForce, Severity::Warning, message)
 }
 
-impl Scan<'_> {
+impl<'a> Scan<'a> {
+    fn new(table: &'a Table) -> Self {
+        let unit = |text: &String| Unit::parse(text).ok();
+        let units = table.columns.iter();
+        Self {
+            table,
+            hints: table.columns.iter().map(|c| names::hint(&c.name)).collect(),
+            units: units.map(|c| c.unit.as_ref().and_then(unit)).collect(),
+            used: vec![false; table.columns.len()],
+        }
+    }
+
     fn take(&mut self, column: usize) -> Channel {
         self.used[column] = true;
         let name = &self.table.columns[column].name;

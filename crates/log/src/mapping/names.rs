@@ -200,6 +200,22 @@ pub(super) fn says_current(name: &str) -> bool {
         .any(|w| ["current", "cur", "curr", "i", "iq"].contains(&w.as_str()))
 }
 
+/// Whether a name speaks of encoder counts and of nothing else.
+pub(super) fn says_counts(name: &str) -> bool {
+    let words = words(name);
+    let counts = [
+        "cnt",
+        "cnts",
+        "counts",
+        "inc",
+        "incs",
+        "increments",
+        "ticks",
+    ];
+    let mut all = words.iter();
+    all.any(|w| counts.contains(&w.as_str()) && alone(&words, w))
+}
+
 /// Which kind of motion a name speaks of.
 pub(super) fn motion(name: &str) -> Option<Motion> {
     let words = words(name);
@@ -246,6 +262,10 @@ fn words(name: &str) -> Vec<String> {
             }
         }
         before = now;
+    }
+    // The current that makes the torque is written `i_q` and `iQ` too.
+    if let Some(at) = words.windows(2).position(|w| w[0] == "i" && w[1] == "q") {
+        words.splice(at..at + 2, ["iq".to_string()]);
     }
     words
 }
