@@ -57,7 +57,7 @@ codes! {
     UnitOverride = "unit-override": "the axis file gives another unit than the recording",
     UnitConvention = "unit-convention": "the unit is in use with more than one meaning",
     ForceUnit = "force-unit": "the unit of the force does not fit a linear or rotary axis as stated",
-    ForceNotCalibrated = "force-not-calibrated": "the force is a current, a voltage or a fraction of a rated value, not in N or N m",
+    ForceNotCalibrated = "force-not-calibrated": "the force is a current, a voltage or a fraction of a rated value, not in N or N·m",
     NoForce = "no-force": "no column is a force, torque or current",
     ForceSign = "force-sign": "the force does negative work: its sign is probably inverted",
     Saturation = "saturation": "the force saturates at a limit",

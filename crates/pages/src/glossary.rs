@@ -37,7 +37,7 @@ pub(crate) fn explained(document: Document) -> Document {
 pub fn page() -> String {
     let mut page = String::from(
         "# Glossary\n\nThe terms of messages, reports and these pages, as stiction uses them. Symbols are those of the LuGre \
-         literature; units are those of a linear axis: a rotary one has rad for m, N m for N and kg m² for kg, and where the \
+         literature; units are those of a linear axis: a rotary one has rad for m, N·m for N and kg·m² for kg, and where the \
          force was logged in another unit, that unit takes the place of N. Each report explains the terms that it uses, too.\n",
     );
     for (topic, terms) in TOPICS {

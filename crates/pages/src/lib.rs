@@ -18,6 +18,7 @@
 //!
 //! A page reads what a workflow found and calls neither a workflow nor an engine.
 
+mod deviation;
 pub mod glossary;
 mod names;
 pub mod report;

@@ -1,4 +1,9 @@
-//! Names that reports and the terminal share.
+//! Names and sentences that reports and the terminal share.
+
+use stiction_files::result::LawEntry;
+
+/// How much larger an error has to be to be called worse: tables show three digits.
+const WORSE: f64 = 1.001;
 
 /// A law by its name in files, as it stands in a heading.
 pub(crate) fn law_name(law: &str, asymmetric: bool) -> String {
@@ -26,5 +31,56 @@ pub(crate) fn chosen_by(who: &str) -> &'static str {
         "validation" => " (chosen on the validation data)",
         "bic" => " (chosen by the Bayesian criterion: too few samples to hold some out)",
         _ => "",
+    }
+}
+
+/// Why an asymmetric law fits worse than the symmetric one of its kind, where one does.
+pub(crate) fn without_offset(laws: &[LawEntry]) -> Option<String> {
+    let symmetric = |own: &LawEntry| {
+        let mut others = laws.iter();
+        others.find(|l| l.law == own.law && !l.asymmetric)
+    };
+    let worse = laws.iter().find(|own| {
+        own.asymmetric
+            && symmetric(own)
+                .is_some_and(|s| own.fitted_error_percent > WORSE * s.fitted_error_percent)
+    })?;
+    Some(format!(
+        "{} fits worse than {}: with levels of its own for each direction, no constant force (offset) is fitted \
+         beside it unless the axis file asks for one ([terms] offset = true).",
+        law_name(&worse.law, true),
+        law_name(&worse.law, false)
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_offset;
+    use stiction_files::result::LawEntry;
+
+    fn entry(asymmetric: bool, error: f64) -> LawEntry {
+        LawEntry {
+            law: "lugre".into(),
+            asymmetric,
+            elements: None,
+            parameters: 9,
+            fitted_error_percent: error,
+            held_out_error_percent: None,
+            held_out_low_speed_error_percent: None,
+            held_out_excess_percent: None,
+            held_out_excess_std_percent: None,
+            aic_difference: None,
+            bic_difference: None,
+            determined: true,
+            best: false,
+        }
+    }
+
+    #[test]
+    fn an_asymmetric_law_that_fits_worse_is_explained() {
+        let note = without_offset(&[entry(false, 2.0), entry(true, 2.1)]);
+        assert!(note.is_some_and(|n| n.starts_with("LuGre, asymmetric fits worse than LuGre: ")));
+        assert_eq!(without_offset(&[entry(false, 2.0), entry(true, 1.9)]), None);
+        assert_eq!(without_offset(&[entry(true, 1.9)]), None);
     }
 }

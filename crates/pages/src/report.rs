@@ -15,7 +15,7 @@ pub(crate) mod study;
 mod tables;
 
 use crate::glossary::explained;
-use crate::names::{chosen_by, law_name};
+use crate::names::{chosen_by, law_name, without_offset};
 use stiction_files::compare_file::CompareFile;
 use stiction_number::Percent;
 use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
@@ -78,7 +78,7 @@ fn sections(outcome: &Outcome) -> Document {
             document = document.block(Callout {
                 severity: Severity::Warning,
                 code: warning.code.to_string(),
-                text: Text::from(warning.message.as_str()),
+                text: Text::of_message(&warning.message),
                 link: String::new(),
             });
         }
@@ -97,8 +97,11 @@ fn sections(outcome: &Outcome) -> Document {
     if !result.laws.is_empty() {
         document = document
             .heading(2, "Which law")
-            .block(tables::laws(outcome))
-            .block(ladder::figure(outcome));
+            .block(tables::laws(outcome));
+        if let Some(note) = without_offset(&result.laws) {
+            document = document.paragraph(note);
+        }
+        document = document.block(ladder::figure(outcome));
     }
     if !result.elements.is_empty() {
         document = document
@@ -204,7 +207,7 @@ fn verdict(outcome: &Outcome) -> Callout {
     Callout {
         severity,
         code: String::new(),
-        text: Text::from(text),
+        text: Text::of_message(&text),
         link: String::new(),
     }
 }
@@ -221,7 +224,7 @@ fn key_figures(outcome: &Outcome) -> Vec<KeyFigure> {
         .note("100 rms(residual) / rms(measured)"),
         KeyFigure::new("Residual", number::sig(fit.rmse, 3), fit.unit.as_str()).note(format!(
             "rms, R² {}",
-            number::sig(fit.r2.unwrap_or(f64::NAN), 5)
+            number::r_squared(fit.r2.unwrap_or(f64::NAN)).replace('-', "−")
         )),
     ];
     if let Some(low) = &result.low_speed {

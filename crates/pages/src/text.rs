@@ -7,7 +7,8 @@ mod reproduction;
 mod study;
 mod table;
 
-use crate::names::{chosen_by, law_name};
+use crate::deviation::Deviation;
+use crate::names::{chosen_by, law_name, without_offset};
 pub use comparison::comparison;
 pub use export::exported;
 pub use procedure::procedure_commands;
@@ -15,8 +16,7 @@ pub use reproduction::reproduction;
 use std::fmt::Write;
 use stiction_files::result::{LawEntry, SearchedEntry, SearchedPoint};
 use stiction_files::symbols;
-use stiction_identify::IDENTIFIABLE;
-use stiction_number::{Percent, four_digits as short};
+use stiction_number::{Percent, four_digits as short, r_squared, unit};
 use stiction_workflows::check::{Check, LogCheck};
 use stiction_workflows::identify::Outcome;
 pub use study::study;
@@ -64,20 +64,18 @@ pub fn outcome(outcome: &Outcome) -> String {
             .to_vec(),
     ];
     for p in &result.parameters {
-        let std = match p.std {
-            _ if p.origin == "given" => "given".to_string(),
-            // Only a parameter that may be zero is identifiable with a large deviation.
-            Some(std) if p.identifiable && std > IDENTIFIABLE * p.value.abs() => {
-                format!("{} {}", short(std), p.unit)
-            }
-            Some(std) if p.value != 0.0 => {
-                Percent::deviation(100.0 * std / p.value.abs()).decimals(2)
-            }
-            _ => "-".into(),
+        let deviation = Deviation::of(p, result);
+        let std = match deviation {
+            Deviation::Given => "given".to_string(),
+            Deviation::Absolute(std) => format!("{} {}", short(std), unit(&p.unit)),
+            Deviation::Relative(part) => part.decimals(2),
+            Deviation::Unknown => "-".into(),
+            Deviation::Unbounded => "not bounded".into(),
         };
         let interval = match p.range() {
             Some((f64::NEG_INFINITY, high)) => format!("at most {}", short(high)),
             Some((low, f64::INFINITY)) => format!("at least {}", short(low)),
+            _ if deviation == Deviation::Unbounded => "not bounded".into(),
             Some((low, high)) => format!("{} .. {}", short(low), short(high)),
             None if p.origin == "given" => String::new(),
             None => "not bounded".into(),
@@ -85,8 +83,11 @@ pub fn outcome(outcome: &Outcome) -> String {
         rows.push(vec![
             p.name.clone(),
             p.symbol.clone(),
-            short(p.value),
-            p.unit.clone(),
+            match deviation {
+                Deviation::Unbounded => "-".into(),
+                _ => short(p.value),
+            },
+            unit(&p.unit),
             std,
             interval,
             if p.identifiable {
@@ -106,8 +107,8 @@ pub fn outcome(outcome: &Outcome) -> String {
         "\nfit         {} relative error, {} {} rms, R2 {}",
         Percent::error(fit.relative_error_percent).fine(),
         short(fit.rmse),
-        fit.unit,
-        fit.r2.map_or("-".into(), |r2| format!("{r2:.5}"))
+        unit(&fit.unit),
+        fit.r2.map_or("-".into(), r_squared)
     );
     if let Some(simulation) = &result.simulation {
         let _ = writeln!(out, "simulation  {}", simulated(simulation));
@@ -120,7 +121,7 @@ pub fn outcome(outcome: &Outcome) -> String {
             out,
             "low speed   {} {} rms below {} {}",
             short(low.fit.rmse),
-            low.fit.unit,
+            unit(&low.fit.unit),
             short(low.bound),
             low.bound_unit
         );
@@ -131,7 +132,7 @@ pub fn outcome(outcome: &Outcome) -> String {
             "validation  {} relative error, {} {} rms on {}",
             Percent::error(v.fit.relative_error_percent).fine(),
             short(v.fit.rmse),
-            v.fit.unit,
+            unit(&v.fit.unit),
             v.path
         );
     }
@@ -175,7 +176,7 @@ fn simulated(entry: &stiction_files::result::SimulationEntry) -> String {
             force.signal,
             Percent::error(force.relative_error_percent).fine(),
             short(force.rmse),
-            force.unit
+            unit(&force.unit)
         );
     }
     if let Some(floor) = entry.quantisation_floor {
@@ -207,7 +208,7 @@ fn truth(outcome: &Outcome) -> String {
             short(*truth),
             short(p.value),
             if *truth == 0.0 {
-                format!("{} {}", short(p.value), p.unit)
+                format!("{} {}", short(p.value), unit(&p.unit))
             } else {
                 Percent::error(100.0 * (p.value / truth - 1.0)).signed(2)
             },
@@ -253,7 +254,11 @@ fn laws(outcome: &Outcome) -> String {
             ),
         ]);
     }
-    table(&rows, &[false, true, true, true, true, true, true, false])
+    let table = table(&rows, &[false, true, true, true, true, true, true, false]);
+    match without_offset(&outcome.result.laws) {
+        None => table,
+        Some(note) => format!("{table}{note}\n"),
+    }
 }
 
 fn elements(outcome: &Outcome) -> String {
@@ -323,7 +328,7 @@ fn log_check(log: &LogCheck) -> String {
                 format!("    {}", p.name),
                 symbols::symbol(&p.name),
                 if p.identifiable {
-                    format!("determined, about {} {}", short(p.value), p.unit)
+                    format!("determined, about {} {}", short(p.value), unit(&p.unit))
                 } else {
                     format!("not determined: {}", p.reason)
                 },

@@ -129,7 +129,7 @@ impl Math {
             Math::Op(sign) => leaf(out, "mo", "", sign),
             Math::Unit(unit) => {
                 out.push_str("<mrow><mspace width=\"0.22em\"></mspace>");
-                leaf(out, "mtext", "", unit);
+                leaf(out, "mtext", "", &crate::number::unit(unit));
                 out.push_str("</mrow>");
             }
             Math::Row(parts) => {

@@ -1,6 +1,7 @@
 //! Rich text: runs of characters with one emphasis each, written as HTML or as SVG.
 
 use crate::escape;
+use stiction_number::times_ten;
 
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Style {
@@ -38,6 +39,31 @@ impl Text {
         } else {
             text.subscript(subscript)
         }
+    }
+
+    /// A message as a terminal shows it, typeset: powers of ten as everywhere in a report, `1.2×10⁻⁵` for `1.2e-5`. What a
+    /// reader would type, in quotes or as part of a name, stays as it is.
+    ///
+    /// ```
+    /// use stiction_report::Text;
+    /// let text = Text::of_message("off by 1.2e-5 N in run1e5.csv; say resolution = \"1e-6 m\"");
+    /// assert_eq!(text.to_plain(), "off by 1.2×10⁻⁵ N in run1e5.csv; say resolution = \"1e-6 m\"");
+    /// ```
+    pub fn of_message(message: &str) -> Self {
+        let mut out = String::new();
+        for (i, part) in message.split('"').enumerate() {
+            if i > 0 {
+                out.push('"');
+            }
+            // Every second part stands between quotes.
+            if i % 2 == 1 {
+                out.push_str(part);
+            } else {
+                let words: Vec<String> = part.split(' ').map(typeset_word).collect();
+                out.push_str(&words.join(" "));
+            }
+        }
+        Self::from(out)
     }
 
     fn run(mut self, style: Style, text: impl Into<String>) -> Self {
@@ -205,6 +231,23 @@ impl Text {
             }
         }
         widest * size
+    }
+}
+
+/// A word that is a number with a power of ten, typeset; any other as it is.
+fn typeset_word(word: &str) -> String {
+    let is_bracket = |c: char| "()[];,:".contains(c) || c == '.';
+    let inner = word.trim_matches(is_bracket);
+    let typeset = inner.split_once('e').and_then(|(digits, power)| {
+        let exponent: i32 = power.parse().ok()?;
+        let unsigned = digits.trim_start_matches(['-', '+']);
+        let is_number =
+            !unsigned.is_empty() && unsigned.chars().all(|c| c.is_ascii_digit() || c == '.');
+        is_number.then(|| format!("{}{}", digits.replace('-', "−"), times_ten(exponent)))
+    });
+    match typeset {
+        Some(number) => word.replacen(inner, &number, 1),
+        None => word.into(),
     }
 }
 

@@ -38,6 +38,7 @@ pub(super) fn with_numbers(outcome: &Outcome) -> Block {
         force.extend([op("+"), sub(id("σ"), num("22")), abs(id("v")), id("v")]);
     }
     lines.insert(0, row(force));
+    lines.insert(0, balance(outcome));
     let sides: &[&str] = if asymmetric { &["_pos", "_neg"] } else { &[""] };
     for side in sides {
         lines.push(level(outcome, side));
@@ -63,6 +64,12 @@ pub(super) fn with_numbers(outcome: &Outcome) -> Block {
         lines.extend(sigma("sigma2", "2", side));
         lines.extend(dependences::lines(outcome, side));
     }
+    for (name, symbol) in BESIDE {
+        if let Some(p) = outcome.result.parameters.iter().find(|p| p.name == name) {
+            let value = quantity(number::sig(p.value, 4), p.unit.clone());
+            lines.push(row([symbol_of(symbol), op("="), value]));
+        }
+    }
     let caption = match law {
         "lugre" => "LuGre (Canudas de Wit, Olsson, Åström, Lischinsky 1995), g in units of force.",
         "elasto-plastic" => {
@@ -83,7 +90,59 @@ pub(super) fn with_numbers(outcome: &Outcome) -> Block {
         }
         _ => "Coulomb and viscous friction.",
     };
+    let caption = format!("{caption} {}", meaning(outcome));
     Block::Formula(lines, caption.into())
+}
+
+/// What the symbols are that the law does not explain itself.
+fn meaning(outcome: &Outcome) -> String {
+    let has = |name: &str| outcome.result.parameters.iter().any(|p| p.name == name);
+    let mut known = vec!["u is the force of the drive", "F friction", "v velocity"];
+    if has("mass") {
+        known.push("M the moving mass or inertia");
+    }
+    if has("offset") {
+        known.push("F₀ a constant force");
+    }
+    if has("delay") {
+        known.push("τ the time by which the logged force is later than its motion");
+    }
+    format!("{}.", known.join(", "))
+}
+
+/// Parameters beside the law, with their symbols.
+const BESIDE: [(&str, &str); 3] = [("mass", "M"), ("offset", "F0"), ("delay", "τ")];
+
+fn symbol_of(text: &str) -> Math {
+    match text.strip_suffix('0') {
+        Some(letter) => sub(id(letter), num("0")),
+        None => id(text),
+    }
+}
+
+/// What the drive gives: friction, and everything that was fitted beside it.
+fn balance(outcome: &Outcome) -> Math {
+    let has = |start: &str| {
+        let mut parameters = outcome.result.parameters.iter();
+        parameters.any(|p| p.name.starts_with(start))
+    };
+    let mut out = vec![id("u")];
+    if has("delay") {
+        out.push(paren(row([id("t"), op("+"), id("τ")])));
+    }
+    out.extend([op("="), id("F")]);
+    if has("mass") {
+        out.extend([op("+"), id("M"), dot(id("v"))]);
+    }
+    if has("offset") {
+        out.extend([op("+"), symbol_of("F0")]);
+    }
+    for force in ["gravity", "cogging"] {
+        if has(force) {
+            out.extend([op("+"), id(force)]);
+        }
+    }
+    row(out)
 }
 
 /// How the bristle deflects; the elasto-plastic one only in part.

@@ -112,8 +112,14 @@ fn static_figure(outcome: &Outcome, map: &StaticMapEntry) -> Figure {
 
 fn static_table(map: &StaticMapEntry) -> Table {
     let mut table = Table::new([
-        (format!("Velocity, {}", map.velocity_unit), Align::Right),
-        (format!("Force, {}", map.force_unit), Align::Right),
+        (
+            format!("Velocity, {}", number::unit(&map.velocity_unit)),
+            Align::Right,
+        ),
+        (
+            format!("Force, {}", number::unit(&map.force_unit)),
+            Align::Right,
+        ),
         ("Std. error".into(), Align::Right),
         ("Map".into(), Align::Right),
         ("Weight".into(), Align::Right),
@@ -125,7 +131,7 @@ fn static_table(map: &StaticMapEntry) -> Table {
     .caption(format!(
         "Points of the static map. Scatter beyond their standard errors: {} {}.",
         number::sig(map.scatter, 2),
-        map.force_unit
+        number::unit(&map.force_unit)
     ));
     for p in &map.points {
         table = table.row([
@@ -169,7 +175,7 @@ fn two_step_table(entry: &TwoStepEntry) -> Table {
             std(p.joint_std),
             p.difference_in_std
                 .map_or("–".into(), |d| number::sig(d, 2)),
-            p.unit.clone(),
+            number::unit(&p.unit),
         ]);
     }
     table
@@ -178,7 +184,10 @@ fn two_step_table(entry: &TwoStepEntry) -> Table {
 fn step_table(outcome: &Outcome, entry: &PreslidingStepEntry) -> Table {
     let mut table = Table::new([
         ("Method".to_string(), Align::Left),
-        (format!("Step, {}", entry.force_unit), Align::Right),
+        (
+            format!("Step, {}", number::unit(&entry.force_unit)),
+            Align::Right,
+        ),
         ("Overshoot".into(), Align::Right),
         ("Damping ratio".into(), Align::Right),
         ("σ₀".into(), Align::Right),
@@ -296,7 +305,7 @@ impl Linear {
 }
 
 fn break_away_table(outcome: &Outcome, runs: &[BreakAwayEntry]) -> Table {
-    let unit = &outcome.force_unit;
+    let unit = number::unit(&outcome.force_unit);
     let mut table = Table::new([
         ("Log".to_string(), Align::Left),
         (format!("Rate, {unit}/s"), Align::Right),

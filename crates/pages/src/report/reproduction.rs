@@ -21,7 +21,7 @@ fn canudas_1995(file: &ReproduceFile, experiments: &[Experiment]) -> Document {
     let mut document = Document::new("The experiments of 1995")
         .subtitle(
             "Canudas de Wit, Olsson, Åström, Lischinsky 1995 (doi 10.1109/9.376053): a block of 1 kg, \
-             σ₀ 10⁵ N/m, σ₁ √10⁵ N s/m (constant), σ₂ 0.4 N s/m, Fc 1 N, Fs 1.5 N, vs 1 mm/s",
+             σ₀ 10⁵ N/m, σ₁ √10⁵ N·s/m (constant), σ₂ 0.4 N·s/m, Fc 1 N, Fs 1.5 N, vs 1 mm/s",
         )
         .footer(format!("stiction {}", file.version))
         .block(verdict(file))

@@ -69,7 +69,7 @@ fn stages(outcome: &Outcome, entry: &SearchedEntry) -> Table {
             continue;
         }
         let name = symbols::meaning(&p.name, outcome.motion);
-        let last = format!("{} {}", number::sig(p.value, 5), p.unit);
+        let last = format!("{} {}", number::sig(p.value, 5), number::unit(&p.unit));
         table = table.row([name.into(), a.into(), b.into(), Text::from(last)]);
     }
     table

@@ -63,7 +63,7 @@ fn errors(outcome: &Outcome) -> String {
              its {} is off by {} {} rms, {} of the measured one.",
             f.signal,
             number::sig(f.rmse, 3),
-            f.unit,
+            number::unit(&f.unit),
             Percent::error(f.relative_error_percent).digits(3)
         )),
         None => out.push_str("Open loop: the logged force drives the simulated axis."),

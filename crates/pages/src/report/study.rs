@@ -41,7 +41,7 @@ pub fn study(outcome: &StudyOutcome) -> Document {
         document = document.block(Callout {
             severity: Severity::Warning,
             code: warning.code.to_string(),
-            text: Text::from(warning.message.as_str()),
+            text: Text::of_message(&warning.message),
             link: String::new(),
         });
     }
@@ -95,7 +95,8 @@ const MEANING: [&str; 7] = [
      before and after in time if that is longer.",
     "On a contour the error is the distance to it; coupling is control of that error above both axes. Circular: the least distance of two circles about one centre \
      that hold the whole path between them.",
-    "Worst: the same for the worst set of parameters.",
+    "Worst: the reduction with the largest error of all runs of a row, in place of their mean; negative where \
+     compensation makes the error larger. A row with one run has none.",
     "Δu: rms change of the commanded force from sample to sample. Still: longest standstill about a \
      reversal.",
     "Wrong parameters are those of the compensator; the axis keeps its own. A mass that is drawn \
@@ -112,7 +113,7 @@ fn motion(axis: &SimulatedAxis) -> Motion {
 fn mass_unit(axis: &SimulatedAxis) -> &'static str {
     match motion(axis) {
         Motion::Linear => "kg",
-        Motion::Rotary => "kg m²",
+        Motion::Rotary => "kg·m²",
     }
 }
 
@@ -206,7 +207,10 @@ fn table(rows: &[ResultRow]) -> Table {
         ("Δu", Align::Right),
         ("Still", Align::Right),
     ])
-    .caption("Tracking error; means over the runs of a row, and the worst of them.");
+    .caption(
+        "Tracking error, means over the runs of a row. Reduction and worst: of the largest error, against the row without \
+         compensation. All columns are explained under \u{201c}What the numbers mean\u{201d}.",
+    );
     for row in rows {
         let value = |name: &str| {
             let metric = row.metric(name);
@@ -262,7 +266,7 @@ fn courses(
     let length = symbols::length_unit(motion);
     let force = match motion {
         Motion::Linear => "N",
-        Motion::Rotary => "N m",
+        Motion::Rotary => "N·m",
     };
     let time = || Axis::new("Time", "s");
     let mut reference = Panel::new(time(), Axis::new("Reference", length)).height(80.0);
@@ -396,7 +400,7 @@ fn parameters(axis: &SimulatedAxis) -> Table {
             symbols::meaning(&p.name, motion(axis)),
             symbols::symbol(&p.name),
             number::sig(p.value, 4),
-            p.unit.clone(),
+            number::unit(&p.unit),
         ])
     })
 }

@@ -1,9 +1,9 @@
 //! The tables of the report.
 
+use crate::deviation::Deviation;
 use crate::names::law_name;
 use stiction_files::result::{Input, LawEntry};
 use stiction_files::symbols;
-use stiction_identify::IDENTIFIABLE;
 use stiction_number::Percent;
 use stiction_report::{Align, Block, Severity, Table, Text, number};
 use stiction_workflows::identify::Outcome;
@@ -21,26 +21,28 @@ pub(super) fn parameters(outcome: &Outcome) -> Table {
     ])
     .caption("Identified parameters. The intervals count the correlation of the residuals.");
     for p in &outcome.result.parameters {
+        let deviation = Deviation::of(p, &outcome.result);
         let value = match p.std {
+            _ if deviation == Deviation::Unbounded => "–".into(),
             Some(std) if p.identifiable && std > 0.0 => digits(p.value, std),
             _ => number::sig(p.value, 4),
         };
-        let std = match p.std {
-            _ if p.origin == "given" => "given".to_string(),
-            Some(std) if p.identifiable && std > IDENTIFIABLE * p.value.abs() => {
-                format!("{} {}", number::sig(std, 2), p.unit)
+        let std = match deviation {
+            Deviation::Given => "given".to_string(),
+            Deviation::Absolute(std) => {
+                format!("{} {}", number::sig(std, 2), number::unit(&p.unit))
             }
-            Some(std) if p.value != 0.0 => {
-                Percent::deviation(100.0 * std / p.value.abs()).digits(2)
-            }
-            _ => "–".into(),
+            Deviation::Relative(part) => part.digits(2),
+            Deviation::Unknown => "–".into(),
+            Deviation::Unbounded => "not bounded".into(),
         };
         let interval = match (p.range(), p.origin.as_str()) {
             (Some((f64::NEG_INFINITY, high)), _) => format!("at most {}", number::sig(high, 3)),
             (Some((low, f64::INFINITY)), _) => format!("at least {}", number::sig(low, 3)),
+            _ if deviation == Deviation::Unbounded => "not bounded".into(),
             (Some((low, high)), _) => number::interval(low, high),
             (None, "given") => String::new(),
-            _ => "not bounded by the data".into(),
+            _ => "not bounded".into(),
         };
         let flag = if p.identifiable {
             String::new()
@@ -51,7 +53,7 @@ pub(super) fn parameters(outcome: &Outcome) -> Table {
             Text::from(symbols::meaning(&p.name, outcome.motion)),
             Text::from(p.symbol.as_str()),
             Text::from(value),
-            Text::from(p.unit.as_str()),
+            Text::from(number::unit(&p.unit)),
             Text::from(std),
             Text::from(interval),
             Text::from(flag),
@@ -112,7 +114,7 @@ pub(super) fn truth(outcome: &Outcome) -> Table {
 
 /// Fits on data that were not fitted.
 pub(super) fn validation(outcome: &Outcome) -> Table {
-    let unit = &outcome.result.fit.unit;
+    let unit = number::unit(&outcome.result.fit.unit);
     let caption = match outcome.simulation() {
         None => "The identified law on data it was not fitted to; nothing is fitted again.",
         Some(_) => {

@@ -13,7 +13,7 @@ pub fn exported(exported: &Exported, dir: &Path) -> String {
     }
     let unit = match exported.force_unit.as_str() {
         "1" => "(1 is 100 %)",
-        unit => unit,
+        typed => &stiction_number::unit(typed),
     };
     let most = format!("force at most {} {unit}", short(exported.limit));
     let what = match exported.target {

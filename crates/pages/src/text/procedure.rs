@@ -7,7 +7,7 @@ use stiction_files::result::{
     BreakAwayEntry, PreslidingStepEntry, ResultFile, StaticMapEntry, TwoStepEntry,
 };
 use stiction_files::symbols;
-use stiction_number::{Percent, four_digits as short};
+use stiction_number::{Percent, four_digits as short, unit};
 
 /// A section for each procedure that was used.
 pub(super) fn sections(result: &ResultFile) -> String {
@@ -22,7 +22,10 @@ pub(super) fn sections(result: &ResultFile) -> String {
         out.push_str(&presliding_step(entry, result));
     }
     if !result.break_away.is_empty() {
-        out.push_str(&break_away(&result.break_away, &result.axis.force_unit));
+        out.push_str(&break_away(
+            &result.break_away,
+            &unit(&result.axis.force_unit),
+        ));
     }
     out
 }
@@ -32,7 +35,7 @@ fn cells<const N: usize>(cells: [&str; N]) -> Vec<String> {
 }
 
 fn static_map(map: &StaticMapEntry) -> String {
-    let (v, f) = (&map.velocity_unit, &map.force_unit);
+    let (v, f) = (unit(&map.velocity_unit), unit(&map.force_unit));
     let mut rows = vec![vec![
         format!("velocity {v}"),
         format!("force {f}"),
@@ -115,7 +118,7 @@ fn presliding_step(entry: &PreslidingStepEntry, result: &ResultFile) -> String {
     for p in &entry.published {
         rows.push(vec![
             format!("inverted, {}", p.path),
-            format!("{} {}", short(p.height), entry.force_unit),
+            format!("{} {}", short(p.height), unit(&entry.force_unit)),
             p.overshoot
                 .map_or("none".into(), |x| Percent::error(100.0 * x).decimals(1)),
             p.damping_ratio.map_or("-".into(), short),

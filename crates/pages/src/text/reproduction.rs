@@ -2,8 +2,7 @@
 
 use super::table::table;
 use stiction_files::reproduce_file::{ClaimEntry, ReproduceFile};
-use stiction_number::quantity;
-use stiction_number::{Percent, four_digits as short};
+use stiction_number::{Percent, four_digits as short, quantity, unit};
 
 /// Every number beside its reference.
 pub fn reproduction(file: &ReproduceFile) -> String {
@@ -16,13 +15,13 @@ pub fn reproduction(file: &ReproduceFile) -> String {
             short(check.reference),
             // A zero is found to the last bits, which no reader needs.
             if check.reference == 0.0 {
-                format!("{:.0e}", check.found)
+                one_digit(check.found)
             } else {
                 short(check.found)
             },
-            check.unit.clone(),
+            unit(&check.unit),
             match check.reference {
-                0.0 => format!("{:.0e}", check.tolerance),
+                0.0 => one_digit(check.tolerance),
                 x => format!("{} %", short(100.0 * check.tolerance / x.abs())),
             },
             if check.within { "within" } else { "OFF" }.into(),
@@ -45,6 +44,11 @@ pub fn reproduction(file: &ReproduceFile) -> String {
         out.push_str("\nSTOPPED EARLY: what was done is kept\n");
     }
     out
+}
+
+/// The size of what should be zero.
+fn one_digit(x: f64) -> String {
+    format!("{x:.0e}")
 }
 
 /// Metrics of ours beside the claims of a publication.

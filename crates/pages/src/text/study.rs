@@ -37,6 +37,9 @@ pub fn study(outcome: &StudyOutcome) -> String {
             &[false, false, true, true, true, true, true, false],
         ));
     }
+    if !file.results.is_empty() {
+        out.push_str(LEGEND);
+    }
     for warning in &file.warnings {
         let _ = writeln!(out, "\nwarning [{}] {}", warning.code, warning.message);
     }
@@ -45,6 +48,13 @@ pub fn study(outcome: &StudyOutcome) -> String {
     }
     out
 }
+
+/// What the columns are.
+const LEGEND: &str = "
+rms, largest, at reversals: tracking error (on a contour: the distance to it), mean over the runs of a row
+less: by how much the largest error is below that without compensation, on the same path and controller
+worst: the same with the largest error of all runs of a row; negative where compensation makes it larger
+";
 
 fn line(row: &ResultRow) -> Vec<String> {
     let contour = row.metric("contour_peak").is_some();

@@ -60,7 +60,7 @@ impl KeyFigure {
         Self {
             label: label.into(),
             value: value.into(),
-            unit: unit.into(),
+            unit: crate::number::unit(&unit.into()),
             note: Text::new(),
             severity: None,
         }

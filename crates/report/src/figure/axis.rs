@@ -42,7 +42,7 @@ impl Axis {
     pub fn new(label: impl Into<Text>, unit: impl Into<String>) -> Self {
         Self {
             label: label.into(),
-            unit: unit.into(),
+            unit: crate::number::unit(&unit.into()),
             scale: Scale::Linear,
             range: Range::Auto,
         }

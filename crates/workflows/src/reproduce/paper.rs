@@ -36,7 +36,7 @@ use stiction_search::Observer;
 
 /// What is assumed where the paper gives no number, each with what is known.
 const ASSUMPTIONS: [&str; 12] = [
-    "Friction of the stage: σ₀ 2·10⁶ N/m, σ₁ 1500 N s/m (constant), σ₂ 30 N s/m, Fc 12 N, Fs 18 N, vs 3 mm/s. The \
+    "Friction of the stage: σ₀ 2·10⁶ N/m, σ₁ 1500 N·s/m (constant), σ₂ 30 N·s/m, Fc 12 N, Fs 18 N, vs 3 mm/s. The \
      paper's table is an image that no text carries.",
     "172.8 N/V: 96 N/A are published, 1.8 A/V follow if 10 V are the 18 A of the drive's peak.",
     "Neither damper B nor spring K beside the friction, no disturbance force, no delay, no current loop of its own; a \
@@ -46,7 +46,7 @@ const ASSUMPTIONS: [&str; 12] = [
     "Constant velocities: 16 from 0.2 to 100 mm/s in both directions, 0.3 s to settle and 0.3 s to average.",
     "Dynamic test: a sine of ±0.5 mm at 2 Hz, three cycles, with velocity and acceleration as the simulation has them.",
     "Voltage step: 20 mV (3.5 N, a fifth of the static level).",
-    "Boxes of the searches: σ₀ 10⁴ to 10⁸ N/m, σ₁ 10 to 10⁵ N s/m, σ₂ 0.1 to 1000 N s/m, Fc and Fs − Fc 0.1 to 100 N, \
+    "Boxes of the searches: σ₀ 10⁴ to 10⁸ N/m, σ₁ 10 to 10⁵ N·s/m, σ₂ 0.1 to 1000 N·s/m, Fc and Fs − Fc 0.1 to 100 N, \
      vs 0.1 to 100 mm/s, in logarithms.",
     "Genetic searches: 50 individuals, 5 rounds of 100 generations (500 in one round for the others), crossover .6 to \
      .9, mutation .01 to .10, temperature 7, falling by .96 a generation.",

@@ -40,14 +40,14 @@ pub(super) fn table<'c>(checks: impl Iterator<Item = &'c CheckEntry>) -> Table {
     let table = Table::new(columns);
     checks.fold(table, |table, check| {
         let share = |x: f64| match check.reference {
-            0.0 => format!("{} {}", number::sig(x, 2), check.unit),
+            0.0 => format!("{} {}", number::sig(x, 2), number::unit(&check.unit)),
             reference => Percent::error(100.0 * x / reference.abs()).digits(2),
         };
         let cells = [
             symbols::symbol(&check.name),
             number::sig(check.reference, 6),
             number::sig(check.found, 6),
-            check.unit.replace('*', " "),
+            number::unit(&check.unit),
             share(check.found - check.reference),
             share(check.tolerance),
             if check.within { "within" } else { "OFF" }.to_string(),

@@ -38,7 +38,9 @@ pub(super) fn table(rows: &[ResultRow]) -> Table {
         ("Worst", Align::Right),
     ]);
     let mut table = Table::new(columns).caption(
-        "Deviation from the contour, tracking errors of both axes; means over the runs of a row.",
+        "Deviation from the contour and tracking errors of both axes, means over the runs of a row. Reduction and worst: of \
+         the largest deviation, against the row without compensation. All columns are explained under \u{201c}What the \
+         numbers mean\u{201d}.",
     );
     for row in rows {
         let value = |name: &str| {

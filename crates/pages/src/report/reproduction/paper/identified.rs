@@ -212,7 +212,7 @@ fn inversion(paper: &Paper, step: &Presliding) -> String {
     });
     let damping = match step.inverted.sigma1 {
         Some(s1) => format!(
-            " and {} {} N s/m ({})",
+            " and {} {} N·s/m ({})",
             symbols::meaning("sigma1", Motion::Linear).to_lowercase(),
             number::sig(s1, 4),
             off(s1, "sigma1")

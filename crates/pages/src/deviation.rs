@@ -1,0 +1,67 @@
+//! How well a parameter is known, as tables say it.
+
+use stiction_files::result::{ParameterEntry, ResultFile};
+use stiction_identify::IDENTIFIABLE;
+use stiction_number::Percent;
+use stiction_parameters::{Dimension, Name, Quantity};
+
+/// The deviation of a parameter in a form that a reader can use.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Deviation {
+    /// It was not fitted.
+    Given,
+    /// In the unit of the parameter: relative to a value that may be zero it says nothing.
+    Absolute(f64),
+    /// Relative to the value.
+    Relative(Percent),
+    /// There is none to state.
+    Unknown,
+    /// Ten times the value or more: neither value nor interval say anything.
+    Unbounded,
+}
+
+impl Deviation {
+    /// Of a parameter of a result.
+    pub fn of(p: &ParameterEntry, result: &ResultFile) -> Self {
+        let Some(std) = p.std.filter(|_| p.origin != "given") else {
+            return match p.origin.as_str() {
+                "given" => Self::Given,
+                _ => Self::Unknown,
+            };
+        };
+        let size = p.value.abs();
+        let name: Option<Name> = p.name.parse().ok();
+        let may_be_zero = name.is_some_and(|n| !n.quantity.allowed().is_never_negative());
+        if may_be_zero && std > IDENTIFIABLE * size {
+            // What the flag goes by: the Coulomb level where the parameter is a force, the sample time for a delay.
+            let level = match name.map(|n| n.dimension()) {
+                Some(Dimension::Force) => coulomb(result),
+                Some(Dimension::Time) => result.inputs.first().map_or(0.0, |i| 1.0 / i.rate_hz),
+                _ => 0.0,
+            };
+            let part = Percent::deviation(100.0 * std / size.max(level));
+            return match p.identifiable || part.is_bounded() {
+                true => Self::Absolute(std),
+                false => Self::Unbounded,
+            };
+        }
+        if size == 0.0 {
+            return Self::Unknown;
+        }
+        let part = Percent::deviation(100.0 * std / size);
+        match p.identifiable || part.is_bounded() {
+            true => Self::Relative(part),
+            false => Self::Unbounded,
+        }
+    }
+}
+
+/// The largest Coulomb level of a result; 0 for a law without.
+fn coulomb(result: &ResultFile) -> f64 {
+    let is_level = |p: &&ParameterEntry| {
+        let name: Option<Name> = p.name.parse().ok();
+        name.is_some_and(|n| n.quantity == Quantity::Coulomb)
+    };
+    let levels = result.parameters.iter().filter(is_level);
+    levels.map(|p| p.value.abs()).fold(0.0, f64::max)
+}
