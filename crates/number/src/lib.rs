@@ -3,7 +3,7 @@
 //! | where | function |
 //! |---|---|
 //! | messages and terminal text (ASCII) | [`short`], [`four_digits`], [`full`], [`shortest`], [`counted`], [`r_squared`] |
-//! | units, everywhere but in files | [`unit`] |
+//! | units, everywhere but in files | [`unit()`] |
 //! | reports (typeset: `×10⁶`, a true minus sign) | [`sig`], [`count`], [`concise`], [`plus_minus`], [`interval`], [`si`], [`quantity`] |
 //! | every percentage of something that was measured or fitted | [`Percent`] |
 //!
