@@ -2,6 +2,7 @@
 
 use crate::common;
 use crate::common::{adversarial, busy, laws, model, random};
+use std::collections::HashSet;
 use std::path::PathBuf;
 use std::process::Command;
 use stiction_export::{File, Model, Target, export};
@@ -342,7 +343,8 @@ fn blark_reads_it() {
         for target in [Target::St, Target::TcPou] {
             for file in export(&model(law), target).unwrap() {
                 let name = format!("{name}_{}", file.path);
-                std::fs::write(dir.path().join(&name), &file.bytes).unwrap();
+                let text = one_sample_of_each_form(std::str::from_utf8(&file.bytes).unwrap());
+                std::fs::write(dir.path().join(&name), text).unwrap();
                 names.push(name);
             }
         }
@@ -360,6 +362,25 @@ fn blark_reads_it() {
         "{said}{}",
         String::from_utf8_lossy(&output.stderr)
     );
+}
+
+/// The text with one of the samples of its self-test for each way that their numbers are written, in exponents and signs.
+/// To the grammar those are alike, and the parser takes a tenth of a second for each of hundreds.
+fn one_sample_of_each_form(text: &str) -> String {
+    let mut seen = HashSet::new();
+    let mut is_new = |line: &str| {
+        let Some((number, sample)) = line.trim_start().split_once(": v := ") else {
+            return true;
+        };
+        assert!(number.parse::<u32>().is_ok(), "no sample: {line}");
+        let mut form = sample.replace(|c: char| c.is_ascii_digit(), "0");
+        while form.contains("00") {
+            form = form.replace("00", "0");
+        }
+        seen.insert(form)
+    };
+    let lines: Vec<&str> = text.lines().filter(|line| is_new(line)).collect();
+    lines.join("\n")
 }
 
 /// Parses every file named; a file in which nothing is found counts as a failure.
