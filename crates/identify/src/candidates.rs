@@ -1,4 +1,5 @@
-//! What a search of `stiction_search` sees of an identification: a cost over a box.
+//! What a search of `stiction_search` needs to know of an identification: a cost function over a box of
+//! unknowns.
 //!
 //! | cost | unknowns | solved exactly for each candidate |
 //! |---|---|---|
@@ -8,8 +9,8 @@
 //! | [`Simulated`] | the six of LuGre, position out for a given force | |
 //!
 //! A cost is the sum of squares of the residual over that of the measured signal: the square of the
-//! relative error. Mass and offset are solved and are no genes: they are linear, nobody knows a box for
-//! them, and the six keep the meaning they have in the publication.
+//! relative error. Mass and offset are solved for and are not part of the genome: they enter linearly, no
+//! range is known for them beforehand, and the six genes keep the meaning they have in the publication.
 //!
 //! The six-parameter cost of a record without a common filter is computed in lanes
 //! (`stiction_lanes`); with one, the columns of the law must pass it as the force did, which is done

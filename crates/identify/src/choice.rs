@@ -9,7 +9,7 @@ use stiction_signal::effective_sample_size;
 /// and Stone 1984, section 3.4.3), or is within [`EQUAL_ERROR_RATIO`] of it.
 const EQUAL_STANDARD_ERRORS: f64 = 1.0;
 
-/// How a law stands among others.
+/// How a law compares with the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Standing {
     /// `ln` of the held-out error (rms) over the least of all laws; 0 for the law that has it. `None`
@@ -17,7 +17,7 @@ pub struct Standing {
     pub excess: Option<f64>,
     /// Standard error of that logarithm, correlation counted.
     pub excess_std: Option<f64>,
-    /// AIC above the least of all laws, on effective samples; `None` where no number.
+    /// AIC above the least of all laws, with the number of effective samples; `None` where it is undefined.
     pub aic: Option<f64>,
     /// BIC above the least of all laws.
     pub bic: Option<f64>,
@@ -29,14 +29,15 @@ pub struct Standing {
 
 /// Compares laws that were fitted and scored on the same samples.
 ///
-/// Whether one error is really above another is asked of the differences sample by sample, with their
-/// own autocorrelation counted (Diebold and Mariano 1995, doi 10.1080/07350015.1995.10524599): both
-/// laws meet the same noise, so their ratio is known much better than either error. The logarithm of
-/// the ratio is tested, since squares that a few reversals dominate are far from normal.
+/// Whether one error is really above another is tested on the differences sample by sample, with their
+/// own autocorrelation counted (Diebold and Mariano 1995, doi 10.1080/07350015.1995.10524599): both laws
+/// meet the same noise, so their ratio is known much better than either error. The logarithm of the ratio
+/// is tested, because squared errors that are dominated by a few reversals are far from normally
+/// distributed.
 ///
-/// AIC and BIC are `N ln(rms^2) + 2 k` and `N ln(rms^2) + k ln N` of the fit, with `N` the effective
-/// samples that the residual of the closest fit is worth; one `N` for all laws, or they could not be
-/// compared.
+/// AIC and BIC are `N ln(rms^2) + 2 k` and `N ln(rms^2) + k ln N` of the fit. `N` is the number of
+/// effective samples of the residual of the closest fit. All laws use the same `N`; otherwise they could
+/// not be compared.
 pub fn choose(scores: &[LawScore]) -> Vec<Standing> {
     let error = |s: &LawScore| s.held_out.map(|f| f.rmse);
     let least = scores
@@ -98,7 +99,7 @@ fn excess(a: &[f64], b: &[f64]) -> Option<(f64, f64)> {
         return (n >= 2).then_some((0.0, 0.0));
     }
     if size_b == 0.0 {
-        // Nothing that leaves something matches a law that leaves nothing.
+        // A law with a residual never equals a law that leaves no residual at all.
         return Some((f64::INFINITY, 0.0));
     }
     let influence: Vec<f64> = a

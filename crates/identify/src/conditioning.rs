@@ -1,4 +1,4 @@
-//! From a log to what a fit sees: uniform time, velocity and acceleration, one common filter.
+//! From a log to the data of a fit: uniform time, velocity and acceleration, one common filter.
 //!
 //! Why two filters: differentiating a quantised position needs a low-pass on the position alone, and
 //! whatever that leaves is removed by a second low-pass that the force *and every regressor* pass
@@ -59,8 +59,8 @@ pub struct Conditioning {
     pub decimate: Option<usize>,
     /// Smallest displacement that the log resolves, m or rad.
     pub resolution: Option<f64>,
-    /// Only samples at least this fast count, m/s or rad/s; 0 for all. A static law says nothing of
-    /// an axis at rest, and an encoder may not resolve what a bristle does there.
+    /// Only samples at least this fast count, m/s or rad/s; 0 for all. A static law does not define
+    /// friction at rest, and an encoder may not resolve the bristle deflection there.
     pub min_speed: f64,
 }
 
@@ -153,7 +153,7 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
             });
         }
         (Some(n), _) => n,
-        // Just above twice the cut-off: fewer samples would alias, more would only repeat.
+        // Just above twice the cut-off: a lower rate would alias, a higher one would add no information.
         (None, Some(f)) => ((rate / (2.5 * f)) as usize).max(1),
         (None, None) => 1,
     };
@@ -221,7 +221,7 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
             "{short} stretches between gaps were too short to filter and left out"
         ));
     }
-    // With the cut-offs that were chosen, so that the same filters are found again.
+    // The chosen cut-offs are written in as numbers, so that conditioning again gives the same filters.
     let fixed = |hz: Option<f64>| hz.map_or(Cutoff::Off, Cutoff::Hz);
     let again = Conditioning {
         source: Some(source),
@@ -386,8 +386,8 @@ impl Filters {
             Some(f) => f.zero_phase(&x).ok(),
             None => Some(x),
         };
-        // Differences over seven samples lose less of what the low-pass has left, and let more noise
-        // pass where there is none.
+        // With a low-pass on the source, differences over seven samples lose less of the remaining
+        // signal. Without one they would let more noise pass.
         let derivative = |x: &[f64]| match self.source {
             Some(_) => gradient_sixth_order(x, step).ok(),
             None => gradient(x, step).ok(),
@@ -455,8 +455,8 @@ impl Filters {
     }
 }
 
-/// Keeps what stands at least `reach` samples from a hole that is worth it: one or two samples bridged
-/// by a line cost the filter next to nothing.
+/// Drops the samples within `reach` samples of a gap in `keep`. Gaps of one or two samples are ignored:
+/// bridged by a line, they hardly change the filter output.
 fn apart(keep: &[bool], reach: usize) -> Vec<bool> {
     let mut out = keep.to_vec();
     let mut start = 0;

@@ -1,7 +1,7 @@
-//! Which law holds on samples that it was not fitted to: blocked cross-validation.
+//! How well a law predicts samples that it was not fitted to: blocked cross-validation.
 //!
 //! Blocks are contiguous stretches of time, because neighbouring samples share their noise and their
-//! model error; leaving out single samples would flatter every law.
+//! model error; leaving out single samples would give every law too small an error.
 
 use crate::conditioning::blocks::kept_order;
 use crate::conditioning::record::Record;
@@ -13,7 +13,7 @@ use crate::separable::refine;
 use crate::separable::search_box::SearchBox;
 use stiction_search::{Observer, Status};
 
-/// How a law does on held-out blocks.
+/// How a law predicts held-out blocks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LawScore {
     /// The law.
@@ -31,7 +31,7 @@ pub struct LawScore {
 }
 
 impl LawScore {
-    /// How a fitted law does on other records, nothing fitted again.
+    /// How a fitted law predicts other records, with nothing fitted again.
     pub fn on(held_out: &[Record], fitted: &Estimate) -> Self {
         let (mut measured, mut residual, mut speed) = (Vec::new(), Vec::new(), Vec::new());
         for record in held_out {

@@ -62,7 +62,7 @@ pub enum Error {
         found: usize,
         /// Needed samples.
         needed: usize,
-        /// What took the others.
+        /// Why the others cannot be used.
         losses: Losses,
     },
     /// The axis does not move.

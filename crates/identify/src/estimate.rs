@@ -1,4 +1,4 @@
-//! The result of a fit: parameters with their uncertainty, residuals, and what to beware of.
+//! The result of a fit: parameters with their uncertainty, residuals, and warnings.
 
 pub(crate) mod advice;
 mod autoregression;
@@ -57,7 +57,7 @@ impl From<Estimate> for FittedLaw {
 }
 
 impl Estimate {
-    /// The same, said to have been stopped before its search was over.
+    /// The same estimate with the status that its search was stopped early.
     #[must_use]
     pub fn interrupted(mut self) -> Self {
         self.fitted.status = Status::Interrupted;
@@ -143,7 +143,7 @@ pub fn estimate(
     advice::explain(&mut parameters, &covariance);
     let series = series(&objective, &optimum.p, c, &at.columns);
     let residual = at.residual();
-    // The search refuses a force without energy; what is left is a residual too large to square.
+    // The search refuses a force that is zero throughout; the remaining case is a residual too large to square.
     let fit = Fit::new(&series.measured, residual).unwrap_or(Fit {
         rmse: f64::MAX,
         relative_error_percent: f64::MAX,
@@ -199,8 +199,8 @@ pub fn predict(record: &Record, fitted: &Estimate) -> Series {
     series(&objective, &fitted.p, &fitted.coefficients, &columns)
 }
 
-/// What each parameter that may be zero is measured by: the largest Coulomb level, for a coefficient
-/// over the span of its column in use; the sample time for a delay.
+/// The value that each parameter which may be zero is compared with: the largest Coulomb level, for a
+/// coefficient divided by the span of its column in use; the sample time for a delay.
 fn levels(objective: &Objective, raw: &[Physical]) -> Vec<f64> {
     let coulomb = raw
         .iter()

@@ -3,11 +3,11 @@
 use crate::conditioning::record::Record;
 use stiction_signal::effective_sample_size;
 
-/// Lags of an autocorrelation that are looked at, at most: with more, a long record costs more than its search, and an
-/// error that lasts so long is the law's.
+/// Largest lag of an autocorrelation: with more, a long record costs more than its search, and an error
+/// that stays correlated that long is model error of the law.
 pub(crate) const MOST_LAGS: usize = 2000;
 /// Ratio of two held-out errors, dimensionless, up to which they count as equal, and the one with fewer parameters is taken.
-/// A choice: less than 1 % is of no use to anyone, however sure.
+/// A choice: a difference of less than 1 % has no practical use, however certain it is.
 pub(crate) const EQUAL_ERROR_RATIO: f64 = 1.01;
 
 /// Size of the residual on one set of samples.
@@ -21,13 +21,13 @@ pub struct Fit {
     pub r2: f64,
     /// Samples that count.
     pub samples: usize,
-    /// How many independent samples the residual is worth, by its autocorrelation.
+    /// Number of independent samples that carry the same information as the residual, from its autocorrelation.
     pub effective_samples: f64,
 }
 
 impl Fit {
-    /// Compares a residual with the measured force; `None` without samples, or where all of them are
-    /// zero or beyond what can be squared.
+    /// Compares a residual with the measured force; `None` without samples, or where the force is zero
+    /// throughout or the values are too large to square.
     pub fn new(measured: &[f64], residual: &[f64]) -> Option<Self> {
         let n = measured.len().min(residual.len());
         if n == 0 {
@@ -67,7 +67,7 @@ impl Fit {
     }
 }
 
-/// Speed below which a sample counts as slow where nothing else is asked: 2 % of the top speed.
+/// Default speed below which a sample counts as slow: 2 % of the top speed.
 pub fn low_speed_bound(record: &Record) -> f64 {
     0.02 * record.top_speed()
 }

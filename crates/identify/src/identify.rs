@@ -14,8 +14,8 @@ use stiction_search::{Observer, Status};
 /// Fits a law by the separable method and states its parameters, with intervals that count what encoder, filters and a
 /// curved cost do ([`intervals`]). An interrupted search gives the best found so far, with linear intervals.
 ///
-/// A fitted delay that comes to the end of its range is something else that the law does not explain:
-/// it is taken as none and the law fitted again, as the terms of the estimate then say.
+/// A fitted delay that reaches the end of its range is no delay but some other effect that the law does
+/// not explain: it is set to zero and the law is fitted again, as the terms of the estimate then say.
 ///
 /// # Errors
 /// Those of [`separable`].
@@ -34,8 +34,8 @@ pub fn identify(
     Ok(estimate)
 }
 
-/// [`identify`] without the intervals in full, for laws that are compared: those of the estimate are linear and narrow
-/// until [`intervals`] has widened them.
+/// [`identify`] without the full intervals, for comparing laws: the intervals of the estimate are linear
+/// and too narrow until [`intervals`] has widened them.
 ///
 /// # Errors
 /// Those of [`separable`].
@@ -52,7 +52,7 @@ pub fn fit_law(
     })
 }
 
-/// [`fit_law`] by least squares from where another search has led.
+/// [`fit_law`] by least squares from the end point of another search.
 ///
 /// `start` holds the nonlinear unknowns in the order of the law, without the delay.
 ///

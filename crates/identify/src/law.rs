@@ -148,7 +148,7 @@ pub(crate) struct Layout {
     pub count: usize,
 }
 
-/// The share, between 0 and 1, of these odds in logarithms, and its derivative.
+/// The share, between 0 and 1, that belongs to the logarithm of its odds `b/(1 - b)`, and its derivative.
 pub(crate) fn share_of_odds(odds: f64) -> (f64, f64) {
     let share = 1.0 / (1.0 + libm::exp(-odds));
     let rest = 1.0 / (1.0 + libm::exp(odds));

@@ -9,7 +9,7 @@
 //! Recording --run--> Run --problem--> cost, J^T J --descent--> Point --estimate--> SimulationFit
 //! ```
 //!
-//! Nothing is differentiated or filtered, so an encoder of a few counts will do. Position, velocity and
+//! Nothing is differentiated or filtered, so an encoder with coarse steps is sufficient. Position, velocity and
 //! bristle deflection at the start of each run are unknowns too. The derivatives are those of the
 //! computed step (forward sensitivities through the implicit midpoint step, by the implicit function
 //! theorem): exact, whatever the step size.
@@ -49,34 +49,35 @@ use stiction_search::{Observer, Stage, Status};
 pub struct Simulation<'a> {
     /// The controller that made the force; `None` where the force is what was applied.
     pub controller: Option<Controller>,
-    /// How the logged force stands to the instants of the samples.
+    /// How the logged force relates in time to the instants of the samples.
     pub hold: Hold,
     /// Open loop: longest stretch that is simulated from one free start, s; `None` for whole runs.
     pub segment: Option<f64>,
     /// One encoder count, m or rad, where known.
     pub quantum: Option<f64>,
-    /// A fit of the same axis to start from, such as the separable one; else only the runs themselves.
+    /// A fit of the same axis to start from, such as the separable one; `None` starts from the runs alone.
     pub start: Option<&'a Estimate>,
 }
 
 /// Guesses that are followed by a short descent.
 const MOST_FOLLOWED: usize = 6;
-/// Samples of the pieces of an open loop that starting points are looked for on.
+/// Length, in samples, of the pieces of an open-loop run on which starting points are looked for.
 const PIECE_SAMPLES: usize = 250;
 /// Steps of a short descent, from a guess.
 const SHORT_STEPS: usize = 15;
-/// Steps of a descent on pieces that a whole run is to start from.
+/// Steps of a descent on pieces whose result is the starting point for whole runs.
 const PIECE_STEPS: usize = 60;
 /// Steps of a last descent.
 const LAST_STEPS: usize = 200;
-/// Largest `h sqrt(s0/M)` that a plant step is given at the start.
+/// Largest `h sqrt(s0/M)`, the phase (rad) of the mass on its bristles in one plant step of `h` seconds,
+/// at the start.
 const MOST_STEP_PHASE: f64 = 0.7;
 /// Most plant steps in one control period.
 const MOST_SUBSTEPS: usize = 16;
 /// Most rounds of weighing position against force.
 const MOST_WEIGHINGS: usize = 10;
-/// Change of a weight, as a part of it, that ends them: it moves the parameters by far less than their
-/// deviations.
+/// Relative change of a weight at which the rounds end: it moves the parameters by far less than their
+/// standard deviations.
 const SETTLED_WEIGHT: f64 = 0.02;
 
 /// Fits a law with its mass and terms by simulation.
@@ -170,7 +171,7 @@ pub fn output_error(
     Ok(outcome::describe(&search, found, law, terms, watch.counts))
 }
 
-/// Why nothing can be identified from runs without a scale.
+/// Why nothing can be identified from runs that have no scale.
 fn nothing(runs: &[Run]) -> Error {
     let top = runs
         .iter()
@@ -226,7 +227,8 @@ impl Search<'_> {
         self.simulation.controller.is_some()
     }
 
-    /// A known axis, and the same with other bristles: those are what an equation error knows least.
+    /// A known axis, and the same with other bristle parameters: those are the ones that an
+    /// equation-error fit determines worst.
     fn around(&self, axis: Axis) -> Vec<Axis> {
         let mut out = vec![axis.clone()];
         if self.layout.place(unknowns::Unknown::Stiffness).is_some() {
@@ -249,8 +251,8 @@ impl Search<'_> {
         let mut out = Vec::new();
         for part in [0.003, 0.01, 0.03, 0.1] {
             for excess in [0.1, 0.5] {
-                // Where a curve fell over the whole range its Coulomb level was never reached: most of
-                // its static level stands for it.
+                // Where the curve fell over the whole speed range, its Coulomb level was never reached;
+                // then most of its static level is used instead.
                 for share in [0.0, 0.7] {
                     let mut other = axis.clone();
                     for side in &mut other.sides {
@@ -287,8 +289,8 @@ impl Search<'_> {
         }
     }
 
-    /// Guesses built on a Coulomb level, a mass and an offset that fit: those are found from almost
-    /// anywhere, a bristle is not.
+    /// Guesses built on a fitted Coulomb level, mass and offset: those are found from almost any start,
+    /// the bristle parameters are not.
     fn by_ladder(&self, law: &Law, terms: &Terms, pieces: &[Run], watch: &mut Watch) -> Vec<Axis> {
         let plain = Law::new(LawKind::CoulombViscous);
         let layout = Layout::new(&plain, terms);
@@ -301,7 +303,7 @@ impl Search<'_> {
         })
     }
 
-    /// The lowest ends of short descents from the most promising guesses, best first.
+    /// The lowest end points of short descents from the most promising guesses, best first.
     fn best(&self, guesses: Vec<Axis>, keep: usize, watch: &mut Watch) -> Vec<Found> {
         let weights = self.first_weights();
         let starts = start::rest(self.runs, self.simulation.controller.as_ref());
@@ -342,15 +344,15 @@ impl Search<'_> {
         out
     }
 
-    /// Before anything is fitted, a count of position and a hundredth of the force weigh alike.
+    /// Before anything is fitted, one count of position and a hundredth of the force have the same weight.
     fn first_weights(&self) -> [f64; 2] {
         [1.0 / self.scale.count, 100.0 / self.scale.force]
     }
 
     /// `None` without a guess to start from.
     fn run(&self, guesses: Vec<Axis>, pieces: &[Run], watch: &mut Watch) -> Option<Found> {
-        // A long run drifts away from any guess; short pieces of it do not. Presliding of a few counts
-        // needs the long run.
+        // The simulation of a long run drifts away for any rough guess; on short pieces it does not.
+        // Presliding of a few counts is only seen in the long run.
         let mut finalists = Vec::new();
         if !pieces.is_empty() {
             let short = self.on(pieces, self.layout);
@@ -362,8 +364,8 @@ impl Search<'_> {
             finalists.push(self.layout.write(&found.base, &found.descent.at.q));
         }
         let mut best = self.best(finalists, 1, watch).into_iter().next()?;
-        // A curve that falls over the whole range of speeds looks like less viscous friction, and holds a
-        // search that began beside it.
+        // A curve that falls over the whole range of speeds looks like less viscous friction, and a
+        // search that began near it does not leave it.
         let here = self.layout.write(&best.base, &best.descent.at.q);
         let mut curves = self.other_curves(&here);
         if !curves.is_empty() && !watch.stopped {
@@ -476,7 +478,8 @@ impl Search<'_> {
         }
     }
 
-    /// Weights of position and force by their own residuals; neither is known better than its steps.
+    /// Weights of position and force from their own residuals; no channel counts as better known than its
+    /// resolution.
     fn balance(&self, found: &Found) -> [f64; 2] {
         let axis = self.layout.write(&found.base, &found.descent.at.q);
         let drive = self.drive(found.substeps);

@@ -31,7 +31,7 @@ impl IntervalKind {
     }
 }
 
-/// Why a parameter is not determined, from its deviation relative to its size; `of` says what that size is.
+/// Why a parameter is not determined, from its deviation relative to its size; `of` names that size.
 pub(crate) fn too_uncertain(relative: f64, of: &str) -> String {
     let percent = Percent::deviation(100.0 * relative);
     if percent.is_bounded() {
@@ -53,8 +53,8 @@ pub struct Parameter {
     /// What encoder steps, filters and derivatives are estimated to have added, SI; `None` where that
     /// was not estimated. It is taken off the value up to 10 %; beyond, the interval allows for it.
     pub bias: Option<f64>,
-    /// 95 % interval; `None` where the data bound it on no side, an infinite end where they bound it
-    /// on the other side only. A linear one is log-normal for parameters that are positive by nature.
+    /// 95 % interval; `None` where the data bound it on neither side, an infinite end where they bound
+    /// only the other side. A linear one is log-normal for parameters that are positive by nature.
     pub ci95: Option<(f64, f64)>,
     /// How the interval was found.
     pub interval: IntervalKind,
@@ -64,8 +64,8 @@ pub struct Parameter {
     pub identified: bool,
     /// Why it is not identifiable; empty if it is.
     pub reason: String,
-    /// Parameters that move together with one that is not identifiable, the closest first, with
-    /// their correlation in -1..1.
+    /// Parameters that are correlated with one that is not identifiable, the closest first, with their
+    /// correlation in -1..1.
     pub moves_with: Vec<(Name, f64)>,
     /// What motion would determine a parameter that is not identifiable; empty if it is.
     pub advice: String,
@@ -89,8 +89,9 @@ impl Parameter {
         }
     }
 
-    /// A fitted parameter with its linear interval, and what already speaks against it in `reason`. `bias` is
-    /// what the conditioning adds to it; `level` what a parameter that may be zero is measured by: the Coulomb level, or the sample time for a delay.
+    /// A fitted parameter with its linear interval, and in `reason` what is already known against it.
+    /// `bias` is what the conditioning adds to it; `level` is the value with which a parameter that may
+    /// be zero is compared: the Coulomb level, or the sample time for a delay.
     pub(crate) fn judged(
         p: &Physical,
         variance: f64,
@@ -124,7 +125,7 @@ impl Parameter {
         let left = if corrected { 0.0 } else { shift };
         let reach = std.map(|s| s * quantile(left, s));
         if let Some(std) = std {
-            // Of the value that is stated, so that a table of both says the same.
+            // Relative to the value that is stated, so that a table of both is consistent.
             let (size, of) = sized(value);
             let relative = std / size;
             if relative > IDENTIFIABLE || relative.is_nan() {
@@ -143,7 +144,7 @@ impl Parameter {
                 (r.is_finite() && r <= WIDEST_INTERVAL)
                     .then(|| (share_at(value, -r), share_at(value, r)))
             } else if p.is_positive() {
-                // Wider than a factor of e^4 to each side, the data bound it on no side.
+                // Wider than a factor of e^4 to each side, the interval counts as no bound on either side.
                 let r = reach / p.value;
                 (r.is_finite() && r <= WIDEST_INTERVAL)
                     .then(|| (value * libm::exp(-r), value * libm::exp(r)))
@@ -151,7 +152,7 @@ impl Parameter {
                 Some((value - reach, value + reach))
             }
         });
-        // A share near one may be off by little of its value, and its odds by anything.
+        // For a share near one a small relative error of the value can be any error of its odds.
         if ci95.is_none() && reason.is_empty() {
             reason = "the data bound it on no side".into();
         }
@@ -167,10 +168,10 @@ impl Parameter {
     }
 }
 
-/// A share whose odds are moved by a factor, in the logarithm.
+/// The share that results when its odds are multiplied by a factor, given as a logarithm.
 fn share_at(share: f64, odds: f64) -> f64 {
     1.0 / (1.0 + libm::exp(-odds) * (1.0 - share) / share)
 }
 
-/// Half-width in the logarithm beyond which an interval says nothing.
+/// Half-width in the logarithm beyond which an interval gives no useful information.
 pub(crate) const WIDEST_INTERVAL: f64 = 4.0;

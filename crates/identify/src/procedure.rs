@@ -1,4 +1,4 @@
-//! The identifications that need a motion of their own: constant speeds, force ramps, force steps.
+//! The identifications that need a special motion: constant speeds, force ramps, force steps.
 //!
 //! | module | from | gives | source |
 //! |---|---|---|---|
@@ -9,8 +9,8 @@
 //! | `step_fit`, `step_model`, `step_given` | the same | sigma0, sigma1 by simulation | |
 //! | `break_away` | a force ramp | the force at break-away, with the ramp's rate | Canudas de Wit et al. 1995, doi 10.1109/9.376053, section III.C |
 //!
-//! A static map knows nothing of acceleration, and break-away is not a point of it: the force at
-//! which an axis starts to move depends on how fast the force rises.
+//! A static map does not include acceleration, and break-away is not a point of it: the force at which an
+//! axis starts to move depends on how fast the force rises.
 
 mod assemble;
 mod break_away;

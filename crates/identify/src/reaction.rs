@@ -1,41 +1,42 @@
-//! How the controller answers what its encoder reads.
+//! How the controller responds to the readings of its encoder.
 //!
-//! A controller takes every step of its encoder for motion and answers with a force that the axis does
-//! get. So the force of the log goes with the errors of its position, which noise drawn anew does not
-//! show. The answer is read off what both channels have above the band that the axis can follow.
+//! A controller takes every encoder step for motion and responds with a force that really acts on the
+//! axis. So the logged force is correlated with the errors of the logged position, which noise drawn anew
+//! does not reproduce. The response is identified from both channels above the band that the axis can
+//! follow.
 
 use crate::conditioning::record::{Record, Segment};
 use crate::conditioning::shift::Shift;
 use nalgebra::{SMatrix, SVector};
 use stiction_signal::Sos;
 
-/// Samples that an answer may last: the difference of positions over a sample is over after two, one
-/// that the drive filters or computes late after a few more.
+/// Longest duration of a response, samples: a difference of positions over one sample lasts two samples,
+/// with filtering or computing delay in the drive a few more.
 const ANSWER_LAGS: usize = 6;
 /// Cut-off between what the axis can follow and encoder steps, parts of the sample rate.
 const AXIS_CUTOFF: f64 = 0.05;
-/// Highest cut-off that noise is taken off with, parts of the sample rate.
+/// Highest cut-off of the filters that remove noise, relative to the sample rate.
 const HIGHEST_NOISE_CUTOFF: f64 = 0.2;
-/// Octaves below it.
+/// Number of octaves below it.
 const OCTAVES_BELOW: u32 = 5;
 /// Standard deviations of the noise in an octave that a sample of it must exceed.
 const OUTSTANDING_SAMPLE: f64 = 4.0;
-/// How much smaller than its variance without an answer the fast part of the force must be for an
-/// answer to be there, in units of what chance explains.
+/// How much smaller than without a response the residual variance of the fast part of the force must be
+/// for a response to be accepted, in units of what chance explains.
 const CERTAIN_ANSWER: f64 = 4.0;
 
-/// How a force that is held from sample to sample was logged: as the mean of two neighbours where it
-/// stands late by a part of a sample (half for a force centred about its instant).
+/// How a force that is held from sample to sample was logged: as the mean of two neighbours where it is
+/// logged late by a part of a sample (half for a force centred about its instant).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Logging {
-    /// Whole samples by which it stands late.
+    /// Whole samples by which it is logged late.
     whole: isize,
     /// The part of a sample beyond them, below 1.
     pub part: f64,
 }
 
 impl Logging {
-    /// That of a force that stands `late` samples later in the log than it was held.
+    /// For a force that is logged `late` samples later than it was held.
     pub fn new(late: f64) -> Self {
         let whole = libm::floor(late);
         Self {
@@ -44,12 +45,12 @@ impl Logging {
         }
     }
 
-    /// Samples by which the log stands late.
+    /// Samples by which the force is logged late.
     pub fn late(&self) -> f64 {
         self.whole as f64 + self.part
     }
 
-    /// What a log says of a held force at a sample.
+    /// The value that the log shows of a held force at a sample.
     fn at(&self, held: &[f64], sample: usize) -> f64 {
         let last = held.len() as isize - 1;
         let read = |i: isize| held[i.clamp(0, last) as usize];
@@ -58,14 +59,14 @@ impl Logging {
     }
 }
 
-/// The force that a reading calls for, N/m (N m/rad) by lag.
+/// Response of the controller to a reading, N/m (N m/rad), by lag in samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reaction {
     by_lag: [f64; ANSWER_LAGS],
 }
 
 impl Reaction {
-    /// The answer that a record shows; `None` where there is none to be seen.
+    /// The response that a record shows; `None` where none can be seen.
     pub fn of(record: &Record, logging: Logging) -> Option<Self> {
         let slow = Sos::butterworth_low_pass(4, AXIS_CUTOFF, 1.0).ok()?;
         let mut square = SMatrix::<f64, ANSWER_LAGS, ANSWER_LAGS>::zeros();
@@ -77,7 +78,8 @@ impl Reaction {
             }
             let force = fast(&segment.drive, &slow)?;
             let reading = fast(&segment.reading, &slow)?;
-            // The answer is logged like the force, and the readings go through the log in its stead.
+            // The response is logged with the force, so the readings get the same delay and averaging as
+            // the log.
             let reading: Vec<f64> = (0..reading.len())
                 .map(|k| logging.at(&reading, k))
                 .collect();
@@ -100,8 +102,9 @@ impl Reaction {
         })
     }
 
-    /// The force that the axis got on a segment: its answer to the readings, and what else the log
-    /// shows (reference, integrator) without the noise of the sensor, which no axis feels.
+    /// The force that acted on the axis on a segment: the response to the readings, and the rest of the
+    /// logged force (reference, integrator) without the noise of the force sensor, which does not act on
+    /// the axis.
     pub fn felt(&self, segment: &Segment, logging: Logging) -> Option<Vec<f64>> {
         let samples = 0..segment.drive.len();
         let answer: Vec<f64> = samples
@@ -121,7 +124,7 @@ impl Reaction {
         )
     }
 
-    /// The force that answers the last readings, `reading(lag)` being that of `lag` samples ago.
+    /// The force that responds to the last readings, `reading(lag)` being that of `lag` samples ago.
     pub fn force(&self, reading: impl Fn(usize) -> f64) -> f64 {
         (0..ANSWER_LAGS)
             .map(|lag| self.by_lag[lag] * reading(lag))
@@ -129,15 +132,15 @@ impl Reaction {
     }
 }
 
-/// What a channel has above the band that the axis can follow.
+/// The part of a channel above the band that the axis can follow.
 fn fast(x: &[f64], slow: &Sos) -> Option<Vec<f64>> {
     let smooth = slow.zero_phase(x).ok()?;
     Some(x.iter().zip(&smooth).map(|(x, s)| x - s).collect())
 }
 
-/// A channel without its white noise: split into octaves, of which only what stands out of the noise is
-/// kept (thresholds of Donoho and Johnstone 1994, doi 10.1093/biomet/81.3.425, in bands of zero-phase
-/// filters). What stands above the highest octave is taken for the noise.
+/// A channel without its white noise: split into octaves, of which only what exceeds the noise is kept
+/// (thresholds of Donoho and Johnstone 1994, doi 10.1093/biomet/81.3.425, in bands of zero-phase
+/// filters). The part above the highest octave is taken as noise.
 fn without_noise(x: &[f64]) -> Option<Vec<f64>> {
     let below = |cutoff: f64| {
         let low_pass = Sos::butterworth_low_pass(4, cutoff, 1.0).ok()?;

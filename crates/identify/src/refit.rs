@@ -1,4 +1,4 @@
-//! What a fit finds on a [`replica`](crate::replica).
+//! Result of a fit to a [`replica`](crate::replica).
 
 use crate::conditioning::record::Record;
 use crate::conditioning::{Conditioning, condition};
@@ -13,15 +13,15 @@ use stiction_search::{Counts, Silent, Stage};
 
 /// Seed of the replica without noise of the force.
 const SILENT_SEED: u64 = 999;
-/// Step in the logarithms, an e-fold, that is not believed (decision 0014).
+/// Step of a logarithm, a factor of e, beyond which a Gauss-Newton step is not trusted (decision 0014).
 const LONGEST_STEP: f64 = 1.0;
 /// Most trials of a descent.
 const MOST_TRIALS: usize = 60;
 
-/// Unknowns and coefficients that a fit of a replica finds, from its truth in `steps` Gauss-Newton
-/// steps: the errors are small, so one shows them to first order, two all but exactly. Where two would
-/// lead far away, the record hardly knows some unknown, and a whole descent shows where its fit ends.
-/// With `surety` also how sure that fit would be.
+/// Unknowns and coefficients that a fit of a replica finds, from its true values in `steps` Gauss-Newton
+/// steps: the errors are small, so one step is accurate to first order, and two are almost exact. Where
+/// two would lead far away, the record hardly determines some unknown, and a full descent is made
+/// instead. With `surety` also the uncertainty of that fit.
 pub(crate) fn refitted(
     replica: &Replica,
     conditioning: &Conditioning,
@@ -68,15 +68,15 @@ pub(crate) struct Refit {
     pub p: Vec<f64>,
     /// Linear ones.
     pub c: Vec<f64>,
-    /// How sure its residual makes it of them, if asked for.
+    /// Their uncertainty from the residual, if asked for.
     pub unknowns: Option<Unknowns>,
     /// Mean square of the residual.
     square: f64,
 }
 
-/// White noise of the logged force that the residual of a fit shows: what a replica without any does
-/// not leave. The logged force itself does not tell, because a controller answers every step of its
-/// encoder with a force that the axis did get.
+/// White noise of the logged force, from the residual of a fit: the part that a replica without force
+/// noise does not show. The logged force itself cannot be used for this, because a controller responds to
+/// every step of its encoder with a force that really acts on the axis.
 pub(crate) fn force_noise(
     record: &Record,
     conditioning: &Conditioning,

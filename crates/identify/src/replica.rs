@@ -1,10 +1,10 @@
-//! A log like the real one, of an axis whose parameters are known.
+//! A simulated log like the real one, of an axis whose parameters are known.
 //!
 //! The fitted axis is simulated under the logged force, and a soft spring and damper keep it on the
-//! recorded motion; the force that it then got and the position that it reached, read by an encoder of
-//! the same steps, are a log whose truth is known to the last digit. Refitting it shows what
-//! conditioning and noise do to the parameters: the parametric bootstrap (Efron and Tibshirani 1993,
-//! ISBN 0-412-04231-2, section 6.5) with the recorded motion in place of resampled data.
+//! recorded motion. The force that then acted on it and the position that it reached, read by an encoder
+//! of the same resolution, form a log whose true parameters are known exactly. Fitting it again shows the
+//! effect of conditioning and noise on the parameters: the parametric bootstrap (Efron and Tibshirani
+//! 1993, ISBN 0-412-04231-2, section 6.5) with the recorded motion in place of resampled data.
 
 use crate::conditioning::record::{Record, Samples, Segment};
 use crate::conditioning::shift::Shift;
@@ -21,8 +21,8 @@ use stiction_servo::plant::{Load, Motion, Plant};
 const HELD_DELAY: f64 = -0.5;
 /// The spring that keeps the simulated axis on the recorded motion: its frequency over the sample rate.
 const TRACKING_FREQUENCY: f64 = 0.01;
-/// The same where the controller's own answer keeps it there: a stiff spring with its damper would calm
-/// what an encoder step stirs up.
+/// The same where the response of the controller keeps it there: a stiff spring with its damper would
+/// damp the motion that an encoder step causes.
 const ANSWERED_TRACKING_FREQUENCY: f64 = 0.0005;
 
 /// Logs of a known axis.
@@ -57,7 +57,7 @@ pub(crate) fn replica(
         stroke: record.stroke(),
     };
     let reaction = Reaction::of(record, logging);
-    // A reaction that was read wrongly, the fit still being far off, may make the axis swing.
+    // A wrongly identified response, while the fit is still far off, may make the simulated axis oscillate.
     let logs = axis.logs(reaction.as_ref(), seed).or_else(|| {
         reaction?;
         axis.logs(None, seed)
@@ -145,11 +145,11 @@ impl Axis<'_> {
         let omega = std::f64::consts::TAU * tracking / h;
         let spring = self.plant.mass() * omega * omega;
         let damper = 1.4 * self.plant.mass() * omega;
-        // Motion that repeats meets the encoder steps at the same places again and again: where they
-        // stand is one more accident of the log.
+        // Periodic motion crosses the encoder steps at the same places again and again: the position of
+        // the steps is therefore one more random quantity of the log.
         let encoder = Encoder::new(record.resolution.unwrap_or(0.0)).ok()?;
         let encoder = encoder.with_phase(noise.uniform()).ok()?;
-        // What the steps do not explain of the noise of the position.
+        // The part of the position noise that the encoder steps do not explain.
         let steps = encoder.resolution() / 12.0_f64.sqrt();
         let rest = (record.position_noise * record.position_noise - steps * steps).max(0.0);
         let rest = if rest > steps * steps {
@@ -182,7 +182,8 @@ impl Axis<'_> {
             position.push(reading);
             let mut applied = drive[k] + spring * error + damper * slip;
             if let Some(reaction) = reaction {
-                // The answer to what the log read gives way to that to what the replica reads.
+                // The response to the logged readings is replaced by the response to the readings of the
+                // replica.
                 applied += reaction.force(|lag| {
                     let at = k.saturating_sub(lag);
                     position[at] - segment.reading[at]
@@ -206,8 +207,8 @@ impl Axis<'_> {
     }
 }
 
-/// Plant steps in a sample: the implicit midpoint is off by a twelfth of `(h omega)^2` in the frequency
-/// of the mass on its bristles, which is to be a small part of a percent.
+/// Plant steps in a sample: the implicit midpoint has a relative error of a twelfth of `(h omega)^2` in
+/// the frequency of the mass on its bristles, which should be a small part of a percent.
 fn substeps(plant: &Plant, h: f64) -> u32 {
     let omega = (plant.law().stiffness() / plant.mass()).sqrt();
     (h * omega / 0.05).ceil().clamp(1.0, 8.0) as u32

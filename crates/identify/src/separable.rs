@@ -90,7 +90,7 @@ pub fn separable(
     })
 }
 
-/// Least squares on the full record from one point: the optimum of its valley.
+/// Least squares on the full record from one point: the local optimum reached from there.
 pub(crate) fn follow(
     start: &[f64],
     record: &Record,

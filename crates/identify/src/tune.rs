@@ -1,10 +1,12 @@
-//! Cut-offs chosen by the data: those under which a replica of the axis gives its parameters back best.
+//! Cut-offs chosen from the data: those with which the parameters of a simulated replica of the axis are
+//! recovered best.
 //!
-//! A low cut-off on the position rounds off what the axis did; a high one lets encoder steps and noise
-//! through, which shift the parameters too. Where the two balance depends on encoder, rate, noise and
-//! on the axis itself. So the axis is fitted with middling cut-offs, a [`replica`](crate::replica) of
-//! it is made with the noise of the log, and every pair of cut-offs is tried on that, where the truth
-//! is known. The best pair is used, and the whole repeated from the better fit until it stays.
+//! A low cut-off on the position rounds off the real motion; a high one lets encoder steps and noise
+//! through, which shift the parameters too. The best compromise depends on encoder, rate, noise and on
+//! the axis itself. So the axis is fitted with medium cut-offs, a [`replica`](crate::replica) of it is
+//! made with the noise of the log, and pairs of cut-offs are tried on that replica, where the true
+//! parameters are known. The best pair is used, and the whole is repeated from the better fit until the
+//! choice no longer changes.
 
 use crate::conditioning::record::{Record, Samples};
 use crate::conditioning::{Conditioning, Cutoff, Source, condition};
@@ -25,18 +27,19 @@ use stiction_search::{Control, Counts, Observer, Progress, Stage, Status};
 const REPLICA_COUNT: u64 = 4;
 /// Most times the choice is repeated from a better fit.
 const MOST_ROUNDS: usize = 4;
-/// Cut-offs on the position that are tried: the sample rate over 2.5 times a power of the root of two.
+/// Cut-offs on the position that are tried: the sample rate over 2.5 times a power of the square root of two.
 const CUTOFF_STEPS: i32 = 14;
 /// Where the search begins, on that scale.
 const START: (i32, i32) = (6, 2);
-/// Cut-off of the common filter below that of the position, in the same steps.
+/// Number of the same steps by which the cut-off of the common filter is below that of the position.
 const BELOW: std::ops::RangeInclusive<i32> = 1..=6;
 
-/// Thinned samples that cut-offs must leave, or as many as the default ones leave if that is fewer: a
-/// slow filter takes most of a short log, and a law with many elements asks for ten for each unknown.
+/// Thinned samples that the cut-offs must leave, or as many as the default ones leave if that is fewer: a
+/// low cut-off leaves few samples of a short log, and a law with many elements needs ten for each
+/// unknown.
 const FEWEST_SAMPLES: usize = 300;
 
-/// Cut-offs and how they did.
+/// A pair of cut-offs and its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trial {
     /// Cut-off on the position, Hz.
@@ -137,17 +140,17 @@ pub fn tune(
     Ok(tuned)
 }
 
-/// Part of the variance that a fit must explain to stand in for the axis. What it leaves is taken for
-/// noise of the force, and a law that misses the axis would ask for far too low a cut-off.
+/// Part of the variance that a fit must explain to represent the axis. The rest is taken as noise of the
+/// force, and a law that does not describe the axis would lead to far too low a cut-off.
 const LEAST_R2: f64 = 0.99;
 
-/// Whether a fit is near enough to the axis to stand in for it.
+/// Whether a fit is near enough to the axis to represent it.
 fn worth(fitted: &Estimate) -> bool {
     fitted.fit.r2 > LEAST_R2
 }
 
-/// The conditioning at a place on the scale: the cut-off of the position, and how far below it the
-/// common one stands.
+/// The conditioning at a place on the scale: the cut-off of the position, and how many steps the common
+/// one lies below it.
 fn cutoffs(wanted: &Conditioning, rate: f64, (source, below): (i32, i32)) -> Conditioning {
     let hertz = |step: i32| Cutoff::Hz(rate / (2.5 * libm::exp2(0.5 * f64::from(step))));
     let fill = |cutoff, step| match cutoff {
@@ -161,7 +164,7 @@ fn cutoffs(wanted: &Conditioning, rate: f64, (source, below): (i32, i32)) -> Con
     }
 }
 
-/// A walk over the scale, downhill in the error on the replicas.
+/// A search over the scale, downhill in the error on the replicas.
 struct Walk<'a> {
     logs: &'a [Samples],
     least: usize,

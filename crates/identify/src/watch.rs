@@ -1,9 +1,9 @@
-//! Where progress goes while a piece of work runs, and whether it was asked to stop.
+//! Where progress is reported during a calculation, and whether it was asked to stop.
 
 use crate::separable::objective::Objective;
 use stiction_search::{Control, Counts, Fidelity, Kind, Observer, Progress, Stage};
 
-/// An observer with what it is told.
+/// An observer with the values that it is told.
 pub(crate) struct Watch<'o> {
     pub observer: &'o mut dyn Observer,
     pub stage: Stage,

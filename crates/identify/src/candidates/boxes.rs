@@ -1,4 +1,4 @@
-//! Where the six parameters are looked for, if nobody says.
+//! Default search range of the six parameters.
 
 use super::problem::checked;
 use crate::conditioning::record::Record;

@@ -1,4 +1,5 @@
-//! A steady curve from points of speed and force: no memory, no record.
+//! A steady curve fitted to points of speed and force: a static law without internal state, fitted
+//! without a time record.
 
 use super::problem::{Candidates, Named, checked};
 use crate::error::Error;
@@ -39,8 +40,8 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// Points of a map, a box of 4 or 8 dimensions. At standstill a curve says nothing: such points
-    /// are left out.
+    /// Points of a static map, and a box of 4 or 8 dimensions. Friction at zero speed is not defined by
+    /// the curve, so points at standstill are left out.
     ///
     /// # Errors
     /// For lengths that differ, fewer points than unknowns, numbers that are not finite, or another
@@ -87,7 +88,7 @@ fn residual(p: &[f64], v: f64, force: f64) -> (f64, [f64; GENES]) {
     let square = (v / vs) * (v / vs);
     let fall = excess * libm::exp(-square) * v.signum();
     let level = fc * v.signum();
-    // Far above vs there is nothing left, and nothing that depends on it.
+    // Far above vs the exponential term is zero, and so are its derivatives.
     let slope = if fall == 0.0 {
         0.0
     } else {

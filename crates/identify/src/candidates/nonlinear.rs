@@ -11,7 +11,7 @@ use crate::separable::search_box::SearchBox;
 use stiction_search::{Bounds, CostsOnly, Derivatives, Fidelity, Points, Problem};
 
 /// The cost that the separable method descends, over its own box; any law but those of Maxwell slip.
-/// A delay that is fitted counts as none.
+/// A delay that would be fitted is taken as zero here.
 pub struct Nonlinear<'a> {
     bounds: Bounds,
     full: Objective<'a>,

@@ -5,12 +5,12 @@ use crate::error::Error;
 use stiction_parameters::{Name, Quantity};
 use stiction_search::Bounds;
 
-/// One sample in so many makes the coarse stand-in.
+/// The coarse record, used for cheap evaluations, takes every n-th sample, with this n.
 const COARSE_EVERY: usize = 8;
 /// It never has fewer samples than this.
 const FEWEST_COARSE: usize = 500;
 
-/// A coarse stand-in for a record, for searches that begin on one; `None` where it is not to be had.
+/// A coarse record of fewer samples for searches that begin on one; `None` where it cannot be made.
 pub fn thinned(record: &Record) -> Option<Record> {
     record.thinned((record.len() / COARSE_EVERY).max(FEWEST_COARSE))
 }
@@ -18,7 +18,7 @@ pub fn thinned(record: &Record) -> Option<Record> {
 /// Parameters by name, with the values of a point.
 pub type Named = Vec<(Name, f64)>;
 
-/// A problem whose points stand for parameters.
+/// A search problem whose points can be translated into parameters of a law.
 pub trait Candidates: stiction_search::Problem {
     /// Parameters of the law at a point of the box.
     fn parameters(&self, point: &[f64]) -> Named;

@@ -105,7 +105,7 @@ impl SixParameters {
         Ok(Self {
             bounds: checked(bounds, 6)?,
             full,
-            // An explicit scheme is another one at a longer step.
+            // An explicit scheme gives a different result at a longer step, so it has no coarse record.
             coarse: coarse.filter(|_| scheme == Scheme::Explin),
             exponent: law.exponent,
             scheme,
@@ -137,7 +137,7 @@ impl SixParameters {
 
     fn products(&self, points: &Points, sampled: &Sampled, slopes: bool) -> Vec<Products> {
         let trials: Vec<Trial> = points.rows().map(|x| self.trial(x)).collect();
-        // A box that was checked holds trials only.
+        // A checked box holds only points that can be computed, so the sums always exist.
         let sums = sampled.sums(&trials, slopes).unwrap_or_default();
         let each = points.rows().zip(&sums);
         each.map(|(x, sums)| {

@@ -1,4 +1,4 @@
-//! Sums of products of the columns that a trial makes, whatever the record.
+//! Sums of products of the columns that a trial makes, with or without a filter on the record.
 
 use crate::conditioning::record::Record;
 use crate::conditioning::shift::Shift;
@@ -25,9 +25,9 @@ pub(super) struct Sampled {
 }
 
 enum Source {
-    /// The law's columns are taken as they come.
+    /// The columns of the law are used directly, without filter or shift, in the lane kernels.
     Lanes(Track),
-    /// They pass the filter of the record, or stand earlier by a known delay.
+    /// The columns pass the filter of the record, or are shifted earlier by a known delay.
     Filtered {
         record: Box<Record>,
         shift: Shift,
@@ -37,7 +37,8 @@ enum Source {
 }
 
 impl Sampled {
-    /// A record with what stands beside the law; a delay that is fitted counts as none.
+    /// Reads a record together with the linear terms beside the law; a delay that would be fitted is
+    /// taken as zero.
     pub fn new(record: &Record, law: Law, terms: &Terms) -> Result<Self, Error> {
         let still = match terms.delay {
             Delay::Fitted => Delay::NONE,
@@ -84,7 +85,7 @@ impl Sampled {
         })
     }
 
-    /// The track, where costs can be had from the lanes as they are: no further columns.
+    /// The record as the lane kernels read it, where they give the cost directly: no further columns.
     pub fn bare(&self) -> Option<&Track> {
         match &self.source {
             Source::Lanes(track) if self.nonnegative.is_empty() => Some(track),
@@ -134,7 +135,7 @@ fn shared_columns(objective: &Objective) -> (Vec<Vec<f64>>, Vec<bool>) {
 }
 
 fn track(record: &Record, shared: &[Vec<f64>]) -> Result<Track, Error> {
-    // Columns of the kept samples back at their places; what does not count is not looked at.
+    // Puts the values of the kept samples back at their places; samples that do not count are never read.
     let mut at = 0;
     let spread: Vec<Vec<Vec<f64>>> = record
         .segments

@@ -1,18 +1,18 @@
-//! What became of the samples of a log that a fit does not use.
+//! Why samples of a log are not used in a fit.
 
 use std::fmt;
 
-/// Samples on their way from the logs to a fit, and what took them.
+/// Counts of the samples on their way from the logs to a fit, and why the others were left out.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Losses {
     /// Samples of the logs.
     pub logged: usize,
     /// Of these, in stretches between gaps that are too short.
     pub short: usize,
-    /// One sample in so many is taken of the rest, since the filter leaves no more in them; 0 and 1
-    /// take all.
+    /// Of the rest every n-th sample is taken, with this n, since the filter leaves no information at
+    /// higher frequencies; 0 and 1 take all.
     pub decimate: usize,
-    /// Of those taken: saturated, missing or frozen ones, and what the filter mixes them into.
+    /// Of those taken: saturated, missing or frozen ones, and those that the filter mixes with them.
     pub excluded: usize,
     /// Of those taken: at ends, where filters settle.
     pub ends: usize,

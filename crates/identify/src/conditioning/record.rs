@@ -75,22 +75,22 @@ pub struct Record {
     pub position_noise: f64,
     /// Cut-off of the common filter, Hz.
     pub common_hz: Option<f64>,
-    /// How the record was conditioned, for people.
+    /// How the record was conditioned, as text for the user.
     pub notes: Vec<String>,
     /// Smallest displacement that the log resolves (one encoder count), m or rad, where known.
     pub resolution: Option<f64>,
     /// How to condition a position as this record was; `None` where the motion is a logged velocity.
     pub(crate) conditioning: Option<Conditioning>,
-    /// What conditioning took.
+    /// Number of samples left out by conditioning, by reason.
     pub(crate) losses: Losses,
-    /// Whether this is a thinned stand-in.
+    /// Whether this is a copy with fewer samples, used to look for starting points.
     pub(crate) is_thinned: bool,
 }
 
 impl Segment {
     /// Whether every sample that a regression could see counts.
     pub(crate) fn counts_whole(&self) -> bool {
-        // Without leaving a run early, so that many are looked at together.
+        // No early exit within a chunk, so that the compiler can process many samples at once.
         let run = |keep: &[bool]| keep.iter().fold(true, |all, &k| all & k);
         self.keep.chunks(256).all(run)
     }
@@ -110,7 +110,7 @@ impl Record {
         self.segments.iter().map(|s| s.keep.len()).sum()
     }
 
-    /// What became of the samples that do not count.
+    /// Why samples do not count, with their numbers.
     pub(crate) fn losses(&self) -> Losses {
         let mut losses = self.losses.clone();
         let known = losses.excluded + losses.ends + losses.slow;
@@ -160,7 +160,7 @@ impl Record {
             .fold(0.0, f64::max)
     }
 
-    /// Whether the axis moves in both directions while samples count; what does not move beyond the noise counts as such.
+    /// Whether the axis moves in both directions while samples count; movement within the noise is no motion.
     pub fn moves_both_ways(&self) -> bool {
         let has_position = |s: &Segment| !s.reading.is_empty() || !s.channels.position.is_empty();
         let shortest = if self.segments.iter().all(has_position) {
@@ -210,7 +210,7 @@ impl Record {
         out
     }
 
-    /// The same, as it stands in the record where all of it counts.
+    /// The same without a copy where every sample of the record counts.
     pub(crate) fn whole(&self, channel: impl Fn(&Segment) -> &[f64]) -> Cow<'_, [f64]> {
         match &self.segments[..] {
             [only] if only.counts_whole() && channel(only).len() == only.keep.len() => {
@@ -251,8 +251,8 @@ impl Record {
         }
     }
 
-    /// The same for a channel that is not needed afterwards: where all of the record is this segment and all of
-    /// it counts, it is what comes out.
+    /// The same for a channel that is not needed afterwards: where the record is this one segment and all
+    /// of it counts, the channel becomes the output without a copy.
     pub(crate) fn thin_whole(
         &self,
         segment: &Segment,
@@ -297,9 +297,9 @@ impl Record {
         out
     }
 
-    /// A cheap stand-in of about `samples` samples to look for starting points, every n-th sample of
-    /// this record; `None` where that is not to be had: for a short record, or one with a common
-    /// filter, which thinning would take from the law's columns but not from the force.
+    /// A copy with about `samples` samples to look for starting points at low cost: every n-th sample of
+    /// this record. `None` for a short record, or one with a common filter: thinning would then remove
+    /// the filter from the columns of the law but not from the force.
     pub(crate) fn thinned(&self, samples: usize) -> Option<Self> {
         let every = self.len() / samples.max(1);
         if every < 2 || self.common.is_some() {
@@ -348,7 +348,7 @@ impl Record {
     }
 }
 
-/// Least and greatest of some values, what is no number apart; infinite the wrong way round for none.
+/// Least and greatest of some values, NaN ignored; (+infinity, -infinity) where there are none.
 pub(crate) fn extent(values: &[f64]) -> (f64, f64) {
     let mut low = [f64::INFINITY; 8];
     let mut high = [f64::NEG_INFINITY; 8];

@@ -1,4 +1,4 @@
-//! A channel read between its samples: what a delay between force and motion asks for.
+//! A channel read between its samples, as a delay between force and motion needs.
 
 /// Points of the Lagrange interpolation (docs/identification.md).
 const INTERPOLATION_POINTS: usize = 6;
@@ -12,7 +12,7 @@ pub(crate) struct Shift {
     /// First of the samples that the interpolation reads, relative to the one asked for.
     first: isize,
     weights: [f64; INTERPOLATION_POINTS],
-    /// Where no weight but one counts, the sample that it stands for: the shift is whole.
+    /// Where the shift is a whole number of samples: the sample, relative to the one asked for, that is read.
     whole: Option<isize>,
 }
 
@@ -68,7 +68,7 @@ impl Shift {
 
 /// The sample before the point asked for, relative, and how far beyond it the point stands.
 fn split(samples: f64) -> (isize, f64) {
-    // No log is longer; and it keeps the index in range whatever delay was given.
+    // Limited to more than the length of any log, so that the index stays in range whatever delay was given.
     let samples = if samples.is_nan() {
         0.0
     } else {

@@ -1,17 +1,17 @@
-//! Why the data do not determine a parameter: what it moves together with, and the motion that would
-//! tell them apart.
+//! Why the data do not determine a parameter: with which other parameters it is correlated, and the
+//! motion that would separate them.
 
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
 use stiction_parameters::{Name, Quantity};
 
-/// Correlation from which a pair of parameters is named. At .9 a deviation is 2.3 times that with the other
-/// known.
+/// Correlation from which a pair of parameters is named. At .9 the standard deviation is 2.3 times what
+/// it would be with the other parameter known.
 const NAMED_CORRELATION: f64 = 0.9;
 /// Most partners that are named.
 const MOST_PARTNERS: usize = 2;
 
-/// Adds partners and advice to every parameter that is not identifiable.
+/// Adds correlated parameters and advice to every parameter that is not identifiable.
 pub(crate) fn explain(parameters: &mut [Parameter], covariance: &Covariance) {
     let correlation = covariance.correlation();
     for parameter in parameters.iter_mut().filter(|p| p.identified) {

@@ -1,4 +1,4 @@
-//! The residual as an autoregression: what white noise, filtered, repeats itself the same way.
+//! The residual as an autoregression: a model of filtered white noise, for the correlation of the residual.
 //!
 //! The scores `J_t r_t` of a friction fit are short bursts around each reversal, so their own
 //! correlation is known from few samples. The correlation of the residual is known from all of them:
@@ -101,7 +101,8 @@ impl Autoregression {
                 }
                 for t in (0..many).rev() {
                     let (now, after) = rows[t * q..].split_at_mut(q);
-                    // The latest first, so that no more than one product waits for the values just made.
+                    // The latest sample first, so that only one product has to wait for the values just
+                    // computed (shorter dependency chain).
                     let reach = self.coefficients.iter().zip(after.chunks_exact(q));
                     for (a, later) in reach.rev() {
                         for (x, later) in now.iter_mut().zip(later) {
@@ -116,7 +117,7 @@ impl Autoregression {
                         }
                     }
                 }
-                // The next chunk is put before what it reaches to.
+                // The next chunk is written in front of the samples that it depends on.
                 let next = CHUNK.min(start - s.start);
                 rows.copy_within(..many.min(order) * q, next * q);
                 if many < order {
@@ -130,7 +131,7 @@ impl Autoregression {
     }
 }
 
-/// Samples of all columns that stay in the nearest caches.
+/// Samples of all columns that stay in the fastest CPU caches.
 const CHUNK: usize = 256;
 
 /// Ranges between breaks.
@@ -182,10 +183,11 @@ mod tests {
             |ones: usize, breaks: &[usize]| found.covariance(&[vec![1.0; ones]], breaks)[(0, 0)];
         let per_sample = energy(20_000, &[]) / 20_000.0;
         assert!((per_sample * 0.3 * 0.3 - 1.0).abs() < 0.1, "{per_sample}");
-        // Two halves that know nothing of each other have the sum of their variances.
+        // Two uncorrelated halves have the sum of their variances.
         let halves = energy(20_000, &[10_000]);
         assert!((halves / (2.0 * energy(10_000, &[])) - 1.0).abs() < 1e-12);
-        // A chunk is where it is cut: three samples more than one, with columns beside each other.
+        // The result does not depend on where chunks are cut: three samples more than one chunk, with two
+        // columns.
         let pair = [vec![1.0; 259], vec![2.0; 259]];
         let both = found.covariance(&pair, &[2]);
         let one = energy(2, &[]) + energy(257, &[]);

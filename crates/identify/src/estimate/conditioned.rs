@@ -17,15 +17,15 @@ use stiction_search::{Control, Counts, Observer, Progress, Stage};
 
 /// Replicas that the shift is averaged over (decision 0014).
 const REPLICA_COUNT: u64 = 10;
-/// Seeds of these replicas begin here: not those that the cut-offs were chosen on.
+/// First seed of these replicas; they differ from those that the cut-offs were chosen on.
 const FIRST_SEED: u64 = 1000;
-/// What a variance from ten replicas must be larger by to stand for that of many: the square of Student's
+/// Factor by which a variance from ten replicas is enlarged because they are few: the square of Student's
 /// 97.5 % quantile of 9 degrees of freedom over the normal one.
 const TEN_REPLICAS_FACTOR: f64 = 1.332;
 /// Seeds of the replicas of replicas begin here.
 const FIRST_SECOND_SEED: u64 = 2000;
 /// Part of the shift that counts as one standard deviation of its own error: on simulated closed loops
-/// the replicas show the shift to about a tenth.
+/// the replicas show the shift to about a tenth of its value.
 const SHIFT_DOUBT: f64 = 0.1;
 
 /// Shift of each parameter, SI, and how the fits of the replicas scatter.
@@ -36,7 +36,8 @@ pub(super) struct Shift {
     scatter: Vec<f64>,
     /// Variance that the residuals of the replicas state, on average.
     stated: Vec<f64>,
-    /// Square of what the shift of a replica of a replica differs by, beyond chance.
+    /// Squared difference between the shift of a replica and that of a replica of it, less what chance
+    /// explains.
     change: Vec<f64>,
 }
 
@@ -44,13 +45,13 @@ impl Shift {
     /// Variance of a parameter from which the shift was taken off, `residual` being what the residual
     /// of the log states.
     ///
-    /// A residual made of encoder steps repeats itself with the motion, which makes it look less certain
-    /// than it is. The replicas show by how much: the variance is taken larger or smaller as they scatter
-    /// more or less than they state (calibration by a bootstrap: Beran 1987,
-    /// doi 10.1093/biomet/74.3.457), and larger for their being few. To it come the variance of the mean
-    /// shift, and what the shift may itself be wrong by: a tenth, and as much as it changes from the
-    /// replicas to replicas of them (a bootstrap iterated: Hall 1992, doi 10.1007/978-1-4612-4384-7,
-    /// section 1.4).
+    /// A residual made of encoder steps is correlated with the motion and repeats with it, which makes
+    /// the parameters look less certain than they are. The replicas show by how much: the variance is
+    /// taken larger or smaller as they scatter more or less than they state (calibration by a bootstrap:
+    /// Beran 1987, doi 10.1093/biomet/74.3.457), and is enlarged because they are few. Added to it are
+    /// the variance of the mean shift and the possible error of the shift itself: a tenth of it, and the
+    /// amount by which it changes from the replicas to replicas of them (an iterated bootstrap: Hall
+    /// 1992, doi 10.1007/978-1-4612-4384-7, section 1.4).
     pub fn total(&self, i: usize, residual: f64) -> f64 {
         let calibration = TEN_REPLICAS_FACTOR * self.scatter[i] / self.stated[i];
         let calibrated = residual
@@ -85,7 +86,7 @@ pub(super) fn shift(
             *sum += p.variance(surety) / REPLICA_COUNT as f64;
         }
         first.0.push(found.shift.clone());
-        // One that cannot be simulated has nothing to say.
+        // A replica that cannot be simulated is left out.
         if let Ok(again) = condition(&replica.logs, &conditioning)
             && let Some((next, _)) = once(
                 &again,
@@ -125,19 +126,19 @@ impl Shifts {
         self.0.iter().map(|s| s[i]).sum::<f64>() / self.0.len() as f64
     }
 
-    /// From one replica to the next.
+    /// Variance from one replica to the next.
     fn variance(&self, i: usize) -> f64 {
         let mean = self.mean(i);
         let spread: f64 = self.0.iter().map(|s| (s[i] - mean).powi(2)).sum();
         spread / (self.0.len() as f64 - 1.0)
     }
 
-    /// Square of the difference of the means, less what chance makes of it.
+    /// Square of the difference of the means, less the part that chance explains.
     fn change(&self, other: &Self, i: usize) -> f64 {
         let difference = self.mean(i) - other.mean(i);
         let chance =
             self.variance(i) / self.0.len() as f64 + other.variance(i) / other.0.len() as f64;
-        // No number where there are fewer than two.
+        // NaN with fewer than two replicas; `max` then gives zero.
         (difference * difference - chance).max(0.0)
     }
 }
@@ -150,7 +151,7 @@ struct Found {
 }
 
 impl Found {
-    /// It in the place of the estimate that the replica was made of.
+    /// The estimate with the results of this replica in place of the original ones.
     fn as_fitted(&self, fitted: &Estimate, replica: &Replica) -> Estimate {
         let mut out = fitted.clone();
         out.p.clone_from(&self.refit.p);
@@ -193,7 +194,7 @@ fn once(
     Some((found, replica))
 }
 
-/// From one value to another, in the logarithm where both are positive by nature.
+/// Difference of two values; of their logarithms where both are positive by nature.
 fn step(from: &Physical, to: &Physical) -> f64 {
     if from.is_positive() && from.value > 0.0 && to.value > 0.0 {
         from.value * libm::log(to.value / from.value)

@@ -1,4 +1,4 @@
-//! Whether the data show a Stribeck curve at all.
+//! Whether the data show a Stribeck curve.
 //!
 //! Where no speed lies in the Stribeck range, a search still finds some curve that fits the noise a
 //! little better than none, and the linear deviation there says how well *that* curve is known. The
@@ -13,11 +13,12 @@ use crate::separable::optimum::Optimum;
 use stiction_parameters::{Name, Quantity, Side};
 use stiction_search::Counts;
 
-/// Deviation of ln(Fs/Fc - 1) below which the curve is there without asking: ten deviations from none.
+/// Standard deviation of ln(Fs/Fc - 1) below which the curve counts as present without a further test:
+/// its rise is ten standard deviations away from zero.
 const PLAIN_EXCESS_DEVIATION: f64 = 0.1;
-/// Rise of the cost without the curve below which it may be noise, in squared deviations. The two
-/// unknowns of a curve were searched for over decades, so chance makes more of them than of one unknown
-/// at a known place: 12 comes about less than once in a hundred times.
+/// Rise of the cost without the curve below which it may be noise, in squared standard deviations. The
+/// two unknowns of a curve were searched for over decades, so chance lowers the cost more than for one
+/// unknown at a known place: a rise of 12 occurs by chance less than once in a hundred times.
 const CHANCE_RISE: f64 = 12.0;
 
 /// For each direction (the same twice for a symmetric law) whether the cost is hardly higher with the
@@ -35,7 +36,7 @@ pub(super) fn missing(
         };
         let variance = unknowns.covariance[(e, e)];
         let rise = variance / unknowns.bread[e];
-        // A rise that is no number belongs to an unknown that is flagged already.
+        // A rise that is not finite belongs to an unknown that is flagged already.
         if variance.sqrt() < PLAIN_EXCESS_DEVIATION || !rise.is_finite() {
             return false;
         }
@@ -61,8 +62,8 @@ pub(super) fn missing(
     [first, second]
 }
 
-/// Flags the Coulomb level and the viscous friction of a direction whose Stribeck velocity stands at the
-/// top speed: the motion does not leave the Stribeck range, so it never shows them alone.
+/// Flags the Coulomb level and the viscous friction of a direction whose Stribeck velocity lies at the
+/// top speed: the motion stays inside the Stribeck range, so neither is ever seen separately.
 pub(super) fn stays_within(law: &Law, optimum: &Optimum, parameters: &mut [Parameter]) {
     let layout = law.layout();
     for side in 0..2 {

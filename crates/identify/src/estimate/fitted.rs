@@ -1,4 +1,5 @@
-//! What any fit states of a law, whether it fitted the force, the position or points of the steady curve.
+//! The result that every fit of a law gives, whether it fitted the force, the position or points of the
+//! steady curve.
 
 use crate::estimate::series::Series;
 use crate::fit::Fit;

@@ -15,8 +15,8 @@ use crate::separable::optimum::Optimum;
 use stiction_parameters::{Name, Quantity};
 use stiction_search::{Counts, Observer};
 
-/// Relative standard deviation from which the profile is followed; below it the linear interval is
-/// right to a part of its width of the same size.
+/// Relative standard deviation from which the profile is followed. Below it the linear interval is
+/// accurate: its relative error is of the size of this deviation.
 const PROFILED_DEVIATION: f64 = 0.03;
 
 /// States the intervals of an estimate in full: counts what encoder steps, filters and derivatives
@@ -102,7 +102,7 @@ fn curve_of(name: Name) -> Option<usize> {
     curve.contains(&name.quantity).then(|| name.side.index())
 }
 
-/// Says of a parameter that nothing is known of it, because a fit without the curve is as good.
+/// Marks a parameter as unknown, because a fit without the curve is as good.
 fn without_curve(estimate: &mut Estimate, name: Name) {
     if let Some(own) = find(estimate, name) {
         own.ci95 = None;
@@ -118,7 +118,7 @@ fn find(estimate: &mut Estimate, name: Name) -> Option<&mut Parameter> {
     parameters.iter_mut().find(|p| p.name == name)
 }
 
-/// Replaces the interval of a parameter by that of its profile, where that can matter.
+/// Replaces the interval of a parameter by that of its profile, where it may differ from the linear one.
 fn profiled(
     objective: &Objective,
     optimum: &Optimum,
@@ -154,7 +154,8 @@ fn profiled(
     let Some(now) = estimate.parameter(p.name) else {
         return;
     };
-    // Of the parameter, what does not come from the unknown that is held: it is added in quadrature.
+    // The part of the parameter's variance that does not come from the unknown that is held: added in
+    // quadrature.
     let with = p.with(&estimate.unknowns.covariance, index) / p.value;
     let spread = p.variance(&estimate.unknowns.covariance) / (p.value * p.value);
     let path = if std > 0.0 { with / std } else { 0.0 };
@@ -202,7 +203,7 @@ fn profiled(
     }
 }
 
-/// Puts the reach to both sides, in the logarithm, into a parameter; `None` is an open side.
+/// Writes the lower and upper reach, in the logarithm, into a parameter; `None` is an open side.
 fn state(parameter: &mut Parameter, [down, up]: [Option<f64>; 2], free: bool) {
     parameter.interval = IntervalKind::Profile;
     parameter.ci95 = match (down, up) {

@@ -4,8 +4,8 @@ use crate::parameter::Parameter;
 use crate::parameter::physical::Physical;
 use crate::separable::optimum::Optimum;
 
-/// A fitted parameter with its linear interval. `bias` is what the conditioning adds to it; `level` the Coulomb
-/// level that a parameter is measured by which may be zero.
+/// A fitted parameter with its linear interval. `bias` is what the conditioning adds to it; `level` is
+/// the Coulomb level, with which a parameter that may be zero is compared.
 pub(super) fn fitted(
     p: &Physical,
     variance: f64,

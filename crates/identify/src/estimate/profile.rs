@@ -1,9 +1,9 @@
 //! Intervals from the cost along one parameter, all others fitted again at each of its values.
 //!
-//! A linear interval takes the valley of the cost for a parabola. Where a parameter is poorly known
-//! the valley is steep to one side and flat to the other, or open: the profile follows it (Venzon and
-//! Moolgavkar 1988, doi 10.2307/2347496; Raue et al. 2009, doi 10.1093/bioinformatics/btp358). The end of the
-//! interval is where the cost has risen by what the long-run noise makes of one standard deviation,
+//! A linear interval assumes that the cost around the optimum is a parabola. Where a parameter is poorly
+//! known the cost rises steeply on one side and slowly on the other, or not at all: the profile follows
+//! it (Venzon and Moolgavkar 1988, doi 10.2307/2347496; Raue et al. 2009, doi 10.1093/bioinformatics/btp358).
+//! The end of the interval is where the cost has risen by what the long-run noise makes of one standard deviation,
 //! squared times the quantile.
 
 use crate::parameter::WIDEST_INTERVAL;
@@ -17,7 +17,7 @@ use stiction_search::{Counts, Silent, Stage};
 const MOST_TRIALS: usize = 6;
 /// Steps of each descent; it starts where the last one ended.
 const DESCENT_STEPS: usize = 6;
-/// How far the root of the rise may be off the wanted one, as a part of it: an end is then right to 2 % of
+/// Allowed relative error of the square root of the rise at an end: the end is then accurate to 2 % of
 /// the width.
 const RISE_TOLERANCE: f64 = 0.02;
 
@@ -53,7 +53,7 @@ pub(super) struct Profile<'a> {
 }
 
 impl Profile<'_> {
-    /// The lower and the upper end; `None` where the descents do not get there.
+    /// The lower and the upper end; `None` where the descents do not reach them.
     pub fn ends(&self, counts: &mut Counts) -> Option<[End; 2]> {
         if !(self.std > 0.0 && self.rise > 0.0 && self.rise.is_finite()) {
             return None;
@@ -61,7 +61,7 @@ impl Profile<'_> {
         Some([self.end(-1.0, counts)?, self.end(1.0, counts)?])
     }
 
-    /// Where the unknown stands at the optimum, and the furthest it may go to one side.
+    /// Value of the unknown at the optimum, and the furthest it may go to one side.
     fn range(&self, side: f64) -> (f64, f64) {
         match self.held {
             Held::Nonlinear(i) => {
@@ -124,7 +124,7 @@ impl Profile<'_> {
                 outer = Some((distance, deviations));
             }
             distance = match outer {
-                // The root of the rise is nearly straight.
+                // The square root of the rise is nearly linear in the unknown.
                 Some(outer) => {
                     let part = (self.quantile - inner.1) / (outer.1 - inner.1);
                     inner.0 + part * (outer.0 - inner.0)

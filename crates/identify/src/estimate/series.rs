@@ -1,4 +1,4 @@
-//! What a fit sees and what it makes of it, sample by sample.
+//! Measured data and the model of a fit, sample by sample.
 
 /// Signals at the samples of the fit.
 #[derive(Clone, Debug, Default, PartialEq)]

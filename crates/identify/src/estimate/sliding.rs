@@ -1,9 +1,9 @@
 //! Whether the axis slides at all, and in both directions.
 //!
-//! Levels, and the curve between them, are what friction comes to once the bristles are bent. In a
-//! stroke that is shorter than their way from one side to the other, a search still finds levels that
-//! suit the bend of the presliding curve, encoder steps included, and their deviations say only how well
-//! those are known.
+//! The friction levels and the curve between them only show once the bristles are fully deflected. In a
+//! stroke that is shorter than their way from one side to the other, a search still finds levels that fit
+//! the curvature of the presliding curve, encoder steps included, and their standard deviations describe
+//! only how well those fitted values are known.
 
 use crate::conditioning::record::Record;
 use crate::parameter::Parameter;
@@ -43,8 +43,8 @@ pub(crate) fn moves_one_way(parameters: &mut [Parameter]) {
     }
 }
 
-/// Flags what shows while the axis slides, where a stroke (m or rad) is shorter than the way of the
-/// bristles from one side to the other, the Coulomb levels over sigma0.
+/// Flags the parameters of sliding where the stroke (m or rad) is shorter than the travel that turns the
+/// bristles from one side to the other, which is the sum of the Coulomb levels divided by sigma0.
 fn stays_in_presliding(stroke: f64, parameters: &mut [Parameter]) {
     let of = |quantity: Quantity, side| {
         let mut known = parameters.iter();

@@ -1,4 +1,4 @@
-//! How sure the unknowns are, with the correlation of the residuals counted.
+//! Uncertainty of the unknowns, with the correlation of the residuals counted.
 //!
 //! The covariance is the sandwich `B S B`: `B` inverts `J^T J`, `S` is the covariance of the sum of
 //! the scores `J_t r_t`. Two estimates of `S` are made, and each unknown gets the larger variance:
@@ -17,21 +17,23 @@ use crate::separable::linear::dot;
 use crate::separable::objective::{Evaluation, Objective};
 use nalgebra::{DMatrix, SymmetricEigen};
 
-/// Eigenvalue of a normal matrix scaled to a unit diagonal, over the largest, that is rounding only.
+/// Eigenvalue of a normal matrix scaled to a unit diagonal, relative to the largest, that is only
+/// rounding error.
 pub(crate) const ROUNDED_EIGENVALUE: f64 = 1e-15;
 
-/// How sure the unknowns `(p, c)` are.
+/// Uncertainty of the unknowns `(p, c)`.
 #[derive(Clone, Debug)]
 pub(crate) struct Unknowns {
     /// Covariance; coefficients held at zero or left out have zero rows.
     pub covariance: DMatrix<f64>,
-    /// Diagonal of the inverse of `J^T J`: the variances over that of white residuals; zero where the
-    /// covariance has a zero row.
+    /// Diagonal of the inverse of `J^T J`: the variances for white residuals of variance 1; zero where
+    /// the covariance has a zero row.
     pub bread: Vec<f64>,
 }
 
-/// A nonlinear unknown at the bound of its search range counts as free here: the bound is ours, not
-/// nature's, and holding it would make the others look surer than the data allow.
+/// A nonlinear unknown at the bound of its search range counts as free here: the bound is a choice of the
+/// program, no physical limit, and holding the unknown would make the others look better known than they
+/// are.
 pub(crate) fn unknowns(objective: &Objective, at: &Evaluation) -> Unknowns {
     let k = at.slopes.len();
     let width = k + at.columns.len();
@@ -93,7 +95,8 @@ pub(crate) fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) 
     Unknowns {
         covariance: DMatrix::from_fn(q, q, |i, j| {
             let known = correction * stationary[(i, j)] * widen[i] * widen[j];
-            // No residual reaches a lost direction, so the scores say nothing of it.
+            // No residual has a component in a direction lost to rounding, so the scores give no variance
+            // for it.
             (known + white * lost[(i, j)]) * scale[i] * scale[j]
         }),
         bread: (0..q)
@@ -102,8 +105,8 @@ pub(crate) fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) 
     }
 }
 
-/// Inverse of a scaled symmetric matrix in which directions that rounding has lost stay huge: they
-/// must come out as unknown, not as zero. Also the part of the inverse that belongs to them.
+/// Inverse of a scaled symmetric matrix. Directions that are lost to rounding keep a huge variance: they
+/// must come out as unknown, not as zero. Also returns the part of the inverse that belongs to them.
 pub(crate) fn inverse(matrix: DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
     let q = matrix.nrows();
     let eigen = SymmetricEigen::new(matrix);
@@ -123,7 +126,7 @@ pub(crate) fn inverse(matrix: DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
     (sum(&|_| true), sum(&|x| x <= floor))
 }
 
-/// `B J_t`, one column of length n per unknown: what a residual does to the unknown.
+/// `B J_t`, one column of length n per unknown: the effect of a residual on the unknown.
 fn weights(jacobian: &[&[f64]], scale: &[f64], bread: &DMatrix<f64>) -> Vec<Vec<f64>> {
     let n = jacobian.first().map_or(0, |column| column.len());
     let mut out = vec![vec![0.0; n]; jacobian.len()];
@@ -141,7 +144,7 @@ fn weights(jacobian: &[&[f64]], scale: &[f64], bread: &DMatrix<f64>) -> Vec<Vec<
     out
 }
 
-/// Samples of all columns that stay in the nearest caches.
+/// Samples of all columns that stay in the fastest CPU caches.
 const CHUNK: usize = 256;
 
 /// A symmetric matrix, each element worked out once.
@@ -206,7 +209,7 @@ pub(crate) fn of_influence(
     })
 }
 
-/// First-order autoregression: its coefficient and what it leaves.
+/// First-order autoregression: its coefficient and the remaining residual.
 fn whiten(mut w: Vec<f64>, breaks: &[usize]) -> (f64, Vec<f64>) {
     // Beyond .97 undoing the whitening would amplify noise more than it removes bias.
     let a = lag_one(&w, breaks).clamp(-0.97, 0.97);
@@ -243,7 +246,7 @@ fn bandwidth(whitened: &[(f64, Vec<f64>)], breaks: &[usize]) -> usize {
             continue;
         }
         let b = lag_one(e, breaks).clamp(-0.97, 0.97);
-        // Each unknown has its own unit, so each counts alike.
+        // Each unknown has its own unit, so all get the same weight.
         above += 4.0 * b * b / ((1.0 - b).powi(6) * (1.0 + b).powi(2));
         below += 1.0 / (1.0 - b).powi(4);
     }
@@ -253,14 +256,14 @@ fn bandwidth(whitened: &[(f64, Vec<f64>)], breaks: &[usize]) -> usize {
     (1.1447 * (above / below * n).cbrt()).ceil() as usize
 }
 
-/// Sums of all windows of `lag` samples, also those that hang over an end.
+/// Sums of all windows of `lag` samples, including those that extend beyond either end.
 fn batch_sums(e: &[f64], lag: usize) -> Vec<f64> {
     let mut out = Vec::with_capacity(e.len() + lag);
     each_batch(e, lag, |sum| out.push(sum));
     out
 }
 
-/// The energy of those sums.
+/// Sum of squares of those window sums.
 fn batch_energy(e: &[f64], lag: usize) -> f64 {
     let mut energy = 0.0;
     each_batch(e, lag, |sum| energy += sum * sum);
@@ -274,7 +277,7 @@ fn each_batch(e: &[f64], lag: usize, mut see: impl FnMut(f64)) {
         see(sum);
     };
     e.iter().take(lag).for_each(|x| add(*x));
-    // The difference first, so that the sum waits for one addition only.
+    // The difference is computed first, so that each step of the running sum waits for one addition only.
     let both = e.iter().skip(lag).zip(e);
     both.for_each(|(x, gone)| add(x - gone));
     let last = e.iter().skip(e.len().saturating_sub(lag));

@@ -1,4 +1,4 @@
-//! How many elements hold on samples that they were not fitted to.
+//! How well different numbers of elements predict samples that they were not fitted to.
 
 use super::ladder::Rung;
 use super::score::ElementsScore;
@@ -13,10 +13,10 @@ use stiction_search::Stage;
 
 /// Contiguous blocks, each left out in turn.
 const HELD_OUT_BLOCKS: usize = 4;
-/// Steps with which a fit settles when a block is left out.
+/// Steps of the refit when a block is left out.
 const REFIT_STEPS: usize = 3;
 
-/// Scores every rung, in the order given.
+/// Computes the scores of every rung (a fit with some number of elements), in the order given.
 pub(super) fn scores(
     record: &Record,
     terms: &Terms,
@@ -39,8 +39,8 @@ pub(super) fn scores(
     out
 }
 
-/// The rung with the fewest elements of those that hold alike; the one with the fewest where nothing
-/// could be held out.
+/// The rung with the fewest elements among those with equal held-out error; the one with the fewest where
+/// nothing could be held out.
 pub(super) fn best(scores: &[ElementsScore]) -> usize {
     let error = |s: &ElementsScore| s.held_out_error_percent;
     let least = scores
@@ -55,7 +55,7 @@ pub(super) fn best(scores: &[ElementsScore]) -> usize {
         .unwrap_or(0)
 }
 
-/// Sum of squares of the residuals of all blocks, each under the fit to the others.
+/// Sum of squares of the residuals of all blocks, each with the fit to the other blocks.
 fn held_out(
     full: &Objective,
     order: &[Option<usize>],

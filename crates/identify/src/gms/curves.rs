@@ -1,4 +1,4 @@
-//! Stribeck curves to start from, without starting values of the elements.
+//! Starting values for the Stribeck curve, without starting values of the elements.
 
 use super::dictionary::{self, Atom};
 use super::ladder::Search;
@@ -22,8 +22,8 @@ const RANGE_BELOW: f64 = 0.3;
 /// And above: the limit at rest may be some times that of a curve that hardly falls.
 const RANGE_ABOVE: f64 = 1.0;
 
-/// Scans the curves of a symmetric law, each with the elements that suit it best; those that leave
-/// least, best first, for the law that is asked for.
+/// Scans the curves of a symmetric law, each with the elements that fit it best. Returns the curves with
+/// the smallest residual, best first, in the unknowns of the law that is asked for.
 pub(super) fn curves(search: &Search, watch: &mut Watch) -> Result<Vec<Vec<f64>>, Error> {
     let law = |elements| Law {
         elements,
@@ -95,7 +95,7 @@ pub(super) fn curves(search: &Search, watch: &mut Watch) -> Result<Vec<Vec<f64>>
     Ok(best.map(|(_, p)| both_ways(p, &from, &to)).collect())
 }
 
-/// A curve that hardly falls, in the middle of the speeds.
+/// A curve with almost no Stribeck effect, in the middle of the speed range.
 fn flat(bounds: &SearchBox, layout: &Layout) -> Vec<f64> {
     (0..layout.count)
         .map(|d| {
@@ -108,7 +108,7 @@ fn flat(bounds: &SearchBox, layout: &Layout) -> Vec<f64> {
         .collect()
 }
 
-/// The yield deflections (logarithms) between which the elements that matter stand.
+/// The range of the yield deflections (logarithms) of the elements that carry a relevant force.
 fn range(atoms: &[Atom]) -> (f64, f64) {
     let total: f64 = atoms.iter().map(|a| a.force).sum();
     atoms
@@ -119,7 +119,7 @@ fn range(atoms: &[Atom]) -> (f64, f64) {
         })
 }
 
-/// A curve of a symmetric law for one that may differ by direction.
+/// A curve of a symmetric law, written for a law that may differ by direction.
 fn both_ways(curve: &[f64], from: &Layout, to: &Layout) -> Vec<f64> {
     let mut out = vec![0.0; to.count];
     let mut copy = |to: Option<usize>, from: Option<usize>| {

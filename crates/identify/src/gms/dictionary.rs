@@ -1,4 +1,4 @@
-//! Where the elements are, without starting values.
+//! Where the elements are (their yield deflections), found without starting values.
 
 use crate::law::{Law, Layout};
 use crate::separable::objective::Evaluation;
@@ -31,8 +31,8 @@ pub(super) fn steps(low: f64, high: f64, many: usize) -> Vec<f64> {
         .collect()
 }
 
-/// The elements to which a trial gives a yield force, by their yield deflection. A force that no
-/// element explains gets one element without force, and the fit says so.
+/// The elements to which a trial gives a yield force, by their yield deflection. If no element explains
+/// the force, one element without force is returned, so that the fit can report this.
 pub(super) fn atoms(law: &Law, p: &[f64], at: &Evaluation) -> Vec<Atom> {
     let places = &p[law.layout().yields()];
     let mut out: Vec<Atom> = places
@@ -52,8 +52,8 @@ pub(super) fn atoms(law: &Law, p: &[f64], at: &Evaluation) -> Vec<Atom> {
     out
 }
 
-/// Joins neighbours until no more than `most` are left; at each turn the pair whose joining moves the
-/// least force over the shortest way.
+/// Joins neighbours until no more than `most` are left; each time the pair is joined that moves the
+/// smallest force over the shortest distance.
 pub(super) fn join(mut atoms: Vec<Atom>, most: usize) -> Vec<Atom> {
     while atoms.len() > most.max(1) {
         let loss = |pair: &[Atom]| {

@@ -1,18 +1,19 @@
 //! What to do where a descent stalls.
 //!
-//! The force is continuous in every unknown, its slope is not: an element that just begins to slip
-//! before a reversal has one slope, one that just does not has another. At such a kink a step by the
-//! slopes of one side may lower nothing although the point is no minimum, or it is one although the
-//! slope is not small.
+//! The force is continuous in every unknown, its derivative is not: an element that just begins to slip
+//! before a reversal has one derivative, one that just does not has another. At such a kink a step that
+//! uses the derivatives of one side may fail to lower the cost although the point is no minimum, or the
+//! point is a minimum although the gradient is not small.
 
 use crate::separable::objective::Objective;
 use crate::separable::search_box::SearchBox;
 use crate::watch::Watch;
 
-/// Steps that are tried, in logarithms: a kink is passed at once or not at all, so decades are enough.
+/// Steps that are tried, in logarithms: a step either passes a kink or does not, so a choice by decades
+/// is fine enough.
 const STEPS_TRIED: [f64; 3] = [1e-4, 1e-3, 1e-2];
-/// Fall of the cost, as a part of it, below which a step has gained nothing; well above the 1e-9 of the
-/// descents, so that it is worth another.
+/// Relative fall of the cost below which a step counts as no gain; well above the 1e-9 of the descents,
+/// so that another descent is worth its cost.
 const LEAST_GAIN: f64 = 1e-7;
 
 /// The best point that lowers the cost by moving one unknown alone, either way; `None` if there is

@@ -1,4 +1,4 @@
-//! What the search for elements and the choice of their number share.
+//! Types shared by the search for elements and the choice of their number.
 
 use crate::conditioning::record::Record;
 use crate::law::Law;

@@ -6,12 +6,12 @@ use crate::parameter::physical::Physical;
 use libm::exp;
 use stiction_parameters::{Name, Quantity, Side};
 
-/// The law's own parameters at the unknowns `p`, `c`: the elements one by one, and what they come to
-/// together. `sigma0` and `static` are sums over the elements and no unknowns of their own.
+/// The law's own parameters at the unknowns `p`, `c`: the elements one by one, and their totals. `sigma0`
+/// and `static` are sums over the elements, not unknowns of their own.
 pub(crate) fn physical(law: &Law, linear: &[LinearTerm], p: &[f64], c: &[f64]) -> Vec<Physical> {
     let layout = law.layout();
     let width = layout.count + c.len();
-    // Nonlinear unknown, linear unknown and yield force of each element.
+    // For each element: index of its nonlinear unknown, index of its linear unknown, and its yield force.
     let elements: Vec<(usize, usize, f64)> = linear
         .iter()
         .enumerate()

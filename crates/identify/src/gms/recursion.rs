@@ -66,8 +66,8 @@ pub(crate) fn trace(
     velocity: &[f64],
     slopes: bool,
 ) -> Vec<Element> {
-    // What all elements share stands first: nothing, the ratio of the directions, the curve of one
-    // direction, or those of both.
+    // The unknowns that all elements share come first: none, the ratio of the directions, the curve of
+    // one direction, or the curves of both.
     match (slopes, law.layout().yields().start) {
         (true, 1) => run::<1>(law, p, step, velocity, slopes),
         (true, 3) => run::<3>(law, p, step, velocity, slopes),
@@ -147,7 +147,7 @@ fn run<const K: usize>(
                 );
                 part.advance(&mut states);
             } else if u != 0.0 || v != 0.0 {
-                // A step that starts or ends at rest belongs to the direction it moves in.
+                // A step that starts or ends at rest counts for the direction in which it moves.
                 let moving = usize::from(u < 0.0 || v < 0.0);
                 if u == 0.0 {
                     turn(&mut states, &mut facing, moving);
@@ -188,11 +188,11 @@ fn turn<const K: usize>(states: &mut [State<K>], facing: &mut usize, side: usize
     }
 }
 
-/// A stretch of one direction: what is common to all elements.
+/// A part of a step with motion in one direction: the values common to all elements.
 struct Part<'a, const K: usize> {
     layout: &'a Layout,
     attraction: f64,
-    /// Its length in time, s.
+    /// Its duration, s.
     time: f64,
     /// Speeds at both ends.
     speed: (f64, f64),
@@ -253,7 +253,7 @@ impl<'a, const K: usize> Part<'a, K> {
     fn advance(&self, states: &mut [State<K>]) {
         let (a, b) = self.speed;
         let path = 0.5 * self.time * (a + b);
-        // Below this no element can meet the limit on the way.
+        // Below this level no element can reach the limit within this part.
         let least = self.from.value.min(self.to.value);
         for state in states {
             if state.slipping {
@@ -298,7 +298,7 @@ impl<'a, const K: usize> Part<'a, K> {
         if root < 0.0 {
             return None;
         }
-        // In this form neither root loses its digits, and a bow of zero gives the line.
+        // This form avoids cancellation for both roots, and a curvature (`bow`) of zero gives the linear case.
         let under = line + root.sqrt();
         let first = -2.0 * gap / under;
         (under > 0.0 && first <= 1.0).then_some(first)
@@ -323,10 +323,11 @@ impl<'a, const K: usize> Part<'a, K> {
         let exponent = (left * (qa + qb)).min(LONGEST_DECAY);
         let e = expm1(-exponent);
         let (ph, ph_slope) = phi(exponent, e);
-        // By how much a later meeting moves the level, the exponent and so the end.
+        // By how much a later meeting changes the level, the exponent and therefore the level at the end.
         let per_level = ph + (self.to.value - level) * ph_slope * left * qa / level;
         let per_time = (self.to.value - level) * ph_slope * (qa + qb);
-        // A grazing meeting has no first order: its time stays.
+        // Where the element only touches the limit (grazing), the meeting time has no first derivative:
+        // it is kept fixed.
         let inverse = if closing > 0.0 { 1.0 / closing } else { 0.0 };
         let time_own = (path - state.own) * inverse;
         for k in 0..K {

@@ -1,4 +1,4 @@
-//! How a number of Maxwell-slip elements does.
+//! How well a law with some number of Maxwell-slip elements fits and predicts.
 
 /// One number of elements that was tried.
 #[derive(Clone, Copy, Debug, PartialEq)]

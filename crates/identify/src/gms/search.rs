@@ -1,4 +1,4 @@
-//! From a dictionary of elements to few of them, and from many of those to fewer.
+//! From a dictionary of many elements to few elements, and then stepwise to fewer.
 
 use super::count::{FEWEST, MOST};
 use super::dictionary::{self, Atom};
@@ -23,21 +23,21 @@ const DICTIONARY_ELEMENTS: usize = 40;
 const SHORT_STEPS: usize = 12;
 /// Relative difference of the costs below which two descents are on the way to one minimum.
 const SAME_MINIMUM_COST: f64 = 2e-3;
-/// Of the others, how many are followed further.
+/// Number of other descents that are followed further.
 const MOST_RIVALS: usize = 3;
-/// Elements above the wanted number from which the way down begins.
+/// The stepwise reduction begins with this many elements more than wanted.
 const ELEMENTS_ABOVE: usize = 3;
 
-/// Steps of a descent on the way down, at most.
+/// Most steps of a descent during the reduction.
 const RUNG_STEPS: usize = 30;
-/// Steps after which a descent on the way is looked at.
+/// Steps between two checks of such a descent.
 const STRIDE_STEPS: usize = 10;
 /// Relative fall of the cost over a stride below which it ends.
 const SETTLED_GAIN: f64 = 1e-5;
 
-/// Times the dictionary is asked again.
+/// Most repetitions of the dictionary solution.
 const MOST_REFILLS: usize = 3;
-/// Relative fall of the cost for which it is asked once more.
+/// Relative fall of the cost that justifies one more repetition.
 const WORTHWHILE_GAIN: f64 = 1e-3;
 
 /// Times a stalled descent is started again.
@@ -46,8 +46,8 @@ const MOST_RESTARTS: usize = 8;
 /// A curve, and elements that suit it.
 type Start = (Vec<f64>, Vec<Atom>);
 
-/// Fits a Maxwell-slip law; without a number of elements, with the number that holds best on blocks
-/// left out. Elements to which the data give no stiffness are dropped.
+/// Fits a Maxwell-slip law. Without a given number of elements it takes the number that best predicts
+/// blocks left out of the fit. Elements to which the data give no stiffness are dropped.
 pub(crate) fn search(
     record: &Record,
     law: Law,
@@ -163,7 +163,7 @@ impl Search<'_> {
         Ok(best.expect("the scan has a point"))
     }
 
-    /// Follows a fit to the end.
+    /// Continues a fit until it converges.
     pub fn finish(&mut self, mut rung: Rung, watch: &mut Watch) -> Result<Optimum, Error> {
         watch.stage = Stage::Fine;
         for _ in 0..MOST_RESTARTS {
@@ -222,8 +222,8 @@ impl Search<'_> {
         )
     }
 
-    /// Asks the dictionary again with the curve of a fit, which may have moved far since, and goes on
-    /// from there while that helps.
+    /// Solves the dictionary again with the curve of a fit, which may have changed much since, and
+    /// continues from there while that lowers the cost.
     fn refill(&mut self, mut rung: Rung, most: usize, watch: &mut Watch) -> Result<Rung, Error> {
         for _ in 0..MOST_REFILLS {
             rung = self.settle(rung, watch)?;
@@ -244,7 +244,8 @@ impl Search<'_> {
         Ok(rung)
     }
 
-    /// The elements that a dictionary has for a curve; `own` are in it besides its equal steps.
+    /// The elements that a dictionary gives for a curve; the yield deflections `own` are added to its
+    /// equal steps.
     fn elements_for(
         &mut self,
         curve: &[f64],
@@ -269,7 +270,7 @@ impl Search<'_> {
     /// Drops elements without force and puts the others in the order of their yield deflections; what
     /// changed by that is fitted again.
     fn settle(&mut self, mut rung: Rung, watch: &mut Watch) -> Result<Rung, Error> {
-        // Each turn loses an element or lowers the cost; the bound is for rounding.
+        // Each pass loses an element or lowers the cost; the limit on passes is there because of rounding.
         for _ in 0..2 * MOST {
             let (curve, atoms) = self.split(&rung);
             let yields = &rung.descent.p[rung.law.layout().yields()];

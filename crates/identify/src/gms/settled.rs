@@ -1,15 +1,15 @@
-//! Samples whose force depends on what was before the recording.
+//! Samples whose force depends on the motion before the recording.
 
 use crate::conditioning::record::{Record, Segment};
 
-/// Part of the range of a stretch that must have been run through for its elements to be settled.
+/// Part of the position range of a stretch that must have been traversed for its elements to be settled.
 const RUN_THROUGH_SHARE: f64 = 0.95;
-/// Part of a stretch that may be lost to it.
+/// Largest part of a stretch that may be left out for this reason.
 const MOST_LOST_SHARE: f64 = 0.5;
 
 impl Record {
-    /// The same record without the start of each stretch, until the position has once run through its
-    /// range (at most half of the stretch).
+    /// The same record without the start of each stretch, until the position has once traversed its range
+    /// (at most half of the stretch).
     ///
     /// What a Maxwell-slip element holds at the start of a recording is not known. It is wiped out by
     /// a motion over twice its yield deflection (Al-Bender, Lampaert and Swevers 2005, section II), so
@@ -35,7 +35,7 @@ impl Record {
     }
 }
 
-/// The first sample at the full rate at which the position has run through its range.
+/// The first sample at the full rate at which the position has traversed its range.
 fn start(segment: &Segment) -> usize {
     let mut at = 0.0_f64;
     let (mut low, mut high) = (0.0_f64, 0.0_f64);

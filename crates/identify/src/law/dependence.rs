@@ -111,7 +111,7 @@ impl Dependence {
         let mean = |channel: &dyn Fn(&Channels) -> &[f64]| {
             let values = record.pick(|s| channel(&s.channels));
             let n = values.len().max(1) as f64;
-            // Divided first, so that no load is too large to be added up.
+            // Divided first, so that the sum of very large loads does not overflow.
             values.iter().map(|x| x / n).sum::<f64>()
         };
         match self {
@@ -163,9 +163,9 @@ impl Factor {
         values.iter().map(|&x| at(x)).collect()
     }
 
-    /// How far the factor reaches in use, at least: what the log spans, but never less than the mean
-    /// load itself and 10 K. A coefficient times this compares with the level it changes; a load that
-    /// only shows its noise would else look well known.
+    /// Range over which the factor is used, at least: what the log spans, but never less than the mean
+    /// load itself and 10 K. A coefficient times this compares with the level it changes. Without this
+    /// minimum a load that shows only its noise would look well known.
     pub fn span(&self, record: &Record) -> f64 {
         let largest = record
             .segments

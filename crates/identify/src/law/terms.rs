@@ -12,7 +12,7 @@ use stiction_parameters::{Name, Quantity, Wave};
 pub struct Terms {
     /// Mass or inertia times acceleration.
     pub mass: Mass,
-    /// A constant force. Beside an asymmetric law without much presliding it cannot be told from the
+    /// A constant force. Beside an asymmetric law without much presliding it cannot be separated from the
     /// difference of the two Coulomb levels.
     pub offset: bool,
     /// Gravity of a rotary axis: `sin q` and `cos q`.
@@ -34,8 +34,8 @@ pub struct Terms {
 pub enum Delay {
     /// One more unknown, up to four samples either way.
     Fitted,
-    /// Known, s; negative where the force stands in the log before its motion, as a command does that
-    /// is held from its sample to the next.
+    /// Known, s; negative where the force is logged before its motion, as for a command that is held from
+    /// its sample to the next.
     Given(f64),
 }
 

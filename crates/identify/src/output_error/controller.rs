@@ -95,7 +95,8 @@ impl Controller {
         self.integral_gain > 0.0
     }
 
-    /// The force to hold for `h` seconds, and which way its derivatives go on.
+    /// The force to hold for `h` seconds, and whether it is limited and the integral stopped, which its
+    /// derivatives need.
     pub(crate) fn force(&self, memory: &mut Memory, h: f64, wanted: Wanted, x: f64) -> Command {
         let speed = (x - memory.last) / h;
         memory.last = x;
@@ -117,7 +118,7 @@ impl Controller {
         }
     }
 
-    /// Derivative of the force for one unknown, given that of the position; moves its memory on.
+    /// Derivative of the force for one unknown, given that of the position; updates the derivative memory.
     #[inline]
     pub(crate) fn slope(&self, memory: &mut Memory, h: f64, command: &Command, dx: f64) -> f64 {
         let error = -self.position_gain * dx - (dx - memory.last) / h;

@@ -10,13 +10,15 @@ use crate::watch::Watch;
 use stiction_search::descent::{self, LeastSquares, Settings, Sums};
 use stiction_search::{Control, Derivatives, Status};
 
-/// Bristle deflection, in units of `Fc/s0`, beyond which no run is started: a bristle comes to `Fs/Fc` by itself.
+/// Largest bristle deflection, in units of `Fc/s0`, at the start of a run: steady sliding itself gives at
+/// most `Fs/Fc`.
 const MOST_DEFLECTION: f64 = 4.0;
-/// Cost, as a part of the energy of what was measured, that is rounding only.
+/// Cost, relative to the energy (sum of squares) of the measured signals, that is only rounding error.
 const EXACT_COST: f64 = 1e-26;
 
-/// Gain, as a part of the cost, that is small: where the law is not that of the axis, valleys go on for hundreds of
-/// steps at less (Coulomb and viscous friction on a LuGre axis: 676 steps for 2 % of the residual).
+/// Relative fall of the cost that counts as small: where the law differs from the axis, a descent can go
+/// on for hundreds of steps with smaller gains (Coulomb and viscous friction on a LuGre axis: 676 steps
+/// for 2 % of the residual).
 const SMALL_GAIN: f64 = 1e-7;
 /// Small gains in a row that end a descent.
 const SMALL_GAINS: usize = 4;
@@ -32,12 +34,13 @@ pub(crate) struct Descent {
     pub history: Vec<(usize, f64)>,
 }
 
-/// The rules of a descent for so many trials. Unknowns are in logarithms and in SI, so nothing is said of the
-/// length of a step.
+/// Settings of a descent of at most `most_trials` trials. The unknowns are partly logarithms and partly
+/// in SI units, so the step length has no limit.
 ///
-/// Damping falls to a third whatever a step kept of its promise, and is relative to the diagonal before the
-/// starts of the runs are eliminated: of nine noisy logs of a known axis all come to its parameters so, eight with the
-/// fall alone, seven with the diagonal alone, six with neither (2026-11-22).
+/// Each accepted step divides the damping by three, however much of the predicted gain it reached, and
+/// the damping is relative to the diagonal before the starts of the runs are eliminated. With both rules
+/// all of nine noisy logs of a known axis converge to its parameters, with the first rule alone eight,
+/// with the second alone seven, with neither six (2026-11-22).
 fn settings(energy: f64, most_trials: usize) -> Settings {
     Settings {
         most_trials,
@@ -89,7 +92,7 @@ pub(crate) fn descend(
     }
 }
 
-/// A problem and where its descent stands.
+/// A problem and the current point of its descent.
 struct Simulated<'a, 'w, 'o> {
     problem: &'a Problem<'a>,
     energy: f64,
@@ -116,7 +119,7 @@ impl Simulated<'_, '_, '_> {
         self.history.push((total, self.relative()));
     }
 
-    /// The point that a trial of the shared unknowns leads to; `None` where it leaves the numbers.
+    /// The point that a trial of the shared unknowns leads to; `None` where it has values that are not finite.
     fn moved(&self, trial: &[f64], damping: f64) -> Option<Point> {
         let own = self
             .now

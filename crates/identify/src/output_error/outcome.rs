@@ -1,4 +1,4 @@
-//! What a fit by simulation gives: parameters with their intervals, signals, and how far off it is.
+//! Result of a fit by simulation: parameters with their intervals, signals, and the size of the error.
 
 use crate::error::Error;
 use crate::estimate::advice;
@@ -197,7 +197,7 @@ pub fn simulate_unseen(recordings: &[Recording], fitted: &SimulationFit) -> Resu
     })
 }
 
-/// The search refuses what does not move; what is left is a residual too large to square.
+/// The search refuses an axis that does not move; the remaining case is a residual too large to square.
 fn boundless(signals: &Signals) -> Fit {
     Fit {
         rmse: f64::MAX,
@@ -337,8 +337,8 @@ fn signals(problem: &Problem, at: &Point) -> Signals {
 /// Covariance of the shared unknowns with the starts of the runs unknown too, and which of them have no
 /// effect at all.
 ///
-/// The influence of a sample on an unknown is summed over its channels, so that position and force of one
-/// instant, which err together, are not counted as two.
+/// The influence of a sample on an unknown is summed over its channels, so that the errors of position
+/// and force at one instant, which are correlated, are not counted as two independent ones.
 fn covariance(problem: &Problem, at: &Point, held: &[bool]) -> (DMatrix<f64>, Vec<bool>) {
     let count = problem.layout.len();
     let equations = problem.equations(at);
@@ -370,7 +370,7 @@ fn covariance(problem: &Problem, at: &Point, held: &[bool]) -> (DMatrix<f64>, Ve
         if samples > 0 {
             breaks.push(samples);
         }
-        // What is left of a shared unknown once the start of its run has followed it.
+        // The remaining effect of a shared unknown after the start of its run has been adjusted to it.
         let own = &part.mixed * part.inverse(0.0);
         simulate_with_slopes(
             &axis,

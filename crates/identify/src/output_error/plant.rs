@@ -2,9 +2,9 @@
 //!
 //! This is the implicit-midpoint step MID of `stiction_servo::plant` with a force that is constant
 //! over the step, differentiated by the implicit function theorem: the derivatives are those of the
-//! computed step itself, not of the differential equation behind it. The mean force is that of the
-//! mean of both ends, without the servo crate's correction, whose derivatives would cost more than
-//! the smaller steps that do as well. The servo crate is the oracle it is tested against.
+//! computed step itself, not of the differential equation behind it. The mean force is computed from the
+//! mean of the states at both ends, without the correction of the servo crate: its derivatives would cost
+//! more than smaller steps of the same accuracy. The servo crate is the reference it is tested against.
 
 use libm::{cos, exp, expm1, fabs, pow, sin};
 use stiction_friction::LuGre;
@@ -146,7 +146,8 @@ impl Axis {
         self.sides[0].fixed.max(self.sides[1].fixed) / self.stiffness
     }
 
-    /// The LuGre law of the axis without viscous friction and offset; `None` where its numbers make none.
+    /// The LuGre law of the axis without viscous friction and offset; `None` where its values are invalid
+    /// for a law.
     pub fn dry_law(&self) -> Option<LuGre<f64>> {
         let mut set = ParameterSet::of(
             LawKind::LuGre,
@@ -186,7 +187,7 @@ impl Axis {
             (exp(-power), power)
         };
         let level = curve.coulomb + drop * fall;
-        // At rest and below an exponent of one the slope is infinite; there the step does not need it.
+        // At rest with an exponent below one the derivative is infinite; the step does not need it there.
         let level_slope = if fall == 0.0 || speed == 0.0 {
             0.0
         } else {
@@ -250,10 +251,10 @@ impl Axis {
         let waves: f64 = self.waves.iter().map(|w| fabs(w.factor)).sum();
         let bristle = self.stiffness * bound + self.micro_damping * 2.0 * bound / h + waves;
         let free = (inertia * from.v + force - self.offset) / inertia;
-        // The small share keeps rounding from shutting the solution out.
+        // The small extra share keeps rounding from excluding the solution from the bracket.
         let reach = 1.01 * bristle / inertia + 1e-6 * (fabs(free) + fabs(from.v));
         let (mut low, mut high) = (free.min(0.0) - reach, free.max(0.0) + reach);
-        // Below this a velocity is standstill.
+        // A velocity below this is standstill.
         let negligible = 1e-12 * self.sides[0].velocity.min(1.0);
         let mut w = from.v.max(low).min(high);
         let mut last_move = high - low;
@@ -266,7 +267,7 @@ impl Axis {
             }
             let newton = w - excess / slope;
             let moves = fabs(newton - w);
-            // Newton converges quadratically: after a move of 1e-8 what remains is rounding.
+            // Newton converges quadratically: after a relative change of 1e-8 the remaining error is rounding.
             if moves <= 1e-8 * fabs(w) + negligible {
                 w = newton;
                 break;

@@ -1,4 +1,4 @@
-//! Cost and normal equations of a trial, the unknowns of each run taken apart from the shared ones.
+//! Cost and normal equations of a trial, with the unknowns of each run kept separate from the shared ones.
 
 use crate::output_error::plant::Axis;
 use crate::output_error::run::Run;
@@ -7,7 +7,7 @@ use crate::output_error::unknowns::Layout;
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 use stiction_search::Derivatives;
 
-/// Runs, what is sought, and how residuals count.
+/// Runs, unknowns, and the weights of the residuals.
 #[derive(Clone, Debug)]
 pub(crate) struct Problem<'a> {
     pub runs: &'a [Run],
@@ -15,7 +15,7 @@ pub(crate) struct Problem<'a> {
     /// What is given, and where the search starts.
     pub base: Axis,
     pub drive: Drive<'a>,
-    /// What one unit of position residual and of force residual is worth; force only in closed loop.
+    /// Weights of the position residual and of the force residual; force only in closed loop.
     pub weights: [f64; 2],
 }
 
@@ -45,7 +45,8 @@ pub(crate) struct Equations {
 }
 
 impl Problem<'_> {
-    /// Sum of squares of the weighted residuals; infinite where the simulation leaves the numbers.
+    /// Sum of squares of the weighted residuals; infinite where the simulation gives values that are not
+    /// finite.
     pub fn cost(&self, at: &Point) -> f64 {
         let axis = self.layout.write(&self.base, &at.q);
         let [wx, wf] = self.weights;
@@ -130,7 +131,7 @@ impl Problem<'_> {
         out
     }
 
-    /// Sum of squares of what was measured, weighted alike: what a cost is compared with.
+    /// Sum of squares of the measured signals with the same weights: the reference for a cost.
     pub fn energy(&self) -> f64 {
         let mut energy = 0.0;
         for run in self.runs {
@@ -200,7 +201,7 @@ impl OwnPart {
         });
         let mut unit = Matrix4::from_fn(|i, j| self.own[(i, j)] * scale[i] * scale[j]);
         for i in 0..LOCALS {
-            // A unit diagonal, and a hair above it: two unknowns of a start can do the same.
+            // A unit diagonal, and slightly more than one: two unknowns of a start can have the same effect.
             unit[(i, i)] = 1.0 + 1e-12;
         }
         let inverse = unit.cholesky().map_or_else(Matrix4::zeros, |c| c.inverse());
@@ -209,8 +210,8 @@ impl OwnPart {
 }
 
 impl Equations {
-    /// Equations of the shared unknowns alone, those of the runs eliminated with this damping, and the fall of
-    /// the cost that those of the runs promise by themselves.
+    /// Equations of the shared unknowns alone, those of the runs eliminated with this damping, and the
+    /// fall of the cost that the unknowns of the runs predict by themselves.
     pub fn reduced(&self, damping: f64) -> (Derivatives, f64) {
         let mut matrix = self.shared.clone();
         let mut rhs = self.descent.clone();

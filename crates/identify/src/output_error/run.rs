@@ -7,7 +7,7 @@ use crate::conditioning::{median_step, stretches};
 use crate::error::Error;
 use crate::output_error::controller::{Controller, Wanted};
 
-/// How the logged force stands to the instants of the samples.
+/// How the logged force relates in time to the instants of the samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Hold {
     /// The force of a sample holds from its instant to the next, as a drive logs its command.
@@ -50,7 +50,7 @@ const MOST_RUNS: usize = 20_000;
 /// Fewest samples of a stretch.
 const FEWEST_SAMPLES: usize = 10;
 
-/// What became of the samples of recordings that no run keeps, given how many runs hold and keep.
+/// Why samples of recordings are in no run, given how many samples the runs hold and keep.
 pub(crate) fn losses(recordings: &[Recording], held: usize, kept: usize) -> Losses {
     let logged = recordings.iter().map(|r| r.samples.time.len()).sum();
     Losses {
@@ -135,7 +135,8 @@ pub(crate) fn runs(
                 keep: grid.keep(valid),
             };
             let length = match (controller, segment) {
-                // A controller keeps the axis where it was; its memory must not be cut.
+                // The controller keeps the axis on its reference, so long runs do not drift; and its
+                // memory must not be cut.
                 (Some(_), _) | (_, None) => whole.time.len(),
                 (None, Some(s)) => (s / step).clamp(FEWEST_SAMPLES as f64, 1e9) as usize,
             };

@@ -35,8 +35,8 @@ impl Drive<'_> {
     }
 }
 
-/// What one instant looks like: simulated position, velocity and force, with the derivatives of
-/// position and force in each unknown, those of the run last; force only in closed loop.
+/// Values at one instant: simulated position, velocity and force, with the derivatives of position and
+/// force in each unknown, those of the run last; force only in closed loop.
 pub(crate) struct Instant<'a> {
     pub state: State,
     pub force: f64,
@@ -106,7 +106,7 @@ pub(crate) fn simulate_with_slopes(
     let mut memory = memory(initial, control);
     let mut slopes = start_slopes(axis, layout, initial);
     let mut memories = [Memory::default(); MOST];
-    // The position before the first instant is one control period of the first velocity away.
+    // The position one control period before the first instant follows from the initial velocity.
     memories[shared].last = 1.0;
     memories[shared + 1].last = -control;
     memories[shared + 3].integral = 1.0;
@@ -211,7 +211,7 @@ fn periods(run: &Run) -> usize {
     (run.wanted.len() / run.time.len().max(1)).max(1)
 }
 
-/// The force that stands in the log for an instant, given the one held before it.
+/// The force that the log shows for an instant, given the one held before it.
 fn mean_with(before: Option<f64>, force: f64, hold: Hold) -> f64 {
     match (hold, before) {
         (Hold::Centred, Some(before)) => 0.5 * (before + force),
@@ -251,7 +251,7 @@ fn start_slopes(axis: &Axis, layout: &Layout, initial: &Initial) -> [[f64; 3]; M
     slopes
 }
 
-/// Where the derivative of each shared unknown stands in that of a step, and for which direction.
+/// Index of the derivative of each shared unknown among the derivatives of a step, and its direction.
 fn places(layout: &Layout) -> Vec<(usize, Side)> {
     layout
         .unknowns

@@ -1,4 +1,4 @@
-//! Where the search starts and how far it may go, from what the runs show.
+//! Where the search starts and how far it may go, from the size of the measured signals.
 
 use crate::estimate::Estimate;
 use crate::law::terms::{Mass, Terms};
@@ -11,7 +11,7 @@ use crate::output_error::unknowns::{Layout, Unknown};
 use crate::separable::search_box::SearchBox;
 use stiction_parameters::{Name, Quantity, Side};
 
-/// Sizes of what the runs show, SI.
+/// Sizes of the signals of the runs, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Scale {
     /// Longest way within one run.
@@ -166,8 +166,8 @@ pub(crate) fn guesses(law: &Law, terms: &Terms, layout: &Layout, scale: &Scale) 
     out
 }
 
-/// An axis that slides as it should, with bristles of every length, damping and Stribeck velocity that
-/// the runs can show.
+/// A given axis with correct sliding friction, combined with bristles of every length, damping and
+/// Stribeck velocity that the runs can show.
 pub(crate) fn with_bristles(axis: &Axis, law: &Law, scale: &Scale) -> Vec<Axis> {
     let level = axis.sides[0].coulomb;
     let mut out = Vec::new();
@@ -212,8 +212,8 @@ fn waves(layout: &Layout, factor: impl Fn(Name) -> f64) -> Vec<Wave> {
         .collect()
 }
 
-/// What a law without a bristle of its own (or one that the data left at zero) is simulated with: as
-/// stiff as the step can follow or the encoder can tell, and damped.
+/// Bristle parameters for simulating a law without a bristle of its own (or with one that the data left
+/// at zero): as stiff as the step can follow or the encoder can resolve, and damped.
 fn complete(axis: &mut Axis, law: &Law, scale: &Scale) {
     let level = axis.sides[0].coulomb.min(axis.sides[1].coulomb);
     let followed = axis.mass / (scale.step * scale.step);
@@ -256,8 +256,8 @@ pub(crate) fn bounds(layout: &Layout, axis: &Axis, scale: &Scale) -> SearchBox {
     SearchBox::between(low, high)
 }
 
-/// Where each run starts if nothing better is known: where it was measured, the bristle undeflected, an
-/// integral that makes the first force.
+/// Where each run starts if nothing better is known: at the measured position, the bristle undeflected,
+/// the integral such that it gives the first force.
 pub(crate) fn rest(runs: &[Run], controller: Option<&Controller>) -> Vec<Initial> {
     let has_integral = controller.is_some_and(Controller::has_integral);
     runs.iter()

@@ -123,7 +123,7 @@ fn a_force_is_that_of_the_servo_cascade() {
         let ours = controller.force(&mut mine, h, wanted, x);
         limited += usize::from(ours.is_limited);
         let force = cascade.force(&mut theirs, h, reference, x);
-        // The sums are ordered differently: rounding, and nothing that adds up.
+        // The sums are added in another order: the difference is rounding and does not accumulate.
         assert!(
             (ours.force - force).abs() < 1e-10,
             "{k}: {} {force}",
@@ -158,8 +158,8 @@ fn run(n: usize, periods: usize, closed: bool) -> Run {
 }
 
 /// Every derivative of position and force against central differences of the simulation itself.
-/// Three lengths of the difference: a long one can reach across a reversal, where there is a kink, and a
-/// short one loses digits.
+/// Differences of three step lengths: a long one can reach across a reversal, where the derivative jumps,
+/// and a short one loses digits.
 #[test]
 fn derivatives_agree_with_differences() {
     let pi = Controller {
@@ -168,8 +168,8 @@ fn derivatives_agree_with_differences() {
         integral_gain: 9000.0,
         velocity_feedforward: 0.7,
         mass_feedforward: 6.0,
-        // An integral that is stopped at the limit jumps with the sample at which it is stopped, and no
-        // derivative sees a jump; a force that is cut off does not jump.
+        // An integral that is stopped at the limit jumps with the sample at which it is stopped, which no
+        // derivative shows; a force that is only limited does not jump.
         force_limit: f64::INFINITY,
         rate: Some(1000.0),
     };

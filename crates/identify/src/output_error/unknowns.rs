@@ -1,4 +1,4 @@
-//! What is sought: the parameters of the law and of the axis, common to all runs.
+//! The unknowns: the parameters of the law and of the axis, common to all runs.
 //!
 //! What is positive by nature enters as its logarithm, so no step of the search can make it negative.
 
@@ -17,7 +17,7 @@ pub(crate) enum Unknown {
     MicroDamping,
     /// `s2`, not negative.
     Viscous(Side),
-    /// `ln Fc`; Fs goes with it.
+    /// `ln Fc`; Fs changes in proportion.
     Coulomb(Side),
     /// `ln (Fs/Fc - 1)`.
     Excess(Side),
@@ -115,7 +115,7 @@ impl Layout {
             Side::Positive => 0..1,
             Side::Negative => 1..2,
         };
-        // The Coulomb level stands before the excess in the vector, so Fs sees the new one.
+        // The Coulomb level comes before the excess in the vector, so Fs uses the new level.
         for (unknown, &x) in self.unknowns.iter().zip(q) {
             match *unknown {
                 Unknown::Stiffness => axis.stiffness = libm::exp(x),

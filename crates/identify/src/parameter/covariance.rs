@@ -1,4 +1,4 @@
-//! How the errors of parameters hang together.
+//! Covariance and correlation of the errors of parameters.
 
 use nalgebra::DMatrix;
 use stiction_parameters::Name;
@@ -13,7 +13,7 @@ pub struct Covariance {
 }
 
 impl Covariance {
-    /// That of named parameters.
+    /// The covariance matrix of the named parameters.
     pub(crate) fn new(names: Vec<Name>, matrix: &DMatrix<f64>) -> Self {
         let row = |i: usize| (0..names.len()).map(|j| matrix[(i, j)]).collect();
         Self {

@@ -1,4 +1,4 @@
-//! A static map and a step fit in the form of any fitted law, so that what reads one reads all.
+//! A static map and a step fit in the form of any fitted law, so that the same code can read all of them.
 
 use super::static_map::StaticMap;
 use super::step_fit::{StepFit, StepSettings};

@@ -3,11 +3,11 @@
 //! It is no point of the static map: the faster the force rises, the lower it is (Canudas de Wit et
 //! al. 1995, doi 10.1109/9.376053, section III.C).
 //!
-//! **Criterion.** In presliding the axis moves too, and ever faster. It has broken away at the last
-//! instant at which it was slower than a threshold before it goes on for good. The threshold is the
+//! **Criterion.** In presliding the axis moves too, and ever faster. The instant of break-away is the
+//! last one at which the axis was slower than a threshold, before it stays faster. The threshold is the
 //! given speed (a third of vs where a model is known), but never below what the position resolves: five
-//! of its steps, or of its noise at rest, within a hundredth of the ramp. The force is that of the ramp
-//! at that instant.
+//! of its steps, or of the standard deviation of its noise at rest, within a hundredth of the ramp. The
+//! force is that of the ramp at that instant.
 
 use super::moments::Moments;
 use super::stretch::Run;
@@ -18,7 +18,7 @@ use stiction_servo::plant::{Load, Motion, Plant};
 const FEWEST_SAMPLES: usize = 50;
 /// Share of the ramp over which the velocity is taken.
 const WINDOW_SHARE: f64 = 0.01;
-/// Steps of the position (or deviations of its noise) within the window that stand out.
+/// Number of steps of the position (or deviations of its noise) within the window that count as clear motion.
 const CLEAR_MOTION: f64 = 5.0;
 /// Where no threshold is given: share of the top speed on the ramp.
 const THRESHOLD_SHARE: f64 = 1e-3;
@@ -74,7 +74,7 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
         .max_by(|&a, &b| force[a].abs().total_cmp(&force[b].abs()))
         .unwrap_or(0);
     let sign = force[top].signum();
-    // The ramp begins where the force leaves the twentieth of its end for the last time.
+    // The ramp begins where the force rises above a twentieth of its final value for the last time.
     let start = (0..top)
         .rposition(|i| force[i] * sign <= 0.05 * force[top].abs())
         .unwrap_or(0);
@@ -87,7 +87,7 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
     let rest = &position[start.saturating_sub(window)..start + window];
     let low = rest.iter().copied().fold(f64::INFINITY, f64::min);
     let high = rest.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    // A position that hardly moves at the start shows its noise there.
+    // The position hardly moves at the start, so its range there shows its noise.
     let noise = run.resolution.unwrap_or((high - low) / 4.0);
     let speed = |i: usize| sign * moved.slope(i - window / 2, i - window / 2 + window);
     let range = (start + window)..(top.saturating_sub(window));
@@ -113,7 +113,7 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
             "the axis does not go on moving until the end of the ramp",
         ));
     }
-    // Between the two samples around the threshold.
+    // Linear interpolation between the two samples around the threshold.
     let (a, b) = (speed(i), speed(i + 1));
     let share = ((threshold - a) / (b - a)).clamp(0.0, 1.0);
     let instant = time[i] + share * (time[i + 1] - time[i]);
@@ -146,7 +146,7 @@ pub fn predict_break_away(plant: &Plant, rate: f64, threshold: f64) -> Option<Pr
     let law = plant.law();
     let level = law.curve().static_level(1.0);
     let natural = (plant.mass() / law.stiffness()).sqrt();
-    // To twice the static level and then some, for what inertia and viscosity add.
+    // Up to more than twice the static level, because inertia and viscous friction add to the force.
     let whole = 3.0 * level / rate + 100.0 * natural;
     let h = (0.02 * natural).max(whole / MOST_STEPS);
     if !(rate > 0.0 && threshold > 0.0 && h.is_finite() && h < natural) {
@@ -178,7 +178,7 @@ pub fn predict_break_away(plant: &Plant, rate: f64, threshold: f64) -> Option<Pr
             break;
         }
     }
-    // Overdamped, friction has no maximum: what it has at the threshold is all there is.
+    // If overdamped, friction has no maximum: its value at the threshold is taken.
     crossed.map(|force| Predicted {
         force,
         friction: peak.unwrap_or(friction),

@@ -84,7 +84,8 @@ pub fn dynamic(
     p[held.kappa] = best;
     let solved = held.solve(best);
     let c = held.whole(&solved);
-    // The evaluation at the joint optimum's place in memory, with the coefficients that are held.
+    // An evaluation of the usual form, filled with the results of this search and the coefficients that
+    // are held.
     let mut evaluation = held.objective.evaluate(&p, false);
     evaluation.cost = solved.cost;
     evaluation.solution.residual = solved.residual.clone();
@@ -131,7 +132,7 @@ impl Held<'_> {
         self.objective.parts(p, &vec![1.0; self.c.len()])
     }
 
-    /// What is free and linear, for one ln kappa.
+    /// Solves the free linear unknowns for one ln kappa.
     fn solve(&self, kappa: f64) -> Solution {
         let mut p = self.p.clone();
         p[self.kappa] = kappa;
@@ -240,7 +241,7 @@ impl Held<'_> {
         out
     }
 
-    /// Puts the parameters with their uncertainty in place of those of a joint fit.
+    /// Replaces the parameters of a joint fit by these, with their uncertainty.
     fn describe(
         &self,
         p: &[f64],
@@ -297,8 +298,8 @@ impl Held<'_> {
         out.covariance = Covariance::new(raw.iter().map(|r| r.name).collect(), &matrix);
     }
 
-    /// Covariance of `(p, c)`: that of the curve, that of the record, and what the first does to the
-    /// free unknowns.
+    /// Covariance of `(p, c)`: that of the curve, that of the record, and the effect of the curve's
+    /// errors on the free unknowns.
     fn covariance(&self, p: &[f64], c: &[f64], solved: &Solution) -> DMatrix<f64> {
         let k = p.len();
         let jacobian = self.jacobian(p, c);
@@ -318,7 +319,7 @@ impl Held<'_> {
         let known = &self.statics.covariance.matrix;
         let known = DMatrix::from_fn(known.len(), known.len(), |i, j| known[i][j]);
         let curve = &slopes * known * slopes.transpose();
-        // How the free unknowns answer to the curve: -(Jf^T Jf)^-1 Jf^T Js.
+        // Change of the free unknowns with those of the curve: -(Jf^T Jf)^-1 Jf^T Js.
         let scale: Vec<f64> = columns
             .iter()
             .map(|c| 1.0 / dot(c, c).sqrt().max(f64::MIN_POSITIVE))

@@ -1,14 +1,14 @@
-//! The level of a force that is held constant, and how well its samples tell it.
+//! The level of a force that is held constant, and how precisely its samples determine it.
 //!
-//! A step response is as stiff, as damped and as heavy as the step is high: an error of the level moves
-//! sigma0, sigma1 and the mass together, and no residual shows it.
+//! The identified stiffness, damping and mass are proportional to the height of the step: an error of the
+//! level scales sigma0, sigma1 and the mass together, and no residual shows it.
 
 use std::ops::Range;
 use stiction_signal::effective_sample_size;
 
-/// Samples that are known to be held, from which the rest is found.
+/// Number of samples known to be at the held level, from which the extent of the level is found.
 pub(super) const BLOCK: usize = 50;
-/// How far a block may be off the level of those beside it, in standard errors.
+/// How far the mean of a block may differ from the level of its neighbours, in standard errors.
 const MOST_BLOCK_OFFSET: f64 = 4.0;
 /// The same for a force without noise, relative: rounding.
 const ROUNDED_LEVEL: f64 = 1e-12;
@@ -35,8 +35,9 @@ impl Level {
         }
     }
 
-    /// The level that `within` holds at the block that ends at `end`: over as many whole blocks to
-    /// either side of that one as do not leave it. A slow drift ends it sooner or later.
+    /// The level that `within` holds at the block that ends at `end`: the mean over that block and all
+    /// adjoining whole blocks to either side, until one differs from the level. A slow drift ends it too,
+    /// after some blocks.
     pub(super) fn held(force: &[f64], within: Range<usize>, end: usize) -> Self {
         let block = BLOCK.min(end - within.start);
         let mut held = end - block..end;
@@ -83,7 +84,7 @@ mod tests {
             for (within, end, truth) in [
                 (0..200, 200, 0.0),
                 (0..400, 400, 5.0),
-                // Off the grid of the levels: a block that only touches another level is left out.
+                // Not aligned to the blocks: a block that contains samples of another level is left out.
                 (0..390, 390, 5.0),
                 (200..600, 340, 5.0),
                 (410..600, 520, 1.0),
@@ -105,8 +106,8 @@ mod tests {
         assert!(found.mean > 1.8, "{found:?}");
     }
 
-    /// Of n independent samples of variance 1 the standard error is `1/sqrt n`; each of them four
-    /// times tells no more.
+    /// For n independent samples of variance 1 the standard error is `1/sqrt n`; repeating each of them
+    /// four times adds no information.
     #[test]
     fn the_error_is_that_of_independent_samples() {
         let mut state = 1_u64;

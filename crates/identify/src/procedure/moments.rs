@@ -11,7 +11,7 @@ pub(super) struct Moments {
 impl Moments {
     /// Sums of `signal` over `time`, both of one length.
     pub fn new(time: &[f64], signal: &[f64]) -> Self {
-        // Taken from the middle, so that squares keep their digits.
+        // Time is counted from the middle sample, so that its squares lose no digits.
         let at = time.len() / 2;
         let (middle, level) = (
             time.get(at).copied().unwrap_or(0.0),

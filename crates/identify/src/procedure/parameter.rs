@@ -25,8 +25,8 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// The parameter; `level` is the Coulomb level, the measure of what may be zero, `quantile` that
-    /// of the 95 % interval in deviations.
+    /// The parameter; `level` is the Coulomb level, with which a parameter that may be zero is compared,
+    /// `quantile` the half-width of the 95 % interval in standard deviations.
     pub fn parameter(self, level: f64, quantile: f64) -> Parameter {
         let mut reason = self.reason.to_string();
         // Positive by nature, so its interval is log-normal.

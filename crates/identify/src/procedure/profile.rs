@@ -91,7 +91,7 @@ impl Block {
         })
     }
 
-    /// The least absolute residual over all vs, for a first look at the scatter.
+    /// The fit of least absolute residuals over all vs, for a first estimate of the scatter.
     pub fn rough(&self, exponent: f64) -> Solved {
         let mut grid = self.grid(exponent);
         let best = (0..grid.len()).min_by(|&a, &b| grid[a].1.cost.total_cmp(&grid[b].1.cost));
@@ -116,7 +116,7 @@ impl Block {
             .collect()
     }
 
-    /// The least Tukey loss over all vs: the minima of the grid followed, the best of them taken.
+    /// The fit of least Tukey loss over all vs: the minima of the grid are followed and the best is taken.
     pub fn best(&self, exponent: f64, scale: f64) -> Best {
         let grid = self.grid(exponent);
         let Some((low, high)) = self.range else {
@@ -200,7 +200,7 @@ pub(super) fn best_exponent(blocks: &[Block], scale: f64) -> f64 {
 
 /// Least of a function with one minimum between two ends, by golden section.
 pub(super) fn golden(ends: (f64, f64), width: f64, f: impl Fn(f64) -> f64) -> f64 {
-    /// (√5 - 1)/2: of the two points inside the bracket one serves again in the next.
+    /// (√5 - 1)/2: of the two points inside the bracket one is used again in the next bracket.
     const GOLDEN_SECTION: f64 = 0.618_033_988_749_894_9;
     let (mut a, mut b) = ends;
     let (mut c, mut d) = (b - GOLDEN_SECTION * (b - a), a + GOLDEN_SECTION * (b - a));
@@ -216,7 +216,7 @@ pub(super) fn golden(ends: (f64, f64), width: f64, f: impl Fn(f64) -> f64) -> f6
             fd = f(d);
         }
     }
-    // An end may be the least where the function falls up to it.
+    // The minimum may be at an end of the bracket, where the function falls towards it.
     [a, 0.5 * (a + b), b]
         .into_iter()
         .min_by(|x, y| f(*x).total_cmp(&f(*y)))

@@ -1,4 +1,4 @@
-//! Weighted linear least squares that outliers cannot pull: first least absolute, then Tukey's loss.
+//! Weighted linear least squares that is robust to outliers: first least absolute residuals, then Tukey's loss.
 
 use crate::separable::linear;
 
@@ -30,7 +30,7 @@ pub(super) struct Solved {
 }
 
 impl Rows<'_> {
-    /// Least sum of absolute residuals in units of the deviations, rounded off below one of them.
+    /// Least sum of absolute residuals in units of the deviations, with a quadratic loss below one of them.
     pub fn absolute(&self, rounds: usize) -> Solved {
         let weight = |u: f64| 1.0 / u.abs().max(1.0);
         let cost = |u: f64| {

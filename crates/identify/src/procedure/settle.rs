@@ -1,4 +1,4 @@
-//! Where a force that has just been disturbed has settled.
+//! From which sample on a force has settled after a disturbance.
 
 /// Samples to drop at the start of a signal that settles to a mean: the marginal standard error rule
 /// (White 1997, doi 10.1177/003754979706900601) on batches of at least five samples.
@@ -8,7 +8,7 @@
 /// middle: then the signal has not settled.
 pub(super) fn transient(signal: &[f64]) -> Option<usize> {
     let n = signal.len();
-    // More than some hundred batches would not place the end of a transient any better.
+    // More than some hundred batches would not locate the end of a transient any better.
     let batch = (n / 200).max(5);
     let means: Vec<f64> = signal
         .chunks_exact(batch)
@@ -55,7 +55,7 @@ mod tests {
             .map(|i| 5.0 + 4.0 * (-(i as f64) / 40.0).exp() + 0.1 * noise(i))
             .collect();
         let dropped = transient(&settling).unwrap();
-        // After 3 time constants .2 is left of 4, after 7 nothing to speak of.
+        // After 3 time constants .2 of the initial 4 is left, after 7 a negligible amount.
         assert!((100..400).contains(&dropped), "{dropped}");
     }
 

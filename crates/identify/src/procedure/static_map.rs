@@ -19,17 +19,17 @@ use crate::parameter::covariance::Covariance;
 use nalgebra::{DMatrix, SymmetricEigen};
 use stiction_parameters::{Name, Quantity, Side};
 
-/// No force channel resolves more than this part of its range; noise-free points would otherwise
-/// determine what no measurement could.
+/// Smallest assumed resolution of a force, relative to its range. Without it noise-free points would give
+/// parameters with a certainty that no measurement can reach.
 const FORCE_RESOLUTION: f64 = 1e-6;
-/// The Stribeck velocity is looked for from this share of the slowest speed to the top speed: at the
-/// slowest speed nothing is left of the rise of a lower one.
+/// The Stribeck velocity is searched from this share of the slowest speed up to the top speed: with a
+/// lower Stribeck velocity the exponential is practically zero at the slowest speed already.
 const LEAST_VELOCITY_SHARE: f64 = 0.2;
 /// Rise of static friction, as a part of the Coulomb level, below which the curve has no rise. It
 /// also stands for no rise where a logarithm is needed; it is far below any rise that a log determines.
 pub(super) const LEAST_RISE: f64 = 1e-9;
-/// Deviations by which the loss must rise towards either end of the range of vs for it to count as
-/// bounded: somewhere on a whole grid noise alone does better than two or three.
+/// How far, in standard deviations, the loss must rise towards either end of the range of vs for vs to
+/// count as bounded: somewhere on a whole grid noise alone reaches two or three.
 const BOUNDED_RISE: f64 = 3.5;
 
 /// The Stribeck exponent.
@@ -392,7 +392,7 @@ impl Fitted<'_> {
                 .collect()
         };
         let power = |v: f64| libm::pow(v / best.velocity, delta);
-        // A vanished rest of the rise has vanished slopes; computing them would be 0 times infinity.
+        // Where the exponential has become zero its slopes are zero; computing them would be 0 times infinity.
         let unless_gone = |w: f64, x: f64| if w == 0.0 { 0.0 } else { w * x };
         out.push(over(&|_, w| w));
         out.push(over(&|v, w| rise * unless_gone(w, delta * power(v))));
@@ -503,7 +503,7 @@ impl Fitted<'_> {
     }
 }
 
-/// Inverse of a symmetric matrix in which directions that rounding has lost come out as unknown.
+/// Inverse of a symmetric matrix in which directions lost to rounding come out as unknown.
 fn inverse(gram: DMatrix<f64>) -> DMatrix<f64> {
     let n = gram.nrows();
     let scale: Vec<f64> = (0..n)

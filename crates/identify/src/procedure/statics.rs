@@ -1,4 +1,4 @@
-//! The steady curve as a procedure takes it over: from a static map, or from an earlier model.
+//! The steady curve that a procedure takes as known: from a static map, or from an earlier model.
 
 use super::static_map::{LEAST_RISE, StaticMap};
 use crate::error::Error;

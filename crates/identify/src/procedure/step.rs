@@ -1,4 +1,4 @@
-//! A force step below break-away: where it begins, where the axis goes, and the published inversion.
+//! A force step below break-away: reading the step response off a log, and the published inversion.
 //!
 //! In presliding the bristle is a spring and the axis a second-order system (Zhang et al. 2025,
 //! doi 10.1371/journal.pone.0322844, eqs. 26-34):
@@ -6,8 +6,8 @@
 //! ```text
 //! sigma0 = u/x_ss,   zeta = -ln Mp / sqrt(pi^2 + ln^2 Mp),   sigma1 = 2 zeta sqrt(sigma0 M) - sigma2
 //! ```
-//! with the step u, the displacement x_ss it settles at and the overshoot Mp. It takes the bristles
-//! for linear, and they slip already: see `step_fit` for what that costs and the way around it.
+//! with the step u, the displacement x_ss it settles at and the overshoot Mp. It assumes linear bristles,
+//! but they already slip: see `step_fit` for the resulting error and how it is avoided.
 
 use super::level::{BLOCK, Level};
 use super::stretch::Run;
@@ -98,7 +98,7 @@ impl StepResponse {
             return Err(none("fewer than 30 samples before the force changes again"));
         }
         let start = onset.saturating_sub(BLOCK);
-        // From the middle: either end may be on the way from or to another level.
+        // From the middle: the samples at either end may belong to the transition from or to another level.
         let middle = (onset + BLOCK).max((onset + end) / 2).min(end);
         let after = Level::held(force, onset..end, middle);
         let height = after.mean - base.mean;
@@ -185,7 +185,7 @@ fn onset(force: &[f64]) -> Option<usize> {
     let first = jumps.iter().position(|j| *j >= 0.5 * highest)?;
     let best =
         (first..(first + 2 * w).min(jumps.len())).max_by(|&a, &b| jumps[a].total_cmp(&jumps[b]))?;
-    // Where the first of several equally high jumps is, the step is.
+    // Of several equally high jumps the first is the step.
     let at = (first..=best).find(|&i| jumps[i] >= jumps[best] * (1.0 - 1e-9))?;
     Some(at + w)
 }
@@ -205,7 +205,7 @@ fn peak(time: &[f64], moved: &[f64], settled: f64) -> Option<(f64, f64)> {
     if to - from < 5 {
         return Some((time[top], moved[top]));
     }
-    // In units of the width, so that the powers keep their digits.
+    // Time in units of the width, so that the powers lose no digits.
     let width = time[to - 1] - time[from];
     let (mut gram, mut rhs) = (
         nalgebra::DMatrix::<f64>::zeros(3, 3),

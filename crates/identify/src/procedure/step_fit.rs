@@ -1,9 +1,9 @@
-//! sigma0 and sigma1 from force steps by simulation: what the published inversion takes for linear is
-//! simulated as it is, mass and LuGre law under the measured force, and fitted to the position.
+//! sigma0 and sigma1 from force steps by simulation: the published inversion assumes a linear axis; here
+//! the mass with its LuGre law is simulated under the measured force and fitted to the position.
 //!
-//! The bristles slip long before break-away: at a tenth of Fs the inversion is off by -15 % in sigma0
-//! and +25 % in sigma1 at a damping ratio of .3, and by -37 % and +280 % at .1, since every swing
-//! leaves the axis further on. First loading is exactly `x = -(Fs/sigma0) ln(1 - u/Fs)`.
+//! The bristles slip long before break-away: at a tenth of Fs the inversion is off by -15 % in sigma0 and
+//! +25 % in sigma1 at a damping ratio of .3, and by -37 % and +280 % at .1, since each oscillation moves
+//! the axis a little further. First loading is exactly `x = -(Fs/sigma0) ln(1 - u/Fs)`.
 
 use super::parameter::{Found, quantile};
 use super::step::StepResponse;
@@ -20,8 +20,8 @@ use stiction_parameters::{Name, Quantity};
 use stiction_search::descent::{Descent, LeastSquares, Region, Settings, Sums, descend};
 use stiction_search::{Control, Counts, Derivatives, Observer, Progress, Stage, Status};
 
-/// Phase of the mass on its bristles in one sample, rad, beyond which the log cannot show its swing: two
-/// samples a period (Nyquist).
+/// Phase of the oscillation of the mass on its bristles in one sample, rad, beyond which the log cannot
+/// show it: two samples a period (Nyquist).
 const MOST_PHASE_PER_SAMPLE: f64 = std::f64::consts::PI;
 /// Starts: shares of the inversion's sigma0, and damping ratios.
 const STIFFNESS_SHARES: [f64; 4] = [1.0, 1.3, 2.0, 4.0];
@@ -32,7 +32,8 @@ const FOLLOWED: usize = 3;
 const MOST_TRIALS: usize = 60;
 /// Step of the central differences that give sensitivities, in logarithms: their error is about the square.
 const DIFFERENCE_STEP: f64 = 1e-4;
-/// Gain, as a part of the cost, at which a descent ends; slopes from differences lead no further.
+/// Relative fall of the cost at which a descent ends; derivatives from differences are not accurate
+/// enough for more.
 const NO_GAIN: f64 = 1e-10;
 /// Step in the logarithms at which a descent ends, likewise.
 const SETTLED_STEP: f64 = 1e-8;
@@ -160,7 +161,7 @@ pub fn fit_steps(
         .map(|t| t[1] - t[0])
         .fold(0.0, f64::max);
     let mass = inverted.mass.unwrap_or_else(|| {
-        // Without overshoot and without a mass: from the time to get there.
+        // Without overshoot and without a given mass: estimated from the duration of the response.
         let rise = responses[0].time.last().copied().unwrap_or(1.0) / 20.0;
         inverted.sigma0 * rise * rise
     });
@@ -193,7 +194,8 @@ pub fn fit_steps(
                 p.push(libm::log(mass * share));
             }
             if settings.curve.is_none() {
-                // How far above the highest step; a stiffer axis than it looks slips more.
+                // Distance of Fs from the highest step; if the axis is stiffer than it looks, more of its
+                // motion is slip.
                 p.push(libm::log(1.0 / (share - 0.9)));
             }
             let cost = problem.cost(&p);
@@ -265,8 +267,8 @@ impl Problem {
         }
     }
 
-    /// Measured less simulated positions, the mean of each response taken off; not finite for a trial
-    /// that is no law.
+    /// Measured minus simulated positions, the mean of each response subtracted; not finite for a trial
+    /// with invalid parameters.
     pub fn residual(&mut self, p: &[f64]) -> Vec<f64> {
         self.counts.costs += 1;
         let trial = self.trial(p);
@@ -323,7 +325,8 @@ impl Problem {
             most_trials: MOST_TRIALS,
             longest_step: LONGEST_STEP,
             settled_step: SETTLED_STEP,
-            // The slopes are differences, and what is left of one at the end is their error.
+            // The derivatives come from differences, and near the minimum only the error of these
+            // differences is left.
             flat_slope: f64::INFINITY,
             no_gain: NO_GAIN,
             ..Settings::default()

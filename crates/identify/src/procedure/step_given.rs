@@ -1,6 +1,6 @@
-//! What a step fit takes as known and is not exact: the steady curve, the mass, and the force of each
-//! step, which noise leaves uncertain. The residual shows none of it, since all of it can be made good
-//! by other sigma0, sigma1 and mass.
+//! Inputs of a step fit that are taken as known but are not exact: the steady curve, the mass, and the
+//! force of each step, which is uncertain because of noise. The residual does not show their errors,
+//! since other values of sigma0, sigma1 and mass can compensate all of them.
 
 use super::step_fit::Problem;
 use crate::separable::linear::dot;
@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 /// Numbers of the settings: Fc, Fs, vs, sigma2, mass. Two for each response come after them.
 const SETTINGS: usize = 5;
 
-/// What their uncertainty does to the unknowns: `K G K^T` with `G` their covariance and
+/// Effect of their uncertainty on the unknowns: `K G K^T` with `G` their covariance and
 /// `K = -(J^T J)^-1 J^T J_given`, `J` being `slopes`.
 pub(super) fn carried(problem: &mut Problem, p: &[f64], slopes: &[Vec<f64>]) -> DMatrix<f64> {
     let n = p.len();
@@ -30,7 +30,7 @@ pub(super) fn carried(problem: &mut Problem, p: &[f64], slopes: &[Vec<f64>]) -> 
         if !(std > 0.0 && std.is_finite()) {
             continue;
         }
-        // A tenth of a deviation either way: within reach of the linear.
+        // A tenth of a standard deviation either way: small enough for a linear approximation.
         let by = 0.1 * std;
         let (Some(up), Some(down)) = (moved(problem, p, j, by), moved(problem, p, j, -by)) else {
             continue;
@@ -49,8 +49,8 @@ pub(super) fn carried(problem: &mut Problem, p: &[f64], slopes: &[Vec<f64>]) -> 
     &answer * known * answer.transpose()
 }
 
-/// Covariance of what is known: that of the settings, and of each response the two levels of its
-/// force, which are measured apart.
+/// Covariance of the known inputs: that of the settings, and for each response those of the two force
+/// levels, which are measured independently.
 fn covariance(problem: &Problem) -> DMatrix<f64> {
     let n = SETTINGS + 2 * problem.responses.len();
     let mut known = DMatrix::zeros(n, n);
@@ -68,7 +68,8 @@ fn covariance(problem: &Problem) -> DMatrix<f64> {
     known
 }
 
-/// The residual with one of the known numbers moved; `None` where it is not given, or is no law.
+/// The residual with one of the known inputs changed; `None` where it is not given, or the values are
+/// invalid for a law.
 fn moved(problem: &mut Problem, p: &[f64], which: usize, by: f64) -> Option<Vec<f64>> {
     let residual = if which >= SETTINGS {
         let (k, side) = ((which - SETTINGS) / 2, (which - SETTINGS) % 2);

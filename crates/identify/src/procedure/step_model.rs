@@ -10,8 +10,8 @@ use stiction_servo::plant::{Load, Motion, Plant};
 const MOST_SAMPLES: usize = 4000;
 /// Most steps within one.
 const MOST_STEPS: u32 = 64;
-/// Phase of the axis' own oscillation that one step may take: the error of its frequency is a twelfth
-/// of the square, relative.
+/// Phase of the axis' own oscillation in one step, at most, rad: the relative error of its frequency is a
+/// twelfth of the square.
 const PHASE_STEP: f64 = 0.03;
 
 /// What a trial gives the axis.
@@ -55,7 +55,8 @@ impl Response {
         Self {
             force,
             time: samples.time[start..end].iter().map(|t| t - first).collect(),
-            // Displacements are some micrometres of what may be metres.
+            // The displacements are micrometres, on positions that may be metres: the rest position is
+            // subtracted.
             position: samples
                 .position
                 .as_deref()
@@ -90,8 +91,8 @@ impl Response {
             .clamp(1.0, f64::from(MOST_STEPS)) as u32
     }
 
-    /// Positions at the samples from rest under the force before the step, each force held until the
-    /// next sample; `None` where the trial is no law.
+    /// Positions at the samples, starting at rest under the force before the step, each force held until
+    /// the next sample; `None` where the parameters are invalid for a law.
     pub fn simulate(&self, trial: &Trial, steps: u32) -> Option<Vec<f64>> {
         let shape = Shape::with_exponent(trial.exponent);
         let curve = Stribeck::symmetric(shape, trial.curve, 0.0).ok()?;
@@ -117,8 +118,8 @@ impl Response {
     }
 }
 
-/// Takes the noise off a force that is constant but for it: every swing that noise makes would slip
-/// the bristles a little further than they went. The rise itself stays as it was measured.
+/// Removes the noise of a force that is constant except for it: each swing of the noise would make the
+/// simulated bristles slip further than the real ones did. The rise itself stays as it was measured.
 fn quieten(force: &mut [f64], onset: usize, before: f64, after: f64) {
     let rest = &force[onset..];
     let half = rest.len() / 2;
@@ -130,7 +131,7 @@ fn quieten(force: &mut [f64], onset: usize, before: f64, after: f64) {
     let Some(settled) = rest.iter().position(|f| close(*f)) else {
         return;
     };
-    // Block means of a constant with noise scatter as little as its memory lets them.
+    // Block means of a constant with noise scatter only as much as the correlation of the noise allows.
     let block = (rest.len() / 10).max(2);
     let wander = rest[settled..].chunks_exact(block).any(|c| {
         let own = Level::of(c);

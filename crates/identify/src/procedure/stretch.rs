@@ -1,4 +1,4 @@
-//! Constant-velocity stretches of a log, and what each is worth as a point of the static map.
+//! Constant-velocity stretches of a log; each gives a point of the static map with its standard error.
 
 use super::moments::Moments;
 use super::settle::transient;
@@ -14,15 +14,17 @@ const STEADY_VELOCITY: f64 = 0.03;
 pub const MOST_DRIFT: f64 = 0.015;
 /// Fewest samples of a stretch, before and after its transient is dropped.
 const FEWEST_SAMPLES: usize = 40;
-/// Fewest counts of the position in a quarter of a stretch: with fewer its slope is that of the steps.
+/// Fewest counts of the position in a quarter of a stretch: with fewer the slope is dominated by the
+/// encoder steps.
 const FEWEST_COUNTS: f64 = 5.0;
-/// Most parts of a stretch that are looked at for standstill.
+/// Most parts into which a stretch is divided to look for standstill.
 const MOST_PARTS: usize = 128;
-/// Share of a stretch that is cut off at either end: a corner is rounded off by as much.
+/// Share of a stretch that is cut off at either end, because the velocity is rounded off at corners.
 const CORNER_SHARE: f64 = 0.03;
-/// A stretch this much shorter than one near it in time and velocity is a piece of the way to it.
+/// A stretch whose duration is below this share of that of one near it in time and velocity is only part
+/// of the approach to it.
 const PIECE_LENGTH: f64 = 0.2;
-/// Points before and after one that may be what it leads to.
+/// Number of points before and after a stretch that are compared with it for this purpose.
 const MOST_NEIGHBOURS: usize = 32;
 /// How near a neighbour is in velocity, as a part of its own.
 const NEIGHBOUR_VELOCITY: f64 = 0.4;
@@ -63,7 +65,7 @@ pub struct StaticPoint {
     pub error: f64,
     /// Samples that count.
     pub samples: usize,
-    /// Independent samples that they are worth.
+    /// Number of independent samples that carry the same information.
     pub effective: f64,
     /// Time dropped at the start as transient, s.
     pub dropped: f64,
@@ -72,7 +74,7 @@ pub struct StaticPoint {
 }
 
 impl StaticPoint {
-    /// Whether this is but a piece of the way to or from another point of the same log.
+    /// Whether this is only a part of the approach to, or the departure from, another point of the same log.
     fn leads_to(&self, other: &Self) -> bool {
         let seconds = |time: (f64, f64)| time.1 - time.0;
         let longer = seconds(other.time);
@@ -83,7 +85,7 @@ impl StaticPoint {
     }
 }
 
-/// Why a stretch of nearly constant velocity is no point.
+/// Why a stretch of nearly constant velocity gives no point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unsteady {
     /// The axis stops and goes on.
@@ -207,7 +209,7 @@ impl<'a> Search<'a> {
             let hop = (length / 8).max(1);
             let mut from = 0;
             while from + length <= n {
-                // Somebody else's samples: go on behind the last of them.
+                // Some of these samples already belong to another stretch: continue behind the last of them.
                 if let Some(taken) = free[from..from + length].iter().rposition(|f| !f) {
                     from += taken + 1;
                     continue;
@@ -234,7 +236,8 @@ impl<'a> Search<'a> {
         };
         let kept = (0..own.len()).filter(|&i| !near(i).iter().any(|q| own[i].leads_to(q)));
         out.points.extend(kept.map(|i| own[i]));
-        // A short piece of what lies between two speeds is not worth a word.
+        // A rejected stretch much shorter than the accepted ones is only the transition between two
+        // speeds and is not reported.
         let seconds = |time: (f64, f64)| time.1 - time.0;
         let shortest = out.points[first..]
             .iter()
@@ -275,7 +278,7 @@ impl<'a> Search<'a> {
         if !(travel > FEWEST_COUNTS * self.asked_step && travel > 0.0) {
             return false;
         }
-        // A line in steps is off its slope by the square of the steps it has.
+        // The encoder steps cause an error of the slope that falls with the square of the number of steps.
         let counts = travel / self.asked_step;
         let allowed = mean.abs() * (STEADY_VELOCITY + 2.0 / (counts * counts));
         (0..4).all(|k| {
@@ -330,7 +333,7 @@ impl<'a> Search<'a> {
     fn point(&self, from: usize, to: usize) -> Result<StaticPoint, Option<Unsteady>> {
         let corner = (CORNER_SHARE * (to - from) as f64) as usize;
         let to = to - corner;
-        // The axis may approach a speed that was asked for at once.
+        // The reference may jump to its speed at once while the axis only approaches it, so both are checked.
         let from = self.after_drift(&self.asked, from, to).ok_or(None)?;
         let from = self
             .after_drift(&self.moved, from, to)
@@ -413,7 +416,7 @@ impl<'a> Search<'a> {
             (Some(start), Some(end)) if start + end <= force.len() / 2 => {
                 Some((from + start, to - end))
             }
-            // A slow ripple has no beginning to drop.
+            // A slow ripple has no transient at the start that could be dropped.
             _ => (!drifts(force)).then_some((from, to)),
         }
     }
@@ -430,7 +433,7 @@ impl<'a> Search<'a> {
         let reached = (from..start)
             .rev()
             .find(|&i| (self.position[start] - self.position[i]).abs() >= whole * pitch);
-        // The end of a stretch is the part that has settled best.
+        // The force has settled best at the end of a stretch, so whole pitches are counted back from there.
         (reached.unwrap_or(from), to, whole as usize)
     }
 
@@ -448,8 +451,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Whether the two halves of a signal differ by more than its own correlation explains, or are too
-/// few independent samples to tell.
+/// Whether the two halves of a signal differ by more than its own correlation explains, or hold too few
+/// independent samples to decide.
 fn drifts(signal: &[f64]) -> bool {
     let (a, b) = signal.split_at(signal.len() / 2);
     let of = |x: &[f64]| {

@@ -1,4 +1,4 @@
-//! Whether a record has enough for a law.
+//! Whether a record has enough samples, motion and force for a law.
 
 use crate::conditioning::record::{Record, extent};
 use crate::error::Error;
@@ -35,7 +35,7 @@ pub(crate) fn checked<'a>(
     Ok(full)
 }
 
-/// The value of a force that never changes, rounding of the filters apart.
+/// The value of a force that is constant apart from rounding in the filters.
 fn constant(force: &[f64]) -> Option<f64> {
     let (low, high) = extent(force);
     let still = high - low <= 1e-9 * low.abs().max(high.abs());

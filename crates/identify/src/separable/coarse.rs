@@ -9,34 +9,34 @@ use crate::watch::Watch;
 use stiction_search::descent::{self, Descent};
 use stiction_search::{Derivatives, Stage, Status};
 
-/// Most steps of a descent. One more for all costs as much as a third of an evaluation of a long record, a
-/// start too many as much as five.
+/// Most steps of a descent. One more step of all descents costs as much as a third of an evaluation of a
+/// long record, one unnecessary start as much as five.
 const MOST_ROUNDS: usize = 30;
 /// Trials under way at once; the observer is asked between.
 const BATCH_TRIALS: usize = 16;
-/// Points of a scan with the stiffest bristle, for one of the whole box.
+/// The scan with the stiffest bristle has the number of points of the scan of the whole box divided by this.
 const RIGID_SCAN_DIVISOR: usize = 4;
 
-/// A start is good enough within this step in the logarithms, when it promises to lower the cost by no more
-/// than [`NEAR_GAIN`]: the record itself goes on.
+/// A descent here ends when its step in the logarithms is at most this and the predicted fall of the cost
+/// at most [`NEAR_GAIN`]: the search then continues on the full record.
 const NEAR_STEP: f64 = 0.1;
-/// That gain, as a part of the cost.
+/// That fall, relative to the cost.
 const NEAR_GAIN: f64 = 1e-3;
 
-/// A point and what it came to.
+/// A point and the reduced problem evaluated there.
 struct Point {
     p: Vec<f64>,
     at: Derivatives,
 }
 
-/// A descent with what is known where it stands.
+/// A descent with the reduced problem at its current point.
 struct Walk {
     descent: Descent,
     now: Derivatives,
 }
 
 impl Walk {
-    /// Whether it would not go on.
+    /// Whether it has ended by itself, not for lack of trials.
     fn is_settled(&self) -> bool {
         let status = self.descent.status();
         status.is_some_and(|status| status != Status::Budget)
@@ -47,7 +47,7 @@ impl Walk {
 pub(super) struct End {
     pub p: Vec<f64>,
     pub cost: f64,
-    /// Whether it would not have gone on.
+    /// Whether it had ended by itself, not for lack of trials.
     pub settled: bool,
 }
 
@@ -59,14 +59,15 @@ pub(super) struct Minima {
     pub steps: usize,
 }
 
-/// The objective on a record to look for starts on, and its sums.
+/// The objective on the record on which starts are looked for, and its sums.
 pub(super) struct Coarse<'a> {
     pub objective: &'a Objective<'a>,
     pub sums: &'a InLanes,
     pub bounds: &'a SearchBox,
-    /// Whether few trials are under way, faster one by one with their samples in lanes.
+    /// Whether so few trials are under way that it is faster to evaluate them one by one with the samples
+    /// in lanes.
     pub few: bool,
-    /// Rounds that the others have left once the best of them has ended.
+    /// Number of rounds that the other descents may continue after the best one has ended.
     pub patience: usize,
 }
 
@@ -133,7 +134,7 @@ impl Coarse<'_> {
         Some(out)
     }
 
-    /// Points in the order given, whatever they come to; fewer where the observer stops it.
+    /// Points evaluated in the order given, whatever their costs; fewer where the observer stops it.
     fn evaluated(&self, points: Vec<Vec<f64>>, watch: &mut Watch) -> Option<Vec<Point>> {
         let mut out: Vec<Point> = Vec::with_capacity(points.len());
         for batch in points.chunks(BATCH_TRIALS) {
@@ -158,7 +159,7 @@ impl Coarse<'_> {
         self.sums.many(trials)
     }
 
-    /// Counts trials, and tells of each until the observer has heard enough.
+    /// Counts trials, and reports each one until the observer asks to stop.
     fn report(&self, costs: &[f64], sensitivities: bool, watch: &mut Watch) {
         for &cost in costs {
             watch.count(self.objective, sensitivities);
@@ -168,7 +169,7 @@ impl Coarse<'_> {
         }
     }
 
-    /// Follows all points down together.
+    /// Runs the descents from all points together.
     fn descended(&self, points: Vec<Point>, watch: &mut Watch) -> Option<Minima> {
         watch.stage = Stage::Coarse;
         let settings = descent::Settings {
@@ -224,7 +225,7 @@ impl Coarse<'_> {
     }
 }
 
-/// So that no number is the worst.
+/// Replaces NaN by the worst cost.
 fn or_worst(cost: f64) -> f64 {
     if cost.is_nan() { f64::INFINITY } else { cost }
 }
@@ -236,7 +237,7 @@ fn best_first(points: &[(Vec<f64>, f64)]) -> Vec<usize> {
     order
 }
 
-/// Leaves out walks that have come to where a better one stands.
+/// Drops descents that have reached the point of a better one.
 fn join(walks: &mut Vec<Walk>) {
     let mut kept: Vec<Walk> = Vec::new();
     walks.sort_by(|a, b| a.now.cost.total_cmp(&b.now.cost));

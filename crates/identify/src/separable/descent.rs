@@ -1,4 +1,4 @@
-//! One descent on a record: led by sums as far as their digits go, finished on the columns.
+//! One descent on a record: first on sums of products as far as their precision allows, then on the columns.
 
 use crate::separable::in_lanes::InLanes;
 use crate::separable::objective::{Evaluation, Objective};
@@ -18,17 +18,18 @@ pub(crate) struct Descent {
     pub history: Vec<(usize, f64)>,
 }
 
-/// Cost, as a part of the energy of the force, that is rounding only: some ten times the square of the
-/// rounding of a number.
+/// Cost, relative to the energy (sum of squares) of the force, that is only rounding error: some ten
+/// times the square of the rounding of a number.
 const EXACT_COST: f64 = 1e-27;
-/// Change of a cost from sums of squares, as a part of the energy of the force, that may be rounding: such a
-/// cost is a difference of sums that hold some 15 digits of the energy.
+/// Change of a cost from sums of squares, relative to the energy of the force, that may be rounding
+/// error: such a cost is a difference of sums that hold some 15 digits of the energy.
 const SUMS_ROUNDING: f64 = 1e-13;
-/// Part of what a step promised that the next may at most, where costs are too coarse to say whether either
-/// was good.
+/// Largest predicted gain of a step, relative to that of the step before, where costs are not precise
+/// enough to tell whether either step lowered them.
 const FADING_PROMISE: f64 = 0.1;
 
-/// The rules of a descent on a record whose force has this energy (sum of squares), for so many trials.
+/// Settings of a descent of at most `most_trials` trials, on a record whose force has this energy (sum of
+/// squares).
 pub(super) fn settings(energy: f64, most_trials: usize) -> Settings {
     Settings {
         most_trials,
@@ -39,8 +40,8 @@ pub(super) fn settings(energy: f64, most_trials: usize) -> Settings {
 
 /// Descends from `start` for at most `steps` trials.
 ///
-/// Where the objective can be had from sums alone, they lead as far as their digits go, and the columns
-/// only finish.
+/// Where the objective can be computed from sums alone, they are used as far as their precision allows,
+/// and the columns only for the last steps.
 pub(crate) fn descend(
     objective: &Objective,
     bounds: &SearchBox,
@@ -116,8 +117,9 @@ impl LeastSquares for Columns<'_, '_, '_> {
     }
 }
 
-/// The descent on sums, and the steps that are too small for the digits of their costs: where it ends, the
-/// trials it took, and whether it was stopped. `None` where a trial is beyond what the sums can do.
+/// The descent on sums, including the steps that are too small to show in their costs. Returns the end
+/// point, the number of trials, and whether it was stopped. `None` where a trial is outside the range of
+/// the kernels.
 fn lead(
     objective: &Objective,
     sums: &InLanes,
@@ -154,9 +156,9 @@ fn lead(
     let mut promised = walk.promised();
     let mut trials = walk.trials();
     let mut p = walk.into_point();
-    // The last step was not tried. The gradient that is left there is accurate below the rounding of the cost:
-    // it is followed as long as it promises less and less. As much less as a step promises than the one
-    // before, the next will promise than this.
+    // The last step was not tried. The gradient there is still accurate although changes of the cost are
+    // below its rounding: it is followed as long as the predicted gains fall. The next predicted gain is
+    // estimated from the ratio of the last two.
     let mut left = promised * (promised / before);
     while ended == Some(Status::Converged)
         && trials < steps

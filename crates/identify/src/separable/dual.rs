@@ -62,8 +62,8 @@ impl<const K: usize> Dual<K> {
         }
     }
 
-    /// `exp(-a) - 1` of this number `a >= 0`, and `1 - (1 - exp(-a))/a`: how much of a distance and of
-    /// a linear run an exponential approach takes up.
+    /// `exp(-a) - 1` of this number `a >= 0`, and `1 - (1 - exp(-a))/a`: the shares of a step and of a
+    /// ramp that an exponential approach follows.
     #[inline(always)]
     pub fn relaxation(self) -> (Self, Self) {
         let a = self.value;
@@ -144,7 +144,7 @@ mod tests {
         assert_eq!((limited.value, limited.slope), (2.0, [0.0]));
     }
 
-    /// The share of a linear run in thirty digits (Python's `decimal`).
+    /// The share for a ramp against values with thirty digits (Python's `decimal`).
     #[test]
     fn a_short_relaxation_keeps_its_digits() {
         for (a, exact) in [

@@ -6,8 +6,8 @@
 //! ```
 //! The scheme of [`stiction_friction::ElastoPlastic::step_record`] for `eta = s0 z / Fc`, with every
 //! number carried together with its derivatives; the friction crate is the oracle it is tested
-//! against. Below break-away eta moves by the path, beyond it as LuGre's does in a path stretched by
-//! the pull m of the bristle.
+//! against. Below break-away eta changes in proportion to the path; beyond it eta changes as in LuGre,
+//! over a path scaled by the pull m of the bristle.
 
 use crate::law::{Layout, share_of_odds};
 use crate::separable::dual::Dual;
@@ -19,7 +19,7 @@ use libm::{fabs, sin, sqrt};
 struct Plasticity<const K: usize> {
     /// `z_ba/z_ss`.
     breakaway: Dual<K>,
-    /// One less that: the e at which slip begins.
+    /// One minus `breakaway`: the e below which slip begins.
     width: Dual<K>,
     /// `pi/2` over the width.
     turn: Dual<K>,
@@ -93,7 +93,7 @@ impl<const K: usize> Way<K> {
             y = plasticity.breakaway * self.from;
         }
         if y.value >= self.from.value && self.to.value <= self.from.value {
-            // Beyond the steady deflection all along: LuGre, every stage would say 1.
+            // Beyond the steady deflection during the whole step the pull is 1 in every stage, as in LuGre.
             return y + self.change(y, 1.0, Dual::constant(1.0));
         }
         // The pull after a part of the way, if it was `m` on that part.
@@ -162,7 +162,7 @@ pub(super) fn run<const K: usize>(
                 part(theta, u, old, 0.0, rest[usize::from(u < 0.0)], sign(u));
                 part(v / (v - u), 0.0, rest[side], v, now, sign(v));
             } else if u != 0.0 || v != 0.0 {
-                // A step that starts or ends at rest belongs to the direction it moves in.
+                // A step that starts or ends at rest counts for the direction in which it moves.
                 let s = if u < 0.0 || v < 0.0 { -1.0 } else { 1.0 };
                 let moving = usize::from(s < 0.0);
                 let from = if u == 0.0 { rest[moving] } else { old };

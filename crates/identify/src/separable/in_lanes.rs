@@ -24,8 +24,8 @@ pub(crate) struct InLanes {
     summed: Option<Summed>,
 }
 
-/// What is needed to make the reduced problem of sums: neither a filter nor a delay stands between the
-/// columns of the law and the regression.
+/// What is needed to build the reduced problem from sums: only where neither a filter nor a delay lies
+/// between the columns of the law and the regression.
 #[derive(Clone, Debug)]
 struct Summed {
     places: Vec<Place>,
@@ -142,7 +142,7 @@ impl InLanes {
         out
     }
 
-    /// Whether the reduced problem can be had.
+    /// Whether the reduced problem can be computed here.
     pub fn sums(&self) -> bool {
         self.summed.is_some()
     }
@@ -207,8 +207,8 @@ impl InLanes {
         Some(summed.reduce(&found, self.unknowns))
     }
 
-    /// The reduced problem at many trials, trials in lanes. To rounding what [`reduced`](Self::reduced) says
-    /// of each; the bits of a trial do not depend on the others.
+    /// The reduced problem at many trials, trials in lanes. The same as [`reduced`](Self::reduced) up to
+    /// rounding; the result of a trial does not depend, to the last bit, on the other trials.
     pub fn many(&self, trials: &[&[f64]]) -> Option<Vec<Derivatives>> {
         let summed = self.summed.as_ref()?;
         let trials: Vec<Trial> = trials.iter().map(|p| self.trial(p)).collect();
@@ -217,7 +217,7 @@ impl InLanes {
         Some(found.iter().map(reduce).collect())
     }
 
-    /// The costs alone of many trials, likewise.
+    /// The costs alone of many trials, in the same way.
     pub fn costs(&self, trials: &[&[f64]]) -> Option<Vec<f64>> {
         let summed = self.summed.as_ref()?;
         let trials: Vec<Trial> = trials.iter().map(|p| self.trial(p)).collect();
@@ -296,7 +296,7 @@ impl<const C: usize> Products for Made<'_, C> {
     }
 }
 
-/// Which samples of the full rate count; none said where all do.
+/// Which samples of the full rate count; empty where all do.
 fn kept<'s>(record: &Record, segment: &'s record::Segment) -> Cow<'s, [bool]> {
     if record.decimate == 1 {
         let whole = segment.counts_whole();
@@ -372,7 +372,7 @@ mod tests {
         }
     }
 
-    /// Sums and columns are two ways to one reduced problem.
+    /// The reduced problem from sums agrees with the one from columns.
     #[test]
     fn sums_lead_where_columns_do() {
         let record = record();

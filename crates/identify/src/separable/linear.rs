@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 /// Columns whose part outside the span of those before is below this (relative, squared) cannot be
 /// told apart from them and are left out.
 const DEPENDENT_REMAINDER: f64 = 1e-13;
-/// Bounded columns of which every subset is tried.
+/// Largest number of bounded columns for which every subset is tried.
 const MOST_TRIED: usize = 6;
 
 /// Sum of products in a fixed order: four partial sums for speed, the same bits everywhere.
@@ -180,7 +180,7 @@ impl Solution {
     }
 }
 
-/// Samples that stay in the nearest cache while every column is taken from them.
+/// Number of samples that stay in the fastest CPU cache while every column is subtracted from them.
 const CHUNK: usize = 512;
 
 /// The factor of the columns that take part, their coefficients in its order, and the columns that depend on

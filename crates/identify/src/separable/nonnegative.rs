@@ -2,8 +2,8 @@
 //!
 //! The active-set method of Lawson and Hanson 1974 (Solving Least Squares Problems, ch. 23): one
 //! coefficient at a time is freed, the one whose growth lowers the residual fastest, and a step that
-//! would break a bound stops there and holds that coefficient. The problem is convex, so what it
-//! ends at is the optimum whatever the way.
+//! would break a bound stops there and holds that coefficient. The problem is convex, so the end point is
+//! the optimum whatever the order of the steps.
 
 use super::linear::Factor;
 use nalgebra::DMatrix;
@@ -21,9 +21,10 @@ pub(crate) fn held(
     let m = rhs.len();
     let mut held = nonnegative.to_vec();
     let mut x = vec![0.0; m];
-    // A column that was let in and could not stay is passed over until another has moved.
+    // A column that was freed and immediately held again is skipped until another has changed.
     let mut refused = vec![false; m];
-    // Each round lowers the residual, so no set comes twice; rounding may, so the rounds end.
+    // Each round lowers the residual, so no set of held columns occurs twice; rounding could cause it, so
+    // the rounds are limited.
     for _ in 0..10 * m {
         let fitted = solve(gram, rhs, &held);
         let Some(blocked) = step(&mut x, &fitted, &held, nonnegative) else {
@@ -66,8 +67,8 @@ fn solve(gram: &DMatrix<f64>, rhs: &[f64], held: &[bool]) -> Vec<f64> {
     out
 }
 
-/// Goes from `x` towards `to` as far as the bounds allow; the columns that stopped it, `None` if none
-/// did.
+/// Goes from `x` towards `to` as far as the bounds allow; returns the columns that stopped it, `None` if
+/// none did.
 fn step(x: &mut [f64], to: &[f64], held: &[bool], nonnegative: &[bool]) -> Option<Vec<usize>> {
     let broken = |j: usize| nonnegative[j] && !held[j] && to[j] <= 0.0;
     let part = (0..x.len())

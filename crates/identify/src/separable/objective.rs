@@ -109,7 +109,7 @@ impl<'a> Objective<'a> {
     /// The objective of this law with these terms on this record.
     pub fn new(record: &'a Record, law: Law, terms: &Terms) -> Self {
         let linear = terms.columns(&law);
-        // Elements stick and slip at instants that a shift would move between samples.
+        // Elements change between stick and slip at instants between samples that a shift cannot represent.
         let delay = match terms.delay {
             Delay::Fitted if law.kind.has_elements() => Delay::NONE,
             delay => delay,
@@ -269,7 +269,7 @@ impl<'a> Objective<'a> {
         }
     }
 
-    /// The cost alone, where sums give it to their digits.
+    /// The cost alone, from sums where possible, with their lower precision.
     pub(crate) fn cost(&self, p: &[f64]) -> f64 {
         let summed = self.sums().and_then(|sums| sums.reduced(p));
         summed.map_or_else(|| self.evaluate(p, false).cost, |reduced| reduced.cost)
@@ -321,7 +321,7 @@ impl<'a> Objective<'a> {
         columns.iter().zip(coefficients).map(scaled).collect()
     }
 
-    /// How much earlier the motion stands that belongs to a force.
+    /// By how much earlier in the log the motion is that belongs to a force.
     fn shift(&self, p: &[f64]) -> Shift {
         match (self.delay, p.last()) {
             (Delay::Fitted, Some(&samples)) => Shift::earlier(samples),
@@ -354,7 +354,8 @@ impl<'a> Objective<'a> {
     fn traces(&self, p: &[f64], slopes: bool) -> Vec<Run> {
         let p = &p[..self.law.nonlinear()];
         let segments = &self.record.segments;
-        // Where one level does for all samples, the kernels weigh the derivatives as they make them.
+        // Where the factor of eta is the same for all samples, the kernels weight the derivatives while
+        // computing them.
         let in_lanes = self.lanes().and_then(|lanes| {
             let apart = slopes && !self.varying.is_empty();
             lanes.traces(p, apart)
@@ -386,7 +387,7 @@ impl<'a> Objective<'a> {
 
     /// The columns of the regression at the kept samples.
     fn columns(&self, runs: &mut [Run], shift: Shift) -> Vec<Column> {
-        // Whether eta is needed again, beside the column that it is.
+        // Whether eta is needed again, besides being a column itself.
         let again = !self.varying.is_empty() || self.delay == Delay::Fitted;
         let gather = |runs: &[Run], of: &dyn Fn(&Run) -> Option<&Vec<f64>>| {
             let mut out = Vec::with_capacity(self.force.len());
@@ -424,15 +425,15 @@ impl<'a> Objective<'a> {
             .collect()
     }
 
-    /// `d(Phi)/dp_i c` of every nonlinear unknown, filtered and thinned like the columns. The derivatives of the
-    /// law are used up.
+    /// `d(Phi)/dp_i c` of every nonlinear unknown, filtered and thinned like the columns. The derivatives
+    /// of the law are consumed.
     fn slopes(&self, runs: &mut [Run], p: &[f64], coefficients: &[f64]) -> Vec<Vec<f64>> {
         let mut c_eta = 0.0;
         let mut c_rate = 0.0;
         for ((term, fixed), &c) in self.linear.iter().zip(&self.fixed).zip(coefficients) {
             match (fixed, term.column) {
                 (None, ColumnKind::Rate) => c_rate += c,
-                // Different at each sample: see below.
+                // Depends on the sample: see below.
                 (None, ColumnKind::LevelTimes(..)) | (Some(_), _) => {}
                 (None, _) => c_eta += c,
             }
@@ -496,7 +497,7 @@ impl<'a> Objective<'a> {
         out
     }
 
-    /// What multiplies `eta` at each sample of a segment; `None` where nothing but `c_eta` does.
+    /// The factor of `eta` at each sample of a segment; `None` where it is the constant `c_eta`.
     fn level(&self, segment: usize, eta: &[f64], c_eta: f64, c: &[f64]) -> Option<Vec<f64>> {
         if self.varying.is_empty() {
             return None;
@@ -513,8 +514,8 @@ impl<'a> Objective<'a> {
         Some(level)
     }
 
-    /// For each linear unknown, how large its column is in use: the coefficient times this compares
-    /// with the Coulomb level.
+    /// For each linear unknown, the size of its column in use: the coefficient times this compares with
+    /// the Coulomb level.
     pub(crate) fn spans(&self) -> Vec<f64> {
         let top = self.record.top_speed();
         self.linear
@@ -539,7 +540,7 @@ struct Run {
 }
 
 impl Run {
-    /// What the regression sees of `eta` (0), its rate (1), an element (from 2).
+    /// The column of `eta` (0), its rate (1) or an element (from 2) in the form that the regression uses.
     fn own(&self, column: usize) -> Option<&Vec<f64>> {
         if self.filtered.is_empty() {
             self.trace.own().nth(column)
@@ -548,7 +549,7 @@ impl Run {
         }
     }
 
-    /// The same; a column of the law itself, if it is no element, is not there afterwards.
+    /// The same, but a column of the law itself, other than an element, is moved out and is empty afterwards.
     fn take(&mut self, column: usize) -> Vec<f64> {
         let taken = match column {
             0 if self.filtered.is_empty() => Some(std::mem::take(&mut self.trace.eta)),

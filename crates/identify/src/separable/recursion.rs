@@ -86,7 +86,7 @@ pub(super) fn level<const K: usize>(
 
 /// Intervals are held below this, so that their derivatives stay finite.
 pub(crate) const LONGEST_DECAY: f64 = 1e150;
-/// Derivatives below this are none: they would die away into numbers below the normal range, which are slow.
+/// Derivatives below this are set to zero: otherwise they would decay into denormal numbers, which are slow.
 const LEAST_DERIVATIVE: f64 = 1e-140;
 
 /// `(1 - exp(-a)) / a` and its derivative.
@@ -124,7 +124,7 @@ impl Trace {
         [&self.eta, &self.rate].into_iter().chain(elements)
     }
 
-    /// Parts the samples from `at` on.
+    /// Splits off the samples from `at` on.
     pub fn split_off(&mut self, at: usize) -> Self {
         let cut = |columns: &mut Vec<Vec<f64>>| -> Vec<Vec<f64>> {
             columns.iter_mut().map(|c| c.split_off(at)).collect()
@@ -271,7 +271,7 @@ fn bristle<const K: usize>(
                     if v < 0.0 { -1.0 } else { 1.0 },
                 );
             } else if u != 0.0 || v != 0.0 {
-                // A step that starts or ends at rest belongs to the direction it moves in.
+                // A step that starts or ends at rest counts for the direction in which it moves.
                 let s = if u < 0.0 || v < 0.0 { -1.0 } else { 1.0 };
                 let moving = usize::from(s < 0.0);
                 let ga = if u == 0.0 { rest[moving] } else { old };
@@ -352,8 +352,8 @@ mod tests {
         [log(stiffness / 20.0), log(0.5), log(5e-3)]
     }
 
-    /// Intervals in which the bristle follows its steady level at once, and how far it lags behind is one
-    /// over their length.
+    /// Intervals so long that the bristle follows its steady level at once; how far it lags behind is the
+    /// inverse of their length.
     #[test]
     fn a_stiff_bristle_lags_as_the_friction_crate_says() {
         let velocity: Vec<f64> = (0..50).map(|k| 1e-4 * f64::from(k)).collect();
@@ -370,7 +370,7 @@ mod tests {
         }
     }
 
-    /// What dies away ends at zero: no number below the normal range, which would be slow.
+    /// Derivatives that decay end at zero: no denormal numbers, which would be slow.
     #[test]
     fn derivatives_that_die_away_stay_normal() {
         let velocity = vec![0.02; 4000];
@@ -386,7 +386,7 @@ mod tests {
         }
     }
 
-    /// The kernels and the recursion are one law.
+    /// The kernels and the recursion compute the same law.
     #[test]
     fn lanes_and_recursion_agree() {
         let velocity: Vec<f64> = (0..3000)

@@ -4,7 +4,7 @@ use crate::separable::linear::{Factor, Normal};
 use nalgebra::DMatrix;
 use stiction_search::Derivatives;
 
-/// Products of the columns of a trial, none of which is at hand: from them the reduced problem follows.
+/// Products of the columns of a trial, without the columns themselves: the reduced problem follows from them.
 pub(super) trait Products {
     /// Linear columns with each other.
     fn linear(&self, i: usize, j: usize) -> f64;
@@ -21,10 +21,10 @@ pub(super) trait Products {
     fn slopes(&self, k: usize, l: usize, coefficients: &[f64]) -> f64;
 }
 
-/// The reduced problem from the products of `bounded.len()` linear columns and `unknowns` derivatives; `held`
-/// is a coefficient that stands at a value. `J^T J` is that of Kaufman.
+/// The reduced problem from the products of `bounded.len()` linear columns and `unknowns` derivatives;
+/// `held` is a coefficient that is held at a value. `J^T J` is that of Kaufman.
 ///
-/// The cost has lost what is below about 1e-15 of the energy of the target.
+/// The cost has an absolute error of about 1e-15 of the energy of the target.
 pub(super) fn from_products(
     products: &impl Products,
     bounded: &[bool],

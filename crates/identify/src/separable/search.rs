@@ -19,27 +19,27 @@ const SHORT_STEPS: usize = 12;
 const MOST_PAIRED: usize = 3;
 /// Distance in the logarithms within which two minima are one.
 const SAME_MINIMUM_DISTANCE: f64 = 1e-2;
-/// Cost of a start over that of the best above which it is not tried (decision 0036: three times).
+/// Ratio of the cost of a start to that of the best above which it is not tried (decision 0036: three times).
 const HOPELESS_COST_RATIO: f64 = 3.0;
 /// The same where costs were followed down on thousands of samples, which tell them apart better (decision
 /// 0036).
 const RIVAL_COST_RATIO: f64 = 1.3;
-/// Rounds that starts have left once the best of them has ended, on the record of the scan and on the thinned one:
-/// a round of the second costs as much as four of the first.
+/// Number of rounds that the other descents may continue after the best has ended, on the record of the
+/// scan and on the thinned one: a round of the second costs as much as four of the first.
 const ROUNDS_AFTER_BEST: [usize; 2] = [6, 2];
-/// Cost of the second minimum over that of the best below which it is followed to the end, too.
+/// Ratio of the cost of the second minimum to that of the best below which it is also followed to the end.
 const LAST_RIVAL_COST_RATIO: f64 = 1.05;
 /// Of the samples of the thinned record, the scan sees one in this many.
 const SCAN_THINNING: usize = 4;
-/// Stiffnesses tried with the curve of the static law.
+/// Number of stiffnesses tried with the curve of the static law.
 pub(super) const LINE: usize = 16;
 
-/// One search: an objective on the full record and what is known of the way so far.
+/// One search: an objective on the full record and the results so far.
 pub(crate) struct Search<'a> {
     pub full: &'a Objective<'a>,
-    /// The same with the delay as one more unknown, where it is one: only the last descent sees it.
+    /// The same with the delay as one more unknown, where it is fitted: only the last descent uses it.
     pub delayed: Option<&'a Objective<'a>>,
-    /// A thinned stand-in for the record, where there is one.
+    /// A thinned copy of the record, where there is one.
     pub thinned: Option<&'a Record>,
     pub law: Law,
     pub terms: &'a Terms,
@@ -68,7 +68,7 @@ impl<'a> Search<'a> {
         self.finish(bounds, minima, watch)
     }
 
-    /// The record to look for starts on.
+    /// The record on which starts are looked for.
     fn near(&self) -> &'a Record {
         self.thinned.unwrap_or(self.full.record())
     }
@@ -222,7 +222,7 @@ impl<'a> Search<'a> {
         let mut costs: Vec<(f64, &Vec<f64>)> = Vec::with_capacity(starts.len());
         for start in starts {
             let cost = self.full.cost(start);
-            // So that no number is the worst, and still a start.
+            // NaN becomes the worst cost, but the point stays a possible start.
             costs.push((if cost.is_nan() { f64::INFINITY } else { cost }, start));
             watch.count(self.full, false);
         }
@@ -321,7 +321,7 @@ impl<'a> Search<'a> {
             kind: LawKind::Stribeck,
             ..self.law
         };
-        // The break-away part of an elasto-plastic law stands behind the curve.
+        // The break-away part of an elasto-plastic law comes after the curve in the vector.
         let inner = layout
             .breakaway
             .map_or_else(|| bounds.clone(), |i| bounds.without(i))
@@ -410,7 +410,7 @@ pub(super) fn sobol(bounds: &SearchBox, i: usize, seed: u32) -> Vec<f64> {
     bounds.at(&unit)
 }
 
-/// The two lowest places in a row of costs that neither neighbour undercuts, the lower first.
+/// The two lowest local minima in a row of costs, the lower first.
 pub(super) fn valleys(costs: &[f64]) -> Vec<usize> {
     let many = costs.len();
     let mut found: Vec<usize> = (0..many)
@@ -423,14 +423,14 @@ pub(super) fn valleys(costs: &[f64]) -> Vec<usize> {
     found
 }
 
-/// Whether two minima are one.
+/// Whether two minima are the same.
 pub(super) fn same(a: &[f64], b: &[f64]) -> bool {
     a.iter()
         .zip(b)
         .all(|(a, b)| (a - b).abs() < SAME_MINIMUM_DISTANCE)
 }
 
-/// Best first, without those that stand where a better one stands.
+/// Best first, without those at the same minimum as a better one.
 fn distinct(mut found: Vec<Descent>) -> Vec<Descent> {
     found.sort_by(|a, b| a.evaluation.cost.total_cmp(&b.evaluation.cost));
     let mut out: Vec<Descent> = Vec::new();

@@ -77,7 +77,7 @@ impl SearchBox {
             velocity: (1e-4 * top, top),
             ratio: (0.1, 10.0),
             breakaway: (0.02 / 0.98, 0.98 / 0.02),
-            // From a sample to the time of a stroke.
+            // Rate from one over the time of a stroke to one over a sample time.
             attraction: (1.0 / (stroke / top).max(100.0 * step), 1.0 / step),
             exponent: (0.3, 4.0),
         };
@@ -99,7 +99,7 @@ impl SearchBox {
         set(layout.breakaway, ranges.breakaway);
         set(layout.attraction, ranges.attraction);
         for i in layout.yields() {
-            // What yields later than half-way is never sure to slip.
+            // An element that yields after more than half the stroke is not certain to slip.
             set(Some(i), (ranges.length.0, 0.5 * ranges.length.1));
         }
         set(layout.exponent, ranges.exponent);
