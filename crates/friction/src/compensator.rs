@@ -94,8 +94,8 @@ impl<T: Real> Compensator<T> {
         self.state = State::rest(&self.friction);
     }
 
-    /// Sets the factor on the law's force from outside, as from an estimate of the load; 0 to 2. One that is not a number
-    /// changes nothing.
+    /// Sets the factor on the law's force from outside, for example from an estimate of the load; range 0 to 2. A
+    /// value that is not finite is ignored.
     pub fn set_level(&mut self, level: T) {
         if level.is_finite() {
             self.state.level = level.max(T::ZERO).min(T::from_f64(2.0));
@@ -112,7 +112,7 @@ impl<T: Real> Compensator<T> {
         Ok(())
     }
 
-    /// The compensating force, N (N m), to be added to the controller's from now on for one cycle time.
+    /// The compensating force, N (N m), to be added to the controller's output for the next cycle.
     #[inline]
     pub fn step(&mut self, input: Input<T>) -> T {
         self.advance(self.settings.cycle_time, input)
@@ -120,9 +120,9 @@ impl<T: Real> Compensator<T> {
 
     /// [`step`](Self::step) where the cycle time varies: `h` seconds since the call before.
     ///
-    /// The force is finite and within the limit for any input. A sample with an input that is not finite moves no
-    /// state of the law and counts as not enabled: the force fades while such samples last and comes back with good
-    /// ones. An `h` that is negative or not finite repeats the force.
+    /// The force is finite and within the limit for any input. A sample with an input that is not finite leaves the
+    /// law's state unchanged and counts as not enabled: the force ramps down while such samples last and ramps up
+    /// again afterwards. For an `h` that is negative or not finite the previous force is returned.
     #[inline]
     pub fn step_in(&mut self, h: T, input: Input<T>) -> T {
         if h >= T::ZERO && h <= T::MAX {

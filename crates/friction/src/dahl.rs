@@ -28,7 +28,7 @@ impl<T: Real> Dahl<T> {
         LuGre::new(stiffness, Damping::Constant(T::ZERO), curve).map(Dahl)
     }
 
-    /// The law in the form that steps.
+    /// The law as a [`LuGre`], which has the step functions.
     pub fn law(&self) -> &LuGre<T> {
         &self.0
     }

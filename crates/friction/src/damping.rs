@@ -5,7 +5,7 @@ use crate::{LuGre, Real, Stribeck};
 
 /// Micro-damping sigma1(v), N s/m (N m s/rad).
 ///
-/// A constant sigma1 makes the LuGre law active: bristles loaded at rest and then swept away at speed push the axis
+/// A constant sigma1 makes the LuGre law active (not passive): bristles loaded at rest and then swept away at speed push the axis
 /// forward. `Capped` is the default choice; `Constant` is what most published figures were made with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Damping<T> {
@@ -109,7 +109,8 @@ impl<T: Real> Cap<T> {
         }
     }
 
-    /// Derivative of the value, which is `cap`, with respect to the speed, where the level falls as `g_slope`.
+    /// Derivative of the cap, whose value is `cap`, with respect to the speed; `g_slope` is the derivative of the
+    /// level.
     #[inline(always)]
     fn slope(&self, cap: T, g_slope: T) -> T {
         let Cap {

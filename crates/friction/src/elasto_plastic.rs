@@ -70,7 +70,8 @@ impl<T: Real> ElastoPlastic<T> {
         ElastoPlastic::new(self.bristle.cast()?, U::from_f64(self.breakaway.to_f64()))
     }
 
-    /// alpha in 0..=1 at deflection `z` (m, rad) and velocity `v` (m/s, rad/s); at `v = 0` that of the limit from above.
+    /// alpha in 0..=1 at deflection `z` (m, rad) and velocity `v` (m/s, rad/s); at `v = 0` its limit for v falling to
+    /// 0.
     #[inline]
     pub fn plasticity(&self, z: T, v: T) -> T {
         let g = self.bristle.curve().level(v);

@@ -3,7 +3,7 @@
 use crate::Real;
 use core::fmt;
 
-/// A parameter that a law cannot be built with.
+/// A parameter outside the range that a law allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParamError {
     /// Which parameter: `sigma0`, `sigma1`, `sigma2`, `coulomb`, `static`, `stribeck_velocity`, `stribeck_exponent`,
@@ -67,7 +67,7 @@ pub(crate) fn require<T: Real>(
 impl fmt::Display for ParamError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let size = self.value.abs();
-        // No hundred zeros.
+        // Very large and very small values with a power of ten, to avoid long runs of zeros.
         if size >= 1e9 || (size > 0.0 && size < 1e-6) {
             write!(f, "{} = {:e}", self.name, self.value)?;
         } else {

@@ -30,8 +30,8 @@ const LN2: [f64; 2] = [
     f64::from_bits(0x3dea_39ef_3579_3c76),
 ];
 
-/// `(exp(r) - 1 - r)/r^2` on |r| <= ln2/2 to 2.4e-16 of its value: interpolation at the ten Chebyshev points in seventy
-/// digits (`crates/lanes/tests/exp/polynomial.py`), even and odd powers apart.
+/// `(exp(r) - 1 - r)/r^2` on |r| <= ln2/2 to 2.4e-16 of its value: interpolation at the ten Chebyshev points,
+/// computed with seventy digits (`crates/lanes/tests/exp/polynomial.py`); even and odd powers are stored separately.
 const EVEN_COEFFICIENTS: [f64; 5] = [
     0.5000000000000001,
     0.041666666666624136,
@@ -103,7 +103,7 @@ pub(crate) fn expm1(x: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Both signs, from 1e-17 to 800, as many in each decade; the ends of the range.
+    /// Arguments of both signs, logarithmically spaced from 1e-17 to 800, and the ends of the range.
     fn arguments() -> impl Iterator<Item = f64> {
         let sizes = (0..1_000_000).map(|i| 800.0 * libm::exp(-f64::from(i) * 4.6e-5));
         sizes.chain([MAX_ARGUMENT, 708.1]).flat_map(|x| [x, -x])
@@ -136,7 +136,7 @@ mod tests {
         assert_eq!((exp(-1e300), exp(1e300)), (0.0, f64::INFINITY));
     }
 
-    /// What the bounds of the law rest on: no deflection passes the level that pulls it.
+    /// The bounds of the law depend on this: a deflection never overshoots the steady value that it approaches.
     #[test]
     fn a_decay_stays_between_nothing_and_all() {
         for x in arguments().filter(|x| *x <= 0.0) {

@@ -93,7 +93,7 @@ impl<T: Real> Held<T> for LuGre<T> {
 
     fn reach(&self, h: T) -> T {
         let swing = T::from_f64(2.0) * self.bound();
-        // The largest deflection, and the most that its correction adds to it.
+        // The force of the largest deflection and the largest amount that the correction within a step adds to it.
         T::from_f64(3.0) * self.stiffness() * self.bound() + self.damping().at_rest() * swing / h
     }
 }
@@ -167,8 +167,8 @@ impl<T: Real, const N: usize> Held<T> for Gms<T, N> {
     }
 }
 
-/// Step of that difference relative to the velocity, and the least velocity in Stribeck velocities: small against the scale on
-/// which sigma1 changes, large against rounding.
+/// Step of the finite difference in [`damping_slope`], relative to the velocity, and the least velocity used there,
+/// in Stribeck velocities: small against the scale on which sigma1 changes, large against rounding.
 const RELATIVE_STEP: f64 = 1e-6;
 
 /// Derivative of sigma1 with respect to velocity; a difference is enough, since it only guides Newton's method.

@@ -7,9 +7,9 @@
 //! |---|---|---|
 //! | [`LuGre`] | bristle deflection z | presliding, Stribeck, frictional lag, stick-slip |
 //! | [`ElastoPlastic`] | z | the same without creep below break-away |
-//! | [`Gms`] | one force an element | presliding with non-local memory, Stribeck, frictional lag |
+//! | [`Gms`] | one force per element | presliding with non-local memory, Stribeck, frictional lag |
 //! | [`Dahl`] | z | presliding and Coulomb only |
-//! | [`Stribeck`] | none | the steady curve, any [`Shape`], either direction its own |
+//! | [`Stribeck`] | none | the steady curve, any [`Shape`], separate parameters for each direction |
 //! | [`CoulombViscous`] | none | the simplest law |
 //! | [`TanhRegularised`] | none | a steady curve for solvers that need it smooth |
 //!

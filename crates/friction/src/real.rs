@@ -46,10 +46,10 @@ pub trait Real:
     fn to_f64(self) -> f64;
     /// Magnitude.
     fn abs(self) -> Self;
-    /// The larger of the two; a NaN here loses, one in `other` wins. One instruction; against a NaN on either side it
-    /// would be six.
+    /// The larger of the two. If self is NaN the result is `other`; if `other` is NaN the result is NaN. This is one
+    /// instruction; ignoring a NaN on either side would take six.
     fn max(self, other: Self) -> Self;
-    /// The smaller of the two; a NaN here loses, one in `other` wins.
+    /// The smaller of the two. If self is NaN the result is `other`; if `other` is NaN the result is NaN.
     fn min(self, other: Self) -> Self;
     /// Neither infinite nor NaN.
     fn is_finite(self) -> bool;

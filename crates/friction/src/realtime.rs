@@ -93,9 +93,10 @@ impl<T: Real> LuGre<T> {
 
     /// The largest sigma1 up to `s1` with which a sample from `z` to `end` at the deflection rate `rate` creates no energy.
     ///
-    /// [`passive_cap`](Self::passive_cap) is the bound in continuous time. A sample holds the force of its end over its
-    /// whole length, and where a bristle unloads that is the smallest force of the sample: up to 13 % of Fs |v| h would
-    /// be missing. So the balance of the sample itself is kept: work done on the law >= growth of sigma0 z^2/2.
+    /// [`passive_cap`](Self::passive_cap) is the bound in continuous time. A sample holds the force at its end over
+    /// its whole length, and where a bristle unloads that is the smallest force within the sample: the work done on
+    /// the law would be too small by up to 13 % of Fs |v| h. So the energy balance of the sample itself is enforced:
+    /// work done on the law >= growth of sigma0 z^2/2.
     #[inline]
     pub(crate) fn sampled_cap(&self, s1: T, z: T, end: T, rate: T, v: T) -> T {
         let returned = -(rate * v);

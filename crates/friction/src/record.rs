@@ -17,7 +17,7 @@ impl<T: Real> LuGre<T> {
     pub fn step_record(&self, z: T, h: T, va: T, vb: T) -> T {
         let rises = va < T::ZERO && vb > T::ZERO;
         if rises || (va > T::ZERO && vb < T::ZERO) {
-            // Each part by its own quotient: the difference from 1 would lose the digits of a short part.
+            // Each part has its own quotient: `1 - theta` would lose digits where the second part is short.
             let theta = va / (va - vb);
             let turn = self.one_way(!rises, z, theta * h, va.abs(), T::ZERO);
             self.one_way(rises, turn, vb / (vb - va) * h, T::ZERO, vb.abs())

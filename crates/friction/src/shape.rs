@@ -20,8 +20,9 @@ pub enum Shape<T> {
 }
 
 impl<T: Real> Shape<T> {
-    /// `exp(-x^delta)` in its plainest form: Gaussian for an exponent of 2, exponential for 1, else the power. The same
-    /// curve, and where the two can differ the plainer form is exact: the power has no slope at rest.
+    /// `exp(-x^delta)` in its simplest form: Gaussian for an exponent of 2, exponential for 1, else the power. The
+    /// curve is the same; where the derivatives differ the simpler form is exact, since the power takes the
+    /// derivative at rest as 0.
     pub fn with_exponent(delta: T) -> Self {
         if delta == T::from_f64(2.0) {
             Shape::Gaussian

@@ -24,7 +24,7 @@ impl<T: Real> CoulombViscous<T> {
         })
     }
 
-    /// Numbers of their own for each direction, each pair `[v >= 0, v < 0]`; units and ranges as for `symmetric`.
+    /// Separate numbers for each direction, each pair `[v >= 0, v < 0]`; units and ranges as for `symmetric`.
     pub fn new(coulomb: [T; 2], viscous: [T; 2], offset: T) -> Result<Self, ParamError> {
         ParamError::not_negative("coulomb_pos", coulomb[0])?;
         ParamError::not_negative("coulomb_neg", coulomb[1])?;
@@ -75,7 +75,7 @@ pub struct TanhRegularised<T> {
 }
 
 impl<T: Real> TanhRegularised<T> {
-    /// The curve to smooth, and the velocity vt > 0 (m/s, rad/s) over which the sign turns, well below vs.
+    /// The curve to smooth, and the velocity vt > 0 (m/s, rad/s) over which the jump is smoothed, well below vs.
     pub fn new(curve: Stribeck<T>, velocity: T) -> Result<Self, ParamError> {
         ParamError::positive("regularisation_velocity", velocity)?;
         Ok(TanhRegularised { curve, velocity })

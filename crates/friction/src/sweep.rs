@@ -26,7 +26,8 @@ pub struct Sweep<T> {
     /// `exp(-a) - 1`, minus the fraction of the approach to the steady deflection, and the derivative of a.
     decay: T,
     a_slope: T,
-    /// Force for a deflection, and for its change over the step, with the derivative and without the correction.
+    /// Force per deflection; force per change of the deflection over the step, with its derivative; the latter
+    /// without the correction.
     stiffness: T,
     by_change: (T, T),
     by_rate: T,
@@ -118,7 +119,7 @@ impl<T: Real> Sweeps<T> {
         let g = side.coulomb + drop * weight;
         let g_slope = sign * (drop * per_velocity) * falls;
         let per_level = T::ONE / g;
-        // exp(-a) of the approach is left.
+        // After the step exp(-a) of the distance to the steady deflection is left.
         let per_speed = self.swept * per_level;
         let a = per_speed * v.abs();
         let a_slope = sign * per_speed - a * g_slope * per_level;
@@ -127,7 +128,8 @@ impl<T: Real> Sweeps<T> {
         let decay = (-a).expm1();
         let steady = (sign * g * self.compliance, sign * g_slope * self.compliance);
 
-        // Both parts of the correction by one division, far from overflow; at a million both have vanished.
+        // Both parts of the correction with one division; a is limited against overflow, and at 1e6 both parts have
+        // vanished.
         let long = a.min(T::from_f64(1e6));
         let sixty = T::from_f64(60.0) + long * long;
         let fades = T::ONE + long * long;
@@ -231,7 +233,7 @@ impl<T: Real> Sweep<T> {
         if corrected.0 * self.path >= kept {
             return corrected;
         }
-        // Where sigma1 is not capped the law itself may release energy: that is kept.
+        // Where sigma1 is not capped the law itself may release energy: that property of the law is kept.
         let plain = of_change(self.by_rate);
         let enough = kept / self.path;
         let kept_slope = self.stiffness * change_slope * (mean + T::from_f64(0.5) * change);

@@ -50,7 +50,7 @@ impl Candidate {
     }
 }
 
-/// Refuses the first candidate that is not a law.
+/// An error for the first candidate with a parameter out of its range.
 pub(crate) fn check(candidates: &[Candidate]) -> Result<(), Error> {
     for (index, candidate) in candidates.iter().enumerate() {
         candidate

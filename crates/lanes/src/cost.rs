@@ -11,14 +11,14 @@ mod explicit;
 mod terms;
 
 pub use terms::Scheme;
-/// Candidates that share the lanes of a batch.
+/// Number of candidates that share the lanes of a batch.
 const LANES: usize = 16;
-/// Candidates up to which they are faster one by one than in half-empty lanes (`cargo bench -p
-/// stiction-lanes`).
+/// Number of candidates up to which evaluating them one by one is faster than in half-empty lanes
+/// (`cargo bench -p stiction-lanes`).
 const MOST_ALONE: usize = 4;
 
 /// Sum of squares of measured minus model force over the samples that count, N^2 (N^2 m^2), for each
-/// candidate; infinite where a candidate explodes or overflows, never NaN.
+/// candidate; infinite where the integration of a candidate diverges or overflows, never NaN.
 ///
 /// Batches are spread over the threads of the current rayon pool. The bits of a cost depend on track,
 /// candidate and scheme only: not on the other candidates, their order or number, the threads or the

@@ -1,8 +1,8 @@
 //! The law in units of its Coulomb level, for one lane, and its interval EXPLIN.
 //!
-//! With `y = sigma0 |z|/Fc` told in the direction of motion, `g = 1 + (Fs/Fc - 1) exp(-|v/vs|^delta)` and
-//! `kappa = sigma0/Fc`, the step of [`stiction_friction::LuGre::step_record`] is a linear recursion in the
-//! deviation `w = y - g` from the steady deflection:
+//! With `y = sigma0 |z|/Fc`, positive in the direction of motion, `g = 1 + (Fs/Fc - 1) exp(-|v/vs|^delta)`
+//! and `kappa = sigma0/Fc`, the step of [`stiction_friction::LuGre::step_record`] is a linear recursion in
+//! the deviation `w = y - g` from the steady deflection:
 //!
 //! ```text
 //! A  = h kappa/2 (va/ga + vb/gb)
@@ -32,7 +32,7 @@ impl Curve {
         Curve {
             rate: -kappa,
             excess,
-            // Finite, so that at rest it gives 0.
+            // Limited to a finite number, so that its product with a speed of 0 is 0 and not NaN.
             fall: (-1.0 / (velocity * velocity)).max(-1e300),
             exponent,
             ln_velocity: libm::log(velocity),
@@ -40,7 +40,7 @@ impl Curve {
     }
 }
 
-/// What the track says of a node's speed.
+/// The speed of a node, as stored in the track.
 #[derive(Clone, Copy)]
 pub(crate) struct Speed {
     pub value: f64,
@@ -58,7 +58,7 @@ pub(crate) struct Node {
 /// Before the first node: unloaded.
 pub(crate) const START: Node = Node { g: 1.0, q: 0.0 };
 
-/// Added wherever a deviation could die away into the numbers below the normal range, which are slow.
+/// Added wherever a deviation could decay to subnormal numbers, with which arithmetic is slow.
 pub(crate) const SUBNORMAL_GUARD: f64 = 1e-140;
 
 /// The weights of an interval: `w+ = keep w + add`.
@@ -76,7 +76,7 @@ impl Curve {
         if !POWER {
             return gaussian;
         }
-        // A power above 1000 leaves nothing of the excess.
+        // The power is limited to exp(7), about 1100: above 1000 the excess has vanished.
         let power = exp(at_most(self.exponent * (v.ln - self.ln_velocity), 7.0));
         if self.exponent == 2.0 {
             gaussian

@@ -1,11 +1,11 @@
-//! What is refused, and where it stands.
+//! Errors of tracks and batches.
 
 use stiction_friction::ParamError;
 
 /// Why a track or a batch could not be made.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
-    /// A candidate that is not a law.
+    /// A candidate with a parameter out of its range.
     #[error("candidate {index}: {source}")]
     Candidate {
         /// Which, counted from 0.
@@ -13,7 +13,7 @@ pub enum Error {
         /// What is wrong with it.
         source: ParamError,
     },
-    /// A sample that cannot be computed with.
+    /// A sample with a value that is not allowed.
     #[error("segment {segment}, {channel}, sample {sample}: {found}; allowed: {allowed}")]
     Sample {
         /// Which segment, counted from 0.

@@ -3,8 +3,8 @@
 //! Everything is written with [`f64::mul_add`], whose result is the correctly rounded one on every
 //! target, so the bits do not depend on whether the processor has the instruction.
 
-/// Exponents are held above this: nothing that is added to a number near one is smaller than
-/// `exp(-700)`, and numbers below the normal range are slow.
+/// Arguments of exponentials are limited to this from below: nothing that is added to a number near
+/// one is smaller than `exp(-700)`, and arithmetic with subnormal numbers is slow.
 pub(crate) const LOWEST_ARGUMENT: f64 = -700.0;
 
 /// Adding this to a number rounds it to an integer; the lowest bits of the sum are then that integer
@@ -12,7 +12,8 @@ pub(crate) const LOWEST_ARGUMENT: f64 = -700.0;
 const ROUND_TO_INTEGER: f64 = 1.5 * (1_u64 << 52) as f64 + 1023.0;
 
 /// `(exp(r) - 1 - r)/r^2` on |r| <= ln2/2 to 2.4e-16 of its value: interpolation at the ten Chebyshev
-/// points in seventy digits (`tests/exp/polynomial.py`), even and odd powers apart.
+/// points, computed with seventy digits (`tests/exp/polynomial.py`); even and odd powers are stored
+/// separately.
 const EVEN: [f64; 5] = [
     0.5000000000000001,
     0.041666666666624136,
@@ -34,13 +35,13 @@ pub(crate) fn fma(a: f64, b: f64, c: f64) -> f64 {
     a.mul_add(b, c)
 }
 
-/// The larger; the second where the first is not a number.
+/// The larger; the second where the first is NaN.
 #[inline(always)]
 pub(crate) fn at_least(x: f64, low: f64) -> f64 {
     if x > low { x } else { low }
 }
 
-/// The smaller; the second where the first is not a number.
+/// The smaller; the second where the first is NaN.
 #[inline(always)]
 pub(crate) fn at_most(x: f64, high: f64) -> f64 {
     if x < high { x } else { high }
@@ -60,7 +61,7 @@ impl Reduced {
     fn of(x: f64) -> Self {
         let shifted = fma(x, std::f64::consts::LOG2_E, ROUND_TO_INTEGER);
         let n = shifted - ROUND_TO_INTEGER;
-        // The rounding of ln2 shifts the exponent by 2.3e-17 n, which only numbers far below one feel.
+        // The rounding of ln2 shifts the exponent by 2.3e-17 n, which matters only for results far below one.
         let r = fma(n, -std::f64::consts::LN_2, x);
         Reduced {
             scale: f64::from_bits(shifted.to_bits() << 52),
@@ -167,7 +168,7 @@ pub(crate) fn expm1(x: f64) -> f64 {
     fma(reduced.scale, grown, reduced.scale - 1.0)
 }
 
-/// What an interval of length `a` does to a deviation.
+/// Effect of an interval of length `a` (dimensionless) on a deviation.
 #[derive(Clone, Copy)]
 pub(crate) struct Decay {
     /// `exp(-a)`.
@@ -206,16 +207,16 @@ pub(crate) fn decays(x: [f64; 2]) -> [Decay; 2] {
     [decay(0), decay(1)]
 }
 
-/// Above this the polynomial needs no power of two.
+/// For arguments above this the polynomial needs no power of two.
 pub(crate) const POLYNOMIAL_ALONE: f64 = -0.34;
-/// Two of these can be multiplied.
+/// Lower limit of the arguments of decays: the product of two of them does not overflow.
 pub(crate) const LONGEST_DECAY: f64 = -1e150;
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Arguments from 0 to -700, as many in each decade.
+    /// Arguments from 0 to -700, logarithmically spaced.
     fn arguments() -> impl Iterator<Item = f64> {
         (0..2_000_000).map(|i| -700.0 * libm::exp(-f64::from(i) * 2e-5))
     }

@@ -31,7 +31,7 @@ pub struct Trial {
     pub ln_excess: f64,
     /// `ln vs`, vs in m/s (rad/s).
     pub ln_velocity: f64,
-    /// delta > 0, not an unknown.
+    /// delta > 0: given, not estimated.
     pub exponent: f64,
 }
 
@@ -168,7 +168,8 @@ impl Kernel for SharedSums<'_> {
     }
 }
 
-/// Sum of products over the samples that count; what does not count is a number all the same.
+/// Sum of products over the samples that count; the values of all other samples are finite too, so a factor 0 removes
+/// them.
 #[inline(always)]
 fn product(marks: &[u8], a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; gram::LANES];

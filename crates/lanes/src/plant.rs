@@ -32,14 +32,15 @@ pub enum Stepping {
     /// z+ = (z + h v)/(1 + h sigma0 |v|/g(v))
     /// M (v+ - v)/h = u - [sigma0 z+ + sigma1 (v+ - sigma0 |v|/g(v) z+) + sigma2 v+],   x+ = x + h v+
     /// ```
-    /// First order: what it is off falls in proportion to the step. Nothing is solved by iteration, and it
-    /// takes a fifteenth of the time. Stable below the same step.
+    /// First order: its error is proportional to the step. Nothing is solved by iteration, and it takes a
+    /// fifteenth of the time. Stable below the same limit of the step, see [`plants`].
     SemiImplicit,
 }
 
-/// Axes that share the lanes of the midpoint.
+/// Number of axes that share the lanes in the midpoint step.
 const LANES: usize = 16;
-/// Of the semi-implicit step, which has one long chain of operations a step: more axes fill the gaps in it.
+/// The same for the semi-implicit step. A step of it is one long chain of operations: more axes fill the waiting
+/// time.
 const SEMI_IMPLICIT_LANES: usize = 64;
 
 /// Simulates every axis under the drive. Keep `h sqrt(sigma0/M)` below about 2.

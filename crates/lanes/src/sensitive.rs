@@ -13,7 +13,7 @@ use crate::exp::{LONGEST_DECAY, at_least, decays, exp, fma};
 /// Unknowns of the trial.
 pub(crate) const UNKNOWNS: usize = 3;
 
-/// Exponents of the Stribeck curve are held above this: what is left of the excess is no part of the level,
+/// Lower limit of the exponents in the Stribeck curve: there the excess is below the rounding of the level,
 /// and its square is still a normal number.
 const LOWEST_STRIBECK_EXPONENT: f64 = -80.0;
 

@@ -161,7 +161,7 @@ impl Sink for Writing<'_> {
     }
 }
 
-/// Appends the samples of a block, with the sign that the motion has.
+/// Appends the samples of a block, each with the sign of the motion.
 #[inline(always)]
 fn append(track: &Track, at: usize, column: &[f64; BLOCK], out: &mut Vec<f64>) {
     let sign: &[i8; BLOCK] = chunk(&track.sign, at);

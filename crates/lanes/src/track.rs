@@ -5,12 +5,12 @@ use std::sync::OnceLock;
 
 mod build;
 
-/// Nodes that a trajectory alone takes at a time; a track is padded to a multiple.
+/// Nodes in a block of a single candidate or trial; a track is padded to a multiple.
 pub(crate) const BLOCK: usize = 128;
-/// Nodes that a batch takes at a time.
+/// Nodes in a tile of a batch.
 pub(crate) const TILE: usize = 32;
-/// Node `t` of a tile shares its division with node `t + HALF`. That it is these two is part of the
-/// result's bits.
+/// Node `t` of a tile shares its division with node `t + HALF`. Other pairs would change the last
+/// bits of the result.
 pub(crate) const HALF: usize = TILE / 2;
 
 /// The node is a sample of the record, not a reversal put in.
@@ -19,7 +19,7 @@ pub(crate) const SAMPLE: u8 = 1;
 pub(crate) const KEPT: u8 = 2;
 /// The bristle starts unloaded here.
 pub(crate) const RESTART: u8 = 4;
-/// The motion turns here: what follows is told in the other direction.
+/// The motion reverses here: from here on signs are those of the other direction.
 pub(crate) const REVERSE: u8 = 8;
 
 /// When the samples of a [`Segment`] were taken.
@@ -27,7 +27,7 @@ pub(crate) const REVERSE: u8 = 8;
 pub enum Time<'a> {
     /// One time step between all, s.
     Step(f64),
-    /// Instants, s, strictly increasing, one a sample.
+    /// Instants, s, strictly increasing, one per sample.
     At(&'a [f64]),
 }
 
@@ -42,16 +42,16 @@ pub struct Segment<'a> {
     pub force: &'a [f64],
     /// Which samples count; empty means all.
     pub keep: &'a [bool],
-    /// Further columns of a regression that no candidate changes (acceleration, ones, ...), one value a
-    /// sample; as many in every segment. For the cost of given candidates they are not looked at.
+    /// Further columns of a regression that no candidate changes (acceleration, ones, ...), one value
+    /// per sample; as many in every segment. They are not used for the cost of given candidates.
     pub columns: &'a [&'a [f64]],
 }
 
 /// A recorded motion in the form that the kernels read.
 ///
 /// Nodes are the samples, and one node of standstill wherever the velocity changes its sign between two
-/// samples. Everything is told in the direction of motion: with the sign taken out, the bristle relaxes
-/// towards a positive level in every interval, and at a reversal the deflection changes its sign.
+/// samples. All signs are taken relative to the direction of motion: so the bristle relaxes towards a
+/// positive level in every interval, and at a reversal the deflection changes its sign.
 #[derive(Clone, Debug)]
 pub struct Track {
     pub(crate) speed: Vec<f64>,

@@ -130,7 +130,7 @@ impl Annealing {
         })
     }
 
-    /// The chains set out from the best of the sample.
+    /// Starts the chains at the best points of the sample.
     fn set_out(&mut self, answers: &Answers) {
         let costs: Vec<f64> = (0..answers.len()).map(|i| answers.cost(i)).collect();
         let order = crate::genetic::least(&costs, costs.len());
@@ -227,7 +227,7 @@ impl Search for Annealing {
         }
         for (i, chain) in self.chains.iter_mut().enumerate() {
             let cost = answers.cost(i);
-            // Drawn whether needed or not: the sequence of numbers then does not hang on rounding.
+            // Drawn whether needed or not: the sequence of random numbers then does not depend on rounding.
             let chance = self.dice.unit();
             let rise = (cost - chain.cost) / self.temperature;
             if cost <= chain.cost || chance < libm::exp(-rise) {

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 /// Most dimensions of a box.
 pub const MOST_DIMENSIONS: usize = 64;
 
-/// Lower and upper bounds, in whatever coordinates the problem chose; a logarithmic scale is the
-/// problem's affair. Inside, every search sees the unit cube.
+/// Lower and upper bounds, in whatever coordinates the problem chose; a logarithmic scale is left
+/// to the problem. Internally every search works in the unit cube.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bounds {
     #[serde(with = "bits")]

@@ -1,14 +1,14 @@
 //! Levenberg-Marquardt inside a box, the only one of the workspace.
 //!
-//! It minimises a sum of squares from what a [`LeastSquares`] problem says of a point: the cost, `J^T r` and
-//! `J^T J` ([`Derivatives`]), reduced to the unknowns that the descent moves. Steps are scaled by the
+//! It minimises a sum of squares from what a [`LeastSquares`] problem returns at a point: the cost, `J^T r`
+//! and `J^T J` ([`Derivatives`]), reduced to the unknowns that the descent moves. Steps are scaled by the
 //! diagonal of `J^T J` (Moré 1978, doi 10.1007/BFb0067700); the damping follows the ratio of the gain to
-//! what the quadratic model promised (Nielsen 1999, IMM-REP-1999-05, section 2). An unknown at a bound with
-//! the descent pointing outward is frozen for the step; one whose step would leave the box goes to its
-//! bound, and the others are solved again for that.
+//! that which the quadratic model predicted (Nielsen 1999, IMM-REP-1999-05, section 2). An unknown at a
+//! bound with the descent pointing outward is frozen for the step; one whose step would leave the box goes
+//! to its bound, and the others are solved again for that.
 //!
-//! [`descend`] runs one descent to its end. [`Descent`] is the same as a state machine, asked for its next
-//! trial and told what became of it, for callers that evaluate the trials of many descents together.
+//! [`descend`] runs one descent to its end. [`Descent`] is the same as a state machine, which is asked for
+//! its next trial and told the cost of it, for callers that evaluate the trials of many descents together.
 
 mod follow;
 mod settings;
@@ -30,15 +30,16 @@ const LEAST_SHRINK: f64 = 1.0 / 3.0;
 /// Growth of the damping after a first failed step; it doubles with each further one (Nielsen 1999).
 const FIRST_GROWTH: f64 = 2.0;
 
-/// What is known where a descent stands.
+/// What is known at the current point of a descent.
 #[derive(Clone, Copy, Debug)]
 pub struct Sums<'a> {
     /// Cost and derivatives, reduced to the unknowns of the descent.
     pub derivatives: &'a Derivatives,
     /// What the damping of each unknown is relative to; `None` for the diagonal of `J^T J`.
     pub scale: Option<&'a [f64]>,
-    /// Fall of the cost that the unknowns which the problem has eliminated promise by themselves, for the
-    /// damping of the coming step. Where it is not zero, small steps of the others are tried all the same.
+    /// Fall of the cost that is predicted for a step of only those unknowns that the problem has eliminated,
+    /// at the damping of the coming step. Where it is not zero, small steps of the other unknowns are tried
+    /// nevertheless.
     pub beside: f64,
 }
 
@@ -57,7 +58,7 @@ impl<'a> From<&'a Derivatives> for Sums<'a> {
 pub struct Descent {
     #[serde(with = "bits")]
     point: Vec<f64>,
-    /// At the point, as of the last proposal.
+    /// Cost at the current point, as of the last proposal.
     #[serde(with = "bits")]
     cost: f64,
     #[serde(with = "bits")]
@@ -67,7 +68,7 @@ pub struct Descent {
     /// Steps in a row that gained little.
     slow: usize,
     trials: usize,
-    /// Fall of the cost that the last proposal promised.
+    /// Fall of the cost that was predicted for the last proposal.
     #[serde(with = "bits")]
     promised: f64,
     status: Option<Status>,
@@ -88,7 +89,7 @@ impl Descent {
         }
     }
 
-    /// The same with trials that were spent on the way to its start.
+    /// The same, with the trials counted that were spent to find its start.
     #[must_use]
     pub fn after(mut self, trials: usize) -> Self {
         self.trials = trials;
@@ -105,7 +106,7 @@ impl Descent {
         &self.point
     }
 
-    /// The same, kept.
+    /// The same point, by value.
     pub fn into_point(self) -> Vec<f64> {
         self.point
     }
@@ -120,7 +121,7 @@ impl Descent {
         self.damping
     }
 
-    /// Fall of the cost that the last proposal promised.
+    /// Fall of the cost that was predicted for the last proposal.
     pub fn promised(&self) -> f64 {
         self.promised
     }
@@ -130,8 +131,8 @@ impl Descent {
         self.status = Some(status);
     }
 
-    /// The next trial, from what is known where it stands; `None` at its end. Without unknowns it has
-    /// converged.
+    /// The next trial, from what is known at the current point; `None` once the descent has ended.
+    /// Without unknowns it has converged.
     pub fn propose(&mut self, settings: &Settings, region: Region, now: Sums) -> Option<Vec<f64>> {
         if self.status.is_some() {
             return None;
@@ -191,7 +192,7 @@ impl Descent {
         Some(trial)
     }
 
-    /// What the trial last proposed costs; whether it is where the descent now stands.
+    /// Takes the cost of the last proposed trial; true if the descent moves to it.
     pub fn take(&mut self, settings: &Settings, trial: Vec<f64>, cost: f64) -> bool {
         let gained = self.cost - cost;
         if cost.is_finite() && gained > 0.0 {
@@ -215,7 +216,7 @@ impl Descent {
             self.growth = FIRST_GROWTH;
             return true;
         }
-        // A step that a bound cut short may promise a rise: a shorter one follows the gradient.
+        // For a step shortened by a bound a rise of the cost may be predicted: a shorter step follows the gradient.
         let nothing = (settings.no_gain * self.cost).max(settings.cost_rounding);
         if self.promised.abs() <= nothing {
             self.status = Some(Status::Converged);

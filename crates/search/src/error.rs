@@ -15,7 +15,7 @@ pub enum Error {
         /// What is allowed.
         allowed: &'static str,
     },
-    /// A box without points, or without end.
+    /// A box with a lower bound above the upper one, or with a bound that is not finite.
     #[error(
         "box, dimension {dimension}: {low:?} to {high:?}; allowed: finite, the lower bound first, and a \
          finite width"

@@ -72,7 +72,7 @@ pub struct Finished<S> {
 }
 
 impl<S: Search> Finished<S> {
-    /// Puts a finish after a search over so many dimensions; `None` leaves the search as it is.
+    /// Puts a finish after a search over `dimensions` dimensions; `None` leaves the search as it is.
     pub fn new(search: S, finish: Option<Finish>, dimensions: usize) -> Result<Self, Error> {
         let settings = finish.clone().unwrap_or_default();
         settings.check()?;
@@ -139,7 +139,8 @@ impl<S: Search> Search for Finished<S> {
 
     fn status(&self) -> Option<Status> {
         match &self.descents {
-            // Least squares that converge do not make up for a search that was at its end before.
+            // If the generations or the budget of the search were used up, convergence of the least squares does
+            // not count.
             Some(descents) => status_of(descents).map(|status| match self.search.status() {
                 None | Some(Status::Exhausted) if status == Status::Converged => Status::Exhausted,
                 _ => status,

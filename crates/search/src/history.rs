@@ -1,4 +1,4 @@
-//! The course of a run, for pictures; of bounded size however long the run.
+//! The course of a run, for plots; of bounded size however long the run.
 
 use crate::bits;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ const MOST_ENTRIES: usize = 1024;
 /// A new best.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Improvement {
-    /// Evaluations until then, in those of the full record.
+    /// Evaluations until then, in equivalents of evaluations on the full record.
     #[serde(with = "bits")]
     pub evaluations: f64,
     /// The cost.
@@ -22,7 +22,7 @@ pub struct Improvement {
 pub struct Generation {
     /// Which generation, counted from 0 over all rounds.
     pub generation: usize,
-    /// Evaluations until then, in those of the full record.
+    /// Evaluations until then, in equivalents of evaluations on the full record.
     #[serde(with = "bits")]
     pub evaluations: f64,
     /// Least cost, lower quartile, median, upper quartile, greatest cost.
@@ -35,7 +35,7 @@ pub struct Generation {
 pub struct History {
     improvements: Vec<Improvement>,
     generations: Vec<Generation>,
-    /// One generation in so many is kept.
+    /// Every how many generations one is kept.
     every: usize,
 }
 

@@ -56,7 +56,7 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// Most sweeps of the rotations: they converge quadratically, a handful do for 64 dimensions.
 const MOST_SWEEPS: usize = 40;
-/// Sum of squares beside the diagonal, over that on it, that is rounding only: the square of 1e-17.
+/// Sum of squares off the diagonal, divided by that on it, which is rounding only: the square of 1e-17.
 const OFF_DIAGONAL_REST: f64 = 1e-34;
 
 /// Eigenvalues and eigenvectors (in the columns) of a symmetric matrix, by cyclic Jacobi rotations

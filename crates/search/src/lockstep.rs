@@ -24,7 +24,7 @@ pub(crate) struct Waiting {
 }
 
 impl Waiting {
-    /// From a point of the unit cube, for at most so many steps.
+    /// From a point of the unit cube, with at most `most_trials` steps.
     pub fn new(start: &[f64], most_trials: usize) -> Self {
         let point: Vec<f64> = start.iter().map(|x| x.clamp(0.0, 1.0)).collect();
         Self {
@@ -75,8 +75,8 @@ impl Waiting {
     }
 }
 
-/// The rules of a descent in widths of the box. What the model promises no gain is tried all the same: a
-/// trial costs little beside the search before it.
+/// The rules of a descent in widths of the box. Trials for which the model predicts no gain are
+/// evaluated too: a trial costs little compared with the search before it.
 fn settings(most_trials: usize) -> Settings {
     Settings {
         most_trials,
@@ -109,7 +109,8 @@ pub(crate) fn tell_all(descents: &mut [Waiting], answers: &[Derivatives]) {
     }
 }
 
-/// How the best descent ended; `None` while any goes on. Steps that are used up are the method's own.
+/// How the best descent ended; `None` while any goes on. A used-up number of steps is a limit of the method itself:
+/// [`Status::Exhausted`], not [`Status::Budget`].
 pub(crate) fn status_of(descents: &[Waiting]) -> Option<Status> {
     if descents.iter().any(|d| d.status().is_none()) {
         return None;

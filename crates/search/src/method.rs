@@ -89,7 +89,7 @@ impl Method {
         }
     }
 
-    /// The search in a box of so many dimensions.
+    /// The search in a box of `dimensions` dimensions.
     pub fn start(&self, dimensions: usize, seed: u64) -> Result<Searcher, Error> {
         let (n, name) = (dimensions, self.name());
         if !(1..=MOST_DIMENSIONS).contains(&n) {
@@ -140,7 +140,7 @@ impl Plan {
         }
     }
 
-    /// The search that a [`Run`](crate::Run) takes, in a box of so many dimensions.
+    /// The search that a [`Run`](crate::Run) takes, in a box of `dimensions` dimensions.
     pub fn start(&self, dimensions: usize, seed: u64) -> Result<Finished<Searcher>, Error> {
         let search = self.method.start(dimensions, seed)?;
         Finished::new(search, self.finish.clone(), dimensions)

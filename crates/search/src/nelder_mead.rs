@@ -13,15 +13,15 @@ use crate::search::{Answers, Request, Search};
 use crate::status::Status;
 use serde::{Deserialize, Serialize};
 
-/// Width of a simplex, in those at which it is done, below which it has collapsed whatever its costs: no move
-/// changes them any more.
+/// Width of a simplex, relative to [`Settings::width`], below which it has collapsed whatever its costs:
+/// further moves do not change them any more.
 const COLLAPSED_WIDTH: f64 = 1e-6;
 
 /// Settings of the simplex method.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// Simplices, one after the other, 1 to 100 000. They stand in turn at a point of a Sobol
-    /// sequence, which differs from seed to seed, and at the best so far. Default 20.
+    /// Number of simplices, one after the other, 1 to 100 000. They start in turn at a point of a
+    /// Sobol sequence, which differs from seed to seed, and at the best point so far. Default 20.
     pub simplices: usize,
     /// Edge of a new simplex in widths of the box, above 0 to 0.5. Default 0.2.
     pub edge: f64,
@@ -212,7 +212,7 @@ impl NelderMead {
             .fold(0.0, f64::max);
         let last = self.costs[self.costs.len() - 1];
         let rise = last - self.costs[0];
-        // A simplex of worst points only has nowhere to go.
+        // A simplex with only infinite costs has no direction to move in.
         self.costs[0].is_infinite()
             || (width <= self.settings.width && rise <= self.settings.spread * self.costs[0].abs())
             || width <= COLLAPSED_WIDTH * self.settings.width

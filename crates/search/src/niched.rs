@@ -7,7 +7,8 @@
 //!    a little beyond either end, with a step along the difference of two others. So scale and
 //!    direction come from the population's own covariance.
 //! 3. A child competes with the individual nearest to it (restricted tournament, Harik 1995) and
-//!    lives by annealed chance on the relative cost, Z25 eq. (21); so separate valleys stay peopled.
+//!    survives with the annealed probability on the relative cost, Z25 eq. (21); so separate valleys
+//!    stay populated.
 //! 4. The best of the niches descend by least squares on the coarse record, side by side.
 //! 5. Once the best minimum was reached from two niches it is trusted; else another round follows,
 //!    from new points.

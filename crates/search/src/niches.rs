@@ -16,8 +16,8 @@ pub(crate) struct Niches {
 }
 
 impl Niches {
-    /// At most so many, each further than `radius` (greatest difference of a coordinate) from the
-    /// others.
+    /// At most `most` points, each further than `radius` (greatest difference of a coordinate) from
+    /// the others.
     pub fn new(most: usize, radius: f64, dimensions: usize) -> Self {
         Self {
             most,

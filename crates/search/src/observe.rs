@@ -1,4 +1,4 @@
-//! How long work tells of itself, how it is stopped, and what it has used.
+//! How long work reports its progress, how it is stopped, and how many evaluations it has used.
 
 use crate::problem::{Fidelity, Kind};
 use crate::search::Phase;
@@ -57,7 +57,7 @@ impl Counts {
         (self.coarse_costs + self.coarse_derivatives) as usize
     }
 
-    /// Evaluations of one kind, in those of the full record; a coarse one counts `share`.
+    /// Evaluations of one kind, in equivalents of evaluations on the full record; a coarse one counts as `share`.
     pub fn of(&self, kind: Kind, share: f64) -> f64 {
         let (full, coarse) = match kind {
             Kind::Costs => (self.costs, self.coarse_costs),
@@ -66,7 +66,7 @@ impl Counts {
         full as f64 + share * coarse as f64
     }
 
-    /// All evaluations, in those of the full record.
+    /// All evaluations, in equivalents of evaluations on the full record.
     pub fn full_records(&self, share: f64) -> f64 {
         self.of(Kind::Costs, share) + self.of(Kind::Derivatives, share)
     }
@@ -75,7 +75,7 @@ impl Counts {
 /// Where a run stops. Times are the caller's: an [`Observer`] may stop a run whenever it likes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Most costs, in evaluations of the full record. Default: no limit.
+    /// Most costs, in equivalents of evaluations on the full record. Default: no limit.
     pub costs: u64,
     /// Most costs with derivatives, likewise. Default: no limit.
     pub derivatives: u64,
@@ -145,7 +145,7 @@ impl From<Phase> for Stage {
     }
 }
 
-/// A look at running work.
+/// The present state of running work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// What is being done.
@@ -160,7 +160,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// A stage without evaluations, so far done.
+    /// Progress of a stage that counts no evaluations, with the part of it that is done.
     pub fn of(stage: Stage, fraction: f64) -> Self {
         Self {
             stage,

@@ -12,7 +12,7 @@ pub struct Points {
 }
 
 impl Points {
-    /// No points yet, of a box with so many dimensions.
+    /// No points yet, of a box with `dimensions` dimensions.
     pub fn new(dimensions: usize) -> Self {
         Self {
             dimensions,

@@ -14,7 +14,7 @@ pub enum Kind {
     Derivatives,
 }
 
-/// On what it is asked.
+/// The record on which it is asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Fidelity {
     /// The whole record.

@@ -29,7 +29,7 @@ const EVALUATION_ROUNDING: f64 = 1e-9;
 
 /// A running search. All of its state is here and can be saved: a run that was interrupted, written
 /// out and read back goes on with the same bits as one that never stopped. Only what a run wrote may
-/// be read back; who keeps it in a file checks that the file is whole.
+/// be read back; a caller that stores it in a file has to check that the file is intact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Run<S> {
     search: S,
@@ -257,7 +257,7 @@ impl<S: Search> Run<S> {
     }
 }
 
-/// What is no number cannot be compared; as the worst it is never chosen.
+/// NaN cannot be compared; replaced by the worst cost it is never chosen.
 fn finite_or_worst(cost: f64) -> f64 {
     if cost.is_finite() {
         cost

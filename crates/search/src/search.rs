@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 /// Points that a search wants to know about, in the unit cube.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Request {
-    /// What of them.
+    /// What is asked of them.
     pub kind: Kind,
-    /// On what.
+    /// The record on which it is asked.
     pub fidelity: Fidelity,
     /// The points.
     pub points: Points,
@@ -39,14 +39,14 @@ impl Request {
 /// What they cost, in the order asked. Every cost is finite or positive infinity.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Answers {
-    /// To [`Kind::Costs`].
+    /// Answers to [`Kind::Costs`].
     Costs(#[serde(with = "crate::bits")] Vec<f64>),
-    /// To [`Kind::Derivatives`], in the coordinates of the unit cube.
+    /// Answers to [`Kind::Derivatives`], in the coordinates of the unit cube.
     Derivatives(Vec<Derivatives>),
 }
 
 impl Answers {
-    /// To which kind of request.
+    /// The kind of request that these answer.
     pub fn kind(&self) -> Kind {
         match self {
             Answers::Costs(_) => Kind::Costs,
@@ -114,9 +114,9 @@ pub trait Search {
         None
     }
 
-    /// There is nothing left to spend on evaluations of the last request's kind: these are the
-    /// answers to its first points, and there will be no more. True if the search can go on with
-    /// another kind; it is not changed otherwise.
+    /// The budget for evaluations of the last request's kind is used up: `answered` holds the
+    /// answers to the first points of that request, and there will be no more. True if the search
+    /// can go on with another kind; otherwise the search is not changed.
     fn exhausted(&mut self, answered: &Answers) -> bool {
         let _ = answered;
         false

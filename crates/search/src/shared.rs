@@ -14,7 +14,7 @@ pub struct Shared<'o> {
 }
 
 impl<'o> Shared<'o> {
-    /// For work of so many pieces, none of which is done.
+    /// For work of `all` pieces, none of which is done.
     pub fn new(observer: &'o mut dyn Observer, all: usize) -> Self {
         Self {
             observer: Mutex::new(observer),
@@ -43,8 +43,8 @@ impl<'o> Shared<'o> {
         self.tell(told) == Control::Continue
     }
 
-    /// An observer for one of several pieces at the same time. What it sees is passed on as that of another
-    /// stage, of which so many pieces are done.
+    /// An observer for one of several pieces that run at the same time. The progress reported to it is
+    /// passed on as that of the stage `stage`, with the number of pieces that are done.
     pub fn relay(&self, stage: Stage) -> Relay<'_, 'o> {
         Relay {
             shared: self,
@@ -53,7 +53,7 @@ impl<'o> Shared<'o> {
     }
 
     fn tell(&self, progress: impl FnOnce(usize, usize) -> Progress) -> Control {
-        // An observer that panicked in another thread has nothing to say in this one but what it holds.
+        // A lock poisoned by a panic of the observer in another thread is used nevertheless.
         let mut observer = self.observer.lock().unwrap_or_else(PoisonError::into_inner);
         if self.is_stopped() {
             return Control::Stop;

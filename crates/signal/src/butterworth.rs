@@ -63,7 +63,8 @@ impl Zeros {
     }
 }
 
-/// A limit in as many digits as the margin needs: what a message says is what is allowed.
+/// Rounds a limit to seven significant digits, as many as the margin needs, so that the limit in an error message is
+/// exactly the limit that is allowed.
 fn rounded(x: f64) -> f64 {
     format!("{x:.6e}").parse().unwrap_or(x)
 }
@@ -129,7 +130,7 @@ fn with_numerators(denominators: &[[f64; 2]], order: usize, zeros: Zeros) -> Vec
         let sharpest = sections.iter().skip(1).rposition(nearest_is_origin);
         sections[sharpest.map_or(0, |index| index + 1)].b = single;
     }
-    // Gain 1 where the zeros are not: at z = 1 for a low-pass, z = -1 for a high-pass filter.
+    // Gain 1 at the end of the band opposite to the zeros: at z = 1 for a low-pass, z = -1 for a high-pass filter.
     let gain: f64 = sections
         .iter()
         .map(|s| (1.0 - place * s.a[0] + s.a[1]) / (s.b[0] - place * s.b[1] + s.b[2]))

@@ -1,10 +1,11 @@
 //! The inner loop: all sections of a filter in one pass over the samples, for one or more columns
 //! side by side.
 //!
-//! A section's next output waits for its last, so a single column leaves most of the processor
-//! idle. Running the sections in one loop lets section 2 work on sample n while section 1 is at
-//! n + 1; running several columns in lanes fills what is left. Each lane does the same operations
-//! in the same order whatever runs beside it, so the result does not depend on the grouping.
+//! The next output of a section depends on its last one, so a single column leaves most of the
+//! processor idle. Running the sections in one loop lets section 2 work on sample n while section 1
+//! is at n + 1; running several columns in lanes uses what is still idle. Each lane does the same
+//! operations in the same order whatever runs beside it, so the result does not depend on the
+//! grouping.
 
 use crate::sos::Section;
 use core::array::from_fn;

@@ -53,7 +53,7 @@ pub fn effective_sample_size(signal: &[f64], max_lag: usize) -> Result<Effective
         lag += 2;
     }
     let count = signal.len() as f64;
-    // An alternating signal counts as more than its samples for the mean, but not for a variance.
+    // For a mean, an alternating signal is worth more than its number of samples, but not for a variance.
     let size = (count / time.max(1.0)).max(1.0);
     Ok(EffectiveSize {
         size,
@@ -79,7 +79,7 @@ impl Centred {
         let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
         values.iter_mut().for_each(|value| *value -= mean);
         let square = dot(&values, &values);
-        // Rounding of the mean alone is not variation.
+        // A spread that comes only from the rounding of the mean counts as no variation.
         let floor = values.len() as f64 * f64::EPSILON * f64::EPSILON;
         Self {
             values,

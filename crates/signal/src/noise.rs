@@ -4,8 +4,8 @@
 const DIFFERENCE_ORDER: usize = 6;
 /// Sum of the squared weights of a sixth difference: the binomial coefficient of 12 over 6.
 const DIFFERENCE_GAIN: f64 = 924.0;
-/// Largest part of the differences that is left out: jumps and gaps are not noise. Chosen: a log with more of
-/// them is bad in other ways.
+/// Fraction of the differences, the largest ones, that is left out: jumps and gaps are not noise. A chosen
+/// value: a log with more of them has other faults too.
 const OUTLIER_SHARE: f64 = 0.01;
 
 /// Standard deviation of the white noise of channels that are smooth between samples, from their
@@ -28,7 +28,7 @@ pub fn noise_deviation<'a>(channels: impl Iterator<Item = &'a [f64]>) -> f64 {
     if most < squares.len() {
         squares.select_nth_unstable_by(most, f64::total_cmp);
         squares.truncate(most);
-        // A fixed order of summation, whatever the selection left.
+        // A fixed order of summation, independent of the order in which the selection leaves the values.
         squares.sort_unstable_by(f64::total_cmp);
     }
     (squares.iter().sum::<f64>() / (DIFFERENCE_GAIN * most as f64)).sqrt()

@@ -66,7 +66,8 @@ fn check_samples(times: &[f64], signal: &[f64]) -> Result<(), SignalError> {
 
 fn on_lines(times: &[f64], signal: &[f64], at: impl Iterator<Item = f64>) -> Vec<f64> {
     let last = times.len() - 1;
-    // Interval `left` holds the instant before. Rising instants stay there or go to the next one.
+    // Interval `left` contains the previous instant. For rising instants the same interval or the next one is tried
+    // before a search.
     let mut left = 0;
     let value = |t: f64| {
         if t < times[0] {

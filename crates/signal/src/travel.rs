@@ -2,11 +2,11 @@
 
 /// Shortest movement that counts, in steps of the encoder: at rest it may alternate between two counts.
 const LEAST_STEPS: f64 = 3.0;
-/// Shortest movement that counts, in standard deviations of the noise of the position: white noise leaves its mean by
-/// more than five only about once in two million samples, and goes from one side to the other for ten.
+/// Shortest movement that counts, in standard deviations of the noise of the position: white noise deviates from its
+/// mean by more than five only about once in two million samples, and ten need a swing from one side to the other.
 const LEAST_DEVIATIONS: f64 = 10.0;
-/// Travel in the lesser direction that counts as motion in it, as a part of the range: what an axis overshoots at the end of
-/// a motion, or springs back, is less.
+/// Least travel in the direction with less travel that counts as motion in that direction, as a part of the range:
+/// the overshoot of an axis at the end of a motion, or its springing back, is less.
 const LEAST_SHARE_OF_RANGE: f64 = 0.01;
 
 /// The distance that a position travels in each direction, and the range that it covers.
@@ -86,7 +86,7 @@ impl Travel {
         out
     }
 
-    /// Of two stretches together.
+    /// The travel of two stretches together.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self {
@@ -96,8 +96,8 @@ impl Travel {
         }
     }
 
-    /// Whether the axis moves in one direction only: in the lesser one it travels at most 1 % of its range in all. What
-    /// does not move at all moves in none.
+    /// Whether the axis moves in one direction only: in the direction with less travel it travels at most 1 % of its
+    /// range in all. False for a position that does not move at all.
     pub fn is_one_way(&self) -> bool {
         self.up.max(self.down) > 0.0 && self.up.min(self.down) <= LEAST_SHARE_OF_RANGE * self.range
     }

@@ -2,13 +2,15 @@
 
 use crate::Real;
 
-/// The velocity `samples` cycles from now, linear between the samples known: `velocity[0]` is that of now,
-/// `velocity[1]` that of the next cycle, and so on. Beyond the last one the last one; 0 if none is known.
+/// The velocity `samples` cycles from now, linear between the known samples: `velocity[0]` is that of now,
+/// `velocity[1]` that of the next cycle, and so on. Beyond the last known sample its value is held; 0 if
+/// none is known.
 ///
-/// A force computed now acts later by the loop's delay and the current loop's lag; that is the preview to take. (Of the
-/// half cycle by which a held force is late, nothing is left: the law is stepped with the velocity at the cycle's end.)
-/// Where the set points of the next cycles are known, or can be delayed on their way to the controller, this brings the
-/// compensation back in time; at 1 kHz it is the larger part of what is left to gain.
+/// A force computed now acts later by the loop's delay and the current loop's lag: preview by that time. (The half
+/// cycle of delay of a held force need not be added: the law is already stepped with the velocity at the end of the
+/// cycle.) Where the set points of the next cycles are known, or can be delayed on their way to the controller, this
+/// removes the delay of the compensation; at 1 kHz it gives the larger part of the improvement that is still
+/// possible.
 ///
 /// ```
 /// use stiction_friction::compensator::ahead;

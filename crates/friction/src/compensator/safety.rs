@@ -5,7 +5,7 @@ use super::state::State;
 use crate::Real;
 
 impl<T: Real> Settings<T> {
-    /// Gain by its ramp, saturation and slew limit; the result is finite and within the limit.
+    /// Applies the ramped gain, saturation and slew limit; the result is finite and within the limit.
     #[inline]
     pub(super) fn limit(&self, state: &mut State<T>, h: T, on: bool, wanted: T) -> T {
         state.share = self.ramped(state.share, h, on);
@@ -24,7 +24,7 @@ impl<T: Real> Settings<T> {
         state.output
     }
 
-    /// The share on its way to the gain, or to 0.
+    /// The share after `h` seconds of its ramp towards the gain (`on`) or towards 0.
     fn ramped(&self, share: T, h: T, on: bool) -> T {
         let end = if on { self.gain } else { T::ZERO };
         if share == end {

@@ -16,10 +16,10 @@ pub struct Settings<T> {
     pub dead_zone: T,
     /// Largest force either way, > 0, N (N m).
     pub limit: T,
-    /// Fastest change of the force, > 0, N/s (N m/s); the largest number means no limit.
+    /// Fastest change of the force, > 0, N/s (N m/s); the largest finite number of the type means no limit.
     pub slew: T,
-    /// Time in which the share that is let through goes from 0 to 1, >= 0, s: so the force comes in when enabled, goes when
-    /// not, and follows a change of the gain.
+    /// Time in which the share of the friction force that is passed on goes from 0 to 1, >= 0, s. This ramp applies
+    /// when the compensation is enabled, when it is disabled and when the gain changes.
     pub ramp: T,
     /// Correction of the friction level while running.
     pub adaptation: Option<Adaptation<T>>,

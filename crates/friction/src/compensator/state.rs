@@ -13,7 +13,7 @@ pub struct State<T> {
     pub correction: T,
     /// The force of that correction, N (N m).
     pub corrected: T,
-    /// Share of the friction that is let through, 0 off, up to the gain.
+    /// Share of the friction force that is passed on: 0 when off, at most the gain.
     pub share: T,
     /// Factor on the law's force, 1 unless adapted or set.
     pub level: T,

@@ -8,15 +8,16 @@ const PEAK_ALLOWANCE: f64 = 1.5;
 /// Length of a window in which the reference does not reverse, in [`Watchdog::window`]s.
 const WINDOWS_WITHOUT_REVERSAL: f64 = 10.0;
 
-/// Compares the tracking error with and without compensation and switches off, until a reset, where it is larger with:
-/// its mean square over a window, or any one error beyond one and a half times the largest without.
+/// Compares the tracking error with and without compensation and switches the compensation off, until a reset, where
+/// the error is larger with it: its mean square over a window, or any single error beyond one and a half times the
+/// largest without.
 ///
 /// A window goes from one reversal of the reference to another in the same sense, over two strokes, four and so on, so that
 /// all windows contain the same: the same reversals, and as many strokes each way. Where the reference does not reverse,
 /// a window ends after ten times its length. The watchdog first lets the axis move for a
 /// window without compensation to learn what is normal, and learns again whenever no force is added, be it that
 /// compensation is not enabled or that the gain is 0. The first window after the gain has been reached is not judged:
-/// the incoming force disturbs the controller, whose integrator had carried the friction. Only time in which the reference
+/// the incoming force disturbs the controller, whose integrator had overcome the friction. Only time in which the reference
 /// moves counts, and with compensation only time in which a force is added. A window should hold a cycle of the motion;
 /// before a motion of another kind, disable the compensation for a window or reset.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,7 +55,8 @@ pub struct Watch<T> {
 }
 
 impl<T: Real> Default for Watchdog<T> {
-    /// A window of 2 s and a ratio of 1: off where the rms error is larger with than without.
+    /// A window of 2 s and a ratio of 1: it switches off where the rms error is larger with compensation than
+    /// without.
     fn default() -> Self {
         Watchdog {
             window: T::from_f64(2.0),
@@ -113,7 +115,8 @@ impl<T: Real> Watchdog<T> {
         let off = share == T::ZERO && output == T::ZERO;
         let on = share == gain && share > T::ZERO;
         if !(off || on) || on != watch.with {
-            // While the force ramps up, down or to another gain: a window belongs to one side and one gain only.
+            // While the force ramps up, down or to another gain: a window must lie entirely with or entirely without
+            // compensation, and have one gain.
             watch.clear();
             (watch.with, watch.judged) = (on, false);
         }
@@ -128,7 +131,7 @@ impl<T: Real> Watchdog<T> {
             if watch.turns == 0 {
                 watch.clear();
             }
-            // After the third reversal, which has the sense of the first, comes one like the second.
+            // The third reversal has the direction of the first, so the next one has that of the second.
             watch.turns = if watch.turns == 3 { 2 } else { watch.turns + 1 };
         }
         let error = input.tracking_error.abs();

@@ -68,10 +68,10 @@ impl<T: Real> Plasticity<T> {
         }
     }
 
-    /// `e` after the path `a`, and the derivative of the result where those of `e` and `a` are given.
+    /// `e` after the path `a`, and its derivative; the arguments are pairs of a value and its derivative.
     ///
-    /// The elastic range is left exactly; in the rest `ln e` takes one classical Runge-Kutta step, fourth order. Its
-    /// weights are positive and so is m: the result lies between 0 and `e` for every path.
+    /// The end of the elastic range is computed exactly; in the rest `ln e` takes one classical Runge-Kutta step,
+    /// fourth order. Its weights are positive and so is m: the result lies between 0 and `e` for every path.
     pub fn held(&self, e: (T, T), a: (T, T)) -> (T, T) {
         let ((mut e, mut e_slope), (mut a, mut a_slope)) = (e, a);
         if e > self.width {

@@ -55,7 +55,8 @@ impl<T: Real, const N: usize> Gms<T, N> {
                     };
                     let a = h * (self.attraction / g);
                     let left = (-a).exp();
-                    // Where nothing is left, the derivative is 0 too; a may be infinite there.
+                    // Where one of the factors is 0 the derivative is 0 too; a may be infinite there, and the product
+                    // NaN.
                     let by_pull = if left == T::ZERO || gap == T::ZERO {
                         T::ZERO
                     } else {

@@ -84,7 +84,8 @@ impl<T: Real> Run<T> {
         match self.breaks(element, force) {
             Err(end) => (end, false),
             Ok(theta) => {
-                // Beyond its limit already where the limit fell, or where the other direction carries more.
+                // It may start beyond its limit: where the limit has fallen, or where the other direction has the
+                // higher level.
                 let limit = element.share * self.level_at(theta);
                 let start = if theta > T::ZERO { limit } else { force };
                 (self.slip(element, start, theta), true)
@@ -119,7 +120,7 @@ impl<T: Real> Run<T> {
         } else {
             (root - b) / (T::from_f64(2.0) * a)
         };
-        // A jump beyond the range of numbers slips at once; rounding may miss the end by a bit.
+        // A theta that is not finite counts as slip from the start; rounding may put theta slightly outside 0..=1.
         Ok(if theta.is_finite() {
             theta.max(T::ZERO).min(T::ONE)
         } else {

@@ -17,7 +17,7 @@ pub(super) struct Batch<'a, const N: usize, const POWER: bool> {
     used: usize,
 }
 
-/// The terms of each lane, one array for each number.
+/// The terms of all lanes, one array for each quantity.
 #[repr(C, align(64))]
 struct LaneTerms<const N: usize> {
     rate: [f64; N],

@@ -1,4 +1,5 @@
-//! The law of a sample in five linear terms, what stays of its force; and how the law is stepped.
+//! The coefficients of a candidate from which the residual force of a sample is computed, and the integration
+//! schemes.
 
 use crate::Candidate;
 use crate::curve::Curve;
@@ -10,10 +11,10 @@ pub enum Scheme {
     #[default]
     Explin,
     /// Forward Euler from sample to sample, as in Zhang et al. 2025 (doi 10.1371/journal.pone.0322844,
-    /// eq. 12); a stiff candidate explodes.
+    /// eq. 12); it diverges for a stiff candidate.
     Euler,
-    /// Classical Runge-Kutta of order 4 from sample to sample, the velocity linear between; a stiff candidate
-    /// explodes.
+    /// Classical Runge-Kutta of order 4 from sample to sample, the velocity linear between; it diverges for a
+    /// stiff candidate.
     RungeKutta,
 }
 

@@ -41,7 +41,7 @@ impl<const POWER: bool> Kernel for Alone<'_, POWER> {
 
 /// What is done with the own columns of each block of a track.
 pub(crate) trait Sink {
-    /// Sees the columns of the block that starts at a node. Must be `#[inline(always)]`.
+    /// Receives the columns of the block that starts at a node. Must be `#[inline(always)]`.
     fn block(&mut self, at: usize, own: &[[f64; BLOCK]; OWN]);
 }
 
@@ -151,7 +151,7 @@ pub(crate) fn along<const POWER: bool>(track: &Track, curve: &Curve, sink: &mut 
                 row[tile..tile + TILE].copy_from_slice(found);
             }
         }
-        // The deviation first, which nothing else is needed for.
+        // The recursion for the deviation first: it needs nothing else.
         let [keep, add, ..] = &interval_rows.0;
         let g = &node_rows.0[0];
         let mut turns = 0;

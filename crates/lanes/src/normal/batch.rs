@@ -16,7 +16,7 @@ pub(super) struct Batch<'a, const POWER: bool> {
     used: usize,
 }
 
-/// The curve of each lane, one array for each number.
+/// The curves of all lanes, one array for each quantity.
 #[repr(C, align(64))]
 pub(super) struct Curves {
     rate: [f64; LANES],
@@ -27,7 +27,7 @@ pub(super) struct Curves {
 }
 
 impl Curves {
-    /// Lanes to spare repeat the last of the group.
+    /// Unused lanes repeat the last curve of the group.
     pub fn new(group: &[Curve]) -> Self {
         let all: [Curve; LANES] = lanes(group, |c| *c);
         let each = |f: fn(&Curve) -> f64| all.each_ref().map(f);

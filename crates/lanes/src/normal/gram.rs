@@ -58,7 +58,7 @@ impl Gram {
         }
     }
 
-    /// The sums, where `pick` makes one number of the lanes.
+    /// The sums, where `pick` reduces the lanes of each to one number.
     pub fn sums(&self, pick: impl Fn(&[f64; LANES]) -> f64) -> Sums {
         let own = |i: usize, j: usize| {
             let (i, j) = (i.max(j), i.min(j));
@@ -76,8 +76,8 @@ impl Gram {
     }
 }
 
-/// Adds the products of `ROWS` columns of one with four of the other, or with no more than the row's own
-/// number where they are the same.
+/// Adds the products of `ROWS` columns of `a` with four columns of `b`. `TRIANGLE`: both are the same
+/// columns, and the products on and below the diagonal are enough.
 #[inline(always)]
 fn add<const TRIANGLE: bool, const ROWS: usize>(
     sums: &mut Products,

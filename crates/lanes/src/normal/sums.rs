@@ -14,8 +14,8 @@ use crate::sensitive::OWN;
 /// `c[0] own[2 + k] + c[1] own[5 + k]`: its products with anything are sums of rows of these arrays, and so
 /// are the normal equations of the linear problem and the Jacobian of Kaufman 1975 (doi 10.1007/BF01932995).
 ///
-/// A residual that is taken from sums of squares has lost what is small beside the measured force: its sum
-/// of squares is good to about 1e-15 of that of the force.
+/// A residual computed from these sums loses digits by cancellation: its sum of squares has an absolute
+/// error of about 1e-15 of the sum of squares of the measured force.
 ///
 /// Without the derivatives there are two own columns.
 #[derive(Clone, Debug, PartialEq)]

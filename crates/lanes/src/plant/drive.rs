@@ -1,4 +1,4 @@
-//! A mass under a given force: what it is, what drives it, what was measured of it, what comes of it.
+//! A mass under a given force: its parameters, the force and the measured motion, and the result of the simulation.
 
 use crate::Candidate;
 
@@ -11,7 +11,7 @@ pub struct Axis {
     pub friction: Candidate,
 }
 
-/// Where an axis is.
+/// State of motion of an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {
     /// Position, m (rad).
@@ -44,13 +44,13 @@ pub struct Drive<'a> {
     pub measured: Measured<'a>,
 }
 
-/// What became of an axis.
+/// Result of the simulation of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
     /// Sum of squares of measured minus simulated motion over all steps, m^2 or m^2/s^2 (rad^2, rad^2/s^2);
     /// infinite where it overflows, never NaN.
     pub cost: f64,
-    /// Where the axis is after the last step.
+    /// State of the axis after the last step.
     pub end: Motion,
 }
 

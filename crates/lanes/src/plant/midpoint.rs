@@ -1,4 +1,5 @@
-//! The step MID as `stiction-servo` takes it but for the bend of the deflection within a step, axes in lanes.
+//! The step MID of `stiction-servo`, but without its correction for the curvature of the deflection within a step;
+//! axes in lanes.
 
 use super::drive::{Axis, Drive, Measured, Motion, Outcome};
 use crate::curve::{Curve, Speed};
@@ -6,7 +7,7 @@ use crate::dispatch::Kernel;
 use crate::exp::{LOWEST_ARGUMENT, at_least, at_most, exp, expm1, fma};
 use crate::lane_array::{Aligned, lanes, read, write};
 
-/// Bisection alone would need about sixty.
+/// Most evaluations of the equation in one step. Bisection alone would need about sixty.
 const MOST_EVALUATIONS: u32 = 200;
 
 /// One axis, in units of its Coulomb level.
@@ -22,9 +23,9 @@ struct Lane {
     /// `sigma1/(kappa h)`.
     damping: f64,
     viscous: f64,
-    /// A millionth of a millionth of the Stribeck velocity is standstill.
+    /// Speed that counts as standstill, 1e-12 of the Stribeck velocity, m/s (rad/s).
     negligible: f64,
-    /// No mean force less the viscous part is larger, over the inertia.
+    /// Upper bound of the mean friction force without the viscous part, divided by the inertia, m/s (rad/s).
     reach: f64,
 }
 
@@ -102,7 +103,7 @@ impl Lane {
         let inverse = 1.0 / g;
         let rate = self.rate * inverse;
         let e = expm1(at_least(-(rate * speed), LOWEST_ARGUMENT));
-        // Told in the direction of motion.
+        // With signs as in the direction of motion.
         let gaussian = 2.0 * self.curve.fall * speed;
         let falls = if POWER && self.curve.exponent != 2.0 {
             self.curve.exponent * exponent / at_least(speed, f64::MIN_POSITIVE)
@@ -116,7 +117,8 @@ impl Lane {
         (fma(sign * lag, e, eta), slope)
     }
 
-    /// Inertia and friction less drive at the mean velocity `w`, and the derivative.
+    /// Residual of the equation of motion at the mean velocity `w`: inertia and friction minus drive; and its
+    /// derivative.
     #[inline(always)]
     fn balance<const POWER: bool>(&self, v: f64, eta: f64, force: f64, w: f64) -> (f64, f64) {
         let (end, end_slope) = self.end::<POWER>(eta, w);
@@ -127,7 +129,7 @@ impl Lane {
     }
 }
 
-/// The axes, one array for each number.
+/// The axes, one array for each quantity.
 struct Lanes<const N: usize>(Aligned<[[f64; N]; 12]>);
 
 impl<const N: usize> Lanes<N> {
@@ -243,18 +245,19 @@ impl<const N: usize, const POWER: bool> Kernel for Midpoint<'_, N, POWER> {
 }
 
 impl<const N: usize> Search<N> {
-    /// Between what the free axis would do and standstill, and as much further as the bristle can push.
+    /// Bracket of the mean velocity: from standstill to that of the axis without friction, widened at both ends by
+    /// the most that the bristles can change it.
     #[inline(always)]
     fn bracket(&mut self, lanes: &Lanes<N>, v: &[f64; N], force: f64) {
         for j in 0..N {
             let free = v[j] + force / lanes.at(j).inertia;
-            // The small share keeps rounding from shutting the solution out.
+            // The small additional margin makes sure that rounding does not exclude the solution.
             let reach = 1.01 * lanes.at(j).reach + 1e-6 * (free.abs() + v[j].abs());
             let low = at_most(free, 0.0) - reach;
             let high = at_least(free, 0.0) + reach;
             self.low.0[j] = low;
             self.high.0[j] = high;
-            // As the velocity went on until now.
+            // First guess: the velocity extrapolated from the step before.
             let guess = fma(2.0, v[j], -self.w.0[j]);
             self.w.0[j] = at_most(at_least(guess, low), high);
             self.last_move.0[j] = high - low;

@@ -12,7 +12,7 @@ struct Lane {
     curve: Curve,
     /// `h kappa`.
     rate: f64,
-    /// `1/(M/h + sigma1 + sigma2)`: velocity for a force.
+    /// `1/(M/h + sigma1 + sigma2)`: velocity per force.
     yielding: f64,
     /// That times `M/h`, times Fc and times sigma1.
     inertia: f64,

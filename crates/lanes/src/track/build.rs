@@ -30,7 +30,7 @@ pub(super) fn build(segments: &[Segment]) -> Result<Track, Error> {
         samples: 0,
         kept: 0,
     };
-    // Most records turn seldom.
+    // Most records have few reversals, each of which may add a node.
     let samples: usize = segments.iter().map(|s| s.velocity.len()).sum();
     reserve(&mut track, samples + samples / 16 + BLOCK);
     for (index, segment) in segments.iter().enumerate() {
@@ -159,7 +159,7 @@ fn append(track: &mut Track, index: usize, segment: &Segment) -> Result<(), Erro
         push(track, node, kept.then_some((segment, i)));
         before = v;
         i += 1;
-        // What goes on in this direction, in one go.
+        // The following samples in the same direction are appended together.
         if before != 0.0 {
             let ahead = segment.velocity[i..].iter();
             let run = ahead.take_while(|&&v| v * sign > 0.0).count();

@@ -7,8 +7,8 @@ use crate::points::Points;
 use crate::random::Dice;
 use serde::{Deserialize, Serialize};
 
-/// Shortest axis of the distribution over its longest below which the covariance cannot be computed with: a condition of
-/// 1e14 (Hansen 2016, section B.3).
+/// Ratio of the shortest to the longest axis of the distribution below which the covariance is numerically singular:
+/// a condition of 1e14 (Hansen 2016, section B.3).
 const LEAST_AXIS_RATIO: f64 = 1e-7;
 /// Deviation of a step, in widths of the box, below which it changes nothing any more (Hansen 2016: 1e-12 of the
 /// first).
@@ -165,7 +165,7 @@ impl Distribution {
         self.b = b;
     }
 
-    /// No step changes anything any more, or the covariance cannot be computed with.
+    /// Whether steps have become too short to change anything, or the covariance is numerically singular.
     pub fn is_degenerate(&self) -> bool {
         let n = self.mean.len();
         let (low, high) =
@@ -173,7 +173,7 @@ impl Distribution {
         let widest = (0..n)
             .map(|i| self.covariance[i * n + i].sqrt().max(self.p_c[i].abs()))
             .fold(0.0, f64::max);
-        // Written so that what is no number counts too.
+        // Written as a negation so that NaN counts as degenerate too.
         !(low > LEAST_AXIS_RATIO * high && self.sigma * widest > LEAST_STEP)
     }
 }

@@ -4,17 +4,17 @@ use super::{Descent, Region, Settings, Sums};
 use crate::observe::Control;
 use crate::status::Status;
 
-/// A sum of squares as a descent needs it. The problem keeps the point where the descent stands; unknowns of its
-/// own that the descent does not see, it eliminates from the sums and moves along.
+/// A sum of squares as a descent needs it. The problem stores the current point of the descent. It may have
+/// further unknowns that the descent does not see: it eliminates them from the sums and moves them itself.
 pub trait LeastSquares {
-    /// Cost and derivatives where the descent stands. `damping` is that of the coming step, for unknowns that
-    /// the problem eliminates; `None` where there are no derivatives, which ends the descent as stalled.
+    /// Cost and derivatives at the current point. `damping` is that of the coming step, for unknowns that the
+    /// problem eliminates; `None` where there are no derivatives, which ends the descent as stalled.
     fn sums(&mut self, damping: f64) -> Option<Sums<'_>>;
 
-    /// Cost of a trial, with the damping of the step that led there; not finite where it has none.
+    /// Cost of a trial, with the damping of the step that led there; not finite where the trial has no cost.
     fn cost(&mut self, trial: &[f64], damping: f64) -> f64;
 
-    /// The last trial is where the descent now stands.
+    /// The last trial is accepted: it is now the current point.
     fn accept(&mut self);
 
     /// Called after every trial; whether to go on.

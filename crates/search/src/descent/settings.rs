@@ -9,21 +9,21 @@ pub struct Settings {
     /// Damping of the first step, relative to the diagonal of `J^T J`. Default 1e-3: Nielsen 1999 for a start
     /// that is thought to be good.
     pub first_damping: f64,
-    /// Least damping, likewise. Default 1e-14: less is lost in the rounding of the diagonal.
+    /// Least damping, likewise. Default 1e-14: a smaller one is lost in the rounding of the diagonal.
     pub least_damping: f64,
-    /// Whether a good step lowers the damping by how much of its promise it kept (Nielsen 1999), or always to a
-    /// third. Default yes.
+    /// Whether a good step lowers the damping according to the ratio of actual to predicted gain
+    /// (Nielsen 1999), or always to a third. Default yes.
     pub damping_by_gain: bool,
     /// Damping above which a descent has stalled: no step is left that is short enough. Default 1e12: a step
     /// is then 1e-12 of that of steepest descent.
     pub most_damping: f64,
-    /// Longest step of one unknown. Default 3, that is `e^3` for a logarithm: further off the quadratic model
-    /// means nothing.
+    /// Longest step of one unknown. Default 3, that is `e^3` for a logarithm: beyond it the quadratic model
+    /// is not valid.
     pub longest_step: f64,
-    /// Step below which the unknowns are settled. Default 1e-9, a millionth of what any log determines.
+    /// Step below which the unknowns count as settled. Default 1e-9, a millionth of the accuracy that any log gives.
     pub settled_step: f64,
-    /// Gain for a step of 1 below which the cost is flat, as a part of it. Default 1e-9. It tells a settled
-    /// descent from one whose steps are short because all longer ones failed.
+    /// Predicted gain per unit of step, as a part of the cost, below which the cost is flat. Default 1e-9.
+    /// It distinguishes a settled descent from one whose steps are short because all longer ones failed.
     pub flat_slope: f64,
     /// Gain, as a part of the cost, below which a step has gained nothing. Default 1e-13: some hundred times
     /// the rounding of a sum of squares.
@@ -34,13 +34,13 @@ pub struct Settings {
     pub small_gain: f64,
     /// How many small gains in a row end it. Default 5.
     pub small_gains: usize,
-    /// Step within which the quadratic model is believed: a trial there that it promises no gain is not
-    /// made. Default 1e-3.
+    /// Step below which the quadratic model is trusted: a trial within it for which no gain is
+    /// predicted is not evaluated. Default 1e-3.
     pub trusted_step: f64,
-    /// What counts as no gain then, as a part of the cost. Default 1e-13.
+    /// Predicted gain, as a part of the cost, that counts as none in such a step. Default 1e-13.
     pub trusted_gain: f64,
-    /// Whether such a step is taken all the same, without a trial: the derivatives last seen then belong to the
-    /// point before. Default no.
+    /// Whether such a step is taken nevertheless, without evaluation: the last derivatives then belong to the
+    /// point before it. Default no.
     pub take_untried: bool,
     /// Cost at or below which the fit is exact and what is left is rounding. Default 0.
     pub exact_cost: f64,

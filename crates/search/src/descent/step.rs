@@ -42,7 +42,7 @@ pub fn largest(a: &[f64], b: &[f64]) -> f64 {
     apart.fold(0.0, f64::max)
 }
 
-/// Fall of the cost that the quadratic model promises for a step.
+/// Fall of the cost that the quadratic model predicts for a step.
 pub fn predicted_gain(now: &Derivatives, step: &[f64]) -> f64 {
     let pulled = times(now, step);
     -2.0 * dot(&now.gradient, step) - dot(&pulled, step)
@@ -110,7 +110,7 @@ fn solve_free(
     longest: f64,
 ) -> Option<Vec<f64>> {
     let (n, m) = (others.len(), free.len());
-    // To a unit diagonal: the unknowns differ in effect by many decades.
+    // Scaled to a unit diagonal: the effects of the unknowns differ by many decades.
     let scale: Vec<f64> = free
         .iter()
         .map(|&i| {

@@ -72,7 +72,7 @@ impl Genetic {
         })
     }
 
-    /// Individuals drawn in the box of the round, as children of nobody.
+    /// Individuals drawn in the box of the round, without parents.
     fn draw(&mut self) -> Points {
         self.population.clear();
         self.children.clear();

@@ -23,14 +23,14 @@ impl Annealing {
         require(within, method, "factor", factor, "above 0 to 1")
     }
 
-    /// Probability that a child lives beside a cost `with`, in a generation counted from 0.
+    /// Probability that a child survives compared with a cost `with`, in a generation counted from 0.
     pub(crate) fn survival(&self, cost: f64, with: f64, generation: usize) -> f64 {
         if cost <= with {
             return 1.0;
         }
         let temperature = self.start * libm::pow(self.factor, generation as f64);
         let rise = (cost - with) / (with * temperature);
-        // A cost without end does not live, nor does any beside a perfect fit.
+        // A child of infinite cost does not survive, nor does any costlier child beside a perfect fit (cost 0).
         if rise.is_nan() { 0.0 } else { libm::exp(-rise) }
     }
 }

@@ -13,14 +13,14 @@ use crate::search::{Answers, Phase, Request, Search};
 use crate::status::Status;
 use serde::{Deserialize, Serialize};
 
-/// Draws of the first parent expected for the best, by rank (linear ranking, 1 to 2; chosen, as the mean of
-/// the two ends and a little more).
+/// Expected number of draws of the best individual as first parent, in linear ranking (1 to 2). A chosen
+/// value, a little above the middle of that range.
 const RANK_PRESSURE: f64 = 1.7;
 /// Part of the line through two parents that lies beyond either end (line crossover, Mühlenbein and
 /// Schlierkamp-Voosen 1993: 0.25).
 const LINE_BEYOND_PARENTS: f64 = 0.25;
-/// Deviation of the step along the difference of two others, in lengths of it. Chosen; what generations do at
-/// all is measured in decision 0019.
+/// Standard deviation of the step along the difference of two other individuals, in lengths of that
+/// difference. A chosen value; the benefit of generations in general is measured in decision 0019.
 const JUMP_DEVIATION: f64 = 0.5;
 /// Difference of two costs, as a part of the least, within which two descents have reached the same minimum.
 /// Chosen between the 1e-9 at which descents end and the differences of minima.
@@ -32,8 +32,8 @@ const LAST_MINIMA: usize = 2;
 /// Their least distance, greatest over the dimensions, in widths of the box: nearer ones are one minimum.
 const LAST_APART: f64 = 0.01;
 
-/// A minimum whose cost on the coarse record is above the least by more than this part of it is not followed:
-/// decision 0019, which limits the descents on the full record so.
+/// A minimum whose cost on the coarse record is above the least by more than this part of it is not followed
+/// (decision 0019): this limits the descents on the full record.
 const FOLLOWED_COST_EXCESS: f64 = 0.5;
 
 /// What the outstanding answers are for.
@@ -41,7 +41,7 @@ const FOLLOWED_COST_EXCESS: f64 = 0.5;
 enum Stage {
     Draw,
     Vary,
-    /// The best individual on the full record: what the GA itself is worth.
+    /// The best individual on the full record: it shows what the GA alone achieves.
     Show,
     Coarse,
     Full,
@@ -143,7 +143,7 @@ impl NichedGa {
             let (cost, rival) = (answers.cost(i), self.population[near].cost);
             let annealing = &self.settings.annealing;
             let chance = annealing.survival(cost, rival, self.generation);
-            // Drawn always: whether it is needed may hang on the last bit of a cost.
+            // Always drawn: whether it is needed may depend on the last bit of a cost.
             let lives = self.dice.chance(chance);
             if lives && (near != best || cost <= rival) {
                 self.population[near] = Individual {
@@ -294,7 +294,7 @@ impl Search for NichedGa {
         }
     }
 
-    /// Without further costs this round is the last, and descends from what it has.
+    /// With no further costs available this round is the last, and descends from the population that it has.
     fn exhausted(&mut self, answered: &Answers) -> bool {
         if answered.kind() == Kind::Derivatives {
             return false;
