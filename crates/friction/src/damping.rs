@@ -5,8 +5,8 @@ use crate::{LuGre, Real, Stribeck};
 
 /// Micro-damping sigma1(v), N s/m (N m s/rad).
 ///
-/// A constant sigma1 makes the LuGre law active (not passive): bristles loaded at rest and then swept away at speed push the axis
-/// forward. `Capped` is the default choice; `Constant` is what most published figures were made with.
+/// A constant sigma1 makes the LuGre law active (not passive): bristles loaded at rest and then swept away at speed
+/// push the axis forward. `Capped` is the default choice; `Constant` is what most published figures were made with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Damping<T> {
     /// sigma1 at every speed, >= 0.
