@@ -18,8 +18,8 @@ const WINDOWS_WITHOUT_REVERSAL: f64 = 10.0;
 /// window without compensation to learn what is normal, and learns again whenever no force is added, be it that
 /// compensation is not enabled or that the gain is 0. The first window after the gain has been reached is not judged:
 /// the incoming force disturbs the controller, whose integrator had overcome the friction. Only time in which the
-/// reference moves counts, and with compensation only time in which a force is added. A window should hold a cycle of the
-/// motion; before a motion of another kind, disable the compensation for a window or reset.
+/// reference moves counts, and with compensation only time in which a force is added. A window should hold a cycle of
+/// the motion; before a motion of another kind, disable the compensation for a window or reset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Watchdog<T> {
     /// Moving time that is compared, > 0, s; it should hold at least two reversals.
