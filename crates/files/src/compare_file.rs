@@ -28,7 +28,7 @@ pub struct CompareFile {
     pub samples: usize,
     /// Sample rate, Hz; 0 for a steady curve.
     pub rate_hz: f64,
-    /// Deviation of the noise over the largest force (position); `null` for a log.
+    /// Standard deviation of the noise divided by the largest force (or position), dimensionless; `null` for a log.
     pub noise: Option<f64>,
     /// Decades of the box to each side; `null` for the box of `identify`.
     pub box_decades: Option<f64>,
@@ -40,7 +40,7 @@ pub struct CompareFile {
     pub integrator: String,
     /// Whether least squares follow each search.
     pub least_squares: bool,
-    /// What an evaluation of the coarse record counts, in those of the full one.
+    /// Cost of an evaluation on the coarse record, as a part of one on the full record, dimensionless.
     pub coarse_share: f64,
     /// Known parameters; empty for a log.
     pub truth: Vec<(String, f64)>,
@@ -108,7 +108,7 @@ pub struct Stage {
     pub successes: usize,
     /// Cost at the end.
     pub cost: Quartiles,
-    /// Cost at the end over the optimum, less 1.
+    /// Cost at the end divided by that of the optimum, minus 1, dimensionless.
     pub excess: Quartiles,
     /// Error of each known parameter.
     pub errors: Vec<ParameterError>,
@@ -119,7 +119,7 @@ pub struct Stage {
 pub struct ParameterError {
     /// Name.
     pub name: String,
-    /// Magnitude of found over true, less 1; `null` where the true value is zero.
+    /// Magnitude of (found value / true value - 1), dimensionless; `null` where the true value is zero.
     pub relative: Quartiles,
 }
 

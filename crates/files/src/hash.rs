@@ -1,4 +1,4 @@
-//! SHA-256 of inputs, so that a result tells which file it is of.
+//! SHA-256 of inputs, so that a result identifies the files that it was made from.
 
 use crate::error::Error;
 use sha2::{Digest, Sha256};

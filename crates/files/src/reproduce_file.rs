@@ -48,7 +48,7 @@ pub struct CheckEntry {
     pub found: f64,
     /// How far off it may be, in `unit`.
     pub tolerance: f64,
-    /// Whether it is not farther off.
+    /// Whether the difference is within the tolerance.
     pub within: bool,
 }
 

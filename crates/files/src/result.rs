@@ -80,7 +80,7 @@ pub struct ResultFile {
     pub warnings: Vec<Warning>,
 }
 
-/// What results say that were written before the data could choose a law.
+/// The entry of results that were written before the data could choose a law.
 fn by_user() -> String {
     "user".into()
 }
@@ -206,7 +206,7 @@ pub struct FitEntry {
     pub r2: Option<f64>,
     /// Samples that count.
     pub samples: usize,
-    /// Independent samples that the residual is worth.
+    /// Effective number of independent samples in the residual.
     pub effective_samples: f64,
 }
 

@@ -33,7 +33,8 @@ impl Deviation {
         let name: Option<Name> = p.name.parse().ok();
         let may_be_zero = name.is_some_and(|n| !n.quantity.allowed().is_never_negative());
         if may_be_zero && std > IDENTIFIABLE * size {
-            // What the flag goes by: the Coulomb level where the parameter is a force, the sample time for a delay.
+            // The scale by which it is judged: the Coulomb level where the parameter is a force, the sample time for
+            // a delay.
             let level = match name.map(|n| n.dimension()) {
                 Some(Dimension::Force) => coulomb(result),
                 Some(Dimension::Time) => result.inputs.first().map_or(0.0, |i| 1.0 / i.rate_hz),

@@ -2,7 +2,7 @@
 
 use stiction_files::result::LawEntry;
 
-/// How much larger an error has to be to be called worse: tables show three digits.
+/// Ratio of two errors from which the larger one is called worse, dimensionless: tables show three digits.
 const WORSE: f64 = 1.001;
 
 /// A law by its name in files, as it stands in a heading.

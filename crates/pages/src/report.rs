@@ -86,7 +86,7 @@ fn sections(outcome: &Outcome) -> Document {
     for block in procedure::sections(outcome) {
         document = document.block(block);
     }
-    // Points of a map and displacements are no force sample by sample.
+    // A static map and a step response have no force for each sample.
     let sampled = matches!(result.method.as_str(), "separable" | "static-then-dynamic")
         || result.searched.is_some();
     document = match outcome.simulation() {
@@ -163,7 +163,7 @@ fn measured_force(mut document: Document, outcome: &Outcome) -> Document {
     document
 }
 
-/// What the residual tells, and how the parameters hang together.
+/// What the residual tells, and how the parameters are correlated.
 fn how_sure(document: Document, outcome: &Outcome) -> Document {
     document
         .heading(2, "How sure")

@@ -25,17 +25,18 @@ use stiction_identify::candidates::Scheme;
 use subject::Subject;
 use trial::Trial;
 
-/// Part of the cost of the reference by which another may be less and still be the same optimum, dimensionless: what
-/// descents leave of the cost when they end.
+/// Largest relative amount by which a cost may lie below the reference and still count as the same optimum,
+/// dimensionless: descents stop within about this of their minimum.
 const SAME_OPTIMUM_WITHIN: f64 = 1e-6;
 
-/// Part of the energy by which a cost may be less and still be the same, dimensionless: least squares take theirs from sums of squares,
-/// of which so much is rounding. On V5 without noise six searches that end at the same parameters, to nine digits, have
-/// costs from 1.815e-12 to 1.822e-12, the reference search, from residuals, 1.825e-12.
+/// Largest difference of two costs J that still count as the same, dimensionless (J is a part of the energy of the
+/// signal): least squares compute their cost from sums of squares, whose rounding error is of this size. On V5
+/// without noise six searches that end at the same parameters, to nine digits, have costs from 1.815e-12 to
+/// 1.822e-12; the reference search, which computes its cost from residuals, has 1.825e-12.
 const SAME_COST_WITHIN: f64 = 1e-13;
 
-/// Runs every method with every seed, side by side on all threads. What comes out, times apart, does
-/// not depend on how many there are.
+/// Runs every method with every seed, side by side on all threads. Apart from the times, the results do not depend on
+/// how many threads there are.
 ///
 /// An observer that stops the comparison leaves the runs that were complete.
 ///
@@ -87,7 +88,7 @@ pub fn compare(
     let trials: Vec<Trial> = trials.into_iter().flatten().collect();
     let found = trials.iter().filter_map(|t| t.cost());
     let lowest = found.fold(f64::INFINITY, f64::min);
-    // What is less by rounding only is the same optimum.
+    // A cost that is lower by rounding only belongs to the same optimum.
     let beaten = lowest < least * (1.0 - SAME_OPTIMUM_WITHIN) && least - lowest > SAME_COST_WITHIN;
     let winner = |t: &&Trial| t.cost() == Some(lowest);
     let reference = Reference {

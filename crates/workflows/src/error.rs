@@ -81,7 +81,7 @@ impl Error {
         }
     }
 
-    /// The same at the key of the axis file whose value the engine refused, where the file has it.
+    /// The same error with the place of the key whose value the engine refused, if the axis file has that key.
     pub(crate) fn at_axis(self, axis: &Axis) -> Self {
         use stiction_identify::Error as Fit;
         let Error::Identify { inputs, source } = &self else {

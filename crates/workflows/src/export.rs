@@ -16,7 +16,7 @@ use stiction_parameters::{FrictionLaw, LawError, LawKind, Name};
 
 pub use stiction_export::{Error as ExportError, File, Target};
 
-/// The form to export, and what the compensator is to be.
+/// What code to write, and the settings of the compensator.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct ExportOptions {
@@ -26,8 +26,8 @@ pub struct ExportOptions {
     pub name: Option<String>,
     /// Time between two calls, s.
     pub cycle_time: f64,
-    /// Largest force, in the unit of the model's; twice the static friction and the offset if absent, in a table as much
-    /// as it holds. Not for `mujoco`.
+    /// Largest force, in the unit of the model's. If absent: twice the sum of static friction and offset, or for a
+    /// table the largest force that it can hold. Not for `mujoco`.
     pub limit: Option<f64>,
     /// Force that the motor is rated for, in the unit of the model's; for `tf5200`, and for no other target.
     pub rated_force: Option<f64>,
@@ -76,7 +76,7 @@ pub struct Exported {
 /// Friction that changes with something the compensator does not see.
 const NOT_IN_THE_LAW: [&str; 3] = ["quadratic_viscous", "coulomb_", "sigma2_"];
 
-/// Feedforward of its own, beside friction.
+/// Parameters that need a feedforward of their own, beside that of friction.
 const BESIDE: [&str; 4] = ["mass", "delay", "gravity_", "cogging"];
 
 impl Exported {
@@ -283,7 +283,7 @@ fn out_of_the_law(name: &str) -> bool {
         )
 }
 
-/// A refusal with the file it came from and the place in it, where it is of something in that file.
+/// An error with its file and the place in it, if it is about something in that file.
 fn place(
     source: stiction_export::Error,
     read: &ReadModel,
@@ -351,7 +351,7 @@ fn doubts(file: &ModelFile) -> Vec<Warning> {
     found
 }
 
-/// Twice the force of standstill: room for the viscous part, far below what a drive can do.
+/// Twice the largest force at standstill: room for the viscous part, far below what a drive can do.
 fn default_limit(friction: &Friction<f64>) -> f64 {
     let (level, offset) = match friction {
         Friction::Coulomb(law) => (law.coulomb()[0].max(law.coulomb()[1]), law.offset()),
@@ -361,7 +361,7 @@ fn default_limit(friction: &Friction<f64>) -> f64 {
     2.0 * (level + offset.abs())
 }
 
-/// Why the numbers of a model make no law that is exported.
+/// Why no law that can be exported follows from the numbers of a model.
 enum Unfit {
     Law,
     Missing(Name),
@@ -398,8 +398,8 @@ mod tests {
     use super::*;
     use stiction_friction::{Damping, Shape};
 
-    /// What a study simulates and what is exported of one model is one law, whatever its exponent; only that sigma1 is
-    /// capped where the axis is simulated.
+    /// A study and an export use the same law for the same model, whatever its Stribeck exponent; the only difference
+    /// is that sigma1 is capped where the axis is simulated.
     #[test]
     fn a_study_and_an_export_have_one_law() {
         let folder = tempfile::tempdir().unwrap();

@@ -32,8 +32,8 @@
 //! # Ok::<(), Error>(())
 //! ```
 //!
-//! Forms of files are those of `stiction-files`; what people read is made
-//! by `stiction-pages`; nothing here prints.
+//! Files have the formats of `stiction-files`; reports and texts for people are made by `stiction-pages`; nothing
+//! here prints.
 
 pub mod check;
 pub mod compare;

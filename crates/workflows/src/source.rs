@@ -7,7 +7,7 @@ use stiction_files::result::Input;
 use stiction_identify::{Samples, Terms};
 use stiction_log::{Column, Log, ReadOptions, Table, read_table};
 
-/// How a column that was not read is told among what was detected.
+/// Beginning of an entry of `detected` about a column that was not read.
 const LEFT_OUT: &str = "left out: ";
 
 /// A log with the file it came from.
@@ -23,7 +23,7 @@ pub struct Source {
     pub log: Log,
 }
 
-/// Reads the columns of a file as they stand.
+/// Reads the columns of a file, without mapping them.
 ///
 /// # Errors
 /// With file, place, what was found and what is allowed.
@@ -49,7 +49,7 @@ pub fn load(path: impl AsRef<Path>, axis: &Axis) -> Result<Source, Error> {
 /// the columns' names, units and samples.
 ///
 /// # Errors
-/// Where columns or units are missing or ambiguous, or the samples are no record: with the column.
+/// Where columns or units are missing or ambiguous, or the samples do not form a record; the column is named.
 pub fn in_memory(name: &str, columns: Vec<Column>, axis: &Axis) -> Result<Source, Error> {
     let table = Table {
         columns,

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use stiction_search::{Bounds, CostsOnly, Derivatives, Fidelity, Points, Problem};
 
-/// Spreads each batch of points over the threads. An answer does not depend on the points it is asked
-/// with, so the result does not depend on how many threads there are.
+/// Spreads each batch of points over the threads. The cost of a point does not depend on the other points of its
+/// batch, so the result does not depend on how many threads there are.
 pub(crate) struct Spread<'a, P: ?Sized>(pub &'a P);
 
 /// Points that a thread takes at a time: two fills of the widest lanes (`stiction-lanes`).

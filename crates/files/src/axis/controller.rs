@@ -9,8 +9,8 @@ use stiction_log::{Dimension, Log, Unit};
 impl Axis {
     /// The controller in the units of a log: gains in the unit of its force after scaling.
     ///
-    /// A gain in the unit that the force has in the file (volts, amperes) is taken through the scale of
-    /// the force column, as the force is.
+    /// A gain in the unit that the force has in the file (volts, amperes) is converted by the scale of the force
+    /// column, as the force is.
     ///
     /// # Errors
     /// Where a unit fits neither.
@@ -40,7 +40,7 @@ impl Axis {
         }))
     }
 
-    /// A gain in units of force over `below`.
+    /// A gain in units of force per `below`.
     fn gain(
         &self,
         gain: &Gain,
@@ -52,7 +52,7 @@ impl Axis {
             return Ok(gain.value.si());
         };
         let found = gain.value.unit.dimension();
-        // kg is N s2/m, but kg m2 is not N m s2/rad: the radian counts.
+        // kg is N s2/m, but kg m2 is not N m s2/rad: dimensions count the radian.
         let inertia = found == Dimension::INERTIA && wanted.times(Dimension::ANGLE) == Some(found);
         if found == wanted || inertia {
             return Ok(gain.value.si());

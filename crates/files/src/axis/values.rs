@@ -32,7 +32,7 @@ pub struct Axis {
     pub exponent_fitted: bool,
     /// Speed below which a sample counts as slow, m/s or rad/s; `None` follows from the log.
     pub low_speed: Option<f64>,
-    /// How the logged force stands to the instants of the samples, for a simulation.
+    /// How the logged force relates in time to the samples (held or centred), for a simulation.
     pub hold: Hold,
     /// Longest stretch that is simulated from one free start in open loop, s; `None` for whole runs.
     pub segment: Option<f64>,
@@ -156,7 +156,7 @@ impl Axis {
         refused.unwrap_or_else(|| error.into())
     }
 
-    /// A key as it stands in the file: itself, or the column whose part it is, under the name that the file has for it.
+    /// A key as the file has it: the key itself, or the column that it belongs to, by the name used in the file.
     fn written(&self, key: &str) -> Option<String> {
         let names = ["columns.force", "columns.torque", "columns.current"];
         let under: Vec<String> = match key.strip_prefix(names[0]) {

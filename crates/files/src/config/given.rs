@@ -37,7 +37,7 @@ impl<'a> Given<'a> {
         }
     }
 
-    /// The same where these words are allowed besides what is asked for next: the word, if it is one of them.
+    /// Allows these words besides what is asked for next, and returns the word if the value is one of them.
     pub fn or_word(mut self, words: &'static [&'static str]) -> (Self, Option<&'static str>) {
         self.words = words;
         let word = words.iter().find(|word| self.as_text() == Some(word));
@@ -71,7 +71,7 @@ impl<'a> Given<'a> {
         }
     }
 
-    /// The same where the value as typed is all there is to say.
+    /// The same, with the value as typed for what was found.
     pub fn refused(&self, allowed: &str) -> Error {
         self.refuse(self.shown(), allowed)
     }

@@ -39,12 +39,13 @@ impl Places {
         bytes.is_some_and(|bytes| bytes.contains_key(key))
     }
 
-    /// An error at a key, or where the table (the file) starts that lacks it.
+    /// An error at a key or, where it is missing, at the start of the table (or file) that lacks it.
     pub fn refuse(&self, key: &str, found: String, allowed: &str) -> Error {
         self.source().error(self.place(key), found, allowed)
     }
 
-    /// The place of a key, or of the table (the file) that lacks it, as errors begin: `line 3, column 8, mass: `.
+    /// The place of a key or, where it is missing, of the table (or file) that lacks it, as errors begin:
+    /// `line 3, column 8, mass: `.
     pub fn place(&self, key: &str) -> String {
         let Some((_, bytes)) = &self.text else {
             return format!("{key}: ");

@@ -7,7 +7,7 @@ use crate::error::Error;
 /// The error of a text that is not TOML.
 pub(super) fn refusal(source: &Source<'_>, error: &toml::de::Error) -> Error {
     let message = error.message().trim().replace('\n', " ");
-    // The reader gives no place where tables and lists are too deep in each other.
+    // The reader gives no place where tables and lists are nested too deep.
     let span = error.span().unwrap_or_else(|| {
         let deepest = deepest(source.text);
         deepest..deepest
@@ -22,7 +22,7 @@ pub(super) fn refusal(source: &Source<'_>, error: &toml::de::Error) -> Error {
         let found = "tables and lists too deep in each other".into();
         return source.error(format!("{at}: "), found, "at most a few levels");
     }
-    // Only the word `expected` parts what was found from what is allowed.
+    // Only the word `expected` separates what was found from what is allowed.
     let (found, allowed) = match message.split_once(", expected ") {
         Some((found, expected)) => (found.to_string(), expected.to_string()),
         None => (message, format!("see {} for every key", source.page)),
@@ -30,7 +30,7 @@ pub(super) fn refusal(source: &Source<'_>, error: &toml::de::Error) -> Error {
     source.error(format!("{at}: "), found, &allowed)
 }
 
-/// Where brackets and dotted keys are deepest first, bytes; brackets within quotes do not count.
+/// Byte at which brackets and dotted keys first reach their deepest nesting; brackets within quotes do not count.
 fn deepest(text: &str) -> usize {
     let (mut brackets, mut dots, mut quote) = (0_usize, 0_usize, None);
     let (mut deepest, mut place) = (0, 0);

@@ -221,7 +221,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// The same where the value as typed is all there is to say.
+    /// The same, with the value as typed for what was found.
     pub fn refused(&self, key: &str, allowed: &str) -> Error {
         match self.find(key) {
             Some(given) => given.refused(allowed),
@@ -267,7 +267,7 @@ fn near(key: &str, word: &str) -> bool {
     edits(key, &word.to_lowercase()) <= 1 + key.len() / 4
 }
 
-/// Letters to change, add or leave out to make one word of another.
+/// Number of letters to change, add or leave out to make one word of another.
 fn edits(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().take(60).collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();

@@ -1,20 +1,21 @@
-//! What cannot be of the covariance of a model.
+//! Checks that the covariance of a model is one that can exist.
 
 use super::form::ModelFile;
 use super::refusal::Fault;
 use crate::result::CovarianceEntry;
 use stiction_number::four_digits as short;
 
-/// Largest difference between the halves of a covariance, as a part of the product of the standard deviations: it only has to
-/// be above rounding, 1e-16 times the size of the matrix, and far below any correlation.
+/// Largest difference between the two triangles of a covariance, as a part of the product of the standard deviations,
+/// dimensionless: it only has to be above rounding, 1e-16 times the size of the matrix, and far below any correlation.
 const LARGEST_ASYMMETRY: f64 = 1e-9;
 
-/// Largest ratio of a standard deviation and the root of its variance, either way: both are the same number, widened in
-/// some procedures.
+/// Largest ratio of a standard deviation and the root of its variance, either way, dimensionless: both are the same
+/// number, except where a procedure widens one.
 const MOST_APART: f64 = 2.0;
-/// Part of a correlation that rounding may leave, dimensionless.
+/// Pivot of the correlation matrix (its square root, off the diagonal) up to which it may be rounding only,
+/// dimensionless.
 const LEAST_PART: f64 = 1e-6;
-/// Correlation that may be left with a parameter that has no part of its own: the root of [`LEAST_PART`].
+/// Correlation that rounding may leave with a parameter that adds no variance of its own: the root of [`LEAST_PART`].
 const LARGEST_REST: f64 = 1e-3;
 
 /// What is wrong with the covariance.
@@ -65,8 +66,8 @@ pub(super) fn fault(model: &ModelFile) -> Option<Fault> {
         })
 }
 
-/// Whether a variance says another thing than the standard deviation of its parameter. A zero row is allowed for what the
-/// data do not determine at all.
+/// Whether a variance contradicts the standard deviation of its parameter. A zero row is allowed for what the data do
+/// not determine at all.
 fn against_deviation(model: &ModelFile, i: usize) -> Option<Fault> {
     let CovarianceEntry { names, matrix } = &model.covariance;
     let parameter = model.parameter.iter().find(|p| p.name == names[i])?;
@@ -90,10 +91,10 @@ fn against_deviation(model: &ModelFile, i: usize) -> Option<Fault> {
     Some((element(i, i), found, allowed))
 }
 
-/// A lower triangular square root of a covariance, or the row and column where it shows that the matrix is none.
+/// A lower triangular square root of a covariance, or the row and column at which the matrix proves not to be one.
 ///
-/// Cholesky on the correlations, so that units do not count. A parameter that hangs on those before it, or that the data do
-/// not determine, has no part of its own.
+/// Cholesky on the correlations, so that units do not matter. A parameter that is a linear function of those before
+/// it, or that the data do not determine, adds no variance of its own.
 pub(crate) fn root(matrix: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, (usize, usize)> {
     let n = matrix.len();
     let size: Vec<f64> = (0..n).map(|i| libm::sqrt(matrix[i][i])).collect();
@@ -132,7 +133,7 @@ pub(crate) fn root(matrix: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, (usize, usize)>
     Ok(lower)
 }
 
-/// Whether an element is no number, or not that on the other side of the diagonal.
+/// Whether an element is not a number, or differs from the one on the other side of the diagonal.
 fn apart(entry: &CovarianceEntry, i: usize, j: usize) -> Option<Fault> {
     let CovarianceEntry { names, matrix } = entry;
     let (low, high) = (matrix[i][j], matrix[j][i]);

@@ -1,4 +1,4 @@
-//! What cannot be of a model file that parsed: its numbers, units and names against its law.
+//! Checks a model file that parsed: whether its numbers, units and names fit its law.
 
 use super::covariance;
 use super::form::{ModelFile, ModelParameter};
@@ -18,8 +18,8 @@ const SIDED: [Quantity; 4] = [
     Quantity::Sigma2,
 ];
 
-/// Whether what is known of a parameter is checked: those of the law, and what any axis has. Of the terms beside the law
-/// only the name.
+/// Whether unit and value of a parameter are checked: those of the law, and those that any axis has. Of the terms
+/// beside the law only the name is checked.
 fn is_checked(quantity: Quantity) -> bool {
     quantity.is_of_the_steady_curve()
         || matches!(
@@ -136,8 +136,8 @@ pub(super) fn fault(model: &ModelFile) -> Option<Fault> {
         .or_else(|| covariance::fault(model))
 }
 
-/// An unknown unit, which would go into every text about the model: identification writes that of a force, or of what
-/// drives the axis (`A`, `V`, `1`).
+/// Refuses an unknown unit, which would go into every text about the model: identification writes that of a force, or
+/// of what drives the axis (`A`, `V`, `1`).
 fn force_unit(model: &ModelFile, motion: Motion) -> Option<Fault> {
     let unit = &model.force_unit;
     let plain = |c: char| c.is_alphanumeric() || " */^-·".contains(c);
@@ -217,7 +217,7 @@ fn parameter(model: &ModelFile, law: LawKind, motion: Motion, i: usize) -> Optio
     Some((key("value"), format!("{name} = {value}"), allowed.into()))
 }
 
-/// What of a parameter contradicts the rest of it.
+/// An entry of a parameter that contradicts its other entries.
 fn contradiction(model: &ModelFile, i: usize) -> Option<Fault> {
     let p = &model.parameter[i];
     let (field, found, allowed) = against_itself(p)?;
@@ -252,7 +252,7 @@ fn against_itself(p: &ModelParameter) -> Option<(&'static str, String, &'static 
         let found = format!("ci95 = [{low:?}, {high:?}] without its value {:?}", p.value);
         return Some(("ci95", found, "an interval that holds the value"));
     }
-    // A profile follows the cost, a linear interval the deviation: to each side nearly twice that.
+    // A profile follows the cost; a linear interval reaches nearly two standard deviations to each side.
     let linear = p.interval.as_deref() != Some("profile");
     let std = p.std.filter(|std| linear && high - low < *std)?;
     let found = format!("ci95 = [{low:?}, {high:?}], narrower than std = {std:?}");
@@ -263,7 +263,7 @@ fn against_itself(p: &ModelParameter) -> Option<(&'static str, String, &'static 
     ))
 }
 
-/// A top speed that cannot be.
+/// What is wrong with the top speed.
 pub(super) fn top_speed(model: &ModelFile) -> Option<Fault> {
     let speed = model.source.top_speed?;
     let within = speed > 0.0 && speed <= LARGEST_NUMBER;

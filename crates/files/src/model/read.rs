@@ -42,11 +42,11 @@ impl ReadModel {
         Self::named(text, Path::new(IN_MEMORY))
     }
 
-    /// A model in memory, held against the same rules; messages have keys and no lines. The hash is that of the file that
-    /// it would be.
+    /// A model in memory, checked by the same rules; messages have keys and no lines. The hash is that of the file
+    /// that it would be written as.
     ///
     /// # Errors
-    /// When its parameters are none of its law.
+    /// When its parameters do not fit its law.
     pub fn of(model: &ModelFile) -> Result<Self, Error> {
         Self::checked(
             model.clone(),
@@ -87,7 +87,8 @@ impl ReadModel {
         self.refuse(&self.value_key(name), found, allowed)
     }
 
-    /// Where a key stands, or the table that lacks it, as errors begin: `line 4, column 7, law: `.
+    /// The place of a key or, where it is missing, of the table that lacks it, as errors begin:
+    /// `line 4, column 7, law: `.
     pub fn place(&self, key: &str) -> String {
         self.places.place(key)
     }
@@ -205,7 +206,7 @@ fn flag(table: &Table<'_>, key: &'static str) -> Result<bool, Error> {
     table.required(key, flag, "true or false")
 }
 
-/// Any number, also one that is infinite or none: what it may be is judged with the others.
+/// Any number, also infinite or NaN: its range is checked later, together with the others.
 fn number(given: &Given<'_>) -> Result<f64, Error> {
     given
         .as_number()
@@ -247,8 +248,7 @@ impl ModelFile {
     /// Reads the text of a model file.
     ///
     /// # Errors
-    /// When the text is no model of this schema, or its parameters are none of its law: their names,
-    /// units and values.
+    /// When the text is no model of this schema, or its parameters do not fit its law: their names, units and values.
     pub fn parse(text: &str) -> Result<Self, Error> {
         Ok(ReadModel::parse(text)?.model)
     }

@@ -13,7 +13,7 @@ pub struct StaticMapEntry {
     pub scatter: f64,
     /// The points, by velocity.
     pub points: Vec<StaticPointEntry>,
-    /// Stretches of nearly constant velocity that are no points.
+    /// Stretches of nearly constant velocity that were not used as points.
     pub rejected: Vec<RejectedEntry>,
 }
 
@@ -38,7 +38,7 @@ pub struct StaticPointEntry {
     pub weight: f64,
     /// Samples that count.
     pub samples: usize,
-    /// Independent samples that they are worth.
+    /// Effective number of independent samples among them.
     pub effective_samples: f64,
     /// Time dropped at the start, s.
     pub dropped_s: f64,
@@ -78,7 +78,7 @@ pub struct BreakAwayEntry {
     pub displacement: f64,
     /// Speed that counts as broken away, m/s or rad/s.
     pub threshold: f64,
-    /// Force that the model passes the same speed at, on a ramp of this rate; `null` without a model.
+    /// Force at which the model passes the same speed, on a ramp of this rate; `null` without a model.
     pub predicted_force: Option<f64>,
     /// First maximum of friction in the same prediction.
     pub predicted_friction: Option<f64>,

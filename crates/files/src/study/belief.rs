@@ -9,7 +9,7 @@ use stiction_parameters::{Name, Quantity, Side};
 use stiction_servo::known;
 use stiction_servo::noise::Noise;
 
-/// What is believed of the axis.
+/// The parameters of the axis that a compensator assumes, right or wrong.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Belief {
     /// Its friction.
@@ -28,10 +28,11 @@ pub struct Family {
     pub beliefs: Vec<Belief>,
 }
 
-/// Draws that fit no law are drawn again, up to so many times for each one asked for.
+/// Draws that fit no law are drawn again, at most this many times for each one asked for.
 const MOST_TRIES: u64 = 1000;
 
-/// Largest standard deviation of what is drawn, of its value: a choice; beyond it no draw means anything.
+/// Largest standard deviation of a drawn parameter, as a part of its value, dimensionless: a choice; a larger one
+/// says nothing.
 const MOST_SPREAD: f64 = 1e6;
 
 /// Why nothing can be drawn.
@@ -129,7 +130,7 @@ impl Family {
     }
 }
 
-/// A part below 1 in percent, in few digits; in all where few would make it the whole.
+/// A part below 1 in percent, in few digits, or in full where few digits would give 100.
 fn percent(by: f64) -> String {
     match stiction_number::short(100.0 * by) {
         rounded if rounded == "100" => stiction_number::shortest(100.0 * by),
@@ -137,7 +138,7 @@ fn percent(by: f64) -> String {
     }
 }
 
-/// The damping of this size in the form of another.
+/// A damping of this value, constant or capped as `form` is.
 fn like(form: Damping<f64>, sigma1: f64) -> Damping<f64> {
     match form {
         Damping::Constant(_) => Damping::Constant(sigma1),
@@ -145,8 +146,9 @@ fn like(form: Damping<f64>, sigma1: f64) -> Damping<f64> {
     }
 }
 
-/// Refuses a variance that makes nearly every draw absurd, as of a parameter that the data did not determine. What may
-/// be 0 is measured by the Coulomb friction, and that at the Stribeck velocity.
+/// Refuses a variance that makes nearly every draw absurd, as of a parameter that the data did not determine. The
+/// scale for an offset near 0 is the Coulomb friction, for a damping near 0 the Coulomb friction over the Stribeck
+/// velocity.
 fn determined(model: &Model, covariance: &CovarianceEntry) -> Result<(), Undrawn> {
     let values = model.values();
     let of = |quantity| values.on(quantity, Side::Positive).map_or(0.0, f64::abs);

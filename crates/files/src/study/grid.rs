@@ -6,7 +6,7 @@ use super::plan::{Scheme, Study};
 /// A run of the grid, by the places in the lists of the study.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Job {
-    /// Contours count on from the paths.
+    /// Index of the path; contours are numbered after the paths.
     pub path: usize,
     /// Controller.
     pub controller: usize,

@@ -151,7 +151,7 @@ impl Model {
                 format!("the model has {left_out}, which a study does not simulate"),
             ));
         }
-        // A model that was read names no parameter that is unknown.
+        // Every parameter name was checked when the model was read.
         let parameters = model.parameter.iter().filter_map(|p| {
             Some(Parameter {
                 name: p.name.parse().ok()?,
@@ -169,7 +169,7 @@ impl Model {
             warnings,
             read: None,
         };
-        // What the parameters of a file do not allow is said of that file.
+        // If the parameters of a file do not make a law, the error names that file.
         match found.values().lugre() {
             Ok(_) => Ok(Model {
                 read: Some(read),
@@ -190,7 +190,7 @@ impl Model {
     pub(super) fn refuse_parameter(&self, name: &str, found: String, allowed: &str) -> Error {
         match &self.read {
             Some(read) => read.refuse_parameter(name, found, allowed),
-            // A known axis is right as it is.
+            // The parameters of a known axis are always valid.
             None => Error::Config {
                 file: self.origin.clone().into(),
                 place: format!("{name}: "),

@@ -58,7 +58,7 @@ pub struct Named<T> {
     pub value: T,
 }
 
-/// The simulated axis but for controller and compensator.
+/// The simulated axis, without controller and compensator.
 pub struct Machine {
     /// Linear or rotary.
     pub motion: Motion,
@@ -86,7 +86,7 @@ pub struct Machine {
     pub cogging: Option<Cogging>,
 }
 
-/// A reference motion of one axis and from when on it counts.
+/// A reference motion of one axis, and the time from which its samples count.
 pub struct PathPlan {
     /// Its name.
     pub name: String,
@@ -94,7 +94,7 @@ pub struct PathPlan {
     pub kind: &'static str,
     /// The motion.
     pub trajectory: Box<dyn Trajectory + Send + Sync>,
-    /// From when on samples count, s.
+    /// Time from which samples count, s.
     pub skip: f64,
 }
 
@@ -106,7 +106,7 @@ pub enum Scheme {
     Model(ModelScheme),
     /// A disturbance observer alone, with its bandwidth, Hz.
     Observer(f64),
-    /// Learning from pass to pass; of so many passes the last counts.
+    /// Iterative learning over this number of passes, of which the last counts.
     Learning(Learning, u64),
 }
 
@@ -147,7 +147,7 @@ pub enum ModelKind {
     LuGre,
 }
 
-/// The second axis of a study and what is above both.
+/// The second axis of a study, and what couples both.
 pub struct Second {
     /// The axis.
     pub machine: Machine,
@@ -159,7 +159,7 @@ pub struct Second {
     pub coupling: Option<CrossCoupling>,
 }
 
-/// A contour and from when on it counts.
+/// A contour, and the time from which its samples count.
 pub struct ContourPlan {
     /// Its name.
     pub name: String,
@@ -167,6 +167,6 @@ pub struct ContourPlan {
     pub kind: &'static str,
     /// The motion of both axes.
     pub motion: Box<dyn PlaneMotion + Send + Sync>,
-    /// From when on samples count, s.
+    /// Time from which samples count, s.
     pub skip: f64,
 }

@@ -180,7 +180,7 @@ fn families(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
                     }
                 };
                 if let Some(second) = &study.second {
-                    // Draws of its own; a known axis has no covariance and is believed as it is.
+                    // Independent draws; a known axis has no covariance, so its exact parameters are assumed.
                     let seed = study.seed.wrapping_add(1);
                     let machine = &second.machine;
                     others.push(match machine.model.covariance {

@@ -58,7 +58,7 @@ pub struct SimulatedAxis {
     pub mass: f64,
     /// Control rate, Hz.
     pub rate_hz: f64,
-    /// Stretches of a control period in which the plant is stepped.
+    /// Plant steps in one control period.
     pub substeps: u32,
     /// Transport delay, s.
     pub delay_s: f64,
@@ -92,7 +92,7 @@ pub struct PathEntry {
     pub kind: String,
     /// Length, s.
     pub duration_s: f64,
-    /// From when on it counts, s.
+    /// Time from which it counts, s.
     pub skip_s: f64,
 }
 
@@ -108,7 +108,7 @@ pub struct ResultRow {
     /// Whether the axes are controlled together.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub coupled: bool,
-    /// What it believed of the axis: `exact`, `±10 %`, `100 draws`.
+    /// The parameters that it assumed for the axis: `exact`, `±10 %`, `100 draws`.
     pub parameters: String,
     /// Runs that count here.
     pub runs: usize,
@@ -170,8 +170,8 @@ pub struct MetricEntry {
     pub largest: f64,
     /// What 95 % of the runs lie between, for draws from a covariance.
     pub interval95: Option<[f64; 2]>,
-    /// By how much the mean is below that of the same path and controller without compensation, percent; negative where
-    /// it is above, `null` where that is zero or this is it.
+    /// By how much the mean is below that of the same path and controller without compensation, percent; negative
+    /// where it is above, `null` where that mean is zero or this row is the one without compensation.
     pub reduction_percent: Option<f64>,
     /// The same of the largest.
     pub worst_reduction_percent: Option<f64>,

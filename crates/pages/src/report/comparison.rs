@@ -14,7 +14,7 @@ use stiction_report::{
 /// The genetic algorithms of Zhang et al. 2025, in the order of its figures.
 const PAPER: [&str; 3] = ["ga", "adaptive-ga", "annealing-ga"];
 
-/// Cost over the optimum, less 1, up to which two costs count as the same, dimensionless: rounding.
+/// Cost divided by that of the optimum, minus 1, up to which two costs count as the same, dimensionless: rounding.
 const SAME_COST_EXCESS: f64 = 1e-9;
 
 /// The report.
@@ -147,7 +147,7 @@ fn plain(value: f64) -> String {
     }
 }
 
-/// Excess over the optimum; rounding counts as none.
+/// Excess over the optimum; one within rounding is shown as zero.
 fn excess(values: &Quartiles) -> String {
     match values {
         Some([_, x, _]) if x.abs() < SAME_COST_EXCESS => "0".into(),

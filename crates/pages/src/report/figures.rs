@@ -46,7 +46,7 @@ fn friction(values: &[f64], series: &Series) -> Vec<f64> {
         .collect()
 }
 
-/// Where a line must not be drawn on: samples were left out before this one, or a log begins.
+/// Samples before which a line is interrupted: samples were left out there, or a log begins.
 pub(super) fn breaks(series: &Series) -> Vec<bool> {
     let n = series.time.len();
     let mut steps: Vec<f64> = series.time.windows(2).map(|t| t[1] - t[0]).collect();

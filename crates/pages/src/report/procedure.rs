@@ -256,7 +256,7 @@ fn step_figures(outcome: &Outcome, entry: &PreslidingStepEntry) -> Vec<Figure> {
                     omega: (published.sigma0 / mass).sqrt(),
                     damping: 0.5 * (sigma1 + viscous) / mass,
                 };
-                // The step is where the axis has gone a hundredth of its way.
+                // The step is taken to begin where the axis has moved a hundredth of its travel.
                 let start = measured
                     .iter()
                     .position(|x| x.abs() > 0.01 * published.settled)

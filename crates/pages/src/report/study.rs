@@ -173,7 +173,7 @@ fn best(rows: &[ResultRow]) -> Option<KeyFigure> {
         Some(_) => "contour error",
         None => "largest error",
     };
-    // Which of them at which risk: the worst of all wrong parameters.
+    // The risk of that compensator: its least reduction with wrong parameters.
     let same = |r: &&ResultRow| {
         r.runs > 1 && (r.coupled, &r.compensator) == (row.coupled, &row.compensator)
     };

@@ -67,10 +67,10 @@ pub(super) fn parameters(outcome: &Outcome) -> Table {
     table
 }
 
-/// A value with as many digits as its deviation allows, and two more to compute on.
+/// A value with as many digits as its deviation allows, and two more for further computation.
 fn digits(value: f64, std: f64) -> String {
     let decades = libm::log10(value.abs() / std);
-    // A value without deviation to speak of gives infinity, a deviation of zero never comes here.
+    // A negligible deviation gives infinity here; a deviation of zero does not occur.
     number::sig(value, (decades.ceil().clamp(0.0, 9.0) as usize) + 2)
 }
 

@@ -13,7 +13,7 @@ pub fn reproduction(file: &ReproduceFile) -> String {
             check.experiment.clone(),
             check.name.clone(),
             short(check.reference),
-            // A zero is found to the last bits, which no reader needs.
+            // Where the reference is zero, only a rounding error is found, and its digits are of no use.
             if check.reference == 0.0 {
                 one_digit(check.found)
             } else {
@@ -46,7 +46,7 @@ pub fn reproduction(file: &ReproduceFile) -> String {
     out
 }
 
-/// The size of what should be zero.
+/// The magnitude of a value that should be zero, with one digit.
 fn one_digit(x: f64) -> String {
     format!("{x:.0e}")
 }

@@ -5,10 +5,10 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 use stiction_search::{Control, Observer, Progress, Stage};
 
-/// Does every task and returns what came of each, in their order, and whether it was stopped.
+/// Does every task and returns the results in the order of the tasks, and whether the work was stopped.
 ///
-/// Every thread has a pool of its own with one thread in it. In a common pool, a run that waits for its
-/// batch would take up another one meanwhile, and the time of neither would mean anything.
+/// Every thread has a pool of its own with one thread in it. In a common pool, a thread whose run waits for its batch
+/// would start another run meanwhile, and the time of neither would mean anything.
 pub(super) fn run<T: Sync, R: Send>(
     tasks: &[T],
     observer: &mut dyn Observer,

@@ -10,8 +10,8 @@ use stiction_search::Bounds;
 /// starting in the middle; less in boxes of less than a decade.
 const BOX_OFFSETS: [f64; 6] = [0.31, -0.27, 0.23, -0.35, 0.29, -0.33];
 
-/// What a parameter that is zero counts as: so little that no record shows it, since its logarithm needs
-/// a place.
+/// Values that stand in for parameters that are zero, since zero has no logarithm: so small that no record shows
+/// them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Floor {
     /// Of sigma1 and sigma2, N s/m.
@@ -75,7 +75,7 @@ pub(super) fn genome(truth: &[(String, f64)], cost: Cost, floor: Floor) -> Vec<f
     }
 }
 
-/// A box of decades to each side of a point that is off the given one.
+/// A box of decades to each side of a point that lies off the given one by `BOX_OFFSETS`.
 pub(super) fn about(middle: &[f64], decades: f64) -> Result<Bounds, Error> {
     if !(decades > 0.0 && decades <= 6.0) {
         return Err(Error::usage(

@@ -3,7 +3,8 @@
 use stiction_friction::{Damping, Direction, LuGre, ParamError, Shape, Stribeck};
 use stiction_servo::known::{self, KnownAxis};
 
-/// A steady curve with its numbers, `[Fc, Fs, sigma2, vs]` of each direction; no memory.
+/// A steady curve with its parameters, `[Fc, Fs, sigma2, vs]` of each direction; the force depends on the velocity
+/// alone.
 pub(super) struct KnownCurve {
     pub name: &'static str,
     pub source: &'static str,
@@ -94,8 +95,8 @@ impl KnownCurve {
     }
 }
 
-/// Another law than the one that is fitted, near it: Stribeck exponent 1, and in the negative direction
-/// Fc and sigma2 of 80 % and Fs of 90 %.
+/// A law that differs a little from the one that is fitted: Stribeck exponent 1, and in the negative direction Fc and
+/// sigma2 of 80 % and Fs of 90 %.
 pub(super) fn mismatched(law: &LuGre<f64>) -> Result<LuGre<f64>, ParamError> {
     let positive = *law.curve().positive();
     let negative = Direction {

@@ -1,4 +1,4 @@
-//! Subjects that are made: axes and curves whose parameters are known.
+//! Synthetic subjects: axes and curves whose parameters are known.
 
 use super::excitation::{DURATION, Excitation};
 use super::genome::{Floor, about, genome};
@@ -15,8 +15,8 @@ use stiction_servo::known::KnownAxis;
 use stiction_servo::noise::Noise;
 use stiction_servo::plant::{Load, Motion, Plant};
 
-/// Steps of the true law in one sample of a made record: on its grid alone the record would hold the error of the law's
-/// own step.
+/// Steps of the true law in one sample of a synthetic record: with one step a sample the record would contain the
+/// integration error of the law.
 const STEPS_PER_SAMPLE: usize = 20;
 /// Seed of the noise of a made record: the searches have seeds of their own.
 const NOISE_SEED: u64 = 1;

@@ -72,7 +72,7 @@ pub struct CompareOptions {
     /// Decades of the box to each side of a point off the answer; `None` takes 1 for a problem, and
     /// the box of `identify` for a log.
     pub decades: Option<f64>,
-    /// What integrates the candidates.
+    /// How the law is integrated for each candidate.
     pub integrator: Scheme,
     /// What is minimised.
     pub cost: Option<Cost>,

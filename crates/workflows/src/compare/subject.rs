@@ -11,9 +11,9 @@ use stiction_identify::candidates::{Curve, Nonlinear, Scheme, Simulated, SixPara
 use stiction_identify::{Delay, Law, LawKind, Observer, Record, SearchBox, Settings, Terms};
 use stiction_search::{Bounds, Fidelity, Limits, Method, Plan, Points, Problem, Run, levenberg};
 
-/// Evaluations after which the reference of a steady curve is taken: its least squares end long before.
+/// Limit on the evaluations of the reference search on a steady curve: its least squares end long before.
 const REFERENCE_EVALUATIONS_OF_CURVE: u64 = 20_000;
-/// The same of a simulation, by `cma-es` in a small box about the truth.
+/// The same for a simulation, where the reference is found by `cma-es` in a small box about the truth.
 const REFERENCE_EVALUATIONS_OF_SIMULATION: u64 = 10_000;
 
 /// A subject of a comparison.
@@ -34,7 +34,7 @@ pub(super) struct Subject {
     pub scheme: Scheme,
 }
 
-/// What the candidates are held against.
+/// The data that the candidates are compared with.
 pub(super) enum Data {
     Record {
         record: Box<Record>,

@@ -3,7 +3,7 @@
 use super::trial::{Point, Trial};
 use stiction_files::compare_file::{Course, MethodEntry, ParameterError, RunEntry, Stage};
 
-/// Cost over that of the optimum, less 1, up to which a run with noise counts as a success, dimensionless.
+/// Cost divided by that of the optimum, minus 1, up to which a run with noise counts as a success, dimensionless.
 const SUCCESS_EXCESS: f64 = 1e-4;
 /// Error of each parameter, as a part of its true value, up to which a run without noise counts as a success,
 /// dimensionless.
@@ -19,7 +19,7 @@ const CURVE_POINTS: usize = 60;
 pub(super) struct Judge<'a> {
     pub least: f64,
     pub truth: &'a [(String, f64)],
-    /// Without noise the truth is known better than the cost.
+    /// Whether parameters decide: without noise the true parameters are known more exactly than the least cost.
     pub by_parameters: bool,
 }
 
@@ -49,7 +49,7 @@ impl Judge<'_> {
         }
     }
 
-    /// Cost over the optimum, less 1; no number where the optimum is nothing but rounding.
+    /// Cost divided by that of the optimum, minus 1; NaN where the cost of the optimum is rounding error only.
     fn excess(&self, cost: f64) -> f64 {
         if self.least < ROUNDING_COST {
             return f64::NAN;
@@ -179,8 +179,8 @@ fn between(mut values: Vec<f64>) -> [f64; 3] {
     })
 }
 
-/// Best cost so far of all runs at places common to them, from where three quarters have begun: a run
-/// that has not stands at infinity.
+/// Quartiles over all runs of the best cost so far, at places common to them, from the place where three quarters of
+/// the runs have a finite cost; a run without one counts as infinite.
 fn course(runs: &[Steps], whole: bool) -> Course {
     let ends = runs.iter().filter_map(|run| run.last());
     let last = ends.map(|s| s.0).fold(0.0, f64::max);

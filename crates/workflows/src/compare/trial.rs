@@ -16,7 +16,7 @@ use stiction_search::{
 pub(super) struct Setting<'a> {
     pub problem: &'a Shared<'a>,
     pub evaluations: u64,
-    /// Whether least squares can follow.
+    /// Whether least squares can follow the search: the problem has derivatives.
     pub descends: bool,
 }
 

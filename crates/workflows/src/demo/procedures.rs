@@ -13,7 +13,7 @@ use stiction_servo::noise::Noise;
 use stiction_servo::plant::{Load, Motion, Plant};
 use stiction_servo::speeds::Speeds;
 
-/// Rate of the logs of constant speeds and ramps, Hz: they are long, and nothing in them is quick.
+/// Rate of the logs of constant speeds and ramps, Hz: they are long, and nothing in them changes fast.
 const SLOW_RATE: f64 = 1000.0;
 /// Rates of the force ramps, N/s.
 const RAMP_RATES: [f64; 3] = [5.0, 20.0, 100.0];
@@ -23,7 +23,7 @@ const STEP_HEIGHTS: [f64; 2] = [3.0, 9.0];
 const FINE_ENCODER_COUNT: f64 = 1e-9;
 /// Rate of the logs of steps, Hz.
 const STEP_RATE: f64 = 10_000.0;
-/// Noise of the force where the drive gives it open loop, N rms.
+/// Noise of the force where the drive applies it in open loop, N rms.
 const OPEN_LOOP_FORCE_NOISE: f64 = 0.05;
 
 /// Writes a log of constant speeds, one of motion, two force steps and three force ramps into `dir`.

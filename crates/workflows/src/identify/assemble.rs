@@ -28,7 +28,7 @@ pub(super) struct Parts<'a> {
     pub judged: Judged,
 }
 
-/// The result but for what is of one method alone.
+/// The result without the entries that only one method has.
 pub(super) fn result(parts: Parts) -> ResultFile {
     let Parts {
         asked,
@@ -184,7 +184,7 @@ pub(super) fn correction_note(estimate: &FittedLaw) -> Option<String> {
     ))
 }
 
-/// Says of a law that is fitted without a delay that it is.
+/// A note that the delay was not fitted with a law that cannot fit it, where the axis file asks for a fitted delay.
 pub(super) fn delay_note(estimate: &FittedLaw) -> Option<String> {
     let without = estimate.law.kind.has_elements() && estimate.terms.delay == Delay::Fitted;
     without.then(|| {

@@ -50,7 +50,7 @@ pub(super) fn fitted_already(
     let laws = if compare && optimum.status != Status::Interrupted {
         let known = Some((&estimate, &optimum));
         let climb = ladder.climb(&ladder::beside(&law), known, settings, observer);
-        // A table of some laws would name the wrong one.
+        // A table with only some of the laws could name the wrong one as best.
         if climb.stopped {
             Vec::new()
         } else {
@@ -121,8 +121,8 @@ fn stated(
     estimate
 }
 
-/// The best law, or if the log does not determine it, the best of those that it determines and that
-/// leave not much more: parameters that may not be used are of no use for a slightly smaller error.
+/// The best law or, if the log does not determine it, the best of those that it determines and whose error is not
+/// much larger: a slightly smaller error is worth nothing if the parameters may not be used.
 fn determined(climb: &Climb, laws: &[LawEntry], best: usize) -> usize {
     if laws[best].determined {
         return best;

@@ -60,7 +60,7 @@ pub(super) fn condition(
     let settings = settings(options.seed);
     let wanted = conditioning::wanted(sources, axis);
     let chosen = conditioning::choose(sources, &wanted, &symmetric, &settings, observer)?;
-    // A Maxwell-slip law remembers its past: it is fitted from where the motion has wiped that out.
+    // A Maxwell-slip law depends on past motion: it is fitted from where the start no longer has an effect.
     let settle = |record: Record| match options.law.is_some_and(LawKind::has_elements) {
         true => record.settled(),
         false => record,
@@ -153,7 +153,7 @@ fn split(full: &Record, part: f64) -> Result<(Record, Record), Error> {
     Ok((full.masked(|i| i < at), rest))
 }
 
-/// Refuses a log without motion, in the words of its own unit.
+/// Refuses a log without motion, with a message in the unit of the log.
 fn refuse_rest(record: &Record, sources: &[Source], motion: Motion) -> Result<(), Error> {
     let top = record.top_speed();
     let still = sources

@@ -52,8 +52,8 @@ impl Chosen {
 
 /// Chooses the cut-offs that the axis file leaves open, and says how.
 ///
-/// LuGre, the same in both directions and with `terms` beside it, stands for the axis whatever law is
-/// asked: it is the law that a filter can spoil, and all laws that are compared must see one record.
+/// The choice is made with LuGre, the same in both directions and with `terms` beside it, whatever law is asked for: it
+/// is the law whose parameters a wrong filter biases, and all laws that are compared must see the same record.
 pub(super) fn choose(
     sources: &[Source],
     wanted: &Conditioning,

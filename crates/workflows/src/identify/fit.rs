@@ -19,7 +19,7 @@ pub(super) struct Fitted {
     pub choice: Choice,
     /// What a search found, where one was asked for.
     pub searched: Option<SearchedEntry>,
-    /// Why the state of the search could not be kept.
+    /// Why the state of the search could not be saved.
     pub not_kept: Option<Error>,
     /// Both fits, where static parameters come first.
     pub two_steps: Option<TwoSteps>,

@@ -50,7 +50,7 @@ impl Ladder<'_> {
         observer: &mut dyn Observer,
     ) -> Climb {
         let shared = Shared::new(observer, laws.len());
-        // The richest first: it takes longest. One at a time, so that no thread keeps two of them.
+        // The richest law first, as it takes longest. Threads take one law at a time, so that none holds two of them.
         let mut found: Vec<_> = laws
             .par_iter()
             .rev()
@@ -147,7 +147,7 @@ impl Climb {
                 .held_out_low_speed
                 .map(|f| f.relative_error_percent),
             held_out_excess_percent: standing.excess.map(|x| 100.0 * libm::expm1(x)),
-            // To first order: of a ratio from its logarithm.
+            // Standard error of a ratio from that of its logarithm, to first order.
             held_out_excess_std_percent: (standing.excess.zip(standing.excess_std))
                 .map(|(x, std)| 100.0 * std * libm::exp(x)),
             aic_difference: standing.aic,
@@ -191,7 +191,7 @@ pub(super) fn beside(law: &Law) -> Vec<Law> {
     every(*law)
         .into_iter()
         .filter(|other| other.kind <= top)
-        // Dahl beside LuGre stands for "no Stribeck curve"; one of its kind is enough.
+        // Beside LuGre, Dahl is the law without a Stribeck curve; one such law is enough.
         .filter(|other| {
             other.kind != LawKind::Dahl || !other.asymmetric || law.kind == LawKind::Dahl
         })

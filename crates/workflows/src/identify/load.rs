@@ -1,4 +1,4 @@
-//! The first step: the logs and what stands beside them, held against what is asked.
+//! The first step: the logs and the files beside them are read and checked against the options.
 
 use super::beside::Beside;
 use super::method::Method;

@@ -24,7 +24,7 @@ pub(super) fn run_of<'a>(source: &'a Source, samples: &'a Samples, axis: &Axis) 
 
 /// An engine's refusal with the logs it is about.
 pub(super) fn refused(sources: &[Source], source: engine::Error) -> Error {
-    // The engine counts logs; people have their names.
+    // The engine knows logs by their number; a message gives the path.
     let one = match &source {
         engine::Error::NoStep { log, .. } | engine::Error::NoBreakAway { log, .. } => {
             sources.get(log - 1).map(std::slice::from_ref)

@@ -1,4 +1,4 @@
-//! What a fitted law makes of another log.
+//! The force that a fitted law predicts for another log.
 
 use super::conditioning::conditioned;
 use super::load::check_together;
@@ -10,7 +10,7 @@ use stiction_files::result::FitEntry;
 use stiction_identify as engine;
 use stiction_identify::{Fit, Series};
 
-/// What a fitted law makes of a log.
+/// The force that a fitted law predicts for a log.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Prediction {
@@ -43,7 +43,7 @@ pub fn predict(outcome: &Outcome, log: &Source) -> Result<Prediction, Error> {
     }
     log.check_channels(&fitted.estimate.terms)?;
     let record = conditioned(std::slice::from_ref(log), &fitted.conditioning)?;
-    // A law with elements remembers its past: it is judged from where the motion has wiped that out.
+    // A law with elements depends on past motion: it is judged from where the start no longer has an effect.
     let record = match fitted.estimate.law.kind.has_elements() {
         true => record.settled(),
         false => record,

@@ -238,7 +238,7 @@ fn run<P: Candidates + Sync>(
         file: given.checkpoint.as_deref().filter(|_| task.keep),
     };
     let mut plan = Plan::named(name).expect("a method of the searches");
-    // What descends by itself needs no descents after it.
+    // These methods descend by themselves and need no descents after them.
     if !matches!(name, "niched-ga" | "lm") {
         plan.finish = Some(Finish::default());
     }
@@ -268,7 +268,8 @@ fn run<P: Candidates + Sync>(
             .map_err(|e| Error::usage(e.to_string(), "a checkpoint of this very search"))?;
         match watch.ended(stop) {
             Some(ended) => break ended,
-            // The search is worth more than its checkpoint: what counts is whether the last one is there.
+            // A checkpoint that cannot be written does not end the search; only a failure of the last one is
+            // reported.
             None => drop(keep.write(&run)),
         }
     };

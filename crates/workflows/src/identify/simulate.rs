@@ -20,8 +20,8 @@ use stiction_identify::{
     SimulationFit, Status, Terms,
 };
 
-/// Part of the variance of the force that a separable fit must explain for the search to start from it, dimensionless: one
-/// that explains less may lie in another valley.
+/// Part of the variance of the force that a separable fit must explain for the search to start from it,
+/// dimensionless: a fit that explains less may lie in the valley of another minimum.
 const GOOD_START_R2: f64 = 0.9;
 
 /// Laws that can be simulated.
@@ -97,7 +97,7 @@ pub(super) fn run(
     };
     let start = match options.split {
         None => separable(sources, axis, law, &stated, options.seed, observer),
-        // It would have seen the rest.
+        // That fit would have used the samples that are held out.
         Some(_) => None,
     };
     let quantum = axis.conditioning.resolution.or_else(|| {
@@ -199,7 +199,7 @@ fn recordings(sources: &[Source]) -> Result<Vec<Recording>, Error> {
         .collect()
 }
 
-/// Leaves the first part of each recording where it is and gives back the rests.
+/// Shortens each recording to its first part and returns the remaining parts.
 fn split(recordings: &mut [Recording], part: f64) -> Result<Vec<Recording>, Error> {
     if !(part > 0.0 && part < 1.0) {
         return Err(Error::usage(

@@ -18,28 +18,31 @@ const LEAST_R2: f64 = 0.5;
 /// Part of the samples whose force may be cut off at a limit, dimensionless. Those are left out; with more of them the
 /// accelerations, which determine the mass, are missing.
 const MOST_SATURATED_SHARE: f64 = 0.2;
-/// Held-out error of the law over that of a simpler one above which the simpler one is named, dimensionless: 2 %, twice
-/// what the choice of a law counts as the same.
+/// Ratio of the held-out error of the law to that of a simpler one above which a warning names the simpler one,
+/// dimensionless: 2 % more, twice what the choice of a law counts as the same.
 const SIMPLER_LAW_WINS_FROM: f64 = 1.02;
 
-/// Held-out error of a richer law over that of this one below which the richer one is named, dimensionless: a fifth less,
-/// which biases parameters visibly.
+/// Ratio of the held-out error of a richer law to that of this one below which a warning names the richer one,
+/// dimensionless: a fifth less, which biases parameters visibly.
 pub(super) const RICHER_LAW_WINS_BELOW: f64 = 0.8;
-/// The same ratio below which this law is not trusted, dimensionless: another law leaves less than half.
+/// The same ratio below which this law is not trusted, dimensionless: another law has less than half the error.
 const UNTRUSTED_BELOW: f64 = 0.5;
-/// Independent samples that the residual is worth, as a part of all, below which it is said to be systematic,
-/// dimensionless; see `docs/codes/correlated-residual.md`.
+/// Effective number of independent samples in the residual, as a part of all samples, below which the residual is
+/// called systematic, dimensionless; see `docs/codes/correlated-residual.md`.
 const SYSTEMATIC_BELOW_SHARE: f64 = 0.05;
-/// Shift of a parameter by encoder, filters and noise, as a part of its value, above which it is named, dimensionless.
+/// Shift of a parameter by encoder, filters and noise, as a part of its value, above which a warning names it,
+/// dimensionless.
 const NAMED_SHIFT: f64 = 0.05;
-/// Independent samples of the residual for each unknown below which an open loop is not trusted: with fewer the slow
-/// error of a force that is summed up twice is fitted by the parameters.
+/// Effective number of independent samples in the residual for each unknown, below which an open loop is not trusted:
+/// with fewer, the parameters fit the slow position error that a force error integrated twice makes.
 const LEAST_SAMPLES_PER_UNKNOWN: f64 = 5.0;
-/// Rms residual over what the encoder steps alone leave, below which nothing but the encoder is in it, dimensionless.
+/// Ratio of the rms residual to that of the encoder steps alone, below which the residual is the encoder's,
+/// dimensionless.
 const ENCODER_ONLY_BELOW: f64 = 2.0;
-/// Part of the samples near rest above which a static law is warned of them, dimensionless.
+/// Part of the samples that is near rest, above which a static law gets a warning, dimensionless.
 const WARNED_REST_SHARE: f64 = 0.05;
-/// Rms residual near rest over that of all samples above which a static law is warned of it, dimensionless.
+/// Ratio of the rms residual near rest to that of all samples, above which a static law gets a warning,
+/// dimensionless.
 const WARNED_REST_ERROR: f64 = 1.5;
 
 /// A verdict, and what to beware of.
@@ -49,7 +52,7 @@ pub(super) struct Judged {
 }
 
 impl Judged {
-    /// The numbers may be used if nothing speaks against it.
+    /// The result is trustworthy if there is no reason against it.
     fn new(reasons: Vec<String>, warnings: Vec<Warning>) -> Self {
         let trust = Trust {
             trustworthy: reasons.is_empty(),
@@ -354,8 +357,8 @@ fn systematic(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
     }
 }
 
-/// What the logged force did not do drives the simulated axis of an open loop all the same, is summed
-/// up twice on its way to the position, and so ends in the parameters.
+/// An error of the logged force drives the simulated axis of an open loop like the force itself, is integrated twice
+/// on its way to the position, and so biases the parameters.
 fn open_loop(found: &SimulationFit, warnings: &mut Vec<Warning>, reasons: &mut Vec<String>) {
     let fit = &found.position;
     let encoder_only = found

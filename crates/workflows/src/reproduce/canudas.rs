@@ -7,8 +7,9 @@ use stiction_files::reproduce_file::{CheckEntry, ReproduceFile};
 use stiction_search::Observer;
 use stiction_servo::c95::{self, Experiment};
 
-/// The experiments B to G of Canudas de Wit et al. 1995 (doi 10.1109/9.376053). The observer is told how many of how
-/// many are done, also within the longest, and may stop the work: those that are done by then are kept.
+/// The experiments B to G of Canudas de Wit et al. 1995 (doi 10.1109/9.376053). The observer is told the number of
+/// steps done and their total, also within the longest experiment, and may stop the work: experiments done by then
+/// are kept.
 pub fn canudas_1995(observer: &mut dyn Observer) -> Reproduction {
     let watch = Watch::new(c95::ALL.len(), observer);
     let experiments: Vec<Option<Experiment>> = c95::ALL

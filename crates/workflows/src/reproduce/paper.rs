@@ -1,8 +1,8 @@
 //! The experiments of Zhang et al. 2025 (Z25, doi 10.1371/journal.pone.0322844) on a simulated axis of ours.
 //!
-//! Of the paper only its words are at hand: what it gives no number for is assumed, and every assumption is listed in the
-//! report. What is checked is whether the identification finds the axis that was simulated; the paper's claims stand
-//! beside our figures without being the same experiment.
+//! Only the text of the paper is available: where it gives no number, one is assumed, and every assumption is listed
+//! in the report. What is checked is whether the identification finds the axis that was simulated; the paper's claims
+//! are shown beside our figures, but do not come from the same experiment.
 
 mod budget;
 mod corner;
@@ -56,10 +56,11 @@ const ASSUMPTIONS: [&str; 12] = [
     "Change of load: from 4.6 to 6.9 kg after 2 s of a sine of ±15 mm at 1.5 Hz.",
 ];
 
-/// The experiments with so much searching. The observer is told how many steps of how many are done, and may stop the work: the
-/// experiments that are done by then are kept.
+/// The experiments, with as much searching as `budget` allows. The observer is told the number of steps done and
+/// their total, and may stop the work: the experiments that are done by then are kept.
 pub fn zhang_2025(budget: Budget, observer: &mut dyn Observer) -> Reproduction {
-    /// Static map and its search, record of the dynamics and the search for two of them, presliding, tracking, corner, load.
+    /// Static map and its search, record of the dynamics and the search for sigma0 and sigma1, presliding, tracking,
+    /// corner, load.
     const EXPERIMENTS: usize = 8;
     let searches = search::METHODS.len() * budget.seeds as usize;
     let watch = Watch::new(EXPERIMENTS + searches, observer);

@@ -15,7 +15,7 @@ impl<'a> Watch<'a> {
         !self.0.go_on()
     }
 
-    /// One more is done.
+    /// Counts one more step as done.
     pub fn add(&self) {
         self.0.one_more();
     }

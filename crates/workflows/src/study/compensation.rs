@@ -1,4 +1,4 @@
-//! From a scheme and what is believed of an axis to its compensation.
+//! The compensation of an axis, from a scheme and the parameters that the compensator assumes (the belief).
 
 use stiction_files::study::{Belief, Machine, ModelKind, ModelScheme, Scheme};
 use stiction_friction::compensator::{
@@ -8,13 +8,13 @@ use stiction_friction::{CoulombViscous, LuGre, ParamError};
 use stiction_servo::controller::Controller;
 use stiction_servo::feedforward::Feedforward;
 
-/// A controller that feeds the mass that is believed forward: the part of it is the controller's.
+/// The controller with its mass feedforward scaled from the true mass to the mass that is believed.
 pub(super) fn believing(controller: Controller, machine: &Machine, belief: Belief) -> Controller {
     let fed = controller.mass_feedforward() / machine.mass * belief.mass;
     controller.with_mass_feedforward(fed)
 }
 
-/// The compensation of an axis of which `belief` is believed.
+/// The compensation of an axis whose parameters are assumed to be `belief`.
 pub(super) fn feedforward(
     scheme: &Scheme,
     machine: &Machine,

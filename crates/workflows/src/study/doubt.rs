@@ -9,9 +9,9 @@ use stiction_files::study::{Scheme, Study};
 use stiction_number::Percent;
 use stiction_number::quantity;
 
-/// Part of the samples at the limit of the force above which a run is warned of, dimensionless.
+/// Part of the samples at the limit of the force above which a run gets a warning, dimensionless.
 const WARNED_SHARE_AT_LIMIT: f64 = 0.01;
-/// Rms change of the command from sample to sample, as a part of the largest force, above which it is warned of,
+/// Rms change of the command from sample to sample, as a part of the largest force, above which a run gets a warning,
 /// dimensionless: a loop that swings between its limits in 64 samples or fewer.
 const WARNED_COMMAND_CHANGE: f64 = 0.1;
 
@@ -125,7 +125,7 @@ fn span(study: &Study, name: &str) -> Option<(f64, f64)> {
     path.or_else(|| contour.map(|c| (c.motion.duration(), c.skip)))
 }
 
-/// The largest force of either axis under a controller, N (N m); that of the first twice where there is one.
+/// The largest force of each axis under a controller, N (N m); with one axis its force twice.
 fn force_limits(study: &Study, controller: &str) -> Option<[f64; 2]> {
     let i = study
         .controllers

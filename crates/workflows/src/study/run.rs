@@ -15,8 +15,9 @@ use stiction_number::four_digits as short;
 use stiction_search::{Observer, Shared};
 use stiction_servo::sampled::Sampled;
 
-/// Runs the whole grid on all threads. The observer is told how many runs of how many are done, also between the
-/// passes of learning, and may stop the work: what is done then is kept. Results do not depend on the number of threads.
+/// Runs the whole grid on all threads. The observer is told the number of runs done and their total, also between the
+/// passes of learning, and may stop the work: what is done then is kept. Results do not depend on the number of
+/// threads.
 pub fn simulate(study: &Study, observer: &mut dyn Observer) -> StudyOutcome {
     let jobs = study.jobs();
     let watch = Shared::new(observer, jobs.len());
@@ -76,7 +77,7 @@ pub fn simulate(study: &Study, observer: &mut dyn Observer) -> StudyOutcome {
     }
 }
 
-/// A run whose metrics are numbers; `None` where it was not to go on.
+/// One run, whose metrics must be finite numbers; `None` where the work was stopped.
 fn one(
     study: &Study,
     job: Job,

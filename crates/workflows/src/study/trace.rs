@@ -14,9 +14,9 @@ pub struct Trace {
     pub controller: String,
     /// Name of the compensator.
     pub compensator: String,
-    /// All that counts.
+    /// All samples that count.
     pub whole: Course,
-    /// About the last reversal but one; empty without.
+    /// Samples about the last reversal but one; empty where there is none.
     pub reversal: Course,
 }
 

@@ -1,4 +1,4 @@
-//! Values of an axis file whose unit has to fit the kind of axis, which the log may say first.
+//! Values of an axis file whose unit has to fit the kind of axis (linear or rotary), which only the log may tell.
 
 use crate::axis::tied::Tied;
 use crate::config::Given;

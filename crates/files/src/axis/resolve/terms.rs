@@ -58,7 +58,7 @@ impl Resolver {
         table.end()
     }
 
-    /// What friction depends on, about references that the log will give.
+    /// The quantities that friction depends on; their reference values come from the log.
     fn dependences(&self, table: &Table<'_>) -> Result<Vec<Dependence>, Error> {
         let mut out = Vec::new();
         for (key, dependence) in [

@@ -19,7 +19,7 @@ const KINDS: [&str; 5] = ["circle", "corner", "square", "figure-eight", "file"];
 
 type Boxed = Box<dyn PlaneMotion + Send + Sync>;
 
-/// The second axis and what is above both. Its controllers and beliefs come with those of the first.
+/// The second axis and what couples both. Its controllers and beliefs come with those of the first.
 pub(super) fn second(
     root: &Table<'_>,
     table: &Table<'_>,
@@ -80,7 +80,7 @@ pub(super) fn contour(
         table,
         is: Dimensions::of(study.machine.motion),
     };
-    // A part that has to be sampled, how many there are, and the key that makes it small.
+    // The key that gives the size, and the part of the motion that must have enough samples.
     let (size, part) = match kind {
         "circle" => ("radius", "a turn"),
         "corner" | "square" => ("side", "a side"),
@@ -123,11 +123,11 @@ pub(super) fn contour(
     Ok(plan)
 }
 
-/// When the first of `turns` ends, s: it is for starting up. Its parameter only grows.
+/// When the first of `turns` ends, s: it is the run-up. The motion's parameter only grows.
 fn first_turn(motion: &dyn PlaneMotion, turns: f64) -> f64 {
     let turned = motion.end() / turns;
     let (mut before, mut after) = (0.0, motion.duration());
-    // To the last bit.
+    // Bisection, down to the last bit.
     for _ in 0..64 {
         let middle = 0.5 * (before + after);
         if motion.at(middle).parameter < turned {
@@ -151,7 +151,7 @@ impl Asked<'_, '_> {
             .required(key, value, "a length such as \"10 mm\"")
     }
 
-    /// Limits along the contour, m, over `scale`, by which its parameter is to be multiplied to give way.
+    /// Limits along the contour, m, divided by `scale`, the length of path for one unit of its parameter.
     fn limits(&self, scale: f64) -> Result<Limits, Error> {
         let acceleration = Dimensions::per(self.is.speed, Dimension::TIME);
         let jerk = Dimensions::per(acceleration, Dimension::TIME);

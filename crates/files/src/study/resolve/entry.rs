@@ -9,13 +9,13 @@ use stiction_servo::run::sample_count;
 /// Most samples of a run.
 pub(super) const MOST_SAMPLES: usize = 1_000_000;
 
-/// Least samples of a period, a move, a turn: fewer do not show what it is.
+/// Least samples of a period, a move, a turn: fewer do not represent its form.
 pub(super) const LEAST_SAMPLES: f64 = 10.0;
 
-/// Most samples at which a motion is looked at for how far it goes.
+/// Most samples at which a motion is evaluated to find how far it goes.
 const MOST_LOOKED_AT: f64 = 10_000.0;
 
-/// A path is not too long.
+/// Checks that a path is not too long.
 pub(super) fn few(table: &Table<'_>, duration: f64, rate: f64) -> Result<(), Error> {
     if sample_count(duration, rate).is_ok_and(|n| n <= MOST_SAMPLES) {
         return Ok(());
@@ -24,7 +24,7 @@ pub(super) fn few(table: &Table<'_>, duration: f64, rate: f64) -> Result<(), Err
     Err(table.refuse("kind", format!("{} s", short(duration)), &allowed))
 }
 
-/// What a motion consists of, such as `a period` of some seconds, is not over within a few samples.
+/// Checks that a part of a motion, such as `a period` of some seconds, has enough samples.
 pub(super) fn sampled(
     table: &Table<'_>,
     key: &str,
@@ -41,7 +41,8 @@ pub(super) fn sampled(
     Err(table.refuse(key, found, &allowed))
 }
 
-/// A motion goes at least one encoder step: the controller sees nothing of a smaller one. `position` at a time, s.
+/// Checks that a motion covers at least one encoder step: the controller sees nothing of a smaller one. `position` at
+/// a time, s.
 pub(super) fn seen(
     table: &Table<'_>,
     (duration, rate): (f64, f64),
@@ -67,7 +68,7 @@ pub(super) fn seen(
     Err(table.refuse("kind", found, &allowed))
 }
 
-/// A frequency that the control rate can show.
+/// Checks that a frequency is below half the control rate.
 pub(super) fn below_half_the_rate(
     table: &Table<'_>,
     key: &'static str,
@@ -90,7 +91,7 @@ pub(super) fn name(table: &Table<'_>, default: String) -> Result<String, Error> 
     }
 }
 
-/// Names tell the rows of the result apart.
+/// Checks that a name is used once: names tell the rows of the result apart.
 pub(super) fn once<'n>(
     table: &Table<'_>,
     mut taken: impl Iterator<Item = &'n String>,

@@ -109,7 +109,7 @@ impl Asked<'_, '_> {
         sampled(self.table, key, what, seconds, self.rate)
     }
 
-    /// A frequency whose period is sampled.
+    /// A frequency whose period has enough samples.
     fn frequency(&self, key: &'static str, example: &str) -> Result<f64, Error> {
         let frequency = self.value(key, Dimension::FREQUENCY, example)?;
         self.sampled(key, "a period", 1.0 / frequency)?;

@@ -3,7 +3,8 @@
 use stiction_files::compare_file::{CompareFile, Course, MethodEntry, Stage};
 use stiction_report::{Axis, Color, Dash, Figure, Layer, Panel};
 
-/// Cost over the optimum, less 1, that a logarithmic axis shows at least, dimensionless; less is drawn there.
+/// Smallest excess (cost divided by that of the optimum, minus 1) on a logarithmic axis, dimensionless; less is drawn
+/// there.
 const SMALLEST_EXCESS_DRAWN: f64 = 1e-6;
 
 /// Success rates as a picture.
@@ -53,13 +54,13 @@ fn cost_axis() -> Axis {
     Axis::new("Best cost J", "").log()
 }
 
-/// Places of a staircase: each but the first ends one tread and begins the next. Best costs so far hold until the
-/// next one, so their quartiles do too, as their median.
+/// Abscissae of a step curve: each but the first ends one step and begins the next. The best cost so far holds until
+/// the next one is found, and so do its quartiles and median.
 fn corners(at: &[f64]) -> Vec<f64> {
     at.iter().flat_map(|x| [*x, *x]).skip(1).collect()
 }
 
-/// Heights at the [`corners`].
+/// Ordinates at the [`corners`].
 fn treads(values: &[f64]) -> Vec<f64> {
     let twice = values.iter().flat_map(|y| [*y, *y]);
     twice.take((2 * values.len()).saturating_sub(1)).collect()

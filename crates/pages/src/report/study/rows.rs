@@ -28,8 +28,8 @@ pub(crate) fn believed(row: &ResultRow) -> String {
     }
 }
 
-/// A reduction with one decimal: more would not be worth the axis it was simulated on. What is not quite all of it is not
-/// said to be.
+/// A reduction, in percent, with one decimal: the simulated axis is not exact enough for more. A value below 100 % is
+/// never rounded up to 100 %.
 pub(crate) fn less(x: f64) -> String {
     match Percent::error(x).decimals(1) {
         all if all == "100.0 %" && x < 100.0 => "> 99.9 %".into(),
@@ -37,8 +37,8 @@ pub(crate) fn less(x: f64) -> String {
     }
 }
 
-/// Rows that are drawn: those with exact parameters, of many the first, which is without compensation, and those that
-/// leave the least.
+/// Rows that are drawn: those with exact parameters; if they are many, the first, which is without compensation, and
+/// those with the smallest error.
 pub(crate) fn drawn(rows: &[ResultRow]) -> (Vec<&ResultRow>, usize) {
     let exact: Vec<&ResultRow> = rows.iter().filter(|r| r.parameters == "exact").collect();
     let all = exact.len();

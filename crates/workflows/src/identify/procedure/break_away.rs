@@ -20,7 +20,7 @@ pub(in crate::identify) fn break_away(
 ) -> Result<Vec<BreakAwayEntry>, Error> {
     let sources = &beside.break_away;
     let own = samples(sources)?;
-    // A model that was given comes first: the method at hand may know no stiffness.
+    // A model that was given comes first: the method in use may not identify a stiffness.
     let mut values = law.values();
     let given = beside.model.as_ref().and_then(|read| read.model.values());
     for (name, value) in given.iter().flat_map(ParameterSet::iter) {

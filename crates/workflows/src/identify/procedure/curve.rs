@@ -57,7 +57,7 @@ pub(super) fn known(
 fn from_model(read: &ReadModel) -> Result<Known, Error> {
     let model = &read.model;
     let exponent = value(model, "stribeck_exponent").unwrap_or(2.0);
-    // A model that was read names no parameter that is unknown.
+    // Every parameter name was checked when the model was read.
     let parameters = model
         .parameter
         .iter()
@@ -97,8 +97,8 @@ pub(super) fn value(model: &ModelFile, name: &str) -> Option<f64> {
         .map(|p| p.value)
 }
 
-/// The axis of a LuGre law with one direction's curve, if its numbers make one. Of any law: without a Stribeck curve the
-/// level is flat, without micro-damping there is none.
+/// The simulated axis with a LuGre law from the parameters of one direction, if they are valid together. Any law will
+/// do: one without a Stribeck curve gets a constant level, one without micro-damping gets sigma1 = 0.
 pub(super) fn plant(values: &ParameterSet, positive: bool) -> Option<(Plant, Direction<f64>)> {
     let side = if positive {
         Side::Positive

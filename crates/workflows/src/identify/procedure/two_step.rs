@@ -32,7 +32,8 @@ pub(in crate::identify) struct TwoStep<'a> {
     pub sources: &'a [Source],
     pub beside: &'a Beside,
     pub record: &'a Record,
-    /// Linear terms beside the law as asked for, and beside the one of the other symmetry.
+    /// Linear terms beside the law as asked for, and beside its counterpart: asymmetric for symmetric, or the
+    /// reverse.
     pub terms: [&'a Terms; 2],
     pub low_speed: f64,
     pub settings: &'a Settings,
@@ -56,7 +57,7 @@ pub(in crate::identify) fn two_step(
     let known = curve::known(parts.options, parts.axis, parts.sources, parts.beside)?;
     let fail = |e| refused(parts.sources, e);
     let statics = &known.statics;
-    // A model may be of the other symmetry than was asked for.
+    // A model may be asymmetric where a symmetric law was asked for, or the reverse.
     let terms = parts.terms[usize::from(statics.asymmetric != parts.options.asymmetric)];
     let law = Law {
         asymmetric: statics.asymmetric,

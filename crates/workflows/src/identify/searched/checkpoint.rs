@@ -1,4 +1,4 @@
-//! The state of a search in a file: a line that says what it belongs to, and the state in a second.
+//! The state of a search in a file: the first line says what logs and settings it belongs to, the second holds it.
 
 use crate::error::Error;
 use crate::wording::{Setting, Wording};

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 use stiction_search::{Control, Kind, Limits, Observer, Progress, Stage, Status};
 
-/// Time between two checkpoints: what a crash may cost.
+/// Time between two checkpoints: at most this much work is lost in a crash.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(5);
 
 /// How a search ended.

@@ -20,7 +20,7 @@ const AMPLITUDE: f64 = 0.5e-3;
 const FREQUENCY: f64 = 2.0;
 /// Whole cycles.
 const CYCLES: f64 = 3.0;
-/// One sample in so many is fitted: 5 kHz of 10 kHz.
+/// Every n-th sample is fitted, n: 5 kHz of 10 kHz.
 const FITTED_SAMPLE: usize = 2;
 
 /// The box of the six parameters `[sigma0, sigma1, sigma2, Fc, Fs - Fc, vs]`, SI.
@@ -56,8 +56,8 @@ pub(super) fn run(statics: &Named, budget: Budget, watch: &Watch) -> Result<Dyna
     Ok(Dynamics { two, six: six? })
 }
 
-/// Friction `Ke u - M a` over the velocity: D10 of the decisions on the paper's gaps. Both are of the instant of the
-/// velocity: the mean of the forces held before and after it, and the central difference.
+/// Friction `Ke u - M a` over the velocity. Force and acceleration are taken at the instant of the velocity: the mean
+/// of the forces held before and after it, and the central difference.
 fn record() -> Result<Record, Fault> {
     let mass = truth()?.mass;
     let samples = along(&settings()?, &Sine::new(AMPLITUDE, FREQUENCY, CYCLES)?)?;

@@ -11,7 +11,7 @@ pub(super) enum Fault {
     /// The simulation refused a setting.
     #[error("{0}")]
     Simulation(#[from] stiction_friction::ParamError),
-    /// What was identified makes no law.
+    /// The identified parameters are not valid for a law.
     #[error("{0}")]
     Law(#[from] stiction_parameters::LawError),
     /// The identification refused a record.
@@ -23,7 +23,7 @@ pub(super) enum Fault {
 }
 
 impl Watch<'_> {
-    /// One more is done; a fault if the work is to stop.
+    /// Counts one more step as done; a fault if the work is to stop.
     pub(super) fn done(&self) -> Result<(), Fault> {
         self.add();
         match self.stopped() {

@@ -24,7 +24,7 @@ pub struct LoadFound {
     pub time: Vec<f64>,
     /// True and found mass, kg.
     pub mass: [Vec<f64>; 2],
-    /// Level of friction that was found, 1 being that identified.
+    /// Estimated level of friction as a multiple of the identified one, dimensionless.
     pub level: Vec<f64>,
 }
 

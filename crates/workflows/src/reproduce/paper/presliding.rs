@@ -20,18 +20,18 @@ const STEP_AT: f64 = 0.01;
 /// When the record ends, s.
 const RECORD_END: f64 = 0.1;
 
-/// The response and what two methods make of it.
+/// The response, and the parameters that two methods find from it.
 #[derive(Clone, Debug)]
 pub struct Presliding {
     /// N
     pub height: f64,
-    /// What second-order theory makes of rest and overshoot, as published.
+    /// Parameters from displacement at rest and overshoot by second-order theory, as published.
     pub inverted: Inversion,
     /// Overshoot as a part of the displacement at rest.
     pub overshoot: Option<f64>,
     /// Displacement at rest, m.
     pub settled: f64,
-    /// What a simulation fitted to the response makes of it: sigma0, sigma1.
+    /// sigma0 (N/m) and sigma1 (N s/m) of a simulation fitted to the response.
     pub fitted: [f64; 2],
     /// Time, measured and fitted displacement.
     pub series: StepSeries,

@@ -1,4 +1,4 @@
-//! What the experiments of the paper came to, and what is said of it in numbers.
+//! Results of the paper's experiments, and the numbers that are checked or set beside its claims.
 
 use super::corner::Cornered;
 use super::dynamics::Dynamics;
@@ -12,13 +12,13 @@ use stiction_friction::LuGre;
 use stiction_parameters::{Name, Quantity};
 use stiction_servo::known::KnownAxis;
 
-/// Part of its value by which a found parameter may be off, dimensionless: what Liao et al. 2023 (doi 10.3390/s23042076), the closest relative of the
-/// paper, claim without noise.
+/// Largest relative error of a found parameter, dimensionless: what Liao et al. 2023 (doi 10.3390/s23042076), the work
+/// closest to the paper, claim without noise.
 const PARAMETER_TOLERANCE: f64 = 0.01;
-/// The same of a mass found while running, dimensionless: it is found from a tenth of the record.
+/// The same for a mass found while running, dimensionless: it is found from a tenth of the record.
 const MASS_TOLERANCE: f64 = 0.02;
 
-/// What the experiments came to, as far as they were done.
+/// Results of the experiments, as far as they were done.
 #[derive(Clone, Debug)]
 pub struct Paper {
     /// The axis that was simulated.
@@ -105,7 +105,7 @@ impl Paper {
         checks
     }
 
-    /// Our metrics, those that the paper has a claim for with the claim.
+    /// Our metrics, each with the paper's claim where the paper makes one.
     pub(super) fn claims(&self) -> Vec<ClaimEntry> {
         let mut claims = Vec::new();
         let speed = "feed error 2.8 to 2.3 m/min, 17.8 %";
@@ -141,7 +141,7 @@ impl Dynamics {
     }
 }
 
-/// What each compensation leaves of the first value, which is that without.
+/// The value with each compensation beside the first one, which is the value without compensation.
 fn beside(name: &str, unit: &str, published: &str, values: Vec<(Fed, f64)>) -> Vec<ClaimEntry> {
     let Some(((_, without), with)) = values.split_first() else {
         return Vec::new();

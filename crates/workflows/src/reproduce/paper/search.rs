@@ -9,14 +9,14 @@ use stiction_search::{Control, Finish, Limits, Method, Plan, Progress, Run, Stat
 /// The three of Z25 Fig. 7.
 pub(super) const METHODS: [&str; 3] = ["ga", "adaptive-ga", "annealing-ga"];
 
-/// What a search came to.
+/// Result of a search.
 #[derive(Clone, Debug)]
 pub struct Searched {
     /// Name of the method.
     pub method: &'static str,
     /// Evaluations until each new best of the method itself, and its cost J.
     pub course: Vec<(f64, f64)>,
-    /// The best of the method itself.
+    /// The best point of the method itself, before any least squares.
     pub own: Named,
     /// The best after the least squares of the precision module, or the same where none follow.
     pub found: Named,

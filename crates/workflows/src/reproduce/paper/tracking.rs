@@ -19,7 +19,8 @@ const FREQUENCY: f64 = 0.5;
 /// Whole cycles, of which the last counts.
 const CYCLES: f64 = 2.0;
 
-/// Part of the force let through on the measured velocity: the whole of it would be all the positive feedback there is.
+/// Part of the force that is applied where the measured velocity drives the law, dimensionless: below 1, since this
+/// compensation is a positive feedback of friction.
 const MEASURED_GAIN: f64 = 0.9;
 
 /// What drives the compensation.
