@@ -15,8 +15,8 @@ use stiction::commands::{
     check_folder_of, check_inputs, write_atomic,
 };
 use stiction::{
-    CostKind, Error, ExportOptions, LawKind, Method, Options, Procedures, Searching, Study, Target,
-    bundle,
+    Code, CostKind, Error, ExportOptions, LawKind, Method, Options, Procedures, Searching, Study,
+    Target, bundle,
 };
 
 /// Runs a command; every error is printed here, once.
@@ -62,7 +62,10 @@ fn next(error: &Error, command: &Command) -> Option<String> {
         Command::Identify(identify) => (&identify.logs, &identify.axis),
         _ => return None,
     };
-    let unclear = ["log-missing", "log-ambiguous", "log-unit"].contains(&error.code().as_str());
+    let unclear = matches!(
+        error.code(),
+        Code::LogMissing | Code::LogAmbiguous | Code::LogUnit
+    );
     let log = logs.first().filter(|_| unclear && axis.is_none())?;
     Some(format!(
         "next: stiction check {} --init axis.toml writes an axis file with the columns that are clear filled in",

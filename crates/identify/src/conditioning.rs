@@ -257,10 +257,7 @@ fn cutoff(hz: f64) -> String {
 fn low_pass(name: &'static str, hz: Option<f64>, rate: f64) -> Result<Option<Sos>, Error> {
     hz.map(|f| Sos::butterworth_low_pass(ORDER, f, rate))
         .transpose()
-        .map_err(|e| Error::Filter {
-            name,
-            reason: e.to_string(),
-        })
+        .map_err(|source| Error::Filter { name, source })
 }
 
 pub(crate) fn check(number: usize, log: &Samples) -> Result<(), Error> {

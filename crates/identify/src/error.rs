@@ -2,6 +2,7 @@
 
 use crate::conditioning::losses::Losses;
 use stiction_number::short;
+use stiction_signal::SignalError;
 
 /// Input from which nothing can be identified. A search that ends badly is a
 /// [`Status`](crate::Status), not an error.
@@ -121,12 +122,12 @@ pub enum Error {
         allowed: &'static str,
     },
     /// A filter could not be made.
-    #[error("{name}: {reason}")]
+    #[error("{name}: {source}")]
     Filter {
         /// Which filter.
         name: &'static str,
         /// Why.
-        reason: String,
+        source: SignalError,
     },
     /// A recording that cannot be simulated.
     #[error("log {log}: {found}; simulating the axis needs {allowed}")]

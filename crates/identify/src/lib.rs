@@ -105,4 +105,5 @@ pub use stiction_parameters::{
     Dimension, LawKind, Name, ParameterSet, Quantity, Side, SteadyCurve,
 };
 pub use stiction_search::{Control, Counts, Observer, Progress, Silent, Stage, Status};
+pub use stiction_signal::SignalError;
 pub use tune::{Trial, Tuned, tune};

@@ -11,6 +11,7 @@ mod explicit;
 mod terms;
 
 pub use terms::Scheme;
+
 /// Number of candidates that share the lanes of a batch.
 const LANES: usize = 16;
 /// Number of candidates up to which evaluating them one by one is faster than in half-empty lanes

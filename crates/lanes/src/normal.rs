@@ -17,6 +17,7 @@ mod sums;
 
 pub use sums::Sums;
 use sums::shared;
+
 /// The nonlinear unknowns of the separable form of the LuGre law, as logarithms.
 ///
 /// ```text

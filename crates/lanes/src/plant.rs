@@ -12,6 +12,7 @@ mod midpoint;
 mod semi_implicit;
 
 pub use drive::{Axis, Drive, Measured, Motion, Outcome};
+
 /// How velocity and bristle are stepped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Stepping {

@@ -7,37 +7,21 @@
 //! | [`Rodas3`] | 3 | adaptive | L-stable | LuGre |
 //! | [`Ode4`] | 4 | fixed | unstable above a step that [`Ode4::check`] gives | LuGre |
 
+mod advance;
 mod flow;
 mod mid;
 mod ode4;
 mod quick;
 mod rodas3;
 
-pub use mid::{Integrator, Mid};
+pub use advance::Integrator;
+pub use mid::Mid;
 pub use ode4::{Ode4, Unstable};
 pub use quick::Quick;
 pub use rodas3::{Rodas3, Work};
 
 use crate::plant::{Load, Motion, Plant};
-use stiction_friction::{Held, LuGre};
-
-impl<L: Held<f64>> Integrator<L> for Mid {
-    #[inline]
-    fn advance(
-        &mut self,
-        plant: &Plant<L>,
-        from: Motion<L::State>,
-        span: f64,
-        load: Load,
-        rate: f64,
-    ) -> Motion<L::State> {
-        let h = span / f64::from(self.steps);
-        (0..self.steps).fold(from, |motion, i| {
-            let force = load.force + rate * (h * (f64::from(i) + 0.5));
-            plant.step(motion, h, Load { force, ..load }).motion
-        })
-    }
-}
+use stiction_friction::LuGre;
 
 /// A choice made at run time.
 // An axis holds one, and its own state is larger.

@@ -43,6 +43,15 @@ impl Travel {
         (LEAST_STEPS * encoder_step).max(LEAST_DEVIATIONS * noise)
     }
 
+    /// The same for a position that is the integral of a velocity with white noise of this standard deviation, over so many
+    /// seconds and samples: the noise makes it walk at random.
+    pub fn shortest_integrated(velocity_noise: f64, seconds: f64, samples: usize) -> f64 {
+        Self::shortest_movement(
+            0.0,
+            velocity_noise * seconds / (samples.max(1) as f64).sqrt(),
+        )
+    }
+
     /// Of positions in order, where a movement counts if it is longer than `shortest`. Positions that are not numbers
     /// are passed over.
     pub fn of(positions: impl IntoIterator<Item = f64>, shortest: f64) -> Self {

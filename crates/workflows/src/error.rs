@@ -4,7 +4,7 @@ use crate::wording::Wording;
 use std::path::PathBuf;
 use stiction_codes::Code;
 use stiction_files::Axis;
-use stiction_number::shortest;
+use stiction_number::{full, shortest};
 
 /// A workflow that could not be carried out.
 #[derive(Debug, thiserror::Error)]
@@ -83,7 +83,7 @@ impl Error {
 
     /// The same error with the place of the key whose value the engine refused, if the axis file has that key.
     pub(crate) fn at_axis(self, axis: &Axis) -> Self {
-        use stiction_identify::Error as Fit;
+        use stiction_identify::{Error as Fit, SignalError};
         let Error::Identify { inputs, source } = &self else {
             return self;
         };
@@ -92,11 +92,19 @@ impl Error {
                 name,
                 found,
                 allowed,
-            } => (*name, shortest(*found), *allowed),
-            Fit::Filter { name, reason } => match reason.split_once("; ") {
-                Some((found, allowed)) => (*name, found.to_string(), allowed),
-                None => return self,
-            },
+            } => (*name, shortest(*found), (*allowed).to_string()),
+            Fit::Filter {
+                name,
+                source:
+                    SignalError::Parameter {
+                        parameter,
+                        found,
+                        allowed,
+                    },
+            } => {
+                let found = format!("{parameter} is {}", full(*found));
+                (*name, found, format!("allowed: {allowed}"))
+            }
             _ => return self,
         };
         let key = match name {

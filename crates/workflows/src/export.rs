@@ -96,10 +96,10 @@ impl Exported {
     ///
     /// # Errors
     /// When the folder cannot be written.
-    pub fn write_over(&self, dir: &Path) -> Result<(), Error> {
+    pub fn write_over(&self, dir: impl AsRef<Path>) -> Result<(), Error> {
         let files = self.files.iter();
         Ok(write_into_folder(
-            dir,
+            dir.as_ref(),
             files.map(|f| (f.path.as_str(), f.bytes.as_slice())),
         )?)
     }

@@ -174,7 +174,7 @@ fn families(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
                                 e.found,
                                 table.where_is("kind")
                             );
-                            model.refuse(&key, found, "a covariance as stiction identify writes it")
+                            model.refuse(&key, found, "a covariance as an identification writes it")
                         }
                         _ => asked,
                     }

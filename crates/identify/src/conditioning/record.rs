@@ -168,9 +168,9 @@ impl Record {
         } else {
             // White noise of the velocity makes the position that it is integrated to walk at random.
             let noise = noise_deviation(self.segments.iter().map(|s| &s.velocity[..]));
-            let longest = self.segments.iter().map(|s| s.velocity.len()).max();
-            let walk = noise * self.step() * (longest.unwrap_or(0) as f64).sqrt();
-            Travel::shortest_movement(0.0, walk)
+            let lengths = self.segments.iter().map(|s| s.velocity.len());
+            let longest = lengths.max().unwrap_or(0);
+            Travel::shortest_integrated(noise, self.step() * longest as f64, longest)
         };
         let travel = self.segments.iter().map(|s| {
             let position = match s.reading.is_empty() {

@@ -20,15 +20,19 @@ const SLIDING: [Quantity; 4] = [
 /// Flags what the motion of a record cannot show, whatever the deviations of the parameters are.
 pub(super) fn flag_what_the_motion_hides(record: &Record, parameters: &mut [Parameter]) {
     stays_in_presliding(record.stroke(), parameters);
-    let offset_fitted = |p: &Parameter| p.name == Quantity::Offset && p.identified;
-    if parameters.iter().any(offset_fitted) && !record.moves_both_ways() {
-        moves_one_way(parameters);
-    }
+    flag_one_direction(parameters, || record.moves_both_ways());
 }
 
 /// Flags the Coulomb level and the constant force beside it, where the axis moves in one direction only: all that sliding
 /// shows is their sum.
-pub(crate) fn moves_one_way(parameters: &mut [Parameter]) {
+pub(crate) fn flag_one_direction(
+    parameters: &mut [Parameter],
+    moves_both_ways: impl FnOnce() -> bool,
+) {
+    let offset_fitted = |p: &Parameter| p.name == Quantity::Offset && p.identified;
+    if !parameters.iter().any(offset_fitted) || moves_both_ways() {
+        return;
+    }
     for p in parameters.iter_mut().filter(|p| p.identified) {
         let other = match p.name.quantity {
             Quantity::Offset => "Coulomb friction",

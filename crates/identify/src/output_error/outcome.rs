@@ -258,10 +258,9 @@ pub(crate) fn describe(
         .collect();
     insert_given(&mut parameters, &law, terms);
     let covariance = Covariance::new(raw.iter().map(|p| p.name).collect(), &matrix);
-    let offset_fitted = |p: &Parameter| p.name == Quantity::Offset && p.identified;
-    if parameters.iter().any(offset_fitted) && !signals.moves_both_ways(search.simulation.quantum) {
-        sliding::moves_one_way(&mut parameters);
-    }
+    sliding::flag_one_direction(&mut parameters, || {
+        signals.moves_both_ways(search.simulation.quantum)
+    });
     advice::explain(&mut parameters, &covariance);
     let top = signals.velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let fitted = FittedLaw {

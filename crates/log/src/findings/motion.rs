@@ -112,10 +112,9 @@ fn travel(log: &Log, x: &[f64], step: f64) -> Travel {
     let shortest = match &log.velocity {
         Some(velocity) if log.position.is_none() => {
             // White noise of the velocity makes the position that it is integrated to walk at random.
-            let samples = velocity.len() as f64;
             let seconds = log.time[velocity.len() - 1] - log.time[0];
             let noise = noise_deviation(std::iter::once(&velocity[..]));
-            Travel::shortest_movement(0.0, noise * seconds / samples.sqrt())
+            Travel::shortest_integrated(noise, seconds, velocity.len())
         }
         _ => Travel::shortest_movement(step, noise_deviation(stretches())),
     };

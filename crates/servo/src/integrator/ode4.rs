@@ -1,7 +1,7 @@
 //! The classical Runge-Kutta method at a fixed step, as "ode4" in simulation tools.
 
+use super::advance::{Integrator, at_least_one};
 use super::flow::{Flow, Triple};
-use super::mid::{Integrator, at_least_one};
 use crate::plant::{Load, Motion, Plant};
 use std::fmt;
 use stiction_friction::{LuGre, ParamError};

@@ -1,6 +1,6 @@
 //! MID for LuGre with a good initial guess: one evaluation of the law in most steps.
 
-use super::mid::{Integrator, at_least_one};
+use super::advance::{Integrator, at_least_one};
 use crate::plant::{Load, Motion, Plant};
 use stiction_friction::{LuGre, ParamError, Sweep, Sweeps};
 

@@ -1,7 +1,7 @@
 //! RODAS3: an L-stable Rosenbrock method with step-size control.
 
+use super::advance::Integrator;
 use super::flow::{Flow, Slopes, Triple};
-use super::mid::Integrator;
 use crate::plant::{Load, Motion, Plant};
 use stiction_friction::{LuGre, ParamError};
 
