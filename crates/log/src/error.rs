@@ -2,6 +2,7 @@
 //!
 //! The text of an [`Error`] ends in what is allowed or what to do; [`Kind::code`] names its page in `docs/codes`.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
@@ -72,7 +73,7 @@ impl fmt::Display for Place {
 
 /// A key of the axis file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Key(&'static str);
+struct Key(Cow<'static, str>);
 
 /// A recording that was refused.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -106,14 +107,14 @@ impl Error {
 
     /// The same problem, about the value of this key of the axis file.
     #[must_use]
-    pub fn of_setting(mut self, key: &'static str) -> Self {
-        self.setting = Some(Box::new(Key(key)));
+    pub fn of_setting(mut self, key: impl Into<Cow<'static, str>>) -> Self {
+        self.setting = Some(Box::new(Key(key.into())));
         self
     }
 
     /// The key of the axis file whose value this is about, such as `log.crop`; `None` where it is about the recording alone.
-    pub fn setting(&self) -> Option<&'static str> {
-        self.setting.as_ref().map(|key| key.0)
+    pub fn setting(&self) -> Option<&str> {
+        self.setting.as_ref().map(|key| &*key.0)
     }
 
     /// The same problem, in this file.

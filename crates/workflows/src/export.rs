@@ -105,9 +105,6 @@ impl Exported {
     }
 }
 
-/// What a model in memory is called in messages.
-const IN_MEMORY: &str = "model";
-
 /// The compensator of a model in memory, as code.
 ///
 /// # Errors
@@ -115,7 +112,7 @@ const IN_MEMORY: &str = "model";
 /// key.
 pub fn export(model: &ModelFile, options: &ExportOptions) -> Result<Exported, Error> {
     check(options)?;
-    code(&ReadModel::of(model)?, Path::new(IN_MEMORY), options)
+    code(&ReadModel::of(model)?, options)
 }
 
 /// The compensator of a model file, as code.
@@ -124,8 +121,7 @@ pub fn export(model: &ModelFile, options: &ExportOptions) -> Result<Exported, Er
 /// As [`export`], and when the file cannot be read.
 pub fn export_file(file: impl AsRef<Path>, options: &ExportOptions) -> Result<Exported, Error> {
     check(options)?;
-    let file = file.as_ref();
-    code(&ReadModel::read(file)?, file, options)
+    code(&ReadModel::read(file)?, options)
 }
 
 /// The compensator of a model as a Rust value: what [`export`] writes for [`Target::Rust`], to be stepped once a cycle.
@@ -135,7 +131,7 @@ pub fn export_file(file: impl AsRef<Path>, options: &ExportOptions) -> Result<Ex
 pub fn compensator(model: &ModelFile, options: &ExportOptions) -> Result<Compensator<f64>, Error> {
     let read = ReadModel::of(model)?;
     let (model, _) = resolve(&read, options)?;
-    let placed = |e| place(e, &read, Path::new(IN_MEMORY), options);
+    let placed = |e| place(e, &read, options);
     model.in_rust().map_err(placed)
 }
 
@@ -155,7 +151,7 @@ fn check(options: &ExportOptions) -> Result<(), Error> {
 }
 
 /// The code of a model; `file` is for messages.
-fn code(read: &ReadModel, file: &Path, options: &ExportOptions) -> Result<Exported, Error> {
+fn code(read: &ReadModel, options: &ExportOptions) -> Result<Exported, Error> {
     let (mut model, mut warnings) = resolve(read, options)?;
     if options.limit.is_none() && options.target == Target::Tf5200 {
         model.settings.limit = stiction_export::largest_force_in_table(&model);
@@ -171,7 +167,7 @@ fn code(read: &ReadModel, file: &Path, options: &ExportOptions) -> Result<Export
                 whole &= library.is_some();
                 library
             })
-            .map_err(|e| place(e, read, file, options))?;
+            .map_err(|e| place(e, read, options))?;
             if !whole {
                 warnings.push(Warning::new(
                     Code::ExportSource,
@@ -181,9 +177,7 @@ fn code(read: &ReadModel, file: &Path, options: &ExportOptions) -> Result<Export
             }
             files
         }
-        target => {
-            stiction_export::export(&model, target).map_err(|e| place(e, read, file, options))?
-        }
+        target => stiction_export::export(&model, target).map_err(|e| place(e, read, options))?,
     };
     Ok(Exported {
         target: options.target.name(),
@@ -284,12 +278,7 @@ fn out_of_the_law(name: &str) -> bool {
 }
 
 /// An error with its file and the place in it, if it is about something in that file.
-fn place(
-    source: stiction_export::Error,
-    read: &ReadModel,
-    file: &Path,
-    options: &ExportOptions,
-) -> Error {
+fn place(source: stiction_export::Error, read: &ReadModel, options: &ExportOptions) -> Error {
     use stiction_export::Error::{ForceUnit, Law, Number, Range};
     let place = match &source {
         Law { .. } => read.place("law"),
@@ -308,7 +297,7 @@ fn place(
         _ => return source.into(),
     };
     Error::ExportModel {
-        file: file.to_path_buf(),
+        file: read.file().to_path_buf(),
         place,
         source,
     }

@@ -142,8 +142,8 @@ impl Axis {
 
     /// The refusal of a recording, at the key of this file that it is about, where it is about one.
     pub fn at_key(&self, error: stiction_log::Error) -> Error {
-        match error.setting() {
-            Some(key) => self.at(key, error),
+        match error.setting().map(String::from) {
+            Some(key) => self.at(&key, error),
             None => error.into(),
         }
     }

@@ -3,7 +3,7 @@
 use super::source::Source;
 use crate::error::Error;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use toml::de::{DeTable, DeValue};
 
 /// The places of a file by their keys, such as `parameter[3].unit`, counted from 1.
@@ -31,6 +31,11 @@ impl Places {
             file: source.file.to_path_buf(),
             text: Some((source.text.into(), bytes)),
         }
+    }
+
+    /// The file, or what stands for it in messages.
+    pub fn file(&self) -> &Path {
+        &self.file
     }
 
     /// Whether the file gives a key.

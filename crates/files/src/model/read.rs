@@ -87,6 +87,11 @@ impl ReadModel {
         self.refuse(&self.value_key(name), found, allowed)
     }
 
+    /// The file that it was read from; `model` where it was in memory.
+    pub fn file(&self) -> &Path {
+        self.places.file()
+    }
+
     /// The place of a key or, where it is missing, of the table that lacks it, as errors begin:
     /// `line 4, column 7, law: `.
     pub fn place(&self, key: &str) -> String {

@@ -90,29 +90,10 @@ impl Role {
             Role::Load => "load",
         }
     }
-}
 
-impl Role {
     /// The key of the axis file for a part of this column, `column`, `unit` or `scale`.
-    pub(crate) fn key(self, part: &str) -> &'static str {
-        macro_rules! keys {
-            ($($role:ident $name:literal),*) => {
-                match (self, part) {
-                    $((Role::$role, "scale") => concat!("columns.", $name, ".scale"),
-                      (Role::$role, "unit") => concat!("columns.", $name, ".unit"),
-                      (Role::$role, _) => concat!("columns.", $name, ".column"),)*
-                }
-            };
-        }
-        keys!(
-            Time "time",
-            Position "position",
-            Velocity "velocity",
-            Force "force",
-            Reference "reference",
-            Temperature "temperature",
-            Load "load"
-        )
+    pub(crate) fn key(self, part: &str) -> String {
+        format!("columns.{}.{part}", self.name())
     }
 }
 
