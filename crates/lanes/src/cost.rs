@@ -1,9 +1,9 @@
 //! Cost of candidates along a track.
 
 use crate::candidate::check;
-use crate::dispatch::InstructionSet;
 use crate::{Candidate, Error, Track};
 use rayon::prelude::*;
+use stiction_dispatch::InstructionSet;
 
 mod alone;
 mod batch;

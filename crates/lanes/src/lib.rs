@@ -47,7 +47,6 @@
 mod candidate;
 mod cost;
 mod curve;
-mod dispatch;
 mod error;
 mod exp;
 mod lane_array;
@@ -60,10 +59,10 @@ mod track;
 
 pub use candidate::Candidate;
 pub use cost::{Scheme, costs};
-pub use dispatch::InstructionSet;
 pub use error::Error;
 pub use normal::{Sums, Trial, levels, shared_sums, sums, sums_alone};
 pub use plant::{Axis, Drive, Measured, Motion, Outcome, Stepping, plants};
 pub use sensitive::OWN;
+pub use stiction_dispatch::InstructionSet;
 pub use trace::{Columns, slopes, trace};
 pub use track::{Segment, Time, Track};

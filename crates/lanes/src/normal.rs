@@ -1,12 +1,12 @@
 //! Sums from which variable projection takes its next step.
 
 use crate::curve::Curve;
-use crate::dispatch::{InstructionSet, Kernel};
 use crate::exp::fma;
 use crate::lane_array::chunk;
 use crate::track::KEPT;
 use crate::{Error, Track};
 use rayon::prelude::*;
+use stiction_dispatch::{InstructionSet, Kernel};
 use stiction_friction::ParamError;
 
 pub(crate) mod alone;

@@ -1,10 +1,10 @@
 //! A mass with friction under a given force: many candidates at a time.
 
 use crate::Error;
-use crate::dispatch::InstructionSet;
 use midpoint::Midpoint;
 use rayon::prelude::*;
 use semi_implicit::SemiImplicit;
+use stiction_dispatch::InstructionSet;
 use stiction_friction::ParamError;
 
 mod drive;

@@ -1,7 +1,6 @@
 //! The columns of one trial, written out.
 
 use crate::curve::{Curve, START, reversed};
-use crate::dispatch::{InstructionSet, Kernel};
 use crate::exp::fma;
 use crate::lane_array::chunk;
 use crate::normal::alone::{Sink, along};
@@ -9,6 +8,7 @@ use crate::sensitive::{OWN, UNKNOWNS};
 use crate::time_lanes::Block;
 use crate::track::{BLOCK, RESTART, REVERSE, SAMPLE};
 use crate::{Error, Track, Trial};
+use stiction_dispatch::{InstructionSet, Kernel};
 
 /// Columns of a trial at every sample of a track, whether it counts or not, in the order of the samples.
 #[derive(Clone, Debug, Default, PartialEq)]

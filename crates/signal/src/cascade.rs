@@ -32,6 +32,16 @@ impl<const S: usize, const L: usize> Cascade<S, L> {
         }
     }
 
+    /// Sets one state of a section for all columns.
+    pub(crate) fn set(&mut self, section: usize, index: usize, value: f64) {
+        self.state[section][index] = [value; L];
+    }
+
+    /// One state of a section for the first column.
+    pub(crate) fn get(&self, section: usize, index: usize) -> f64 {
+        self.state[section][index][0]
+    }
+
     /// One sample of every column. Transposed direct form II, the order of operations as in
     /// `scipy.signal.sosfilt`.
     #[inline(always)]

@@ -36,6 +36,7 @@ mod resample;
 mod savitzky_golay;
 mod settling;
 mod sos;
+mod thinning;
 mod travel;
 mod zero_phase;
 
@@ -48,4 +49,5 @@ pub use noise::noise_deviation;
 pub use resample::{interpolate, resample_uniform};
 pub use savitzky_golay::SavitzkyGolay;
 pub use sos::{Section, Sos};
+pub use thinning::{Reading, Thinning};
 pub use travel::Travel;

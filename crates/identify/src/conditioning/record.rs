@@ -5,7 +5,7 @@ use crate::conditioning::channels::Channels;
 use crate::conditioning::losses::Losses;
 use crate::conditioning::shift::Shift;
 use std::borrow::Cow;
-use stiction_signal::{Sos, Travel, noise_deviation};
+use stiction_signal::{Reading, Sos, Thinning, Travel, noise_deviation};
 
 /// One log in SI units on its own time axis: m or rad, m/s or rad/s, N or N·m (or A, V).
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -88,6 +88,35 @@ pub struct Record {
 }
 
 impl Segment {
+    /// A full-rate channel, filtered, at the kept samples, earlier by each of some shifts; `None` where a shift reaches
+    /// beyond an end.
+    fn read(&self, full: &[f64], shifts: &[Shift], thinning: &Thinning) -> Option<Vec<Vec<f64>>> {
+        if full.is_empty() {
+            return Some(vec![Vec::new(); shifts.len()]);
+        }
+        let Some(first) = self.keep.iter().position(|&k| k) else {
+            return Some(vec![Vec::new(); shifts.len()]);
+        };
+        let last = self.keep.iter().rposition(|&k| k)?;
+        let kept = &self.keep[first..=last];
+        let mut readings = shifts.iter().map(Shift::reading);
+        let (offset, _) = readings.clone().min_by_key(|(offset, _)| *offset)?;
+        // Shifts by a whole number of samples beside others are read among their points.
+        let readings: Vec<Reading> = match readings.all(|(own, _)| own == offset) {
+            true => shifts.iter().map(|shift| shift.reading().1).collect(),
+            false => shifts.iter().map(|shift| shift.among()).collect(),
+        };
+        let at = (first * thinning.every()).checked_add_signed(offset)?;
+        let mut out = thinning.read(full, at, kept.len(), &readings)?;
+        if kept.contains(&false) {
+            for column in &mut out {
+                let mut kept = kept.iter();
+                column.retain(|_| kept.next() == Some(&true));
+            }
+        }
+        Some(out)
+    }
+
     /// Whether every sample that a regression could see counts.
     pub(crate) fn counts_whole(&self) -> bool {
         // No early exit within a chunk, so that the compiler can process many samples at once.
@@ -249,6 +278,32 @@ impl Record {
                 out.push(shift.at(full, i * self.decimate));
             }
         }
+    }
+
+    /// Full-rate channels of a segment passed through the common filter and taken earlier by each of some shifts, at the
+    /// kept samples: `thinning` computes only those, where it can. An empty channel has none.
+    pub(crate) fn filtered(
+        &self,
+        segment: &Segment,
+        full: &[&[f64]],
+        shifts: &[Shift],
+        thinning: Option<&Thinning>,
+    ) -> Vec<Vec<Vec<f64>>> {
+        let thinned = thinning.and_then(|thinning| {
+            let read = full.iter().map(|x| segment.read(x, shifts, thinning));
+            read.collect()
+        });
+        thinned.unwrap_or_else(|| {
+            let mut full: Vec<Vec<f64>> = full.iter().map(|x| x.to_vec()).collect();
+            self.filter(&mut full);
+            let kept = |x: &Vec<f64>, shift: Shift| {
+                let mut out = Vec::with_capacity(segment.keep.len());
+                self.thin(segment, x, shift, &mut out);
+                out
+            };
+            let at_all = |x| shifts.iter().map(|&shift| kept(x, shift)).collect();
+            full.iter().map(at_all).collect()
+        })
     }
 
     /// The same for a channel that is not needed afterwards: where the record is this one segment and all

@@ -1,5 +1,7 @@
 //! A channel read between its samples, as a delay between force and motion needs.
 
+use stiction_signal::Reading;
+
 /// Points of the Lagrange interpolation (docs/identification.md).
 const INTERPOLATION_POINTS: usize = 6;
 
@@ -42,6 +44,19 @@ impl Shift {
             weights: slopes(part).map(|w| -w),
             whole: None,
         }
+    }
+
+    /// The sample, relative to the one asked for, from which on a filter is read, and what is read there.
+    pub fn reading(&self) -> (isize, Reading) {
+        match self.whole {
+            Some(whole) => (whole, Reading::SAMPLE),
+            None => (self.first, Reading::between(self.weights)),
+        }
+    }
+
+    /// What is read from `first` on, also where one sample is read alone.
+    pub fn among(&self) -> Reading {
+        Reading::between(self.weights)
     }
 
     /// The shifted channel at sample `at`; beyond the ends the end values go on.

@@ -13,6 +13,7 @@ use nalgebra::{DMatrix, DVector};
 use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 use stiction_search::Derivatives;
+use stiction_signal::Thinning;
 
 /// A record, a law and the linear terms beside it.
 #[derive(Clone, Debug)]
@@ -36,9 +37,15 @@ pub struct Objective<'a> {
     energy: f64,
     /// A coefficient that is not fitted but held at a value.
     held: Option<(usize, f64)>,
+    /// The common filter where it is worth computing its output at the kept samples alone.
+    thinning: Option<Thinning>,
     /// The record on the batch kernels, where they know the law; made when first needed.
     lanes: OnceLock<Option<InLanes>>,
 }
+
+/// Number of samples from one that counts to the next from which on the filter is computed for those alone: below, the
+/// filter over all of them takes no longer.
+const LEAST_THINNED: usize = 3;
 
 /// A column of the regression at the kept samples; one that nothing changes is shared by all trials.
 pub(crate) type Column = Arc<Vec<f64>>;
@@ -152,6 +159,9 @@ impl<'a> Objective<'a> {
             inertia,
             energy,
             held: None,
+            thinning: (record.decimate >= LEAST_THINNED)
+                .then(|| Thinning::new(record.common.as_ref()?, record.decimate))
+                .flatten(),
             lanes: OnceLock::new(),
         }
     }
@@ -236,7 +246,7 @@ impl<'a> Objective<'a> {
     pub fn evaluate(&self, p: &[f64], slopes: bool) -> Evaluation {
         let mut traces = self.traces(p, slopes);
         let shift = self.shift(p);
-        let mut columns = self.columns(&mut traces, shift);
+        let mut columns = self.columns(&mut traces, shift, Moved::Value);
         let target = self.without_held(&mut columns, shift);
         let views: Vec<&[f64]> = columns.iter().map(|column| column.as_slice()).collect();
         let mut solution = linear::solve(&views, &self.nonnegative, &target);
@@ -311,7 +321,7 @@ impl<'a> Objective<'a> {
 
     /// The columns of the regression at the kept samples.
     pub(crate) fn columns_at(&self, p: &[f64]) -> Vec<Column> {
-        self.columns(&mut self.traces(p, false), self.shift(p))
+        self.columns(&mut self.traces(p, false), self.shift(p), Moved::Value)
     }
 
     /// Every term of the model force at the kept samples, in the order of the linear unknowns.
@@ -351,7 +361,18 @@ impl<'a> Objective<'a> {
         }
     }
 
+    /// Full-rate columns of a segment, filtered, at the kept samples, for each shift.
+    fn filtered(&self, segment: &Segment, full: &[&[f64]], shifts: &[Shift]) -> Vec<Vec<Vec<f64>>> {
+        let thinning = self.thinning.as_ref();
+        self.record.filtered(segment, full, shifts, thinning)
+    }
+
     fn traces(&self, p: &[f64], slopes: bool) -> Vec<Run> {
+        // In the order of `Moved`.
+        let mut shifts = vec![self.shift(p)];
+        if slopes && self.delay == Delay::Fitted {
+            shifts.push(Shift::slope(p.last().copied().unwrap_or(0.0)));
+        }
         let p = &p[..self.law.nonlinear()];
         let segments = &self.record.segments;
         // Where the factor of eta is the same for all samples, the kernels weight the derivatives while
@@ -369,43 +390,51 @@ impl<'a> Objective<'a> {
             .enumerate()
             .map(|(i, trace)| {
                 let times = |v: &Varying| product(&trace.eta, &v.factors[i], v.side);
-                let mut varying: Vec<Vec<f64>> = self.varying.iter().map(times).collect();
-                self.record.filter(&mut varying);
-                let mut filtered = Vec::new();
-                if self.record.common.is_some() {
-                    filtered.extend(trace.own().cloned());
-                    self.record.filter(&mut filtered);
-                }
-                Run {
+                let varying: Vec<Vec<f64>> = self.varying.iter().map(times).collect();
+                let mut run = Run {
                     trace,
-                    filtered,
                     varying,
+                    kept: None,
+                };
+                if self.record.common.is_some() {
+                    let full: Vec<&[f64]> = run.all().map(Vec::as_slice).collect();
+                    run.kept = Some(self.filtered(&segments[i], &full, &shifts));
                 }
+                run
             })
             .collect()
     }
 
     /// The columns of the regression at the kept samples.
-    fn columns(&self, runs: &mut [Run], shift: Shift) -> Vec<Column> {
+    fn columns(&self, runs: &mut [Run], shift: Shift, moved: Moved) -> Vec<Column> {
         // Whether eta is needed again, besides being a column itself.
         let again = !self.varying.is_empty() || self.delay == Delay::Fitted;
-        let gather = |runs: &[Run], of: &dyn Fn(&Run) -> Option<&Vec<f64>>| {
+        let gather = |runs: &[Run], column: usize| {
             let mut out = Vec::with_capacity(self.force.len());
             for (segment, run) in self.record.segments.iter().zip(runs) {
-                if let Some(full) = of(run) {
-                    self.record.thin(segment, full, shift, &mut out);
+                match &run.kept {
+                    Some(kept) => {
+                        let shifts = kept.get(column).into_iter();
+                        let values = shifts.flat_map(|shifts| shifts.get(moved as usize));
+                        values.for_each(|x| out.extend_from_slice(x));
+                    }
+                    None => {
+                        if let Some(full) = run.all().nth(column) {
+                            self.record.thin(segment, full, shift, &mut out);
+                        }
+                    }
                 }
             }
             Arc::new(out)
         };
         let own = |runs: &mut [Run], column: usize| match (&self.record.segments[..], runs) {
-            ([segment], [run]) if !again => {
+            ([segment], [run]) if !again && run.kept.is_none() => {
                 let mut out = Vec::new();
                 let full = run.take(column);
                 self.record.thin_whole(segment, full, shift, &mut out);
                 Arc::new(out)
             }
-            (_, runs) => gather(runs, &|run| run.own(column)),
+            (_, runs) => gather(runs, column),
         };
         // They were made in the order of the linear unknowns.
         let mut next = 0..;
@@ -418,7 +447,8 @@ impl<'a> Objective<'a> {
                 (None, ColumnKind::Element(k)) => own(runs, 2 + k),
                 (None, ColumnKind::LevelTimes(..)) => {
                     let k = next.next().unwrap_or_default();
-                    gather(runs, &|run| run.varying.get(k))
+                    let own = runs.first().map_or(0, |run| run.trace.own().count());
+                    gather(runs, own + k)
                 }
                 (None, _) => own(runs, 0),
             })
@@ -448,7 +478,7 @@ impl<'a> Objective<'a> {
         let mut out = vec![Vec::new(); k];
         for (s, (segment, run)) in self.record.segments.iter().zip(&mut *runs).enumerate() {
             let t = &mut run.trace;
-            let mut full = if let Some(full) = weighed.next() {
+            let full = if let Some(full) = weighed.next() {
                 full
             } else if self.law.kind.has_elements() {
                 let slope = |i| gms::recursion::slope(&t.elements, i, coefficients);
@@ -468,7 +498,17 @@ impl<'a> Objective<'a> {
                 }
                 full
             };
-            self.record.filter(&mut full);
+            if self.record.common.is_some() {
+                let full: Vec<&[f64]> = full.iter().map(Vec::as_slice).collect();
+                let kept = self.filtered(segment, &full, &[shift]);
+                for (out, column) in out.iter_mut().zip(kept.into_iter().flatten()) {
+                    match out.is_empty() {
+                        true => *out = column,
+                        false => out.extend(column),
+                    }
+                }
+                continue;
+            }
             for (out, column) in out.iter_mut().zip(full) {
                 self.record.thin_whole(segment, column, shift, out);
             }
@@ -488,7 +528,8 @@ impl<'a> Objective<'a> {
                 *y += c * x;
             }
         };
-        for (column, &c) in self.columns(&mut *runs, slope).iter().zip(coefficients) {
+        let columns = self.columns(&mut *runs, slope, Moved::Slope);
+        for (column, &c) in columns.iter().zip(coefficients) {
             add(c, column);
         }
         if let Some(inertia) = self.inertia_force(slope) {
@@ -533,30 +574,35 @@ impl<'a> Objective<'a> {
 /// The law along one segment.
 struct Run {
     trace: Trace,
-    /// The law's own columns after the common filter, at the full rate; empty where there is none.
-    filtered: Vec<Vec<f64>>,
-    /// The levels that change with another channel, likewise.
+    /// The levels that change with another channel, at the full rate.
     varying: Vec<Vec<f64>>,
+    /// Where there is a common filter: each column of [`all`](Self::all) after it at the kept samples, for each shift.
+    kept: Option<Vec<Vec<Vec<f64>>>>,
+}
+
+/// Which of the shifts that the columns of a run were read at.
+#[derive(Clone, Copy)]
+enum Moved {
+    /// By the delay.
+    Value,
+    /// The derivative with respect to the delay.
+    Slope,
 }
 
 impl Run {
-    /// The column of `eta` (0), its rate (1) or an element (from 2) in the form that the regression uses.
-    fn own(&self, column: usize) -> Option<&Vec<f64>> {
-        if self.filtered.is_empty() {
-            self.trace.own().nth(column)
-        } else {
-            self.filtered.get(column)
-        }
+    /// The columns that the law makes at the full rate: `eta` (0), its rate (1), the elements, and then the levels that
+    /// change with another channel.
+    fn all(&self) -> impl Iterator<Item = &Vec<f64>> {
+        self.trace.own().chain(&self.varying)
     }
 
-    /// The same, but a column of the law itself, other than an element, is moved out and is empty afterwards.
+    /// A column of the law; other than an element it is moved out and is empty afterwards.
     fn take(&mut self, column: usize) -> Vec<f64> {
-        let taken = match column {
-            0 if self.filtered.is_empty() => Some(std::mem::take(&mut self.trace.eta)),
-            1 if self.filtered.is_empty() => Some(std::mem::take(&mut self.trace.rate)),
-            _ => None,
-        };
-        taken.unwrap_or_else(|| self.own(column).cloned().unwrap_or_default())
+        match column {
+            0 => std::mem::take(&mut self.trace.eta),
+            1 => std::mem::take(&mut self.trace.rate),
+            _ => self.trace.own().nth(column).cloned().unwrap_or_default(),
+        }
     }
 }
 

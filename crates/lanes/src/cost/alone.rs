@@ -2,11 +2,11 @@
 
 use super::terms::{Terms, residual};
 use crate::curve::{START, reversed};
-use crate::dispatch::Kernel;
 use crate::exp::fma;
 use crate::time_lanes::Block;
 use crate::track::{BLOCK, KEPT, RESTART, REVERSE};
 use crate::{Candidate, Track};
+use stiction_dispatch::Kernel;
 
 pub(super) struct Alone<'a, const POWER: bool> {
     track: &'a Track,

@@ -3,11 +3,11 @@
 
 use super::terms::{Terms, residual};
 use crate::curve::{Node, START, Speed, intervals, reversed};
-use crate::dispatch::Kernel;
 use crate::exp::fma;
 use crate::lane_array::{Aligned, lanes};
 use crate::track::{HALF, KEPT, RESTART, REVERSE, TILE as T};
 use crate::{Candidate, Track};
+use stiction_dispatch::Kernel;
 
 type Rows<const N: usize, const R: usize> = Aligned<[[f64; N]; R]>;
 

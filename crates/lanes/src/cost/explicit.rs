@@ -1,11 +1,11 @@
 //! The explicit schemes of [`stiction_friction::explicit`], candidates in lanes; for comparison.
 
 use super::terms::Scheme;
-use crate::dispatch::Kernel;
 use crate::exp::{at_most, exp};
 use crate::lane_array::lanes;
 use crate::track::{KEPT, RESTART, SAMPLE};
 use crate::{Candidate, Track};
+use stiction_dispatch::Kernel;
 
 pub(super) struct Explicit<'a, const N: usize> {
     track: &'a Track,

@@ -4,11 +4,11 @@ use super::gram::{Columns, Gram, LANES};
 use super::sums::{Sums, shared};
 use crate::Track;
 use crate::curve::{Curve, START, Speed, reversed};
-use crate::dispatch::Kernel;
 use crate::exp::fma;
 use crate::lane_array::{Aligned, chunk, read, write};
 use crate::sensitive::{Interval, Node, OWN, UNKNOWNS, columns, intervals, nodes, slope_adds};
 use crate::track::{BLOCK, HALF, KEPT, RESTART, REVERSE, TILE};
+use stiction_dispatch::Kernel;
 
 pub(super) struct Alone<'a, const POWER: bool> {
     track: &'a Track,

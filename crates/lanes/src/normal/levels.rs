@@ -5,10 +5,10 @@ use super::gram::LANES;
 use super::sums::{Sums, shared};
 use crate::Track;
 use crate::curve::{Curve, Node, START, Speed, intervals, reversed};
-use crate::dispatch::Kernel;
 use crate::exp::fma;
 use crate::lane_array::Aligned;
 use crate::track::{HALF, KEPT, RESTART, REVERSE, TILE};
+use stiction_dispatch::Kernel;
 
 pub(super) struct Levels<'a, const POWER: bool> {
     track: &'a Track,

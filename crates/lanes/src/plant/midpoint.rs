@@ -3,9 +3,9 @@
 
 use super::drive::{Axis, Drive, Measured, Motion, Outcome};
 use crate::curve::{Curve, Speed};
-use crate::dispatch::Kernel;
 use crate::exp::{LOWEST_ARGUMENT, at_least, at_most, exp, expm1, fma};
 use crate::lane_array::{Aligned, lanes, read, write};
+use stiction_dispatch::Kernel;
 
 /// Most evaluations of the equation in one step. Bisection alone would need about sixty.
 const MOST_EVALUATIONS: u32 = 200;

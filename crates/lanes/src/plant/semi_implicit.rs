@@ -2,9 +2,9 @@
 
 use super::drive::{Axis, Drive, Measured, Motion, Outcome};
 use crate::curve::{Curve, Speed};
-use crate::dispatch::Kernel;
 use crate::exp::{exps, fma};
 use crate::lane_array::{Aligned, lanes, read, write};
+use stiction_dispatch::Kernel;
 
 /// One axis, in units of its Coulomb level.
 #[derive(Clone, Copy)]

@@ -3,6 +3,23 @@
 //! The only file of the workspace with `unsafe` code: calling a function that was compiled for an
 //! instruction set is unsound where the processor lacks it. An [`InstructionSet`] is only handed out
 //! after the processor was asked, so holding one is the proof.
+//!
+//! ```
+//! use stiction_dispatch::{InstructionSet, Kernel};
+//!
+//! struct Sum<'a>(&'a [f64]);
+//!
+//! impl Kernel for Sum<'_> {
+//!     type Output = f64;
+//!
+//!     #[inline(always)]
+//!     fn run(self) -> f64 {
+//!         self.0.iter().sum()
+//!     }
+//! }
+//!
+//! assert_eq!(InstructionSet::best().run(Sum(&[1.0, 2.0])), 3.0);
+//! ```
 #![allow(unsafe_code)]
 
 use std::fmt;
@@ -63,7 +80,7 @@ impl InstructionSet {
     }
 
     /// Runs a kernel compiled for this instruction set.
-    pub(crate) fn run<K: Kernel>(self, kernel: K) -> K::Output {
+    pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
             // SAFETY: a value of this variant is made in `all` only, after the processor said that it
             // has every feature that the function was compiled with.
@@ -84,7 +101,7 @@ impl fmt::Display for InstructionSet {
 }
 
 /// A computation that is compiled once for each instruction set.
-pub(crate) trait Kernel {
+pub trait Kernel {
     /// What it returns.
     type Output;
 
