@@ -242,8 +242,17 @@ pub struct SimulationEntry {
     pub kind: String,
     /// `held` or `centred`.
     pub force_is: String,
-    /// Stretches that were simulated, each from a start of its own.
+    /// Pieces that were simulated in the fit, each from a start of its own that is fitted too.
     pub runs: usize,
+    /// Stretches without a gap that the pieces were cut from.
+    #[serde(default)]
+    pub stretches: usize,
+    /// Longest piece of the fit, s; `null` where every stretch ran whole.
+    #[serde(default)]
+    pub segment_s: Option<f64>,
+    /// Values that were fitted for the starts of the runs, beside the parameters.
+    #[serde(default)]
+    pub start_values: usize,
     /// Plant steps in one control period (in open loop: in one sample).
     pub substeps: usize,
     /// Where the search started: `separable` or `runs`.
@@ -257,6 +266,26 @@ pub struct SimulationEntry {
     pub force: Option<FitEntry>,
     /// Force errors of the validation in closed loop, in the order of `validation`.
     pub validation_force: Vec<FitEntry>,
+    /// Stretches without a gap of each validation, each simulated whole from one start, in the order of `validation`.
+    #[serde(default)]
+    pub validation_runs: Vec<usize>,
+    /// Position error where each fitted stretch is simulated whole; `null` where the fit did so.
+    #[serde(default)]
+    pub whole: Option<FitEntry>,
+    /// Position errors over a short horizon; `null` in closed loop, and where no stretch is longer.
+    #[serde(default)]
+    pub short_horizon: Option<ShortHorizonEntry>,
+}
+
+/// The position errors of simulations that start anew again and again, each start fitted.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShortHorizonEntry {
+    /// Longest piece simulated from one start, s.
+    pub seconds: f64,
+    /// Of the fitted logs.
+    pub fit: FitEntry,
+    /// Of each validation, in its order; `null` where no stretch is longer than the horizon.
+    pub validation: Vec<Option<FitEntry>>,
 }
 
 /// One law in the comparison.

@@ -91,10 +91,12 @@ fn whole_fit_from_nothing(bencher: Bencher) {
 fn unseen(bencher: Bencher) {
     let log = [log()];
     let found = fit(&log);
-    let counts = simulate_unseen(&log, &found).expect("a simulation").counts;
+    let counts = simulate_unseen(&log, &found, &mut Silent)
+        .expect("a simulation")
+        .counts;
     bencher
         .counter(ItemsCount::new(SAMPLES * found.substeps * counts.total()))
-        .bench(|| simulate_unseen(&log, &found).expect("a simulation"));
+        .bench(|| simulate_unseen(&log, &found, &mut Silent).expect("a simulation"));
 }
 
 /// The plant of the servo crate alone, to compare a step with.

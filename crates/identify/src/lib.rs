@@ -91,7 +91,7 @@ pub use law::Law;
 pub use law::dependence::Dependence;
 pub use law::terms::{Delay, Mass, Terms};
 pub use output_error::controller::Controller;
-pub use output_error::outcome::{Signals, SimulationFit, Unseen, simulate_unseen};
+pub use output_error::outcome::{Short, Signals, SimulationFit, Unseen, simulate_unseen};
 pub use output_error::run::{Hold, Recording};
 pub use output_error::{Simulation, output_error};
 pub use parameter::covariance::Covariance;

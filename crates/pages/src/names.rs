@@ -1,6 +1,7 @@
 //! Names and sentences that reports and the terminal share.
 
-use stiction_files::result::LawEntry;
+use stiction_files::result::{LawEntry, SimulationEntry};
+use stiction_number::four_digits;
 
 /// Ratio of two errors from which the larger one is called worse, dimensionless: tables show three digits.
 const WORSE: f64 = 1.001;
@@ -51,6 +52,28 @@ pub(crate) fn without_offset(laws: &[LawEntry]) -> Option<String> {
         law_name(&worse.law, true),
         law_name(&worse.law, false)
     ))
+}
+
+/// What the fit simulated: how many runs or pieces, and what was fitted of their starts.
+pub(crate) fn simulated_runs(entry: &SimulationEntry) -> String {
+    let runs = match (entry.runs, entry.segment_s) {
+        (1, _) => "one run from a fitted start".to_string(),
+        (n, None) => format!("{n} runs, each from a fitted start"),
+        (n, Some(seconds)) => format!(
+            "{n} pieces of up to {} s, each from a fitted start",
+            four_digits(seconds)
+        ),
+    };
+    format!("{runs} ({} values)", entry.start_values)
+}
+
+/// What stands beside the errors of an open loop.
+pub(crate) fn force_noise(entry: &SimulationEntry) -> Option<&'static str> {
+    let open = entry.kind == "open" && entry.short_horizon.is_some();
+    open.then_some(
+        "Open loop: noise and errors of the logged force add up along a run, so an axis that slides drifts away even under \
+         the right law; over a short time less has added up.",
+    )
 }
 
 #[cfg(test)]

@@ -221,7 +221,10 @@ fn key_figures(outcome: &Outcome) -> Vec<KeyFigure> {
             Percent::error(fit.relative_error_percent).digits(3),
             "",
         )
-        .note("100 rms(residual) / rms(measured)"),
+        .note(match &result.simulation {
+            None => "100 rms(residual) / rms(measured)",
+            Some(_) => "100 rms(residual) / rms(position about its mean)",
+        }),
         KeyFigure::new("Residual", number::sig(fit.rmse, 3), fit.unit.as_str()).note(format!(
             "rms, R² {}",
             number::r_squared(fit.r2.unwrap_or(f64::NAN)).replace('-', "−")

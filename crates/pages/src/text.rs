@@ -8,13 +8,13 @@ mod study;
 mod table;
 
 use crate::deviation::Deviation;
-use crate::names::{chosen_by, law_name, without_offset};
+use crate::names::{chosen_by, force_noise, law_name, simulated_runs, without_offset};
 pub use comparison::comparison;
 pub use export::exported;
 pub use procedure::procedure_commands;
 pub use reproduction::reproduction;
 use std::fmt::Write;
-use stiction_files::result::{LawEntry, SearchedEntry, SearchedPoint};
+use stiction_files::result::{LawEntry, SearchedEntry, SearchedPoint, SimulationEntry};
 use stiction_files::symbols;
 use stiction_number::{Percent, four_digits as short, r_squared, unit};
 use stiction_workflows::check::{Check, LogCheck};
@@ -126,15 +126,24 @@ pub fn outcome(outcome: &Outcome) -> String {
             low.bound_unit
         );
     }
-    for v in &result.validation {
+    for (i, v) in result.validation.iter().enumerate() {
         let _ = writeln!(
             out,
-            "validation  {} relative error, {} {} rms on {}",
+            "validation  {} relative error, {} {} rms on {}{}",
             Percent::error(v.fit.relative_error_percent).fine(),
             short(v.fit.rmse),
             unit(&v.fit.unit),
-            v.path
+            v.path,
+            result
+                .simulation
+                .as_ref()
+                .map_or(String::new(), |entry| simulated_unseen(entry, i))
         );
+    }
+    if let Some(simulation) = &result.simulation
+        && let Some(note) = force_noise(simulation)
+    {
+        let _ = writeln!(out, "            {note}");
     }
     if !outcome.truth.is_empty() {
         out.push_str("\nagainst the truth\n");
@@ -163,12 +172,23 @@ pub fn outcome(outcome: &Outcome) -> String {
 }
 
 /// What was simulated, and how far off its force and the encoder's steps are.
-fn simulated(entry: &stiction_files::result::SimulationEntry) -> String {
-    let runs = match entry.runs {
-        1 => "one run".to_string(),
-        n => format!("{n} runs"),
-    };
-    let mut out = format!("{} loop, {runs}", entry.kind);
+fn simulated(entry: &SimulationEntry) -> String {
+    let mut out = format!("{} loop, {}", entry.kind, simulated_runs(entry));
+    if let Some(whole) = &entry.whole {
+        let _ = write!(
+            out,
+            "; {} simulated whole",
+            Percent::error(whole.relative_error_percent).fine()
+        );
+    }
+    if let (None, Some(s)) = (&entry.whole, &entry.short_horizon) {
+        let _ = write!(
+            out,
+            "; {} over {} s at a time",
+            Percent::error(s.fit.relative_error_percent).fine(),
+            short(s.seconds)
+        );
+    }
     if let Some(force) = &entry.force {
         let _ = write!(
             out,
@@ -185,6 +205,26 @@ fn simulated(entry: &stiction_files::result::SimulationEntry) -> String {
             "; encoder steps alone {} {} rms",
             short(floor),
             entry.position.unit
+        );
+    }
+    out
+}
+
+/// How an unseen log was simulated.
+fn simulated_unseen(entry: &SimulationEntry, i: usize) -> String {
+    let mut out = match entry.validation_runs.get(i) {
+        None => return String::new(),
+        Some(1) => ", simulated whole from one start".to_string(),
+        Some(n) => format!(", its {n} stretches without gaps simulated whole"),
+    };
+    if let Some(horizon) = &entry.short_horizon
+        && let Some(Some(fit)) = horizon.validation.get(i)
+    {
+        let _ = write!(
+            out,
+            "; {} over {} s at a time",
+            Percent::error(fit.relative_error_percent).fine(),
+            short(horizon.seconds)
         );
     }
     out

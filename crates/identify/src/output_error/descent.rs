@@ -65,14 +65,13 @@ pub(crate) fn descend(
 ) -> Descent {
     let mut at = start;
     at.q = bounds.clamp(&at.q);
-    let energy = problem.energy();
-    let settings = settings(energy, steps);
+    let settings = settings(problem.energy(), steps);
     let walk = descent::Descent::new(at.q.clone(), &settings);
-    let now = problem.equations(&at);
+    let now = problem.equations(&at, watch);
     watch.counts.derivatives += 1;
     let mut simulated = Simulated {
         problem,
-        energy,
+        motion: problem.motion(),
         at,
         now,
         sums: Derivatives::zeros(0),
@@ -95,7 +94,7 @@ pub(crate) fn descend(
 /// A problem and the current point of its descent.
 struct Simulated<'a, 'w, 'o> {
     problem: &'a Problem<'a>,
-    energy: f64,
+    motion: f64,
     at: Point,
     now: Equations,
     sums: Derivatives,
@@ -107,8 +106,8 @@ struct Simulated<'a, 'w, 'o> {
 
 impl Simulated<'_, '_, '_> {
     fn relative(&self) -> f64 {
-        if self.energy > 0.0 {
-            (self.now.cost / self.energy).sqrt()
+        if self.motion > 0.0 {
+            (self.now.cost / self.motion).sqrt()
         } else {
             f64::INFINITY
         }
@@ -159,7 +158,7 @@ impl LeastSquares for Simulated<'_, '_, '_> {
         match &self.tried {
             Some(next) => {
                 self.watch.counts.costs += 1;
-                self.problem.cost(next)
+                self.problem.cost(next, self.watch)
             }
             None => f64::INFINITY,
         }
@@ -167,10 +166,14 @@ impl LeastSquares for Simulated<'_, '_, '_> {
 
     fn accept(&mut self) {
         if let Some(next) = self.tried.take() {
-            self.now = self.problem.equations(&next);
-            self.at = next;
+            let now = self.problem.equations(&next, self.watch);
             self.watch.counts.derivatives += 1;
-            self.note();
+            // Stopped on the way: the point before has all that is needed.
+            if now.cost.is_finite() {
+                self.now = now;
+                self.at = next;
+                self.note();
+            }
         }
     }
 

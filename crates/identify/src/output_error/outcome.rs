@@ -13,19 +13,20 @@ use crate::output_error::controller::Controller;
 use crate::output_error::descent::{Descent, descend};
 use crate::output_error::plant::Axis;
 use crate::output_error::problem::{Point, Problem};
-use crate::output_error::run::{self, Hold, Recording};
+use crate::output_error::run::{self, Hold, Recording, Run};
+use crate::output_error::search::{Found, Search};
 use crate::output_error::simulate::{Drive, simulate, simulate_with_slopes};
 use crate::output_error::start::rest;
 use crate::output_error::unknowns::{Layout, Unknown};
-use crate::output_error::{Found, Search};
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
 use crate::parameter::physical::{Physical, propagate};
 use crate::separable::search_box::SearchBox;
 use crate::watch::Watch;
 use nalgebra::DMatrix;
+use std::ops::Range;
 use stiction_parameters::{Name, Quantity};
-use stiction_search::{Counts, Silent, Stage};
+use stiction_search::{Counts, Observer, Silent, Stage, Status};
 use stiction_signal::{Travel, noise_deviation};
 
 /// Measured and simulated signals at the samples that count.
@@ -33,6 +34,8 @@ use stiction_signal::{Travel, noise_deviation};
 pub struct Signals {
     /// Which log each sample comes from, counted from 0.
     pub log: Vec<usize>,
+    /// Which stretch without a gap it is in, counted from 0 over all logs.
+    pub stretch: Vec<usize>,
     /// Time, s.
     pub time: Vec<f64>,
     /// Measured position, m or rad.
@@ -50,9 +53,12 @@ pub struct Signals {
 }
 
 impl Signals {
-    /// Size of the position error; `None` for a position that is zero throughout.
-    pub fn position_fit(&self) -> Option<Fit> {
-        Fit::new(&self.position, &less(&self.position, &self.simulated))
+    /// Size of the position error. The relative error is against the motion, the position about the mean of its stretch:
+    /// where the origin of the encoder is does not matter, and 100 % is what standing still would leave.
+    pub fn position_fit(&self) -> Fit {
+        let motion: Vec<f64> = self.stretches().flat_map(about_mean).collect();
+        let residual = less(&self.position, &self.simulated);
+        Fit::new(&motion, &residual).unwrap_or_else(|| still(&residual))
     }
 
     /// Size of the force error, in closed loop.
@@ -63,31 +69,58 @@ impl Signals {
         Fit::new(&self.force, &less(&self.force, &self.simulated_force))
     }
 
-    /// Whether the axis moves in both directions, by its measured position; with the encoder step, m or rad, where it is
-    /// known.
+    /// Whether the axis moves in both directions, by its measured position, with the encoder step, m or rad, where it is
+    /// known; or by its simulated position, which has neither steps nor noise, so that presliding of a few counts is seen:
+    /// there a movement counts if it is more than twice the rms residual.
     pub fn moves_both_ways(&self, encoder_step: Option<f64>) -> bool {
         let noise = noise_deviation(self.stretches());
-        let shortest = Travel::shortest_movement(encoder_step.unwrap_or(0.0), noise);
-        let travel = self
-            .stretches()
-            .map(|position| Travel::of(position.iter().copied(), shortest));
-        !travel.fold(Travel::default(), Travel::and).is_one_way()
+        let measured = Travel::shortest_movement(encoder_step.unwrap_or(0.0), noise);
+        let simulated = CLEAR_OF_RESIDUAL * self.position_fit().rmse;
+        let both = |of: &[f64], shortest| {
+            let travel = self
+                .bounds()
+                .map(|range| Travel::of(of[range].iter().copied(), shortest));
+            !travel.fold(Travel::default(), Travel::and).is_one_way()
+        };
+        both(&self.position, measured) || both(&self.simulated, simulated)
     }
 
     /// Measured positions without gaps, each of one log.
     fn stretches(&self) -> impl Iterator<Item = &[f64]> {
-        let steps = self.time.windows(2).map(|t| t[1] - t[0]);
-        let step = steps.filter(|s| *s > 0.0).fold(f64::INFINITY, f64::min);
-        let goes_on = move |i: usize| {
-            self.log[i] == self.log[i - 1] && (self.time[i] - self.time[i - 1]).abs() < 1.5 * step
-        };
-        let ends =
-            (1..=self.position.len()).filter(move |&i| i == self.position.len() || !goes_on(i));
+        self.bounds().map(|range| &self.position[range])
+    }
+
+    /// Where the stretches are.
+    fn bounds(&self) -> impl Iterator<Item = Range<usize>> {
+        let ends = (1..=self.stretch.len())
+            .filter(|&i| i == self.stretch.len() || self.stretch[i] != self.stretch[i - 1]);
         ends.scan(0, |start, end| {
-            let stretch = &self.position[*start..end];
+            let range = *start..end;
             *start = end;
-            Some(stretch)
+            Some(range)
         })
+    }
+}
+
+/// Movements of the simulated position longer than this many rms residuals count as motion.
+const CLEAR_OF_RESIDUAL: f64 = 2.0;
+
+fn about_mean(x: &[f64]) -> impl Iterator<Item = f64> {
+    let mean = x.iter().sum::<f64>() / x.len() as f64;
+    x.iter().map(move |x| x - mean)
+}
+
+/// A residual beside a position that does not move, or one too large to square.
+fn still(residual: &[f64]) -> Fit {
+    let n = residual.len();
+    let energy: f64 = residual.iter().map(|r| r * r).sum();
+    let rmse = (energy / n.max(1) as f64).sqrt();
+    Fit {
+        rmse: if rmse.is_finite() { rmse } else { f64::MAX },
+        relative_error_percent: f64::MAX,
+        r2: f64::NAN,
+        samples: n,
+        effective_samples: 1.0,
     }
 }
 
@@ -106,17 +139,35 @@ pub struct SimulationFit {
     pub position: Fit,
     /// Force error; `None` in open loop, where the force is what drives the simulation.
     pub force: Option<Fit>,
-    /// Stretches that were simulated, each from its own start.
+    /// Pieces that were simulated in the fit, each from a start of its own that was fitted too.
     pub runs: usize,
+    /// Stretches without a gap that the pieces were cut from.
+    pub stretches: usize,
     /// Plant steps in one control period (in open loop: in one sample).
     pub substeps: usize,
     /// Rms residual that one encoder count alone would leave, m or rad, where it is known.
     pub floor: Option<f64>,
+    /// Position error where each stretch is simulated whole from one start; `None` where the fit itself did so, or the
+    /// search was stopped.
+    pub whole: Option<Fit>,
+    /// Position error over a short horizon; `None` in closed loop, where the stretches are not much longer than the
+    /// horizon, or the search was stopped.
+    pub short: Option<Short>,
     axis: Axis,
     controller: Option<Controller>,
     hold: Hold,
     segment: Option<f64>,
     weights: [f64; 2],
+}
+
+/// The error of a simulation that starts anew again and again, each start fitted: how far the axis is off after a short
+/// while, where the error of the whole run has had all its time to grow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Short {
+    /// Longest piece that is simulated from one start, s.
+    pub seconds: f64,
+    /// Position error.
+    pub position: Fit,
 }
 
 impl SimulationFit {
@@ -125,7 +176,12 @@ impl SimulationFit {
         self.controller.is_some()
     }
 
-    /// Unknowns of the starts of all runs.
+    /// Longest piece that the fit was cut into, s; `None` where every stretch ran whole.
+    pub fn segment(&self) -> Option<f64> {
+        self.segment.filter(|_| self.runs > self.stretches)
+    }
+
+    /// Values that were fitted for the starts of all runs.
     pub fn starts(&self) -> usize {
         let drive = Drive {
             controller: self.controller.as_ref(),
@@ -145,17 +201,30 @@ pub struct Unseen {
     pub position: Fit,
     /// Force error, in closed loop.
     pub force: Option<Fit>,
+    /// Stretches without a gap, each simulated whole from one start.
+    pub runs: usize,
+    /// Position error over a short horizon, as in the fit.
+    pub short: Option<Short>,
     /// Evaluations that fitting the starts took.
     pub counts: Counts,
 }
 
-/// Simulates recordings that were not fitted. Only where each run starts is fitted to them: position,
-/// velocity and bristle deflection (and a controller's integral) cannot be known beforehand.
+/// Horizon where the fit was not cut, s: a choice, long enough for a few reversals of most motions.
+const HORIZON: f64 = 1.0;
+/// Steps of a descent on starts alone.
+const START_STEPS: usize = 60;
+
+/// Simulates recordings that were not fitted, each stretch without a gap whole. Only where a stretch starts is fitted to
+/// it: position, velocity and bristle deflection (and a controller's integral) cannot be known beforehand.
 ///
 /// # Errors
 /// As [`output_error`](crate::output_error()).
-pub fn simulate_unseen(recordings: &[Recording], fitted: &SimulationFit) -> Result<Unseen, Error> {
-    let runs = run::runs(recordings, fitted.controller.as_ref(), fitted.segment)?;
+pub fn simulate_unseen(
+    recordings: &[Recording],
+    fitted: &SimulationFit,
+    observer: &mut dyn Observer,
+) -> Result<Unseen, Error> {
+    let runs = run::runs(recordings, fitted.controller.as_ref(), None)?;
     if runs.is_empty() {
         return Err(Error::TooFewSamples {
             found: 0,
@@ -163,50 +232,80 @@ pub fn simulate_unseen(recordings: &[Recording], fitted: &SimulationFit) -> Resu
             losses: run::losses(recordings, 0, 0),
         });
     }
-    let problem = Problem {
-        runs: &runs,
-        layout: Layout {
-            unknowns: Vec::new(),
-            waves: Vec::new(),
-        },
-        base: fitted.axis.clone(),
-        drive: Drive {
-            controller: fitted.controller.as_ref(),
-            hold: fitted.hold,
-            substeps: fitted.substeps,
-        },
-        weights: fitted.weights,
-    };
-    let nothing = SearchBox::between(Vec::new(), Vec::new());
-    let at = Point {
-        q: Vec::new(),
-        starts: rest(&runs, fitted.controller.as_ref()),
-    };
-    let mut silent = Silent;
-    let mut watch = Watch::new(&mut silent, Stage::Fine);
-    let found = descend(&problem, &nothing, at, 60, &mut watch);
-    let signals = signals(&problem, &found.at);
-    let position = signals
-        .position_fit()
-        .unwrap_or_else(|| boundless(&signals));
+    let mut watch = Watch::new(observer, Stage::Fine);
+    let signals = fitted.replay(&runs, &mut watch);
     Ok(Unseen {
         force: signals.force_fit(),
-        position,
+        position: signals.position_fit(),
         signals,
+        runs: runs.len(),
+        short: fitted.over_short(&runs, &mut watch),
         counts: watch.counts,
     })
 }
 
-/// The search refuses an axis that does not move; the remaining case is a residual too large to square.
-fn boundless(signals: &Signals) -> Fit {
-    Fit {
-        rmse: f64::MAX,
-        relative_error_percent: f64::MAX,
-        r2: f64::NAN,
-        samples: signals.position.len(),
-        effective_samples: 1.0,
+impl SimulationFit {
+    /// The signals of other runs, of which only the starts are fitted.
+    fn replay(&self, runs: &[Run], watch: &mut Watch) -> Signals {
+        let problem = Problem {
+            runs,
+            layout: Layout {
+                unknowns: Vec::new(),
+                waves: Vec::new(),
+            },
+            base: self.axis.clone(),
+            drive: Drive {
+                controller: self.controller.as_ref(),
+                hold: self.hold,
+                substeps: self.substeps,
+            },
+            weights: self.weights,
+        };
+        let nothing = SearchBox::between(Vec::new(), Vec::new());
+        let at = Point {
+            q: Vec::new(),
+            starts: rest(runs, self.controller.as_ref()),
+        };
+        let found = descend(&problem, &nothing, at, START_STEPS, watch);
+        signals(&problem, &found.at)
+    }
+
+    /// The error over a short horizon of stretches that are whole.
+    fn over_short(&self, stretches: &[Run], watch: &mut Watch) -> Option<Short> {
+        let seconds = self.segment.unwrap_or(HORIZON);
+        let runs: Vec<Run> = stretches
+            .iter()
+            .flat_map(|run| run.clone().cut(run.samples_in(seconds)))
+            .collect();
+        if self.is_closed_loop() || runs.len() == stretches.len() {
+            return None;
+        }
+        let position = self.replay(&runs, watch).position_fit();
+        (!watch.stopped).then_some(Short { seconds, position })
+    }
+
+    /// Adds the errors of the fitted recordings over horizons other than that of the fit.
+    pub(crate) fn judge_horizons(&mut self, recordings: &[Recording], watch: &mut Watch) {
+        let controller = self.controller.as_ref();
+        let Ok(stretches) = run::runs(recordings, controller, None) else {
+            return;
+        };
+        if watch.stopped || self.is_closed_loop() {
+            return;
+        }
+        if let Some(seconds) = self.segment() {
+            let whole = self.replay(&stretches, watch).position_fit();
+            self.whole = (!watch.stopped).then_some(whole);
+            let position = self.position;
+            self.short = Some(Short { seconds, position });
+        } else {
+            self.short = self.over_short(&stretches, watch);
+        }
     }
 }
+
+/// Most plant steps of one simulation for which intervals are computed after an interruption: a fifth of a second or so.
+const MOST_STEPS_AFTER_A_STOP: usize = 100_000;
 
 /// Puts together what a search found.
 pub(crate) fn describe(
@@ -226,9 +325,7 @@ pub(crate) fn describe(
     } = found.descent;
     let axis = problem.layout.write(&problem.base, &at.q);
     let signals = signals(&problem, &at);
-    let position = signals
-        .position_fit()
-        .unwrap_or_else(|| boundless(&signals));
+    let position = signals.position_fit();
     let held: Vec<bool> = problem
         .layout
         .unknowns
@@ -236,7 +333,14 @@ pub(crate) fn describe(
         .zip(&at.q)
         .map(|(unknown, x)| matches!(unknown, Unknown::Viscous(_)) && *x <= 0.0)
         .collect();
-    let (unknowns, without) = covariance(&problem, &at, &held);
+    let stopped_early = status == Status::Interrupted && problem.steps() > MOST_STEPS_AFTER_A_STOP;
+    let (unknowns, without) = match stopped_early {
+        true => (
+            DMatrix::from_element(held.len(), held.len(), f64::INFINITY),
+            vec![false; held.len()],
+        ),
+        false => covariance(&problem, &at, &held),
+    };
     let raw = parameters(&problem.layout, &axis, &at.q);
     let matrix = propagate(&raw, &unknowns);
     let level = axis.sides[0].coulomb.max(axis.sides[1].coulomb);
@@ -292,6 +396,9 @@ pub(crate) fn describe(
         force: signals.force_fit(),
         signals,
         runs: search.runs.len(),
+        stretches: run::stretches_of(search.runs),
+        whole: None,
+        short: None,
         substeps: found.substeps,
         floor: search.simulation.quantum.map(|q| q / libm::sqrt(12.0)),
         axis,
@@ -316,9 +423,10 @@ fn signals(problem: &Problem, at: &Point) -> Signals {
     for (run, initial) in problem.runs.iter().zip(&at.starts) {
         simulate(&axis, &problem.drive, run, initial, |k, state, force| {
             if !run.keep[k] {
-                return;
+                return true;
             }
             out.log.push(run.log);
+            out.stretch.push(run.stretch);
             out.time.push(run.time[k]);
             out.position.push(run.position[k]);
             out.simulated.push(state.x);
@@ -328,6 +436,7 @@ fn signals(problem: &Problem, at: &Point) -> Signals {
             if closed {
                 out.simulated_force.push(force);
             }
+            true
         });
     }
     out
@@ -340,7 +449,8 @@ fn signals(problem: &Problem, at: &Point) -> Signals {
 /// and force at one instant, which are correlated, are not counted as two independent ones.
 fn covariance(problem: &Problem, at: &Point, held: &[bool]) -> (DMatrix<f64>, Vec<bool>) {
     let count = problem.layout.len();
-    let equations = problem.equations(at);
+    let mut silent = Silent;
+    let equations = problem.equations(at, &mut Watch::new(&mut silent, Stage::Fine));
     let (reduced, _) = equations.reduced(0.0);
     let without: Vec<bool> = (0..count)
         .map(|i| equations.shared[(i, i)] <= 0.0)
@@ -379,7 +489,7 @@ fn covariance(problem: &Problem, at: &Point, held: &[bool]) -> (DMatrix<f64>, Ve
             initial,
             |k, now| {
                 if !run.keep[k] {
-                    return;
+                    return true;
                 }
                 samples += 1;
                 let mut score = vec![0.0; q];
@@ -407,6 +517,7 @@ fn covariance(problem: &Problem, at: &Point, held: &[bool]) -> (DMatrix<f64>, Ve
                 for (a, series) in influence.iter_mut().enumerate() {
                     series.push((0..q).map(|b| bread[(a, b)] * scale[b] * score[b]).sum());
                 }
+                true
             },
         );
     }

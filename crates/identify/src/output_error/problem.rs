@@ -1,9 +1,12 @@
 //! Cost and normal equations of a trial, with the unknowns of each run kept separate from the shared ones.
 
 use crate::output_error::plant::Axis;
-use crate::output_error::run::Run;
-use crate::output_error::simulate::{Drive, Initial, LOCALS, MOST, simulate, simulate_with_slopes};
+use crate::output_error::run::{self, Run};
+use crate::output_error::simulate::{
+    Drive, Initial, LOCALS, MOST, periods, simulate, simulate_with_slopes,
+};
 use crate::output_error::unknowns::Layout;
+use crate::watch::Watch;
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 use stiction_search::Derivatives;
 
@@ -44,15 +47,50 @@ pub(crate) struct Equations {
     pub runs: Vec<OwnPart>,
 }
 
+/// Plant steps between two looks at the observer: a twentieth of a second or so with derivatives.
+const STEPS_BETWEEN_LOOKS: usize = 20_000;
+
+/// Looks at the observer now and then while a simulation goes on.
+struct Looks<'w, 'o> {
+    watch: &'w mut Watch<'o>,
+    since: usize,
+    is_stopped: bool,
+}
+
+impl<'w, 'o> Looks<'w, 'o> {
+    fn new(watch: &'w mut Watch<'o>) -> Self {
+        Self {
+            watch,
+            since: 0,
+            is_stopped: false,
+        }
+    }
+
+    /// Whether to go on after another `steps`.
+    #[inline]
+    fn go_on(&mut self, steps: usize) -> bool {
+        self.since += steps;
+        if self.since < STEPS_BETWEEN_LOOKS {
+            return true;
+        }
+        self.since = 0;
+        self.watch.report(f64::INFINITY);
+        self.is_stopped = self.watch.stopped;
+        !self.is_stopped
+    }
+}
+
 impl Problem<'_> {
     /// Sum of squares of the weighted residuals; infinite where the simulation gives values that are not
-    /// finite.
-    pub fn cost(&self, at: &Point) -> f64 {
+    /// finite, or where it was stopped.
+    pub fn cost(&self, at: &Point, watch: &mut Watch) -> f64 {
+        let mut looks = Looks::new(watch);
         let axis = self.layout.write(&self.base, &at.q);
         let [wx, wf] = self.weights;
         let closed = self.drive.controller.is_some();
         let mut cost = 0.0;
         for (run, initial) in self.runs.iter().zip(&at.starts) {
+            let steps = self.drive.substeps * periods(run);
             simulate(&axis, &self.drive, run, initial, |k, state, force| {
                 if run.keep[k] {
                     let rx = wx * (run.position[k] - state.x);
@@ -62,13 +100,18 @@ impl Problem<'_> {
                         cost += rf * rf;
                     }
                 }
+                looks.go_on(steps)
             });
+            if looks.is_stopped {
+                return f64::INFINITY;
+            }
         }
         if cost.is_nan() { f64::INFINITY } else { cost }
     }
 
-    /// Cost and normal equations.
-    pub fn equations(&self, at: &Point) -> Equations {
+    /// Cost and normal equations; an infinite cost where the simulation was stopped.
+    pub fn equations(&self, at: &Point, watch: &mut Watch) -> Equations {
+        let mut looks = Looks::new(watch);
         let shared = self.layout.len();
         let locals = self.drive.locals();
         let count = shared + locals;
@@ -82,19 +125,23 @@ impl Problem<'_> {
         };
         for (run, initial) in self.runs.iter().zip(&at.starts) {
             let mut sums = Sums::new();
+            let steps = self.drive.substeps * periods(run);
             simulate_with_slopes(&axis, &self.layout, &self.drive, run, initial, |k, now| {
-                if !run.keep[k] {
-                    return;
+                if run.keep[k] {
+                    sums.add(
+                        self.weights[0],
+                        run.position[k] - now.state.x,
+                        now.position_slopes,
+                    );
+                    if closed {
+                        sums.add(self.weights[1], run.force[k] - now.force, now.force_slopes);
+                    }
                 }
-                sums.add(
-                    self.weights[0],
-                    run.position[k] - now.state.x,
-                    now.position_slopes,
-                );
-                if closed {
-                    sums.add(self.weights[1], run.force[k] - now.force, now.force_slopes);
-                }
+                looks.go_on(steps)
             });
+            if looks.is_stopped {
+                sums.cost = f64::INFINITY;
+            }
             out.cost += sums.cost;
             for i in 0..shared {
                 out.descent[i] += sums.descent[i];
@@ -131,7 +178,13 @@ impl Problem<'_> {
         out
     }
 
-    /// Sum of squares of the measured signals with the same weights: the reference for a cost.
+    /// Plant steps of one simulation of all runs.
+    pub fn steps(&self) -> usize {
+        let of = |run: &Run| run.time.len() * periods(run) * self.drive.substeps;
+        self.runs.iter().map(of).sum()
+    }
+
+    /// Sum of squares of the measured signals with the same weights: the reference for what is only rounding.
     pub fn energy(&self) -> f64 {
         let mut energy = 0.0;
         for run in self.runs {
@@ -147,14 +200,17 @@ impl Problem<'_> {
         energy
     }
 
-    /// `rms(residual)/rms(measured)` of a cost.
-    pub fn relative(&self, cost: f64) -> f64 {
-        let energy = self.energy();
-        if energy > 0.0 {
-            (cost / energy).sqrt()
-        } else {
-            f64::INFINITY
+    /// The same of the motion: positions about the mean of their stretch.
+    pub fn motion(&self) -> f64 {
+        let [wx, wf] = self.weights;
+        let mut energy = wx * wx * run::motion(self.runs);
+        if self.drive.controller.is_some() {
+            for run in self.runs {
+                let kept = run.force.iter().zip(&run.keep).filter(|(_, keep)| **keep);
+                energy += kept.map(|(f, _)| wf * wf * f * f).sum::<f64>();
+            }
         }
+        energy
     }
 }
 

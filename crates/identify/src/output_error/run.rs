@@ -32,6 +32,8 @@ pub struct Recording {
 pub(crate) struct Run {
     /// Which log it comes from, counted from 0.
     pub log: usize,
+    /// Which stretch without a gap it is a piece of, counted from 0 over all logs.
+    pub stretch: usize,
     /// Sample time, s.
     pub step: f64,
     pub time: Vec<f64>,
@@ -69,6 +71,7 @@ pub(crate) fn runs(
 ) -> Result<Vec<Run>, Error> {
     let mut out = Vec::new();
     let mut total = 0;
+    let mut stretch = 0;
     for (log, recording) in recordings.iter().enumerate() {
         let samples = &recording.samples;
         crate::conditioning::check(log + 1, samples)?;
@@ -123,8 +126,10 @@ pub(crate) fn runs(
                 Some(valid) => valid,
                 None => &[],
             };
+            stretch += 1;
             let whole = Run {
                 log,
+                stretch: stretch - 1,
                 step,
                 time: grid.times(),
                 position: grid.resample(&position[range.clone()]),
@@ -138,7 +143,7 @@ pub(crate) fn runs(
                 // The controller keeps the axis on its reference, so long runs do not drift; and its
                 // memory must not be cut.
                 (Some(_), _) | (_, None) => whole.time.len(),
-                (None, Some(s)) => (s / step).clamp(FEWEST_SAMPLES as f64, 1e9) as usize,
+                (None, Some(s)) => whole.samples_in(s),
             };
             out.extend(whole.cut(length));
             if out.len() > MOST_RUNS {
@@ -152,6 +157,29 @@ pub(crate) fn runs(
     }
     out.retain(|run| run.keep.iter().filter(|&&k| k).count() >= FEWEST_SAMPLES);
     Ok(out)
+}
+
+/// How many stretches without a gap the runs are pieces of.
+pub(crate) fn stretches_of(runs: &[Run]) -> usize {
+    let begins = |i: &usize| *i == 0 || runs[*i].stretch != runs[i - 1].stretch;
+    (0..runs.len()).filter(begins).count()
+}
+
+/// Positions less the mean of their stretch, squared and summed: the motion that a simulation is to explain, wherever the
+/// origin of the encoder is and however the stretches are cut.
+pub(crate) fn motion(runs: &[Run]) -> f64 {
+    let mut sum = 0.0;
+    for pieces in runs.chunk_by(|a, b| a.stretch == b.stretch) {
+        let kept = || {
+            pieces
+                .iter()
+                .flat_map(|run| run.position.iter().zip(&run.keep))
+                .filter_map(|(x, keep)| keep.then_some(*x))
+        };
+        let mean = kept().sum::<f64>() / kept().count().max(1) as f64;
+        sum += kept().map(|x| (x - mean) * (x - mean)).sum::<f64>();
+    }
+    sum
 }
 
 /// Reference with its central differences at every control instant.
@@ -185,6 +213,11 @@ fn wanted(reference: &[f64], step: f64, periods: usize) -> Vec<Wanted> {
 }
 
 impl Run {
+    /// Samples of a piece of so many seconds.
+    pub fn samples_in(&self, seconds: f64) -> usize {
+        (seconds / self.step).clamp(FEWEST_SAMPLES as f64, 1e9) as usize
+    }
+
     /// Pieces of `length` samples; a short rest stays with the last piece.
     pub fn cut(self, length: usize) -> Vec<Run> {
         let n = self.time.len();
@@ -198,6 +231,7 @@ impl Run {
                 let range = i * length..end;
                 Run {
                     log: self.log,
+                    stretch: self.stretch,
                     step: self.step,
                     time: self.time[range.clone()].to_vec(),
                     position: self.position[range.clone()].to_vec(),

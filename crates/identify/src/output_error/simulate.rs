@@ -44,13 +44,13 @@ pub(crate) struct Instant<'a> {
     pub force_slopes: &'a [f64],
 }
 
-/// Simulates a run and shows every sample to `see`, without derivatives.
+/// Simulates a run and shows every sample to `see`, without derivatives, until `see` says no.
 pub(crate) fn simulate(
     axis: &Axis,
     drive: &Drive,
     run: &Run,
     initial: &Initial,
-    mut see: impl FnMut(usize, &State, f64),
+    mut see: impl FnMut(usize, &State, f64) -> bool,
 ) {
     let n = run.time.len();
     let periods = periods(run);
@@ -82,18 +82,20 @@ pub(crate) fn simulate(
                 }
             }
         }
-        see(k, &at, logged);
+        if !see(k, &at, logged) {
+            return;
+        }
     }
 }
 
-/// The same with derivatives. `layout` says in which order the shared unknowns stand.
+/// The same with the derivatives. `layout` says in which order the shared unknowns stand.
 pub(crate) fn simulate_with_slopes(
     axis: &Axis,
     layout: &Layout,
     drive: &Drive,
     run: &Run,
     initial: &Initial,
-    mut see: impl FnMut(usize, &Instant),
+    mut see: impl FnMut(usize, &Instant) -> bool,
 ) {
     let n = run.time.len();
     let periods = periods(run);
@@ -159,15 +161,15 @@ pub(crate) fn simulate_with_slopes(
                 }
             }
         }
-        see(
-            k,
-            &Instant {
-                state: at,
-                force: logged,
-                position_slopes: &position_slopes[..count],
-                force_slopes: &logged_slopes[..count],
-            },
-        );
+        let now = Instant {
+            state: at,
+            force: logged,
+            position_slopes: &position_slopes[..count],
+            force_slopes: &logged_slopes[..count],
+        };
+        if !see(k, &now) {
+            return;
+        }
     }
 }
 
@@ -207,7 +209,8 @@ fn advance(
     next
 }
 
-fn periods(run: &Run) -> usize {
+/// Control periods in one sample.
+pub(crate) fn periods(run: &Run) -> usize {
     (run.wanted.len() / run.time.len().max(1)).max(1)
 }
 

@@ -166,8 +166,7 @@ pub(crate) fn guesses(law: &Law, terms: &Terms, layout: &Layout, scale: &Scale) 
     out
 }
 
-/// A given axis with correct sliding friction, combined with bristles of every length, damping and
-/// Stribeck velocity that the runs can show.
+/// A given axis with correct sliding friction, combined with bristles of every length and damping that the runs can show.
 pub(crate) fn with_bristles(axis: &Axis, law: &Law, scale: &Scale) -> Vec<Axis> {
     let level = axis.sides[0].coulomb;
     let mut out = Vec::new();
@@ -177,28 +176,32 @@ pub(crate) fn with_bristles(axis: &Axis, law: &Law, scale: &Scale) -> Vec<Axis> 
     } else {
         &[0.0]
     };
-    let speeds: &[f64] = if law.kind.has_stribeck() {
-        &[0.01, 0.1]
-    } else {
-        &[0.1]
-    };
     for i in 0..if law.kind.has_bristle() { 8 } else { 1 } {
         for zeta in zetas {
-            for speed in speeds {
-                let mut new = axis.clone();
-                new.exponent = law.exponent;
-                new.stiffness = level / (scale.count * libm::pow(part, f64::from(i)));
-                new.micro_damping = 2.0 * zeta * (new.stiffness * new.mass).sqrt();
-                for side in &mut new.sides {
-                    side.velocity = speed * scale.speed;
-                    side.fixed = side.coulomb * if law.kind.has_stribeck() { 1.3 } else { 1.0 };
-                }
-                complete(&mut new, law, scale);
-                out.push(new);
-            }
+            let mut new = axis.clone();
+            new.exponent = law.exponent;
+            new.stiffness = level / (scale.count * libm::pow(part, f64::from(i)));
+            new.micro_damping = 2.0 * zeta * (new.stiffness * new.mass).sqrt();
+            complete(&mut new, law, scale);
+            out.push(new);
         }
     }
     out
+}
+
+/// A given axis with every damping of its bristles that the runs can show, for a law that has one.
+pub(crate) fn with_damping(axis: &Axis, law: &Law, scale: &Scale) -> Vec<Axis> {
+    if law.kind != LawKind::LuGre {
+        return Vec::new();
+    }
+    let damped = |zeta: f64| {
+        let mut new = axis.clone();
+        new.exponent = law.exponent;
+        new.micro_damping = 2.0 * zeta * (new.stiffness * new.mass).sqrt();
+        complete(&mut new, law, scale);
+        new
+    };
+    [0.1, 0.7].map(damped).to_vec()
 }
 
 fn waves(layout: &Layout, factor: impl Fn(Name) -> f64) -> Vec<Wave> {

@@ -144,6 +144,7 @@ fn run(n: usize, periods: usize, closed: bool) -> Run {
     };
     Run {
         log: 0,
+        stretch: 0,
         step: 2e-3,
         time: (0..n).map(|k| k as f64 * 2e-3).collect(),
         position: vec![0.0; n],
@@ -231,7 +232,10 @@ fn derivatives_agree_with_differences() {
             let simulated = |q: &[f64], initial: &Initial| {
                 let axis = layout.write(&base, q);
                 let mut out = Vec::new();
-                simulate(&axis, &drive, &run, initial, |_, s, f| out.push([s.x, f]));
+                simulate(&axis, &drive, &run, initial, |_, s, f| {
+                    out.push([s.x, f]);
+                    true
+                });
                 out
             };
             let count = layout.len() + drive.locals();
@@ -239,6 +243,7 @@ fn derivatives_agree_with_differences() {
             let here = layout.write(&base, &q);
             simulate_with_slopes(&here, &layout, &drive, &run, &initial, |_, now| {
                 slopes.push((now.position_slopes.to_vec(), now.force_slopes.to_vec()));
+                true
             });
             for j in 0..count {
                 let size = if j < layout.len() {

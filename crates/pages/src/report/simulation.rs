@@ -1,6 +1,7 @@
 //! The part of the report that shows a simulated axis.
 
 use super::{figures, tables};
+use crate::names::{force_noise, simulated_runs};
 use stiction_files::symbols;
 use stiction_identify::{Series, Signals};
 use stiction_log::Motion;
@@ -44,7 +45,7 @@ fn errors(outcome: &Outcome) -> String {
     };
     let x = &entry.position;
     let mut out = format!(
-        "Position error {} {} rms, {} of the measured position",
+        "Position error {} {} rms, {} of the motion",
         number::sig(x.rmse, 3),
         x.unit,
         Percent::error(x.relative_error_percent).digits(3)
@@ -66,7 +67,27 @@ fn errors(outcome: &Outcome) -> String {
             number::unit(&f.unit),
             Percent::error(f.relative_error_percent).digits(3)
         )),
-        None => out.push_str("Open loop: the logged force drives the simulated axis."),
+        None => out.push_str("The logged force drives the simulated axis."),
+    }
+    out.push_str(&format!(" Fitted: {}.", simulated_runs(entry)));
+    if let Some(whole) = &entry.whole {
+        out.push_str(&format!(
+            " Simulated whole, each stretch from one start, the error is {} {} rms, {}.",
+            number::sig(whole.rmse, 3),
+            whole.unit,
+            Percent::error(whole.relative_error_percent).digits(3)
+        ));
+    } else if let Some(horizon) = &entry.short_horizon {
+        out.push_str(&format!(
+            " Over {} s at a time, each piece from a fitted start, the error is {} {} rms, {}.",
+            number::sig(horizon.seconds, 3),
+            number::sig(horizon.fit.rmse, 3),
+            horizon.fit.unit,
+            Percent::error(horizon.fit.relative_error_percent).digits(3)
+        ));
+    }
+    if let Some(note) = force_noise(entry) {
+        out.push_str(&format!(" {note}"));
     }
     out
 }

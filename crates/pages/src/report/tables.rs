@@ -2,7 +2,7 @@
 
 use crate::deviation::Deviation;
 use crate::names::law_name;
-use stiction_files::result::{Input, LawEntry};
+use stiction_files::result::{Input, LawEntry, SimulationEntry};
 use stiction_files::symbols;
 use stiction_number::Percent;
 use stiction_report::{Align, Block, Severity, Table, Text, number};
@@ -114,13 +114,10 @@ pub(super) fn truth(outcome: &Outcome) -> Table {
 
 /// Fits on data that were not fitted.
 pub(super) fn validation(outcome: &Outcome) -> Table {
+    if let Some(entry) = &outcome.result.simulation {
+        return simulated(outcome, entry);
+    }
     let unit = number::unit(&outcome.result.fit.unit);
-    let caption = match outcome.simulation() {
-        None => "The identified law on data it was not fitted to; nothing is fitted again.",
-        Some(_) => {
-            "The identified law on data it was not fitted to; only where each run starts is fitted."
-        }
-    };
     let mut table = Table::new([
         ("Data".to_string(), Align::Left),
         ("Samples".into(), Align::Right),
@@ -128,7 +125,7 @@ pub(super) fn validation(outcome: &Outcome) -> Table {
         ("Relative error".into(), Align::Right),
         ("Near zero speed".into(), Align::Right),
     ])
-    .caption(caption);
+    .caption("The identified law on data it was not fitted to; nothing is fitted again.");
     for v in &outcome.result.validation {
         table = table.row([
             v.path.clone(),
@@ -139,6 +136,43 @@ pub(super) fn validation(outcome: &Outcome) -> Table {
                 .as_ref()
                 .map_or("–".into(), |l| number::sig(l.fit.rmse, 3)),
         ]);
+    }
+    table
+}
+
+/// Positions that were not fitted, simulated.
+fn simulated(outcome: &Outcome, entry: &SimulationEntry) -> Table {
+    let unit = number::unit(&outcome.result.fit.unit);
+    let horizon = entry.short_horizon.as_ref();
+    let mut columns = vec![
+        ("Data".to_string(), Align::Left),
+        ("Samples".into(), Align::Right),
+        ("Stretches".into(), Align::Right),
+        (format!("Residual rms, {unit}"), Align::Right),
+        ("Relative error".into(), Align::Right),
+    ];
+    columns.extend(horizon.map(|h| {
+        let title = format!("Over {} s at a time", number::sig(h.seconds, 3));
+        (title, Align::Right)
+    }));
+    let mut table = Table::new(columns).caption(
+        "The identified law on data it was not fitted to: each stretch without gaps simulated whole from one start, and \
+         nothing but that start fitted. Relative error: against the motion, the position about its mean.",
+    );
+    for (i, v) in outcome.result.validation.iter().enumerate() {
+        let runs = entry.validation_runs.get(i);
+        let mut row = vec![
+            v.path.clone(),
+            number::count(v.fit.samples as u64),
+            runs.map_or("–".into(), |n| number::count(*n as u64)),
+            number::sig(v.fit.rmse, 3),
+            Percent::error(v.fit.relative_error_percent).digits(3),
+        ];
+        row.extend(horizon.map(|h| match h.validation.get(i) {
+            Some(Some(fit)) => Percent::error(fit.relative_error_percent).digits(3),
+            _ => "–".into(),
+        }));
+        table = table.row(row);
     }
     table
 }

@@ -151,7 +151,7 @@ fn a_closed_loop_is_identified_from_its_file() {
     }
     let text = stiction::commands::text::outcome(&outcome);
     assert!(
-        text.contains("simulation  closed loop, one run; force"),
+        text.contains("simulation  closed loop, one run from a fitted start (4 values); force"),
         "{text}"
     );
 }

@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::source::Source;
 use crate::wording::Setting;
 use stiction_files::Axis;
-use stiction_files::result::{SimulationEntry, ValidationEntry};
+use stiction_files::result::{ShortHorizonEntry, SimulationEntry, ValidationEntry};
 use stiction_files::symbols;
 use stiction_identify as engine;
 use stiction_identify::{
@@ -117,7 +117,7 @@ pub(super) fn run(
         engine::output_error(&recordings, law, &terms, &simulation, observer).map_err(fail)?;
     let mut unseen = Vec::new();
     for (name, recording) in unseen_logs {
-        let one = engine::simulate_unseen(&[recording], &found).map_err(|source| {
+        let one = engine::simulate_unseen(&[recording], &found, observer).map_err(|source| {
             let inputs = name.clone();
             Error::Identify { inputs, source }
         })?;
@@ -131,7 +131,7 @@ pub(super) fn run(
         laws: &[],
         motion,
     };
-    let judged = trust::of_position(&evidence, &found, log_warnings(sources));
+    let judged = trust::of_position(&evidence, &found, &unseen, log_warnings(sources));
     let started = if start.is_some() { "separable" } else { "runs" };
     let mut result = assemble::result(Parts {
         asked,
@@ -159,6 +159,9 @@ pub(super) fn run(
         }
         .into(),
         runs: found.runs,
+        stretches: found.stretches,
+        segment_s: found.segment(),
+        start_values: found.starts(),
         substeps: found.substeps,
         start: started.into(),
         position: position(&found.position),
@@ -168,6 +171,16 @@ pub(super) fn run(
             .iter()
             .filter_map(|(_, u)| u.force.as_ref().map(&force))
             .collect(),
+        validation_runs: unseen.iter().map(|(_, u)| u.runs).collect(),
+        whole: found.whole.as_ref().map(position),
+        short_horizon: found.short.map(|short| ShortHorizonEntry {
+            seconds: short.seconds,
+            fit: position(&short.position),
+            validation: unseen
+                .iter()
+                .map(|(_, u)| u.short.map(|s| position(&s.position)))
+                .collect(),
+        }),
     };
     result.validation = unseen
         .iter()
@@ -279,11 +292,17 @@ fn notes(found: &SimulationFit, axis: &Axis, started: &str) -> Vec<String> {
     } else {
         "position, velocity and bristle deflection"
     };
-    let runs = match found.runs {
-        1 => "one run, whose start".to_string(),
-        n => format!("{n} runs, whose starts"),
+    let runs = match (found.runs, found.segment()) {
+        (1, _) => "one run, simulated whole, whose start".to_string(),
+        (n, None) => format!("{n} runs, each simulated whole, whose starts"),
+        (n, Some(seconds)) => {
+            format!("{n} pieces of up to {seconds} s, each simulated on its own, whose starts")
+        }
     };
-    out.push(format!("{runs} ({starts}) are fitted too"));
+    out.push(format!(
+        "{runs} ({starts}; {} values in all) are fitted too",
+        found.starts()
+    ));
     out.push(format!(
         "nothing filtered or differentiated; {} in a control period",
         match found.substeps {

@@ -7,7 +7,7 @@ use stiction_files::result::{LawEntry, Trust};
 use stiction_files::symbols;
 use stiction_identify::Parameter;
 use stiction_identify::procedure::StepFit;
-use stiction_identify::{FittedLaw, SimulationFit, Status};
+use stiction_identify::{Fit, FittedLaw, SimulationFit, Status, Unseen};
 use stiction_log::Motion;
 use stiction_number::{Percent, short};
 use stiction_parameters::Quantity;
@@ -39,6 +39,9 @@ const LEAST_SAMPLES_PER_UNKNOWN: f64 = 5.0;
 /// Ratio of the rms residual to that of the encoder steps alone, below which the residual is the encoder's,
 /// dimensionless.
 const ENCODER_ONLY_BELOW: f64 = 2.0;
+/// Ratio of the rms position error on unseen data to that of the fit over the same horizon, or to that of encoder steps alone
+/// where this is larger, above which the law is not trusted, dimensionless.
+const UNTRUSTED_VALIDATION_ERROR: f64 = 3.0;
 /// Part of the samples that is near rest, above which a static law gets a warning, dimensionless.
 const WARNED_REST_SHARE: f64 = 0.05;
 /// Ratio of the rms residual near rest to that of all samples, above which a static law gets a warning,
@@ -98,11 +101,15 @@ pub(super) fn of_two_steps(evidence: &Evidence, mut warnings: Vec<Warning>) -> J
 pub(super) fn of_position(
     evidence: &Evidence,
     found: &SimulationFit,
+    unseen: &[(String, Unseen)],
     mut warnings: Vec<Warning>,
 ) -> Judged {
     let mut reasons = Vec::new();
     whole_record(evidence, &mut warnings, &mut reasons);
     open_loop(found, &mut warnings, &mut reasons);
+    for (name, one) in unseen {
+        reasons.extend(position_fails(found, name, one));
+    }
     Judged::new(reasons, warnings)
 }
 
@@ -390,6 +397,49 @@ fn open_loop(found: &SimulationFit, warnings: &mut Vec<Warning>, reasons: &mut V
     reasons.push(format!(
         "{worth}: noise of the logged force biases the parameters, and their intervals do not include that"
     ));
+}
+
+/// What an unseen position has against a fitted law: an error far above that of the fit over the same horizon, or a motion
+/// that is mostly unexplained.
+fn position_fails(found: &SimulationFit, name: &str, unseen: &Unseen) -> Option<String> {
+    let fitted = found.whole.as_ref().unwrap_or(&found.position);
+    let least = found.floor.unwrap_or(0.0);
+    let beyond = |unseen: &Fit, fitted: &Fit| {
+        unseen.rmse > UNTRUSTED_VALIDATION_ERROR * fitted.rmse.max(least)
+    };
+    let times = |unseen: &Fit, fitted: &Fit| match fitted.rmse > least {
+        true => format!("{} times that of the fit", short(unseen.rmse / fitted.rmse)),
+        false => format!(
+            "{} times what encoder steps alone leave",
+            short(unseen.rmse / least)
+        ),
+    };
+    let allowed = UNTRUSTED_VALIDATION_ERROR;
+    if beyond(&unseen.position, fitted) {
+        return Some(format!(
+            "on {name}, simulated whole, the position error is {} (at most {allowed} times)",
+            times(&unseen.position, fitted)
+        ));
+    }
+    if let (Some(mine), Some(theirs)) = (&found.short, &unseen.short)
+        && beyond(&theirs.position, &mine.position)
+    {
+        return Some(format!(
+            "on {name}, simulated over {} s at a time, the position error is {} (at most {allowed} times)",
+            short(theirs.seconds),
+            times(&theirs.position, &mine.position)
+        ));
+    }
+    let explained = unseen.position.r2;
+    let resolved = unseen.position.rmse > UNTRUSTED_VALIDATION_ERROR * least;
+    (resolved && (explained.is_nan() || explained < LEAST_R2)).then(|| {
+        format!(
+            "on {name}, simulated whole, the law explains {:.0} % of the variance of the position; at least {:.0} % are \
+             needed",
+            100.0 * explained.max(0.0),
+            100.0 * LEAST_R2
+        )
+    })
 }
 
 /// A static law says nothing of an axis at rest or in presliding.
