@@ -19,6 +19,7 @@
 
 pub(crate) mod controller;
 pub(crate) mod descent;
+pub(crate) mod drawn;
 pub(crate) mod outcome;
 pub(crate) mod plant;
 pub(crate) mod problem;
@@ -32,13 +33,14 @@ pub(crate) mod unknowns;
 use crate::error::Error;
 use crate::estimate::Estimate;
 use crate::law::Law;
-use crate::law::terms::{Mass, Terms};
+use crate::law::terms::{Delay, Mass, Terms};
 use crate::output_error::controller::Controller;
 use crate::output_error::outcome::SimulationFit;
 use crate::output_error::run::{Hold, Recording, Run};
 use crate::output_error::rungs::Ladder;
+use crate::output_error::search::Found;
 use crate::output_error::start::Scale;
-use crate::output_error::unknowns::Layout;
+use crate::output_error::unknowns::{Layout, Unknown};
 use crate::watch::Watch;
 use stiction_search::{Observer, Stage};
 
@@ -94,12 +96,16 @@ pub fn output_error(
         simulation.controller.as_ref(),
         simulation.segment,
     )?;
-    let layout = Layout::new(&law, terms);
+    let mut terms = terms.clone();
+    if simulation.controller.is_some() {
+        // The controller acts on what it computed a moment ago; no force can act before that.
+        terms.delay = Delay::NONE;
+    }
     let kept: usize = runs
         .iter()
         .map(|r| r.keep.iter().filter(|&&k| k).count())
         .sum();
-    let needed = 10 * layout.len() + 4 * runs.len();
+    let needed = 10 * Layout::new(&law, &terms).len() + 4 * runs.len();
     if kept < needed || runs.is_empty() {
         let whole: usize = runs.iter().map(|r| r.keep.len()).sum();
         return Err(Error::TooFewSamples {
@@ -108,16 +114,31 @@ pub fn output_error(
             losses: run::losses(recordings, whole, kept),
         });
     }
-    let scale = Scale::of(&runs, simulation.quantum).ok_or_else(|| nothing(&runs))?;
+    let scale =
+        Scale::of(&runs, simulation.quantum, simulation.hold).ok_or_else(|| nothing(&runs))?;
     let mut watch = Watch::new(observer, Stage::Scan);
     let ladder = Ladder::new(&runs, simulation, &scale);
-    let found = ladder
-        .climb(&law, terms, &mut watch)
-        .ok_or_else(|| nothing(&runs))?;
+    let mut found = ladder.climb(&law, &terms, &mut watch);
+    // A delay at the end of its range is something else that the law does not explain.
+    if found
+        .as_ref()
+        .is_some_and(|found| is_beyond(found, &law, &terms))
+    {
+        terms.delay = Delay::NONE;
+        found = ladder.climb(&law, &terms, &mut watch);
+    }
+    let found = found.ok_or_else(|| nothing(&runs))?;
+    let layout = Layout::new(&law, &terms);
     let search = ladder.search(&runs, &layout);
-    let mut fit = outcome::describe(&search, found, law, terms, watch.counts);
+    let mut fit = outcome::describe(&search, found, law, &terms, watch.counts);
     fit.judge_horizons(recordings, &mut watch);
     Ok(fit)
+}
+
+/// Whether a fitted delay ended at the end of its range.
+fn is_beyond(found: &Found, law: &Law, terms: &Terms) -> bool {
+    let delay = Layout::new(law, terms).place(Unknown::Delay);
+    delay.is_some_and(|i| found.bounds.at_bound(&found.descent.at.q, i))
 }
 
 /// Why nothing can be identified from runs that have no scale.

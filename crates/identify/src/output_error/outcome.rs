@@ -341,7 +341,7 @@ pub(crate) fn describe(
         ),
         false => covariance(&problem, &at, &held),
     };
-    let raw = parameters(&problem.layout, &axis, &at.q);
+    let raw = parameters(&problem.layout, &axis, &at.q, search.scale.centre);
     let matrix = propagate(&raw, &unknowns);
     let level = axis.sides[0].coulomb.max(axis.sides[1].coulomb);
     let mut parameters: Vec<Parameter> = raw
@@ -357,7 +357,11 @@ pub(crate) fn describe(
                 }
                 _ => String::new(),
             };
-            Parameter::judged(p, matrix[(i, i)], None, reason, level)
+            let size = match p.name == Quantity::Delay {
+                true => search.scale.step,
+                false => level,
+            };
+            Parameter::judged(p, matrix[(i, i)], None, reason, size)
         })
         .collect();
     insert_given(&mut parameters, &law, terms);
@@ -544,7 +548,9 @@ fn covariance(problem: &Problem, at: &Point, held: &[bool]) -> (DMatrix<f64>, Ve
 }
 
 /// The parameters of the law as functions of the shared unknowns.
-fn parameters(layout: &Layout, axis: &Axis, q: &[f64]) -> Vec<Physical> {
+///
+/// The delay is that of the middle of a row's force, as the fit of the force states it.
+fn parameters(layout: &Layout, axis: &Axis, q: &[f64], centre: f64) -> Vec<Physical> {
     let mut out = Vec::new();
     for (k, (unknown, &x)) in layout.unknowns.iter().zip(q).enumerate() {
         let mut slope = vec![0.0; q.len()];
@@ -586,6 +592,10 @@ fn parameters(layout: &Layout, axis: &Axis, q: &[f64]) -> Vec<Physical> {
             Unknown::Offset => {
                 slope[k] = 1.0;
                 (Quantity::Offset.into(), x)
+            }
+            Unknown::Delay => {
+                slope[k] = 1.0;
+                (Quantity::Delay.into(), x + centre)
             }
             Unknown::Wave(i) => {
                 slope[k] = 1.0;

@@ -75,6 +75,8 @@ pub(crate) struct Axis {
     pub mass: f64,
     /// F0, N (N m).
     pub offset: f64,
+    /// How much later the force was logged than it acted, beyond what [`Hold`](super::run::Hold) says, s.
+    pub delay: f64,
     /// Gravity and cogging.
     pub waves: Vec<Wave>,
 }
@@ -97,7 +99,9 @@ pub(crate) mod slot {
     pub const VELOCITY: usize = 5;
     pub const MASS: usize = 6;
     pub const OFFSET: usize = 7;
-    pub const WAVES: usize = 8;
+    /// For what acts on the force only; its derivatives here are zero.
+    pub const FORCE_ONLY: usize = 8;
+    pub const WAVES: usize = 9;
 }
 
 /// Most waves: gravity and four pitches of cogging.

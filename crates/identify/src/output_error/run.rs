@@ -243,18 +243,6 @@ impl Run {
             .collect()
     }
 
-    /// The force that drives the axis from sample `k` to the next, in open loop.
-    #[inline]
-    pub fn input(&self, k: usize, hold: Hold) -> f64 {
-        match hold {
-            Hold::Held => self.force[k],
-            Hold::Centred => {
-                let next = self.force.get(k + 1).unwrap_or(&self.force[k]);
-                0.5 * (self.force[k] + next)
-            }
-        }
-    }
-
     /// Velocity at the start, from a line through the first samples.
     pub fn first_velocity(&self) -> f64 {
         let n = self.position.len().min(FEWEST_SAMPLES);

@@ -1,6 +1,7 @@
 //! One run simulated from its initial state, with the derivatives of position and force.
 
 use crate::output_error::controller::{Controller, Memory};
+use crate::output_error::drawn::Drawn;
 use crate::output_error::plant::{Axis, State, slot};
 use crate::output_error::run::{Hold, Run};
 use crate::output_error::unknowns::{Layout, Unknown};
@@ -59,6 +60,7 @@ pub(crate) fn simulate(
     let mut state = start(axis, initial);
     let mut memory = memory(initial, control);
     let mut before = None;
+    let drawn = Drawn::new(run, drive.hold, axis.delay, drive.substeps);
     for k in 0..n {
         let mut logged = 0.0;
         let mut seen = false;
@@ -69,7 +71,7 @@ pub(crate) fn simulate(
                     let wanted = run.wanted[k * periods + i];
                     c.force(&mut memory, control, wanted, state.x).force
                 }
-                None => run.input(k, drive.hold),
+                None => run.force[k],
             };
             if !seen {
                 seen = true;
@@ -77,7 +79,11 @@ pub(crate) fn simulate(
             }
             before = Some(force);
             if k + 1 < n {
-                for _ in 0..drive.substeps {
+                for j in 0..drive.substeps {
+                    let force = match drive.controller {
+                        Some(_) => force,
+                        None => drawn.at(k, j),
+                    };
                     state = axis.step(state, h, force);
                 }
             }
@@ -115,6 +121,8 @@ pub(crate) fn simulate_with_slopes(
     let mut force_slopes = [0.0; MOST];
     let mut logged_slopes = [0.0; MOST];
     let mut before = None;
+    let drawn = Drawn::new(run, drive.hold, axis.delay, drive.substeps);
+    let delay = layout.place(Unknown::Delay);
     for k in 0..n {
         let at = state;
         let mut position_slopes = [0.0; MOST];
@@ -134,7 +142,7 @@ pub(crate) fn simulate_with_slopes(
                     }
                     command.force
                 }
-                None => run.input(k, drive.hold),
+                None => run.force[k],
             };
             if i == 0 {
                 logged = mean_with(before, force, drive.hold);
@@ -147,7 +155,14 @@ pub(crate) fn simulate_with_slopes(
             }
             before = Some(force);
             if k + 1 < n {
-                for _ in 0..drive.substeps {
+                for j in 0..drive.substeps {
+                    let force = match drive.controller {
+                        Some(_) => force,
+                        None => drawn.at(k, j),
+                    };
+                    if let Some(own) = delay {
+                        force_slopes[own] = drawn.slope(k, j);
+                    }
                     state = advance(
                         axis,
                         state,
@@ -268,6 +283,7 @@ fn places(layout: &Layout) -> Vec<(usize, Side)> {
             Unknown::Velocity(side) => (slot::VELOCITY, side),
             Unknown::Mass => (slot::MASS, Side::Both),
             Unknown::Offset => (slot::OFFSET, Side::Both),
+            Unknown::Delay => (slot::FORCE_ONLY, Side::Both),
             Unknown::Wave(i) => (slot::WAVES + i, Side::Both),
         })
         .collect()

@@ -1,11 +1,11 @@
 //! Where the search starts and how far it may go, from the size of the measured signals.
 
 use crate::estimate::Estimate;
-use crate::law::terms::{Mass, Terms};
+use crate::law::terms::{Delay, Mass, Terms};
 use crate::law::{Law, LawKind};
 use crate::output_error::controller::Controller;
 use crate::output_error::plant::{Axis, Curve, Wave};
-use crate::output_error::run::Run;
+use crate::output_error::run::{Hold, Run};
 use crate::output_error::simulate::Initial;
 use crate::output_error::unknowns::{Layout, Unknown};
 use crate::separable::search_box::SearchBox;
@@ -26,11 +26,14 @@ pub(crate) struct Scale {
     pub length: f64,
     /// One encoder count where known, else a ten thousandth of the stroke.
     pub count: f64,
+    /// Delay of the middle of a row's force against its instant, without any of its own, s: half a sample ahead where the
+    /// force is held.
+    pub centre: f64,
 }
 
 impl Scale {
     /// `None` where nothing moves, or nothing drives.
-    pub fn of(runs: &[Run], quantum: Option<f64>) -> Option<Self> {
+    pub fn of(runs: &[Run], quantum: Option<f64>, hold: Hold) -> Option<Self> {
         let mut out = Self {
             stroke: 0.0,
             speed: 0.0,
@@ -38,6 +41,7 @@ impl Scale {
             step: f64::INFINITY,
             length: 0.0,
             count: 0.0,
+            centre: 0.0,
         };
         for run in runs {
             let (low, high) = run
@@ -58,6 +62,9 @@ impl Scale {
             .filter(|q| *q > 0.0)
             .unwrap_or(1e-4 * out.stroke)
             .min(0.5 * out.stroke);
+        if hold == Hold::Held {
+            out.centre = -0.5 * out.step;
+        }
         if out.speed == 0.0 {
             out.speed = out.stroke / out.length;
         }
@@ -105,10 +112,31 @@ pub(crate) fn from_estimate(
         exponent: law.exponent,
         mass,
         offset: found.value(Quantity::Offset).unwrap_or(0.0),
+        delay: match terms.delay {
+            Delay::Fitted => found.value(Quantity::Delay).map_or(0.0, |delay| {
+                (delay - scale.centre).clamp(-most_delay(scale), most_delay(scale))
+            }),
+            Delay::Given(delay) => given_delay(delay, scale),
+        },
         waves: waves(layout, |name| found.value(name).unwrap_or(0.0)),
     };
     complete(&mut axis, law, scale);
     Some(axis)
+}
+
+/// Longest delay that is looked for, either way, in samples, as in the fit of the force.
+const MOST_DELAY: f64 = 4.0;
+
+fn most_delay(scale: &Scale) -> f64 {
+    MOST_DELAY * scale.step
+}
+
+/// A given delay beyond what the way says in which the force is held; none leaves it at that.
+fn given_delay(delay: f64, scale: &Scale) -> f64 {
+    match delay == 0.0 {
+        true => 0.0,
+        false => delay - scale.centre,
+    }
 }
 
 /// Axes that such runs could come from: presliding length, time constant, level and damping over the
@@ -155,6 +183,10 @@ pub(crate) fn guesses(law: &Law, terms: &Terms, layout: &Layout, scale: &Scale) 
                         exponent: law.exponent,
                         mass,
                         offset: 0.0,
+                        delay: match terms.delay {
+                            Delay::Fitted => 0.0,
+                            Delay::Given(delay) => given_delay(delay, scale),
+                        },
                         waves: waves(layout, |_| 0.0),
                     };
                     complete(&mut axis, law, scale);
@@ -251,6 +283,7 @@ pub(crate) fn bounds(layout: &Layout, axis: &Axis, scale: &Scale) -> SearchBox {
             Unknown::Excess(_) => (ln(0.02), ln(3.0)),
             Unknown::Velocity(_) => (ln(1e-4 * scale.speed), ln(scale.speed)),
             Unknown::Mass => (start - ln(1e3), start + ln(1e3)),
+            Unknown::Delay => (-most_delay(scale), most_delay(scale)),
             Unknown::Offset | Unknown::Wave(_) => (-10.0 * scale.force, 10.0 * scale.force),
         };
         low.push(a.min(start));

@@ -1,11 +1,12 @@
 //! The simulated axis against the servo crate, its derivatives against finite differences.
 
 use super::controller::{Controller, Memory, Wanted};
+use super::drawn::Drawn;
 use super::plant::{Axis, Curve, State, Wave};
 use super::run::{Hold, Run};
 use super::simulate::{Drive, Initial, simulate, simulate_with_slopes};
 use super::unknowns::Layout;
-use crate::law::terms::{Mass, Terms};
+use crate::law::terms::{Delay, Mass, Terms};
 use crate::law::{Law, LawKind};
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_servo::cascade::{Cascade, CascadeState};
@@ -27,6 +28,7 @@ fn axis() -> Axis {
         exponent: 2.0,
         mass: 10.0,
         offset: 1.5,
+        delay: 0.0,
         waves: Vec::new(),
     }
 }
@@ -187,12 +189,17 @@ fn derivatives_agree_with_differences() {
         ..Terms::default()
     };
     let mut checked = 0;
-    for (controller, hold) in [
-        (None, Hold::Held),
-        (None, Hold::Centred),
-        (Some(&p), Hold::Held),
-        (Some(&pi), Hold::Centred),
+    // Delays inside of a sample; at its ends the derivative jumps.
+    for (controller, hold, delay) in [
+        (None, Hold::Held, Some(0.7e-3)),
+        (None, Hold::Centred, Some(-3.1e-3)),
+        (Some(&p), Hold::Held, None),
+        (Some(&pi), Hold::Centred, None),
     ] {
+        let terms = Terms {
+            delay: delay.map_or(Delay::NONE, |_| Delay::Fitted),
+            ..terms.clone()
+        };
         for law in [
             Law::new(LawKind::LuGre),
             Law::new(LawKind::LuGre).asymmetric(),
@@ -206,6 +213,7 @@ fn derivatives_agree_with_differences() {
             let layout = Layout::new(&law, &terms);
             let mut base = axis();
             base.exponent = law.exponent;
+            base.delay = delay.unwrap_or(0.0);
             base.waves = layout
                 .waves
                 .iter()
@@ -307,4 +315,40 @@ fn what_is_written_is_read_again() {
             assert!((a - b).abs() < 1e-12, "{a} {b}");
         }
     }
+}
+
+/// A force that rises by one a sample, as it acts on the axis.
+#[test]
+fn a_row_acts_where_hold_and_delay_say() {
+    let run = Run {
+        force: (0..20).map(f64::from).collect(),
+        ..run(20, 1, false)
+    };
+    let step = run.step;
+    for substeps in [1, 4] {
+        for delay in [-2.5, -1.0, -0.3, 0.0, 0.6, 1.0, 3.2] {
+            for (hold, half) in [(Hold::Held, 0.0), (Hold::Centred, 0.5)] {
+                let drawn = Drawn::new(&run, hold, delay * step, substeps);
+                let mut mean = 0.0;
+                for j in 0..substeps {
+                    mean += drawn.at(10, j) / substeps as f64;
+                }
+                // Over a sample the rows that act are those between `later` and `later + 1` samples before.
+                assert!(
+                    (mean - (10.0 + half + delay)).abs() < 1e-9,
+                    "{hold:?} {delay} {mean}"
+                );
+                let slopes: f64 = (0..substeps).map(|j| drawn.slope(10, j)).sum();
+                assert!(
+                    (slopes / substeps as f64 * step - 1.0).abs() < 1e-9,
+                    "{slopes}"
+                );
+            }
+        }
+    }
+    // Beyond the ends the end values go on.
+    let early = Drawn::new(&run, Hold::Held, -30.0 * step, 1);
+    assert_eq!(early.at(5, 0), 0.0);
+    let late = Drawn::new(&run, Hold::Held, 30.0 * step, 1);
+    assert_eq!(late.at(5, 0), 19.0);
 }

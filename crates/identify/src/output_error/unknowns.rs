@@ -2,7 +2,7 @@
 //!
 //! What is positive by nature enters as its logarithm, so no step of the search can make it negative.
 
-use crate::law::terms::{Mass, Terms};
+use crate::law::terms::{Delay, Mass, Terms};
 use crate::law::{Law, LawKind};
 use crate::output_error::plant::{Axis, Wave};
 use std::f64::consts::TAU;
@@ -27,6 +27,8 @@ pub(crate) enum Unknown {
     Mass,
     /// Constant force.
     Offset,
+    /// Delay of the logged force, s.
+    Delay,
     /// Factor of a sine or cosine of the position, by its place.
     Wave(usize),
 }
@@ -61,6 +63,9 @@ impl Layout {
         }
         if terms.offset {
             unknowns.push(Unknown::Offset);
+        }
+        if terms.delay == Delay::Fitted {
+            unknowns.push(Unknown::Delay);
         }
         let mut waves = Vec::new();
         if terms.gravity {
@@ -102,6 +107,7 @@ impl Layout {
                 Unknown::Velocity(side) => ln(axis.sides[side.index()].velocity),
                 Unknown::Mass => ln(axis.mass),
                 Unknown::Offset => axis.offset,
+                Unknown::Delay => axis.delay,
                 Unknown::Wave(i) => axis.waves.get(i).map_or(0.0, |w| w.factor),
             })
             .collect()
@@ -134,6 +140,7 @@ impl Layout {
                 }
                 Unknown::Mass => axis.mass = libm::exp(x),
                 Unknown::Offset => axis.offset = x,
+                Unknown::Delay => axis.delay = x,
                 Unknown::Wave(i) => {
                     if let Some(wave) = axis.waves.get_mut(i) {
                         wave.factor = x;

@@ -9,6 +9,10 @@ use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_identify::{Delay, Status};
 
+/// What is said of a delay at the end of its range.
+pub(super) const DELAY_OUT_OF_RANGE: &str = "the delay between force and motion would be more than four samples, which is \
+     something else that the law does not explain; it is taken as none";
+
 /// Says what happened on the way, then judges the law.
 pub(super) fn judge(
     asked: Asked,
@@ -19,9 +23,7 @@ pub(super) fn judge(
     let law = &fitted.choice.estimate;
     let mut warnings = log_warnings(&loaded.sources);
     if asked.axis.terms.delay == Delay::Fitted && law.terms.delay == Delay::NONE {
-        let text = "the delay between force and motion would be more than four samples, which is \
-                    something else that the law does not explain; it is taken as none";
-        warnings.push(Warning::new(Code::DelayOutOfRange, text));
+        warnings.push(Warning::new(Code::DelayOutOfRange, DELAY_OUT_OF_RANGE));
     }
     if let Some(error) = &fitted.not_kept {
         let text = format!("the state of the search could not be kept: {error}");

@@ -11,7 +11,9 @@ use crate::entries;
 use crate::error::Error;
 use crate::source::Source;
 use crate::wording::Setting;
+use stiction_codes::Code;
 use stiction_files::Axis;
+use stiction_files::Warning;
 use stiction_files::result::{ShortHorizonEntry, SimulationEntry, ValidationEntry};
 use stiction_files::symbols;
 use stiction_identify as engine;
@@ -64,11 +66,7 @@ pub(super) fn run(
             "offset, gravity and cogging beside the law",
         ));
     }
-    // When the force acts on the axis is stated in `[simulation]`.
-    let terms = Terms {
-        delay: Delay::NONE,
-        ..stated.clone()
-    };
+    let terms = stated.clone();
     let controller = axis.controller_for(first)?;
     let law = Law {
         kind,
@@ -131,7 +129,17 @@ pub(super) fn run(
         laws: &[],
         motion,
     };
-    let judged = trust::of_position(&evidence, &found, &unseen, log_warnings(sources));
+    let mut warnings = log_warnings(sources);
+    if terms.delay == Delay::Fitted
+        && found.fitted.terms.delay == Delay::NONE
+        && !found.is_closed_loop()
+    {
+        warnings.push(Warning::new(
+            Code::DelayOutOfRange,
+            super::judge::DELAY_OUT_OF_RANGE,
+        ));
+    }
+    let judged = trust::of_position(&evidence, &found, &unseen, warnings);
     let started = if start.is_some() { "separable" } else { "runs" };
     let mut result = assemble::result(Parts {
         asked,
@@ -280,13 +288,14 @@ fn notes(found: &SimulationFit, axis: &Axis, started: &str) -> Vec<String> {
         false => "open loop: the logged force drives the simulated axis; the position is fitted"
             .to_string(),
     }];
-    out.push(
-        match axis.hold {
-            Hold::Held => "the force of a sample holds until the next",
-            Hold::Centred => "the force of a sample is the mean around its instant",
-        }
-        .to_string(),
-    );
+    let acts = match axis.hold {
+        Hold::Held => "the force of a sample holds until the next",
+        Hold::Centred => "the force of a sample is the mean around its instant",
+    };
+    out.push(match found.fitted.terms.delay {
+        Delay::Fitted => format!("{acts}; a further delay of the force is fitted"),
+        _ => acts.to_string(),
+    });
     let starts = if found.is_closed_loop() {
         "position, velocity, bristle deflection and any integral of the controller"
     } else {

@@ -1,0 +1,92 @@
+//! The logged force as it acts on the axis in open loop, however it is shifted in time.
+
+use crate::output_error::run::{Hold, Run};
+
+/// Distance to a whole sample below which an instant counts as one, in samples.
+const ROUNDING: f64 = 1e-9;
+
+/// The force of each row, constant for one sample: from its instant on where it is held, about its instant where it is
+/// centred, earlier by the delay. A plant step gets its mean over the step.
+pub(crate) struct Drawn<'a> {
+    force: &'a [f64],
+    steps: Vec<Place>,
+    /// Plant steps in one second.
+    rate: f64,
+}
+
+/// Where the plant steps of a sample read, relative to the sample.
+#[derive(Clone, Copy)]
+struct Place {
+    /// The row at the beginning of the step.
+    row: isize,
+    /// Part of the step that it covers; the next row covers the rest.
+    share: f64,
+    /// The rows on both sides of the beginning and of the end of the step, equal inside of a row.
+    begins: [isize; 2],
+    ends: [isize; 2],
+}
+
+impl<'a> Drawn<'a> {
+    pub fn new(run: &'a Run, hold: Hold, delay: f64, substeps: usize) -> Self {
+        let n = substeps as f64;
+        let later = match hold {
+            Hold::Held => 0.0,
+            Hold::Centred => -0.5,
+        } - delay / run.step;
+        let place = |j: usize| {
+            let (begin, is_whole) = snapped(j as f64 / n - later);
+            let (end, ends_whole) = snapped((j + 1) as f64 / n - later);
+            let row = begin.floor();
+            let sides = |at: f64, whole: bool| {
+                let row = at.floor() as isize;
+                [row - isize::from(whole), row]
+            };
+            Place {
+                row: row as isize,
+                share: ((row + 1.0 - begin) * n).min(1.0),
+                begins: sides(begin, is_whole),
+                ends: sides(end, ends_whole),
+            }
+        };
+        Self {
+            force: &run.force,
+            steps: (0..substeps).map(place).collect(),
+            rate: n / run.step,
+        }
+    }
+
+    /// The row that is `by` after row `k`; the first and the last go on beyond the ends.
+    #[inline]
+    fn row(&self, k: usize, by: isize) -> f64 {
+        let last = self.force.len() - 1;
+        self.force[k.saturating_add_signed(by).min(last)]
+    }
+
+    /// The mean force over plant step `j` after sample `k`.
+    #[inline]
+    pub fn at(&self, k: usize, j: usize) -> f64 {
+        let place = &self.steps[j];
+        let here = self.row(k, place.row);
+        if place.share == 1.0 {
+            return here;
+        }
+        place.share * here + (1.0 - place.share) * self.row(k, place.row + 1)
+    }
+
+    /// Its derivative with respect to the delay, per second; in the middle of both sides where it jumps.
+    #[inline]
+    pub fn slope(&self, k: usize, j: usize) -> f64 {
+        let place = &self.steps[j];
+        let mean = |[a, b]: [isize; 2]| 0.5 * (self.row(k, a) + self.row(k, b));
+        self.rate * (mean(place.ends) - mean(place.begins))
+    }
+}
+
+/// An instant in samples, exactly whole where it is nearly so.
+fn snapped(x: f64) -> (f64, bool) {
+    let whole = libm::round(x);
+    match (x - whole).abs() < ROUNDING {
+        true => (whole, true),
+        false => (x, false),
+    }
+}
