@@ -125,8 +125,8 @@ pub struct Identify {
     /// What is known of the axis and its columns.
     #[arg(long, value_name = "AXIS.toml")]
     pub axis: Option<PathBuf>,
-    /// Friction law.
-    #[arg(long, value_enum, default_value_t = Law::Lugre)]
+    /// Friction law; methods other than separable take lugre for auto.
+    #[arg(long, value_enum, default_value_t = Law::Auto)]
     pub law: Law,
     /// Parameters of its own for each direction of motion.
     #[arg(long)]
@@ -165,7 +165,7 @@ pub struct Identify {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Law {
-    /// Every law, symmetric and asymmetric; the one that holds on unseen samples is taken.
+    /// Of the laws that can be exported, symmetric and asymmetric, the one that predicts unseen samples best.
     Auto,
     /// Coulomb and viscous friction, no memory.
     CoulombViscous,

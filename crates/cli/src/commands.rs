@@ -277,7 +277,8 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
         output::json(&outcome.result)?;
     } else if !common.quiet {
         let text = stiction::commands::text::outcome(outcome);
-        output::print(&format!("{text}\n{}", written_to(dir, &written)))?;
+        let next = stiction::commands::text::next(&outcome.result, dir);
+        output::print(&format!("{text}\n{}{next}", written_to(dir, &written)))?;
     }
     // An interrupt may also have come while laws were compared, after the search had converged.
     if interrupt::asked() {

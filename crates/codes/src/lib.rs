@@ -118,7 +118,7 @@ codes! {
     NotInStudy = "not-in-study": "the model has terms that a study does not simulate",
     NotRun = "not-run": "a combination of a study could not be run",
     NotExported = "not-exported": "the target cannot express the model",
-    ExportUntrusted = "export-untrusted": "the compensator uses parameters that the identification flagged as untrustworthy",
+    ExportUntrusted = "export-untrusted": "the identification found that the law should not be used to compensate",
     ExportDamping = "export-damping": "micro-damping is limited so that the compensator releases no energy",
     ExportCycleTime = "export-cycle-time": "the cycle time is too long to resolve a reversal",
     ExportLimit = "export-limit": "the force limit is below the friction to compensate, or reached at speed",

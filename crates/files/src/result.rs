@@ -2,6 +2,7 @@
 
 mod procedure;
 mod searched;
+mod trust;
 
 use crate::error::Warning;
 pub use procedure::{
@@ -10,6 +11,7 @@ pub use procedure::{
 };
 pub use searched::{Evaluations, SearchedEntry, SearchedParameter, SearchedPoint};
 use serde::{Deserialize, Serialize};
+pub use trust::{Compensation, Next, Trust};
 
 /// Name of the schema.
 pub const SCHEMA: &str = "stiction.result/1";
@@ -31,12 +33,15 @@ pub struct ResultFile {
     pub law: String,
     /// Whether each direction has parameters of its own.
     pub asymmetric: bool,
+    /// What of the law is held at nothing: `stribeck` (`Fs = Fc`), `sigma1`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub without: Vec<String>,
     /// Who chose the law: `user`, or by what the data did: `cross-validation`, `validation`, `bic`.
     #[serde(default = "by_user")]
     pub law_chosen_by: String,
     /// Search method.
     pub method: String,
-    /// Whether the numbers may be used, and if not, why.
+    /// What the law may be used for, and what to do next.
     pub trust: Trust,
     /// Parameters of the law.
     pub parameters: Vec<ParameterEntry>,
@@ -90,6 +95,9 @@ fn by_user() -> String {
 pub struct ResolvedAxis {
     /// Name of the axis.
     pub name: Option<String>,
+    /// The axis file; absent where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
     /// `linear` or `rotary`.
     pub kind: String,
     /// Unit of the force channel after scaling.
@@ -115,15 +123,6 @@ pub struct Input {
     pub rate_hz: f64,
     /// What was detected.
     pub detected: Vec<String>,
-}
-
-/// Whether the result may be used.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Trust {
-    /// False makes exit code 1.
-    pub trustworthy: bool,
-    /// Why not; empty if it is.
-    pub reasons: Vec<String>,
 }
 
 /// One parameter.
@@ -295,6 +294,12 @@ pub struct LawEntry {
     pub law: String,
     /// Whether each direction has parameters of its own.
     pub asymmetric: bool,
+    /// What of the law is held at nothing, as in [`ResultFile::without`].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub without: Vec<String>,
+    /// Whether a constant force is fitted beside it.
+    #[serde(default)]
+    pub offset: bool,
     /// Elements of a Maxwell-slip law; absent for other laws.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elements: Option<usize>,
@@ -318,12 +323,19 @@ pub struct LawEntry {
     /// Bayesian criterion (Schwarz) above the least of all laws.
     #[serde(default)]
     pub bic_difference: Option<f64>,
-    /// Whether the log determines its Coulomb level; without that no law is trusted.
+    /// Whether the log determines its Coulomb level.
     #[serde(default)]
     pub determined: bool,
+    /// Why a compensator should not rely on it although it may hold well, such as a parameter at the end of its search
+    /// range; `null` where it may.
+    #[serde(default)]
+    pub held_back: Option<String>,
     /// Whether this is the simplest law whose held-out error is within its noise, or 1 %, of the
     /// least.
     pub best: bool,
+    /// Whether it is the law of the result.
+    #[serde(default)]
+    pub reported: bool,
 }
 
 /// One number of elements of a Maxwell-slip law.

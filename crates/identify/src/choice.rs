@@ -6,8 +6,11 @@ use stiction_signal::effective_sample_size;
 
 /// A law counts as equal to the best while its held-out error is above the least by no more than this
 /// many standard errors of the difference (the one-standard-error rule of Breiman, Friedman, Olshen
-/// and Stone 1984, section 3.4.3), or is within [`EQUAL_ERROR_RATIO`] of it.
+/// and Stone 1984, section 3.4.3), or is within [`EQUAL_ERROR_RATIO`] of it, and never above [`NEVER_EQUAL_RATIO`].
 const EQUAL_STANDARD_ERRORS: f64 = 1.0;
+/// Ratio of two held-out errors above which the laws are never equal, however uncertain that ratio is: who compensates
+/// with the simpler law would leave a tenth more.
+const NEVER_EQUAL_RATIO: f64 = 1.1;
 
 /// How a law compares with the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,17 +76,15 @@ pub fn choose(scores: &[LawScore]) -> Vec<Standing> {
 
 /// The law with the fewest parameters among those as good as the best.
 fn simplest(scores: &[LawScore], excess: &[Option<(f64, f64)>]) -> Option<usize> {
+    let [least, most] = [EQUAL_ERROR_RATIO, NEVER_EQUAL_RATIO].map(libm::log);
     scores
         .iter()
         .zip(excess)
         .enumerate()
         .filter_map(|(i, (s, e))| {
             let (ratio, std) = (*e)?;
-            (ratio <= (EQUAL_STANDARD_ERRORS * std).max(libm::log(EQUAL_ERROR_RATIO))).then_some((
-                i,
-                s.parameters,
-                ratio,
-            ))
+            let equal = (EQUAL_STANDARD_ERRORS * std).clamp(least, most);
+            (ratio <= equal).then_some((i, s.parameters, ratio))
         })
         .min_by(|a, b| a.1.cmp(&b.1).then(a.2.total_cmp(&b.2)))
         .map(|(i, ..)| i)

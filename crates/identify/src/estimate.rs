@@ -117,13 +117,20 @@ pub fn estimate(
         .enumerate()
         .map(|(i, p)| optimal::fitted(p, matrix[(i, i)], None, optimum, levels[i]))
         .collect();
-    if law.kind.has_stribeck() && !law.exponent_fitted {
+    if law.has_stribeck() && !law.exponent_fitted {
         let at = parameters
             .iter()
             .rposition(|p| p.name.quantity == Quantity::StribeckVelocity)
             .map_or(parameters.len(), |i| i + 1);
         let given = Parameter::given(Quantity::StribeckExponent, law.exponent);
         parameters.insert(at, given);
+    }
+    if law.undamped {
+        let at = parameters
+            .iter()
+            .position(|p| p.name.quantity.place() > Quantity::Sigma1.place())
+            .unwrap_or(parameters.len());
+        parameters.insert(at, Parameter::given(Quantity::Sigma1, 0.0));
     }
     if let Mass::Given(mass) = terms.mass {
         let at = parameters

@@ -21,6 +21,10 @@ pub struct Law {
     /// Whether the exponent is one more unknown, common to both directions; `exponent` is not used
     /// then.
     pub exponent_fitted: bool,
+    /// Whether static friction is held at Coulomb friction, so that LuGre has no Stribeck curve.
+    pub flat: bool,
+    /// Whether the micro-damping of LuGre is held at zero.
+    pub undamped: bool,
 }
 
 impl Law {
@@ -32,6 +36,8 @@ impl Law {
             exponent: 2.0,
             elements: 0,
             exponent_fitted: false,
+            flat: false,
+            undamped: false,
         }
     }
 
@@ -47,6 +53,30 @@ impl Law {
     pub fn with_fitted_exponent(mut self) -> Self {
         self.exponent_fitted = true;
         self
+    }
+
+    /// LuGre with static friction held at Coulomb friction (`Fs = Fc`); another law is as it was.
+    #[must_use]
+    pub fn flat(mut self) -> Self {
+        self.flat = self.kind == LawKind::LuGre;
+        self
+    }
+
+    /// LuGre without micro-damping (`sigma1 = 0`); another law is as it was.
+    #[must_use]
+    pub fn undamped(mut self) -> Self {
+        self.undamped = self.kind == LawKind::LuGre;
+        self
+    }
+
+    /// Whether its friction level falls with speed.
+    pub fn has_stribeck(&self) -> bool {
+        self.kind.has_stribeck() && !self.flat
+    }
+
+    /// Whether its bristle has a micro-damping.
+    pub fn has_micro_damping(&self) -> bool {
+        self.kind.has_micro_damping() && !self.undamped
     }
 
     /// Number of nonlinear unknowns.
@@ -97,7 +127,7 @@ impl Law {
         };
         let elements = self.kind.has_elements();
         let bristle = self.kind.has_bristle() && !elements;
-        let curve = self.kind.has_stribeck();
+        let curve = self.has_stribeck();
         // Coulomb + viscous stays linear in both directions: one sign column each.
         let two = self.asymmetric && self.kind != LawKind::CoulombViscous;
         let kappa = next(bristle);

@@ -21,5 +21,7 @@
 mod deviation;
 pub mod glossary;
 mod names;
+mod next;
 pub mod report;
 pub mod text;
+mod trust;

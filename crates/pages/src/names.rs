@@ -1,14 +1,43 @@
 //! Names and sentences that reports and the terminal share.
 
-use stiction_files::result::{LawEntry, SimulationEntry};
+use stiction_files::result::{LawEntry, ResultFile, SimulationEntry};
 use stiction_number::four_digits;
 
 /// Ratio of two errors from which the larger one is called worse, dimensionless: tables show three digits.
 const WORSE: f64 = 1.001;
 
-/// A law by its name in files, as it stands in a heading.
-pub(crate) fn law_name(law: &str, asymmetric: bool) -> String {
-    let name = match law {
+/// The law of a result, as it stands in a heading.
+pub(crate) fn law_of(result: &ResultFile) -> String {
+    named(&result.law, result.asymmetric, &result.without)
+}
+
+/// A law of a comparison, with a constant force named where that is not usual.
+pub(crate) fn law_beside(entry: &LawEntry) -> String {
+    let name = named(&entry.law, entry.asymmetric, &entry.without);
+    match entry.asymmetric && entry.offset {
+        true => format!("{name}, with offset"),
+        false => name,
+    }
+}
+
+fn named(law: &str, asymmetric: bool, without: &[String]) -> String {
+    let mut name = family(law).to_string();
+    for held in without {
+        name.push_str(match held.as_str() {
+            "stribeck" => " with Fs = Fc",
+            "sigma1" => " with σ₁ = 0",
+            _ => "",
+        });
+    }
+    if asymmetric {
+        name.push_str(", asymmetric");
+    }
+    name
+}
+
+/// A family by its name in files.
+fn family(law: &str) -> &str {
+    match law {
         "coulomb-viscous" => "Coulomb + viscous",
         "stribeck" => "Stribeck",
         "dahl" => "Dahl",
@@ -17,11 +46,6 @@ pub(crate) fn law_name(law: &str, asymmetric: bool) -> String {
         "maxwell-slip" => "Maxwell slip",
         "gms" => "Generalised Maxwell slip",
         other => other,
-    };
-    if asymmetric {
-        format!("{name}, asymmetric")
-    } else {
-        name.to_string()
     }
 }
 
@@ -39,18 +63,19 @@ pub(crate) fn chosen_by(who: &str) -> &'static str {
 pub(crate) fn without_offset(laws: &[LawEntry]) -> Option<String> {
     let symmetric = |own: &LawEntry| {
         let mut others = laws.iter();
-        others.find(|l| l.law == own.law && !l.asymmetric)
+        others.find(|l| l.law == own.law && !l.asymmetric && l.without == own.without)
     };
     let worse = laws.iter().find(|own| {
         own.asymmetric
+            && !own.offset
             && symmetric(own)
                 .is_some_and(|s| own.fitted_error_percent > WORSE * s.fitted_error_percent)
     })?;
     Some(format!(
         "{} fits worse than {}: with levels of its own for each direction, no constant force (offset) is fitted \
          beside it unless the axis file asks for one ([terms] offset = true).",
-        law_name(&worse.law, true),
-        law_name(&worse.law, false)
+        law_beside(worse),
+        named(&worse.law, false, &worse.without)
     ))
 }
 
@@ -85,6 +110,8 @@ mod tests {
         LawEntry {
             law: "lugre".into(),
             asymmetric,
+            without: Vec::new(),
+            offset: !asymmetric,
             elements: None,
             parameters: 9,
             fitted_error_percent: error,
@@ -95,7 +122,9 @@ mod tests {
             aic_difference: None,
             bic_difference: None,
             determined: true,
+            held_back: None,
             best: false,
+            reported: false,
         }
     }
 

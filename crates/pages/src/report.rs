@@ -15,8 +15,12 @@ pub(crate) mod study;
 mod tables;
 
 use crate::glossary::explained;
-use crate::names::{chosen_by, law_name, without_offset};
+use crate::names::{chosen_by, law_of, without_offset};
+use crate::next;
+use crate::trust::{compensation, constants};
+use std::path::Path;
 use stiction_files::compare_file::CompareFile;
+use stiction_files::result::ResultFile;
 use stiction_number::Percent;
 use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
 use stiction_workflows::identify::Outcome;
@@ -52,7 +56,7 @@ fn sections(outcome: &Outcome) -> Document {
             .first()
             .map_or_else(String::new, |i| file_name(&i.path))
     });
-    let law = law_name(&result.law, result.asymmetric);
+    let law = law_of(result);
     let mut document = Document::new(format!("Friction of {name}"))
         .subtitle(format!(
             "{law}{}, identified from {}",
@@ -63,7 +67,10 @@ fn sections(outcome: &Outcome) -> Document {
             "stiction {} · method {} · seed {} · {} evaluations",
             result.version, result.method, result.seed, result.search.evaluations
         ));
-    document = document.block(verdict(outcome));
+    for callout in verdicts(outcome) {
+        document = document.block(callout);
+    }
+    document = document.paragraph(next_step(result));
     document = document.block(Block::KeyFigures(key_figures(outcome)));
     document = document
         .heading(2, "Parameters")
@@ -175,41 +182,54 @@ fn how_sure(document: Document, outcome: &Outcome) -> Document {
         .block(figures::correlation(outcome))
 }
 
-fn verdict(outcome: &Outcome) -> Callout {
-    let trust = &outcome.result.trust;
-    let flagged = outcome
-        .result
-        .parameters
-        .iter()
-        .filter(|p| !p.identifiable)
-        .count();
-    let (severity, text) = if !trust.trustworthy {
-        (
-            Severity::Error,
-            format!("Do not use these numbers: {}.", trust.reasons.join("; ")),
-        )
-    } else if flagged > 0 {
-        let what = if flagged == 1 {
-            "1 parameter is"
-        } else {
-            &format!("{flagged} parameters are")
-        };
-        (
-            Severity::Warning,
-            format!("The fit holds, but {what} not determined by this log; see the flags below."),
-        )
-    } else {
-        (
+/// What the result may be used for: to compensate, and as constants of the machine.
+fn verdicts(outcome: &Outcome) -> [Callout; 2] {
+    let result = &outcome.result;
+    let trust = &result.trust;
+    let seen = trust.compensation.as_ref().map(|seen| {
+        let seen = compensation(seen, result);
+        format!(" The law {seen}.")
+    });
+    let seen = seen.unwrap_or_default();
+    let (use_it, text) = match trust.trustworthy {
+        true => (
             Severity::Good,
-            "Every parameter is determined by this log.".to_string(),
-        )
+            format!("May be used to compensate friction on motion like that of the logs.{seen}"),
+        ),
+        false => (
+            Severity::Error,
+            format!(
+                "Do not compensate with this law: {}.{seen}",
+                trust.reasons.join("; ")
+            ),
+        ),
     };
-    Callout {
+    let known = match (trust.constants.is_empty(), trust.open.is_empty()) {
+        (_, true) => Severity::Good,
+        _ => Severity::Warning,
+    };
+    let callout = |severity, text: &str| Callout {
         severity,
         code: String::new(),
-        text: Text::of_message(&text),
+        text: Text::of_message(text),
         link: String::new(),
-    }
+    };
+    [
+        callout(use_it, &text),
+        callout(
+            known,
+            &format!("Constants of the machine: {}.", constants(trust)),
+        ),
+    ]
+}
+
+/// The command that leads on.
+fn next_step(result: &ResultFile) -> Text {
+    Text::from(format!(
+        "Next: {}. DIR is the folder of this report: ",
+        next::why(result.trust.next)
+    ))
+    .code(next::command(result, Path::new("DIR")))
 }
 
 fn key_figures(outcome: &Outcome) -> Vec<KeyFigure> {

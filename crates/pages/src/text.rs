@@ -8,13 +8,16 @@ mod study;
 mod table;
 
 use crate::deviation::Deviation;
-use crate::names::{chosen_by, force_noise, law_name, simulated_runs, without_offset};
+use crate::names::{chosen_by, force_noise, law_beside, law_of, simulated_runs, without_offset};
+use crate::next;
+use crate::trust::{compensation, constants};
 pub use comparison::comparison;
 pub use export::exported;
 pub use procedure::procedure_commands;
 pub use reproduction::reproduction;
 use std::fmt::Write;
-use stiction_files::result::{LawEntry, SearchedEntry, SearchedPoint, SimulationEntry};
+use std::path::Path;
+use stiction_files::result::{LawEntry, ResultFile, SearchedEntry, SearchedPoint, SimulationEntry};
 use stiction_files::symbols;
 use stiction_number::{Percent, four_digits as short, r_squared, unit};
 use stiction_workflows::check::{Check, LogCheck};
@@ -55,7 +58,7 @@ pub fn outcome(outcome: &Outcome) -> String {
     let _ = writeln!(
         out,
         "\n{}{}",
-        law_name(&result.law, result.asymmetric),
+        law_of(result),
         chosen_by(&result.law_chosen_by)
     );
     let mut rows = vec![
@@ -161,14 +164,33 @@ pub fn outcome(outcome: &Outcome) -> String {
     for warning in &result.warnings {
         let _ = writeln!(out, "\nwarning [{}] {}", warning.code, warning.message);
     }
-    if !result.trust.trustworthy {
-        let _ = writeln!(
-            out,
-            "\nNOT TRUSTWORTHY: {}",
-            result.trust.reasons.join("; ")
-        );
-    }
+    out.push_str(&verdicts(result));
     out
+}
+
+/// What the result may be used for, as compensation and as constants.
+fn verdicts(result: &ResultFile) -> String {
+    let trust = &result.trust;
+    let mut out = String::new();
+    let use_it = match trust.trustworthy {
+        true => "yes".to_string(),
+        false => format!("NO: {}", trust.reasons.join("; ")),
+    };
+    let _ = writeln!(out, "\nfor compensation  {use_it}");
+    if let Some(seen) = &trust.compensation {
+        let _ = writeln!(out, "                  {}", compensation(seen, result));
+    }
+    let _ = writeln!(out, "as constants      {}", constants(trust));
+    out
+}
+
+/// What to do next with the result in a folder.
+pub fn next(result: &ResultFile, dir: &Path) -> String {
+    format!(
+        "next: {}\n  {}\n",
+        next::why(result.trust.next),
+        next::command(result, dir)
+    )
 }
 
 /// What was simulated, and how far off its force and the encoder's steps are.
@@ -281,17 +303,14 @@ fn laws(outcome: &Outcome) -> String {
     let above = |x: Option<f64>| x.map_or("-".into(), |x| format!("+{x:.0}"));
     for l in &outcome.result.laws {
         rows.push(vec![
-            law_name(&l.law, l.asymmetric),
+            law_beside(l),
             l.parameters.to_string(),
             percent(Some(l.fitted_error_percent)),
             percent(l.held_out_error_percent),
             percent(l.held_out_low_speed_error_percent),
             above(l.aic_difference),
             above(l.bic_difference),
-            remark(
-                l,
-                l.law == outcome.result.law && l.asymmetric == outcome.result.asymmetric,
-            ),
+            remark(l),
         ]);
     }
     let table = table(&rows, &[false, true, true, true, true, true, true, false]);
@@ -319,14 +338,17 @@ fn elements(outcome: &Outcome) -> String {
     table(&rows, &[true, true, true, false])
 }
 
-fn remark(law: &LawEntry, reported: bool) -> String {
-    let best = match (law.best, law.determined) {
-        (true, true) => "best",
-        (true, false) => "best, but not determined by this log",
-        (false, _) if reported => "reported",
-        (false, _) => "",
-    };
-    best.into()
+fn remark(law: &LawEntry) -> String {
+    match (&law.held_back, law.best, law.reported) {
+        (None, true, true) => "best".into(),
+        (None, true, false) => "best, not reported".into(),
+        (None, false, true) => "reported".into(),
+        (None, false, false) => String::new(),
+        (Some(why), true, true) => format!("best, but {why}"),
+        (Some(why), true, false) => format!("best, not taken: {why}"),
+        (Some(why), false, true) => format!("reported, but {why}"),
+        (Some(_), false, false) => String::new(),
+    }
 }
 
 /// The outcome of a check.

@@ -18,6 +18,11 @@ const GAUSSIAN: f64 = 2.0;
 /// Stribeck velocity of a flat curve, m/s (rad/s): any will do.
 const ANY_VELOCITY: f64 = 1.0;
 
+/// The two numbers of a level that falls with speed.
+fn of_the_fall(quantity: Quantity) -> bool {
+    matches!(quantity, Quantity::Static | Quantity::StribeckVelocity)
+}
+
 impl ParameterSet {
     /// No values yet.
     pub fn new(kind: LawKind) -> Self {
@@ -91,18 +96,24 @@ impl ParameterSet {
             .any(|(name, _)| name.side != Side::Both && name.quantity.is_of_the_steady_curve())
     }
 
-    /// The first parameter without a value, in any direction, that the law cannot do without.
+    /// The first parameter without a value, in any direction, that the law cannot do without. LuGre does without
+    /// `static` and `stribeck_velocity` where it has neither: then `Fs = Fc`.
     pub fn missing(&self) -> Option<Quantity> {
         let has = |quantity| {
             self.values
                 .iter()
                 .any(|(name, _)| name.quantity == quantity)
         };
-        self.kind.needs().find(|quantity| !has(*quantity))
+        let flat = !self.falls();
+        self.kind
+            .needs()
+            .filter(|quantity| !(flat && of_the_fall(*quantity)))
+            .find(|quantity| !has(*quantity))
     }
 
     /// The law, with a constant sigma1 as identification finds it; [`FrictionLaw::capped`] is the form for simulation and
-    /// control. The offset, if there is one, is in the law; a curve without an exponent is Gaussian.
+    /// control. The offset, if there is one, is in the law; a curve without an exponent is Gaussian, and that of LuGre
+    /// without `static` and `stribeck_velocity` is flat.
     ///
     /// # Errors
     /// For a parameter of the law without a value, and a value that the law cannot have.
@@ -171,11 +182,18 @@ impl ParameterSet {
         })
     }
 
+    /// Whether the level falls with speed; that of LuGre does not where neither number of its curve is given.
+    fn falls(&self) -> bool {
+        let mut given = self.values.iter().map(|(name, _)| name.quantity);
+        let flat = self.kind == LawKind::LuGre && !given.any(of_the_fall);
+        self.kind.has_stribeck() && !flat
+    }
+
     /// The steady curve; flat for a law without a Stribeck effect.
     fn curve(&self) -> Result<Stribeck<f64>, LawError> {
         let side = |side| {
             let coulomb = self.need_on(Quantity::Coulomb, side)?;
-            let falls = self.kind.has_stribeck();
+            let falls = self.falls();
             Ok::<_, LawError>(Direction {
                 coulomb,
                 static_friction: if falls {

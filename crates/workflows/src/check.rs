@@ -9,7 +9,7 @@ use std::time::Instant;
 use stiction_codes::Code;
 use stiction_files::axis::{Axis, template};
 use stiction_files::result::Input;
-use stiction_identify::Observer;
+use stiction_identify::{LawKind, Observer};
 use stiction_log::{Mapping, Severity};
 use stiction_number::four_digits as short;
 
@@ -121,6 +121,7 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
         refused: None,
     };
     let options = Options {
+        law: Some(LawKind::LuGre),
         compare_laws: false,
         ..Options::default()
     };

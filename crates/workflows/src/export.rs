@@ -69,7 +69,7 @@ pub struct Exported {
     pub files: Vec<File>,
     /// What to know before it runs.
     pub warnings: Vec<Warning>,
-    /// Whether the identification flagged the result as trustworthy and determined every parameter of the law.
+    /// Whether the identification found that the law may be used to compensate.
     pub trustworthy: bool,
 }
 
@@ -188,7 +188,7 @@ fn code(read: &ReadModel, options: &ExportOptions) -> Result<Exported, Error> {
         force_unit: model.force_unit,
         written: files.iter().map(|f| f.path.clone()).collect(),
         files,
-        trustworthy: !warnings.iter().any(|w| w.code == Code::ExportUntrusted),
+        trustworthy: read.model.trustworthy,
         warnings,
     })
 }
@@ -303,7 +303,7 @@ fn place(source: stiction_export::Error, read: &ReadModel, options: &ExportOptio
     }
 }
 
-/// What is not trustworthy or not determined, and what the code leaves out.
+/// What should not be used, what the log leaves open, and what the code leaves out.
 fn doubts(file: &ModelFile) -> Vec<Warning> {
     let mut found = Vec::new();
     if !file.trustworthy {
@@ -320,9 +320,10 @@ fn doubts(file: &ModelFile) -> Vec<Warning> {
     let loose = names(&|p| !p.identifiable && p.origin != "given" && !beside(&p.name));
     if !loose.is_empty() {
         found.push(Warning::new(
-            Code::ExportUntrusted,
+            Code::NotIdentifiable,
             format!(
-                "the data do not determine {}; the compensation relies on guesses there",
+                "the log leaves {} open: the law predicts friction on motion like that of the log, and may be wrong on \
+                 any other",
                 loose.join(", ")
             ),
         ));

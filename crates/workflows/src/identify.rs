@@ -7,6 +7,7 @@
 mod assemble;
 mod beside;
 mod choice;
+mod compensation;
 mod condition;
 mod conditioning;
 mod fit;
@@ -23,6 +24,7 @@ mod run;
 mod searched;
 mod simulate;
 mod trust;
+mod unfit;
 
 pub(crate) use condition::record_of;
 pub(crate) use load::Asked;

@@ -266,10 +266,6 @@ fn limits_of_a_search_belong_to_a_search() {
             "--method de --time NaN",
             "--time NaN; a finite number above 0",
         ),
-        (
-            "--method de --law auto",
-            "--law auto together with --method de; one law",
-        ),
     ] {
         let options = options.replace("--target -", "--target=-");
         let (code, _, err) = bench.run(&format!("identify log.csv --out x {options}"));

@@ -28,7 +28,9 @@ impl Axis {
     /// With file, line, column and key, what was found and what is allowed.
     pub fn read(file: impl AsRef<Path>) -> Result<Self, Error> {
         let file = file.as_ref();
-        resolve(&crate::config::read(file, "an axis file")?, file)
+        let mut axis = resolve(&crate::config::read(file, "an axis file")?, file)?;
+        axis.read_from = Some(file.into());
+        Ok(axis)
     }
 
     /// Checks the text of an axis file.

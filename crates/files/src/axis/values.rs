@@ -4,7 +4,7 @@ use super::gain::ControllerValues;
 use super::tied::Tied;
 use crate::config::Places;
 use crate::error::Error;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 use stiction_identify::{Conditioning, Delay, Dependence, Hold, Terms};
 use stiction_log::text::TextOptions;
@@ -43,6 +43,8 @@ pub struct Axis {
     /// Values whose unit fits one kind of axis only, checked when the log says which it is.
     pub(super) tied: Vec<Tied>,
     pub(super) file: PathBuf,
+    /// The file that it was read from.
+    pub(super) read_from: Option<PathBuf>,
     /// Where each key stands.
     pub(super) places: Places,
 }
@@ -68,6 +70,7 @@ impl Default for Axis {
             offset: None,
             tied: Vec::new(),
             file: PathBuf::new(),
+            read_from: None,
             places: Places::default(),
         }
     }
@@ -98,6 +101,16 @@ impl Axis {
         let mut terms = self.terms.clone();
         terms.offset = self.offset.unwrap_or(!asymmetric);
         Ok(terms)
+    }
+
+    /// The file that it was read from.
+    pub fn file(&self) -> Option<&Path> {
+        self.read_from.as_deref()
+    }
+
+    /// Whether nothing is said of a constant force beside the law.
+    pub fn leaves_offset_open(&self) -> bool {
+        self.offset.is_none()
     }
 
     /// Refuses a pitch that the encoder cannot show.

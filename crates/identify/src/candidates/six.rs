@@ -80,7 +80,11 @@ impl SixParameters {
         bounds: Bounds,
         scheme: Scheme,
     ) -> Result<Self, Error> {
-        let plain = law.kind == LawKind::LuGre && !law.asymmetric && !law.exponent_fitted;
+        let plain = law.kind == LawKind::LuGre
+            && !law.asymmetric
+            && !law.exponent_fitted
+            && !law.flat
+            && !law.undamped;
         if !plain || !terms.dependences.is_empty() {
             return Err(Error::Setting {
                 name: "nonlinear unknowns",

@@ -187,7 +187,7 @@ impl Terms {
         } else {
             push(Quantity::Coulomb.into(), ColumnKind::Level);
         }
-        if law.kind.has_micro_damping() {
+        if law.has_micro_damping() {
             push(Quantity::Sigma1.into(), ColumnKind::Rate);
         }
         for side in sides(law) {

@@ -59,8 +59,7 @@ impl StaticMap {
             },
             asymmetric: self.settings.asymmetric,
             exponent: self.exponent(),
-            elements: 0,
-            exponent_fitted: false,
+            ..Law::new(LawKind::Stribeck)
         };
         let terms = Terms {
             mass: Mass::Absent,

@@ -314,7 +314,7 @@ impl<'a> Search<'a> {
     /// search never ends much worse than that.
     fn static_starts(&mut self, bounds: &SearchBox, watch: &mut Watch) -> Vec<Vec<f64>> {
         let layout = self.law.layout();
-        let (Some(kappa), true) = (layout.kappa, self.law.kind.has_stribeck()) else {
+        let (Some(kappa), true) = (layout.kappa, self.law.has_stribeck()) else {
             return Vec::new();
         };
         let law = Law {

@@ -410,8 +410,8 @@ pub(super) const IDENTIFICATION: &[Term] = &[
         "trustworthy",
         "",
         "",
-        &["not trustworthy"],
-        "The verdict on a whole result; the exit code is 1 where it is not.",
+        &["not trustworthy", "for compensation"],
+        "Whether a law may be used to compensate on motion like that of its logs; the exit code is 1 where not.",
     ),
 ];
 

@@ -1,6 +1,6 @@
 //! The laws beside each other as a picture.
 
-use crate::names::law_name;
+use crate::names::law_beside;
 use stiction_report::{Axis, Color, Figure, Layer, Panel};
 use stiction_workflows::identify::Outcome;
 
@@ -18,7 +18,7 @@ pub(super) fn figure(outcome: &Outcome) -> Figure {
         .zip(&held_out)
         .map(|(l, error)| if l.best { *error } else { f64::NAN })
         .collect();
-    let names = laws.iter().map(|l| law_name(&l.law, l.asymmetric));
+    let names = laws.iter().map(law_beside);
     let panel = Panel::new(Axis::new("Relative error", "%").log(), Axis::names(names))
         .layer(
             Layer::points(best, place.clone())

@@ -1,7 +1,7 @@
 //! The tables of the report.
 
 use crate::deviation::Deviation;
-use crate::names::law_name;
+use crate::names::law_beside;
 use stiction_files::result::{Input, LawEntry, SimulationEntry};
 use stiction_files::symbols;
 use stiction_number::Percent;
@@ -208,7 +208,7 @@ pub(super) fn laws(outcome: &Outcome) -> Table {
     let percent = |x: Option<f64>| x.map_or("–".into(), |x| Percent::error(x).digits(3));
     for l in &outcome.result.laws {
         let cells = [
-            law_name(&l.law, l.asymmetric),
+            law_beside(l),
             l.parameters.to_string(),
             percent(Some(l.fitted_error_percent)),
             percent(l.held_out_error_percent),

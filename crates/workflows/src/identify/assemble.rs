@@ -1,5 +1,6 @@
 //! From what the engine found to what goes to disk.
 
+use super::ladder::without;
 use super::load::Asked;
 use super::trust::Judged;
 use crate::entries;
@@ -72,6 +73,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         inputs: sources.iter().map(Source::input).collect(),
         axis: ResolvedAxis {
             name: asked.axis.name.clone(),
+            file: asked.axis.file().map(|file| file.display().to_string()),
             kind: motion.to_string(),
             force_unit: force_unit.into(),
             columns: first.detected.clone(),
@@ -80,6 +82,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         },
         law: estimate.law.kind.name().into(),
         asymmetric: estimate.law.asymmetric,
+        without: without(&estimate.law),
         law_chosen_by: parts.law_chosen_by.into(),
         method: asked.options.procedures.method.name().into(),
         trust: judged.trust,

@@ -1,10 +1,24 @@
 //! The law that was asked for, or the one that the data choose.
 
-use super::ladder::{self, Climb, Ladder, Rung};
+use super::ladder::{self, Candidate, Climb, Ladder, Rung};
 use super::trust::RICHER_LAW_WINS_BELOW;
+use super::unfit;
 use stiction_files::result::LawEntry;
 use stiction_identify as engine;
 use stiction_identify::{Estimate, Law, LawKind, Observer, Optimum, Settings, Status};
+use stiction_parameters::Quantity;
+
+/// The families that a compensator can be exported of.
+const EXPORTED: [LawKind; 4] = [
+    LawKind::CoulombViscous,
+    LawKind::Stribeck,
+    LawKind::Dahl,
+    LawKind::LuGre,
+];
+
+/// Ratio of the held-out errors of two laws below which one with every parameter inside its search range comes before one
+/// with a parameter at an end, dimensionless: it leaves at most a tenth more.
+const SAME_FOR_COMPENSATION_RATIO: f64 = 1.1;
 
 /// A fitted law and the laws it was compared with.
 pub(super) struct Choice {
@@ -13,15 +27,21 @@ pub(super) struct Choice {
     pub laws: Vec<LawEntry>,
     /// Who chose the law, as written to `result.json`.
     pub by: &'static str,
+    /// Why a compensator should not rely on it.
+    pub held_back: Option<String>,
+    /// Rms residual on held-out samples of the record, where it was cross-validated.
+    pub held_out_rmse: Option<f64>,
 }
 
 impl Choice {
     /// A law that was asked for and compared with none.
     pub fn alone(estimate: Estimate) -> Self {
         Self {
+            held_back: unfit::unseen_force(&estimate),
             estimate,
             laws: Vec::new(),
             by: "user",
+            held_out_rmse: None,
         }
     }
 }
@@ -34,7 +54,7 @@ pub(super) fn asked(
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<Choice, engine::Error> {
-    let fitted = ladder.fit(law, settings, observer)?;
+    let fitted = ladder.fit(ladder.usual(law), settings, observer)?;
     Ok(fitted_already(fitted, ladder, compare, settings, observer))
 }
 
@@ -47,35 +67,71 @@ pub(super) fn fitted_already(
     observer: &mut dyn Observer,
 ) -> Choice {
     let law = estimate.law;
+    let mut held_out_rmse = None;
     let laws = if compare && optimum.status != Status::Interrupted {
         let known = Some((&estimate, &optimum));
-        let climb = ladder.climb(&ladder::beside(&law), known, settings, observer);
+        let others: Vec<Candidate> = ladder::beside(&law)
+            .into_iter()
+            .map(|law| ladder.usual(law))
+            .collect();
+        let climb = ladder.climb(&others, known, settings, observer);
         // A table with only some of the laws could name the wrong one as best.
         if climb.stopped {
             Vec::new()
         } else {
-            climb.entries().0
+            let mut laws = climb.entries().0;
+            for (entry, rung) in laws.iter_mut().zip(&climb.rungs) {
+                entry.reported = rung.estimate.law == law;
+                if entry.reported {
+                    held_out_rmse = rung.cross_validated_rmse(ladder);
+                }
+            }
+            laws
         }
     } else {
         Vec::new()
     };
     Choice {
+        held_back: unfit::reason(&estimate, &optimum),
         estimate: stated(ladder, &optimum, estimate, observer),
         laws,
         by: "user",
+        held_out_rmse,
     }
 }
 
-/// Fits every law and takes the one that the data support.
+/// Fits the laws that can be exported, each with what it holds, and takes the best that a compensator may rely on.
+///
+/// In three rounds, so that only laws are fitted that may turn out best: the symmetric ones; what these leave open held
+/// at nothing, and asymmetric laws of the families that hold best; the same of the best asymmetric one.
 pub(super) fn auto(
     base: Law,
     ladder: &Ladder,
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<Choice, engine::Error> {
-    let climb = ladder.climb(&ladder::every(base), None, settings, observer);
-    let (laws, best) = climb.entries();
-    let at = best.map_or(0, |best| determined(&climb, &laws, best));
+    let first: Vec<Candidate> = ladder::symmetric(base, &EXPORTED)
+        .into_iter()
+        .map(|law| ladder.usual(law))
+        .collect();
+    let mut climb = ladder.climb(&first, None, settings, observer);
+    for round in [second, third] {
+        if climb.stopped {
+            break;
+        }
+        let next = round(&climb, ladder);
+        let more = ladder.climb(&next, None, settings, observer);
+        climb = climb.and(more);
+    }
+    let climb = climb.sorted();
+    let (mut laws, best) = climb.entries();
+    let Some(best) = best else {
+        // Not one could be fitted: the simplest says why.
+        let simplest = ladder::symmetric(base, &[LawKind::CoulombViscous])[0];
+        return asked(simplest, ladder, false, settings, observer);
+    };
+    let at = reliable(&climb, &laws, best);
+    laws[at].reported = true;
     let Climb { mut rungs, stopped } = climb;
     let held_out = laws.iter().all(|law| law.held_out_error_percent.is_some());
     let by = match (held_out, ladder.held_out.is_empty()) {
@@ -84,18 +140,12 @@ pub(super) fn auto(
         // Too few samples to hold some out.
         (false, _) => "bic",
     };
-    if at >= rungs.len() {
-        // Not one could be fitted: the simplest says why.
-        let simplest = Law {
-            kind: LawKind::CoulombViscous,
-            asymmetric: false,
-            ..base
-        };
-        return asked(simplest, ladder, false, settings, observer);
-    }
+    let rung = rungs.swap_remove(at);
+    let held_out_rmse = rung.cross_validated_rmse(ladder);
+    let held_back = laws[at].held_back.clone();
     let Rung {
         estimate, optimum, ..
-    } = rungs.swap_remove(at);
+    } = rung;
     let mut estimate = stated(ladder, &optimum, estimate, observer);
     if stopped {
         // Not all laws were tried, so even a converged one is only the best so far.
@@ -105,7 +155,68 @@ pub(super) fn auto(
         estimate,
         laws: if stopped { Vec::new() } else { laws },
         by,
+        held_back,
+        held_out_rmse,
     })
+}
+
+/// What the symmetric laws suggest: LuGre with what it leaves open held at nothing, and the families that hold best with
+/// parameters for each direction.
+fn second<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
+    let mut laws = held(climb, false);
+    let errors = climb.rungs.iter().map(Rung::held_out_error);
+    let least = errors.fold(f64::INFINITY, f64::min);
+    let close = |rung: &&Rung| RICHER_LAW_WINS_BELOW * rung.held_out_error() <= least;
+    // Coulomb and viscous friction stays linear, so it costs next to nothing.
+    let wanted = |rung: &&Rung| rung.estimate.law.kind == LawKind::CoulombViscous || close(rung);
+    let families = climb.rungs.iter().filter(wanted);
+    laws.extend(families.map(|rung| rung.estimate.law.asymmetric()));
+    laws.into_iter().map(|law| ladder.usual(law)).collect()
+}
+
+/// What the best of all laws so far suggests where it is asymmetric: the same with what it leaves open held at nothing,
+/// and with a constant force beside it.
+fn third<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
+    let (_, best) = climb.entries();
+    let Some(law) = best.map(|best| climb.rungs[best].estimate.law) else {
+        return Vec::new();
+    };
+    if !law.asymmetric {
+        return Vec::new();
+    }
+    let mut next: Vec<Candidate> = match law.kind {
+        LawKind::LuGre => held(climb, true)
+            .into_iter()
+            .map(|law| ladder.usual(law))
+            .collect(),
+        _ => Vec::new(),
+    };
+    // Without a bristle the two levels and the constant force cannot be told apart.
+    let both = ladder.terms.asymmetric_with_offset.as_ref();
+    next.extend(
+        both.filter(|_| law.kind.has_bristle())
+            .map(|terms| Candidate { law, terms }),
+    );
+    next
+}
+
+/// LuGre with what it leaves open held at nothing.
+fn held(climb: &Climb, asymmetric: bool) -> Vec<Law> {
+    let is_lugre = |rung: &&Rung| {
+        rung.estimate.law.kind == LawKind::LuGre && rung.estimate.law.asymmetric == asymmetric
+    };
+    let Some(rung) = climb.rungs.iter().find(is_lugre) else {
+        return Vec::new();
+    };
+    let law = rung.estimate.law;
+    let mut laws = Vec::new();
+    if rung.leaves_open(Quantity::Static) || rung.leaves_open(Quantity::StribeckVelocity) {
+        laws.push(law.flat());
+    }
+    if rung.leaves_open(Quantity::Sigma1) {
+        laws.push(law.undamped());
+    }
+    laws
 }
 
 /// The estimate with its intervals in full, unless the search was interrupted.
@@ -121,17 +232,21 @@ fn stated(
     estimate
 }
 
-/// The best law or, if the log does not determine it, the best of those that it determines and whose error is not
-/// much larger: a slightly smaller error is worth nothing if the parameters may not be used.
-fn determined(climb: &Climb, laws: &[LawEntry], best: usize) -> usize {
-    if laws[best].determined {
+/// The best of the laws that a compensator may rely on. Of those with about the same error, one without a parameter at the
+/// end of its search range comes first.
+fn reliable(climb: &Climb, laws: &[LawEntry], best: usize) -> usize {
+    let rungs = &climb.rungs;
+    let able: Vec<usize> = (0..laws.len())
+        .filter(|&i| laws[i].held_back.is_none())
+        .collect();
+    let best = climb.best_of(&able).unwrap_or(best);
+    let inside = |&i: &usize| !unfit::at_its_end(&rungs[i].optimum);
+    if inside(&best) {
         return best;
     }
-    let error = |law: &LawEntry| law.held_out_error_percent.unwrap_or(f64::INFINITY);
-    let able: Vec<usize> = (0..laws.len())
-        .filter(|&i| {
-            laws[i].determined && RICHER_LAW_WINS_BELOW * error(&laws[i]) <= error(&laws[best])
-        })
-        .collect();
-    climb.best_of(&able).unwrap_or(best)
+    let errors = able.iter().map(|&i| rungs[i].held_out_error());
+    let most = SAME_FOR_COMPENSATION_RATIO * errors.fold(f64::INFINITY, f64::min);
+    let near = |&i: &usize| rungs[i].held_out_error() <= most;
+    let within: Vec<usize> = able.into_iter().filter(inside).filter(near).collect();
+    climb.best_of(&within).unwrap_or(best)
 }

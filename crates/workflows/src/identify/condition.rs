@@ -1,6 +1,7 @@
 //! The second step: logs to the record that is fitted, and the records that are validated on.
 
 use super::conditioning::{self, conditioned};
+use super::ladder::LinearTerms;
 use super::load::{Asked, Loaded, check_together};
 use super::logs::paths;
 use crate::error::Error;
@@ -25,10 +26,8 @@ pub(super) struct Conditioned {
     pub unseen: Vec<Record>,
     /// Their names.
     pub unseen_names: Vec<String>,
-    /// Linear terms beside a symmetric law.
-    pub symmetric: Terms,
-    /// Linear terms beside an asymmetric law.
-    pub asymmetric: Terms,
+    /// Linear terms beside the laws.
+    pub terms: LinearTerms,
     /// Speed below which a sample counts as slow, m/s or rad/s.
     pub low_speed: f64,
     /// How the cut-offs were chosen.
@@ -41,8 +40,8 @@ impl Conditioned {
     /// The linear terms beside a law.
     pub fn terms(&self, asymmetric: bool) -> &Terms {
         match asymmetric {
-            true => &self.asymmetric,
-            false => &self.symmetric,
+            true => &self.terms.asymmetric,
+            false => &self.terms.symmetric,
         }
     }
 }
@@ -87,9 +86,17 @@ pub(super) fn condition(
             (paths(&loaded.held_out), records?)
         }
     };
+    let asymmetric = asymmetric.about(&record);
+    let with_offset = Terms {
+        offset: true,
+        ..asymmetric.clone()
+    };
     Ok(Conditioned {
-        symmetric: symmetric.about(&record),
-        asymmetric: asymmetric.about(&record),
+        terms: LinearTerms {
+            symmetric: symmetric.about(&record),
+            asymmetric_with_offset: axis.leaves_offset_open().then_some(with_offset),
+            asymmetric,
+        },
         record,
         unseen,
         unseen_names,

@@ -11,7 +11,7 @@ use super::searched;
 use crate::error::Error;
 use stiction_files::result::{BreakAwayEntry, SearchedEntry};
 use stiction_identify as engine;
-use stiction_identify::{Law, LawKind, Observer};
+use stiction_identify::{Law, Observer};
 
 /// A fitted law, and how it was found.
 pub(super) struct Fitted {
@@ -36,9 +36,7 @@ pub(super) fn fit(
 ) -> Result<Fitted, Error> {
     let mut fitted = match asked.options.procedures.method {
         Method::StaticThenDynamic => in_two_steps(asked, loaded, conditioned, observer)?,
-        Method::Searched(_) if asked.options.law.is_some() => {
-            by_search(asked, loaded, conditioned, observer)?
-        }
+        Method::Searched(_) => by_search(asked, loaded, conditioned, observer)?,
         _ => at_once(asked, loaded, conditioned, observer)?,
     };
     fitted.break_away = break_away(&loaded.beside, &fitted.choice.estimate)?;
@@ -61,11 +59,11 @@ impl Fitted {
 fn law(asked: Asked) -> Law {
     let Asked { options, axis, .. } = asked;
     Law {
-        kind: options.law.unwrap_or(LawKind::LuGre),
         asymmetric: options.asymmetric,
         exponent: axis.stribeck_exponent,
         exponent_fitted: axis.exponent_fitted,
         elements: axis.gms_elements.unwrap_or(0),
+        ..Law::new(options.one_law())
     }
 }
 
@@ -74,8 +72,7 @@ fn ladder(conditioned: &Conditioned) -> Ladder<'_> {
     Ladder {
         record: &conditioned.record,
         held_out: &conditioned.unseen,
-        symmetric: &conditioned.symmetric,
-        asymmetric: &conditioned.asymmetric,
+        terms: &conditioned.terms,
         low_speed: conditioned.low_speed,
     }
 }

@@ -7,7 +7,7 @@ use super::logs::log_warnings;
 use super::trust::{self, Judged};
 use stiction_codes::Code;
 use stiction_files::Warning;
-use stiction_identify::{Delay, Status};
+use stiction_identify::{Delay, Mass, Series, Source as Signal, Status};
 
 /// What is said of a delay at the end of its range.
 pub(super) const DELAY_OUT_OF_RANGE: &str = "the delay between force and motion would be more than four samples, which is \
@@ -19,6 +19,7 @@ pub(super) fn judge(
     loaded: &Loaded,
     conditioned: &Conditioned,
     fitted: &Fitted,
+    validation: &[(String, Series)],
 ) -> Judged {
     let law = &fitted.choice.estimate;
     let mut warnings = log_warnings(&loaded.sources);
@@ -40,6 +41,12 @@ pub(super) fn judge(
         sources: &loaded.sources,
         laws: &fitted.choice.laws,
         motion: loaded.motion(),
+        chosen: fitted.choice.by != "user",
+        held_back: fitted.choice.held_back.as_deref(),
+        held_out_rmse: fitted.choice.held_out_rmse,
+        validation,
+        validated_on_logs: !loaded.held_out.is_empty(),
+        can_be_simulated: can_be_simulated(asked, loaded),
     };
     match &fitted.two_steps {
         None => trust::of_force(&evidence, warnings),
@@ -49,4 +56,13 @@ pub(super) fn judge(
             judged
         }
     }
+}
+
+/// Whether the position of every log can be compared with that of a simulated axis.
+fn can_be_simulated(asked: Asked, loaded: &Loaded) -> bool {
+    let Asked { axis, .. } = asked;
+    let mut sources = loaded.sources.iter();
+    axis.terms.mass != Mass::Absent
+        && axis.conditioning.source != Some(Signal::Velocity)
+        && sources.all(|source| source.log.position.is_some())
 }

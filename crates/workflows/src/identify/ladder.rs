@@ -1,5 +1,6 @@
 //! Laws side by side, on samples that none of them was fitted to.
 
+use super::unfit;
 use rayon::prelude::*;
 use stiction_files::result::LawEntry;
 use stiction_identify as engine;
@@ -18,11 +19,27 @@ pub(super) struct Ladder<'a> {
     pub record: &'a Record,
     /// Data to validate on; without them the record is cross-validated in blocks.
     pub held_out: &'a [Record],
-    /// Linear terms beside a symmetric law.
-    pub symmetric: &'a Terms,
-    /// Linear terms beside an asymmetric law.
-    pub asymmetric: &'a Terms,
+    /// Linear terms beside the laws.
+    pub terms: &'a LinearTerms,
     pub low_speed: f64,
+}
+
+/// Linear terms beside the laws.
+pub(super) struct LinearTerms {
+    /// Beside a symmetric law.
+    pub symmetric: Terms,
+    /// Beside an asymmetric law.
+    pub asymmetric: Terms,
+    /// The same with a constant force, where the axis file leaves that open: with it an asymmetric law holds the
+    /// symmetric one.
+    pub asymmetric_with_offset: Option<Terms>,
+}
+
+/// A law to fit, and what stands beside it.
+#[derive(Clone, Copy)]
+pub(super) struct Candidate<'a> {
+    pub law: Law,
+    pub terms: &'a Terms,
 }
 
 /// A law, fitted and scored.
@@ -44,7 +61,7 @@ impl Ladder<'_> {
     /// Fits and scores laws, each on a thread of its own; `fitted` is one that was fitted already.
     pub fn climb(
         &self,
-        laws: &[Law],
+        laws: &[Candidate],
         fitted: Option<(&Estimate, &Optimum)>,
         settings: &Settings,
         observer: &mut dyn Observer,
@@ -55,9 +72,9 @@ impl Ladder<'_> {
             .par_iter()
             .rev()
             .with_max_len(1)
-            .map(|law| {
-                let known = fitted.filter(|(estimate, _)| estimate.law == *law);
-                let rung = self.rung(*law, known, settings, &shared);
+            .map(|candidate| {
+                let known = fitted.filter(|(estimate, _)| candidate.is(estimate));
+                let rung = self.rung(*candidate, known, settings, &shared);
                 shared.one_more();
                 rung
             })
@@ -69,29 +86,28 @@ impl Ladder<'_> {
         }
     }
 
-    /// The linear terms beside a law.
-    pub fn terms(&self, law: &Law) -> &Terms {
-        if law.asymmetric {
-            self.asymmetric
-        } else {
-            self.symmetric
-        }
+    /// A law with the terms that stand beside it unless others are asked for.
+    pub fn usual(&self, law: Law) -> Candidate<'_> {
+        let terms = match law.asymmetric {
+            true => &self.terms.asymmetric,
+            false => &self.terms.symmetric,
+        };
+        Candidate { law, terms }
     }
 
     /// Fits one law.
     pub fn fit(
         &self,
-        law: Law,
+        Candidate { law, terms }: Candidate,
         settings: &Settings,
         observer: &mut dyn Observer,
     ) -> Result<(Estimate, Optimum), engine::Error> {
-        let terms = self.terms(&law);
         engine::fit_law(self.record, law, terms, self.low_speed, settings, observer)
     }
 
     fn rung(
         &self,
-        law: Law,
+        candidate: Candidate,
         fitted: Option<(&Estimate, &Optimum)>,
         settings: &Settings,
         shared: &Shared,
@@ -99,7 +115,7 @@ impl Ladder<'_> {
         let mut relay = shared.relay(Stage::CrossValidation);
         let (estimate, optimum) = match fitted {
             Some((estimate, optimum)) => (estimate.clone(), optimum.clone()),
-            None => self.fit(law, settings, &mut relay)?,
+            None => self.fit(candidate, settings, &mut relay)?,
         };
         let score = if self.held_out.is_empty() {
             engine::cross_validate(
@@ -120,30 +136,59 @@ impl Ladder<'_> {
     }
 }
 
+impl Candidate<'_> {
+    /// Whether an estimate is of this law with these terms; a delay at the end of its range was taken out of its terms.
+    fn is(&self, estimate: &Estimate) -> bool {
+        estimate.law == self.law && estimate.terms.offset == self.terms.offset
+    }
+}
+
 impl Rung {
-    /// Whether the data determine its Coulomb level, without which no law is trusted.
+    /// Whether the data determine its Coulomb level.
     fn determined(&self) -> bool {
         let parameters = self.estimate.parameters.iter();
         let mut levels = parameters.filter(|p| p.name.quantity == Quantity::Coulomb);
         levels.all(|p| p.identifiable)
     }
-}
 
-impl Climb {
-    /// The table of the laws, and which of them is best.
-    pub fn entries(&self) -> (Vec<LawEntry>, Option<usize>) {
-        let scores: Vec<LawScore> = self.rungs.iter().map(|r| r.score.clone()).collect();
-        let standings = engine::choose(&scores);
-        let best = standings.iter().position(|s| s.best);
-        let entries = scores.iter().zip(standings);
-        let entry = |(s, standing): (&LawScore, engine::Standing)| LawEntry {
-            law: s.law.kind.name().into(),
-            asymmetric: s.law.asymmetric,
-            elements: s.law.kind.has_elements().then_some(s.law.elements),
-            parameters: s.parameters,
-            fitted_error_percent: s.fitted.relative_error_percent,
-            held_out_error_percent: s.held_out.map(|f| f.relative_error_percent),
-            held_out_low_speed_error_percent: s
+    /// Whether the data leave a parameter of this quantity open, in either direction.
+    pub fn leaves_open(&self, quantity: Quantity) -> bool {
+        let mut parameters = self.estimate.parameters.iter();
+        parameters.any(|p| p.name.quantity == quantity && p.identified && !p.identifiable)
+    }
+
+    /// Relative error on held-out samples, percent; infinite without one.
+    pub fn held_out_error(&self) -> f64 {
+        let error = self.score.held_out.map(|f| f.relative_error_percent);
+        error.unwrap_or(f64::INFINITY)
+    }
+
+    /// Rms residual on samples of the record held out in turn; `None` where it was not cross-validated.
+    pub fn cross_validated_rmse(&self, ladder: &Ladder) -> Option<f64> {
+        let held_out = self.score.held_out.filter(|_| ladder.held_out.is_empty());
+        held_out.map(|fit| fit.rmse)
+    }
+
+    /// Why a compensator should not rely on it; `None` where it may.
+    fn held_back(&self) -> Option<String> {
+        unfit::reason(&self.estimate, &self.optimum)
+    }
+
+    fn entry(&self, standing: &engine::Standing) -> LawEntry {
+        let Rung {
+            estimate, score, ..
+        } = self;
+        let law = &score.law;
+        LawEntry {
+            law: law.kind.name().into(),
+            asymmetric: law.asymmetric,
+            without: without(law),
+            offset: estimate.terms.offset,
+            elements: law.kind.has_elements().then_some(law.elements),
+            parameters: score.parameters,
+            fitted_error_percent: score.fitted.relative_error_percent,
+            held_out_error_percent: score.held_out.map(|f| f.relative_error_percent),
+            held_out_low_speed_error_percent: score
                 .held_out_low_speed
                 .map(|f| f.relative_error_percent),
             held_out_excess_percent: standing.excess.map(|x| 100.0 * libm::expm1(x)),
@@ -152,44 +197,78 @@ impl Climb {
                 .map(|(x, std)| 100.0 * std * libm::exp(x)),
             aic_difference: standing.aic,
             bic_difference: standing.bic,
-            determined: false,
+            determined: self.determined(),
+            held_back: self.held_back(),
             best: standing.best,
-        };
-        let mut entries: Vec<LawEntry> = entries.map(entry).collect();
-        for (entry, rung) in entries.iter_mut().zip(&self.rungs) {
-            entry.determined = rung.determined();
+            reported: false,
         }
-        (entries, best)
+    }
+}
+
+impl Climb {
+    /// The same with further rungs.
+    pub fn and(mut self, more: Climb) -> Self {
+        self.rungs.extend(more.rungs);
+        self.stopped |= more.stopped;
+        self
+    }
+
+    /// The rungs from the simplest law to the richest, each symmetric one before its asymmetric ones.
+    pub fn sorted(mut self) -> Self {
+        self.rungs.sort_by_key(|rung| {
+            let law = &rung.estimate.law;
+            let held = usize::from(law.flat) + usize::from(law.undamped);
+            let offset = rung.estimate.terms.offset;
+            (law.kind, law.asymmetric, 2 - held, law.undamped, offset)
+        });
+        self
+    }
+
+    /// The table of the laws, and which of them is best.
+    pub fn entries(&self) -> (Vec<LawEntry>, Option<usize>) {
+        let standings = engine::choose(&self.scores(0..self.rungs.len()));
+        let best = standings.iter().position(|s| s.best);
+        let rungs = self.rungs.iter().zip(&standings);
+        let entries = rungs.map(|(rung, standing)| rung.entry(standing));
+        (entries.collect(), best)
     }
 
     /// The best of some of the rungs.
     pub fn best_of(&self, rungs: &[usize]) -> Option<usize> {
-        let scores: Vec<LawScore> = rungs.iter().map(|&i| self.rungs[i].score.clone()).collect();
-        let best = engine::choose(&scores).iter().position(|s| s.best)?;
-        Some(rungs[best])
+        let standings = engine::choose(&self.scores(rungs.iter().copied()));
+        Some(rungs[standings.iter().position(|s| s.best)?])
+    }
+
+    fn scores(&self, rungs: impl Iterator<Item = usize>) -> Vec<LawScore> {
+        rungs.map(|i| self.rungs[i].score.clone()).collect()
     }
 }
 
-/// Every law, symmetric and asymmetric, from the simplest to the richest.
-pub(super) fn every(base: Law) -> Vec<Law> {
-    LawKind::ALL
+/// What of a law is held at nothing, as `result.json` names it.
+pub(super) fn without(law: &Law) -> Vec<String> {
+    let held = [(law.flat, "stribeck"), (law.undamped, "sigma1")];
+    let names = held
         .into_iter()
-        .flat_map(|kind| {
-            let base = Law {
-                kind,
-                asymmetric: false,
-                ..base
-            };
-            [base, base.asymmetric()]
-        })
-        .collect()
+        .filter_map(|(held, name)| held.then_some(name));
+    names.map(String::from).collect()
+}
+
+/// The symmetric laws of some families.
+pub(super) fn symmetric(base: Law, kinds: &[LawKind]) -> Vec<Law> {
+    let law = |&kind| Law {
+        kind,
+        asymmetric: false,
+        ..base
+    };
+    kinds.iter().map(law).collect()
 }
 
 /// The laws to compare a law with: every family up to its own, each symmetric and asymmetric.
 pub(super) fn beside(law: &Law) -> Vec<Law> {
     let top = law.kind.max(LawKind::Stribeck);
-    every(*law)
+    symmetric(*law, &LawKind::ALL)
         .into_iter()
+        .flat_map(|law| [law, law.asymmetric()])
         .filter(|other| other.kind <= top)
         // Beside LuGre, Dahl is the law without a Stribeck curve; one such law is enough.
         .filter(|other| {

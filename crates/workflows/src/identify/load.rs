@@ -43,14 +43,19 @@ pub(super) fn load(
     held_out: Vec<Source>,
 ) -> Result<Loaded, Error> {
     let Asked { options, axis, .. } = asked;
-    if options.law.is_none() && options.asymmetric {
+    let chooses = options.law.is_none() && options.procedures.method == Method::Separable;
+    if chooses && options.asymmetric {
         return Err(Error::usage(
             [
                 Setting::Law.is("auto"),
                 " with ".into(),
                 Setting::Asymmetric.into(),
             ],
-            "leave one out: auto tries every law symmetric and asymmetric",
+            [
+                "one law, such as ".into(),
+                Setting::Law.is("lugre"),
+                "; auto tries laws both symmetric and asymmetric".into(),
+            ],
         ));
     }
     let beside = Beside::load(options, axis, &held_out)?;

@@ -24,14 +24,15 @@ pub struct Files {
 /// use stiction_workflows::identify::Options;
 ///
 /// let mut options = Options::default();
-/// assert_eq!(options.law, Some(LawKind::LuGre));
-/// options.law = None; // the data choose
+/// assert_eq!(options.law, None); // the data choose
+/// options.law = Some(LawKind::LuGre);
 /// options.split = Some(0.7); // fit the first 70 % of the samples, validate on the rest
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
-    /// Family of the law, LuGre by default; `None` (`auto` in messages) lets the data choose it, and whether it is asymmetric.
+    /// Family of the law; `None` (`auto` in messages) lets the data choose among those that can be exported, symmetric
+    /// and asymmetric. Methods that do not choose take LuGre then.
     pub law: Option<LawKind>,
     /// Whether each direction has parameters of its own.
     pub asymmetric: bool,
@@ -39,7 +40,8 @@ pub struct Options {
     pub split: Option<f64>,
     /// Seed of the search; the same seed gives the same bits.
     pub seed: u64,
-    /// Whether simpler laws are fitted beside it and compared on held-out samples: about doubles the time.
+    /// Whether simpler laws are fitted beside a law that is named, and compared on held-out samples: about doubles the
+    /// time.
     pub compare_laws: bool,
     /// The method, separable least squares by default, and the files that it takes beside the logs.
     pub procedures: Procedures,
@@ -50,7 +52,7 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Self {
         Self {
-            law: Some(LawKind::LuGre),
+            law: None,
             asymmetric: false,
             split: None,
             seed: 0,
@@ -112,15 +114,20 @@ pub struct Searching {
 }
 
 impl Options {
+    /// The law of a method that does not choose among laws.
+    pub(super) fn one_law(&self) -> LawKind {
+        self.law.unwrap_or(LawKind::LuGre)
+    }
+
     /// Refuses a law that the method is not for.
     pub(super) fn require(&self, laws: &[LawKind], allowed: &'static str) -> Result<(), Error> {
-        if self.law.is_some_and(|law| laws.contains(&law)) {
+        let law = self.one_law();
+        if laws.contains(&law) {
             return Ok(());
         }
-        let law = self.law.map_or("auto", LawKind::name);
         let method = self.procedures.method.name();
         let found = [
-            Setting::Law.is(law),
+            Setting::Law.is(law.name()),
             TOGETHER_WITH.into(),
             Setting::Method.is(method),
         ];

@@ -84,14 +84,13 @@ pub(crate) fn identify_asked(
 fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Result<Outcome, Error> {
     let conditioned = condition(asked, &loaded, observer)?;
     let fitted = fit(asked, &loaded, &conditioned, observer)?;
-    let judged = judge(asked, &loaded, &conditioned, &fitted);
-    let estimate = fitted.choice.estimate;
-    let validation: Vec<(String, Series)> = conditioned
-        .unseen_names
-        .into_iter()
+    let names = conditioned.unseen_names.iter().cloned();
+    let validation: Vec<(String, Series)> = names
         .zip(&conditioned.unseen)
-        .map(|(name, record)| (name, engine::predict(record, &estimate)))
+        .map(|(name, record)| (name, engine::predict(record, &fitted.choice.estimate)))
         .collect();
+    let judged = judge(asked, &loaded, &conditioned, &fitted, &validation);
+    let estimate = fitted.choice.estimate;
     let notes = conditioned.record.notes.iter().cloned();
     let mut result = assemble::result(Parts {
         asked,

@@ -56,20 +56,6 @@ pub(super) fn check(options: &Options) -> Result<(), Error> {
             ),
         ));
     }
-    if options.law.is_none() {
-        return Err(Error::usage(
-            [
-                Setting::Law.is("auto"),
-                TOGETHER_WITH.into(),
-                Setting::Method.is(method.name()),
-            ],
-            [
-                "one law, or ".into(),
-                Setting::Method.is(Method::Separable.name()),
-                ", which compares them".into(),
-            ],
-        ));
-    }
     let limits = [(Setting::Target, given.target), (Setting::Time, given.time)];
     for (setting, found) in limits {
         if let Some(found) = found.filter(|x| !(*x > 0.0 && x.is_finite())) {

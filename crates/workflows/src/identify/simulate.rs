@@ -42,17 +42,17 @@ pub(super) fn run(
 ) -> Result<Outcome, Error> {
     let Asked { options, axis, .. } = asked;
     let sources = &loaded.sources;
-    let Some(kind) = options.law.filter(|law| is_simulated(*law)) else {
-        let law = options.law.map_or("auto", LawKind::name);
+    let kind = options.one_law();
+    if !is_simulated(kind) {
         return Err(Error::usage(
             [
                 Setting::Method.is(options.procedures.method.name()),
                 " with ".into(),
-                Setting::Law.is(law),
+                Setting::Law.is(kind.name()),
             ],
             "coulomb-viscous, stribeck, dahl or lugre",
         ));
-    };
+    }
     let first = &sources[0].log;
     let motion = first.motion;
     let force_unit = first.force_unit.clone();
@@ -69,11 +69,9 @@ pub(super) fn run(
     let terms = stated.clone();
     let controller = axis.controller_for(first)?;
     let law = Law {
-        kind,
         asymmetric: options.asymmetric,
         exponent: axis.stribeck_exponent,
-        elements: 0,
-        exponent_fitted: false,
+        ..Law::new(kind)
     };
     let mut recordings = recordings(sources)?;
     let mut unseen_logs: Vec<(String, Recording)> = Vec::new();
@@ -127,6 +125,12 @@ pub(super) fn run(
         moves_both_ways: found.signals.moves_both_ways(quantum),
         sources,
         laws: &[],
+        chosen: false,
+        held_back: None,
+        held_out_rmse: None,
+        validation: &[],
+        validated_on_logs: false,
+        can_be_simulated: false,
         motion,
     };
     let mut warnings = log_warnings(sources);

@@ -1,13 +1,14 @@
 //! Whether a result may be used: every rule that can say no, in one place. What a process exits with follows from it.
 
+use super::compensation;
 use crate::source::Source;
 use stiction_codes::Code;
 use stiction_files::Warning;
-use stiction_files::result::{LawEntry, Trust};
+use stiction_files::result::{Compensation, LawEntry, Next, Trust};
 use stiction_files::symbols;
 use stiction_identify::Parameter;
 use stiction_identify::procedure::StepFit;
-use stiction_identify::{Fit, FittedLaw, SimulationFit, Status, Unseen};
+use stiction_identify::{Fit, FittedLaw, Series, SimulationFit, Status, Unseen};
 use stiction_log::Motion;
 use stiction_number::{Percent, short};
 use stiction_parameters::Quantity;
@@ -55,13 +56,39 @@ pub(super) struct Judged {
 }
 
 impl Judged {
-    /// The result is trustworthy if there is no reason against it.
-    fn new(reasons: Vec<String>, warnings: Vec<Warning>) -> Self {
+    /// The result is trustworthy if there is no reason against it. The next step is that of the first reason.
+    fn new(
+        law: &FittedLaw,
+        compensation: Option<Compensation>,
+        Reasons(reasons): Reasons,
+        warnings: Vec<Warning>,
+    ) -> Self {
+        let names = |determined: bool| -> Vec<String> {
+            let identified = law.parameters.iter().filter(|p| p.identified);
+            identified
+                .filter(|p| p.identifiable == determined)
+                .map(|p| p.name.to_string())
+                .collect()
+        };
         let trust = Trust {
             trustworthy: reasons.is_empty(),
-            reasons,
+            next: reasons.first().map_or(Next::Export, |(_, next)| *next),
+            reasons: reasons.into_iter().map(|(text, _)| text).collect(),
+            compensation,
+            constants: names(true),
+            open: names(false),
         };
         Judged { trust, warnings }
+    }
+}
+
+/// Reasons against a result, each with what leads on from it.
+#[derive(Default)]
+pub(super) struct Reasons(Vec<(String, Next)>);
+
+impl Reasons {
+    pub fn push(&mut self, text: impl Into<String>, next: Next) {
+        self.0.push((text.into(), next));
     }
 }
 
@@ -73,28 +100,58 @@ pub(super) struct Evidence<'a> {
     /// Laws side by side; empty where they were not compared.
     pub laws: &'a [LawEntry],
     pub motion: Motion,
+    /// Whether the data chose the law.
+    pub chosen: bool,
+    /// Why a compensator should not rely on the law.
+    pub held_back: Option<&'a str>,
+    /// Rms residual on held-out samples, where the law was fitted without them in turn.
+    pub held_out_rmse: Option<f64>,
+    /// Signals of each validation, with its name.
+    pub validation: &'a [(String, Series)],
+    /// Whether those are of logs of their own.
+    pub validated_on_logs: bool,
+    /// Whether the axis can be simulated: its position and its inertia are known or fitted.
+    pub can_be_simulated: bool,
+}
+
+impl Evidence<'_> {
+    /// What leads on where this law will not do.
+    fn another_law(&self) -> Next {
+        match self.chosen {
+            true => self.where_no_law_predicts(),
+            false => Next::LetTheDataChoose,
+        }
+    }
+
+    /// What leads on where no law does: a coarse encoder is not differentiated by a simulation.
+    pub fn where_no_law_predicts(&self) -> Next {
+        match self.can_be_simulated {
+            true => Next::Simulate,
+            false => Next::Check,
+        }
+    }
 }
 
 /// A law that was fitted to the force.
 pub(super) fn of_force(evidence: &Evidence, mut warnings: Vec<Warning>) -> Judged {
-    let mut reasons = Vec::new();
-    whole_record(evidence, &mut warnings, &mut reasons);
-    Judged::new(reasons, warnings)
+    let mut reasons = Reasons::default();
+    let compensation = record(evidence, &mut warnings, &mut reasons);
+    Judged::new(evidence.law, compensation, reasons, warnings)
 }
 
 /// The same with static parameters found first.
 pub(super) fn of_two_steps(evidence: &Evidence, mut warnings: Vec<Warning>) -> Judged {
-    let mut reasons = Vec::new();
-    whole_record(evidence, &mut warnings, &mut reasons);
+    let mut reasons = Reasons::default();
+    let compensation = record(evidence, &mut warnings, &mut reasons);
     if evidence
         .law
         .parameter("sigma0")
         .is_some_and(|p| !p.identifiable)
     {
         let text = "sigma0 is not determined, and it is what the second step is for";
-        reasons.push(text.into());
+        reasons.push(text, Next::Check);
     }
-    Judged::new(reasons, warnings)
+    Judged::new(evidence.law, compensation, reasons, warnings)
 }
 
 /// A law that was fitted to the position of a simulated axis.
@@ -104,13 +161,15 @@ pub(super) fn of_position(
     unseen: &[(String, Unseen)],
     mut warnings: Vec<Warning>,
 ) -> Judged {
-    let mut reasons = Vec::new();
+    let mut reasons = Reasons::default();
     whole_record(evidence, &mut warnings, &mut reasons);
     open_loop(found, &mut warnings, &mut reasons);
     for (name, one) in unseen {
-        reasons.extend(position_fails(found, name, one));
+        if let Some(text) = position_fails(found, name, one) {
+            reasons.push(text, Next::Check);
+        }
     }
-    Judged::new(reasons, warnings)
+    Judged::new(evidence.law, None, reasons, warnings)
 }
 
 /// A steady curve through points of constant velocity.
@@ -120,15 +179,15 @@ pub(super) fn of_static_map(
     motion: Motion,
     mut warnings: Vec<Warning>,
 ) -> Judged {
-    let mut reasons = Vec::new();
+    let mut reasons = Reasons::default();
     saturation(sources, &mut reasons);
-    unidentifiable(law, motion, &mut warnings, &mut reasons);
+    unidentifiable(law, motion, &mut warnings);
     if law.fit.r2.is_nan() || law.fit.r2 < LEAST_R2 {
         let text = "the curve explains less than half of the variance of the forces";
         warnings.push(Warning::new(Code::PoorFit, text));
-        reasons.push(text.into());
+        reasons.push(text, Next::Check);
     }
-    Judged::new(reasons, warnings)
+    Judged::new(law, None, reasons, warnings)
 }
 
 /// Stiffness and micro-damping from force steps.
@@ -138,56 +197,73 @@ pub(super) fn of_steps(
     motion: Motion,
     mut warnings: Vec<Warning>,
 ) -> Judged {
-    let mut reasons = Vec::new();
-    unidentifiable(law, motion, &mut warnings, &mut reasons);
+    let mut reasons = Reasons::default();
+    unidentifiable(law, motion, &mut warnings);
     if fit.status != Status::Converged {
         let code = match fit.status {
             Status::Interrupted => Code::Interrupted,
             _ => Code::NotConverged,
         };
         let text = format!("the search did not converge (status {})", fit.status.name());
+        let next = match fit.status {
+            Status::Interrupted => Next::Again,
+            _ => Next::Check,
+        };
         warnings.push(Warning::new(code, text.clone()));
-        reasons.push(text);
+        reasons.push(text, next);
     }
     for p in fit.parameters.iter().filter(|p| p.name == "sigma0") {
         if !p.identifiable {
-            reasons.push(format!(
-                "sigma0 is not determined by these steps: {}",
-                p.reason
-            ));
+            let text = format!("sigma0 is not determined by these steps: {}", p.reason);
+            reasons.push(text, Next::Check);
         }
     }
-    Judged::new(reasons, warnings)
+    Judged::new(law, None, reasons, warnings)
+}
+
+/// What can be said of a law that was fitted to the force of whole records.
+fn record(
+    evidence: &Evidence,
+    warnings: &mut Vec<Warning>,
+    reasons: &mut Reasons,
+) -> Option<Compensation> {
+    whole_record(evidence, warnings, reasons);
+    compensation::judged(evidence, reasons)
 }
 
 /// What can be said of any law that was fitted to whole records.
-fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut Vec<String>) {
+fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
     let law = evidence.law;
-    search_ended(law, warnings, reasons);
-    explains_little(law, warnings, reasons);
+    search_ended(evidence, warnings, reasons);
+    explains_little(evidence, warnings, reasons);
     if !evidence.moves_both_ways {
         let text = "the axis moves in one direction only: friction cannot be separated from a constant \
                     force";
         if !warnings.iter().any(|w| w.code == Code::OneDirection) {
             warnings.push(Warning::new(Code::OneDirection, text));
         }
-        reasons.push(text.to_string());
+        reasons.push(text, Next::Check);
     }
     saturation(evidence.sources, reasons);
-    unidentifiable(law, evidence.motion, warnings, reasons);
-    another_wins(law, evidence.laws, warnings, reasons);
+    unidentifiable(law, evidence.motion, warnings);
+    another_wins(evidence, warnings, reasons);
+    if let Some(why) = evidence.held_back {
+        let text = format!("a compensator would rely on a guess: {why}");
+        reasons.push(text, evidence.another_law());
+    }
     systematic(law, warnings);
     shifted(law, warnings);
     static_at_rest(law, evidence.motion, warnings);
 }
 
-fn search_ended(estimate: &FittedLaw, warnings: &mut Vec<Warning>, reasons: &mut Vec<String>) {
+fn search_ended(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
+    let estimate = evidence.law;
     match estimate.status {
         Status::Converged => {}
         Status::Interrupted => {
             let text = "the search was interrupted; the best found so far is given";
             warnings.push(Warning::new(Code::Interrupted, text));
-            reasons.push(text.to_string());
+            reasons.push(text, Next::Again);
         }
         Status::Budget | Status::Stalled | Status::Exhausted | Status::Target => {
             let text = format!(
@@ -195,12 +271,13 @@ fn search_ended(estimate: &FittedLaw, warnings: &mut Vec<Warning>, reasons: &mut
                 estimate.status.name()
             );
             warnings.push(Warning::new(Code::NotConverged, text.clone()));
-            reasons.push(text);
+            reasons.push(text, evidence.another_law());
         }
     }
 }
 
-fn explains_little(estimate: &FittedLaw, warnings: &mut Vec<Warning>, reasons: &mut Vec<String>) {
+fn explains_little(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
+    let estimate = evidence.law;
     if estimate.fit.r2 < LEAST_R2 || estimate.fit.r2.is_nan() {
         let text = format!(
             "the law explains {:.0} % of the variance of the force; at least {:.0} % are needed \
@@ -209,11 +286,11 @@ fn explains_little(estimate: &FittedLaw, warnings: &mut Vec<Warning>, reasons: &
             100.0 * LEAST_R2
         );
         warnings.push(Warning::new(Code::PoorFit, text.clone()));
-        reasons.push(text);
+        reasons.push(text, evidence.another_law());
     }
 }
 
-fn saturation(sources: &[Source], reasons: &mut Vec<String>) {
+fn saturation(sources: &[Source], reasons: &mut Reasons) {
     let total: usize = sources.iter().map(|s| s.log.time.len()).sum();
     let saturated: usize = sources
         .iter()
@@ -222,21 +299,17 @@ fn saturation(sources: &[Source], reasons: &mut Vec<String>) {
         .sum();
     let part = saturated as f64 / total.max(1) as f64;
     if part > MOST_SATURATED_SHARE {
-        reasons.push(format!(
+        let text = format!(
             "the force is saturated in {:.0} % of the samples (at most {:.0} % can be left out)",
             100.0 * part,
             100.0 * MOST_SATURATED_SHARE
-        ));
+        );
+        reasons.push(text, Next::Check);
     }
 }
 
 /// Names each parameter that the data do not determine, what it is confused with, and the cure.
-fn unidentifiable(
-    estimate: &FittedLaw,
-    motion: Motion,
-    warnings: &mut Vec<Warning>,
-    reasons: &mut Vec<String>,
-) {
+fn unidentifiable(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warning>) {
     let unknown = || estimate.parameters.iter().filter(|p| !p.identifiable);
     let of_an_element = |p: &&Parameter| p.name.quantity.is_of_an_element();
     let elements: Vec<String> = unknown()
@@ -258,13 +331,6 @@ fn unidentifiable(
             text.push_str(&format!(". {}", parameter.advice));
         }
         warnings.push(Warning::new(Code::NotIdentifiable, text));
-        if parameter.name.quantity == Quantity::Coulomb {
-            reasons.push(format!(
-                "{} is not determined by this log: the law may predict motion like this, but its \
-                 parameters are not constants of the machine",
-                parameter.name
-            ));
-        }
     }
     if !elements.is_empty() {
         warnings.push(Warning::new(
@@ -278,17 +344,12 @@ fn unidentifiable(
     }
 }
 
-fn another_wins(
-    estimate: &FittedLaw,
-    laws: &[LawEntry],
-    warnings: &mut Vec<Warning>,
-    reasons: &mut Vec<String>,
-) {
-    let is_chosen = |l: &&LawEntry| {
-        l.law == estimate.law.kind.name() && l.asymmetric == estimate.law.asymmetric
-    };
-    let (Some(chosen), Some(best)) = (laws.iter().find(is_chosen), laws.iter().find(|l| l.best))
-    else {
+fn another_wins(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
+    let laws = evidence.laws;
+    let (Some(chosen), Some(best)) = (
+        laws.iter().find(|l| l.reported),
+        laws.iter().find(|l| l.best),
+    ) else {
         return;
     };
     let (Some(mine), Some(least)) = (chosen.held_out_error_percent, best.held_out_error_percent)
@@ -314,7 +375,7 @@ fn another_wins(
         ));
     }
     if least < UNTRUSTED_BELOW * mine {
-        reasons.push(errors);
+        reasons.push(errors, evidence.another_law());
     }
 }
 
@@ -366,7 +427,7 @@ fn systematic(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
 
 /// An error of the logged force drives the simulated axis of an open loop like the force itself, is integrated twice
 /// on its way to the position, and so biases the parameters.
-fn open_loop(found: &SimulationFit, warnings: &mut Vec<Warning>, reasons: &mut Vec<String>) {
+fn open_loop(found: &SimulationFit, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
     let fit = &found.position;
     let encoder_only = found
         .floor
@@ -394,9 +455,10 @@ fn open_loop(found: &SimulationFit, warnings: &mut Vec<Warning>, reasons: &mut V
              record a closed loop and give its controller ([controller]), which no force noise drives"
         ),
     ));
-    reasons.push(format!(
+    let text = format!(
         "{worth}: noise of the logged force biases the parameters, and their intervals do not include that"
-    ));
+    );
+    reasons.push(text, Next::Check);
 }
 
 /// What an unseen position has against a fitted law: an error far above that of the fit over the same horizon, or a motion

@@ -1,0 +1,61 @@
+//! What a result may be used for, and what to do next.
+
+use serde::{Deserialize, Serialize};
+
+/// What a result may be used for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Trust {
+    /// Whether the law may be used for compensation on motion like that of the logs. False makes exit code 1.
+    pub trustworthy: bool,
+    /// Why not; empty if it may.
+    pub reasons: Vec<String>,
+    /// How well the law predicts friction, and where; absent where the method does not predict the force of a record.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub compensation: Option<Compensation>,
+    /// Parameters that the logs determine: constants of the machine, within their intervals.
+    #[serde(default)]
+    pub constants: Vec<String>,
+    /// Parameters that the logs leave open: the law may need them to predict friction, but they are no constants of the
+    /// machine.
+    #[serde(default)]
+    pub open: Vec<String>,
+    /// What to do next.
+    #[serde(default)]
+    pub next: Next,
+}
+
+/// How well a law predicts friction, and on which motion that was seen.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Compensation {
+    /// What the law leaves of the friction: `100 rms(residual) / rms(friction)`, friction being the measured force without
+    /// inertia and the other terms beside the law.
+    pub friction_left_percent: f64,
+    /// On which samples: `held-out`, `validation`, or `fitted` where none could be held out.
+    pub judged_on: String,
+    /// Largest speed seen, m/s or rad/s.
+    pub top_speed: f64,
+    /// Stroke seen, m or rad; absent without a position.
+    #[serde(default)]
+    pub stroke: Option<f64>,
+    /// How often the direction changed.
+    pub reversals: usize,
+}
+
+/// What to do next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Next {
+    /// Write the compensator.
+    #[default]
+    Export,
+    /// Identify again and let the data choose the law.
+    LetTheDataChoose,
+    /// Identify the logs together with those that they were validated on.
+    FitTogether,
+    /// Identify again by simulation of the axis.
+    Simulate,
+    /// See what the log shows, and record the motion that is missing.
+    Check,
+    /// Give the same command again, and let it end.
+    Again,
+}

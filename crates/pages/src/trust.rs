@@ -1,0 +1,41 @@
+//! What a result may be used for, in words that reports and the terminal share.
+
+use stiction_files::result::{Compensation, ResultFile, Trust};
+use stiction_number::{Percent, four_digits as short};
+
+/// How well the law predicts friction, and on which motion that was seen.
+pub(crate) fn compensation(seen: &Compensation, result: &ResultFile) -> String {
+    let [length, speed] = match result.axis.kind.as_str() {
+        "rotary" => ["rad", "rad/s"],
+        _ => ["m", "m/s"],
+    };
+    let on = match seen.judged_on.as_str() {
+        "held-out" => "samples it was not fitted to",
+        "validation" => "the validation data",
+        _ => "the samples it was fitted to",
+    };
+    let mut out = format!(
+        "leaves {} of the friction on {on}; seen: speeds up to {} {speed}",
+        Percent::error(seen.friction_left_percent).digits(3),
+        short(seen.top_speed)
+    );
+    if let Some(stroke) = seen.stroke {
+        out.push_str(&format!(", a stroke of {} {length}", short(stroke)));
+    }
+    out.push_str(&match seen.reversals {
+        0 => ", no reversal".to_string(),
+        1 => ", 1 reversal".to_string(),
+        n => format!(", {n} reversals"),
+    });
+    out
+}
+
+/// Which parameters are constants of the machine.
+pub(crate) fn constants(trust: &Trust) -> String {
+    match (trust.constants.as_slice(), trust.open.as_slice()) {
+        ([], []) => "none was identified".into(),
+        (_, []) => "every parameter, within its interval".into(),
+        ([], _) => "none: the log leaves every parameter open".into(),
+        (known, open) => format!("{}; left open: {}", known.join(", "), open.join(", ")),
+    }
+}

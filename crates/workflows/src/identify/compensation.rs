@@ -1,0 +1,122 @@
+//! How well a law predicts friction on motion like that of its logs, and what motion that was.
+
+use super::trust::{Evidence, Reasons};
+use stiction_files::result::{Compensation, Next};
+use stiction_identify::Series;
+use stiction_number::Percent;
+
+/// Largest part of the friction that a law may leave on samples that it was not fitted to, dimensionless: with half of it
+/// left, a compensator takes away the other half.
+const MOST_FRICTION_LEFT: f64 = 0.5;
+/// Ratio of the error of a validation to that of the fit above which the law does not hold there, dimensionless: a choice.
+const VALIDATION_FAILS_ABOVE: f64 = 2.0;
+/// Part of the friction that a validation may leave whatever the fit left, dimensionless: a tenth is little for a
+/// compensator.
+const LITTLE_LEFT: f64 = 0.1;
+/// Part of the top speed that a motion must exceed both ways to count as a reversal, dimensionless: far above noise at rest.
+const REVERSAL_SPEED: f64 = 0.01;
+
+/// What the law leaves of the friction and where that was seen, with the reasons against it; `None` without a force that
+/// friction is a part of.
+pub(super) fn judged(evidence: &Evidence, reasons: &mut Reasons) -> Option<Compensation> {
+    let law = evidence.law;
+    let own = &law.series;
+    let friction = friction_rms(own)?;
+    let fitted = law.fit.rmse / friction;
+    let (mut left, mut judged_on) = match evidence.held_out_rmse {
+        Some(rmse) => (rmse / friction, "held-out"),
+        None => (fitted, "fitted"),
+    };
+    for (name, series) in evidence.validation {
+        let Some(there) = friction_rms(series) else {
+            continue;
+        };
+        let found = rms(&series.residual()) / there;
+        if found > left || judged_on == "fitted" {
+            (left, judged_on) = (found, "validation");
+        }
+        if found > LITTLE_LEFT && found > VALIDATION_FAILS_ABOVE * fitted {
+            let text = format!(
+                "on {name} the law leaves {} of the friction, where it was fitted {}: it does not hold for that motion",
+                percent(found),
+                percent(fitted)
+            );
+            let together = evidence.validated_on_logs;
+            reasons.push(
+                text,
+                if together {
+                    Next::FitTogether
+                } else {
+                    Next::Check
+                },
+            );
+        }
+    }
+    if !(left <= MOST_FRICTION_LEFT) {
+        let where_ = match judged_on {
+            "held-out" => "held-out samples",
+            "validation" => "the validation data",
+            _ => "the samples it was fitted to",
+        };
+        let text = format!(
+            "the law leaves {} of the friction on {where_}; at most {} may be left to compensate with it",
+            percent(left),
+            percent(MOST_FRICTION_LEFT)
+        );
+        reasons.push(text, evidence.where_no_law_predicts());
+    }
+    Some(Compensation {
+        friction_left_percent: 100.0 * left,
+        judged_on: judged_on.into(),
+        top_speed: top_speed(own),
+        stroke: stroke(own),
+        reversals: reversals(own),
+    })
+}
+
+fn percent(part: f64) -> String {
+    Percent::error(100.0 * part).digits(2)
+}
+
+/// Rms of the measured force without the terms that stand beside the law; `None` where there is none.
+fn friction_rms(series: &Series) -> Option<f64> {
+    let friction = series.measured.iter().zip(&series.other);
+    let friction: Vec<f64> = friction.map(|(u, other)| u - other).collect();
+    Some(rms(&friction)).filter(|rms| *rms > 0.0 && rms.is_finite())
+}
+
+fn rms(x: &[f64]) -> f64 {
+    (x.iter().map(|x| x * x).sum::<f64>() / x.len().max(1) as f64).sqrt()
+}
+
+fn top_speed(series: &Series) -> f64 {
+    series
+        .velocity
+        .iter()
+        .fold(0.0, |top: f64, v| top.max(v.abs()))
+}
+
+fn stroke(series: &Series) -> Option<f64> {
+    let ends = series.position.iter().fold(None, |ends, &x| {
+        let (low, high) = ends.unwrap_or((x, x));
+        Some((f64::min(low, x), f64::max(high, x)))
+    });
+    ends.map(|(low, high)| high - low)
+}
+
+/// How often the direction changes between speeds that are not noise, within each log.
+fn reversals(series: &Series) -> usize {
+    let least = REVERSAL_SPEED * top_speed(series);
+    let mut count = 0;
+    let mut before: Option<(usize, f64)> = None;
+    for (&log, &v) in series.log.iter().zip(&series.velocity) {
+        if v.abs() <= least {
+            continue;
+        }
+        if before.is_some_and(|(own, sign)| own == log && sign != v.signum()) {
+            count += 1;
+        }
+        before = Some((log, v.signum()));
+    }
+    count
+}
