@@ -312,7 +312,7 @@ fn doubts_are_said_and_written() {
     let codes: Vec<_> = exported.warnings.iter().map(|w| w.code.as_str()).collect();
     let all = [
         "export-untrusted",
-        "export-untrusted",
+        "not-identifiable",
         "export-terms",
         "export-damping",
         "export-cycle-time",
@@ -322,7 +322,7 @@ fn doubts_are_said_and_written() {
     assert!(!exported.trustworthy);
     let said = stiction::commands::text::exported(&exported, Path::new("out"));
     assert!(
-        said.contains("the data do not determine sigma0") && said.contains("mass is not friction"),
+        said.contains("the log leaves sigma0 open") && said.contains("mass is not friction"),
         "{said}"
     );
     for (name, bytes) in contents(&bench.path("out")) {

@@ -92,7 +92,7 @@ pub(super) fn fitted_already(
         Vec::new()
     };
     Choice {
-        held_back: unfit::reason(&estimate, &optimum),
+        held_back: unfit::unseen_force(&estimate),
         estimate: stated(ladder, &optimum, estimate, observer),
         laws,
         by: "user",
@@ -142,7 +142,7 @@ pub(super) fn auto(
     };
     let rung = rungs.swap_remove(at);
     let held_out_rmse = rung.cross_validated_rmse(ladder);
-    let held_back = laws[at].held_back.clone();
+    let held_back = unfit::unseen_force(&rung.estimate);
     let Rung {
         estimate, optimum, ..
     } = rung;
