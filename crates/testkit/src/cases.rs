@@ -41,7 +41,7 @@ pub enum Metric {
     FitPercent,
     /// Residual on the last validation, in the unit of the force.
     HeldOutRms,
-    /// Position error of the simulation, percent.
+    /// Position error of the simulation, percent of the rms position from the origin of the encoder.
     PositionPercent,
     /// Force error of the simulated controller, percent.
     ForcePercent,
