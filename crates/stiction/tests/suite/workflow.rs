@@ -598,3 +598,31 @@ fn zeros_for_missing_samples_are_not_fitted() {
         }
     }
 }
+
+/// A Maxwell-slip law is fitted from where its start no longer has an effect: what is left is split, not the record.
+#[test]
+fn a_split_is_one_of_the_samples_that_count() {
+    let bench = Bench::new();
+    // One slow sweep over the whole range in the first half, quick motion within it after that.
+    let motion = |t: f64| {
+        let sweep = 0.02 * (1.0 - (std::f64::consts::PI * (t / 4.0).min(1.0)).cos());
+        sweep - 0.004 * (1.0 - (9.0 * (t - 4.0).max(0.0)).cos())
+    };
+    let log = bench.log("late.csv", 8000, motion, |i, t| {
+        let v = (motion(t + 1e-4) - motion(t - 1e-4)) / 2e-4;
+        20.0 * (v / 1e-3).tanh() + 60.0 * v + 0.3 * noise(4, i)
+    });
+    let mut asked = options(&[&log], LawKind::MaxwellSlip);
+    asked.files.axis =
+        Some(bench.write("axis.toml", "mass = \"none\"\n[terms]\ngms_elements = 3\n"));
+    asked.split = Some(0.5);
+    let outcome = run(&asked).unwrap();
+    let (fit, rest) = (&outcome.result.fit, &outcome.result.validation[0].fit);
+    assert!(
+        fit.samples.abs_diff(rest.samples) <= 2,
+        "{} {}",
+        fit.samples,
+        rest.samples
+    );
+    whole(&outcome);
+}

@@ -143,7 +143,7 @@ fn split(full: &Record, part: f64) -> Result<(Record, Record), Error> {
             "a number between 0 and 1, such as 0.5",
         ));
     }
-    let at = (part * full.len() as f64) as usize;
+    let at = first_of_rest(full, part);
     let rest = full.masked(|i| i >= at);
     if rest.kept() < FEWEST_HELD_OUT_SAMPLES {
         return Err(Error::usage(
@@ -158,6 +158,15 @@ fn split(full: &Record, part: f64) -> Result<(Record, Record), Error> {
         ));
     }
     Ok((full.masked(|i| i < at), rest))
+}
+
+/// The sample before which this part of the usable ones lies. Samples that do not count, such as the start of a record
+/// whose law depends on what was before it, belong to neither part.
+fn first_of_rest(full: &Record, part: f64) -> usize {
+    let fitted = (part * full.kept() as f64) as usize;
+    let counts = full.segments.iter().flat_map(|segment| &segment.keep);
+    let mut usable = counts.enumerate().filter(|(_, counts)| **counts);
+    usable.nth(fitted).map_or(full.len(), |(index, _)| index)
 }
 
 /// Refuses a log without motion, with a message in the unit of the log.
