@@ -1,10 +1,10 @@
 //! The procedures as whole workflows: on the logs of the demo, and what they refuse.
 
-use crate::common::{Asked, Bench, options};
+use crate::common::{Asked, Bench, noise, options};
 use std::path::{Path, PathBuf};
 use stiction::commands::Outcome;
 use stiction::result::ResultFile;
-use stiction::{Error, LawKind, Method, ModelFile, Procedures, Silent};
+use stiction::{Code, Error, LawKind, Method, ModelFile, Procedures, Silent};
 
 fn with(logs: &[&Path], procedures: Procedures) -> Asked {
     options(logs, LawKind::LuGre).but(|asked| asked.procedures = procedures)
@@ -255,4 +255,66 @@ fn measured_recordings() {
         "{pos} {neg}"
     );
     assert!((0.5 * (pos - neg) + 3.1648).abs() < 1.0, "{pos} {neg}");
+}
+
+/// One log a speed, as many drives make them: each moves one way, and only all together say whether that matters.
+#[test]
+fn warnings_of_many_logs_are_said_once() {
+    let bench = Bench::new();
+    let log = |speed: f64| {
+        let name = format!("{speed}.csv");
+        let force = speed.signum() * 20.0 + 60.0 * speed;
+        bench.log(&name, 2000, |t| speed * t, |i, _| force + 0.2 * noise(9, i))
+    };
+    let forward: Vec<PathBuf> = (1..8).map(|k| log(0.02 * f64::from(k))).collect();
+    let back: Vec<PathBuf> = (1..8).map(|k| log(-0.02 * f64::from(k))).collect();
+    let map = |logs: &[PathBuf]| {
+        let paths: Vec<&Path> = logs.iter().map(PathBuf::as_path).collect();
+        let asked = with(&paths, method(Method::Static));
+        let asked = asked.but(|asked| asked.law = Some(LawKind::CoulombViscous));
+        run(&asked).unwrap().result
+    };
+    let said = |result: &ResultFile| -> Vec<Code> {
+        let codes = result.warnings.iter().map(|w| w.code);
+        codes.filter(|code| *code == Code::OneDirection).collect()
+    };
+    assert_eq!(said(&map(&[forward.clone(), back].concat())), []);
+    let one_way = map(&forward);
+    assert_eq!(said(&one_way), [Code::OneDirection]);
+    let mut codes: Vec<Code> = one_way.warnings.iter().map(|w| w.code).collect();
+    codes.dedup();
+    let distinct: std::collections::BTreeSet<&Code> = codes.iter().collect();
+    assert_eq!(distinct.len(), codes.len(), "{:?}", one_way.warnings);
+}
+
+#[test]
+fn terms_that_a_static_map_does_not_count_are_refused_with_their_key() {
+    let bench = Bench::new();
+    let log = bench.good("log.csv", 3);
+    for (term, kind) in [
+        ("gravity = true", "rotary"),
+        ("quadratic_viscous = true", "linear"),
+        ("coulomb_position = true", "linear"),
+    ] {
+        let text = format!("[terms]\n{term}\n");
+        let asked = with(&[&log], method(Method::Static)).but(|asked| {
+            asked.files.axis = Some(bench.write("axis.toml", &text));
+        });
+        if kind == "rotary" {
+            let turned = std::fs::read_to_string(&log).unwrap();
+            std::fs::write(
+                &log,
+                turned.replace("[mm]", "[mrad]").replace("[N]", "[N m]"),
+            )
+            .unwrap();
+        }
+        let error = run(&asked).unwrap_err();
+        let (key, _) = term.split_once(' ').unwrap();
+        assert_eq!(error.code(), Code::BadConfig);
+        assert!(
+            error.to_string().contains(&format!(", terms.{key}: given")),
+            "{error}"
+        );
+        bench.good("log.csv", 3);
+    }
 }

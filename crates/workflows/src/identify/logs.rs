@@ -2,11 +2,12 @@
 
 use crate::error::Error;
 use crate::source::Source;
+use stiction_codes::Code;
 use stiction_files::{Axis, Warning};
 use stiction_identify as engine;
 use stiction_identify::Samples;
 use stiction_identify::procedure::Run;
-use stiction_log::Severity;
+use stiction_log::{Finding, Severity};
 
 /// Samples of every source, for runs to borrow.
 pub(super) fn samples(sources: &[Source]) -> Result<Vec<Samples>, Error> {
@@ -53,16 +54,39 @@ pub(super) fn paths(sources: &[Source]) -> Vec<String> {
         .collect()
 }
 
-/// What the reader warned of, with the log it is about.
+/// Most logs that are each named with what was found in them; of more, one stands for all.
+const MOST_NAMED: usize = 3;
+
+/// What the reader warned of, with the log it is about; what was found in many logs is said once.
 pub(super) fn log_warnings(sources: &[Source]) -> Vec<Warning> {
-    sources
-        .iter()
-        .flat_map(|s| {
-            s.log
-                .findings
-                .iter()
-                .filter(|f| f.severity == Severity::Warning)
-                .map(|f| Warning::new(f.code, format!("{}: {}", s.path.display(), f.message)))
-        })
-        .collect()
+    let mut out = Vec::new();
+    let mut said: Vec<Code> = Vec::new();
+    for source in sources {
+        for finding in warnings_of(source) {
+            if said.contains(&finding.code) {
+                continue;
+            }
+            let same = |s: &&Source| warnings_of(s).any(|f| f.code == finding.code);
+            let alike = sources.iter().filter(same).count();
+            let path = source.path.display();
+            if alike <= MOST_NAMED {
+                let message = format!("{path}: {}", finding.message);
+                out.push(Warning::new(finding.code, message));
+                continue;
+            }
+            said.push(finding.code);
+            let message = format!(
+                "in {alike} of {} logs, the first {path}: {}",
+                sources.len(),
+                finding.message
+            );
+            out.push(Warning::new(finding.code, message));
+        }
+    }
+    out
+}
+
+fn warnings_of(source: &Source) -> impl Iterator<Item = &Finding> {
+    let findings = source.log.findings.iter();
+    findings.filter(|f| f.severity == Severity::Warning)
 }

@@ -4,14 +4,15 @@ use crate::error::Error;
 use crate::identify::logs::{path_of, refused, run_of, samples};
 use crate::identify::options::Options;
 use crate::source::Source;
+use crate::wording::{Setting, TOGETHER_WITH};
 use stiction_codes::Code;
 use stiction_files::result::{RejectedEntry, StaticMapEntry, StaticPointEntry};
 use stiction_files::symbols;
 use stiction_files::{Axis, Warning};
-use stiction_identify::LawKind;
 use stiction_identify::procedure::{
     Exponent, Run, StaticMap, StaticSettings, Stretches, static_map, stretches,
 };
+use stiction_identify::{Dependence, LawKind, Terms};
 use stiction_log::Motion;
 
 /// Different speeds in each direction below which a map is warned of: twelve show the Stribeck curve from well below its
@@ -33,6 +34,7 @@ pub(super) struct Mapped {
 pub(super) fn map(options: &Options, axis: &Axis, sources: &[Source]) -> Result<Mapped, Error> {
     let motion = sources[0].log.motion;
     let terms = axis.terms_for(&sources[0].log, options.asymmetric)?;
+    refuse_uncounted(options, axis, &terms)?;
     let own = samples(sources)?;
     let runs: Vec<Run> = sources
         .iter()
@@ -53,6 +55,32 @@ pub(super) fn map(options: &Options, axis: &Axis, sources: &[Source]) -> Result<
         map,
         entry,
         warnings,
+    })
+}
+
+/// Refuses terms that the map would not count: their force would pass for friction, or for scatter of the points.
+fn refuse_uncounted(options: &Options, axis: &Axis, terms: &Terms) -> Result<(), Error> {
+    let dependence = terms.dependences.first().map(Dependence::name);
+    let key = match (terms.gravity, terms.quadratic_viscous) {
+        (true, _) => Some("gravity"),
+        (_, true) => Some("quadratic_viscous"),
+        _ => dependence,
+    };
+    let Some(key) = key else { return Ok(()) };
+    let found = "given, and a map of constant velocities does not count it";
+    let allowed = "offset and cogging (averaged over whole pitches); leave the key out where the motion makes its force \
+                   cancel or stay small, else fit whole records: the method separable";
+    let key = format!("terms.{key}");
+    Err(match axis.refuse(&key, found, allowed, Code::BadConfig) {
+        Some(error) => error.into(),
+        None => Error::usage(
+            [
+                format!("{key} ").into(),
+                TOGETHER_WITH.into(),
+                Setting::Method.is(options.procedures.method.name()),
+            ],
+            allowed,
+        ),
     })
 }
 

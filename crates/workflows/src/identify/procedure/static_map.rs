@@ -10,7 +10,7 @@ use crate::identify::outcome::{Found, Outcome};
 use crate::identify::trust;
 use crate::source::Source;
 use stiction_codes::Code;
-use stiction_files::Axis;
+use stiction_files::{Axis, Warning};
 use stiction_identify::LawKind;
 
 /// The whole workflow.
@@ -23,8 +23,10 @@ pub(in crate::identify) fn run(asked: Asked, loaded: Loaded) -> Result<Outcome, 
     let mut found = map(asked.options, asked.axis, sources)?;
     let law = found.map.fitted_law();
     let mut warnings = log_warnings(sources);
-    // A log of constant velocities moves at few speeds on purpose.
-    warnings.retain(|w| w.code != Code::ConstantVelocity);
+    // A log of constant velocities moves at few speeds on purpose, perhaps in one direction: what counts is whether all
+    // points together do.
+    warnings.retain(|w| ![Code::ConstantVelocity, Code::OneDirection].contains(&w.code));
+    warnings.extend(one_direction(&found));
     warnings.append(&mut found.warnings);
     let judged = trust::of_static_map(&law, sources, loaded.motion(), warnings);
     let break_away = break_away(&loaded.beside, &law)?;
@@ -42,6 +44,21 @@ pub(in crate::identify) fn run(asked: Asked, loaded: Loaded) -> Result<Outcome, 
     result.break_away = break_away;
     let found = Found::Procedure(Box::new(law));
     Ok(Outcome::new(result, found, Vec::new(), loaded.sources))
+}
+
+/// A warning where every point is of the same direction.
+fn one_direction(found: &Mapped) -> Option<Warning> {
+    let points = &found.map.points;
+    let forward = points.iter().filter(|p| p.velocity > 0.0).count();
+    if forward > 0 && forward < points.len() {
+        return None;
+    }
+    let text = format!(
+        "all {} points are of one direction: friction cannot be separated from a constant force; record the same speeds \
+         the other way too",
+        points.len()
+    );
+    Some(Warning::new(Code::OneDirection, text))
 }
 
 fn notes(found: &Mapped, sources: &[Source], axis: &Axis) -> Vec<String> {
