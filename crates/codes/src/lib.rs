@@ -71,6 +71,8 @@ codes! {
     NoiseOnly = "noise-only": "motion cannot be distinguished from noise",
     OneDirection = "one-direction": "the axis moves in one direction only",
     ConstantVelocity = "constant-velocity": "the axis moves at one speed only",
+    RestAtEnd = "rest-at-end": "the axis stands still at the start or the end of the record",
+    RestBetween = "rest-between": "the axis stands still between two motions",
     ConstantColumn = "constant-column": "a column never changes",
     FewSamples = "few-samples": "the record is short",
 

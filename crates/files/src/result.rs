@@ -11,6 +11,7 @@ pub use procedure::{
 };
 pub use searched::{Evaluations, SearchedEntry, SearchedParameter, SearchedPoint};
 use serde::{Deserialize, Serialize};
+use stiction_codes::Code;
 pub use trust::{Compensation, Next, Trust};
 
 /// Name of the schema.
@@ -123,6 +124,22 @@ pub struct Input {
     pub rate_hz: f64,
     /// What was detected.
     pub detected: Vec<String>,
+    /// Stretches that the fit did not see, though nothing is wrong with them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub excluded: Vec<ExcludedEntry>,
+}
+
+/// A stretch of a log that the fit did not see.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ExcludedEntry {
+    /// Why; each code has a page in `docs/codes/`.
+    pub code: Code,
+    /// Time of its first sample, s from the first sample of the log.
+    pub from_s: f64,
+    /// Time of its last sample, s.
+    pub to_s: f64,
+    /// Its samples.
+    pub samples: usize,
 }
 
 /// One parameter.

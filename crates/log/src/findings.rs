@@ -18,6 +18,8 @@
 //! | `short-column` | a column ends before the others | all cut to the shortest; refused if that costs over 1 % |
 //! | `saturation` | force constant at its extreme for 5 samples or more and not a staircase; or at a given limit | samples excluded |
 //! | `stuck-encoder` | position frozen while the velocity, the reference or the jump after it shows motion | samples excluded |
+//! | `rest-at-end` | the axis stands still for 1 s or more at the start or the end | left out of fits of the whole record, up to 0.02 s beside the motion; kept where the force varies on purpose |
+//! | `rest-between` | the same between two motions | fitted; a warning above a third of the samples |
 //! | `position-jump` | a step above half the range and 50 times the usual one | record split there |
 //!
 //! *Excluded* samples stay in the log, with the reason, so that a state can be carried through
@@ -30,6 +32,7 @@ mod encoder;
 mod finding;
 mod force;
 mod motion;
+pub(crate) mod rest;
 mod stuck;
 mod velocity;
 
@@ -52,4 +55,5 @@ pub(crate) fn inspect(log: &mut Log, mapping: &Mapping) {
     velocity::consistency(log);
     motion::kind_of_motion(log);
     motion::constant_columns(log);
+    rest::rests(log, mapping);
 }

@@ -83,8 +83,11 @@ pub struct Log {
     pub gaps: Vec<Gap>,
     /// Stretches without a long gap or jump inside, in order; together they are the whole log.
     pub segments: Vec<Range<usize>>,
-    /// Samples not to be fitted to, by first sample; they may overlap.
+    /// Samples not to be fitted to, by first sample; they may overlap. Those of [`Code::RestAtEnd`] are left out of
+    /// fits of the whole record only: for a procedure that starts from rest they are data.
     pub excluded: Vec<Excluded>,
+    /// Stretches of at least 1 s in which the axis stands still, in order.
+    pub rests: Vec<Range<usize>>,
     /// What is wrong or worth knowing.
     pub findings: Vec<Finding>,
     /// How the file and its columns were understood.
@@ -161,6 +164,7 @@ impl Log {
             quantum: None,
             gaps: Vec::new(),
             excluded: mended.bridged,
+            rests: Vec::new(),
             findings,
             detected,
             mapping,
@@ -172,13 +176,49 @@ impl Log {
         Ok(log)
     }
 
-    /// Which samples may be fitted to: those that nothing excludes.
+    /// Which samples may be fitted to: those that nothing excludes but a rest at an end, which for a procedure that
+    /// starts from rest is data.
     pub fn valid(&self) -> Vec<bool> {
         let mut valid = vec![true; self.time.len()];
-        for excluded in &self.excluded {
+        let faulty = |e: &&Excluded| e.code != Code::RestAtEnd;
+        for excluded in self.excluded.iter().filter(faulty) {
             valid[excluded.samples.clone()].fill(false);
         }
         valid
+    }
+
+    /// The samples of a record that is fitted as a whole: without rests at the ends but for half a second in which
+    /// filters settle, and of which most is excluded.
+    pub fn fitted(&self) -> Range<usize> {
+        let carried = |from: f64, to: f64| {
+            self.time.partition_point(|t| *t < from)..self.time.partition_point(|t| *t <= to)
+        };
+        let (mut from, mut to) = (f64::NEG_INFINITY, f64::INFINITY);
+        for rest in self.rests_left_out() {
+            if rest.start == 0 {
+                from = self.time[rest.end - 1] - findings::rest::CARRIED;
+            } else {
+                to = self.time[rest.start] + findings::rest::CARRIED;
+            }
+        }
+        carried(from, to)
+    }
+
+    /// Which samples a fit of the whole record may see.
+    pub fn valid_in_motion(&self) -> Vec<bool> {
+        let mut valid = self.valid();
+        for rest in self.rests_left_out() {
+            valid[rest.clone()].fill(false);
+        }
+        valid
+    }
+
+    /// The rests at the ends that fits of the whole record leave out.
+    fn rests_left_out(&self) -> impl Iterator<Item = &Range<usize>> {
+        let rests = self.excluded.iter().filter(|e| e.code == Code::RestAtEnd);
+        rests
+            .map(|e| &e.samples)
+            .filter(|samples| !samples.is_empty())
     }
 
     /// Whether any finding is a warning.

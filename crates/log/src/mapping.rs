@@ -29,7 +29,7 @@
 //!
 //! Error texts quote `axis.toml` as: top-level `kind`, `rate`; table `[columns]` with a name, a
 //! number counted from 1, or `{ column, unit, scale, invert }` for each quantity; table `[log]` with
-//! `crop`, `wrap`, `resolution`, `force_limit`.
+//! `crop`, `rests`, `wrap`, `resolution`, `force_limit`.
 
 mod channel;
 mod choose;
@@ -63,6 +63,15 @@ impl Wrap {
     }
 }
 
+/// What becomes of the rests at the ends of a record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rests {
+    /// Fits of the whole record leave them out.
+    Cut,
+    /// They are fitted as the rest of the record.
+    Keep,
+}
+
 /// How a table is to be read; `Mapping::default()` leaves everything to detection.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mapping {
@@ -88,6 +97,8 @@ pub struct Mapping {
     pub wrap: Option<Wrap>,
     /// First and last second to keep, counted from the first sample of the file.
     pub crop: Option<(f64, f64)>,
+    /// What becomes of rests at the ends; `None` cuts them where no crop is given.
+    pub rests: Option<Rests>,
     /// Encoder step, m or rad; estimated from the data where `None`.
     pub resolution: Option<f64>,
     /// Force at which drive or sensor saturates, in the unit of the log's force; above 0.

@@ -20,6 +20,7 @@
 
 mod deviation;
 pub mod glossary;
+mod inputs;
 mod names;
 mod next;
 pub mod report;

@@ -15,6 +15,7 @@ pub(crate) mod study;
 mod tables;
 
 use crate::glossary::explained;
+use crate::inputs;
 use crate::names::{chosen_by, law_of, without_offset};
 use crate::next;
 use crate::trust::{compensation, constants};
@@ -69,6 +70,16 @@ fn sections(outcome: &Outcome) -> Document {
         ));
     for callout in verdicts(outcome) {
         document = document.block(callout);
+    }
+    for input in &result.inputs {
+        if let Some(text) = inputs::left_out(input) {
+            document = document.block(Callout {
+                severity: Severity::Info,
+                code: String::new(),
+                text: Text::of_message(&format!("{}: {text}", file_name(&input.path))),
+                link: String::new(),
+            });
+        }
     }
     document = document.paragraph(next_step(result));
     document = document.block(Block::KeyFigures(key_figures(outcome)));

@@ -8,6 +8,7 @@ mod study;
 mod table;
 
 use crate::deviation::Deviation;
+use crate::inputs;
 use crate::names::{chosen_by, force_noise, law_beside, law_of, simulated_runs, without_offset};
 use crate::next;
 use crate::trust::{compensation, constants};
@@ -54,6 +55,9 @@ pub fn outcome(outcome: &Outcome) -> String {
             input.samples,
             short(input.rate_hz)
         );
+        if let Some(left_out) = inputs::left_out(input) {
+            let _ = writeln!(out, "{left_out}");
+        }
     }
     let _ = writeln!(
         out,

@@ -100,7 +100,7 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
     let source = source::load(path, axis)?;
     let log = &source.log;
     let mut out = LogCheck {
-        input: source.input(),
+        input: source.input(true),
         kind: log.motion.to_string(),
         seconds: log.time.last().copied().unwrap_or(0.0),
         ranges: ranges(&source),

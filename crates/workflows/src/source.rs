@@ -2,8 +2,9 @@
 
 use crate::error::Error;
 use std::path::{Path, PathBuf};
+use stiction_codes::Code;
 use stiction_files::Axis;
-use stiction_files::result::Input;
+use stiction_files::result::{ExcludedEntry, Input};
 use stiction_identify::{Samples, Terms};
 use stiction_log::{Column, Log, ReadOptions, Table, read_table};
 
@@ -97,9 +98,21 @@ fn bytes(columns: &[Column]) -> Vec<u8> {
 }
 
 impl Source {
-    /// How the log goes into `result.json`.
-    pub fn input(&self) -> Input {
+    /// How the log goes into `result.json`; `whole_record` where the whole record is fitted, without rests at the ends.
+    pub fn input(&self, whole_record: bool) -> Input {
+        let rests = self.log.excluded.iter();
+        let rests = rests.filter(|e| whole_record && e.code == Code::RestAtEnd);
+        let excluded = rests.filter_map(|e| {
+            let time = self.log.time.get(e.samples.clone())?;
+            Some(ExcludedEntry {
+                code: e.code,
+                from_s: *time.first()?,
+                to_s: *time.last()?,
+                samples: e.samples.len(),
+            })
+        });
         Input {
+            excluded: excluded.collect(),
             path: self.path.display().to_string(),
             sha256: self.sha256.clone(),
             samples: self.log.time.len(),
@@ -153,6 +166,37 @@ impl Source {
         self.detected
             .iter()
             .filter_map(|text| text.strip_prefix(LEFT_OUT))
+    }
+
+    /// What a fit of the whole record needs of it: as [`samples`](Self::samples), without rests at the ends.
+    ///
+    /// # Errors
+    /// When the log has no force, or neither position nor velocity.
+    pub fn fitted(&self) -> Result<Samples, Error> {
+        let mut samples = self.samples()?;
+        samples.valid = self.log.valid_in_motion();
+        let range = self.log.fitted();
+        let cut = |x: &mut Vec<f64>| {
+            x.truncate(range.end);
+            x.drain(..range.start);
+        };
+        cut(&mut samples.time);
+        cut(&mut samples.force);
+        let others = [
+            &mut samples.position,
+            &mut samples.velocity,
+            &mut samples.load,
+            &mut samples.temperature,
+        ];
+        others.into_iter().flatten().for_each(cut);
+        samples.valid.truncate(range.end);
+        samples.valid.drain(..range.start);
+        let breaks = samples.breaks.iter().copied();
+        samples.breaks = breaks
+            .filter(|at| range.contains(at) && *at > range.start)
+            .map(|at| at - range.start)
+            .collect();
+        Ok(samples)
     }
 
     /// What an identification needs of it.

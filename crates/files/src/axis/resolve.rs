@@ -13,7 +13,7 @@ use std::path::Path;
 use stiction_identify::{Conditioning, Cutoff, Source as Signal};
 use stiction_log::mapping::{FORCE_LIMITS, RATES, RESOLUTIONS, WRAPS};
 use stiction_log::text::{Decimal, MAX_PREAMBLE_LINES, Separator, TextOptions};
-use stiction_log::{Dimension, Mapping, Motion, Wrap};
+use stiction_log::{Dimension, Mapping, Motion, Rests, Wrap};
 
 /// What the text of an axis is called in messages where it is in no file.
 const IN_MEMORY: &str = "axis";
@@ -104,6 +104,11 @@ impl Resolver {
         if let Some(given) = log.get("crop") {
             mapping.crop = Some(crop(&given)?);
         }
+        mapping.rests = match log.choice("rests", &["cut", "keep"])? {
+            None => None,
+            Some("cut") => Some(Rests::Cut),
+            Some(_) => Some(Rests::Keep),
+        };
         log.end()
     }
 

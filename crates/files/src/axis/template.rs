@@ -132,6 +132,7 @@ pub fn template(table: &Table, detected: Result<&Mapping, (&Mapping, &str)>) -> 
         out,
         "\n[log]\n\
          # crop = [\"1 s\", \"20 s\"]\n\
+         # rests = \"keep\"           # fit the axis at rest at start and end too\n\
          # wrap = \"360 deg\"         # travel after which the position starts again\n\
          # resolution = \"{count}\"    # one encoder count\n\
          # force_limit = \"{limit}\"   # where the force saturates\n\n\

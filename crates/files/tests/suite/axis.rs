@@ -25,6 +25,7 @@ load = 9
 
 [log]
 crop = ["500 ms", "1 min"]
+rests = "cut"
 wrap = "360 deg"
 force_limit = "4 N m"
 resolution = "0.1 mrad"
@@ -80,6 +81,7 @@ fn every_key_is_understood() {
     assert_eq!(axis.mapping.motion, Some(Motion::Rotary));
     assert_eq!(axis.mapping.rate_hz, Some(2000.0));
     assert_eq!(axis.mapping.crop, Some((0.5, 60.0)));
+    assert_eq!(axis.mapping.rests, Some(stiction_log::Rests::Cut));
     assert!(near(axis.mapping.wrap.unwrap().period, 2.0 * PI));
     assert!(near(axis.mapping.resolution.unwrap(), 1e-4));
     assert!(near(axis.mapping.force_limit.unwrap(), 4.0));
@@ -239,6 +241,7 @@ fn refusals() {
         ("crop of one time", "[log]\ncrop = [\"1 s\"]"),
         ("crop turned round", "[log]\ncrop = [\"20 s\", \"1 s\"]"),
         ("crop in numbers", "[log]\ncrop = [1, 20]"),
+        ("rests of another word", "[log]\nrests = \"drop\""),
         ("crop in mm", "[log]\ncrop = [\"1 mm\", \"20 s\"]"),
         ("wrap 0", "[log]\nwrap = \"0 deg\""),
         ("separator", "[text]\nseparator = \"::\""),

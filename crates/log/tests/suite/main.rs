@@ -17,5 +17,6 @@ mod mapping_faults;
 mod mapping_filled;
 mod mapping_log;
 mod mapping_units;
+mod rests;
 mod text;
 mod without_readers;

@@ -13,6 +13,7 @@ mod model;
 mod paper;
 mod procedures;
 mod recordings;
+mod rests;
 mod simulation;
 mod study;
 mod terms;

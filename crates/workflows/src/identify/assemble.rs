@@ -70,7 +70,10 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         schema: SCHEMA.into(),
         version: env!("CARGO_PKG_VERSION").into(),
         seed: asked.options.seed,
-        inputs: sources.iter().map(Source::input).collect(),
+        inputs: sources
+            .iter()
+            .map(|source| source.input(asked.options.procedures.method.fits_force()))
+            .collect(),
         axis: ResolvedAxis {
             name: asked.axis.name.clone(),
             file: asked.axis.file().map(|file| file.display().to_string()),

@@ -16,7 +16,7 @@ pub(super) fn conditioned(
 ) -> Result<Record, Error> {
     let samples = sources
         .iter()
-        .map(Source::samples)
+        .map(Source::fitted)
         .collect::<Result<Vec<_>, _>>()?;
     engine::condition(&samples, conditioning).map_err(|source| fail(sources, source))
 }
@@ -66,7 +66,7 @@ pub(super) fn choose(
     }
     let samples = sources
         .iter()
-        .map(Source::samples)
+        .map(Source::fitted)
         .collect::<Result<Vec<_>, _>>()?;
     let law = Law::new(LawKind::LuGre);
     let plain = Terms {

@@ -48,6 +48,11 @@ impl Method {
         }
     }
 
+    /// Whether the force of a whole record is fitted, which rests at its ends would mislead.
+    pub(crate) fn fits_force(self) -> bool {
+        self.fits_records() && self != Method::OutputError
+    }
+
     /// Whether a law is fitted to the whole record, sample by sample.
     pub(crate) fn fits_records(self) -> bool {
         matches!(

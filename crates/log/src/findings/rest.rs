@@ -1,0 +1,151 @@
+//! Rests: where the axis stands still, at the ends of the record and in between.
+//!
+//! The force of an axis at rest may lie anywhere up to break-away, wherever integrator, brake or gravity have put it; a fit of
+//! the whole record would take it for friction. So rests at the ends are left out of such fits, up to 0.02 s beside
+//! the motion. Not left out is a rest before whose end the force begins to vary (a ramp or steps to break-away), and
+//! one at the end in which the force goes to and fro: both were made on purpose.
+
+mod still;
+mod varies;
+
+use super::finding::{Finding, Severity};
+use crate::log::Log;
+use crate::mapping::{Mapping, Rests};
+use std::ops::Range;
+use stiction_codes::Code;
+use stiction_number::Percent;
+use stiction_number::{counted as count, short};
+
+/// Shortest rest that is spoken of, s. Shorter ones belong to the motion: a dwell, or the time at a slow reversal.
+const SHORTEST_REST: f64 = 1.0;
+/// What is fitted of a rest beside the motion, s: what the common filter would otherwise take off the motion itself.
+const FITTED: f64 = 0.02;
+/// What a record keeps of a rest beyond that, s, without fitting it: filters settle in it.
+pub(crate) const CARRIED: f64 = 0.48;
+/// Share of the samples at rest between motions above which they are a warning.
+const MANY_AT_REST: f64 = 1.0 / 3.0;
+
+/// A rest at an end of the record, and what becomes of it.
+struct End {
+    /// `at the start until 8.2 s`.
+    words: String,
+    /// The samples to leave out; nothing where the force says something.
+    cut: Option<Range<usize>>,
+}
+
+pub(super) fn rests(log: &mut Log, mapping: &Mapping) {
+    log.rests = still::stretches(log, SHORTEST_REST);
+    if log.rests.is_empty() {
+        return;
+    }
+    let samples = log.time.len();
+    let ends: Vec<End> = log
+        .rests
+        .iter()
+        .filter_map(|rest| end(log, rest.clone(), samples))
+        .collect();
+    let keep = match (mapping.rests, mapping.crop) {
+        (Some(Rests::Keep), _) => Some("rests = \"keep\""),
+        (None, Some(_)) => Some("crop"),
+        (None, None) | (Some(Rests::Cut), _) => None,
+    };
+    if !ends.is_empty() {
+        let finding = at_the_ends(log, &ends, keep);
+        log.findings.push(finding);
+    }
+    if keep.is_none() {
+        for cut in ends.into_iter().filter_map(|end| end.cut) {
+            log.exclude(cut, Code::RestAtEnd);
+        }
+    }
+    if let Some(finding) = in_between(log, samples) {
+        log.findings.push(finding);
+    }
+}
+
+/// What becomes of a rest, if it is at an end of the record.
+fn end(log: &Log, rest: Range<usize>, samples: usize) -> Option<End> {
+    let time = &log.time;
+    let cut = if rest.start == 0 {
+        let until = varies::first_change(log, &rest);
+        let last = time[until - 1] - FITTED;
+        0..time.partition_point(|t| *t < last)
+    } else if rest.end == samples {
+        let first = time[rest.start] + FITTED;
+        let from = time.partition_point(|t| *t <= first);
+        match varies::to_and_fro(log, &(from..samples)) {
+            true => samples..samples,
+            false => from..samples,
+        }
+    } else {
+        return None;
+    };
+    let words = match rest.start {
+        0 => format!("at the start until {} s", short(time[rest.end - 1])),
+        start => format!("at the end from {} s", short(time[start])),
+    };
+    let long = !cut.is_empty() && time[cut.end - 1] - time[cut.start] >= 0.5 * SHORTEST_REST;
+    Some(End {
+        words,
+        cut: long.then_some(cut),
+    })
+}
+
+fn at_the_ends(log: &Log, ends: &[End], keep: Option<&str>) -> Finding {
+    let words: Vec<&str> = ends.iter().map(|end| end.words.as_str()).collect();
+    let mut message = format!("the axis stands still {}", words.join(" and "));
+    let cuts: Vec<&Range<usize>> = ends.iter().filter_map(|end| end.cut.as_ref()).collect();
+    if let Some(key) = keep {
+        message.push_str(&format!(
+            "; kept, because the axis file gives {key} under [log]"
+        ));
+    } else if cuts.is_empty() {
+        message.push_str(
+            "; kept, because the force varies meanwhile, as before a break-away; where the controller makes that force, \
+             leave the rest out: crop under [log]",
+        );
+    } else {
+        let times: Vec<String> = cuts
+            .iter()
+            .map(|cut| {
+                let (from, to) = (log.time[cut.start], log.time[cut.end - 1]);
+                format!("{} to {} s", short(from), short(to))
+            })
+            .collect();
+        let samples: usize = cuts.iter().map(|cut| cut.len()).sum();
+        let part = 100.0 * samples as f64 / log.time.len() as f64;
+        message.push_str(&format!(
+            "; fits of the whole record leave out {} ({}, {}), where the force says nothing of friction; to keep it: \
+             rests = \"keep\" under [log] in the axis file",
+            times.join(" and "),
+            count(samples, "sample"),
+            Percent::error(part).short()
+        ));
+    }
+    let at = cuts.first().map_or(0, |cut| cut.start);
+    Finding::new(Code::RestAtEnd, Severity::Note, message).at(at)
+}
+
+fn in_between(log: &Log, samples: usize) -> Option<Finding> {
+    let inside = |rest: &&Range<usize>| rest.start > 0 && rest.end < samples;
+    let inside: Vec<&Range<usize>> = log.rests.iter().filter(inside).collect();
+    let seconds = |rest: &Range<usize>| log.time[rest.end - 1] - log.time[rest.start];
+    let longest = inside
+        .iter()
+        .max_by(|a, b| seconds(a).total_cmp(&seconds(b)))?;
+    let share = inside.iter().map(|rest| rest.len()).sum::<usize>() as f64 / samples as f64;
+    let message = format!(
+        "{} between motions, {} of the samples, the longest {} s from {} s; they are fitted, though at rest the force may \
+         have any value up to break-away and say more of the controller than of friction: record motion without long \
+         dwells",
+        count(inside.len(), "rest"),
+        Percent::error(100.0 * share).short(),
+        short(seconds(longest)),
+        short(log.time[longest.start])
+    );
+    let severity = match share > MANY_AT_REST {
+        true => Severity::Warning,
+        false => Severity::Note,
+    };
+    Some(Finding::new(Code::RestBetween, severity, message).at(longest.start))
+}

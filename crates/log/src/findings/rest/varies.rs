@@ -1,0 +1,101 @@
+//! Whether the force of a rest varies on purpose.
+
+use crate::log::Log;
+use std::ops::Range;
+use stiction_signal::Travel;
+
+/// Length of the blocks over which the force is averaged, s.
+const BLOCK_SECONDS: f64 = 0.25;
+/// Variation of the force in a rest, as a part of its spread in the whole record, up to which it is held by integrator or
+/// brake.
+const HELD: f64 = 0.1;
+/// Distance from the first level at which a larger variation begins, likewise.
+const BEGINS: f64 = 0.02;
+/// The same in standard errors of the mean of a block.
+const ERRORS: f64 = 4.0;
+/// Movements of the force, as a part of its spread, that go to and fro on purpose.
+const SWING: f64 = 0.25;
+
+/// One past the last sample of a rest at the start before which the force is held: the end of the rest where it does
+/// not vary, else where a ramp or a step begins.
+pub(super) fn first_change(log: &Log, rest: &Range<usize>) -> usize {
+    let Some(force) = Blocks::of(log, rest) else {
+        return rest.end;
+    };
+    let (low, high) = force.extremes();
+    if high - low <= (HELD * force.spread).max(2.0 * ERRORS * force.error) {
+        return rest.end;
+    }
+    let bound = (BEGINS * force.spread).max(ERRORS * force.error);
+    let first = force.means[0].1;
+    let change = force
+        .means
+        .iter()
+        .position(|(_, mean)| (mean - first).abs() > bound);
+    // The block before may hold the beginning of the change.
+    let block = change.map_or(force.means.len(), |i| i.saturating_sub(1));
+    force
+        .means
+        .get(block)
+        .map_or(rest.end, |(start, _)| (*start).max(rest.start + 1))
+}
+
+/// Whether the force goes to and fro in a rest at the end.
+pub(super) fn to_and_fro(log: &Log, rest: &Range<usize>) -> bool {
+    let Some(force) = Blocks::of(log, rest) else {
+        return false;
+    };
+    let shortest = (SWING * force.spread).max(2.0 * ERRORS * force.error);
+    let travel = Travel::of(force.means.iter().map(|(_, mean)| *mean), shortest);
+    travel.up > shortest && travel.down > shortest
+}
+
+/// Means of the force over short blocks of a rest.
+struct Blocks {
+    /// First sample and mean of each block.
+    means: Vec<(usize, f64)>,
+    /// Standard error of such a mean, from the scatter within the blocks.
+    error: f64,
+    /// From the 5th to the 95th percentile of the force of the whole record.
+    spread: f64,
+}
+
+impl Blocks {
+    /// `None` without a force, or in a rest shorter than two blocks.
+    fn of(log: &Log, rest: &Range<usize>) -> Option<Self> {
+        let force = log.force.as_deref()?;
+        let samples = ((BLOCK_SECONDS * log.rate_hz) as usize).max(4);
+        let (mut means, mut squares) = (Vec::new(), 0.0);
+        let mut counted = 0_usize;
+        for (i, block) in force.get(rest.clone())?.chunks_exact(samples).enumerate() {
+            let mean = block.iter().sum::<f64>() / samples as f64;
+            // Differences of neighbours, so that a ramp is not scatter.
+            squares += block
+                .windows(2)
+                .map(|f| (f[1] - f[0]) * (f[1] - f[0]))
+                .sum::<f64>();
+            counted += samples - 1;
+            means.push((rest.start + i * samples, mean));
+        }
+        if means.len() < 2 {
+            return None;
+        }
+        let mut sorted = force.to_vec();
+        let mut percentile = |part: f64| {
+            let at = (part * (force.len() - 1) as f64) as usize;
+            *sorted.select_nth_unstable_by(at, f64::total_cmp).1
+        };
+        Some(Self {
+            means,
+            error: (0.5 * squares / (counted * samples) as f64).sqrt(),
+            spread: percentile(0.95) - percentile(0.05),
+        })
+    }
+
+    fn extremes(&self) -> (f64, f64) {
+        let means = self.means.iter().map(|(_, mean)| *mean);
+        means.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+            (low.min(x), high.max(x))
+        })
+    }
+}

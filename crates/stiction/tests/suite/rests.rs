@@ -1,0 +1,115 @@
+//! Rests at the ends of a log, from the file to every output.
+
+use crate::common::{Bench, RATE, friction, noise, options};
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
+use stiction::commands::Outcome;
+use stiction::{Code, LawKind, Silent};
+
+/// To and fro from rest, and at rest again after five seconds: position, velocity, acceleration.
+fn to_and_fro(t: f64) -> [f64; 3] {
+    let mut out = [0.0; 3];
+    for (a, w) in [(0.05, TAU), (0.008, 3.0 * TAU)] {
+        out[0] += a * (1.0 - (w * t).cos());
+        out[1] += a * w * (w * t).sin();
+        out[2] += a * w * w * (w * t).cos();
+    }
+    out
+}
+
+/// Three seconds at rest under a creeping integrator, five of motion, four at rest again.
+fn log(bench: &Bench) -> PathBuf {
+    let moves = |t: f64| (3.0..8.0).contains(&t).then(|| to_and_fro(t - 3.0));
+    bench.log(
+        "log.csv",
+        (12.0 * RATE) as usize,
+        |t| moves(t).map_or(0.0, |state| state[0]),
+        |i, t| {
+            let held = if t < 3.0 {
+                17.0
+            } else {
+                -18.0 + 3.0 * (t - 8.0)
+            };
+            moves(t).map_or(held, friction) + 0.5 * noise(3, i)
+        },
+    )
+}
+
+fn fit(log: &Path, axis: Option<PathBuf>) -> Outcome {
+    let mut asked = options(&[log], LawKind::CoulombViscous);
+    asked.files.axis = axis;
+    asked.identify(&mut Silent).unwrap()
+}
+
+#[test]
+fn they_are_left_out_as_by_the_crop_that_is_named() {
+    let bench = Bench::new();
+    let log = log(&bench);
+    let found = fit(&log, None);
+    let input = &found.result.inputs[0];
+    let times: Vec<(Code, f64, f64)> = input
+        .excluded
+        .iter()
+        .map(|e| (e.code, e.from_s, e.to_s))
+        .collect();
+    let [(Code::RestAtEnd, start, to), (Code::RestAtEnd, from, end)] = times[..] else {
+        panic!("{times:?}");
+    };
+    assert!((start, end) == (0.0, 11.999), "{times:?}");
+    assert!(
+        (to - 2.98).abs() < 0.02 && (from - 8.02).abs() < 0.02,
+        "{times:?}"
+    );
+    // With the rests left out the axis is found, whichever way.
+    let crop = format!("[log]\ncrop = [\"{to} s\", \"{from} s\"]\n");
+    let cropped = fit(&log, Some(bench.write("crop.toml", &crop)));
+    assert!(cropped.result.inputs[0].excluded.is_empty());
+    let a = &found.result.fit;
+    for (name, truth) in [("coulomb", 20.0), ("sigma2", 60.0), ("mass", 9.0)] {
+        for outcome in [&found, &cropped] {
+            let p = outcome.result.parameters.iter().find(|p| p.name == name);
+            let value = p.unwrap().value;
+            assert!((value / truth - 1.0).abs() < 0.03, "{name}: {value}");
+        }
+    }
+    // With the rests the law bends towards a force that is no friction.
+    let kept = fit(
+        &log,
+        Some(bench.write("keep.toml", "[log]\nrests = \"keep\"\n")),
+    );
+    assert!(kept.result.inputs[0].excluded.is_empty());
+    assert!(
+        kept.result.fit.rmse > 5.0 * a.rmse,
+        "{} {}",
+        kept.result.fit.rmse,
+        a.rmse
+    );
+    // And it is said at the head of the terminal and of the report.
+    let text = stiction::commands::text::outcome(&found);
+    let head = text.split("\n\n").next().unwrap();
+    assert!(
+        head.contains("left out: 0 to 2.98") && head.contains("[rest-at-end]"),
+        "{head}"
+    );
+    let bundle = stiction::bundle::identification(&found);
+    let (_, report) = bundle
+        .files()
+        .iter()
+        .find(|(name, _)| *name == "report.html")
+        .unwrap();
+    let report = std::str::from_utf8(report).unwrap();
+    let (said, table) = (report.find("left out: 0 to 2.98"), report.find("<table"));
+    assert!(said.is_some() && said < table, "{said:?} {table:?}");
+}
+
+#[test]
+fn validation_leaves_them_out_too() {
+    let bench = Bench::new();
+    let (log, good) = (log(&bench), bench.good("good.csv", 5));
+    let mut asked = options(&[&good], LawKind::CoulombViscous);
+    asked.files.validate = vec![log];
+    let found = asked.identify(&mut Silent).unwrap();
+    let (fit, unseen) = (&found.result.fit, &found.result.validation[0].fit);
+    // Unlike that of the rests, which is 17 N and more.
+    assert!(unseen.rmse < fit.rmse + 2.0, "{} {}", unseen.rmse, fit.rmse);
+}
