@@ -54,7 +54,8 @@ pub fn fit_law(
 
 /// [`fit_law`] by least squares from the end point of another search.
 ///
-/// `start` holds the nonlinear unknowns in the order of the law, without the delay.
+/// `start` holds the nonlinear unknowns in the order of the law, then the delay in samples, which may be left out;
+/// [`Optimum::start_for`] makes one of the end point of another law.
 ///
 /// # Errors
 /// Those of [`separable`], and for another number of unknowns.

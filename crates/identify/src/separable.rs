@@ -99,22 +99,24 @@ pub(crate) fn follow(
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<Optimum, Error> {
-    if start.len() != law.nonlinear() {
+    let delay = terms.delay == Delay::Fitted;
+    let own = law.nonlinear();
+    if start.len() != own && start.len() != own + 1 {
         return Err(Error::Setting {
             name: "nonlinear unknowns of the start",
             found: start.len() as f64,
-            allowed: "as many as the law has",
+            allowed: "as many as the law has, and the delay",
         });
     }
     let mut bounds = match &settings.bounds {
         Some(bounds) => bounds.clone(),
         None => SearchBox::from_record(record, &law)?,
     };
-    let delay = terms.delay == Delay::Fitted;
     let mut start = start.to_vec();
+    start.truncate(own + usize::from(delay));
     if delay {
         bounds = bounds.with_delay();
-        start.push(0.0);
+        start.resize(own + 1, 0.0);
     }
     let objective = checked(record, law, terms)?;
     let mut watch = Watch::new(observer, Stage::Fine);

@@ -32,6 +32,33 @@ pub struct Optimum {
 }
 
 impl Optimum {
+    /// Where a descent of another law may start from here, for [`fit_law_from`](crate::fit_law_from): the values of the
+    /// unknowns that both laws have, those of both directions for each where only the other law is asymmetric, and the
+    /// delay. An unknown that this law lacks starts at 0, which a descent moves to the nearest end of its range.
+    pub fn start_for(&self, law: &Law) -> Vec<f64> {
+        let (own, other) = (self.law.layout(), law.layout());
+        let mut start = vec![0.0; other.count];
+        let shared = [
+            (other.kappa, own.kappa),
+            (other.excess[0], own.excess[0]),
+            (other.velocity[0], own.velocity[0]),
+            (other.ratio, own.ratio),
+            (other.excess[1], own.excess[1]),
+            (other.velocity[1], own.velocity[1]),
+            (other.breakaway, own.breakaway),
+            (other.exponent, own.exponent),
+        ];
+        for (to, from) in shared {
+            if let (Some(to), Some(from)) = (to, from) {
+                start[to] = self.p[from];
+            }
+        }
+        if self.delay {
+            start.extend(self.p.last());
+        }
+        start
+    }
+
     /// Whether the delay was fitted and stands at the bound of its range.
     pub fn delay_at_bound(&self) -> bool {
         let last = self.p.len().checked_sub(1);

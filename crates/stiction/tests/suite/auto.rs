@@ -135,9 +135,6 @@ fn wrongly_chosen(seeds: Range<u64>) -> (usize, Vec<String>) {
     (all, wrong)
 }
 
-/// Every axis of six seeds on which another law is chosen: what a rule of one standard error misses.
-const KNOWN_MISSES: &str = "coulomb-viscous true seed 1: stribeck true";
-
 /// Every law, symmetric or not, is chosen on an axis that follows it.
 #[test]
 fn the_data_choose_the_law_of_the_axis() {
@@ -151,10 +148,10 @@ fn the_data_choose_the_law_of_the_axis() {
 fn the_data_choose_the_law_over_six_seeds() {
     let (all, wrong) = wrongly_chosen(0..6);
     println!("{} of {all} laws chosen rightly", all - wrong.len());
-    assert_eq!((all, wrong.join("\n").as_str()), (48, KNOWN_MISSES));
+    assert_eq!((all, wrong.join("\n")), (48, String::new()));
 }
 
-/// The law that was chosen is reported as if it had been asked for, bit for bit.
+/// The law that was chosen is reported as if it had been asked for: its descents start elsewhere and end at the same place.
 #[test]
 fn a_chosen_law_is_the_same_as_an_asked_one() {
     let bench = Bench::new();
@@ -163,9 +160,22 @@ fn a_chosen_law_is_the_same_as_an_asked_one() {
     let mut asked = options(&[&file], LawKind::Stribeck);
     asked.asymmetric = true;
     let asked = asked.identify(&mut Silent).unwrap().result;
-    assert_eq!(chosen.parameters, asked.parameters);
-    assert_eq!(chosen.covariance, asked.covariance);
-    assert_eq!(chosen.fit, asked.fit);
+    assert_eq!(chosen.covariance.names, asked.covariance.names);
+    for (own, other) in chosen.parameters.iter().zip(&asked.parameters) {
+        assert_eq!(
+            (&own.name, own.identifiable, &own.reason),
+            (&other.name, other.identifiable, &other.reason)
+        );
+        let std = other.std.unwrap_or(0.0);
+        assert!(
+            (own.value - other.value).abs() <= 1e-4 * std,
+            "{own:?} {other:?}"
+        );
+        assert!(
+            (own.std.unwrap_or(0.0) - std).abs() <= 1e-3 * std,
+            "{own:?} {other:?}"
+        );
+    }
     assert_eq!(
         (chosen.law_chosen_by, asked.law_chosen_by),
         ("cross-validation".into(), "user".into())

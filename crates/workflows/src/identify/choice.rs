@@ -54,7 +54,7 @@ pub(super) fn asked(
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<Choice, engine::Error> {
-    let fitted = ladder.fit(ladder.usual(law), settings, observer)?;
+    let fitted = ladder.fit(&ladder.usual(law), settings, observer)?;
     Ok(fitted_already(fitted, ladder, compare, settings, observer))
 }
 
@@ -163,60 +163,70 @@ pub(super) fn auto(
 /// What the symmetric laws suggest: LuGre with what it leaves open held at nothing, and the families that hold best with
 /// parameters for each direction.
 fn second<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
-    let mut laws = held(climb, false);
+    let mut next = held(climb, ladder, false);
     let errors = climb.rungs.iter().map(Rung::held_out_error);
     let least = errors.fold(f64::INFINITY, f64::min);
     let close = |rung: &&Rung| RICHER_LAW_WINS_BELOW * rung.held_out_error() <= least;
     // Coulomb and viscous friction stays linear, so it costs next to nothing.
     let wanted = |rung: &&Rung| rung.estimate.law.kind == LawKind::CoulombViscous || close(rung);
-    let families = climb.rungs.iter().filter(wanted);
-    laws.extend(families.map(|rung| rung.estimate.law.asymmetric()));
-    laws.into_iter().map(|law| ladder.usual(law)).collect()
+    for rung in climb.rungs.iter().filter(wanted) {
+        let candidate = ladder.usual(rung.estimate.law.asymmetric());
+        next.push(candidate.from(&[rung]));
+    }
+    next
 }
 
 /// What the best of all laws so far suggests where it is asymmetric: the same with what it leaves open held at nothing,
 /// and with a constant force beside it.
 fn third<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
     let (_, best) = climb.entries();
-    let Some(law) = best.map(|best| climb.rungs[best].estimate.law) else {
+    let Some(rung) = best.map(|best| &climb.rungs[best]) else {
         return Vec::new();
     };
+    let law = rung.estimate.law;
     if !law.asymmetric {
         return Vec::new();
     }
-    let mut next: Vec<Candidate> = match law.kind {
-        LawKind::LuGre => held(climb, true)
-            .into_iter()
-            .map(|law| ladder.usual(law))
-            .collect(),
+    let mut next = match law.kind {
+        LawKind::LuGre => held(climb, ladder, true),
         _ => Vec::new(),
     };
     // Without a bristle the two levels and the constant force cannot be told apart.
     let both = ladder.terms.asymmetric_with_offset.as_ref();
-    next.extend(
-        both.filter(|_| law.kind.has_bristle())
-            .map(|terms| Candidate { law, terms }),
-    );
+    next.extend(both.filter(|_| law.kind.has_bristle()).map(|terms| {
+        let candidate = Candidate {
+            terms,
+            ..ladder.usual(law)
+        };
+        candidate.from(&[rung])
+    }));
     next
 }
 
 /// LuGre with what it leaves open held at nothing.
-fn held(climb: &Climb, asymmetric: bool) -> Vec<Law> {
-    let is_lugre = |rung: &&Rung| {
-        rung.estimate.law.kind == LawKind::LuGre && rung.estimate.law.asymmetric == asymmetric
+fn held<'a>(climb: &Climb, ladder: &'a Ladder, asymmetric: bool) -> Vec<Candidate<'a>> {
+    let of = |kind: LawKind| {
+        let is = |rung: &&Rung| {
+            rung.estimate.law.kind == kind && rung.estimate.law.asymmetric == asymmetric
+        };
+        climb.rungs.iter().find(is)
     };
-    let Some(rung) = climb.rungs.iter().find(is_lugre) else {
+    let Some(lugre) = of(LawKind::LuGre) else {
         return Vec::new();
     };
-    let law = rung.estimate.law;
-    let mut laws = Vec::new();
-    if rung.leaves_open(Quantity::Static) || rung.leaves_open(Quantity::StribeckVelocity) {
-        laws.push(law.flat());
+    let law = lugre.estimate.law;
+    let mut next = Vec::new();
+    if lugre.leaves_open(Quantity::Static) || lugre.leaves_open(Quantity::StribeckVelocity) {
+        let near: Vec<&Rung> = [Some(lugre), of(LawKind::Dahl)]
+            .into_iter()
+            .flatten()
+            .collect();
+        next.push(ladder.usual(law.flat()).from(&near));
     }
-    if rung.leaves_open(Quantity::Sigma1) {
-        laws.push(law.undamped());
+    if lugre.leaves_open(Quantity::Sigma1) {
+        next.push(ladder.usual(law.undamped()).from(&[lugre]));
     }
-    laws
+    next
 }
 
 /// The estimate with its intervals in full, unless the search was interrupted.

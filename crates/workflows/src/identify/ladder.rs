@@ -36,10 +36,13 @@ pub(super) struct LinearTerms {
 }
 
 /// A law to fit, and what stands beside it.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(super) struct Candidate<'a> {
     pub law: Law,
     pub terms: &'a Terms,
+    /// Where descents start: at the end points of laws that it holds or that hold it. Without any, its whole range is
+    /// searched.
+    pub starts: Vec<Vec<f64>>,
 }
 
 /// A law, fitted and scored.
@@ -74,7 +77,7 @@ impl Ladder<'_> {
             .with_max_len(1)
             .map(|candidate| {
                 let known = fitted.filter(|(estimate, _)| candidate.is(estimate));
-                let rung = self.rung(*candidate, known, settings, &shared);
+                let rung = self.rung(candidate, known, settings, &shared);
                 shared.one_more();
                 rung
             })
@@ -92,22 +95,40 @@ impl Ladder<'_> {
             true => &self.terms.asymmetric,
             false => &self.terms.symmetric,
         };
-        Candidate { law, terms }
+        Candidate {
+            law,
+            terms,
+            starts: Vec::new(),
+        }
     }
 
     /// Fits one law.
     pub fn fit(
         &self,
-        Candidate { law, terms }: Candidate,
+        candidate: &Candidate,
         settings: &Settings,
         observer: &mut dyn Observer,
     ) -> Result<(Estimate, Optimum), engine::Error> {
-        engine::fit_law(self.record, law, terms, self.low_speed, settings, observer)
+        let Candidate { law, terms, starts } = candidate;
+        let (record, bound) = (self.record, self.low_speed);
+        let Some((first, others)) = starts.split_first() else {
+            return engine::fit_law(record, *law, terms, bound, settings, observer);
+        };
+        let mut from =
+            |start| engine::fit_law_from(start, record, *law, terms, bound, settings, observer);
+        let mut best = from(first)?;
+        for start in others {
+            let other = from(start)?;
+            if other.1.evaluation.cost < best.1.evaluation.cost {
+                best = other;
+            }
+        }
+        Ok(best)
     }
 
     fn rung(
         &self,
-        candidate: Candidate,
+        candidate: &Candidate,
         fitted: Option<(&Estimate, &Optimum)>,
         settings: &Settings,
         shared: &Shared,
@@ -136,7 +157,14 @@ impl Ladder<'_> {
     }
 }
 
-impl Candidate<'_> {
+impl<'a> Candidate<'a> {
+    /// The same with descents from the end points of other laws.
+    pub fn from(mut self, rungs: &[&Rung]) -> Self {
+        let starts = rungs.iter().map(|rung| rung.optimum.start_for(&self.law));
+        self.starts = starts.collect();
+        self
+    }
+
     /// Whether an estimate is of this law with these terms; a delay at the end of its range was taken out of its terms.
     fn is(&self, estimate: &Estimate) -> bool {
         estimate.law == self.law && estimate.terms.offset == self.terms.offset
