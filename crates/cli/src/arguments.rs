@@ -120,7 +120,7 @@ pub struct Check {
 #[derive(Clone, Debug, Args)]
 pub struct Identify {
     /// Logs of one axis, fitted together: text, MATLAB, HDF5, NumPy or Parquet.
-    #[arg(required = true, value_name = "LOG")]
+    #[arg(required_unless_present = "break_away", value_name = "LOG")]
     pub logs: Vec<PathBuf>,
     /// What is known of the axis and its columns.
     #[arg(long, value_name = "AXIS.toml")]
@@ -142,7 +142,8 @@ pub struct Identify {
     /// Model of an earlier identification, for what is not identified here.
     #[arg(long, value_name = "MODEL.toml")]
     pub model: Option<PathBuf>,
-    /// Logs of force ramps, one break-away each; reported with their rate, not fitted.
+    /// Logs of force ramps, one break-away each; reported with their rate, not fitted unless they are the only logs of
+    /// --method output-error.
     #[arg(long, value_name = "LOG", num_args = 1..)]
     pub break_away: Vec<PathBuf>,
     /// Logs to validate on; they are not fitted.

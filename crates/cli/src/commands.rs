@@ -15,8 +15,8 @@ use stiction::commands::{
     check_folder_of, check_inputs, write_atomic,
 };
 use stiction::{
-    Code, CostKind, Error, ExportOptions, LawKind, Method, Options, Procedures, Searching, Study,
-    Target, bundle,
+    Axis, Code, CostKind, Error, ExportOptions, LawKind, Method, Options, Procedures, Searching,
+    Study, Target, bundle,
 };
 
 /// Runs a command; every error is printed here, once.
@@ -55,8 +55,13 @@ pub fn run(arguments: &Arguments) -> Exit {
     })
 }
 
-/// What to type where the columns of a log are not clear by themselves.
+/// What to type next, where that is clear.
 fn next(error: &Error, command: &Command) -> Option<String> {
+    if let Command::Identify(identify) = command
+        && error.code() == Code::TooFewSamples
+    {
+        return simulated(identify);
+    }
     let (logs, axis) = match command {
         Command::Check(check) if check.init.is_none() => (&check.logs, &check.axis),
         Command::Identify(identify) => (&identify.logs, &identify.axis),
@@ -71,6 +76,64 @@ fn next(error: &Error, command: &Command) -> Option<String> {
         "next: stiction check {} --init axis.toml writes an axis file with the columns that are clear filled in",
         log.display()
     ))
+}
+
+/// The same identification by simulation, which filters nothing and needs fewer samples; for a law that can be simulated.
+fn simulated(identify: &arguments::Identify) -> Option<String> {
+    let from_force = identify.method == arguments::Method::Separable;
+    let has_mass = identify
+        .axis
+        .as_ref()
+        .is_none_or(|file| Axis::read(file).is_ok_and(|axis| axis.has_inertia()));
+    let law = match identify.law {
+        arguments::Law::Lugre => "",
+        arguments::Law::CoulombViscous => " --law coulomb-viscous",
+        arguments::Law::Stribeck => " --law stribeck",
+        arguments::Law::Dahl => " --law dahl",
+        _ => return None,
+    };
+    if !from_force || !has_mass {
+        return None;
+    }
+    let mut out = String::from("next: stiction identify");
+    let files = |out: &mut String, paths: &[PathBuf]| {
+        for path in paths {
+            out.push_str(&format!(" {}", quoted(path)));
+        }
+    };
+    files(&mut out, &identify.logs);
+    if let Some(axis) = &identify.axis {
+        out.push_str(&format!(" --axis {}", quoted(axis)));
+    }
+    out.push_str(law);
+    if identify.asymmetric {
+        out.push_str(" --asymmetric");
+    }
+    out.push_str(" --method output-error");
+    for (option, paths) in [
+        ("--validate", &identify.validate),
+        ("--break-away", &identify.break_away),
+    ] {
+        if !paths.is_empty() {
+            out.push_str(&format!(" {option}"));
+            files(&mut out, paths);
+        }
+    }
+    if let Some(part) = identify.split {
+        out.push_str(&format!(" --split {part}"));
+    }
+    out.push_str(&format!(" --out {}", quoted(&identify.out)));
+    Some(out)
+}
+
+/// A path as it is typed: in quotes where it has more than letters, digits and what is usual between them.
+fn quoted(path: &Path) -> String {
+    let text = path.display().to_string();
+    let plain = |c: char| c.is_alphanumeric() || "./_-+:\\".contains(c);
+    match text.chars().all(plain) {
+        true => text,
+        false => format!("\"{text}\""),
+    }
 }
 
 /// Prints a text that is asked for itself.

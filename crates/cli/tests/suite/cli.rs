@@ -555,6 +555,65 @@ fn the_demo_finds_the_truth() {
     assert!(Path::new(&bench.path("stiction-demo/demo.csv")).is_file());
 }
 
+/// A stretch that the filters leave too little of goes to the method that filters nothing, with the command complete.
+#[test]
+fn a_short_stretch_is_sent_to_the_simulation() {
+    let bench = Bench::new();
+    let rows: String = (0..400)
+        .map(|k| {
+            let t = f64::from(k) * 1e-3;
+            let phase = 20.0 * t;
+            format!(
+                "{t},{:.9},{:.6}\n",
+                1e-3 * phase.sin(),
+                12.0 * phase.sin() + 3.0 * phase.cos()
+            )
+        })
+        .collect();
+    std::fs::write(
+        bench.path("my log.csv"),
+        format!("time [s],position [m],force [N]\n{rows}"),
+    )
+    .unwrap();
+    std::fs::write(
+        bench.path("axis.toml"),
+        "kind = \"linear\"\nmass = \"4 kg\"\n",
+    )
+    .unwrap();
+    std::fs::write(
+        bench.path("rig.toml"),
+        "kind = \"linear\"\nmass = \"none\"\n",
+    )
+    .unwrap();
+    let asked = [
+        "identify",
+        "my log.csv",
+        "--axis",
+        "axis.toml",
+        "--law",
+        "dahl",
+        "--asymmetric",
+    ];
+    let (code, _, err) = bench.run(&[&asked[..], &["--out", "out"]].concat());
+    assert_eq!(code, 2, "{err}");
+    assert!(
+        err.contains(
+            "next: stiction identify \"my log.csv\" --axis axis.toml --law dahl --asymmetric --method output-error --out out\n"
+        ),
+        "{err}"
+    );
+    // A rig without a mass cannot be simulated, and not every law can.
+    for other in [
+        ["--axis", "rig.toml", "--law", "dahl"],
+        ["--axis", "axis.toml", "--law", "gms"],
+    ] {
+        let asked = [&["identify", "my log.csv"][..], &other, &["--out", "out"]].concat();
+        let (code, _, err) = bench.run(&asked);
+        assert_eq!(code, 2, "{err}");
+        assert!(!err.contains("next:"), "{err}");
+    }
+}
+
 /// A log whose columns are not clear leads to `--init`, which fills in those that are.
 #[test]
 fn unclear_columns_lead_to_an_axis_file() {

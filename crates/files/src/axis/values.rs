@@ -6,7 +6,7 @@ use crate::config::Places;
 use crate::error::Error;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
-use stiction_identify::{Conditioning, Delay, Dependence, Hold, Terms};
+use stiction_identify::{Conditioning, Delay, Dependence, Hold, Mass, Terms};
 use stiction_log::text::TextOptions;
 use stiction_log::{Log, Mapping, Motion};
 use stiction_number::short;
@@ -77,6 +77,11 @@ impl Default for Axis {
 }
 
 impl Axis {
+    /// Whether the force moves a mass: not on a test rig whose load cell sees friction alone.
+    pub fn has_inertia(&self) -> bool {
+        self.terms.mass != Mass::Absent
+    }
+
     /// The linear terms for a log and a law.
     ///
     /// A constant force is fitted beside a symmetric law only, unless the axis file says otherwise: it

@@ -82,6 +82,9 @@ pub struct BreakAwayEntry {
     pub predicted_force: Option<f64>,
     /// First maximum of friction in the same prediction.
     pub predicted_friction: Option<f64>,
+    /// Slips after which the axis stuck again; 0 where it breaks away once and goes on.
+    #[serde(default)]
+    pub slips: usize,
 }
 
 /// Force steps below break-away.

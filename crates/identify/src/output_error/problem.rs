@@ -51,24 +51,29 @@ pub(crate) struct Equations {
 const STEPS_BETWEEN_LOOKS: usize = 20_000;
 
 /// Looks at the observer now and then while a simulation goes on.
-struct Looks<'w, 'o> {
+pub(crate) struct Looks<'w, 'o> {
     watch: &'w mut Watch<'o>,
     since: usize,
     is_stopped: bool,
 }
 
 impl<'w, 'o> Looks<'w, 'o> {
-    fn new(watch: &'w mut Watch<'o>) -> Self {
+    pub fn new(watch: &'w mut Watch<'o>) -> Self {
+        // After a stop every further simulation ends at once.
+        let is_stopped = watch.stopped;
         Self {
             watch,
             since: 0,
-            is_stopped: false,
+            is_stopped,
         }
     }
 
     /// Whether to go on after another `steps`.
     #[inline]
-    fn go_on(&mut self, steps: usize) -> bool {
+    pub fn go_on(&mut self, steps: usize) -> bool {
+        if self.is_stopped {
+            return false;
+        }
         self.since += steps;
         if self.since < STEPS_BETWEEN_LOOKS {
             return true;

@@ -3,7 +3,7 @@
 use crate::output_error::Simulation;
 use crate::output_error::descent::{Descent, descend};
 use crate::output_error::plant::Axis;
-use crate::output_error::problem::{Point, Problem};
+use crate::output_error::problem::{Looks, Point, Problem};
 use crate::output_error::run::Run;
 use crate::output_error::simulate::{self, Drive, simulate};
 use crate::output_error::start::{self, Scale};
@@ -169,7 +169,6 @@ impl Search<'_> {
         let mut iterations = best.descent.iterations;
         for round in 0..MOST_WEIGHINGS {
             if watch.stopped {
-                best.descent.status = Status::Interrupted;
                 break;
             }
             watch.fraction = round as f64 / MOST_WEIGHINGS as f64;
@@ -182,7 +181,8 @@ impl Search<'_> {
                 .iter()
                 .zip(&new)
                 .all(|(a, b)| (a / b - 1.0).abs() < SETTLED_WEIGHT);
-            let fine = round > 0 && (substeps >= MOST_SUBSTEPS || self.is_fine_enough(&best));
+            let fine =
+                round > 0 && (substeps >= MOST_SUBSTEPS || self.is_fine_enough(&best, watch));
             if round > 0 && balanced && fine {
                 break;
             }
@@ -196,6 +196,9 @@ impl Search<'_> {
             iterations += best.descent.iterations;
         }
         best.descent.iterations = iterations;
+        if watch.stopped {
+            best.descent.status = Status::Interrupted;
+        }
         best
     }
 
@@ -206,9 +209,10 @@ impl Search<'_> {
 
     /// Whether halving the plant steps would change the position by less than a hundredth of the residual:
     /// an error of the step is the same in every sample, and does not average out as noise does.
-    fn is_fine_enough(&self, found: &Found) -> bool {
+    fn is_fine_enough(&self, found: &Found, watch: &mut Watch) -> bool {
         let axis = self.axis(found);
-        let positions = |substeps: usize| {
+        let mut looks = Looks::new(watch);
+        let mut positions = |substeps: usize| {
             let drive = self.drive(substeps);
             let mut out = Vec::new();
             for (run, initial) in self.runs.iter().zip(&found.descent.at.starts) {
@@ -216,7 +220,7 @@ impl Search<'_> {
                     if run.keep[k] {
                         out.push((run.position[k], state.x));
                     }
-                    true
+                    looks.go_on(substeps * simulate::periods(run))
                 });
             }
             out

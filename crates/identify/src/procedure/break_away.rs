@@ -8,10 +8,14 @@
 //! given speed (a third of vs where a model is known), but never below what the position resolves: five
 //! of its steps, or of the standard deviation of its noise at rest, within a hundredth of the ramp. The
 //! force is that of the ramp at that instant.
+//!
+//! **Stick-slip.** An axis that slips and sticks again, once or many times, has broken away at its first slip: it is faster
+//! than the threshold for a while, moves farther than all the way before, and comes to rest again.
 
 use super::moments::Moments;
 use super::stretch::Run;
 use crate::error::Error;
+use std::ops::Range;
 use stiction_servo::plant::{Load, Motion, Plant};
 
 /// Fewest samples of a ramp.
@@ -42,6 +46,8 @@ pub struct BreakAway {
     pub displacement: f64,
     /// Speed that counts as broken away, m/s or rad/s.
     pub threshold: f64,
+    /// Slips after which the axis stuck again; 0 where it breaks away once and goes on.
+    pub slips: usize,
 }
 
 /// What a model predicts of a break-away.
@@ -107,7 +113,23 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
         .clone()
         .rposition(|i| speed(i) < threshold)
         .ok_or(none("the axis moves from the start of the ramp"))?;
-    let i = range.start + slow;
+    let place = |i: usize| moved.mean(i - window / 2, i - window / 2 + window);
+    // The way before the first slip; every slip is longer.
+    let mut presliding = None;
+    let slips = slips(
+        range.clone(),
+        |i| speed(i) >= threshold,
+        |from, to| {
+            let before = (place(from) - mean(rest)).abs().max(CLEAR_MOTION * noise);
+            let slipped = (place(to) - place(from)).abs() > presliding.unwrap_or(before);
+            if slipped && to - from >= window {
+                presliding.get_or_insert(before);
+                return true;
+            }
+            false
+        },
+    );
+    let i = slips.first().map_or(range.start + slow, |slip| *slip);
     if i + 1 >= range.end {
         return Err(none(
             "the axis does not go on moving until the end of the ramp",
@@ -133,9 +155,33 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
         force: at,
         scatter,
         rate,
-        displacement: moved.mean(i - window / 2, i - window / 2 + window) - mean(rest),
+        displacement: place(i) - mean(rest),
         threshold,
+        slips: slips.len(),
     })
+}
+
+/// The last slow sample before each slip that ends in rest again, where `is_slip` says so of its beginning and end.
+fn slips(
+    range: Range<usize>,
+    is_fast: impl Fn(usize) -> bool,
+    mut is_slip: impl FnMut(usize, usize) -> bool,
+) -> Vec<usize> {
+    let mut out = Vec::new();
+    let mut slow = None;
+    for i in range {
+        if is_fast(i) {
+            continue;
+        }
+        // Fast samples lie between this slow one and the last.
+        if let Some(last) = slow.replace(i)
+            && i - last > 1
+            && is_slip(last, i)
+        {
+            out.push(last);
+        }
+    }
+    out
 }
 
 /// What a plant with LuGre friction does under a ramp of `rate` (> 0, force per second) from rest: the

@@ -112,6 +112,37 @@ fn break_away_is_found_in_a_log() {
     assert_eq!((back.force, back.rate), (-forth.force, -forth.rate));
 }
 
+/// Pulled by a spring that is pulled itself, an axis sticks and slips, and at the end of the ramp it may just stick.
+#[test]
+fn stick_slip_is_an_answer() {
+    let plant = block();
+    let (mut motion, mut log, mut position) = (Motion::default(), Samples::default(), Vec::new());
+    // Experiment B of 1995: the far end of the spring moves at 0.1 m/s, and the log shows the force of the drive.
+    let (pull, spring) = (0.1, 2.0);
+    for k in 0..20_000 {
+        let t = f64::from(k) * 2e-3;
+        log.time.push(t);
+        log.force.push(spring * pull * t);
+        position.push(motion.position);
+        for _ in 0..20 {
+            let load = Load {
+                force: spring * pull * t,
+                stiffness: spring,
+            };
+            motion = plant.step(motion, 1e-4, load).motion;
+        }
+    }
+    log.position = Some(position);
+    let hit = found(&log, 1e-9, Some(1e-3 / 3.0)).unwrap();
+    println!("{hit:?}");
+    assert!(hit.slips >= 2, "{hit:?}");
+    // The first of them, at the static level of 1.5 N.
+    assert!((hit.force / 1.5 - 1.0).abs() < 0.05, "{hit:?}");
+    // A ramp that goes on moving has none.
+    let on = found(&ramp(1.0, 1e-3, 0.0), 0.0, Some(1e-3 / 3.0)).unwrap();
+    assert_eq!(on.slips, 0);
+}
+
 #[test]
 fn what_is_no_break_away_is_refused() {
     let good = ramp(1.0, 1e-3, 0.0);

@@ -320,9 +320,11 @@ fn break_away_table(outcome: &Outcome, runs: &[BreakAwayEntry]) -> Table {
             format!("Threshold, {}", symbols::speed_unit(outcome.motion)),
             Align::Right,
         ),
+        ("Slips".into(), Align::Right),
     ])
     .caption(
-        "The axis has broken away at the last instant at which it is slower than the threshold. \
+        "The axis has broken away at the last instant at which it is slower than the threshold; where it sticks again \
+         (slips: how often), before its first slip. \
          Predicted is the force of a simulated ramp of the same rate at the same speed; the largest \
          friction before it is what no sensor sees. Break-away is not a point of the static map: the \
          faster the force rises, the lower it is.",
@@ -337,6 +339,10 @@ fn break_away_table(outcome: &Outcome, runs: &[BreakAwayEntry]) -> Table {
             plain(run.predicted_friction),
             number::sig(run.displacement, 3),
             number::sig(run.threshold, 3),
+            match run.slips {
+                0 => "–".into(),
+                n => n.to_string(),
+            },
         ]);
     }
     table

@@ -162,6 +162,7 @@ fn break_away(runs: &[BreakAwayEntry], unit: &str) -> String {
         format!("force {unit}"),
         "predicted".into(),
         "after".into(),
+        String::new(),
     ]];
     for run in runs {
         rows.push(vec![
@@ -170,9 +171,22 @@ fn break_away(runs: &[BreakAwayEntry], unit: &str) -> String {
             short(run.force),
             run.predicted_force.map_or("-".into(), short),
             short(run.displacement),
+            slips(run.slips),
         ]);
     }
-    format!("\n{}", table(&rows, &[false, true, true, true, true]))
+    format!(
+        "\n{}",
+        table(&rows, &[false, true, true, true, true, false])
+    )
+}
+
+/// What is said of an axis that stuck again after it had broken away.
+fn slips(count: usize) -> String {
+    match count {
+        0 => String::new(),
+        1 => "sticks again after one slip".into(),
+        n => format!("stick-slip, {n} slips"),
+    }
 }
 
 /// What to type for each of the logs that the demo wrote for the procedures, and the parameters to find.

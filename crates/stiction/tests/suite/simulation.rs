@@ -176,6 +176,88 @@ fn the_same_log_is_split_and_driven_by_its_force() {
     assert!((mass / 10.0 - 1.0).abs() < 0.1, "{mass}");
 }
 
+/// The machine axis under a force, open loop: newtons and micrometres.
+fn driven(bench: &Bench, name: &str, n: usize, force: impl Fn(f64) -> f64) -> PathBuf {
+    let axis = known::find("machine").unwrap();
+    let plant = Plant::new(axis.mass, axis.law).unwrap();
+    let mut motion = Motion::default();
+    let mut text = String::from("time [s],position [um],force [N]\n");
+    for k in 0..n {
+        let t = k as f64 * 1e-3;
+        let x = (motion.position / 1e-7).round() * 0.1;
+        let _ = writeln!(text, "{t:.3},{x:.1},{:.6}", force(t));
+        for _ in 0..10 {
+            motion = plant.step(motion, 1e-4, Load::force(force(t))).motion;
+        }
+    }
+    bench.write(name, &text)
+}
+
+/// A law that holds where it was fitted and nowhere else is not trusted, and says on which log.
+#[test]
+fn an_unseen_log_that_is_missed_counts_in_the_verdict() {
+    let bench = Bench::new();
+    // Below break-away Dahl is as good as LuGre; past it, it slides where LuGre falls off its static level.
+    let presliding = driven(&bench, "presliding.csv", 2000, |t| 12.0 * (9.0 * t).sin());
+    let sliding = driven(&bench, "sliding.csv", 2000, |t| 38.0 * (4.0 * t).sin());
+    let again = driven(&bench, "again.csv", 1500, |t| 11.0 * (11.0 * t).sin());
+    let with = |unseen: PathBuf| {
+        let asked = simulated(&bench, "kind = \"linear\"\nmass = \"10 kg\"\n", |o| {
+            o.files.logs = vec![presliding.clone()];
+            o.files.validate = vec![unseen];
+            o.law = Some(LawKind::Dahl);
+        });
+        run(&asked).unwrap().result
+    };
+    let missed = with(sliding);
+    let reasons = missed.trust.reasons.join("; ");
+    assert!(
+        reasons.contains("sliding.csv, simulated whole"),
+        "{reasons}"
+    );
+    assert!(
+        reasons.contains("that of the fit") || reasons.contains("explains"),
+        "{reasons}"
+    );
+    let held = with(again).trust.reasons.join("; ");
+    assert!(!held.contains("again.csv"), "{held}");
+}
+
+/// Ramps are a commanded force: they are fitted where nothing else is given, and their break-away stands beside that.
+#[test]
+fn ramps_are_fitted_and_read() {
+    let bench = Bench::new();
+    let up = driven(&bench, "up.csv", 1000, |t| 45.0 * t);
+    let down = driven(&bench, "down.csv", 1000, |t| -45.0 * t);
+    let still = driven(&bench, "still.csv", 500, |t| 10.0 * t);
+    let axis = "kind = \"linear\"\nmass = \"10 kg\"\n";
+    let ramps = vec![up, down, still.clone()];
+    let alone = simulated(&bench, axis, |o| {
+        o.procedures.break_away = ramps.clone();
+        o.law = Some(LawKind::Dahl);
+    });
+    let result = run(&alone).unwrap().result;
+    assert_eq!(result.inputs.len(), 3);
+    assert_eq!(result.break_away.len(), 2);
+    for found in &result.break_away {
+        // The static level of the machine is 30 N, and a ramp of this rate passes a little below.
+        assert!((25.0..31.0).contains(&found.force.abs()), "{found:?}");
+    }
+    let left_out: Vec<_> = result
+        .warnings
+        .iter()
+        .filter(|w| w.code.as_str() == "no-break-away")
+        .collect();
+    assert_eq!(left_out.len(), 1);
+    assert!(left_out[0].message.contains("still.csv"), "{left_out:?}");
+    // Without a method that fits them there is nothing to fit.
+    let fitted = simulated(&bench, axis, |o| {
+        o.procedures.method = Method::Separable;
+        o.procedures.break_away = ramps.clone();
+    });
+    assert_eq!(run(&fitted).unwrap_err().code().as_str(), "usage");
+}
+
 #[test]
 fn what_cannot_be_simulated_is_told() {
     let bench = Bench::new();

@@ -6,10 +6,10 @@ use super::ladder::Ladder;
 use super::load::{Asked, Loaded};
 use super::logs::paths;
 use super::method::Method;
-use super::procedure::{TwoStep, TwoSteps, break_away, two_step};
+use super::procedure::{BreakAways, TwoStep, TwoSteps, break_away, two_step};
 use super::searched;
 use crate::error::Error;
-use stiction_files::result::{BreakAwayEntry, SearchedEntry};
+use stiction_files::result::SearchedEntry;
 use stiction_identify as engine;
 use stiction_identify::{Law, Observer};
 
@@ -24,7 +24,7 @@ pub(super) struct Fitted {
     /// Both fits, where static parameters come first.
     pub two_steps: Option<TwoSteps>,
     /// What the law says of the break-away runs.
-    pub break_away: Vec<BreakAwayEntry>,
+    pub break_away: BreakAways,
 }
 
 /// Fits the record.
@@ -50,7 +50,7 @@ impl Fitted {
             searched: None,
             not_kept: None,
             two_steps: None,
-            break_away: Vec::new(),
+            break_away: BreakAways::default(),
         }
     }
 }

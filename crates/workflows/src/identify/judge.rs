@@ -37,6 +37,7 @@ pub(super) fn judge(
     }
     let evidence = trust::Evidence {
         law,
+        signal: "force",
         moves_both_ways: conditioned.record.moves_both_ways(),
         sources: &loaded.sources,
         laws: &fitted.choice.laws,

@@ -59,7 +59,14 @@ pub(super) fn load(
         ));
     }
     let beside = Beside::load(options, axis, &held_out)?;
-    let others = [held_out.as_slice(), &beside.statics, &beside.break_away].concat();
+    // A simulated axis is fitted to ramps like to any commanded force; what they show of break-away is read beside that.
+    let is_fitted = |ramp: &&Source| {
+        options.procedures.method == Method::OutputError
+            && sources.iter().any(|s| s.sha256 == ramp.sha256)
+    };
+    let ramps = beside.break_away.iter().filter(|ramp| !is_fitted(ramp));
+    let ramps: Vec<Source> = ramps.cloned().collect();
+    let others = [held_out.as_slice(), &beside.statics, &ramps].concat();
     check_together(&sources, &others)?;
     beside.check_model(options, &sources[0])?;
     for source in sources.iter().chain(&held_out) {

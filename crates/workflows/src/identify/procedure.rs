@@ -7,5 +7,5 @@ pub(super) mod static_map;
 pub(super) mod step;
 mod two_step;
 
-pub(super) use break_away::break_away;
+pub(super) use break_away::{BreakAways, break_away};
 pub(super) use two_step::{TwoStep, TwoSteps, two_step};

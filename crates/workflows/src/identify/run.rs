@@ -12,6 +12,7 @@ use super::procedure::{static_map, step};
 use super::simulate;
 use crate::error::Error;
 use crate::source::{Source, load_all};
+use crate::wording::Setting;
 use std::time::Instant;
 use stiction_files::Axis;
 use stiction_identify as engine;
@@ -32,7 +33,23 @@ pub fn identify(
         Some(file) => Axis::read(file)?,
         None => Axis::default(),
     };
-    let sources = load_all(&files.logs, &axis)?;
+    let ramps = &options.procedures.break_away;
+    let logs = match options.procedures.method {
+        // Ramps are a commanded force like any other.
+        Method::OutputError if files.logs.is_empty() => ramps,
+        _ if files.logs.is_empty() && !ramps.is_empty() => {
+            return Err(Error::usage(
+                [Setting::BreakAway.into(), " without a log".into()],
+                [
+                    "a log that a law is fitted to, or ".into(),
+                    Setting::Method.is(Method::OutputError.name()),
+                    ", which fits the ramps themselves".into(),
+                ],
+            ));
+        }
+        _ => &files.logs,
+    };
+    let sources = load_all(logs, &axis)?;
     let held_out = load_all(&files.validate, &axis)?;
     let asked = Asked {
         options,
@@ -106,7 +123,7 @@ fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Resul
         law_chosen_by: fitted.choice.by,
         judged,
     });
-    result.break_away = fitted.break_away;
+    fitted.break_away.into_result(&mut result);
     result.searched = fitted.searched;
     if let Some(both) = fitted.two_steps {
         both.into_result(&estimate, &mut result, loaded.motion());

@@ -6,6 +6,7 @@ use super::conditioning::{self, conditioned};
 use super::load::{Asked, Loaded};
 use super::logs::{log_warnings, paths};
 use super::outcome::{Found, Outcome, Simulated};
+use super::procedure::break_away;
 use super::trust::{self, Evidence};
 use crate::entries;
 use crate::error::Error;
@@ -122,6 +123,7 @@ pub(super) fn run(
 
     let evidence = Evidence {
         law: &found.fitted,
+        signal: "position",
         moves_both_ways: found.signals.moves_both_ways(quantum),
         sources,
         laws: &[],
@@ -145,6 +147,7 @@ pub(super) fn run(
     }
     let judged = trust::of_position(&evidence, &found, &unseen, warnings);
     let started = if start.is_some() { "separable" } else { "runs" };
+    let break_away = break_away(&loaded.beside, &found.fitted)?;
     let mut result = assemble::result(Parts {
         asked,
         sources,
@@ -155,6 +158,7 @@ pub(super) fn run(
         law_chosen_by: "user",
         judged,
     });
+    break_away.into_result(&mut result);
     // What was fitted is the position; the entries of a force keep their name for it.
     let force = |fit: &Fit| entries::fit(fit, &result.fit.signal, &force_unit);
     let position = |fit: &Fit| entries::fit(fit, "position", symbols::length_unit(motion));

@@ -95,6 +95,8 @@ impl Reasons {
 /// What a fit is judged by.
 pub(super) struct Evidence<'a> {
     pub law: &'a FittedLaw,
+    /// What was fitted: the force, or the position.
+    pub signal: &'static str,
     pub moves_both_ways: bool,
     pub sources: &'a [Source],
     /// Laws side by side; empty where they were not compared.
@@ -277,10 +279,10 @@ fn search_ended(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
 }
 
 fn explains_little(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
-    let estimate = evidence.law;
+    let (estimate, signal) = (evidence.law, evidence.signal);
     if estimate.fit.r2 < LEAST_R2 || estimate.fit.r2.is_nan() {
         let text = format!(
-            "the law explains {:.0} % of the variance of the force; at least {:.0} % are needed \
+            "the law explains {:.0} % of the variance of the {signal}; at least {:.0} % are needed \
              to trust its parameters",
             100.0 * estimate.fit.r2.max(0.0),
             100.0 * LEAST_R2

@@ -4,20 +4,41 @@ use super::curve;
 use crate::error::Error;
 use crate::identify::beside::Beside;
 use crate::identify::logs::{refused, samples};
-use stiction_files::result::BreakAwayEntry;
+use std::collections::VecDeque;
+use stiction_codes::Code;
+use stiction_files::Warning;
+use stiction_files::result::{BreakAwayEntry, ResultFile};
 use stiction_identify::FittedLaw;
 use stiction_identify::procedure::{Run, break_away as find, predict_break_away};
-use stiction_parameters::{ParameterSet, Quantity};
+use stiction_parameters::{Name, ParameterSet, Quantity, Side};
 
 /// Speed that counts as broken away, as a part of the Stribeck velocity, where a model is known, dimensionless: well above
 /// the creep of presliding, well below the velocity at which friction has fallen.
 const BROKEN_AWAY_SPEED: f64 = 1.0 / 3.0;
 
-/// The break-aways of the runs given, in their order.
+/// Break-aways, and what is to be said of runs that show none.
+#[derive(Default)]
+pub(in crate::identify) struct BreakAways {
+    pub entries: Vec<BreakAwayEntry>,
+    pub warnings: Vec<Warning>,
+}
+
+impl BreakAways {
+    /// Puts them into the result.
+    pub fn into_result(self, result: &mut ResultFile) {
+        result.break_away = self.entries;
+        result.warnings.extend(self.warnings);
+    }
+}
+
+/// The break-aways of the runs given, in their order, each for itself: one that shows none is left out with a warning.
+///
+/// # Errors
+/// Where none of the runs shows a break-away.
 pub(in crate::identify) fn break_away(
     beside: &Beside,
     law: &FittedLaw,
-) -> Result<Vec<BreakAwayEntry>, Error> {
+) -> Result<BreakAways, Error> {
     let sources = &beside.break_away;
     let own = samples(sources)?;
     // A model that was given comes first: the method in use may not identify a stiffness.
@@ -26,7 +47,8 @@ pub(in crate::identify) fn break_away(
     for (name, value) in given.iter().flat_map(ParameterSet::iter) {
         values.insert(name, value);
     }
-    let mut out = Vec::new();
+    let mut out = BreakAways::default();
+    let mut refusals = VecDeque::new();
     for (k, (source, samples)) in sources.iter().zip(&own).enumerate() {
         let run = Run {
             samples,
@@ -35,13 +57,21 @@ pub(in crate::identify) fn break_away(
         };
         let positive = samples.force.iter().sum::<f64>() >= 0.0;
         let model = curve::plant(&values, positive);
-        let threshold = model.map(|(_, side)| BROKEN_AWAY_SPEED * side.stribeck_velocity);
-        let found = find(&run, threshold, k).map_err(|e| refused(sources, e))?;
+        let threshold = model
+            .filter(|_| knows_curve(beside, law, positive))
+            .map(|(_, side)| BROKEN_AWAY_SPEED * side.stribeck_velocity);
+        let found = match find(&run, threshold, k) {
+            Ok(found) => found,
+            Err(e) => {
+                refusals.push_back(refused(sources, e));
+                continue;
+            }
+        };
         let sign = found.rate.signum();
         let predicted = model
             .and_then(|(plant, _)| predict_break_away(&plant, found.rate.abs(), found.threshold));
         let offset = values.get(Quantity::Offset).unwrap_or(0.0);
-        out.push(BreakAwayEntry {
+        out.entries.push(BreakAwayEntry {
             path: source.path.display().to_string(),
             rate: found.rate,
             force: found.force,
@@ -51,7 +81,38 @@ pub(in crate::identify) fn break_away(
             threshold: found.threshold,
             predicted_force: predicted.map(|p| sign * p.force + offset),
             predicted_friction: predicted.map(|p| sign * p.friction),
+            slips: found.slips,
         });
     }
+    if out.entries.is_empty()
+        && let Some(first) = refusals.pop_front()
+    {
+        return Err(first);
+    }
+    for refusal in refusals {
+        let text = format!("{refusal}; this run is left out");
+        out.warnings.push(Warning::new(Code::NoBreakAway, text));
+    }
     Ok(out)
+}
+
+/// Whether the Stribeck velocity that the threshold follows is determined: one that is not may be anything.
+fn knows_curve(beside: &Beside, law: &FittedLaw, positive: bool) -> bool {
+    let side = match positive {
+        true => Side::Positive,
+        false => Side::Negative,
+    };
+    let names = [
+        Name::from(Quantity::StribeckVelocity),
+        Name::new(Quantity::StribeckVelocity, side),
+    ];
+    if let Some(read) = &beside.model {
+        let mut own = read.model.parameter.iter();
+        let of_name = |name: &str| name.parse().is_ok_and(|name| names.contains(&name));
+        if let Some(given) = own.find(|p| of_name(&p.name)) {
+            return given.identifiable;
+        }
+    }
+    let found = law.parameters.iter().find(|p| names.contains(&p.name));
+    found.is_some_and(|p| p.identifiable)
 }

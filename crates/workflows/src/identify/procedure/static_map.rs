@@ -41,7 +41,7 @@ pub(in crate::identify) fn run(asked: Asked, loaded: Loaded) -> Result<Outcome, 
         judged,
     });
     result.static_map = Some(found.entry);
-    result.break_away = break_away;
+    break_away.into_result(&mut result);
     let found = Found::Procedure(Box::new(law));
     Ok(Outcome::new(result, found, Vec::new(), loaded.sources))
 }

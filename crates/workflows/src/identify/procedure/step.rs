@@ -71,7 +71,7 @@ pub(in crate::identify) fn run(
     result.fit = entries::fit(&law.fit, "position", length);
     result.presliding_step = Some(entry);
     result.static_map = map;
-    result.break_away = break_away;
+    break_away.into_result(&mut result);
     let found = Found::Procedure(Box::new(law));
     Ok(Outcome::new(result, found, Vec::new(), loaded.sources))
 }
