@@ -26,6 +26,9 @@ const WINDOW_SHARE: f64 = 0.01;
 const CLEAR_MOTION: f64 = 5.0;
 /// Where no threshold is given: share of the top speed on the ramp.
 const THRESHOLD_SHARE: f64 = 1e-3;
+/// Where no threshold is given: least multiple of the speed on the first fifth of the ramp, at most half the top speed. There
+/// the bristles give way elastically; at 30 times that speed a LuGre axis is at 97 % of its static level.
+const ELASTIC_SPEEDS: f64 = 30.0;
 /// Largest deviation of the force from a line until break-away, relative to its rise.
 const MOST_BEND: f64 = 0.1;
 /// Most steps of a prediction.
@@ -102,7 +105,11 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
     }
     let fastest = range.clone().map(speed).fold(0.0, f64::max);
     let threshold = threshold
-        .unwrap_or(THRESHOLD_SHARE * fastest)
+        .unwrap_or_else(|| {
+            let early = range.clone().take(range.len() / 5).map(speed);
+            let elastic = ELASTIC_SPEEDS * median(early.collect());
+            (THRESHOLD_SHARE * fastest).max(elastic.min(0.5 * fastest))
+        })
         .max(CLEAR_MOTION * noise / width);
     if fastest <= threshold {
         return Err(none(
@@ -229,6 +236,11 @@ pub fn predict_break_away(plant: &Plant, rate: f64, threshold: f64) -> Option<Pr
         force,
         friction: peak.unwrap_or(friction),
     })
+}
+
+fn median(mut x: Vec<f64>) -> f64 {
+    x.sort_by(f64::total_cmp);
+    x.get(x.len() / 2).copied().unwrap_or(0.0)
 }
 
 fn mean(x: &[f64]) -> f64 {
