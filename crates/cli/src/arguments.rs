@@ -111,9 +111,8 @@ pub struct Check {
     /// What is known of the axis and its columns.
     #[arg(long, value_name = "AXIS.toml")]
     pub axis: Option<PathBuf>,
-    /// Write an axis file to fill in, from the first log; an existing file is kept.
-    #[arg(long, value_name = "AXIS.toml", num_args = 0..=1, default_missing_value = "axis.toml",
-          conflicts_with = "axis")]
+    /// Write an axis file with what was found in the first log; with --axis, that file with what it lacks.
+    #[arg(long, value_name = "AXIS.toml", num_args = 0..=1, default_missing_value = "axis.toml")]
     pub init: Option<PathBuf>,
 }
 

@@ -197,17 +197,17 @@ fn init(check: &arguments::Check, file: &Path, common: &Common) -> Result<Exit, 
         let reason = "exists already and is kept; name another file: --init OTHER.toml";
         return Err(FileError::output(file, reason).into());
     }
-    let text = stiction::commands::check::init(&check.logs[0])?;
-    write_atomic(file, text.as_bytes())?;
+    let log = &check.logs[0];
+    let started = stiction::commands::check::init(log, check.axis.as_deref())?;
+    write_atomic(file, started.text.as_bytes())?;
     if common.json {
-        output::json(&serde_json::json!({ "written": file.to_string_lossy() }))?;
+        output::json(&serde_json::json!({
+            "written": file.to_string_lossy(),
+            "changes": started.changes,
+            "undecided": started.undecided,
+        }))?;
     } else if !common.quiet {
-        output::print(&format!(
-            "{} written; fill in what is missing, then: stiction check {} --axis {}\n",
-            file.display(),
-            check.logs[0].display(),
-            file.display()
-        ))?;
+        output::print(&stiction::commands::text::started(&started, log, file))?;
     }
     Ok(Exit::Done)
 }

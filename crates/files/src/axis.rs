@@ -1,11 +1,13 @@
 //! `axis.toml`: what is known of the machine and its log. Raw as typed, then resolved to SI.
 
 mod controller;
+mod extend;
 mod gain;
 mod resolve;
 mod template;
 mod tied;
 mod values;
 
-pub use template::template;
+pub use extend::{Addition, extend};
+pub use template::{Found, entry, template};
 pub use values::Axis;

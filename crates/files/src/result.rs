@@ -127,6 +127,20 @@ pub struct Input {
     /// Stretches that the fit did not see, though nothing is wrong with them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub excluded: Vec<ExcludedEntry>,
+    /// Units that neither file nor axis file gives: every number rests on them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub assumed: Vec<AssumedEntry>,
+}
+
+/// A unit that was assumed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AssumedEntry {
+    /// What the column is: `position`, `force`.
+    pub column: String,
+    /// The unit that was assumed.
+    pub unit: String,
+    /// The line for `[columns]` of the axis file that settles it.
+    pub line: String,
 }
 
 /// A stretch of a log that the fit did not see.

@@ -49,7 +49,9 @@ pub mod unit;
 pub use error::{Error, Kind, Place};
 pub use findings::{Finding, Severity};
 pub use log::{Excluded, Gap, Log};
-pub use mapping::{Channel, Detected, Mapping, Motion, Rests, Role, Selector, Wrap};
+pub use mapping::{
+    Assumed, Channel, Detected, Mapping, Motion, Rests, Role, Selector, Understood, Wrap,
+};
 pub use open::{Limits, ReadOptions, read_table};
 pub use stiction_codes::Code;
 pub use table::{Column, Scalar, Table};

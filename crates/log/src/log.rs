@@ -25,7 +25,7 @@ mod filled;
 mod unwrap;
 
 use crate::findings::{self, Finding, Severity};
-use crate::mapping::{Mapping, Motion, Role, Source};
+use crate::mapping::{Mapping, Motion, Role, Source, Understood};
 use crate::{Error, Kind, Table};
 use std::ops::Range;
 use stiction_codes::Code;
@@ -92,6 +92,8 @@ pub struct Log {
     pub findings: Vec<Finding>,
     /// How the file and its columns were understood.
     pub detected: Vec<String>,
+    /// What became of every column of the file, in order.
+    pub columns: Vec<Understood>,
     /// The mapping that was used, with nothing left open.
     pub mapping: Mapping,
 }
@@ -167,6 +169,7 @@ impl Log {
             rests: Vec::new(),
             findings,
             detected,
+            columns: completed.columns,
             mapping,
         };
         let mapping = log.mapping.clone();

@@ -40,12 +40,14 @@ mod limits;
 mod motion;
 mod names;
 mod select;
+mod understood;
 
 use crate::findings::{Finding, full};
 use crate::{Error, Kind, Table};
 pub use channel::{Channel, Motion, Role, Selector};
 pub(crate) use convert::{LARGEST_VALUE, Source};
 pub use limits::{FORCE_LIMITS, RATES, RESOLUTIONS, SCALES, WRAPS};
+pub use understood::{Assumed, Understood};
 
 /// A position that wraps after some travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -205,4 +207,6 @@ pub struct Detected {
     pub phrases: Vec<String>,
     /// What had to be assumed.
     pub findings: Vec<Finding>,
+    /// What became of every column of the table, in order.
+    pub columns: Vec<Understood>,
 }

@@ -33,6 +33,15 @@ impl Format {
     }
 }
 
+/// An object with a quoted key, or a list of objects; no text table begins like that.
+fn is_json(start: &[u8]) -> bool {
+    let mut bytes = start.iter().filter(|byte| !byte.is_ascii_whitespace());
+    matches!(
+        (bytes.next(), bytes.next()),
+        (Some(b'{'), Some(b'"')) | (Some(b'['), Some(b'{'))
+    )
+}
+
 /// The format of a file of this many bytes.
 pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
     let mut start = Vec::new();
@@ -74,6 +83,10 @@ pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
             Format::Foreign("an old Excel workbook", "save the sheet as CSV")
         }
         _ if is_matlab4(&start) => Format::Matlab4,
+        _ if is_json(&start) => Format::Foreign(
+            "a JSON file",
+            "write its samples as a table, such as CSV with a header and one sample in each row",
+        ),
         _ => Format::Text,
     })
 }
@@ -102,4 +115,29 @@ fn is_matlab4(start: &[u8]) -> bool {
             })
     };
     check(u32::from_le_bytes, &[0]) || check(u32::from_be_bytes, &[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_json;
+
+    #[test]
+    fn json_is_told_from_text() {
+        for text in [
+            "{\"mass\": 0.49, \"entries\": [",
+            "{\n  \"t\": [0",
+            " [ {\"t\": 0}",
+        ] {
+            assert!(is_json(text.as_bytes()), "{text}");
+        }
+        for text in [
+            "",
+            "[header]\n0 1\n",
+            "{name}\n0 1\n",
+            "\"t\",\"x\"\n0,1\n",
+            "[1, 2]\n",
+        ] {
+            assert!(!is_json(text.as_bytes()), "{text}");
+        }
+    }
 }

@@ -48,7 +48,7 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
 }
 
 /// A path as a shell takes it: in quotes where it holds anything but letters, digits and plain signs.
-fn quoted(path: &str) -> String {
+pub(crate) fn quoted(path: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "/._-+=:,@%".contains(c);
     match !path.is_empty() && path.chars().all(plain) {
         true => path.to_string(),

@@ -21,7 +21,7 @@ use crate::next;
 use crate::trust::{compensation, constants};
 use std::path::Path;
 use stiction_files::compare_file::CompareFile;
-use stiction_files::result::ResultFile;
+use stiction_files::result::{Input, ResultFile};
 use stiction_number::Percent;
 use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
 use stiction_workflows::identify::Outcome;
@@ -72,13 +72,8 @@ fn sections(outcome: &Outcome) -> Document {
         document = document.block(callout);
     }
     for input in &result.inputs {
-        if let Some(text) = inputs::left_out(input) {
-            document = document.block(Callout {
-                severity: Severity::Info,
-                code: String::new(),
-                text: Text::of_message(&format!("{}: {text}", file_name(&input.path))),
-                link: String::new(),
-            });
+        for callout in of_input(input) {
+            document = document.block(callout);
         }
     }
     document = document.paragraph(next_step(result));
@@ -191,6 +186,20 @@ fn how_sure(document: Document, outcome: &Outcome) -> Document {
             figures::convergence(outcome).into(),
         ]))
         .block(figures::correlation(outcome))
+}
+
+/// What has to be known of a log before its results.
+fn of_input(input: &Input) -> Vec<Callout> {
+    let said = |severity, text: String| Callout {
+        severity,
+        code: String::new(),
+        text: Text::of_message(&format!("{}: {text}", file_name(&input.path))),
+        link: String::new(),
+    };
+    let assumed = inputs::assumed(input)
+        .map(|(text, lines)| said(Severity::Warning, format!("{text} {}", lines.join("; "))));
+    let left_out = inputs::left_out(input).map(|text| said(Severity::Info, text));
+    assumed.into_iter().chain(left_out).collect()
 }
 
 /// What the result may be used for: to compensate, and as constants of the machine.

@@ -1,5 +1,6 @@
 //! What a terminal shows: plain text tables, the same on every width.
 
+mod check;
 mod comparison;
 mod export;
 mod procedure;
@@ -12,6 +13,7 @@ use crate::inputs;
 use crate::names::{chosen_by, force_noise, law_beside, law_of, simulated_runs, without_offset};
 use crate::next;
 use crate::trust::{compensation, constants};
+pub use check::{check, started};
 pub use comparison::comparison;
 pub use export::exported;
 pub use procedure::procedure_commands;
@@ -19,9 +21,7 @@ pub use reproduction::reproduction;
 use std::fmt::Write;
 use std::path::Path;
 use stiction_files::result::{LawEntry, ResultFile, SearchedEntry, SearchedPoint, SimulationEntry};
-use stiction_files::symbols;
 use stiction_number::{Percent, four_digits as short, r_squared, unit};
-use stiction_workflows::check::{Check, LogCheck};
 use stiction_workflows::identify::Outcome;
 pub use study::study;
 use table::table;
@@ -55,6 +55,9 @@ pub fn outcome(outcome: &Outcome) -> String {
             input.samples,
             short(input.rate_hz)
         );
+        if let Some((assumed, lines)) = inputs::assumed(input) {
+            let _ = writeln!(out, "{assumed}\n    {}", lines.join("\n    "));
+        }
         if let Some(left_out) = inputs::left_out(input) {
             let _ = writeln!(out, "{left_out}");
         }
@@ -353,57 +356,4 @@ fn remark(law: &LawEntry) -> String {
         (Some(why), false, true) => format!("reported, but {why}"),
         (Some(_), false, false) => String::new(),
     }
-}
-
-/// The outcome of a check.
-pub fn check(check: &Check) -> String {
-    check
-        .logs
-        .iter()
-        .map(log_check)
-        .collect::<Vec<_>>()
-        .join("\n")
-}
-
-fn log_check(log: &LogCheck) -> String {
-    let mut out = format!(
-        "{}\n  {} axis, {} samples, {} s at {} Hz\n",
-        log.input.path,
-        log.kind,
-        log.input.samples,
-        short(log.seconds),
-        short(log.input.rate_hz)
-    );
-    for line in &log.input.detected {
-        let _ = writeln!(out, "  detected   {line}");
-    }
-    for line in &log.ranges {
-        let _ = writeln!(out, "  range      {line}");
-    }
-    for f in &log.findings {
-        let _ = writeln!(out, "  {:<10} [{}] {}", f.severity, f.code, f.message);
-    }
-    for line in &log.conditioning {
-        let _ = writeln!(out, "  condition  {line}");
-    }
-    if !log.parameters.is_empty() {
-        out.push_str("  a LuGre fit to this log\n");
-        let mut rows = Vec::new();
-        for p in &log.parameters {
-            rows.push(vec![
-                format!("    {}", p.name),
-                symbols::symbol(&p.name),
-                if p.identifiable {
-                    format!("determined, about {} {}", short(p.value), unit(&p.unit))
-                } else {
-                    format!("not determined: {}", p.reason)
-                },
-            ]);
-        }
-        out.push_str(&table(&rows, &[]));
-    }
-    if let Some(refused) = &log.refused {
-        let _ = writeln!(out, "  cannot be trusted: {refused}");
-    }
-    out
 }

@@ -1,5 +1,13 @@
 //! The check workflow: what was read and detected, and what a log can and cannot determine.
 
+mod init;
+mod motion;
+mod shows;
+
+pub use init::{Started, init};
+pub use motion::Motion;
+pub use shows::Shows;
+
 use crate::error::Error;
 use crate::identify::{Asked, Options, Outcome, identify_asked};
 use crate::source;
@@ -7,10 +15,10 @@ use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use stiction_codes::Code;
-use stiction_files::axis::{Axis, template};
+use stiction_files::axis::Axis;
 use stiction_files::result::Input;
 use stiction_identify::{LawKind, Observer};
-use stiction_log::{Mapping, Severity};
+use stiction_log::{Log, Severity, Understood};
 use stiction_number::four_digits as short;
 
 /// What a check found, log by log.
@@ -18,6 +26,8 @@ use stiction_number::four_digits as short;
 pub struct Check {
     /// `stiction.check/1`.
     pub schema: String,
+    /// The axis file, as given; `null` without one.
+    pub axis: Option<PathBuf>,
     /// One entry a log.
     pub logs: Vec<LogCheck>,
 }
@@ -31,16 +41,35 @@ pub struct LogCheck {
     pub kind: String,
     /// Length of the record, s.
     pub seconds: f64,
+    /// What became of every column of the file.
+    pub columns: Vec<ColumnCheck>,
     /// Ranges of the channels, for people: `position -0.1 .. 0.1 m`.
     pub ranges: Vec<String>,
     /// What is wrong or worth knowing.
     pub findings: Vec<Finding>,
     /// How it would be conditioned.
     pub conditioning: Vec<String>,
+    /// How the axis moves; `null` where it does not.
+    pub motion: Option<Motion>,
+    /// What that motion can show, from plain facts.
+    pub shows: Vec<Shows>,
     /// What a LuGre fit to this log would and would not determine.
     pub parameters: Vec<ParameterCheck>,
     /// Why nothing could be identified, if so.
     pub refused: Option<String>,
+}
+
+/// A column of the file, as it was understood.
+#[derive(Clone, Debug, Serialize)]
+pub struct ColumnCheck {
+    /// Its number, counted from 1, and its name: `2 "Position [mm]"`.
+    pub column: String,
+    /// `time`, `position` and so on; `null` where it is not used.
+    pub role: Option<String>,
+    /// The unit its numbers are read in, with scale and sign.
+    pub unit: String,
+    /// Why.
+    pub reason: String,
 }
 
 /// A finding about a log.
@@ -91,6 +120,7 @@ pub fn check(
     }
     Ok(Check {
         schema: "stiction.check/1".into(),
+        axis: axis.map(Path::to_path_buf),
         logs: out,
     })
 }
@@ -103,6 +133,7 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
         input: source.input(true),
         kind: log.motion.to_string(),
         seconds: log.time.last().copied().unwrap_or(0.0),
+        columns: columns(log),
         ranges: ranges(&source),
         findings: log
             .findings
@@ -117,9 +148,15 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
             })
             .collect(),
         conditioning: Vec::new(),
+        motion: Motion::of(log),
+        shows: Vec::new(),
         parameters: Vec::new(),
         refused: None,
     };
+    // Without a force nothing shows, whatever the motion.
+    if let (Some(motion), true) = (&out.motion, log.force.is_some()) {
+        out.shows = shows::shows(log, motion, axis.terms.mass);
+    }
     let options = Options {
         law: Some(LawKind::LuGre),
         compare_laws: false,
@@ -169,6 +206,16 @@ fn verdicts(outcome: &Outcome) -> Vec<ParameterCheck> {
         .collect()
 }
 
+fn columns(log: &Log) -> Vec<ColumnCheck> {
+    let one = |column: &Understood| ColumnCheck {
+        column: column.column.clone(),
+        role: column.role.map(|role| role.to_string()),
+        unit: column.unit.clone(),
+        reason: column.reason.clone(),
+    };
+    log.columns.iter().map(one).collect()
+}
+
 fn ranges(source: &source::Source) -> Vec<String> {
     let log = &source.log;
     let length = stiction_files::symbols::length_unit(log.motion);
@@ -190,20 +237,4 @@ fn ranges(source: &source::Source) -> Vec<String> {
             Some(format!("{name} {} .. {} {unit}", short(low), short(high)))
         })
         .collect()
-}
-
-/// An axis file for a log, with what was detected filled in and the rest to fill in.
-///
-/// # Errors
-/// Where the file cannot be read at all; columns that cannot be told apart are left to fill in.
-pub fn init(path: &Path) -> Result<String, Error> {
-    let table = source::table(path, &Axis::default())?;
-    let detected = Mapping::detect(&table);
-    Ok(match &detected {
-        Ok(found) => template(&table, Ok(&found.mapping)),
-        Err(e) => {
-            let clear = Mapping::clear_columns(&table);
-            template(&table, Err((&clear, &e.to_string())))
-        }
-    })
 }

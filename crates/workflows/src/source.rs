@@ -4,7 +4,7 @@ use crate::error::Error;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 use stiction_files::Axis;
-use stiction_files::result::{ExcludedEntry, Input};
+use stiction_files::result::{AssumedEntry, ExcludedEntry, Input};
 use stiction_identify::{Samples, Terms};
 use stiction_log::{Column, Log, ReadOptions, Table, read_table};
 
@@ -111,8 +111,17 @@ impl Source {
                 samples: e.samples.len(),
             })
         });
+        let assumed = self.log.columns.iter().filter_map(|column| {
+            let assumed = column.assumed.as_ref()?;
+            Some(AssumedEntry {
+                column: column.role?.to_string(),
+                unit: assumed.unit.clone(),
+                line: assumed.line.clone(),
+            })
+        });
         Input {
             excluded: excluded.collect(),
+            assumed: assumed.collect(),
             path: self.path.display().to_string(),
             sha256: self.sha256.clone(),
             samples: self.log.time.len(),

@@ -33,9 +33,26 @@ const ROTARY: Words = Words {
     speed_gain: "0.5 N m s/rad",
 };
 
+/// What was found in a log beside its columns.
+#[derive(Clone, Debug, Default)]
+pub struct Found {
+    /// Columns whose unit was assumed.
+    pub assumed: Vec<Role>,
+    /// One encoder step with its unit: `5e-8 m`.
+    pub resolution: Option<String>,
+    /// Travel after which the position seems to start again, with its unit.
+    pub wrap: Option<String>,
+    /// What the numbers of each column look like; may be empty.
+    pub columns: Vec<String>,
+}
+
 /// Text of an axis file for a table: detected columns filled in, or those that are clear and why the others could not be;
 /// everything else as comments that say what may stand there.
-pub fn template(table: &Table, detected: Result<&Mapping, (&Mapping, &str)>) -> String {
+pub fn template(
+    table: &Table,
+    detected: Result<&Mapping, (&Mapping, &str)>,
+    found: &Found,
+) -> String {
     let mut out = String::from(
         "# Axis file for stiction. Values carry their unit: \"5 mm/s\", \"35.15 N/V\". Every key is\n\
          # described in docs/axis.md; lines that start with # are off.\n\n",
@@ -65,8 +82,12 @@ pub fn template(table: &Table, detected: Result<&Mapping, (&Mapping, &str)>) -> 
         "# mass = \"{}\"     # known mass or inertia; \"fit\" (default) or \"none\"",
         words.mass
     );
-    if detected.time.is_none() {
-        out.push_str("# rate = \"1 kHz\"      # where there is no time column\n");
+    match (&detected.time, detected.rate_hz) {
+        (None, Some(rate)) => {
+            let _ = writeln!(out, "rate = \"{rate} Hz\"    # as the file states it");
+        }
+        (None, None) => out.push_str("# rate = \"1 kHz\"      # where there is no time column\n"),
+        (Some(_), _) => {}
     }
     out.push_str("\n[columns]\n# The file has:\n");
     for (i, column) in table.columns.iter().enumerate().take(64) {
@@ -81,13 +102,21 @@ pub fn template(table: &Table, detected: Result<&Mapping, (&Mapping, &str)>) -> 
             .map_or(String::new(), |u| format!(" [{u}]"));
         // A name from a file must not break out of its comment, and TOML allows no control
         // characters there.
-        let line = format!("{name}{unit}").replace(char::is_control, " ");
+        let looks = found
+            .columns
+            .get(i)
+            .map_or(String::new(), |looks| format!(": {looks}"));
+        let line = format!("{name}{unit}{looks}").replace(char::is_control, " ");
         let _ = writeln!(out, "#   {}: {line}", i + 1);
     }
     for role in Role::ALL {
         match detected.channel(role) {
             Some(channel) => {
-                let _ = writeln!(out, "{role} = {}", entry(channel));
+                let note = match found.assumed.contains(&role) {
+                    true => "    # the unit is assumed: nothing gives it",
+                    false => "",
+                };
+                let _ = writeln!(out, "{role} = {}{note}", entry(channel));
                 let unit = channel.unit.as_ref().map(|u| u.dimension());
                 let raw = [Dimension::CURRENT, Dimension::VOLTAGE]
                     .map(Some)
@@ -128,13 +157,24 @@ pub fn template(table: &Table, detected: Result<&Mapping, (&Mapping, &str)>) -> 
         speed_gain,
         ..
     } = words;
+    let resolution = match &found.resolution {
+        Some(step) => format!("resolution = \"{step}\"    # one encoder step, found in the data"),
+        None => format!("# resolution = \"{count}\"    # one encoder count"),
+    };
+    let wrap = match &found.wrap {
+        Some(travel) => format!(
+            "# wrap = \"{travel}\"         # the position jumps by about this: where it starts again, give it exactly"
+        ),
+        None => "# wrap = \"360 deg\"         # travel after which the position starts again"
+            .to_string(),
+    };
     let _ = write!(
         out,
         "\n[log]\n\
          # crop = [\"1 s\", \"20 s\"]\n\
          # rests = \"keep\"           # fit the axis at rest at start and end too\n\
-         # wrap = \"360 deg\"         # travel after which the position starts again\n\
-         # resolution = \"{count}\"    # one encoder count\n\
+         {wrap}\n\
+         {resolution}\n\
          # force_limit = \"{limit}\"   # where the force saturates\n\n\
          [conditioning]\n\
          # source_cutoff = \"100 Hz\" # \"auto\" (default), \"off\" or a frequency\n\
@@ -156,7 +196,8 @@ pub fn template(table: &Table, detected: Result<&Mapping, (&Mapping, &str)>) -> 
     out
 }
 
-fn entry(channel: &Channel) -> String {
+/// A column as a value of `[columns]`: `{ column = "qm", unit = "m" }`.
+pub fn entry(channel: &Channel) -> String {
     let column = match &channel.column {
         Selector::Name(name) => toml::Value::String(name.clone()).to_string(),
         Selector::Index(i) => i.to_string(),

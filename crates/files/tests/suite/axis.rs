@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use std::fmt::Write;
-use stiction_files::axis::template;
+use stiction_files::axis::{Found, template};
 use stiction_files::{Axis, Error};
 use stiction_identify::{Cutoff, Hold, Source};
 use stiction_log::{Channel, Column, Log, Mapping, Motion, Role, Selector, Table, Unit, Value};
@@ -536,9 +536,9 @@ proptest! {
     ) {
         let table = table(&names);
         let clear = Mapping::clear_columns(&table);
-        parse(&template(&table, Err((&clear, "two columns\nfit")))).unwrap();
+        parse(&template(&table, Err((&clear, "two columns\nfit")), &Found::default())).unwrap();
         let mut mapping = Mapping::detect(&table).map(|d| d.mapping).unwrap_or_default();
-        parse(&template(&table, Ok(&mapping))).unwrap();
+        parse(&template(&table, Ok(&mapping), &Found::default())).unwrap();
         mapping.motion = Some(Motion::Rotary);
         mapping.position = Some(Channel {
             unit: Some(Unit::parse("deg").unwrap()),
@@ -550,10 +550,17 @@ proptest! {
             invert: true,
             ..Channel::named(force.clone())
         });
-        let text = template(&table, Ok(&mapping));
+        let found = Found {
+            assumed: vec![Role::Force],
+            resolution: Some("5e-8 rad".into()),
+            wrap: Some("25 rad".into()),
+            columns: names.iter().map(|(name, _)| name.clone()).collect(),
+        };
+        let text = template(&table, Ok(&mapping), &found);
         let axis = parse(&text).unwrap();
         // What was filled in comes back, and nothing else got in.
         prop_assert_eq!(axis.mapping.motion, Some(Motion::Rotary));
+        prop_assert_eq!(axis.mapping.resolution, Some(5e-8));
         for role in [Role::Position, Role::Force] {
             prop_assert_eq!(axis.mapping.channel(role), mapping.channel(role));
         }

@@ -3,7 +3,7 @@
 use super::channel::{Channel, Motion, Role};
 use super::convert::{Source, is_force};
 use super::select::select;
-use super::{Detected, Mapping, choose, describe, motion, names};
+use super::{Detected, Mapping, choose, describe, motion, names, understood};
 use crate::findings::{Finding, Severity};
 use crate::{Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;
@@ -12,11 +12,13 @@ use stiction_codes::Code;
 const PLAUSIBLE_SPACING: std::ops::RangeInclusive<f64> = 1e-6..=0.2;
 
 /// One role with its column found and, where anything tells it, its unit.
-struct Part {
-    role: Role,
-    channel: Channel,
-    column: usize,
-    unit: Option<Unit>,
+pub(super) struct Part {
+    pub role: Role,
+    pub channel: Channel,
+    pub column: usize,
+    pub unit: Option<Unit>,
+    /// Whether the unit is assumed.
+    pub assumed: bool,
 }
 
 pub(super) fn complete(given: &Mapping, table: &Table) -> Result<Detected, Error> {
@@ -24,6 +26,7 @@ pub(super) fn complete(given: &Mapping, table: &Table) -> Result<Detected, Error
         mapping: given.clone(),
         phrases: Vec::new(),
         findings: Vec::new(),
+        columns: Vec::new(),
     };
     choose::columns(&mut out, table)?;
     let mut parts = Vec::new();
@@ -39,6 +42,7 @@ pub(super) fn complete(given: &Mapping, table: &Table) -> Result<Detected, Error
             channel,
             column,
             unit,
+            assumed: false,
         });
     }
     let labelled = table.columns.iter().any(|c| c.unit.is_some())
@@ -62,6 +66,7 @@ pub(super) fn complete(given: &Mapping, table: &Table) -> Result<Detected, Error
             ..part.channel.clone()
         });
     }
+    out.columns = understood::all(table, given, &parts);
     Ok(out)
 }
 
@@ -198,6 +203,7 @@ fn assume_units(
         };
         told.push(format!("{} {unit}", part.role));
         part.unit = Some(unit);
+        part.assumed = true;
     }
     if !told.is_empty() {
         let message = format!(

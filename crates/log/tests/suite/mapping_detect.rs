@@ -388,3 +388,51 @@ fn a_rate_that_contradicts_the_time_stamps_is_refused() {
     let error = Log::from_table(&axis(2000).table(), &rate(500.0)).unwrap_err();
     insta::assert_snapshot!(error.to_string());
 }
+
+/// Every column of a file, what it became and why.
+#[test]
+fn every_column_is_accounted_for() {
+    let accounts = |headers: &[&str], mapping: &Mapping| {
+        let log = mapping.complete(&headed(headers)).unwrap();
+        let one = |c: &stiction_log::Understood| {
+            let role = c.role.map_or("-".to_string(), |role| role.to_string());
+            let assumed = c
+                .assumed
+                .as_ref()
+                .map_or(String::new(), |a| format!("; {}", a.line));
+            format!("{} | {role} | {} | {}{assumed}", c.column, c.unit, c.reason)
+        };
+        log.columns.iter().map(one).collect::<Vec<_>>().join("\n")
+    };
+    let torque = Mapping {
+        position: Some(Channel::named("ActPos").scale("0.5 um/count".parse().unwrap())),
+        force: Some(
+            Channel::named("Iq")
+                .unit(Unit::parse("A").unwrap())
+                .inverted(),
+        ),
+        ..Mapping::default()
+    };
+    let found = [
+        accounts(
+            &[
+                "t [s]",
+                "ActPos [mm]",
+                "SetPos [mm]",
+                "FollowingError [mm]",
+                "Kraft [N]",
+                "Flag",
+            ],
+            &Mapping::default(),
+        ),
+        accounts(
+            &["time", "displacement", "displacement_filtered", "force"],
+            &Mapping {
+                position: Some(Channel::named("displacement")),
+                ..Mapping::default()
+            },
+        ),
+        accounts(&["t [s]", "ActPos", "Iq", "Id"], &torque),
+    ];
+    insta::assert_snapshot!(found.join("\n\n"));
+}

@@ -2,6 +2,7 @@
 
 mod auto;
 mod chain;
+mod check;
 mod common;
 mod compare;
 mod compare_logs;

@@ -1,0 +1,107 @@
+//! What became of every column of a file, and why, for people.
+
+use super::channel::Role;
+use super::complete::Part;
+use super::names;
+use super::{Mapping, describe};
+use crate::{Table, Unit};
+
+/// A column of the file and what became of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Understood {
+    /// Its number, counted from 1, with its name in quotes where it has one: `2 "Position [mm]"`.
+    pub column: String,
+    /// What it is taken for; `None` where it is not used.
+    pub role: Option<Role>,
+    /// The unit its numbers are read in, with scale and sign: `A, scale 96 N/A, sign inverted`. Empty where it is not used.
+    pub unit: String,
+    /// Why it is taken for that, or why it is not used, and where the unit comes from.
+    pub reason: String,
+    /// Where nothing gave the unit: the unit that was assumed, and the line of the axis file that settles it.
+    pub assumed: Option<Assumed>,
+}
+
+/// A unit that nothing gave.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assumed {
+    /// The unit.
+    pub unit: String,
+    /// The line for `[columns]` of the axis file: `force = { column = "F", unit = "N" }`.
+    pub line: String,
+}
+
+/// Every column of a table in order.
+pub(super) fn all(table: &Table, given: &Mapping, parts: &[Part]) -> Vec<Understood> {
+    let one = |column| match parts.iter().find(|part| part.column == column) {
+        Some(part) => used(table, given, part),
+        None => unused(table, given, parts, column),
+    };
+    (0..table.columns.len()).map(one).collect()
+}
+
+fn used(table: &Table, given: &Mapping, part: &Part) -> Understood {
+    let Part { role, column, .. } = *part;
+    let name = &table.columns[column].name;
+    let by = if given.channel(role).is_some() {
+        "named in the axis file"
+    } else if names::hint(name).is_some_and(|hint| hint.role == role) {
+        "by its name"
+    } else {
+        "the only column in such a unit"
+    };
+    let unit = part.unit.as_ref().map(Unit::to_string).unwrap_or_default();
+    let written = table.columns[column].unit.is_some();
+    let from = match (&part.channel.unit, part.assumed, written) {
+        (_, true, _) => "its unit is given nowhere and assumed",
+        (Some(_), ..) => "its unit from the axis file",
+        (None, _, true) => "its unit as the file has it",
+        (None, ..) => "its unit from the scale",
+    };
+    let assumed = part.assumed.then(|| Assumed {
+        line: describe::line_with(table, column, role, &format!("unit = \"{unit}\"")),
+        unit: unit.clone(),
+    });
+    let mut read = unit;
+    if let Some(scale) = &part.channel.scale {
+        read.push_str(&format!(", scale {scale}"));
+    }
+    if part.channel.invert {
+        read.push_str(", sign inverted");
+    }
+    Understood {
+        column: describe::place(table, column),
+        role: Some(role),
+        unit: read,
+        reason: format!("{by}; {from}"),
+        assumed,
+    }
+}
+
+fn unused(table: &Table, given: &Mapping, parts: &[Part], column: usize) -> Understood {
+    let name = &table.columns[column].name;
+    let hint = names::hint(name);
+    let taken = hint.and_then(|hint| parts.iter().find(|part| part.role == hint.role));
+    let named = Role::ALL.iter().any(|role| given.channel(*role).is_some());
+    let reason = match (hint, taken) {
+        (_, Some(part)) => format!(
+            "could be the {} too, which is column {}",
+            part.role,
+            describe::place(table, part.column)
+        ),
+        _ if named => "not named in the axis file".into(),
+        _ if names::passed_over(name) => "an error, a limit or a state by its name".into(),
+        (Some(hint), None) => format!(
+            "could be the {}, but its unit or others speak against it",
+            hint.role
+        ),
+        (None, None) if name.is_empty() => "has no name".into(),
+        (None, None) => "its name says nothing known".into(),
+    };
+    Understood {
+        column: describe::place(table, column),
+        role: None,
+        unit: String::new(),
+        reason,
+        assumed: None,
+    }
+}

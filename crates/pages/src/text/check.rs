@@ -1,0 +1,185 @@
+//! The outcome of a check, and what an axis file was begun with.
+
+use super::table::table;
+use crate::next::quoted;
+use std::fmt::Write;
+use std::path::Path;
+use stiction_files::symbols;
+use stiction_number::{counted, four_digits as short, unit};
+use stiction_workflows::check::{Check, LogCheck, Started};
+
+/// The outcome of a check.
+pub fn check(check: &Check) -> String {
+    let axis = check.axis.as_deref();
+    let logs = check.logs.iter().map(|log| log_check(log, axis));
+    logs.collect::<Vec<_>>().join("\n")
+}
+
+/// What an axis file was begun with, and what to type next.
+pub fn started(started: &Started, log: &Path, file: &Path) -> String {
+    let mut out = format!("{} written\n", file.display());
+    for change in &started.changes {
+        let _ = writeln!(out, "  {change}");
+    }
+    if started.changes.is_empty() && started.undecided.is_none() {
+        out.push_str("  nothing was added: the axis file gives all that the log shows\n");
+    }
+    if let Some(reason) = &started.undecided {
+        let _ = writeln!(out, "to decide: {reason}");
+    }
+    let then = match started.undecided {
+        Some(_) => "next: fill in what is to decide, then",
+        None => "next:",
+    };
+    let _ = writeln!(
+        out,
+        "{then} stiction check {} --axis {}",
+        quoted(&log.display().to_string()),
+        quoted(&file.display().to_string())
+    );
+    out
+}
+
+fn log_check(log: &LogCheck, axis: Option<&Path>) -> String {
+    let mut out = format!(
+        "{}\n  {} axis, {} samples, {} s at {} Hz\n",
+        log.input.path,
+        log.kind,
+        log.input.samples,
+        short(log.seconds),
+        short(log.input.rate_hz)
+    );
+    out.push_str("  columns\n");
+    out.push_str(&columns(log));
+    for line in log.input.detected.iter().filter(|line| !is_column(line)) {
+        let _ = writeln!(out, "  detected   {line}");
+    }
+    for line in &log.ranges {
+        let _ = writeln!(out, "  range      {line}");
+    }
+    for f in &log.findings {
+        let _ = writeln!(out, "  {:<10} [{}] {}", f.severity, f.code, f.message);
+    }
+    for line in &log.conditioning {
+        let _ = writeln!(out, "  condition  {line}");
+    }
+    if !log.shows.is_empty() {
+        out.push_str("  what the motion can show, by itself; whether it does, a fit tells\n");
+        out.push_str(&shows(log));
+    }
+    if !log.parameters.is_empty() {
+        out.push_str("  a LuGre fit to this log\n");
+        let mut rows = Vec::new();
+        for p in &log.parameters {
+            rows.push(vec![
+                format!("    {}", p.name),
+                symbols::symbol(&p.name),
+                if p.identifiable {
+                    format!("determined, about {} {}", short(p.value), unit(&p.unit))
+                } else {
+                    format!("not determined: {}", p.reason)
+                },
+            ]);
+        }
+        out.push_str(&table(&rows, &[]));
+    }
+    if let Some(refused) = &log.refused {
+        let _ = writeln!(out, "  cannot be trusted: {refused}");
+    }
+    for line in next(log, axis) {
+        let _ = writeln!(out, "  {line}");
+    }
+    out
+}
+
+/// Whether a line of what was detected is about a column, which the table of columns says too.
+fn is_column(line: &str) -> bool {
+    let (role, rest) = line.split_once(" = ").unwrap_or_default();
+    !role.contains(' ') && rest.starts_with("column ")
+}
+
+/// The most columns that are shown though they are not used.
+const MOST_UNUSED: usize = 12;
+
+fn columns(log: &LogCheck) -> String {
+    let mut rows = Vec::new();
+    let (mut shown, mut hidden) = (0, 0);
+    for column in &log.columns {
+        if column.role.is_none() {
+            // A number alone tells nothing.
+            if !column.column.contains('"') || shown == MOST_UNUSED {
+                hidden += 1;
+                continue;
+            }
+            shown += 1;
+        }
+        rows.push(vec![
+            format!("    {}", column.column),
+            column.role.clone().unwrap_or_else(|| "not used".into()),
+            unit(&column.unit),
+            column.reason.clone(),
+        ]);
+    }
+    let mut out = table(&rows, &[]);
+    match (hidden, shown) {
+        (0, _) => {}
+        (n, 0) => {
+            let _ = writeln!(out, "    {} not used", counted(n, "column"));
+        }
+        (n, _) => {
+            let _ = writeln!(out, "    {} more not used", counted(n, "column"));
+        }
+    }
+    out
+}
+
+fn shows(log: &LogCheck) -> String {
+    let mut out = String::new();
+    let wide = log.shows.iter().map(|s| s.meaning.chars().count()).max();
+    let wide = wide.unwrap_or(0);
+    for s in &log.shows {
+        let pad = " ".repeat(wide - s.meaning.chars().count());
+        let _ = writeln!(out, "    {}{pad}  {:<8}  {}", s.meaning, s.shown, s.because);
+        if !s.record.is_empty() {
+            let _ = writeln!(
+                out,
+                "    {}  {:<8}  record {}",
+                " ".repeat(wide),
+                "",
+                s.record
+            );
+        }
+    }
+    out
+}
+
+/// What to type next.
+fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
+    let path = quoted(&log.input.path);
+    let mut out = Vec::new();
+    let with = match axis {
+        Some(file) => format!(" --axis {}", quoted(&file.display().to_string())),
+        None => String::new(),
+    };
+    if !log.input.assumed.is_empty() {
+        let file = if axis.is_some() {
+            "axis-2.toml"
+        } else {
+            "axis.toml"
+        };
+        out.push(format!(
+            "next: stiction check {path}{with} --init {file} writes down the units that were assumed; correct them there"
+        ));
+    }
+    let shown = |shown: &str| {
+        log.shows
+            .iter()
+            .any(|s| s.name == "coulomb" && s.shown == shown)
+    };
+    if log.shows.is_empty() || shown("no") {
+        out.push("next: record a log that moves both ways, with its force; what to record: docs/procedures.md".into());
+    } else {
+        out.push(format!("next: stiction identify {path}{with} --out result"));
+    }
+    out
+}

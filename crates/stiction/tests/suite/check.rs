@@ -1,0 +1,245 @@
+//! What `check` says of a log without a fit, and the axis files that it begins.
+
+use crate::common::{Bench, both_ways, friction, noise, options};
+use std::path::Path;
+use stiction::commands::check::{Check, check, init};
+use stiction::commands::text;
+use stiction::{Axis, LawKind, Silent};
+
+fn checked(log: &Path, axis: Option<&Path>) -> Check {
+    check(&[log.to_path_buf()], axis, &mut Silent).unwrap()
+}
+
+/// How a parameter is judged, and what to record.
+fn shown(found: &Check, name: &str) -> (String, String) {
+    let shows = &found.logs[0].shows;
+    let hit = shows.iter().find(|s| s.name == name);
+    let hit = hit.unwrap_or_else(|| panic!("no {name} in {shows:#?}"));
+    (hit.shown.clone(), hit.record.clone())
+}
+
+fn judged(found: &Check, expected: &[(&str, &str)]) {
+    for (name, verdict) in expected {
+        let (shown, record) = shown(found, name);
+        assert_eq!(shown, *verdict, "{name}: {:#?}", found.logs[0].shows);
+        assert_eq!(
+            record.is_empty(),
+            *verdict == "possible",
+            "{name}: {record}"
+        );
+    }
+}
+
+#[test]
+fn a_motion_shows_what_it_has() {
+    let bench = Bench::new();
+    let found = checked(&bench.good("good.csv", 1), None);
+    judged(
+        &found,
+        &[
+            ("coulomb", "possible"),
+            ("sigma2", "possible"),
+            ("mass", "possible"),
+            ("asymmetry", "possible"),
+        ],
+    );
+    let text = text::check(&found);
+    assert!(text.contains("1 \"Time [s]\""), "{text}");
+    assert!(
+        text.contains("by its name; its unit as the file has it"),
+        "{text}"
+    );
+    let next = format!(
+        "next: stiction identify {} --out result",
+        bench.path("good.csv").display()
+    );
+    assert!(text.trim_end().ends_with(&next), "{text}");
+}
+
+#[test]
+fn a_motion_shows_nothing_that_it_lacks() {
+    let bench = Bench::new();
+    let n = 4000;
+    let one_way = bench.log("one_way.csv", n, |t| 0.05 * t, |i, _| 23.0 + noise(1, i));
+    judged(
+        &checked(&one_way, None),
+        &[
+            ("coulomb", "no"),
+            ("sigma2", "no"),
+            ("static", "no"),
+            ("sigma0", "no"),
+            ("sigma1", "no"),
+            ("asymmetry", "no"),
+        ],
+    );
+    // Fast to and fro: a reversal is over within a sample or two, and hardly any sample is slow.
+    let turns = |t: f64| 0.05 * (2.0 / std::f64::consts::PI) * (40.0 * t).sin().asin();
+    let fast = bench.log("fast.csv", n, turns, |i, t| {
+        20.0 * (40.0 * t).cos().signum() + noise(2, i)
+    });
+    judged(
+        &checked(&fast, None),
+        &[
+            ("coulomb", "possible"),
+            ("static", "no"),
+            ("sigma0", "no"),
+            ("sigma1", "no"),
+        ],
+    );
+    // The same slowly and seen by a fine encoder: three seconds for each way.
+    let slow = |t: f64| 2e-4 * (1.0 - (2.0 * t).cos());
+    let slow = bench.log("slow.csv", 8000, slow, |i, t| {
+        20.0 * (2.0 * t).sin().signum() + 0.1 * noise(3, i)
+    });
+    judged(
+        &checked(&slow, None),
+        &[("coulomb", "possible"), ("sigma0", "possible")],
+    );
+    let still = bench.log("still.csv", n, |_| 0.1, |i, _| 5.0 + noise(2, i));
+    let found = checked(&still, None);
+    assert!(found.logs[0].motion.is_none() && found.logs[0].shows.is_empty());
+    assert!(
+        text::check(&found).contains("next: record"),
+        "{}",
+        text::check(&found)
+    );
+}
+
+/// A log whose units stand nowhere, with an encoder of a thousandth of whatever unit.
+fn bare(bench: &Bench) -> std::path::PathBuf {
+    let counts = |t: f64| (both_ways(t)[0] * 1e6).round() / 1e6;
+    let log = bench.log("bare.csv", 6000, counts, |i, t| {
+        friction(both_ways(t)) + 0.5 * noise(4, i)
+    });
+    let text = std::fs::read_to_string(&log).unwrap();
+    let named = "Time [s],Position [mm],Force [N]";
+    bench.write(
+        "bare.csv",
+        &text.replacen(named, "time,displacement,force", 1),
+    )
+}
+
+#[test]
+fn assumed_units_stand_at_the_head_of_every_result() {
+    let bench = Bench::new();
+    let log = bare(&bench);
+    let found = options(&[&log], LawKind::CoulombViscous)
+        .identify(&mut Silent)
+        .unwrap();
+    let lines: Vec<&str> = found.result.inputs[0]
+        .assumed
+        .iter()
+        .map(|a| a.line.as_str())
+        .collect();
+    let expected = [
+        "time = { column = \"time\", unit = \"s\" }",
+        "position = { column = \"displacement\", unit = \"m\" }",
+        "force = { column = \"force\", unit = \"N\" }",
+    ];
+    assert_eq!(lines, expected);
+    let text = text::outcome(&found);
+    let head = text.split("\n\n").next().unwrap();
+    assert!(
+        head.contains("[unit-assumed]") && head.contains(expected[1]),
+        "{head}"
+    );
+    let bundle = stiction::bundle::identification(&found);
+    let (_, report) = bundle
+        .files()
+        .iter()
+        .find(|(name, _)| *name == "report.html")
+        .unwrap();
+    let report = std::str::from_utf8(report).unwrap();
+    let (said, table) = (report.find("units assumed"), report.find("<table"));
+    assert!(said.is_some() && said < table, "{said:?} {table:?}");
+    // With the lines written down nothing is assumed.
+    let axis = bench.write(
+        "axis.toml",
+        &format!("kind = \"linear\"\n[columns]\n{}\n", lines.join("\n")),
+    );
+    let mut asked = options(&[&log], LawKind::CoulombViscous);
+    asked.files.axis = Some(axis);
+    let same = asked.identify(&mut Silent).unwrap();
+    assert!(same.result.inputs[0].assumed.is_empty());
+    assert!(!text::outcome(&same).contains("unit-assumed"));
+}
+
+#[test]
+fn an_axis_file_is_begun_with_what_was_found() {
+    let bench = Bench::new();
+    let log = bare(&bench);
+    let started = init(&log, None).unwrap();
+    let axis = Axis::parse(&started.text).unwrap();
+    let step = axis.mapping.resolution.unwrap();
+    assert!((step / 1e-3 - 1.0).abs() < 1e-6, "{step}");
+    assert!(
+        started.text.contains("# the unit is assumed"),
+        "{}",
+        started.text
+    );
+    assert!(
+        started
+            .changes
+            .iter()
+            .any(|c| c == "position, its unit assumed"),
+        "{:?}",
+        started.changes
+    );
+}
+
+#[test]
+fn an_axis_file_is_kept_and_given_what_it_lacks() {
+    let bench = Bench::new();
+    let log = bare(&bench);
+    let given = "# ours\nmass = \"9 kg\"\n\n[columns]\nposition = \"displacement\"\n\n[terms]\ndelay = \"none\"\n";
+    let axis = bench.write("axis.toml", given);
+    let started = init(&log, Some(&axis)).unwrap();
+    let text = &started.text;
+    assert!(
+        text.starts_with("# ours\nmass = \"9 kg\"\nkind = \"linear\"\n"),
+        "{text}"
+    );
+    assert!(
+        text.contains("position = { column = \"displacement\", unit = \"m\" }"),
+        "{text}"
+    );
+    assert!(text.contains("\n[terms]\ndelay = \"none\"\n"), "{text}");
+    let said = started.changes.join("\n");
+    assert!(said.contains("added: kind = \"linear\""), "{said}");
+    assert!(
+        said.contains("changed under [columns]: position = "),
+        "{said}"
+    );
+    assert!(said.contains("added under [columns]: force = "), "{said}");
+    assert!(said.contains("added under [log]: resolution = "), "{said}");
+    // Once more there is nothing to add.
+    let again = bench.write("again.toml", text);
+    assert_eq!(init(&log, Some(&again)).unwrap().changes, [""; 0]);
+}
+
+#[test]
+fn columns_without_names_are_described() {
+    let bench = Bench::new();
+    let mut rows = String::new();
+    for i in 0..500 {
+        let t = f64::from(i) * 1e-3;
+        let state = both_ways(t);
+        rows.push_str(&format!(
+            "{t:.3} {:.6} {:.4} 0\n",
+            state[0],
+            friction(state)
+        ));
+    }
+    let log = bench.write("bare.txt", &rows);
+    let started = init(&log, None).unwrap();
+    Axis::parse(&started.text).unwrap();
+    assert!(started.undecided.is_some());
+    let text = &started.text;
+    assert!(
+        text.contains(
+            "#   1: (no name): 0 .. 0.4990, rises all the time, by 0.001000 a sample: time?"
+        ),
+        "{text}"
+    );
+    assert!(text.contains("#   4: (no name): 0 throughout"), "{text}");
+}

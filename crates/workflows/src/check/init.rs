@@ -1,0 +1,229 @@
+//! `check --init`: an axis file with what was found in a log.
+
+use crate::error::Error;
+use crate::source;
+use std::path::Path;
+use stiction_codes::Code;
+use stiction_files::Axis;
+use stiction_files::axis::{Addition, Found, extend, template};
+use stiction_log::{Log, Mapping, Role, Table};
+
+/// An axis file to write, and what is in it that was not given.
+#[derive(Clone, Debug)]
+pub struct Started {
+    /// The text of the axis file.
+    pub text: String,
+    /// What was filled in, added or changed, line by line.
+    pub changes: Vec<String>,
+    /// Why the columns are not all clear, if so.
+    pub undecided: Option<String>,
+}
+
+/// An axis file for a log, with what was found filled in and the rest to fill in; with an axis file, that file as it is, with
+/// what it lacks and the log shows.
+///
+/// # Errors
+/// Where a file cannot be read at all, and where the log does not suit the axis file; columns that cannot be told apart are
+/// left to fill in where there is no axis file.
+pub fn init(path: &Path, axis: Option<&Path>) -> Result<Started, Error> {
+    let given = match axis {
+        Some(file) => Axis::read(file)?,
+        None => Axis::default(),
+    };
+    let table = source::table(path, &given)?;
+    if let Some(file) = axis {
+        let text = std::fs::read_to_string(file)
+            .map_err(|e| stiction_files::Error::output(file, format!("cannot be read: {e}")))?;
+        let log = source::load(path, &given)?.log;
+        let (text, changes) = extend(&text, &additions(&given, &log));
+        return Ok(Started {
+            text,
+            changes,
+            undecided: None,
+        });
+    }
+    Ok(match Mapping::detect(&table) {
+        Ok(detected) => {
+            let log = Log::from_table(&table, &Mapping::default());
+            let found = log.as_ref().map(found).unwrap_or_default();
+            Started {
+                text: template(&table, Ok(&detected.mapping), &found),
+                changes: filled_in(&detected.mapping, &found),
+                undecided: None,
+            }
+        }
+        Err(e) => {
+            let clear = Mapping::clear_columns(&table);
+            let found = Found {
+                columns: described(&table),
+                ..Found::default()
+            };
+            Started {
+                text: template(&table, Err((&clear, &e.to_string())), &found),
+                changes: filled_in(&clear, &found),
+                undecided: Some(e.to_string()),
+            }
+        }
+    })
+}
+
+/// What a log shows beside its columns.
+fn found(log: &Log) -> Found {
+    Found {
+        assumed: assumed(log).map(|(role, _)| role).collect(),
+        resolution: log.quantum.map(|step| length(log, step)),
+        wrap: wrap(log).map(|travel| length(log, travel)),
+        columns: Vec::new(),
+    }
+}
+
+/// A length or angle as an axis file has it, to the last bit.
+fn length(log: &Log, value: f64) -> String {
+    let unit = log.motion.position().si_text();
+    match (1e-3..1e6).contains(&value) {
+        true => format!("{value} {unit}"),
+        false => format!("{value:e} {unit}"),
+    }
+}
+
+/// Columns whose unit was assumed, with the value for the axis file.
+fn assumed(log: &Log) -> impl Iterator<Item = (Role, &str)> {
+    log.columns.iter().filter_map(|column| {
+        let (_, value) = column.assumed.as_ref()?.line.split_once(" = ")?;
+        Some((column.role?, value))
+    })
+}
+
+/// The travel after which the position starts again, where all its jumps are of one size.
+fn wrap(log: &Log) -> Option<f64> {
+    let x = log.position.as_ref()?;
+    log.findings.iter().find(|f| f.code == Code::PositionJump)?;
+    let jump = |i: usize| (x[i] - x[i - 1]).abs();
+    let low = x.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = x.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let starts = log.segments.iter().map(|s| s.start).filter(|i| *i > 0);
+    let jumps: Vec<f64> = starts
+        .map(jump)
+        .filter(|j| *j > 0.5 * (high - low))
+        .collect();
+    let most = jumps.iter().copied().fold(0.0, f64::max);
+    let least = jumps.iter().copied().fold(f64::INFINITY, f64::min);
+    // Two digits: the motion of one sample is lost in every jump.
+    let rounded = format!("{most:.1e}").parse().ok();
+    rounded.filter(|_| !jumps.is_empty() && least > 0.9 * most)
+}
+
+/// What a template holds that is not a comment.
+fn filled_in(mapping: &Mapping, found: &Found) -> Vec<String> {
+    let mut out: Vec<String> = mapping
+        .motion
+        .iter()
+        .map(|kind| format!("kind = \"{kind}\""))
+        .collect();
+    for role in Role::ALL {
+        if mapping.channel(role).is_some() {
+            out.push(match found.assumed.contains(&role) {
+                true => format!("{role}, its unit assumed"),
+                false => role.to_string(),
+            });
+        }
+    }
+    out.extend(mapping.rate_hz.map(|rate| format!("rate = \"{rate} Hz\"")));
+    out.extend(
+        found
+            .resolution
+            .iter()
+            .map(|step| format!("resolution = \"{step}\"")),
+    );
+    out
+}
+
+/// What an axis file lacks and the log shows.
+fn additions(given: &Axis, log: &Log) -> Vec<Addition> {
+    let line =
+        |table: &'static str, names: &'static [&'static str], value: String, why: &str| Addition {
+            table,
+            names,
+            value,
+            why: why.into(),
+            replaces: false,
+        };
+    let mut out = Vec::new();
+    if given.mapping.motion.is_none() {
+        let why = "from the units or names of the columns";
+        out.push(line("", &["kind"], format!("\"{}\"", log.motion), why));
+    }
+    for column in &log.columns {
+        let Some(role) = column.role else { continue };
+        let Some(channel) = log.mapping.channel(role) else {
+            continue;
+        };
+        let replaces = given.mapping.channel(role).is_some();
+        if replaces && column.assumed.is_none() {
+            continue;
+        }
+        out.push(Addition {
+            replaces,
+            ..line(
+                "columns",
+                names(role),
+                stiction_files::axis::entry(channel),
+                &column.reason,
+            )
+        });
+    }
+    if let (None, Some(step)) = (given.mapping.resolution, log.quantum) {
+        let value = format!("\"{}\"", length(log, step));
+        out.push(line(
+            "log",
+            &["resolution"],
+            value,
+            "one encoder step, found in the data",
+        ));
+    }
+    out
+}
+
+/// The names that a column may have in an axis file.
+fn names(role: Role) -> &'static [&'static str] {
+    match role {
+        Role::Time => &["time"],
+        Role::Position => &["position"],
+        Role::Velocity => &["velocity"],
+        Role::Force => &["force", "torque", "current"],
+        Role::Reference => &["reference"],
+        Role::Temperature => &["temperature"],
+        Role::Load => &["load"],
+    }
+}
+
+/// What the numbers of each column look like, so that columns without names can be told apart.
+fn described(table: &Table) -> Vec<String> {
+    table
+        .columns
+        .iter()
+        .map(|column| looks(&column.values))
+        .collect()
+}
+
+fn looks(values: &[f64]) -> String {
+    let numbers: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
+    let (Some(first), Some(last)) = (numbers.first(), numbers.last()) else {
+        return "no numbers".into();
+    };
+    let low = numbers.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let short = stiction_number::four_digits;
+    if low == high {
+        return format!("{} throughout", short(low));
+    }
+    let range = format!("{} .. {}", short(low), short(high));
+    if numbers.windows(2).all(|w| w[1] > w[0]) {
+        let step = (last - first) / (numbers.len() - 1) as f64;
+        return format!(
+            "{range}, rises all the time, by {} a sample: time?",
+            short(step)
+        );
+    }
+    range
+}

@@ -1,0 +1,223 @@
+//! Plain facts about the motion of a log, without a fit.
+
+use serde::Serialize;
+use stiction_log::Log;
+use stiction_signal::{Travel, noise_deviation};
+
+/// Longest window to either side over which a speed is taken from a position, s.
+const LONGEST_WINDOW: f64 = 0.05;
+/// Error of a speed, as a part of the top speed, below which no longer window is needed.
+const SMALL_ERROR: f64 = 1e-3;
+/// Part of the samples that is faster than the top speed: single samples may be noise.
+const ABOVE_TOP: f64 = 0.005;
+/// Bounds of the decades of speed, in top speeds.
+const DECADES: [f64; 4] = [1.0, 0.1, 0.01, 0.001];
+/// Encoder steps for which a reversal is followed.
+const FOLLOWED: f64 = 10.0;
+
+/// How the axis moves.
+#[derive(Clone, Debug, Serialize)]
+pub struct Motion {
+    /// Samples a second, Hz.
+    pub rate_hz: f64,
+    /// Top speed, but for half a percent of the samples, m/s or rad/s.
+    pub top_speed: f64,
+    /// Largest error of a speed from encoder steps and noise, likewise.
+    pub speed_error: f64,
+    /// Shares of the samples, dimensionless, that move forward and back faster than that error, rests left out.
+    pub forward: f64,
+    /// See `forward`.
+    pub back: f64,
+    /// Share of the samples in rests of 1 s or more.
+    pub at_rest: f64,
+    /// Share of the samples in the first, second and third decade below the top speed.
+    pub decades: [f64; 3],
+    /// The same in the first to third decade, in the direction that has less.
+    pub decades_one_way: [f64; 3],
+    /// Speeds that a twentieth and a half of the samples in motion do not reach, m/s or rad/s.
+    pub slow_speed: f64,
+    /// See `slow_speed`.
+    pub middle_speed: f64,
+    /// How often the axis turns back.
+    pub reversals: usize,
+    /// Samples, in the middle of all reversals, until the axis has left the next ten encoder steps (or as much noise) behind.
+    pub samples_at_reversal: Option<f64>,
+    /// Rms acceleration over its error from encoder steps and noise.
+    pub acceleration_over_error: f64,
+    /// Length of the stroke, m or rad.
+    pub range: f64,
+    /// Encoder step, m or rad, where it is known.
+    pub step: Option<f64>,
+}
+
+impl Motion {
+    /// `None` for a log without motion.
+    pub(super) fn of(log: &Log) -> Option<Self> {
+        let n = log.time.len();
+        let seconds = log.time.last()? - log.time.first()?;
+        let (velocity, error, window) = speeds(log)?;
+        let mut sizes: Vec<f64> = velocity.iter().map(|v| v.abs()).collect();
+        sizes.sort_by(f64::total_cmp);
+        let top_speed = sizes[((1.0 - ABOVE_TOP) * (n - 1) as f64) as usize];
+        if top_speed <= error || seconds <= 0.0 {
+            return None;
+        }
+        let mut resting = vec![false; n];
+        for rest in &log.rests {
+            resting[rest.clone()].fill(true);
+        }
+        let share = |test: &dyn Fn(f64) -> bool| {
+            let hits = velocity.iter().zip(&resting);
+            hits.filter(|(v, rest)| !**rest && test(**v)).count() as f64 / n as f64
+        };
+        let decade = |k: usize, sign: f64| {
+            let low = top_speed * DECADES[k + 1];
+            let high = match k {
+                0 => f64::INFINITY,
+                _ => top_speed * DECADES[k],
+            };
+            // A speed within its own error may be rest.
+            share(&|v: f64| v * sign > low.max(3.0 * error) && v * sign <= high)
+        };
+        let sides = [0, 1, 2].map(|k| (decade(k, 1.0), decade(k, -1.0)));
+        let moving: Vec<f64> = sizes.iter().copied().filter(|v| *v > 3.0 * error).collect();
+        let at = |part: f64| {
+            let last = moving.len().saturating_sub(1);
+            moving
+                .get((part * last as f64) as usize)
+                .copied()
+                .unwrap_or(0.0)
+        };
+        let (x, movement) = path(log)?;
+        let turns = turns(&x, movement);
+        let low = x.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = x.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let accelerations: Vec<f64> = (2 * window..n)
+            .step_by(window)
+            .map(|i| {
+                let dt = log.time[i] - log.time[i - 2 * window];
+                (velocity[i] - velocity[i - 2 * window]) / dt
+            })
+            .collect();
+        let squares: f64 = accelerations.iter().map(|a| a * a).sum();
+        let rms = (squares / accelerations.len().max(1) as f64).sqrt();
+        let span = 2.0 * window as f64 / log.rate_hz;
+        Some(Self {
+            rate_hz: log.rate_hz,
+            top_speed,
+            speed_error: error,
+            forward: share(&|v: f64| v > 3.0 * error),
+            back: share(&|v: f64| v < -3.0 * error),
+            at_rest: resting.iter().filter(|r| **r).count() as f64 / n as f64,
+            decades: sides.map(|(a, b)| a + b),
+            decades_one_way: sides.map(|(a, b)| a.min(b)),
+            slow_speed: at(0.05),
+            middle_speed: at(0.5),
+            reversals: turns.len(),
+            samples_at_reversal: samples_after(
+                &x,
+                &turns,
+                log.quantum.map_or(movement, |step| FOLLOWED * step),
+            ),
+            acceleration_over_error: if error > 0.0 {
+                rms * span / error
+            } else {
+                f64::INFINITY
+            },
+            range: high - low,
+            step: log.quantum,
+        })
+    }
+}
+
+/// Speeds with their error and the window, in samples to each side, that they are taken over.
+fn speeds(log: &Log) -> Option<(Vec<f64>, f64, usize)> {
+    let n = log.time.len();
+    let Some(x) = &log.position else {
+        let velocity = log.velocity.clone()?;
+        let error = 3.0 * noise_deviation(std::iter::once(&velocity[..]));
+        return Some((velocity, error, 1));
+    };
+    let noise = noise_deviation(log.segments.iter().filter_map(|s| x.get(s.clone())));
+    let step = log.quantum.unwrap_or(0.0).max(noise);
+    let longest = ((LONGEST_WINDOW * log.rate_hz) as usize).clamp(1, (n / 4).max(1));
+    let mut window = 1;
+    loop {
+        let velocity: Vec<f64> = (0..n)
+            .map(|i| {
+                let (a, b) = (i.saturating_sub(window), (i + window).min(n - 1));
+                (x[b] - x[a]) / (log.time[b] - log.time[a])
+            })
+            .collect();
+        let error = step * log.rate_hz / (2 * window) as f64;
+        let top = velocity.iter().fold(0.0_f64, |top, v| top.max(v.abs()));
+        if error <= SMALL_ERROR * top || 2 * window > longest {
+            return Some((velocity, error, window));
+        }
+        window *= 2;
+    }
+}
+
+/// The position, or the integral of the velocity, and the shortest movement that is one.
+fn path(log: &Log) -> Option<(Vec<f64>, f64)> {
+    if let Some(x) = &log.position {
+        let noise = noise_deviation(log.segments.iter().filter_map(|s| x.get(s.clone())));
+        return Some((
+            x.clone(),
+            Travel::shortest_movement(log.quantum.unwrap_or(0.0), noise),
+        ));
+    }
+    let velocity = log.velocity.as_ref()?;
+    let mut x = 0.0;
+    let mut path = vec![0.0];
+    for (t, v) in log.time.windows(2).zip(velocity.windows(2)) {
+        x += 0.5 * (v[0] + v[1]) * (t[1] - t[0]);
+        path.push(x);
+    }
+    let noise = noise_deviation(std::iter::once(&velocity[..]));
+    let seconds = log.time[velocity.len() - 1] - log.time[0];
+    Some((
+        path,
+        Travel::shortest_integrated(noise, seconds, velocity.len()),
+    ))
+}
+
+/// The samples at which a position turns back by more than the shortest movement.
+fn turns(x: &[f64], shortest: f64) -> Vec<usize> {
+    let mut out = Vec::new();
+    let (mut low, mut high) = (0, 0);
+    let mut rises = None;
+    for (i, &now) in x.iter().enumerate() {
+        // The last sample at an extreme is where the axis sets out again.
+        if now >= x[high] {
+            high = i;
+        }
+        if now <= x[low] {
+            low = i;
+        }
+        match rises {
+            Some(true) if x[high] - now > shortest => {
+                out.push(high);
+                (low, rises) = (i, Some(false));
+            }
+            Some(false) if now - x[low] > shortest => {
+                out.push(low);
+                (high, rises) = (i, Some(true));
+            }
+            None if x[high] - x[low] > shortest => rises = Some(high > low),
+            _ => {}
+        }
+    }
+    out
+}
+
+/// Samples from a turn until the axis is so far from it; the median.
+fn samples_after(x: &[f64], turns: &[usize], distance: f64) -> Option<f64> {
+    let after = turns.iter().filter_map(|&turn| {
+        let away = |y: &f64| (y - x[turn]).abs() > distance;
+        x[turn..].iter().position(away).map(|k| k as f64)
+    });
+    let mut counts: Vec<f64> = after.collect();
+    counts.sort_by(f64::total_cmp);
+    counts.get(counts.len() / 2).copied()
+}

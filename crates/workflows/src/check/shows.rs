@@ -1,0 +1,213 @@
+//! What the motion of a log can show of each parameter, from plain facts: never more than they give.
+//!
+//! A motion that lacks something cannot show a parameter; one that has it all may still not, because the parameter is small
+//! or the noise large, which only a fit tells.
+
+use super::motion::Motion;
+use serde::Serialize;
+use stiction_files::symbols;
+use stiction_identify::Mass;
+use stiction_log::{Log, Motion as Kind};
+use stiction_number::{Percent, counted, four_digits as short};
+
+/// Least share of the samples that move each way.
+const SHARE_EACH_WAY: f64 = 0.05;
+/// Least ratio of a middling to a slow speed from which the slope of friction over speed shows.
+const SPEED_RATIO: f64 = 2.0;
+/// Least share of the samples at a tenth to a hundredth of the top speed, in the direction that has less: a sine has 3 %,
+/// and a triangle, which only passes through these speeds, less.
+const SHARE_SLOW: f64 = 0.02;
+/// The same for the next decade, of which a sine has 0.3 %.
+const SHARE_SLOWER: f64 = 0.005;
+/// Fewest reversals.
+const REVERSALS: usize = 4;
+/// Fewest samples within ten encoder steps of a reversal for the stiffness ...
+const SAMPLES_FOR_STIFFNESS: f64 = 5.0;
+/// ... and for the micro-damping, which shows only in how fast presliding changes.
+const SAMPLES_FOR_DAMPING: f64 = 20.0;
+/// Least rms acceleration over its error.
+const ACCELERATION: f64 = 5.0;
+/// Least angle over which sin q and cos q are neither constant nor a straight line, rad.
+const ANGLE_FOR_GRAVITY: f64 = 1.0;
+/// Least ratio of the share of samples of the rarer direction to that of the other for levels of their own.
+const BALANCED: f64 = 0.3;
+
+/// What the motion can show of one thing.
+#[derive(Clone, Debug, Serialize)]
+pub struct Shows {
+    /// Name of the parameter, as in results: `coulomb`; or `asymmetry`, `gravity`.
+    pub name: String,
+    /// In words: `Coulomb level`.
+    pub meaning: String,
+    /// `possible`, `doubtful` or `no`; it is never certain without a fit.
+    pub shown: String,
+    /// The facts.
+    pub because: String,
+    /// The motion to record where something is missing; empty where nothing is.
+    pub record: String,
+}
+
+/// What a log can show, parameter by parameter.
+pub(super) fn shows(log: &Log, motion: &Motion, mass: Mass) -> Vec<Shows> {
+    let speed = |v: f64| format!("{} {}", short(v), symbols::speed_unit(log.motion));
+    let percent = |part: f64| Percent::error(100.0 * part).short();
+    let m = motion;
+    let least_way = m.forward.min(m.back);
+    let ways = format!(
+        "{} of the samples move forward, {} back",
+        percent(m.forward),
+        percent(m.back)
+    );
+    let mut out = Vec::new();
+    let mut say = |name: &str, meaning: &str, shown: &str, because: String, record: &str| {
+        out.push(Shows {
+            name: name.into(),
+            meaning: meaning.into(),
+            shown: shown.into(),
+            because,
+            record: if shown == "possible" {
+                String::new()
+            } else {
+                record.into()
+            },
+        });
+    };
+    let both = if least_way >= SHARE_EACH_WAY {
+        "possible"
+    } else if least_way > 0.0 {
+        "doubtful"
+    } else {
+        "no"
+    };
+    say(
+        "coulomb",
+        "Coulomb level",
+        both,
+        ways.clone(),
+        "the same motion both ways: in one direction friction cannot be told from a constant force",
+    );
+    let ratio = m.middle_speed / m.slow_speed.max(f64::MIN_POSITIVE);
+    let wide = ratio >= SPEED_RATIO || m.top_speed >= SPEED_RATIO * 2.0 * m.slow_speed;
+    let range = format!(
+        "speeds from {} to {}",
+        speed(m.slow_speed),
+        speed(m.top_speed)
+    );
+    say(
+        "sigma2",
+        "viscous friction",
+        if wide { "possible" } else { "no" },
+        range.clone(),
+        "motion at speeds of a tenth of the top speed up to the top speed",
+    );
+    let [_, tenth, hundredth] = m.decades_one_way;
+    let slow = tenth >= SHARE_SLOW && hundredth >= SHARE_SLOWER;
+    let found = format!(
+        "{} of the samples at a tenth to a hundredth of the top speed, {} below, speeds told to {}",
+        percent(m.decades[1]),
+        percent(m.decades[2]),
+        speed(3.0 * m.speed_error)
+    );
+    let stribeck = match (slow, tenth >= SHARE_SLOW) {
+        _ if least_way <= 0.0 => "no",
+        (true, _) => "possible",
+        (false, true) => "doubtful",
+        (false, false) => "no",
+    };
+    let slower = format!(
+        "constant speeds both ways down to {} and slower, where friction rises towards break-away",
+        speed(0.01 * m.top_speed)
+    );
+    say(
+        "static",
+        "rise at low speed: Fs, vs",
+        stribeck,
+        found,
+        &slower,
+    );
+    let turned = match m.samples_at_reversal {
+        Some(samples) if m.reversals > 0 => format!(
+            "{}; after one it takes {} to {}",
+            counted(m.reversals, "reversal"),
+            counted(samples as usize, "sample"),
+            match m.step {
+                Some(_) => "pass ten encoder steps",
+                None => "leave the noise",
+            }
+        ),
+        _ => "the axis never turns back".into(),
+    };
+    let resolved = |needed: f64| match m.samples_at_reversal {
+        None => "no",
+        Some(_) if m.reversals < REVERSALS => "doubtful",
+        Some(samples) if samples >= needed => "possible",
+        Some(samples) if samples >= 2.0 => "doubtful",
+        Some(_) => "no",
+    };
+    let slow_turns = "slow reversals: a sine or triangle of long period, so that the axis creeps through each turn; a finer \
+                      encoder or a higher rate";
+    say(
+        "sigma0",
+        "presliding stiffness",
+        resolved(SAMPLES_FOR_STIFFNESS),
+        turned.clone(),
+        slow_turns,
+    );
+    say(
+        "sigma1",
+        "micro-damping",
+        resolved(SAMPLES_FOR_DAMPING),
+        format!("{turned}, at {} Hz", short(m.rate_hz)),
+        "slow reversals at the full rate of the drive; force steps at rest (method presliding-step) show it best",
+    );
+    if mass == Mass::Fitted {
+        let accelerates = match m.acceleration_over_error {
+            a if a >= ACCELERATION && wide => "possible",
+            a if a >= 1.0 => "doubtful",
+            _ => "no",
+        };
+        say(
+            "mass",
+            match log.motion {
+                Kind::Linear => "moving mass",
+                Kind::Rotary => "inertia",
+            },
+            accelerates,
+            match m.acceleration_over_error {
+                a if a.is_finite() => format!("accelerations are {} times their error", short(a)),
+                _ => "accelerations without error".into(),
+            },
+            "stronger acceleration both ways; or give the mass in the axis file",
+        );
+    }
+    let balance = least_way / m.forward.max(m.back).max(f64::MIN_POSITIVE);
+    say(
+        "asymmetry",
+        "asymmetry, or a constant force",
+        match balance {
+            b if b >= BALANCED => "possible",
+            b if b > 0.0 => "doubtful",
+            _ => "no",
+        },
+        ways,
+        "as much motion one way as the other, at the same speeds",
+    );
+    if log.motion == Kind::Rotary {
+        let wide = m.range >= ANGLE_FOR_GRAVITY;
+        say(
+            "gravity",
+            "gravity",
+            if wide && log.position.is_some() {
+                "possible"
+            } else {
+                "no"
+            },
+            format!(
+                "the axis covers {} rad; asked for by gravity = true under [terms]",
+                short(m.range)
+            ),
+            "motion over a quarter turn or more, with its position; over less, gravity looks like a constant force",
+        );
+    }
+    out
+}
