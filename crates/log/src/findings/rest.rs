@@ -84,7 +84,7 @@ fn end(log: &Log, rest: Range<usize>, samples: usize) -> Option<End> {
         0 => format!("at the start until {} s", short(time[rest.end - 1])),
         start => format!("at the end from {} s", short(time[start])),
     };
-    let long = !cut.is_empty() && time[cut.end - 1] - time[cut.start] >= 0.5 * SHORTEST_REST;
+    let long = !cut.is_empty() && time[cut.end - 1] - time[cut.start] >= 0.9 * SHORTEST_REST;
     Some(End {
         words,
         cut: long.then_some(cut),

@@ -12,8 +12,8 @@ const SMALL_ERROR: f64 = 1e-3;
 const ABOVE_TOP: f64 = 0.005;
 /// Bounds of the decades of speed, in top speeds.
 const DECADES: [f64; 4] = [1.0, 0.1, 0.01, 0.001];
-/// Encoder steps for which a reversal is followed.
-const FOLLOWED: f64 = 10.0;
+/// Part of the way between its levels forward and back that the force has to go after a reversal to have turned round.
+const TURNED: f64 = 0.75;
 
 /// How the axis moves.
 #[derive(Clone, Debug, Serialize)]
@@ -40,7 +40,7 @@ pub struct Motion {
     pub middle_speed: f64,
     /// How often the axis turns back.
     pub reversals: usize,
-    /// Samples, in the middle of all reversals, until the axis has left the next ten encoder steps (or as much noise) behind.
+    /// Samples, the median of all reversals, that the force takes to turn round after one.
     pub samples_at_reversal: Option<f64>,
     /// Rms acceleration over its error from encoder steps and noise.
     pub acceleration_over_error: f64,
@@ -114,11 +114,10 @@ impl Motion {
             slow_speed: at(0.05),
             middle_speed: at(0.5),
             reversals: turns.len(),
-            samples_at_reversal: samples_after(
-                &x,
-                &turns,
-                log.quantum.map_or(movement, |step| FOLLOWED * step),
-            ),
+            samples_at_reversal: log
+                .force
+                .as_ref()
+                .and_then(|force| samples_after(&x, force, &turns)),
             acceleration_over_error: if error > 0.0 {
                 rms * span / error
             } else {
@@ -211,11 +210,29 @@ fn turns(x: &[f64], shortest: f64) -> Vec<usize> {
     out
 }
 
-/// Samples from a turn until the axis is so far from it; the median.
-fn samples_after(x: &[f64], turns: &[usize], distance: f64) -> Option<f64> {
-    let after = turns.iter().filter_map(|&turn| {
-        let away = |y: &f64| (y - x[turn]).abs() > distance;
-        x[turn..].iter().position(away).map(|k| k as f64)
+/// Samples from a turn until the force has gone most of the way from its level in one direction to that in the other; the
+/// median. A force that has done so before the turn, because the axis brakes, takes none.
+fn samples_after(x: &[f64], force: &[f64], turns: &[usize]) -> Option<f64> {
+    let mut levels = [Vec::new(), Vec::new()];
+    let ends = turns.iter().copied().chain([x.len() - 1]);
+    let mut start = 0;
+    for end in ends {
+        levels[usize::from(x[end] > x[start])].extend(&force[start..=end]);
+        start = end;
+    }
+    let [back, forward] = levels.map(|mut level: Vec<f64>| {
+        let middle = level.len() / 2;
+        (!level.is_empty()).then(|| *level.select_nth_unstable_by(middle, f64::total_cmp).1)
+    });
+    let (back, forward) = (back?, forward?);
+    let after = turns.iter().enumerate().filter_map(|(k, &turn)| {
+        let next = turns.get(k + 1).copied().unwrap_or(x.len());
+        let (from, to) = match x[next - 1] > x[turn] {
+            true => (back, forward),
+            false => (forward, back),
+        };
+        let there = |f: &f64| (f - from) / (to - from) >= TURNED;
+        force[turn..next].iter().position(there).map(|k| k as f64)
     });
     let mut counts: Vec<f64> = after.collect();
     counts.sort_by(f64::total_cmp);

@@ -21,7 +21,7 @@ const SHARE_SLOW: f64 = 0.02;
 const SHARE_SLOWER: f64 = 0.005;
 /// Fewest reversals.
 const REVERSALS: usize = 4;
-/// Fewest samples within ten encoder steps of a reversal for the stiffness ...
+/// Fewest samples in which the force turns round at a reversal for the stiffness ...
 const SAMPLES_FOR_STIFFNESS: f64 = 5.0;
 /// ... and for the micro-damping, which shows only in how fast presliding changes.
 const SAMPLES_FOR_DAMPING: f64 = 20.0;
@@ -84,10 +84,11 @@ pub(super) fn shows(log: &Log, motion: &Motion, mass: Mass) -> Vec<Shows> {
         "Coulomb level",
         both,
         ways.clone(),
-        "the same motion both ways: in one direction friction cannot be told from a constant force",
+        "motion that slides, both ways: in one direction friction cannot be told from a constant force",
     );
     let ratio = m.middle_speed / m.slow_speed.max(f64::MIN_POSITIVE);
-    let wide = ratio >= SPEED_RATIO || m.top_speed >= SPEED_RATIO * 2.0 * m.slow_speed;
+    let slides = m.slow_speed > 0.0 && m.forward + m.back >= SHARE_EACH_WAY;
+    let wide = slides && (ratio >= SPEED_RATIO || m.top_speed >= 2.0 * SPEED_RATIO * m.slow_speed);
     let range = format!(
         "speeds from {} to {}",
         speed(m.slow_speed),
@@ -108,7 +109,7 @@ pub(super) fn shows(log: &Log, motion: &Motion, mass: Mass) -> Vec<Shows> {
         percent(m.decades[2]),
         speed(3.0 * m.speed_error)
     );
-    let stribeck = match (slow, tenth >= SHARE_SLOW) {
+    let stribeck = match (slow, tenth >= SHARE_SLOWER) {
         _ if least_way <= 0.0 => "no",
         (true, _) => "possible",
         (false, true) => "doubtful",
@@ -126,16 +127,16 @@ pub(super) fn shows(log: &Log, motion: &Motion, mass: Mass) -> Vec<Shows> {
         &slower,
     );
     let turned = match m.samples_at_reversal {
-        Some(samples) if m.reversals > 0 => format!(
-            "{}; after one it takes {} to {}",
+        _ if m.reversals == 0 => "the axis never turns back".into(),
+        Some(samples) => format!(
+            "{}, at which the force takes {} to turn round",
             counted(m.reversals, "reversal"),
-            counted(samples as usize, "sample"),
-            match m.step {
-                Some(_) => "pass ten encoder steps",
-                None => "leave the noise",
-            }
+            counted(samples as usize, "sample")
         ),
-        _ => "the axis never turns back".into(),
+        None => format!(
+            "{}, at which the force does not turn round",
+            counted(m.reversals, "reversal")
+        ),
     };
     let resolved = |needed: f64| match m.samples_at_reversal {
         None => "no",
