@@ -17,7 +17,7 @@ use crate::conditioning::grid::Grid;
 use crate::conditioning::losses::Losses;
 use crate::conditioning::record::{Record, Samples, Segment};
 use crate::error::{Error, full};
-use stiction_signal::{Sos, gradient, gradient_sixth_order, noise_deviation};
+use stiction_signal::{Reading, Sos, Thinning, gradient, gradient_sixth_order, noise_deviation};
 
 /// Missing samples up to this many in a row are bridged by a straight line (and do not count in the
 /// fit); longer gaps split the log.
@@ -79,6 +79,18 @@ impl Default for Conditioning {
 
 /// Conditions logs of one axis for a fit. All must have (nearly) the same sample rate.
 pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record, Error> {
+    let mut record = condition_as(logs, conditioning, 0.0)?;
+    let positions = logs.iter().filter_map(|log| log.position.as_deref());
+    record.position_noise = noise_deviation(positions);
+    Ok(record)
+}
+
+/// The same where the noise of the position is known, m or rad.
+pub(crate) fn condition_as(
+    logs: &[Samples],
+    conditioning: &Conditioning,
+    position_noise: f64,
+) -> Result<Record, Error> {
     for (i, log) in logs.iter().enumerate() {
         check(i + 1, log)?;
     }
@@ -181,8 +193,10 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
             full(conditioning.min_speed)
         ));
     }
+    let longest = logs.iter().map(|log| log.time.len()).max().unwrap_or(0);
     let filters = Filters {
         source: source_filter,
+        thinning: thinning(common.as_ref(), decimate, longest),
         common,
         trim,
         decimate,
@@ -235,7 +249,7 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
         segments,
         common: filters.common,
         decimate,
-        position_noise: noise_deviation(logs.iter().filter_map(|log| log.position.as_deref())),
+        position_noise,
         common_hz,
         notes,
         resolution: conditioning.resolution,
@@ -243,6 +257,18 @@ pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record
         losses,
         is_thinned: false,
     })
+}
+
+/// Number of samples from one that counts to the next from which on the common filter is computed for those alone: below,
+/// the filter over all of them takes no longer.
+const LEAST_THINNED: usize = 3;
+
+/// The common filter, where it is worth computing at the thinned samples of a stretch of this length alone.
+pub(crate) fn thinning(common: Option<&Sos>, decimate: usize, length: usize) -> Option<Thinning> {
+    if !(LEAST_THINNED..length).contains(&decimate) {
+        return None;
+    }
+    Thinning::new(common?, decimate)
 }
 
 /// A frequency in Hz for a note.
@@ -348,6 +374,8 @@ pub(crate) fn stretches(log: &Samples, step: f64) -> Vec<std::ops::Range<usize>>
 struct Filters {
     source: Option<Sos>,
     common: Option<Sos>,
+    /// The same where it is worth computing at the thinned samples alone.
+    thinning: Option<Thinning>,
     trim: usize,
     decimate: usize,
     /// Samples to each side that the common filter mixes into one.
@@ -362,6 +390,26 @@ impl Filters {
         4usize
             .saturating_mul(self.decimate.max(4))
             .saturating_add(2 * self.trim)
+    }
+
+    /// The force after the common filter, every n-th sample of it.
+    fn thinned_force(&self, drive: &[f64]) -> Option<Vec<f64>> {
+        let every = || (0..drive.len()).step_by(self.decimate);
+        let Some(common) = &self.common else {
+            return Some(every().map(|i| drive[i]).collect());
+        };
+        if drive.iter().any(|x| !x.is_finite()) {
+            return None;
+        }
+        let thinning = self.thinning.as_ref();
+        let read = thinning.and_then(|t| t.read(drive, 0, every().len(), &[Reading::SAMPLE]));
+        match read.into_iter().flatten().next() {
+            Some(force) => Some(force),
+            None => {
+                let whole = common.zero_phase(drive).ok()?;
+                Some(every().map(|i| whole[i]).collect())
+            }
+        }
     }
 
     /// One stretch, conditioned; `None` if it is too short.
@@ -405,7 +453,7 @@ impl Filters {
         };
         let acceleration = derivative(&velocity)?;
         let drive = on_grid(&samples.force);
-        let force = smooth(drive.clone(), &self.common)?;
+        let force = self.thinned_force(&drive)?;
         let valid = if samples.valid.is_empty() {
             &[][..]
         } else {
@@ -436,7 +484,7 @@ impl Filters {
             drive,
             valid,
             time: thin(&grid.times()),
-            force: thin(&force),
+            force,
             keep,
             channels: Channels {
                 position: if has_position {

@@ -1,17 +1,23 @@
 //! How well a law predicts samples that it was not fitted to: blocked cross-validation.
 //!
-//! Blocks are contiguous stretches of time, because neighbouring samples share their noise and their
-//! model error; leaving out single samples would give every law too small an error.
+//! What is left out is contiguous stretches of time, because neighbouring samples share their noise and their
+//! model error; leaving out single samples would give every law too small an error. Many stretches make up one
+//! block, so that what is left still holds every kind of motion: a law that is fitted to fast strokes alone cannot
+//! be asked for slow reversals (decision 0048).
 
-use crate::conditioning::blocks::kept_order;
+use crate::conditioning::blocks::Folds;
 use crate::conditioning::record::Record;
 use crate::estimate::{Estimate, predict};
 use crate::fit::Fit;
 use crate::law::Law;
+use crate::left_out::Whole;
 use crate::separable::objective::Objective;
-use crate::separable::refine;
 use crate::separable::search_box::SearchBox;
-use stiction_search::{Observer, Status};
+use crate::watch::Watch;
+use stiction_search::{Observer, Stage};
+
+/// Most steps of a descent without a block.
+const REFIT_STEPS: usize = 60;
 
 /// How a law predicts held-out blocks.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,8 +68,8 @@ impl LawScore {
     }
 }
 
-/// Refits a law with each of `blocks` contiguous blocks left out, starting from the full fit, and
-/// pools the residuals of the blocks.
+/// Refits a law with each of `blocks` parts of the record left out, starting from the full fit, and puts together the
+/// residuals of the parts, in the order of the samples.
 pub fn cross_validate(
     record: &Record,
     fitted: &Estimate,
@@ -71,42 +77,29 @@ pub fn cross_validate(
     blocks: usize,
     observer: &mut dyn Observer,
 ) -> LawScore {
-    let mut measured = Vec::new();
-    let mut residual = Vec::new();
-    let mut speed = Vec::new();
-    let mut complete = blocks >= 2;
-    let order = kept_order(record);
     let total = record.kept();
-    let unknowns = fitted.fitted_unknowns();
     // What is left of the record must still be enough for a fit.
-    if total - total / blocks.max(1) < 10 * unknowns {
-        complete = false;
+    let enough = total - total / blocks.max(1) >= 10 * fitted.fitted_unknowns();
+    if blocks < 2 || !enough {
+        return LawScore::of(fitted, &[], Vec::new(), &[]);
     }
-    for block in 0..if complete { blocks } else { 0 } {
-        let inside = |i: usize| order[i].is_some_and(|k| k * blocks / total == block);
-        let train = record.masked(|i| !inside(i));
-        let test = record.masked(inside);
-        let (p, c, status) = refine(
-            &train,
-            fitted.law,
-            &fitted.terms,
-            bounds,
-            fitted.unknowns(),
-            observer,
-        );
-        if status == Status::Interrupted {
-            complete = false;
-            break;
+    let objective = Objective::new(record, fitted.law, &fitted.terms);
+    let mut watch = Watch::new(observer, Stage::CrossValidation);
+    let at = objective.evaluate(fitted.unknowns(), true);
+    watch.count(&objective, true);
+    let whole = Whole {
+        objective: &objective,
+        terms: &fitted.terms,
+        bounds,
+        p: fitted.unknowns(),
+        at: &at,
+        steps: REFIT_STEPS,
+    };
+    match whole.residuals(&Folds::of(record, blocks), &mut watch) {
+        Some(residual) => {
+            let speed = record.pick(|s| &s.velocity);
+            LawScore::of(fitted, objective.force(), residual, &speed)
         }
-        let objective = Objective::new(&test, fitted.law, &fitted.terms);
-        let model = objective.model(&p, &c);
-        residual.extend(objective.force().iter().zip(&model).map(|(u, y)| u - y));
-        measured.extend_from_slice(objective.force());
-        speed.extend(test.pick(|s| &s.velocity));
+        None => LawScore::of(fitted, &[], Vec::new(), &[]),
     }
-    if !complete {
-        residual.clear();
-        measured.clear();
-    }
-    LawScore::of(fitted, &measured, residual, &speed)
 }

@@ -1,14 +1,15 @@
 //! Result of a fit to a [`replica`](crate::replica).
 
 use crate::conditioning::record::Record;
-use crate::conditioning::{Conditioning, condition};
+use crate::conditioning::{Conditioning, condition_as};
 use crate::estimate::Estimate;
 use crate::estimate::uncertainty::{Unknowns, unknowns};
-use crate::replica::{Replica, replica};
+use crate::replica::{Axis, Replica};
 use crate::separable::descent::descend;
-use crate::separable::objective::Objective;
+use crate::separable::objective::{Evaluation, Objective};
 use crate::separable::search_box::SearchBox;
 use crate::watch::Watch;
+use nalgebra::DMatrix;
 use stiction_search::{Counts, Silent, Stage};
 
 /// Seed of the replica without noise of the force.
@@ -30,36 +31,122 @@ pub(crate) fn refitted(
     surety: bool,
     counts: &mut Counts,
 ) -> Option<Refit> {
-    let record = condition(&replica.logs, conditioning).ok()?;
+    // The noise of the position is asked of a log that replicas are made of, not of a replica that is fitted.
+    let record = condition_as(&replica.logs, conditioning, 0.0).ok()?;
     let objective = Objective::new(&record, fitted.law, &replica.terms);
-    let mut p = replica.p.clone();
-    for _ in 0..steps {
-        let at = objective.evaluate(&p, true);
+    let evaluated = |p: &[f64], counts: &mut Counts| {
         counts.derivatives += 1;
-        let step = at.hessian.cholesky()?.solve(&at.descent);
-        if steps > 1 && step.iter().any(|d| d.abs() > LONGEST_STEP) {
-            p = descended(&objective, &replica.p, counts)?;
+        objective.evaluate(p, true)
+    };
+    let mut at = evaluated(&replica.p, counts);
+    let mut last = stepped(&objective, &replica.p, &at)?;
+    for _ in 1..steps {
+        if last.longest > LONGEST_STEP {
+            let p = descended(&objective, &replica.p, counts)?;
+            at = evaluated(&p, counts);
+            last = Stepped {
+                c: at.solution.coefficients.clone(),
+                p,
+                longest: 0.0,
+                fall: 0.0,
+            };
             break;
         }
-        for (x, d) in p.iter_mut().zip(step.iter()) {
-            *x += d.clamp(-LONGEST_STEP, LONGEST_STEP);
-        }
-    }
-    let at = objective.evaluate(&p, surety);
-    if surety {
-        counts.derivatives += 1;
-    } else {
-        counts.costs += 1;
+        at = evaluated(&last.p, counts);
+        last = stepped(&objective, &last.p, &at)?;
     }
     let unknowns = surety.then(|| unknowns(&objective, &at));
     let refit = Refit {
-        p,
-        square: at.cost / at.residual().len().max(1) as f64,
-        c: at.solution.coefficients,
+        p: last.p,
+        square: (at.cost - last.fall).max(0.0) / at.residual().len().max(1) as f64,
+        c: last.c,
         unknowns,
     };
     let finite = |x: &[f64]| x.iter().all(|x| x.is_finite());
     (finite(&refit.p) && finite(&refit.c) && refit.square.is_finite()).then_some(refit)
+}
+
+/// The unknowns after a Gauss-Newton step from an evaluation.
+struct Stepped {
+    p: Vec<f64>,
+    /// The coefficients there, to first order.
+    c: Vec<f64>,
+    /// Largest change of a logarithm that the step asked for.
+    longest: f64,
+    /// By how much it lowers the cost, to second order.
+    fall: f64,
+}
+
+/// One step, in which no logarithm moves further than [`LONGEST_STEP`]; `None` where the equations have no solution.
+fn stepped(objective: &Objective, from: &[f64], at: &Evaluation) -> Option<Stepped> {
+    let wanted = at.hessian.clone().cholesky()?.solve(&at.descent);
+    let step = wanted.map(|d| d.clamp(-LONGEST_STEP, LONGEST_STEP));
+    let views: Vec<&[f64]> = at.columns.iter().map(|c| c.as_slice()).collect();
+    let turned = at.solution.turned(&views, &at.slopes);
+    let mut c = at.solution.coefficients.clone();
+    for (j, (c, bounded)) in c.iter_mut().zip(objective.nonnegative()).enumerate() {
+        *c += step.iter().zip(&turned).map(|(d, t)| d * t[j]).sum::<f64>();
+        *c = if *bounded { c.max(0.0) } else { *c };
+    }
+    Some(Stepped {
+        p: from.iter().zip(&step).map(|(x, d)| x + d).collect(),
+        c,
+        longest: wanted.amax(),
+        fall: 2.0 * step.dot(&at.descent) - step.dot(&(&at.hessian * &step)),
+    })
+}
+
+/// What a fit of a replica without force noise finds to first order, and what white noise of the force, of a standard
+/// deviation of 1 in the log, would add.
+pub(crate) struct FirstOrder {
+    /// Nonlinear unknowns.
+    pub p: Vec<f64>,
+    /// Linear ones.
+    pub c: Vec<f64>,
+    /// Covariance of all of them.
+    pub covariance: DMatrix<f64>,
+    /// Number of samples of the fit.
+    pub kept: usize,
+}
+
+/// The same fit as [`refitted`] in one step of all unknowns, at one evaluation.
+pub(crate) fn first_order(
+    replica: &Replica,
+    conditioning: &Conditioning,
+    fitted: &Estimate,
+    counts: &mut Counts,
+) -> Option<FirstOrder> {
+    let record = condition_as(&replica.logs, conditioning, 0.0).ok()?;
+    let objective = Objective::new(&record, fitted.law, &replica.terms);
+    let at = objective.evaluate(&replica.p, true);
+    counts.derivatives += 1;
+    let (k, m) = (at.slopes.len(), at.columns.len());
+    let factor = at.hessian.clone().cholesky()?;
+    let Stepped { p, c, .. } = stepped(&objective, &replica.p, &at)?;
+    let views: Vec<&[f64]> = at.columns.iter().map(|c| c.as_slice()).collect();
+    let turned = at.solution.turned(&views, &at.slopes);
+    let inner = factor.inverse();
+    let gram = at.solution.inverse();
+    let part = |i: usize, j: usize| -> f64 { (0..k).map(|l| inner[(i, l)] * turned[l][j]).sum() };
+    let gain = record.noise_gain();
+    let covariance = DMatrix::from_fn(k + m, k + m, |a, b| {
+        gain * match (a.checked_sub(k), b.checked_sub(k)) {
+            (None, None) => inner[(a, b)],
+            (None, Some(j)) => part(a, j),
+            (Some(i), None) => part(b, i),
+            (Some(i), Some(j)) => {
+                gram[i][j] + (0..k).map(|l| turned[l][i] * part(l, j)).sum::<f64>()
+            }
+        }
+    });
+    let finite = p.iter().chain(&c).chain(&covariance).all(|x| x.is_finite());
+    let kept = record.kept();
+    finite.then_some(FirstOrder {
+        p,
+        c,
+        covariance,
+        kept,
+    })
 }
 
 /// What a fit of a replica finds.
@@ -79,11 +166,12 @@ pub(crate) struct Refit {
 /// every step of its encoder with a force that really acts on the axis.
 pub(crate) fn force_noise(
     record: &Record,
+    axis: &Axis,
     conditioning: &Conditioning,
     fitted: &Estimate,
     counts: &mut Counts,
 ) -> Option<f64> {
-    let quiet = replica(record, fitted, 0.0, SILENT_SEED)?;
+    let quiet = axis.replica(0.0, SILENT_SEED)?;
     let refit = refitted(&quiet, conditioning, fitted, 1, false, counts)?;
     let left = (fitted.fit.rmse * fitted.fit.rmse - refit.square).max(0.0);
     Some((left / record.noise_gain()).sqrt())

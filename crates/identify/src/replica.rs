@@ -9,9 +9,9 @@
 use crate::conditioning::record::{Record, Samples, Segment};
 use crate::conditioning::shift::Shift;
 use crate::estimate::Estimate;
-use crate::law::terms::{ColumnKind, Delay, Terms};
+use crate::law::terms::{ColumnKind, Delay, LinearTerm, Terms};
 use crate::reaction::{Logging, Reaction};
-use crate::separable::objective::Objective;
+use std::borrow::Cow;
 use stiction_parameters::Quantity;
 use stiction_servo::encoder::Encoder;
 use stiction_servo::noise::Noise;
@@ -35,109 +35,97 @@ pub(crate) struct Replica {
     pub terms: Terms,
 }
 
-/// Simulates the axis of an estimate along its record; `None` for an axis that cannot be simulated:
-/// without inertia, without a bristle, or one that does not follow the recorded motion.
-///
-/// `force_noise` is the standard deviation of the white noise of the logged force.
-pub(crate) fn replica(
-    record: &Record,
-    fitted: &Estimate,
-    force_noise: f64,
-    seed: u64,
-) -> Option<Replica> {
-    let plant = plant(fitted)?;
-    let logging = Logging::new(fitted.delay_samples() - HELD_DELAY);
-    let axis = Axis {
-        record,
-        substeps: substeps(&plant, record.step()),
-        plant,
-        fitted,
-        force_noise,
-        logging,
-        stroke: record.stroke(),
-    };
-    let reaction = Reaction::of(record, logging);
-    // A wrongly identified response, while the fit is still far off, may make the simulated axis oscillate.
-    let logs = axis.logs(reaction.as_ref(), seed).or_else(|| {
-        reaction?;
-        axis.logs(None, seed)
-    })?;
-    let delay = HELD_DELAY + logging.part;
-    let mut p = fitted.unknowns().to_vec();
-    let mut terms = fitted.terms.clone();
-    match (terms.delay, p.last_mut()) {
-        (Delay::Fitted, Some(own)) => *own = delay,
-        _ => terms.delay = Delay::Given(delay * record.step()),
-    }
-    Some(Replica { logs, p, terms })
-}
-
-struct Axis<'a> {
+/// The axis of an estimate, ready to be simulated along its record any number of times.
+pub(crate) struct Axis<'a> {
     record: &'a Record,
     plant: Plant,
     fitted: &'a Estimate,
     logging: Logging,
     stroke: f64,
-    force_noise: f64,
     substeps: u32,
+    /// Segment by segment the force beside friction and inertia.
+    others: Vec<Vec<f64>>,
+    /// The response of the controller, and segment by segment the force that then acted on the axis.
+    answered: Option<(Reaction, Vec<Vec<f64>>)>,
 }
 
-impl Axis<'_> {
-    /// One log for each segment; `None` if the axis does not follow one.
-    fn logs(&self, reaction: Option<&Reaction>, seed: u64) -> Option<Vec<Samples>> {
-        let objective = Objective::new(self.record, self.fitted.law, &self.fitted.terms);
-        let mut noise = Noise::new(seed);
-        let segments = self.record.segments.iter();
-        segments
-            .map(|segment| {
-                let other = self.other(&objective, segment)?;
-                self.run(segment, &other, reaction, &mut noise)
-            })
-            .collect()
+impl<'a> Axis<'a> {
+    /// `None` for an axis that cannot be simulated: without inertia, or without a bristle.
+    pub fn of(record: &'a Record, fitted: &'a Estimate) -> Option<Self> {
+        let plant = plant(fitted)?;
+        let logging = Logging::new(fitted.delay_samples() - HELD_DELAY);
+        let segments = &record.segments;
+        let linear = fitted.terms.columns(&fitted.law);
+        let beside = linear.iter().zip(fitted.coefficients());
+        let others = segments
+            .iter()
+            .map(|segment| other(segment, beside.clone()));
+        let answered = Reaction::of(record, logging).and_then(|reaction| {
+            let felt = segments.iter().map(|s| reaction.felt(s, logging));
+            Some((reaction, felt.collect::<Option<_>>()?))
+        });
+        Some(Self {
+            record,
+            substeps: substeps(&plant, record.step()),
+            plant,
+            fitted,
+            logging,
+            stroke: record.stroke(),
+            others: others.collect::<Option<_>>()?,
+            answered,
+        })
     }
 
-    /// The force beside friction and inertia along a segment.
-    fn other(&self, objective: &Objective, segment: &Segment) -> Option<Vec<f64>> {
-        let mut out = vec![0.0; segment.position.len()];
-        for (term, c) in objective.linear().iter().zip(self.fitted.coefficients()) {
-            match term.column {
-                ColumnKind::Level
-                | ColumnKind::Rate
-                | ColumnKind::Speed(_)
-                | ColumnKind::Acceleration => {}
-                ColumnKind::One => out.iter_mut().for_each(|y| *y += c),
-                ColumnKind::Sine(k) => {
-                    for (y, x) in out.iter_mut().zip(&segment.position) {
-                        *y += c * libm::sin(k * x);
-                    }
-                }
-                ColumnKind::Cosine(k) => {
-                    for (y, x) in out.iter_mut().zip(&segment.position) {
-                        *y += c * libm::cos(k * x);
-                    }
-                }
-                ColumnKind::Element(_)
-                | ColumnKind::Sign(_)
-                | ColumnKind::Square(_)
-                | ColumnKind::LevelTimes(..)
-                | ColumnKind::SpeedTimes(..) => return None,
-            }
+    /// Simulates it once; `None` if it does not follow the recorded motion.
+    ///
+    /// `force_noise` is the standard deviation of the white noise of the logged force.
+    pub fn replica(&self, force_noise: f64, seed: u64) -> Option<Replica> {
+        let answered = self.answered.as_ref();
+        // A wrongly identified response, while the fit is still far off, may make the simulated axis oscillate.
+        let logs = self.logs(answered, force_noise, seed).or_else(|| {
+            answered?;
+            self.logs(None, force_noise, seed)
+        })?;
+        let delay = HELD_DELAY + self.logging.part;
+        let mut p = self.fitted.unknowns().to_vec();
+        let mut terms = self.fitted.terms.clone();
+        match (terms.delay, p.last_mut()) {
+            (Delay::Fitted, Some(own)) => *own = delay,
+            _ => terms.delay = Delay::Given(delay * self.record.step()),
         }
-        Some(out)
+        Some(Replica { logs, p, terms })
+    }
+
+    /// One log for each segment; `None` if the axis does not follow one.
+    fn logs(
+        &self,
+        answered: Option<&(Reaction, Vec<Vec<f64>>)>,
+        force_noise: f64,
+        seed: u64,
+    ) -> Option<Vec<Samples>> {
+        let mut noise = Noise::new(seed);
+        let segments = self.record.segments.iter().zip(&self.others).enumerate();
+        segments
+            .map(|(i, (segment, other))| {
+                let answer = answered.map(|(reaction, felt)| (reaction, &felt[i][..]));
+                self.run(segment, other, answer, force_noise, &mut noise)
+            })
+            .collect()
     }
 
     fn run(
         &self,
         segment: &Segment,
         other: &[f64],
-        reaction: Option<&Reaction>,
+        answered: Option<(&Reaction, &[f64])>,
+        force_noise: f64,
         noise: &mut Noise,
     ) -> Option<Samples> {
         let record = self.record;
         let h = segment.step;
         let fine = h / f64::from(self.substeps);
         let n = segment.position.len();
-        let tracking = if reaction.is_some() {
+        let tracking = if answered.is_some() {
             ANSWERED_TRACKING_FREQUENCY
         } else {
             TRACKING_FREQUENCY
@@ -157,8 +145,8 @@ impl Axis<'_> {
         } else {
             0.0
         };
-        let drive: Vec<f64> = match reaction {
-            Some(reaction) => reaction.felt(segment, self.logging)?,
+        let drive: Cow<[f64]> = match answered {
+            Some((_, felt)) => felt.into(),
             None => {
                 let earlier = Shift::earlier(-self.logging.late());
                 (0..n).map(|k| earlier.at(&segment.drive, k)).collect()
@@ -181,7 +169,7 @@ impl Axis<'_> {
             let reading = encoder.read(motion.position + rest * noise.normal());
             position.push(reading);
             let mut applied = drive[k] + spring * error + damper * slip;
-            if let Some(reaction) = reaction {
+            if let Some((reaction, _)) = answered {
                 // The response to the logged readings is replaced by the response to the readings of the
                 // replica.
                 applied += reaction.force(|lag| {
@@ -191,7 +179,7 @@ impl Axis<'_> {
             }
             let logged = (1.0 - part) * applied + part * before;
             before = applied;
-            force.push(logged + self.force_noise * noise.normal());
+            force.push(logged + force_noise * noise.normal());
             let load = Load::force(applied - other);
             for _ in 0..self.substeps {
                 motion = self.plant.step(motion, fine, load).motion;
@@ -205,6 +193,39 @@ impl Axis<'_> {
             ..Samples::default()
         })
     }
+}
+
+/// The force beside friction and inertia along a segment; `None` where a term cannot be simulated.
+fn other<'t>(
+    segment: &Segment,
+    terms: impl Iterator<Item = (&'t LinearTerm, &'t f64)>,
+) -> Option<Vec<f64>> {
+    let mut out = vec![0.0; segment.position.len()];
+    for (term, c) in terms {
+        match term.column {
+            ColumnKind::Level
+            | ColumnKind::Rate
+            | ColumnKind::Speed(_)
+            | ColumnKind::Acceleration => {}
+            ColumnKind::One => out.iter_mut().for_each(|y| *y += c),
+            ColumnKind::Sine(k) => {
+                for (y, x) in out.iter_mut().zip(&segment.position) {
+                    *y += c * libm::sin(k * x);
+                }
+            }
+            ColumnKind::Cosine(k) => {
+                for (y, x) in out.iter_mut().zip(&segment.position) {
+                    *y += c * libm::cos(k * x);
+                }
+            }
+            ColumnKind::Element(_)
+            | ColumnKind::Sign(_)
+            | ColumnKind::Square(_)
+            | ColumnKind::LevelTimes(..)
+            | ColumnKind::SpeedTimes(..) => return None,
+        }
+    }
+    Some(out)
 }
 
 /// Plant steps in a sample: the implicit midpoint has a relative error of a twelfth of `(h omega)^2` in

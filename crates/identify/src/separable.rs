@@ -29,7 +29,7 @@ use crate::separable::search::Search;
 use crate::separable::search_box::SearchBox;
 use crate::separable::settings::Settings;
 use crate::watch::Watch;
-use stiction_search::{Observer, Stage, Status};
+use stiction_search::{Observer, Stage};
 
 /// Fits a law to a record: the global least-squares optimum inside the box.
 ///
@@ -65,7 +65,7 @@ pub fn separable(
     let full = checked(record, law, &still)?;
     let delayed = fitted.then(|| Objective::new(record, law, terms));
     let mut watch = Watch::new(observer, Stage::Scan);
-    let thinned = record.thinned(settings.thin);
+    let thinned = record.rough(settings.thin);
     let mut search = Search {
         full: &full,
         delayed: delayed.as_ref(),
@@ -133,23 +133,4 @@ pub(crate) fn follow(
         elements: Vec::new(),
         evaluation: found.evaluation,
     })
-}
-
-/// Fits from a known starting point, without a scan: nonlinear unknowns, coefficients, status.
-pub(crate) fn refine(
-    record: &Record,
-    law: Law,
-    terms: &Terms,
-    bounds: &SearchBox,
-    start: &[f64],
-    observer: &mut dyn Observer,
-) -> (Vec<f64>, Vec<f64>, Status) {
-    let objective = Objective::new(record, law, terms);
-    let mut watch = Watch::new(observer, Stage::CrossValidation);
-    let found = descend(&objective, bounds, start, 60, &mut watch);
-    (
-        found.p,
-        found.evaluation.solution.coefficients,
-        found.status,
-    )
 }

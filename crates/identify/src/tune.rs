@@ -7,28 +7,44 @@
 //! made with the noise of the log, and pairs of cut-offs are tried on that replica, where the true
 //! parameters are known. The best pair is used, and the whole is repeated from the better fit until the
 //! choice no longer changes.
+//!
+//! What encoder steps and filters shift is seen on replicas without force noise, and what that noise adds is
+//! computed, so that no draw of it decides (decision 0048).
 
-use crate::conditioning::record::{Record, Samples};
-use crate::conditioning::{Conditioning, Cutoff, Source, condition};
+use crate::conditioning::record::Samples;
+use crate::conditioning::{Conditioning, Cutoff, Source, condition, condition_as};
 use crate::error::Error;
 use crate::estimate::fitted::FittedLaw;
 use crate::estimate::{Estimate, estimate};
 use crate::law::Law;
 use crate::law::physical::physical;
 use crate::law::terms::Terms;
-use crate::refit::{force_noise, refitted};
-use crate::replica::{Replica, replica};
-use crate::separable::separable;
+use crate::refit::{FirstOrder, first_order, force_noise};
+use crate::replica::{Axis, Replica};
 use crate::separable::settings::Settings;
+use crate::separable::{follow, separable};
 use stiction_parameters::Name;
 use stiction_search::{Control, Counts, Observer, Progress, Stage, Status};
 
 /// Replicas that each pair of cut-offs is tried on.
 const REPLICA_COUNT: u64 = 4;
+/// Replicas that the first, coarse look over the whole scale is made on.
+const COARSE_REPLICAS: usize = 2;
+/// Error over that of the start below which a place of the coarse look is taken for another valley.
+const OTHER_VALLEY: f64 = 0.7;
+/// Error over that of the best below which a place is better: along a valley that is flat, chance would lead far away, to
+/// high cut-offs too, where an axis does what no law says.
+const BETTER: f64 = 0.95;
 /// Most times the choice is repeated from a better fit.
 const MOST_ROUNDS: usize = 4;
 /// Cut-offs on the position that are tried: the sample rate over 2.5 times a power of the square root of two.
-const CUTOFF_STEPS: i32 = 14;
+const CUTOFF_STEPS: i32 = 20;
+/// Steps of the coarse look, and how far the common cut-off lies below there.
+const COARSE_STEP: usize = 4;
+const COARSE_BELOW: [i32; 2] = [2, 5];
+/// Largest error of a parameter that is told from larger ones, as a logarithm: a parameter that comes out a hundred times
+/// too small is worse than one that comes out ten times too small, and both are of no use.
+const LARGEST_ERROR: f64 = 5.0;
 /// Where the search begins, on that scale.
 const START: (i32, i32) = (6, 2);
 /// Number of the same steps by which the cut-off of the common filter is below that of the position.
@@ -91,41 +107,51 @@ pub fn tune(
     if !from_position || !(open(wanted.source_cutoff) || open(wanted.common_cutoff)) {
         return Ok(tuned);
     }
-    let untuned = condition(logs, wanted)?;
+    let untuned = condition_as(logs, wanted, 0.0)?;
     let rate = 1.0 / untuned.step();
     let least = untuned.kept().min(FEWEST_SAMPLES);
     let mut at = START;
+    let mut last: Option<Vec<f64>> = None;
     for round in 0..MOST_ROUNDS {
         let trial = cutoffs(wanted, rate, at);
         let Ok(record) = condition(logs, &trial) else {
             break;
         };
-        let found = separable(&record, law, terms, settings, observer)?;
+        let found = match &last {
+            // The law is the same, so the fit of the round before is near.
+            Some(start) => follow(start, &record, law, terms, settings, observer)?,
+            None => separable(&record, law, terms, settings, observer)?,
+        };
+        last = Some(found.p[..law.nonlinear()].to_vec());
         tuned.counts.add(&found.counts);
         let fitted = estimate(&record, law, terms, &found, 0.0);
         tuned.interrupted = found.status == Status::Interrupted;
         if tuned.interrupted || !worth(&fitted) {
             break;
         }
-        let Some(noise) = force_noise(&record, &trial, &fitted, &mut tuned.counts) else {
+        let Some(axis) = Axis::of(&record, &fitted) else {
             break;
         };
-        let replicas: Option<Vec<Replica>> = (0..REPLICA_COUNT)
-            .map(|seed| replica(&record, &fitted, noise, seed))
-            .collect();
-        let Some(replicas) = replicas else { break };
+        let Some(noise) = force_noise(&record, &axis, &trial, &fitted, &mut tuned.counts) else {
+            break;
+        };
         let mut search = Walk {
-            logs,
             least,
             fitted: &fitted,
-            replicas: &replicas,
+            replicas: Vec::new(),
+            force_noise: noise,
+            round,
             wanted,
             rate,
             seen: Vec::new(),
             counts: Counts::default(),
             stopped: false,
         };
-        let Some(best) = search.walk(at, round, observer) else {
+        let found = search
+            .simulated(&axis, observer)
+            .and_then(|()| search.coarse(at, observer))
+            .and_then(|start| search.walk(start, observer));
+        let Some(best) = found else {
             tuned.interrupted = search.stopped;
             break;
         };
@@ -166,10 +192,12 @@ fn cutoffs(wanted: &Conditioning, rate: f64, (source, below): (i32, i32)) -> Con
 
 /// A search over the scale, downhill in the error on the replicas.
 struct Walk<'a> {
-    logs: &'a [Samples],
     least: usize,
     fitted: &'a Estimate,
-    replicas: &'a [Replica],
+    replicas: Vec<Replica>,
+    /// Standard deviation of the noise of the logged force.
+    force_noise: f64,
+    round: usize,
     wanted: &'a Conditioning,
     rate: f64,
     seen: Vec<((i32, i32), f64)>,
@@ -178,14 +206,36 @@ struct Walk<'a> {
 }
 
 impl Walk<'_> {
+    /// Makes the replicas; `None` where one cannot be simulated, or if the observer stopped it.
+    fn simulated(&mut self, axis: &Axis, observer: &mut dyn Observer) -> Option<()> {
+        for seed in 0..REPLICA_COUNT {
+            self.replicas.push(axis.replica(0.0, seed)?);
+            self.report(f64::INFINITY, observer)?;
+        }
+        Some(())
+    }
+
+    /// The best of `start` and of some places all over the scale, on few replicas; `None` if the observer stopped it.
+    fn coarse(&mut self, start: (i32, i32), observer: &mut dyn Observer) -> Option<(i32, i32)> {
+        if self.round > 0 {
+            return Some(start);
+        }
+        let own = self.tried(start, COARSE_REPLICAS, observer)?;
+        let mut best = (start, OTHER_VALLEY * own);
+        for source in (0..=CUTOFF_STEPS).step_by(COARSE_STEP) {
+            for below in COARSE_BELOW {
+                let error = self.tried((source, below), COARSE_REPLICAS, observer)?;
+                if error < best.1 {
+                    best = ((source, below), error);
+                }
+            }
+        }
+        Some(best.0)
+    }
+
     /// The best place near `start`; `None` if there is none, or if the observer stopped the walk.
-    fn walk(
-        &mut self,
-        start: (i32, i32),
-        round: usize,
-        observer: &mut dyn Observer,
-    ) -> Option<(i32, i32)> {
-        let mut best = (start, self.error(start));
+    fn walk(&mut self, start: (i32, i32), observer: &mut dyn Observer) -> Option<(i32, i32)> {
+        let mut best = (start, self.error(start, observer)?);
         loop {
             let (s, b) = best.0;
             let before = best;
@@ -200,19 +250,10 @@ impl Walk<'_> {
                 if !(0..=CUTOFF_STEPS).contains(&next.0) || !BELOW.contains(&next.1) {
                     continue;
                 }
-                let error = self.error(next);
-                if error < best.1 {
+                let error = self.error(next, observer)?;
+                let least = if best.0 == before.0 { BETTER } else { 1.0 };
+                if error < least * best.1 {
                     best = (next, error);
-                }
-                let progress = Progress {
-                    stage: Stage::Tuning,
-                    fraction: (round as f64 + 0.5) / MOST_ROUNDS as f64,
-                    counts: self.counts,
-                    best: best.1,
-                };
-                if observer.progress(&progress) == Control::Stop {
-                    self.stopped = true;
-                    return None;
                 }
             }
             if best.0 == before.0 {
@@ -221,57 +262,76 @@ impl Walk<'_> {
         }
     }
 
-    fn error(&mut self, at: (i32, i32)) -> f64 {
+    /// Tells the observer how far it is; `None` if that stops it.
+    fn report(&mut self, best: f64, observer: &mut dyn Observer) -> Option<()> {
+        let progress = Progress {
+            stage: Stage::Tuning,
+            fraction: (self.round as f64 + 0.5) / MOST_ROUNDS as f64,
+            counts: self.counts,
+            best,
+        };
+        self.stopped = observer.progress(&progress) == Control::Stop;
+        (!self.stopped).then_some(())
+    }
+
+    /// The error at a place; `None` if the observer stopped it.
+    fn error(&mut self, at: (i32, i32), observer: &mut dyn Observer) -> Option<f64> {
         if let Some((_, error)) = self.seen.iter().find(|(place, _)| *place == at) {
-            return *error;
+            return Some(*error);
         }
-        let error = self.tried(&cutoffs(self.wanted, self.rate, at));
+        let error = self.tried(at, self.replicas.len(), observer)?;
         self.seen.push((at, error));
-        error
+        Some(error)
     }
 
-    fn tried(&mut self, conditioning: &Conditioning) -> f64 {
-        let enough = |record: Record| record.kept() >= self.least;
-        if !condition(self.logs, conditioning).is_ok_and(enough) {
-            return f64::INFINITY;
-        }
+    /// The same on some of the replicas, not remembered.
+    fn tried(
+        &mut self,
+        at: (i32, i32),
+        replicas: usize,
+        observer: &mut dyn Observer,
+    ) -> Option<f64> {
+        let conditioning = cutoffs(self.wanted, self.rate, at);
         let mut sum = 0.0;
-        for replica in self.replicas {
-            sum += match refitted(
-                replica,
-                conditioning,
-                self.fitted,
-                1,
-                false,
-                &mut self.counts,
-            ) {
-                Some(refit) => self.distance(replica, &refit.p, &refit.c),
-                None => f64::INFINITY,
-            };
+        for i in 0..replicas {
+            let replica = &self.replicas[i];
+            let found = first_order(replica, &conditioning, self.fitted, &mut self.counts);
+            match found.filter(|found| found.kept >= self.least) {
+                Some(found) => sum += self.distance(replica, &found),
+                None => return Some(f64::INFINITY),
+            }
+            self.report((sum / (i + 1) as f64).sqrt(), observer)?;
         }
-        (sum / self.replicas.len() as f64).sqrt()
+        Some((sum / replicas as f64).sqrt())
     }
 
-    /// Mean square of the relative errors of the parameters that the log determines.
-    fn distance(&self, replica: &Replica, p: &[f64], c: &[f64]) -> f64 {
+    /// Mean square of the errors of the parameters that the log determines, as logarithms: that of the replica, and the
+    /// variance that the noise of the force adds.
+    fn distance(&self, replica: &Replica, found: &FirstOrder) -> f64 {
         let FittedLaw { law, terms, .. } = &self.fitted.fitted;
         let linear = terms.columns(law);
         let truth = physical(law, &linear, 1.0, &replica.p, self.fitted.coefficients());
-        let found = physical(law, &linear, 1.0, p, c);
+        let fits = physical(law, &linear, 1.0, &found.p, &found.c);
+        let known = |name: Name| self.fitted.parameter(name).is_some_and(|p| p.identifiable);
+        let power = self.force_noise * self.force_noise;
         let errors: Vec<f64> = truth
             .iter()
-            .zip(&found)
-            .filter(|(t, _)| {
-                let known =
-                    |name: Name| self.fitted.parameter(name).is_some_and(|p| p.identifiable);
-                t.is_positive() && t.value > 0.0 && known(t.name)
+            .zip(&fits)
+            .filter(|(t, _)| t.is_positive() && t.value > 0.0 && known(t.name))
+            .map(|(t, f)| {
+                let shift = libm::log((f.value / t.value).max(0.0));
+                let relative = power * f.variance(&found.covariance) / (t.value * t.value);
+                let square = shift * shift + relative;
+                if square.is_nan() {
+                    return LARGEST_ERROR * LARGEST_ERROR;
+                }
+                square.min(LARGEST_ERROR * LARGEST_ERROR)
             })
-            .map(|(t, f)| (f.value / t.value - 1.0).clamp(-1.0, 1.0))
             .collect();
         if errors.is_empty() {
             return f64::INFINITY;
         }
-        errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64
+        errors.iter().sum::<f64>() / errors.len() as f64
     }
 
     fn trials(&self) -> Vec<Trial> {

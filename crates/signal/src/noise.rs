@@ -25,13 +25,18 @@ pub fn noise_deviation<'a>(channels: impl Iterator<Item = &'a [f64]>) -> f64 {
     }
     let most = ((1.0 - OUTLIER_SHARE) * squares.len() as f64) as usize;
     let most = most.clamp(1, squares.len());
-    if most < squares.len() {
-        squares.select_nth_unstable_by(most, f64::total_cmp);
-        squares.truncate(most);
-        // A fixed order of summation, independent of the order in which the selection leaves the values.
-        squares.sort_unstable_by(f64::total_cmp);
+    let largest = *squares
+        .clone()
+        .select_nth_unstable_by(most - 1, f64::total_cmp)
+        .1;
+    // In the order of the samples, whatever the selection did; those equal to the largest stand for each other.
+    let (mut sum, mut below) = (0.0, 0_usize);
+    for square in squares.into_iter().filter(|square| *square < largest) {
+        sum += square;
+        below += 1;
     }
-    (squares.iter().sum::<f64>() / (DIFFERENCE_GAIN * most as f64)).sqrt()
+    sum += (most - below) as f64 * largest;
+    (sum / (DIFFERENCE_GAIN * most as f64)).sqrt()
 }
 
 #[cfg(test)]

@@ -352,6 +352,52 @@ impl Record {
         out
     }
 
+    /// A copy to look for starting points at low cost, also of a record with a common filter: then its motion in coarser
+    /// steps, at least `samples` of them, and columns of the law that pass no filter, although force and acceleration have
+    /// passed it. What the filter rounds off moves the optimum a little, and hardly the place where to look for it.
+    pub(crate) fn rough(&self, samples: usize) -> Option<Self> {
+        if self.common.is_none() {
+            return self.thinned(samples);
+        }
+        let motion: usize = self.segments.iter().map(|s| s.velocity.len()).sum();
+        // The thinned samples of the force stay where they are.
+        let most = self.decimate.min(motion / samples.max(1));
+        let every = (1..=most)
+            .rev()
+            .find(|every| self.decimate.is_multiple_of(*every))?;
+        let pick = |x: &[f64]| x.iter().step_by(every).copied().collect::<Vec<_>>();
+        let segments = self.segments.iter().map(|s| {
+            let mut acceleration = vec![s.acceleration.clone()];
+            self.filter(&mut acceleration);
+            Segment {
+                log: s.log,
+                step: s.step * every as f64,
+                velocity: pick(&s.velocity),
+                position: pick(&s.position),
+                reading: pick(&s.reading),
+                acceleration: pick(&acceleration[0]),
+                drive: pick(&s.drive),
+                valid: s.valid.iter().step_by(every).copied().collect(),
+                time: s.time.clone(),
+                force: s.force.clone(),
+                keep: s.keep.clone(),
+                channels: s.channels.every(every),
+            }
+        });
+        Some(Self {
+            segments: segments.collect(),
+            common: None,
+            decimate: self.decimate / every,
+            position_noise: self.position_noise,
+            common_hz: None,
+            notes: Vec::new(),
+            resolution: self.resolution,
+            conditioning: None,
+            losses: Losses::default(),
+            is_thinned: true,
+        })
+    }
+
     /// A copy with about `samples` samples to look for starting points at low cost: every n-th sample of
     /// this record. `None` for a short record, or one with a common filter: thinning would then remove
     /// the filter from the columns of the law but not from the force.

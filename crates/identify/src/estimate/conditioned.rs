@@ -12,8 +12,9 @@ use crate::estimate::Estimate;
 use crate::law::physical::physical;
 use crate::parameter::physical::Physical;
 use crate::refit::{Refit, force_noise, refitted};
-use crate::replica::{Replica, replica};
-use stiction_search::{Control, Counts, Observer, Progress, Stage};
+use crate::replica::{Axis, Replica};
+use crate::watch::Watch;
+use stiction_search::Control;
 
 /// Replicas that the shift is averaged over (decision 0014).
 const REPLICA_COUNT: u64 = 10;
@@ -71,42 +72,41 @@ pub(super) fn shift(
     record: &Record,
     fitted: &Estimate,
     raw: &[Physical],
-    counts: &mut Counts,
-    observer: &mut dyn Observer,
+    watch: &mut Watch,
 ) -> Option<Shift> {
     let conditioning = record.conditioning?;
-    let noise = force_noise(record, &conditioning, fitted, counts)?;
+    let axis = Axis::of(record, fitted)?;
+    let noise = force_noise(record, &axis, &conditioning, fitted, &mut watch.counts)?;
+    asked(watch)?;
     let mut first = Shifts::default();
     let mut second = Shifts::default();
     let mut stated = vec![0.0; raw.len()];
     for i in 0..REPLICA_COUNT {
-        let (found, replica) = once(record, fitted, noise, FIRST_SEED + i, counts)?;
+        let (found, replica) = once(record, fitted, &axis, noise, (FIRST_SEED + i, 2), watch)?;
+        asked(watch)?;
         let surety = &found.refit.unknowns.as_ref()?.covariance;
         for (sum, p) in stated.iter_mut().zip(&found.parameters) {
             *sum += p.variance(surety) / REPLICA_COUNT as f64;
         }
         first.0.push(found.shift.clone());
-        // A replica that cannot be simulated is left out.
+        // A replica that cannot be simulated is left out. Of a replica of a replica only the shift is asked for, and to
+        // first order.
         if let Ok(again) = condition(&replica.logs, &conditioning)
+            && let next = found.as_fitted(fitted, &replica)
+            && let Some(axis) = Axis::of(&again, &next)
             && let Some((next, _)) = once(
                 &again,
-                &found.as_fitted(fitted, &replica),
+                &next,
+                &axis,
                 noise,
-                FIRST_SECOND_SEED + i,
-                counts,
+                (FIRST_SECOND_SEED + i, 1),
+                watch,
             )
         {
             second.0.push(next.shift);
         }
-        let progress = Progress {
-            stage: Stage::Calibration,
-            fraction: (i + 1) as f64 / REPLICA_COUNT as f64,
-            counts: *counts,
-            best: f64::INFINITY,
-        };
-        if observer.progress(&progress) == Control::Stop {
-            return None;
-        }
+        watch.fraction = (i + 1) as f64 / REPLICA_COUNT as f64;
+        asked(watch)?;
     }
     let all = 0..raw.len();
     Some(Shift {
@@ -143,6 +143,11 @@ impl Shifts {
     }
 }
 
+/// Whether to go on: `None` if the observer stops it.
+fn asked(watch: &mut Watch) -> Option<()> {
+    (watch.report(f64::INFINITY) == Control::Continue).then_some(())
+}
+
 /// What the fit of one replica found.
 struct Found {
     refit: Refit,
@@ -171,18 +176,27 @@ impl Found {
     }
 }
 
-/// Makes and fits one replica.
+/// Makes one replica and fits it in some steps; its uncertainty is stated where there are several.
 fn once(
     record: &Record,
     fitted: &Estimate,
+    axis: &Axis,
     noise: f64,
-    seed: u64,
-    counts: &mut Counts,
+    (seed, steps): (u64, usize),
+    watch: &mut Watch,
 ) -> Option<(Found, Replica)> {
     let linear = fitted.terms.columns(&fitted.law);
     let at = |p: &[f64], c: &[f64]| physical(&fitted.law, &linear, record.step(), p, c);
-    let replica = replica(record, fitted, noise, seed)?;
-    let refit = refitted(&replica, &record.conditioning?, fitted, 2, true, counts)?;
+    let replica = axis.replica(noise, seed)?;
+    asked(watch)?;
+    let refit = refitted(
+        &replica,
+        &record.conditioning?,
+        fitted,
+        steps,
+        steps > 1,
+        &mut watch.counts,
+    )?;
     let truth = at(&replica.p, fitted.coefficients());
     let parameters = at(&refit.p, &refit.c);
     let shift = truth.iter().zip(&parameters).map(|(a, b)| step(a, b));

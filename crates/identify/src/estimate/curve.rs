@@ -10,8 +10,8 @@ use crate::law::Law;
 use crate::parameter::Parameter;
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
+use crate::watch::Watch;
 use stiction_parameters::{Name, Quantity, Side};
-use stiction_search::Counts;
 
 /// Standard deviation of ln(Fs/Fc - 1) below which the curve counts as present without a further test:
 /// its rise is ten standard deviations away from zero.
@@ -27,7 +27,7 @@ pub(super) fn missing(
     objective: &Objective,
     optimum: &Optimum,
     unknowns: &Unknowns,
-    counts: &mut Counts,
+    watch: &mut Watch,
 ) -> [bool; 2] {
     let layout = objective.law().layout();
     let mut of_side = |side: usize| {
@@ -48,7 +48,7 @@ pub(super) fn missing(
                 Held::Nonlinear(i),
                 low,
                 &optimum.p,
-                counts,
+                watch,
             );
             found.evaluation.cost - optimum.evaluation.cost < CHANCE_RISE * rise
         })

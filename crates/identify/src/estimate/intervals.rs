@@ -12,8 +12,9 @@ use crate::parameter::physical::Physical;
 use crate::parameter::{IntervalKind, Parameter, quantile};
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
+use crate::watch::Watch;
 use stiction_parameters::{Name, Quantity};
-use stiction_search::{Counts, Observer};
+use stiction_search::{Observer, Stage};
 
 /// Relative standard deviation from which the profile is followed. Below it the linear interval is
 /// accurate: its relative error is of the size of this deviation.
@@ -41,16 +42,20 @@ pub fn intervals(
         c,
     );
     conditioned(&objective, optimum, &raw, estimate, observer);
-    let mut counts = Counts::default();
-    let missing = missing(&objective, optimum, &estimate.unknowns, &mut counts);
+    let mut watch = Watch::new(observer, Stage::Calibration);
+    watch.fraction = 1.0;
+    let missing = missing(&objective, optimum, &estimate.unknowns, &mut watch);
     for p in &raw {
+        if watch.stopped {
+            break;
+        }
         if curve_of(p.name).is_some_and(|side| missing[side]) {
             without_curve(estimate, p.name);
         } else {
-            profiled(&objective, optimum, p, estimate, &mut counts);
+            profiled(&objective, optimum, p, estimate, &mut watch);
         }
     }
-    estimate.fitted.counts.add(&counts);
+    estimate.fitted.counts.add(&watch.counts);
     let fitted = &mut estimate.fitted;
     stays_within(&fitted.law, optimum, &mut fitted.parameters);
     flag_what_the_motion_hides(record, &mut fitted.parameters);
@@ -65,9 +70,9 @@ fn conditioned(
     estimate: &mut Estimate,
     observer: &mut dyn Observer,
 ) {
-    let mut counts = Counts::default();
-    let found = shift(objective.record(), estimate, raw, &mut counts, observer);
-    estimate.fitted.counts.add(&counts);
+    let mut watch = Watch::new(observer, Stage::Calibration);
+    let found = shift(objective.record(), estimate, raw, &mut watch);
+    estimate.fitted.counts.add(&watch.counts);
     let Some(shift) = found else { return };
     let levels = levels(objective, raw);
     let matrix = &mut estimate.fitted.covariance.matrix;
@@ -124,7 +129,7 @@ fn profiled(
     optimum: &Optimum,
     p: &Physical,
     estimate: &mut Estimate,
-    counts: &mut Counts,
+    watch: &mut Watch,
 ) {
     let k = optimum.p.len();
     let curved = [
@@ -172,7 +177,7 @@ fn profiled(
         rise: std * std / bread,
         quantile,
     };
-    let Some(ends) = profile.ends(counts) else {
+    let Some(ends) = profile.ends(watch) else {
         return;
     };
     let reach = ends.map(|end| match end {

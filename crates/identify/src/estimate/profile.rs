@@ -11,7 +11,6 @@ use crate::separable::descent::{Descent, descend};
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
 use crate::watch::Watch;
-use stiction_search::{Counts, Silent, Stage};
 
 /// Trial values to each side, at most.
 const MOST_TRIALS: usize = 6;
@@ -53,12 +52,12 @@ pub(super) struct Profile<'a> {
 }
 
 impl Profile<'_> {
-    /// The lower and the upper end; `None` where the descents do not reach them.
-    pub fn ends(&self, counts: &mut Counts) -> Option<[End; 2]> {
+    /// The lower and the upper end; `None` where the descents do not reach them or are stopped.
+    pub fn ends(&self, watch: &mut Watch) -> Option<[End; 2]> {
         if !(self.std > 0.0 && self.rise > 0.0 && self.rise.is_finite()) {
             return None;
         }
-        Some([self.end(-1.0, counts)?, self.end(1.0, counts)?])
+        Some([self.end(-1.0, watch)?, self.end(1.0, watch)?])
     }
 
     /// Value of the unknown at the optimum, and the furthest it may go to one side.
@@ -86,7 +85,7 @@ impl Profile<'_> {
         }
     }
 
-    fn end(&self, side: f64, counts: &mut Counts) -> Option<End> {
+    fn end(&self, side: f64, watch: &mut Watch) -> Option<End> {
         let (at, far) = self.range(side);
         let reach = (far - at).abs();
         let tolerance = 1e-9 * self.std;
@@ -104,8 +103,11 @@ impl Profile<'_> {
                 self.held,
                 value,
                 &start,
-                counts,
+                watch,
             );
+            if watch.stopped {
+                return None;
+            }
             let risen = found.evaluation.cost - self.optimum.evaluation.cost;
             if !risen.is_finite() {
                 return None;
@@ -146,22 +148,17 @@ pub(super) fn fit_with(
     held: Held,
     value: f64,
     start: &[f64],
-    counts: &mut Counts,
+    watch: &mut Watch,
 ) -> Descent {
-    let mut silent = Silent;
-    let mut watch = Watch::new(&mut silent, Stage::Fine);
-    watch.counts = *counts;
     let bounds = &optimum.bounds;
-    let found = match held {
+    match held {
         Held::Nonlinear(i) => {
             let bounds = bounds.holding(i, value);
-            descend(objective, &bounds, start, DESCENT_STEPS, &mut watch)
+            descend(objective, &bounds, start, DESCENT_STEPS, watch)
         }
         Held::Linear(j) => {
             let objective = objective.holding(j, value);
-            descend(&objective, bounds, start, DESCENT_STEPS, &mut watch)
+            descend(&objective, bounds, start, DESCENT_STEPS, watch)
         }
-    };
-    *counts = watch.counts;
-    found
+    }
 }

@@ -2,16 +2,16 @@
 
 use super::ladder::Rung;
 use super::score::ElementsScore;
-use crate::conditioning::blocks::kept_order;
+use crate::conditioning::blocks::Folds;
 use crate::conditioning::record::Record;
 use crate::fit::EQUAL_ERROR_RATIO;
 use crate::law::terms::Terms;
-use crate::separable::descent::descend;
+use crate::left_out::Whole;
 use crate::separable::objective::Objective;
 use crate::watch::Watch;
 use stiction_search::Stage;
 
-/// Contiguous blocks, each left out in turn.
+/// Parts of the record, each left out in turn.
 const HELD_OUT_BLOCKS: usize = 4;
 /// Steps of the refit when a block is left out.
 const REFIT_STEPS: usize = 3;
@@ -23,13 +23,13 @@ pub(super) fn scores(
     rungs: &[Rung],
     watch: &mut Watch,
 ) -> Vec<ElementsScore> {
-    let order = kept_order(record);
+    let folds = Folds::of(record, HELD_OUT_BLOCKS);
     watch.stage = Stage::CrossValidation;
     let mut out = Vec::with_capacity(rungs.len());
     for (i, rung) in rungs.iter().enumerate() {
         watch.fraction = i as f64 / rungs.len() as f64;
         let full = Objective::new(record, rung.law, terms);
-        let held_out = held_out(&full, &order, rung, terms, watch);
+        let held_out = held_out(&full, &folds, rung, terms, watch);
         out.push(ElementsScore {
             elements: rung.law.elements,
             fitted_error_percent: 100.0 * full.relative(rung.cost()),
@@ -58,38 +58,24 @@ pub(super) fn best(scores: &[ElementsScore]) -> usize {
 /// Sum of squares of the residuals of all blocks, each with the fit to the other blocks.
 fn held_out(
     full: &Objective,
-    order: &[Option<usize>],
+    folds: &Folds,
     rung: &Rung,
     terms: &Terms,
     watch: &mut Watch,
 ) -> Option<f64> {
-    let record = full.record();
-    let total = record.kept();
     let unknowns = rung.law.nonlinear() + full.linear().len();
-    if total < HELD_OUT_BLOCKS * 10 * unknowns {
+    if watch.stopped || folds.of.len() < HELD_OUT_BLOCKS * 10 * unknowns {
         return None;
     }
-    let mut cost = 0.0;
-    for block in 0..HELD_OUT_BLOCKS {
-        if watch.stopped {
-            return None;
-        }
-        let inside = |k: usize| k * HELD_OUT_BLOCKS / total == block;
-        let train = record.masked(|i| !order[i].is_some_and(inside));
-        let objective = Objective::new(&train, rung.law, terms);
-        let found = descend(
-            &objective,
-            &rung.bounds,
-            &rung.descent.p,
-            REFIT_STEPS,
-            watch,
-        );
-        let model = full.model(&found.p, &found.evaluation.solution.coefficients);
-        for (k, (u, y)) in full.force().iter().zip(&model).enumerate() {
-            if inside(k) {
-                cost += (u - y) * (u - y);
-            }
-        }
-    }
+    let whole = Whole {
+        objective: full,
+        terms,
+        bounds: &rung.bounds,
+        p: &rung.descent.p,
+        at: &rung.descent.evaluation,
+        steps: REFIT_STEPS,
+    };
+    let residual = whole.residuals(folds, watch)?;
+    let cost: f64 = residual.iter().map(|r| r * r).sum();
     cost.is_finite().then_some(cost)
 }

@@ -104,7 +104,7 @@ impl Search<'_> {
         least: usize,
         watch: &mut Watch,
     ) -> Result<Vec<Rung>, Error> {
-        let mut rung = match self.record.thinned(self.settings.thin) {
+        let mut rung = match self.record.rough(self.settings.thin) {
             None => self.top(most, watch)?,
             Some(near) => {
                 let mut search = Search {

@@ -1,6 +1,6 @@
 //! Numbers that carry their derivatives with respect to the nonlinear unknowns.
 
-use libm::expm1;
+use crate::exponential::expm1;
 use std::ops::{Add, Div, Mul, Sub};
 
 /// A number and its derivatives with respect to `K` unknowns.

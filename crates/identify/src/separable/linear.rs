@@ -149,6 +149,40 @@ impl Factor {
 }
 
 impl Solution {
+    /// For each derivative of the model what a step of its unknown changes in the coefficients, to first order, the
+    /// unknown itself held: `-pinv(Phi) d`.
+    pub fn turned(&self, columns: &[&[f64]], slopes: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let of = |d: &Vec<f64>| {
+            let taken = self.factor.columns.iter();
+            let inside: Vec<f64> = taken.map(|&j| dot(columns[j], d)).collect();
+            self.placed(self.factor.solve(&inside).into_iter().map(|x| -x))
+        };
+        slopes.iter().map(of).collect()
+    }
+
+    /// The inverse of the Gram matrix, row by row; zero where a column is not active.
+    pub fn inverse(&self) -> Vec<Vec<f64>> {
+        let taken = &self.factor.columns;
+        let row = |i: usize| match taken.iter().position(|&j| j == i) {
+            Some(at) => {
+                let mut unit = vec![0.0; taken.len()];
+                unit[at] = 1.0;
+                self.placed(self.factor.solve(&unit).into_iter())
+            }
+            None => vec![0.0; self.coefficients.len()],
+        };
+        (0..self.coefficients.len()).map(row).collect()
+    }
+
+    /// Values of the active columns at their places among all.
+    fn placed(&self, values: impl Iterator<Item = f64>) -> Vec<f64> {
+        let mut out = vec![0.0; self.coefficients.len()];
+        for (&j, x) in self.factor.columns.iter().zip(values) {
+            out[j] = x;
+        }
+        out
+    }
+
     /// `J^T J` of the reduced problem (Kaufman) for the derivatives of the model: the products of their parts that
     /// the active columns cannot express.
     pub fn curvature(&self, columns: &[&[f64]], slopes: &[Vec<f64>]) -> DMatrix<f64> {

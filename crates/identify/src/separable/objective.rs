@@ -2,6 +2,7 @@
 
 use crate::conditioning::record::{Record, Segment};
 use crate::conditioning::shift::Shift;
+use crate::conditioning::thinning;
 use crate::gms;
 use crate::law::Law;
 use crate::law::dependence::product;
@@ -42,10 +43,6 @@ pub struct Objective<'a> {
     /// The record on the batch kernels, where they know the law; made when first needed.
     lanes: OnceLock<Option<InLanes>>,
 }
-
-/// Number of samples from one that counts to the next from which on the filter is computed for those alone: below, the
-/// filter over all of them takes no longer.
-const LEAST_THINNED: usize = 3;
 
 /// A column of the regression at the kept samples; one that nothing changes is shared by all trials.
 pub(crate) type Column = Arc<Vec<f64>>;
@@ -141,6 +138,8 @@ impl<'a> Objective<'a> {
         let force = record.whole(|s| &s.force);
         let energy = dot(&force, &force);
         let nonnegative = linear.iter().map(|term| term.is_never_negative()).collect();
+        let lengths = record.segments.iter().map(|s| s.velocity.len());
+        let longest = lengths.max().unwrap_or(0);
         let inertia = match terms.mass {
             Mass::Given(mass) => {
                 fixed_column(record, ColumnKind::Acceleration, moves).map(|a| (mass, a))
@@ -159,9 +158,7 @@ impl<'a> Objective<'a> {
             inertia,
             energy,
             held: None,
-            thinning: (record.decimate >= LEAST_THINNED)
-                .then(|| Thinning::new(record.common.as_ref()?, record.decimate))
-                .flatten(),
+            thinning: thinning(record.common.as_ref(), record.decimate, longest),
             lanes: OnceLock::new(),
         }
     }
@@ -220,6 +217,16 @@ impl<'a> Objective<'a> {
 
     pub(crate) fn linear(&self) -> &[LinearTerm] {
         &self.linear
+    }
+
+    /// Which coefficients must not be negative.
+    pub(crate) fn nonnegative(&self) -> &[bool] {
+        &self.nonnegative
+    }
+
+    /// What the columns are fitted to: the measured force at the kept samples without the inertia force of a given mass.
+    pub(crate) fn target_at(&self, p: &[f64]) -> Cow<'_, [f64]> {
+        self.target(self.shift(p))
     }
 
     /// Measured force at the kept samples.

@@ -4,9 +4,10 @@
 //! `eta = s0 z / Fc` and differentiated by hand with respect to every nonlinear unknown; the
 //! friction crate is the oracle it is tested against.
 
+use crate::exponential::{exp, expm1};
 use crate::law::{Law, LawKind, Layout};
 use crate::separable::elasto_plastic;
-use libm::{exp, expm1, fabs, log, pow};
+use libm::{fabs, log, pow};
 
 /// The nonlinear unknowns, unpacked.
 #[derive(Clone, Copy, Debug)]

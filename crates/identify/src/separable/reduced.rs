@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use stiction_search::Derivatives;
 
 /// Products of the columns of a trial, without the columns themselves: the reduced problem follows from them.
-pub(super) trait Products {
+pub(crate) trait Products {
     /// Linear columns with each other.
     fn linear(&self, i: usize, j: usize) -> f64;
     /// A linear column with the target.
@@ -25,7 +25,7 @@ pub(super) trait Products {
 /// `held` is a coefficient that is held at a value. `J^T J` is that of Kaufman.
 ///
 /// The cost has an absolute error of about 1e-15 of the energy of the target.
-pub(super) fn from_products(
+pub(crate) fn from_products(
     products: &impl Products,
     bounded: &[bool],
     unknowns: usize,

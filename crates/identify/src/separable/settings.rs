@@ -11,7 +11,7 @@ pub struct Settings {
     pub scan: usize,
     /// Descents on the thinned record. Default 6.
     pub starts: usize,
-    /// Samples of the thinned record that the scan and its descents see, where the record has no
+    /// Samples of the thinned record that the scan and its descents see; of the motion, where the record has a
     /// common filter. For a law that the batch kernels know, the scan sees a quarter of them. Default 4000.
     pub thin: usize,
     /// Most steps of one descent. Default 200.

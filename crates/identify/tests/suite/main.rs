@@ -2,6 +2,7 @@
 
 mod break_away;
 mod candidates;
+mod commissioning;
 mod common;
 mod conditioning;
 mod counts;
@@ -21,3 +22,4 @@ mod static_map;
 mod step;
 mod stretches;
 mod terms;
+mod watched;
