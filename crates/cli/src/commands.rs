@@ -86,7 +86,9 @@ fn simulated(identify: &arguments::Identify) -> Option<String> {
         .as_ref()
         .is_none_or(|file| Axis::read(file).is_ok_and(|axis| axis.has_inertia()));
     let law = match identify.law {
-        arguments::Law::Lugre => "",
+        // By simulation auto is LuGre.
+        arguments::Law::Auto => "",
+        arguments::Law::Lugre => " --law lugre",
         arguments::Law::CoulombViscous => " --law coulomb-viscous",
         arguments::Law::Stribeck => " --law stribeck",
         arguments::Law::Dahl => " --law dahl",

@@ -43,7 +43,18 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
             another("simulated")
         ),
         Next::Check => format!("stiction check {log}"),
-        Next::Again => format!("stiction identify {log} --out {folder}"),
+        Next::Again => {
+            let law = match (result.law_chosen_by.as_str(), result.asymmetric) {
+                ("user", true) => format!(" --law {} --asymmetric", result.law),
+                ("user", false) => format!(" --law {}", result.law),
+                _ => String::new(),
+            };
+            let method = match result.method.as_str() {
+                "separable" => String::new(),
+                other => format!(" --method {other}"),
+            };
+            format!("stiction identify {log}{law}{method} --out {folder}")
+        }
     }
 }
 

@@ -602,6 +602,12 @@ fn a_short_stretch_is_sent_to_the_simulation() {
         ),
         "{err}"
     );
+    let (_, _, err) = bench.run(&["identify", "my log.csv", "--law", "lugre", "--out", "out"]);
+    let lugre =
+        "next: stiction identify \"my log.csv\" --law lugre --method output-error --out out\n";
+    assert!(err.contains(lugre), "{err}");
+    let (_, _, err) = bench.run(&["identify", "my log.csv", "--out", "out"]);
+    assert!(err.contains(&lugre.replace(" --law lugre", "")), "{err}");
     // A rig without a mass cannot be simulated, and not every law can.
     for other in [
         ["--axis", "rig.toml", "--law", "dahl"],
