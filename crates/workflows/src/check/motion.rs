@@ -40,7 +40,7 @@ pub struct Motion {
     pub middle_speed: f64,
     /// How often the axis turns back.
     pub reversals: usize,
-    /// Samples, the median of all reversals, that the force takes to turn round after one.
+    /// Samples that the force takes to turn round at the third slowest reversal, at the quickest of fewer.
     pub samples_at_reversal: Option<f64>,
     /// Rms acceleration over its error from encoder steps and noise.
     pub acceleration_over_error: f64,
@@ -210,8 +210,9 @@ fn turns(x: &[f64], shortest: f64) -> Vec<usize> {
     out
 }
 
-/// Samples from a turn until the force has gone most of the way from its level in one direction to that in the other; the
-/// median. A force that has done so before the turn, because the axis brakes, takes none.
+/// Samples from a turn until the force has gone most of the way from its level in one direction to that in the other, at
+/// the third slowest turn, so that one dwell does not count. A force that has done so before the turn, because the axis
+/// brakes, takes none.
 fn samples_after(x: &[f64], force: &[f64], turns: &[usize]) -> Option<f64> {
     let mut levels = [Vec::new(), Vec::new()];
     let ends = turns.iter().copied().chain([x.len() - 1]);
@@ -235,6 +236,6 @@ fn samples_after(x: &[f64], force: &[f64], turns: &[usize]) -> Option<f64> {
         force[turn..next].iter().position(there).map(|k| k as f64)
     });
     let mut counts: Vec<f64> = after.collect();
-    counts.sort_by(f64::total_cmp);
-    counts.get(counts.len() / 2).copied()
+    counts.sort_by(|a, b| b.total_cmp(a));
+    counts.get(2.min(counts.len().saturating_sub(1))).copied()
 }

@@ -129,7 +129,7 @@ pub(super) fn shows(log: &Log, motion: &Motion, mass: Mass) -> Vec<Shows> {
     let turned = match m.samples_at_reversal {
         _ if m.reversals == 0 => "the axis never turns back".into(),
         Some(samples) => format!(
-            "{}, at which the force takes {} to turn round",
+            "{}; at slow ones the force takes {} to turn round",
             counted(m.reversals, "reversal"),
             counted(samples as usize, "sample")
         ),
