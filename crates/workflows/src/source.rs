@@ -46,8 +46,8 @@ pub fn load(path: impl AsRef<Path>, axis: &Axis) -> Result<Source, Error> {
     mapped(path, || Ok(stiction_files::sha256(path)?), &table, axis)
 }
 
-/// Maps columns that are in memory by the axis. `name` stands in messages where a file has its path; the hash is that of
-/// the columns' names, units and samples.
+/// Maps columns that are in memory by the axis. `name` stands in messages where a file has its path; the hash is that
+/// of the columns' names, units and samples.
 ///
 /// # Errors
 /// Where columns or units are missing or ambiguous, or the samples do not form a record; the column is named.

@@ -1,9 +1,9 @@
 //! Rests: where the axis stands still, at the ends of the record and in between.
 //!
-//! The force of an axis at rest may lie anywhere up to break-away, wherever integrator, brake or gravity have put it; a fit of
-//! the whole record would take it for friction. So rests at the ends are left out of such fits, up to 0.02 s beside
-//! the motion. Not left out is a rest before whose end the force begins to vary (a ramp or steps to break-away), and
-//! one at the end in which the force goes to and fro: both were made on purpose.
+//! The force of an axis at rest may lie anywhere up to break-away, wherever integrator, brake or gravity have put it; a
+//! fit of the whole record would take it for friction. So rests at the ends are left out of such fits, up to 0.02 s
+//! beside the motion. Not left out is a rest before whose end the force begins to vary (a ramp or steps to break-away),
+//! and one at the end in which the force goes to and fro: both were made on purpose.
 
 mod still;
 mod varies;

@@ -13,7 +13,8 @@ pub struct Understood {
     pub column: String,
     /// What it is taken for; `None` where it is not used.
     pub role: Option<Role>,
-    /// The unit its numbers are read in, with scale and sign: `A, scale 96 N/A, sign inverted`. Empty where it is not used.
+    /// The unit its numbers are read in, with scale and sign: `A, scale 96 N/A, sign inverted`. Empty where it is not
+    /// used.
     pub unit: String,
     /// Why it is taken for that, or why it is not used, and where the unit comes from.
     pub reason: String,

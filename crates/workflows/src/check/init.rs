@@ -19,12 +19,12 @@ pub struct Started {
     pub undecided: Option<String>,
 }
 
-/// An axis file for a log, with what was found filled in and the rest to fill in; with an axis file, that file as it is, with
-/// what it lacks and the log shows.
+/// An axis file for a log, with what was found filled in and the rest to fill in; with an axis file, that file as it
+/// is, with what it lacks and the log shows.
 ///
 /// # Errors
-/// Where a file cannot be read at all, and where the log does not suit the axis file; columns that cannot be told apart are
-/// left to fill in where there is no axis file.
+/// Where a file cannot be read at all, and where the log does not suit the axis file; columns that cannot be told apart
+/// are left to fill in where there is no axis file.
 pub fn init(path: &Path, axis: Option<&Path>) -> Result<Started, Error> {
     let given = match axis {
         Some(file) => Axis::read(file)?,

@@ -210,9 +210,9 @@ fn turns(x: &[f64], shortest: f64) -> Vec<usize> {
     out
 }
 
-/// Samples from a turn until the force has gone most of the way from its level in one direction to that in the other, at
-/// the third slowest turn, so that one dwell does not count. A force that has done so before the turn, because the axis
-/// brakes, takes none.
+/// Samples from a turn until the force has gone most of the way from its level in one direction to that in the other,
+/// at the third slowest turn, so that one dwell does not count. A force that has done so before the turn, because the
+/// axis brakes, takes none.
 fn samples_after(x: &[f64], force: &[f64], turns: &[usize]) -> Option<f64> {
     let mut levels = [Vec::new(), Vec::new()];
     let ends = turns.iter().copied().chain([x.len() - 1]);

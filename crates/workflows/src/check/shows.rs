@@ -1,7 +1,7 @@
 //! What the motion of a log can show of each parameter, from plain facts: never more than they give.
 //!
-//! A motion that lacks something cannot show a parameter; one that has it all may still not, because the parameter is small
-//! or the noise large, which only a fit tells.
+//! A motion that lacks something cannot show a parameter; one that has it all may still not, because the parameter is
+//! small or the noise large, which only a fit tells.
 
 use super::motion::Motion;
 use serde::Serialize;
@@ -14,8 +14,8 @@ use stiction_number::{Percent, counted, four_digits as short};
 const SHARE_EACH_WAY: f64 = 0.05;
 /// Least ratio of a middling to a slow speed from which the slope of friction over speed shows.
 const SPEED_RATIO: f64 = 2.0;
-/// Least share of the samples at a tenth to a hundredth of the top speed, in the direction that has less: a sine has 3 %,
-/// and a triangle, which only passes through these speeds, less.
+/// Least share of the samples at a tenth to a hundredth of the top speed, in the direction that has less: a sine has 3
+/// %, and a triangle, which only passes through these speeds, less.
 const SHARE_SLOW: f64 = 0.02;
 /// The same for the next decade, of which a sine has 0.3 %.
 const SHARE_SLOWER: f64 = 0.005;

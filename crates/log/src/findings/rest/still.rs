@@ -8,8 +8,8 @@ use stiction_signal::{Travel, noise_deviation};
 
 /// Samples of a block whose noise is looked at ...
 const BLOCK: usize = 64;
-/// ... and the part of the blocks, the quietest, that shows the noise of an axis at rest: in motion, uneven time steps and
-/// passing encoder steps look like noise too.
+/// ... and the part of the blocks, the quietest, that shows the noise of an axis at rest: in motion, uneven time steps
+/// and passing encoder steps look like noise too.
 const QUIETEST_SHARE: f64 = 0.1;
 /// Least range of the whole record, in movements that the encoder and the noise could make: a record in presliding has
 /// a few counts in all, and each of them counts.
@@ -113,8 +113,8 @@ impl<'a> Signal<'a> {
         self.is_rest(&rest).then_some(rest)
     }
 
-    /// How many of the samples, from the side that is walked first, already belong to the motion: they are further than a
-    /// third of the band from the level of the rest.
+    /// How many of the samples, from the side that is walked first, already belong to the motion: they are further than
+    /// a third of the band from the level of the rest.
     fn leaving<'s, I: Iterator<Item = &'s f64>>(
         &self,
         rest: Range<usize>,

@@ -6,8 +6,8 @@ use stiction_signal::Travel;
 
 /// Length of the blocks over which the force is averaged, s.
 const BLOCK_SECONDS: f64 = 0.25;
-/// Variation of the force in a rest, as a part of its spread in the whole record, up to which it is held by integrator or
-/// brake.
+/// Variation of the force in a rest, as a part of its spread in the whole record, up to which it is held by integrator
+/// or brake.
 const HELD: f64 = 0.1;
 /// Distance from the first level at which a larger variation begins, likewise.
 const BEGINS: f64 = 0.02;
