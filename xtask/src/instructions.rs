@@ -1,5 +1,5 @@
-//! Instructions of the kernels and of an identification, counted by callgrind, against a snapshot: a slowdown
-//! shows in review, however busy the machine is.
+//! Instructions of the kernels, of an identification and of whole commands, counted by callgrind, against a snapshot: a
+//! slowdown shows in review, however busy the machine is.
 //!
 //! Counted is the build that the tests run, so that nothing is built for it alone: the numerical crates are optimised
 //! in it as in a release, and its checks of overflow and indices are 2 to 19 % of the instructions.
@@ -9,8 +9,19 @@ use crate::shell::{self, Outcome};
 use std::fmt::Write;
 use std::fs;
 
-/// What is counted, by the name that `crates/identify/examples/instructions.rs` knows.
-const WHAT: [&str; 5] = ["friction-step", "costs", "sums", "sums-alone", "identify"];
+/// What is counted, by the name that an example knows: `crates/identify/examples/instructions.rs`, for whole commands
+/// `crates/stiction/examples/whole_commands.rs`.
+const WHAT: [&str; 7] = [
+    "friction-step",
+    "costs",
+    "sums",
+    "sums-alone",
+    "identify",
+    "command-identify",
+    "command-auto",
+];
+/// How the names of whole commands begin.
+const COMMAND: &str = "command-";
 /// Largest relative difference of a count: the C library picks its copying loops by processor.
 const TOLERANCE: f64 = 0.02;
 const SNAPSHOT: &str = "bench/instructions.txt";
@@ -63,18 +74,23 @@ fn counts() -> Result<Option<Vec<u64>>, String> {
     debian::install()?;
     // Of the whole workspace, or features of the dependencies would differ and all of them be built again.
     shell::run(shell::cargo(
-        "build --quiet --workspace --example instructions",
+        "build --quiet --workspace --example instructions --example whole_commands",
     ))?;
-    let program = shell::target().join("debug/examples/instructions");
-    let program = program.to_string_lossy();
     let out = shell::target().join("instructions.callgrind");
     let file = format!("--callgrind-out-file={}", out.display());
     WHAT.iter()
         .map(|what| {
+            let example = match what.starts_with(COMMAND) {
+                true => "whole_commands",
+                false => "instructions",
+            };
+            let program = shell::target().join("debug/examples").join(example);
+            let program = program.to_string_lossy();
+            let toggle = format!("--toggle-collect=*{example}*counted*");
             let arguments = [
                 "--quiet",
                 "--tool=callgrind",
-                "--toggle-collect=*instructions*counted*",
+                &toggle,
                 &file,
                 &program,
                 what,
@@ -103,7 +119,7 @@ struct Table {
 /// Old beside new.
 fn table(snapshot: &str, counts: &[u64]) -> Table {
     let mut out = Table {
-        text: format!("    {:14} {:>12} {:>12}\n", "", "snapshot", "now"),
+        text: format!("    {:16} {:>12} {:>12}\n", "", "snapshot", "now"),
         same: true,
     };
     for (what, &now) in WHAT.iter().zip(counts) {
@@ -119,7 +135,7 @@ fn table(snapshot: &str, counts: &[u64]) -> Table {
         let old = old.map_or_else(|| "none".into(), |old| old.to_string());
         let _ = writeln!(
             out.text,
-            "    {what:14} {old:>12} {now:>12} {:>+7.1} %{}",
+            "    {what:16} {old:>12} {now:>12} {:>+7.1} %{}",
             100.0 * shift,
             if same { "" } else { "  <" }
         );
@@ -152,13 +168,17 @@ mod tests {
 
     #[test]
     fn a_count_that_moves_is_marked() {
-        let snapshot = "# a\nfriction-step 1000\ncosts 1000\nsums 1000\nsums-alone 1000\n";
-        let found = table(snapshot, &[1019, 1021, 979, 1000, 5]);
+        let snapshot = "# a\nfriction-step 1000\ncosts 1000\nsums 1000\nsums-alone 1000\n\
+                        command-identify 7\ncommand-auto 8\n";
+        let found = table(snapshot, &[1019, 1021, 979, 1000, 5, 7, 8]);
         assert!(!found.same);
         let marked: Vec<bool> = found.text.lines().map(|l| l.ends_with('<')).collect();
-        assert_eq!(marked, [false, false, true, true, false, true]);
+        assert_eq!(
+            marked,
+            [false, false, true, true, false, true, false, false]
+        );
         let identify = format!("{snapshot}identify 5\n");
-        assert!(table(&identify, &[1000, 1000, 1000, 1000, 5]).same);
+        assert!(table(&identify, &[1000, 1000, 1000, 1000, 5, 7, 8]).same);
     }
 
     #[test]

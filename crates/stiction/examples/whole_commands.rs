@@ -1,0 +1,78 @@
+//! Whole commands whose instructions `cargo xtask instructions` counts: `whole_commands WHAT`.
+//!
+//! A short log of a simulated axis is written to a temporary folder; what [`counted`] does with it is what
+//! `stiction identify LOG --out DIR` does: reading, conditioning with the choice of cut-offs, search, intervals, the other
+//! laws beside it, the files with the report. On one thread.
+
+use std::fmt::Write;
+use std::hint::black_box;
+use stiction::commands::Files;
+use stiction::{LawKind, Options, Silent, bundle};
+use stiction_servo::cascade::Cascade;
+use stiction_servo::closed_loop::{ClosedLoop, ForceLog};
+use stiction_servo::encoder::Encoder;
+use stiction_servo::known;
+use stiction_servo::path::Path;
+use stiction_servo::plant::Plant;
+
+const RATE: f64 = 1000.0;
+const SECONDS: f64 = 1.5;
+/// Encoder step, m.
+const STEP: f64 = 100e-9;
+
+/// The function by whose name the counting is switched on.
+#[inline(never)]
+fn counted(work: &mut dyn FnMut()) {
+    work();
+}
+
+/// A velocity sine of 50 mm/s and 1 Hz under a cascade, as a log in text.
+fn log() -> String {
+    let axis = known::find("machine").expect("a known axis");
+    let record = ClosedLoop {
+        plant: Plant::new(axis.mass, axis.law).expect("a plant"),
+        controller: Cascade::tuned(axis.mass, 60.0, 1e3).expect("a controller"),
+        path: Path::sine(0.05, 1.0, SECONDS).expect("a path"),
+        encoder: Encoder::new(STEP).expect("an encoder"),
+        rate: RATE,
+        substeps: 10,
+        force_noise: 0.3,
+        force_log: ForceLog::Held,
+        seed: 1,
+    }
+    .run()
+    .expect("a log");
+    let mut text = String::from("time [s],position [um],force [N]\n");
+    for ((t, x), u) in record.time.iter().zip(&record.position).zip(&record.force) {
+        writeln!(text, "{t:.4},{:.1},{u:.4}", 1e6 * x).expect("memory");
+    }
+    text
+}
+
+fn main() {
+    let what = std::env::args().nth(1).unwrap_or_default();
+    let law = match what.as_str() {
+        "command-identify" => Some(LawKind::LuGre),
+        "command-auto" => None,
+        _ => {
+            eprintln!("usage: whole_commands command-identify|command-auto");
+            std::process::exit(2);
+        }
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("log.csv");
+    std::fs::write(&file, log()).expect("a log on disk");
+    let files = Files {
+        logs: vec![file],
+        ..Files::default()
+    };
+    let mut options = Options::default();
+    options.law = law;
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1);
+    one.build().expect("a thread").install(|| {
+        counted(&mut || {
+            let outcome = stiction::commands::identify(&files, &options, &mut Silent);
+            black_box(bundle::identification(&outcome.expect("an outcome")));
+        });
+    });
+}
