@@ -213,6 +213,8 @@ pub struct Unseen {
 const HORIZON: f64 = 1.0;
 /// Steps of a descent on starts alone.
 const START_STEPS: usize = 60;
+/// Bristle deflections, over `Fc/s0`, from which the start of a run is looked for: at rest, and sliding either way.
+const START_DEFLECTIONS: [f64; 3] = [0.0, 1.0, -1.0];
 
 /// Simulates recordings that were not fitted, each stretch without a gap whole. Only where a stretch starts is fitted to
 /// it: position, velocity and bristle deflection (and a controller's integral) cannot be known beforehand.
@@ -262,12 +264,33 @@ impl SimulationFit {
             weights: self.weights,
         };
         let nothing = SearchBox::between(Vec::new(), Vec::new());
+        // Each run for itself: in one descent a start that is hard to find would hold up all others.
+        let mut starts = rest(runs, self.controller.as_ref());
+        for (run, start) in runs.iter().zip(&mut starts) {
+            let alone = Problem {
+                runs: std::slice::from_ref(run),
+                ..problem.clone()
+            };
+            let mut best = (f64::INFINITY, *start);
+            for deflection in START_DEFLECTIONS {
+                let mut guess = *start;
+                guess.0[2] = deflection;
+                let at = Point {
+                    q: Vec::new(),
+                    starts: vec![guess],
+                };
+                let found = descend(&alone, &nothing, at, START_STEPS, watch);
+                if found.cost < best.0 {
+                    best = (found.cost, found.at.starts[0]);
+                }
+            }
+            *start = best.1;
+        }
         let at = Point {
             q: Vec::new(),
-            starts: rest(runs, self.controller.as_ref()),
+            starts,
         };
-        let found = descend(&problem, &nothing, at, START_STEPS, watch);
-        signals(&problem, &found.at)
+        signals(&problem, &at)
     }
 
     /// The error over a short horizon of stretches that are whole.

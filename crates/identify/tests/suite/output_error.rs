@@ -241,6 +241,9 @@ fn an_unseen_run_is_predicted_to_a_count() {
     };
     let found = fit(&[open(4.0, 0.0, 1e-6, 0.0, 1)], &simulation);
     let unseen = simulate_unseen(&[open(3.0, 1.1, 1e-6, 0.0, 2)], &found, &mut Silent).unwrap();
+    // Pieces that begin while the axis slides find their starts as well.
+    let short = unseen.short.unwrap().position;
+    assert!(short.rmse < 1e-6, "{short:?}");
     // A bristle that lets go a little early moves the whole slip that follows; still below one count.
     assert!(unseen.position.rmse < 1e-6, "{:?}", unseen.position);
     assert!(
