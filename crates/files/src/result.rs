@@ -34,7 +34,8 @@ pub struct ResultFile {
     pub law: String,
     /// Whether each direction has parameters of its own.
     pub asymmetric: bool,
-    /// What of the law is held at nothing: `stribeck` (`Fs = Fc`), `sigma1`.
+    /// What of the law is left out: `stribeck` (`Fs = Fc`), `sigma1` (0), `unseen-force` (static friction kept below the
+    /// largest friction of the log).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub without: Vec<String>,
     /// Who chose the law: `user`, or by what the data did: `cross-validation`, `validation`, `bic`.
@@ -325,7 +326,7 @@ pub struct LawEntry {
     pub law: String,
     /// Whether each direction has parameters of its own.
     pub asymmetric: bool,
-    /// What of the law is held at nothing, as in [`ResultFile::without`].
+    /// What of the law is left out, as in [`ResultFile::without`].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub without: Vec<String>,
     /// Whether a constant force is fitted beside it.

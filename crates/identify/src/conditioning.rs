@@ -316,14 +316,15 @@ pub(crate) fn check(number: usize, log: &Samples) -> Result<(), Error> {
             });
         }
     }
-    if !log.valid.is_empty() && log.valid.len() != n {
-        let found = log.valid.len();
-        return Err(Error::Length {
-            log: number,
-            channel: "valid",
-            found,
-            expected: n,
-        });
+    for (channel, flags) in [("valid", &log.valid), ("at_rest", &log.at_rest)] {
+        if !flags.is_empty() && flags.len() != n {
+            return Err(Error::Length {
+                log: number,
+                channel,
+                found: flags.len(),
+                expected: n,
+            });
+        }
     }
     if n < 4 {
         return Err(Error::TooFewSamples {
@@ -460,6 +461,7 @@ impl Filters {
             &samples.valid[range.clone()]
         };
         let valid = grid.keep(valid);
+        let at_rest = grid.at_rest(samples.at_rest.get(range.clone()).unwrap_or_default());
         let keep = apart(&valid, self.reach);
         let thin = |x: &[f64]| x.iter().step_by(self.decimate).copied().collect::<Vec<_>>();
         let keep = keep
@@ -471,8 +473,10 @@ impl Filters {
                 let fast = velocity[i].abs() >= self.min_speed;
                 losses.ends += usize::from(!inside);
                 losses.excluded += usize::from(inside && !k);
-                losses.slow += usize::from(inside && k && !fast);
-                k && inside && fast
+                let still = at_rest.get(i).is_some_and(|&still| still);
+                losses.at_rest += usize::from(inside && k && still);
+                losses.slow += usize::from(inside && k && !still && !fast);
+                k && inside && !still && fast
             })
             .collect();
         Some(Segment {
@@ -483,6 +487,7 @@ impl Filters {
             acceleration,
             drive,
             valid,
+            at_rest,
             time: thin(&grid.times()),
             force,
             keep,

@@ -190,6 +190,7 @@ impl<'a> Axis<'a> {
             position: Some(position),
             force,
             valid: segment.valid.clone(),
+            at_rest: segment.at_rest.clone(),
             ..Samples::default()
         })
     }

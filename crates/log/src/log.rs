@@ -183,11 +183,20 @@ impl Log {
     /// starts from rest is data.
     pub fn valid(&self) -> Vec<bool> {
         let mut valid = vec![true; self.time.len()];
-        let faulty = |e: &&Excluded| e.code != Code::RestAtEnd;
+        let faulty = |e: &&Excluded| !matches!(e.code, Code::RestAtEnd | Code::RestBetween);
         for excluded in self.excluded.iter().filter(faulty) {
             valid[excluded.samples.clone()].fill(false);
         }
         valid
+    }
+
+    /// Which samples a fit of the whole record carries along and does not fit: the axis is at rest.
+    pub fn at_rest(&self) -> Vec<bool> {
+        let mut at_rest = vec![false; self.time.len()];
+        for e in self.excluded.iter().filter(|e| e.code == Code::RestBetween) {
+            at_rest[e.samples.clone()].fill(true);
+        }
+        at_rest
     }
 
     /// The samples of a record that is fitted as a whole: without rests at the ends but for half a second in which

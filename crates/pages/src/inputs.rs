@@ -1,23 +1,28 @@
 //! What a reader should know of a log before its results: units that were assumed, and what the fit did not see.
 
-use stiction_codes::Code;
 use stiction_files::result::{ExcludedEntry, Input};
 use stiction_number::{four_digits as short, unit};
 
+/// Most stretches that are named one by one.
+const MOST_NAMED: usize = 4;
+
 /// Which stretches were left out, and why; nothing where the whole log was fitted.
 pub(crate) fn left_out(input: &Input) -> Option<String> {
-    let stretches: Vec<String> = input
-        .excluded
+    let excluded: &[ExcludedEntry] = &input.excluded;
+    let first = excluded.first()?;
+    let stretches: Vec<String> = excluded
         .iter()
-        .map(|e: &ExcludedEntry| format!("{} to {} s", short(e.from_s), short(e.to_s)))
+        .take(MOST_NAMED)
+        .map(|e| format!("{} to {} s", short(e.from_s), short(e.to_s)))
         .collect();
-    if stretches.is_empty() {
-        return None;
-    }
+    let more = match excluded.len().saturating_sub(MOST_NAMED) {
+        0 => String::new(),
+        n => format!(" and {n} more"),
+    };
     Some(format!(
-        "left out: {}, the axis stands still [{}]; to keep it: rests = \"keep\" under [log] in the axis file",
-        stretches.join(" and "),
-        Code::RestAtEnd
+        "not fitted: {}{more}, where the axis stands still [{}]; to fit them: rests = \"keep\" under [log] in the axis file",
+        stretches.join(", "),
+        first.code
     ))
 }
 

@@ -26,6 +26,7 @@ fn named(law: &str, asymmetric: bool, without: &[String]) -> String {
         name.push_str(match held.as_str() {
             "stribeck" => " with Fs = Fc",
             "sigma1" => " with σ₁ = 0",
+            "unseen-force" => ", Fs as high as seen",
             _ => "",
         });
     }

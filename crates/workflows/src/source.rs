@@ -101,7 +101,8 @@ impl Source {
     /// How the log goes into `result.json`; `whole_record` where the whole record is fitted, without rests at the ends.
     pub fn input(&self, whole_record: bool) -> Input {
         let rests = self.log.excluded.iter();
-        let rests = rests.filter(|e| whole_record && e.code == Code::RestAtEnd);
+        let rests =
+            rests.filter(|e| whole_record && matches!(e.code, Code::RestAtEnd | Code::RestBetween));
         let excluded = rests.filter_map(|e| {
             let time = self.log.time.get(e.samples.clone())?;
             Some(ExcludedEntry {
@@ -184,6 +185,7 @@ impl Source {
     pub fn fitted(&self) -> Result<Samples, Error> {
         let mut samples = self.samples()?;
         samples.valid = self.log.valid_in_motion();
+        samples.at_rest = self.log.at_rest();
         let range = self.log.fitted();
         let cut = |x: &mut Vec<f64>| {
             x.truncate(range.end);
@@ -198,8 +200,10 @@ impl Source {
             &mut samples.temperature,
         ];
         others.into_iter().flatten().for_each(cut);
-        samples.valid.truncate(range.end);
-        samples.valid.drain(..range.start);
+        for mask in [&mut samples.valid, &mut samples.at_rest] {
+            mask.truncate(range.end);
+            mask.drain(..range.start);
+        }
         let breaks = samples.breaks.iter().copied();
         samples.breaks = breaks
             .filter(|at| range.contains(at) && *at > range.start)
@@ -242,6 +246,7 @@ impl Source {
             load: self.log.load.clone(),
             temperature: self.log.temperature.clone(),
             valid: self.log.valid(),
+            at_rest: Vec::new(),
             breaks: self.log.segments.iter().skip(1).map(|s| s.start).collect(),
         })
     }

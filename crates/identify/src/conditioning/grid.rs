@@ -85,6 +85,18 @@ impl<'a> Grid<'a> {
             .collect()
     }
 
+    /// Which grid points stand between samples at rest; none where no sample is.
+    pub fn at_rest(&self, at_rest: &[bool]) -> Vec<bool> {
+        if !at_rest.contains(&true) {
+            return Vec::new();
+        }
+        let still = |i: usize| at_rest.get(i).copied().unwrap_or(false);
+        match &self.before {
+            None => (0..self.count).map(still).collect(),
+            Some(before) => before.iter().map(|&i| still(i) && still(i + 1)).collect(),
+        }
+    }
+
     /// Which grid points stand on valid samples with no gap around them.
     pub fn keep(&self, valid: &[bool]) -> Vec<bool> {
         let ok = |i: usize| valid.get(i).copied().unwrap_or(true);

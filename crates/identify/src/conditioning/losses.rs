@@ -16,6 +16,8 @@ pub struct Losses {
     pub excluded: usize,
     /// Of those taken: at ends, where filters settle.
     pub ends: usize,
+    /// Of those taken: at rest.
+    pub at_rest: usize,
     /// Of those taken: slower than `min_speed`.
     pub slow: usize,
     /// Of those taken: held back for validation.
@@ -38,6 +40,7 @@ impl fmt::Display for Losses {
                 "are saturated, missing or frozen, or beside such samples",
             ),
             (self.ends, "lie at ends, where filters settle"),
+            (self.at_rest, "are at rest"),
             (self.slow, "are slower than min_speed"),
             (self.held_back, "are held back for validation"),
         ];

@@ -24,6 +24,9 @@ pub struct Samples {
     pub temperature: Option<Vec<f64>>,
     /// Which samples may be used; empty means all.
     pub valid: Vec<bool>,
+    /// Which samples are at rest: filters and laws go on through them, and they are not fitted, since the force of an axis
+    /// that does not move may have any value up to break-away; empty means none.
+    pub at_rest: Vec<bool>,
     /// Samples at which something new starts (after a jump of the position, say), in order; the
     /// record is split there even if the time goes on.
     pub breaks: Vec<usize>,
@@ -52,6 +55,8 @@ pub struct Segment {
     pub drive: Vec<f64>,
     /// Which samples of the full rate may be used.
     pub valid: Vec<bool>,
+    /// Which samples of the full rate are at rest and not fitted; empty where none is.
+    pub at_rest: Vec<bool>,
     /// Time of the thinned samples, s.
     pub time: Vec<f64>,
     /// Measured force at the thinned samples, filtered.
@@ -411,6 +416,9 @@ impl Record {
             let every = self.decimate * every;
             x.iter().step_by(every).copied().collect::<Vec<_>>()
         };
+        let flags = |x: &[bool]| -> Vec<bool> {
+            x.iter().step_by(self.decimate * every).copied().collect()
+        };
         let segments = self
             .segments
             .iter()
@@ -422,12 +430,8 @@ impl Record {
                 reading: coarse(&s.reading),
                 acceleration: coarse(&s.acceleration),
                 drive: coarse(&s.drive),
-                valid: s
-                    .valid
-                    .iter()
-                    .step_by(self.decimate * every)
-                    .copied()
-                    .collect(),
+                valid: flags(&s.valid),
+                at_rest: flags(&s.at_rest),
                 time: pick(&s.time),
                 force: pick(&s.force),
                 keep: s.keep.iter().step_by(every).copied().collect(),
@@ -495,6 +499,7 @@ pub(crate) mod tests {
                 acceleration: vec![0.0; velocity.len()],
                 drive: vec![0.0; velocity.len()],
                 valid: vec![true; velocity.len()],
+                at_rest: Vec::new(),
                 time: (0..velocity.len()).map(|i| step * i as f64).collect(),
                 force: vec![0.0; velocity.len()],
                 keep: vec![true; velocity.len()],

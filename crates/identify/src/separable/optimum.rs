@@ -59,6 +59,21 @@ impl Optimum {
         start
     }
 
+    /// The box that was searched, with static friction at most `force` where Coulomb friction stays as it is, `coulomb` in
+    /// positive and negative direction: for the law alone, without the delay.
+    pub fn bounds_with_static_below(&self, coulomb: [f64; 2], force: f64) -> SearchBox {
+        let mut bounds = self.bounds.clone();
+        if self.delay {
+            bounds = bounds.without(bounds.len() - 1);
+        }
+        for (excess, coulomb) in self.law.layout().excess.into_iter().zip(coulomb) {
+            if let Some(i) = excess {
+                bounds = bounds.below(i, libm::log((force / coulomb - 1.0).max(0.0)));
+            }
+        }
+        bounds
+    }
+
     /// Whether the delay was fitted and stands at the bound of its range.
     pub fn delay_at_bound(&self) -> bool {
         let last = self.p.len().checked_sub(1);

@@ -166,6 +166,13 @@ impl SearchBox {
         out
     }
 
+    /// The same box with one unknown at most at a value, as far as its range allows.
+    pub(crate) fn below(&self, i: usize, value: f64) -> Self {
+        let mut out = self.clone();
+        out.high[i] = value.clamp(out.low[i], out.high[i]);
+        out
+    }
+
     /// The same as a descent sees it.
     pub(crate) fn region(&self) -> Region<'_> {
         Region {

@@ -2,8 +2,9 @@
 //!
 //! The force of an axis at rest may lie anywhere up to break-away, wherever integrator, brake or gravity have put it; a
 //! fit of the whole record would take it for friction. So rests at the ends are left out of such fits, up to 0.02 s
-//! beside the motion. Not left out is a rest before whose end the force begins to vary (a ramp or steps to break-away),
-//! and one at the end in which the force goes to and fro: both were made on purpose.
+//! beside the motion. Carried along and not fitted are rests in which the force varies without motion: in between,
+//! before whose end it begins to vary at the start (a ramp or steps to break-away), in which it goes to and fro at the
+//! end. Those may have been made on purpose, for procedures that start from rest.
 
 mod still;
 mod varies;
@@ -38,11 +39,11 @@ pub(super) fn rests(log: &mut Log, mapping: &Mapping) {
     if log.rests.is_empty() {
         return;
     }
-    let samples = log.time.len();
+    let spread = varies::spread(log);
     let ends: Vec<End> = log
         .rests
         .iter()
-        .filter_map(|rest| end(log, rest.clone(), samples))
+        .filter_map(|rest| end(log, rest.clone(), spread))
         .collect();
     let keep = match (mapping.rests, mapping.crop) {
         (Some(Rests::Keep), _) => Some("rests = \"keep\""),
@@ -53,27 +54,65 @@ pub(super) fn rests(log: &mut Log, mapping: &Mapping) {
         let finding = at_the_ends(log, &ends, keep);
         log.findings.push(finding);
     }
+    let varying: Vec<Range<usize>> = match mapping.rests {
+        Some(Rests::Keep) => Vec::new(),
+        _ => {
+            let rests = log.rests.iter().cloned();
+            rests
+                .filter(|rest| varies::at_all(log, rest, spread))
+                .collect()
+        }
+    };
+    if let Some(finding) = in_between(log, &varying) {
+        log.findings.push(finding);
+    }
+    for rest in varying {
+        let rest = unfitted(log, rest, &ends);
+        log.exclude(rest, Code::RestBetween);
+    }
     if keep.is_none() {
         for cut in ends.into_iter().filter_map(|end| end.cut) {
             log.exclude(cut, Code::RestAtEnd);
         }
     }
-    if let Some(finding) = in_between(log, samples) {
-        log.findings.push(finding);
+}
+
+/// The samples of a rest that are carried along and not fitted: but for those beside the motion and those that are left
+/// out altogether.
+fn unfitted(log: &Log, rest: Range<usize>, ends: &[End]) -> Range<usize> {
+    let time = &log.time;
+    let (first, last) = (time[rest.start] + FITTED, time[rest.end - 1] - FITTED);
+    let mut from = time.partition_point(|t| *t <= first);
+    let mut to = time.partition_point(|t| *t < last);
+    if rest.start == 0 {
+        from = 0;
     }
+    if rest.end == time.len() {
+        to = rest.end;
+    }
+    for cut in ends.iter().filter_map(|end| end.cut.as_ref()) {
+        if rest.contains(&cut.start) {
+            match cut.start {
+                0 => from = from.max(cut.end),
+                start => to = to.min(start),
+            }
+        }
+    }
+    from..to.max(from)
 }
 
 /// What becomes of a rest, if it is at an end of the record.
-fn end(log: &Log, rest: Range<usize>, samples: usize) -> Option<End> {
+fn end(log: &Log, rest: Range<usize>, spread: f64) -> Option<End> {
     let time = &log.time;
+    let samples = time.len();
     let cut = if rest.start == 0 {
-        let until = varies::first_change(log, &rest);
+        let until = varies::first_change(log, &rest, spread);
         let last = time[until - 1] - FITTED;
         0..time.partition_point(|t| *t < last)
     } else if rest.end == samples {
         let first = time[rest.start] + FITTED;
         let from = time.partition_point(|t| *t <= first);
-        match varies::to_and_fro(log, &(from..samples)) {
+        match varies::to_and_fro(log, &(from..samples), spread) {
             true => samples..samples,
             false => from..samples,
         }
@@ -101,8 +140,8 @@ fn at_the_ends(log: &Log, ends: &[End], keep: Option<&str>) -> Finding {
         ));
     } else if cuts.is_empty() {
         message.push_str(
-            "; kept, because the force varies meanwhile, as before a break-away; where the controller makes that force, \
-             leave the rest out: crop under [log]",
+            "; the force varies meanwhile, as before a break-away: procedures that start from rest see it, fits of the whole \
+             record do not",
         );
     } else {
         let times: Vec<String> = cuts
@@ -126,7 +165,8 @@ fn at_the_ends(log: &Log, ends: &[End], keep: Option<&str>) -> Finding {
     Finding::new(Code::RestAtEnd, Severity::Note, message).at(at)
 }
 
-fn in_between(log: &Log, samples: usize) -> Option<Finding> {
+fn in_between(log: &Log, varying: &[Range<usize>]) -> Option<Finding> {
+    let samples = log.time.len();
     let inside = |rest: &&Range<usize>| rest.start > 0 && rest.end < samples;
     let inside: Vec<&Range<usize>> = log.rests.iter().filter(inside).collect();
     let seconds = |rest: &Range<usize>| log.time[rest.end - 1] - log.time[rest.start];
@@ -134,15 +174,20 @@ fn in_between(log: &Log, samples: usize) -> Option<Finding> {
         .iter()
         .max_by(|a, b| seconds(a).total_cmp(&seconds(b)))?;
     let share = inside.iter().map(|rest| rest.len()).sum::<usize>() as f64 / samples as f64;
-    let message = format!(
-        "{} between motions, {} of the samples, the longest {} s from {} s; they are fitted, though at rest the force may \
-         have any value up to break-away and say more of the controller than of friction: record motion without long \
-         dwells",
+    let mut message = format!(
+        "{} between motions, {} of the samples, the longest {} s from {} s",
         count(inside.len(), "rest"),
         Percent::error(100.0 * share).short(),
         short(seconds(longest)),
-        short(log.time[longest.start])
+        short(log.time[longest.start]),
     );
+    let unfitted = inside.iter().filter(|rest| varying.contains(rest)).count();
+    if unfitted > 0 {
+        message.push_str(&format!(
+            "; in {unfitted} of them the force varies without motion, which no friction law follows: fits of the whole record \
+             carry these along and do not fit them; to fit them: rests = \"keep\" under [log] in the axis file"
+        ));
+    }
     let severity = match share > MANY_AT_REST {
         true => Severity::Warning,
         false => Severity::Note,

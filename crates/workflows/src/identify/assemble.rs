@@ -1,6 +1,5 @@
 //! From what the engine found to what goes to disk.
 
-use super::ladder::without;
 use super::load::Asked;
 use super::trust::Judged;
 use crate::entries;
@@ -24,6 +23,8 @@ pub(super) struct Parts<'a> {
     pub validation: &'a [(String, Series)],
     /// Laws side by side; empty where they were not compared.
     pub laws: Vec<LawEntry>,
+    /// What of the law is left out.
+    pub without: Vec<String>,
     /// Who chose the law.
     pub law_chosen_by: &'static str,
     pub judged: Judged,
@@ -85,7 +86,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         },
         law: estimate.law.kind.name().into(),
         asymmetric: estimate.law.asymmetric,
-        without: without(&estimate.law),
+        without: parts.without,
         law_chosen_by: parts.law_chosen_by.into(),
         method: asked.options.procedures.method.name().into(),
         trust: judged.trust,

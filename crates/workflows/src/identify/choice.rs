@@ -6,7 +6,7 @@ use super::unfit;
 use stiction_files::result::LawEntry;
 use stiction_identify as engine;
 use stiction_identify::{Estimate, Law, LawKind, Observer, Optimum, Settings, Status};
-use stiction_parameters::Quantity;
+use stiction_parameters::{Quantity, Side};
 
 /// The families that a compensator can be exported of.
 const EXPORTED: [LawKind; 4] = [
@@ -31,6 +31,8 @@ pub(super) struct Choice {
     pub held_back: Option<String>,
     /// Rms residual on held-out samples of the record, where it was cross-validated.
     pub held_out_rmse: Option<f64>,
+    /// What of the law is left out, as written to `result.json`.
+    pub without: Vec<String>,
 }
 
 impl Choice {
@@ -38,6 +40,7 @@ impl Choice {
     pub fn alone(estimate: Estimate) -> Self {
         Self {
             held_back: unfit::unseen_force(&estimate),
+            without: ladder::without(&estimate.law, false),
             estimate,
             laws: Vec::new(),
             by: "user",
@@ -93,6 +96,7 @@ pub(super) fn fitted_already(
     };
     Choice {
         held_back: unfit::unseen_force(&estimate),
+        without: ladder::without(&estimate.law, false),
         estimate: stated(ladder, &optimum, estimate, observer),
         laws,
         by: "user",
@@ -115,7 +119,7 @@ pub(super) fn auto(
         .map(|law| ladder.usual(law))
         .collect();
     let mut climb = ladder.climb(&first, None, settings, observer);
-    for round in [second, third] {
+    for round in [second, third, capped] {
         if climb.stopped {
             break;
         }
@@ -143,6 +147,7 @@ pub(super) fn auto(
     let rung = rungs.swap_remove(at);
     let held_out_rmse = rung.cross_validated_rmse(ladder);
     let held_back = unfit::unseen_force(&rung.estimate);
+    let without = laws[at].without.clone();
     let Rung {
         estimate, optimum, ..
     } = rung;
@@ -157,6 +162,7 @@ pub(super) fn auto(
         by,
         held_back,
         held_out_rmse,
+        without,
     })
 }
 
@@ -201,6 +207,27 @@ fn third<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
         candidate.from(&[rung])
     }));
     next
+}
+
+/// The best law so far with its static friction kept below the largest friction of the log, where it is above that.
+fn capped<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
+    let (_, best) = climb.entries();
+    let Some(rung) = best.map(|best| &climb.rungs[best]) else {
+        return Vec::new();
+    };
+    if unfit::unseen_force(&rung.estimate).is_none() {
+        return Vec::new();
+    }
+    let law = rung.estimate.law;
+    let values = rung.estimate.values();
+    let level = |side| values.on(Quantity::Coulomb, side).unwrap_or(f64::INFINITY);
+    let coulomb = [Side::Positive, Side::Negative].map(level);
+    let most = unfit::largest_friction(&rung.estimate);
+    let candidate = ladder.usual(law).from(&[rung]);
+    vec![Candidate {
+        capped: Some(rung.optimum.bounds_with_static_below(coulomb, most)),
+        ..candidate
+    }]
 }
 
 /// LuGre with what it leaves open held at nothing.

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use stiction_files::result::LawEntry;
 use stiction_identify as engine;
 use stiction_identify::{
-    Estimate, Law, LawKind, LawScore, Observer, Optimum, Record, Settings, Terms,
+    Estimate, Law, LawKind, LawScore, Observer, Optimum, Record, SearchBox, Settings, Terms,
 };
 use stiction_parameters::Quantity;
 use stiction_search::{Shared, Stage};
@@ -43,6 +43,8 @@ pub(super) struct Candidate<'a> {
     /// Where descents start: at the end points of laws that it holds or that hold it. Without any, its whole range is
     /// searched.
     pub starts: Vec<Vec<f64>>,
+    /// Where its static friction is kept below a force: the box that does so.
+    pub capped: Option<SearchBox>,
 }
 
 /// A law, fitted and scored.
@@ -50,6 +52,8 @@ pub(super) struct Rung {
     pub estimate: Estimate,
     pub optimum: Optimum,
     score: LawScore,
+    /// Whether its static friction was kept below the largest friction of the log.
+    pub capped: bool,
 }
 
 /// What came of fitting several laws.
@@ -99,6 +103,7 @@ impl Ladder<'_> {
             law,
             terms,
             starts: Vec::new(),
+            capped: None,
         }
     }
 
@@ -109,7 +114,13 @@ impl Ladder<'_> {
         settings: &Settings,
         observer: &mut dyn Observer,
     ) -> Result<(Estimate, Optimum), engine::Error> {
-        let Candidate { law, terms, starts } = candidate;
+        let Candidate {
+            law, terms, starts, ..
+        } = candidate;
+        let settings = &Settings {
+            bounds: candidate.capped.clone().or(settings.bounds.clone()),
+            ..settings.clone()
+        };
         let (record, bound) = (self.record, self.low_speed);
         let Some((first, others)) = starts.split_first() else {
             return engine::fit_law(record, *law, terms, bound, settings, observer);
@@ -153,6 +164,7 @@ impl Ladder<'_> {
             estimate,
             optimum,
             score,
+            capped: candidate.capped.is_some(),
         })
     }
 }
@@ -210,7 +222,7 @@ impl Rung {
         LawEntry {
             law: law.kind.name().into(),
             asymmetric: law.asymmetric,
-            without: without(law),
+            without: without(law, self.capped),
             offset: estimate.terms.offset,
             elements: law.kind.has_elements().then_some(law.elements),
             parameters: score.parameters,
@@ -247,7 +259,15 @@ impl Climb {
             let law = &rung.estimate.law;
             let held = usize::from(law.flat) + usize::from(law.undamped);
             let offset = rung.estimate.terms.offset;
-            (law.kind, law.asymmetric, 2 - held, law.undamped, offset)
+            let capped = rung.capped;
+            (
+                law.kind,
+                law.asymmetric,
+                2 - held,
+                law.undamped,
+                offset,
+                capped,
+            )
         });
         self
     }
@@ -272,9 +292,13 @@ impl Climb {
     }
 }
 
-/// What of a law is held at nothing, as `result.json` names it.
-pub(super) fn without(law: &Law) -> Vec<String> {
-    let held = [(law.flat, "stribeck"), (law.undamped, "sigma1")];
+/// What of a law is left out, as `result.json` names it.
+pub(super) fn without(law: &Law, capped: bool) -> Vec<String> {
+    let held = [
+        (law.flat, "stribeck"),
+        (law.undamped, "sigma1"),
+        (capped, "unseen-force"),
+    ];
     let names = held
         .into_iter()
         .filter_map(|(held, name)| held.then_some(name));

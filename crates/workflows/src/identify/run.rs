@@ -120,6 +120,7 @@ fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Resul
         law: &estimate,
         validation: &validation,
         laws: fitted.choice.laws,
+        without: fitted.choice.without,
         law_chosen_by: fitted.choice.by,
         judged,
     });

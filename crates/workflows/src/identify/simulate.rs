@@ -155,6 +155,7 @@ pub(super) fn run(
         law: &found.fitted,
         validation: &[],
         laws: Vec::new(),
+        without: Vec::new(),
         law_chosen_by: "user",
         judged,
     });

@@ -1,10 +1,14 @@
 //! Why a compensator should not rely on a law, although it follows the log: what it says where the log has seen nothing.
 
-use stiction_identify::{Estimate, Optimum, Status};
+use stiction_identify::{Estimate, FittedLaw, Optimum, Status};
+use stiction_number::Percent;
 use stiction_parameters::Quantity;
 
-/// Ratio of the static friction of a law to the largest friction that it has along the log, above which the log never
-/// shows that force, dimensionless: a quarter more.
+/// Part of the samples that are not above what counts as the largest friction of a log, dimensionless: single samples may be
+/// noise.
+const LARGEST_SHARE: f64 = 0.999;
+/// Ratio of the static friction of a law to the largest friction of the log, above which the log never shows that force,
+/// dimensionless: a quarter more.
 const UNSEEN_FORCE_RATIO: f64 = 1.25;
 
 /// Why a compensator should not rely on a fitted law; `None` where it may.
@@ -22,18 +26,28 @@ pub(super) fn at_its_end(optimum: &Optimum) -> bool {
 }
 
 /// Says that the law has a static friction that the log never shows.
-pub(super) fn unseen_force(law: &stiction_identify::FittedLaw) -> Option<String> {
-    let series = &law.series;
-    let friction = series.model.iter().zip(&series.other).map(|(y, x)| y - x);
-    let largest = friction.fold(0.0, |most: f64, f| most.max(f.abs()));
+pub(super) fn unseen_force(law: &FittedLaw) -> Option<String> {
     let levels = law.parameters.iter();
     let levels = levels.filter(|p| p.name.quantity == Quantity::Static);
     let most = levels.map(|p| p.value).fold(0.0, f64::max);
+    let largest = largest_friction(law);
     (most > UNSEEN_FORCE_RATIO * largest).then(|| {
-        let part = stiction_number::Percent::error(100.0 * (most / largest - 1.0));
+        let part = Percent::error(100.0 * (most / largest - 1.0));
         format!(
-            "its static friction is {} above the largest friction along the log",
+            "its static friction is {} above the largest friction of the log",
             part.digits(2)
         )
     })
+}
+
+/// The largest friction of a log: of the measured force without the terms beside the law, but for single samples.
+pub(super) fn largest_friction(law: &FittedLaw) -> f64 {
+    let series = &law.series;
+    let friction = series.measured.iter().zip(&series.other);
+    let mut friction: Vec<f64> = friction.map(|(u, other)| (u - other).abs()).collect();
+    if friction.is_empty() {
+        return 0.0;
+    }
+    let at = (LARGEST_SHARE * (friction.len() - 1) as f64) as usize;
+    *friction.select_nth_unstable_by(at, f64::total_cmp).1
 }

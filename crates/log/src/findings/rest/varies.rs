@@ -18,15 +18,11 @@ const SWING: f64 = 0.25;
 
 /// One past the last sample of a rest at the start before which the force is held: the end of the rest where it does
 /// not vary, else where a ramp or a step begins.
-pub(super) fn first_change(log: &Log, rest: &Range<usize>) -> usize {
-    let Some(force) = Blocks::of(log, rest) else {
+pub(super) fn first_change(log: &Log, rest: &Range<usize>, spread: f64) -> usize {
+    let Some(force) = Blocks::of(log, rest).filter(|force| force.varies(spread)) else {
         return rest.end;
     };
-    let (low, high) = force.extremes();
-    if high - low <= (HELD * force.spread).max(2.0 * ERRORS * force.error) {
-        return rest.end;
-    }
-    let bound = (BEGINS * force.spread).max(ERRORS * force.error);
+    let bound = (BEGINS * spread).max(ERRORS * force.error);
     let first = force.means[0].1;
     let change = force
         .means
@@ -40,12 +36,31 @@ pub(super) fn first_change(log: &Log, rest: &Range<usize>) -> usize {
         .map_or(rest.end, |(start, _)| (*start).max(rest.start + 1))
 }
 
+/// Whether the force of a rest varies by more than integrator, brake and noise explain where they hold it.
+pub(super) fn at_all(log: &Log, rest: &Range<usize>, spread: f64) -> bool {
+    Blocks::of(log, rest).is_some_and(|force| force.varies(spread))
+}
+
+/// From the 5th to the 95th percentile of the force of a record; 0 without one.
+pub(super) fn spread(log: &Log) -> f64 {
+    let mut sorted = log.force.clone().unwrap_or_default();
+    if sorted.is_empty() {
+        return 0.0;
+    }
+    let last = (sorted.len() - 1) as f64;
+    let mut percentile = |part: f64| {
+        let at = (part * last) as usize;
+        *sorted.select_nth_unstable_by(at, f64::total_cmp).1
+    };
+    percentile(0.95) - percentile(0.05)
+}
+
 /// Whether the force goes to and fro in a rest at the end.
-pub(super) fn to_and_fro(log: &Log, rest: &Range<usize>) -> bool {
+pub(super) fn to_and_fro(log: &Log, rest: &Range<usize>, spread: f64) -> bool {
     let Some(force) = Blocks::of(log, rest) else {
         return false;
     };
-    let shortest = (SWING * force.spread).max(2.0 * ERRORS * force.error);
+    let shortest = (SWING * spread).max(2.0 * ERRORS * force.error);
     let travel = Travel::of(force.means.iter().map(|(_, mean)| *mean), shortest);
     travel.up > shortest && travel.down > shortest
 }
@@ -56,8 +71,6 @@ struct Blocks {
     means: Vec<(usize, f64)>,
     /// Standard error of such a mean, from the scatter within the blocks.
     error: f64,
-    /// From the 5th to the 95th percentile of the force of the whole record.
-    spread: f64,
 }
 
 impl Blocks {
@@ -80,16 +93,16 @@ impl Blocks {
         if means.len() < 2 {
             return None;
         }
-        let mut sorted = force.to_vec();
-        let mut percentile = |part: f64| {
-            let at = (part * (force.len() - 1) as f64) as usize;
-            *sorted.select_nth_unstable_by(at, f64::total_cmp).1
-        };
         Some(Self {
             means,
             error: (0.5 * squares / (counted * samples) as f64).sqrt(),
-            spread: percentile(0.95) - percentile(0.05),
         })
+    }
+
+    /// Whether the means differ by more than where a controller or brake holds the force.
+    fn varies(&self, spread: f64) -> bool {
+        let (low, high) = self.extremes();
+        high - low > (HELD * spread).max(2.0 * ERRORS * self.error)
     }
 
     fn extremes(&self) -> (f64, f64) {

@@ -37,6 +37,7 @@ pub(in crate::identify) fn run(asked: Asked, loaded: Loaded) -> Result<Outcome, 
         law: &law,
         validation: &[],
         laws: Vec::new(),
+        without: Vec::new(),
         law_chosen_by: "user",
         judged,
     });

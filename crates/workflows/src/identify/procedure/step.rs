@@ -64,6 +64,7 @@ pub(in crate::identify) fn run(
         law: &law,
         validation: &[],
         laws: Vec::new(),
+        without: Vec::new(),
         law_chosen_by: "user",
         judged,
     });
