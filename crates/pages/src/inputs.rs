@@ -1,5 +1,6 @@
 //! What a reader should know of a log before its results: units that were assumed, and what the fit did not see.
 
+use stiction_codes::Code;
 use stiction_files::result::{ExcludedEntry, Input};
 use stiction_number::{four_digits as short, unit};
 

@@ -1,4 +1,4 @@
-//! Rests at the ends of a log, from the file to every output.
+//! Rests of a log, from the file to every output.
 
 use crate::common::{Bench, RATE, friction, noise, options};
 use std::f64::consts::TAU;
@@ -88,7 +88,7 @@ fn they_are_left_out_as_by_the_crop_that_is_named() {
     let text = stiction::commands::text::outcome(&found);
     let head = text.split("\n\n").next().unwrap();
     assert!(
-        head.contains("left out: 0 to 2.98") && head.contains("[rest-at-end]"),
+        head.contains("not fitted: 0 to 2.98") && head.contains("[rest-at-end]"),
         "{head}"
     );
     let bundle = stiction::bundle::identification(&found);
@@ -98,7 +98,7 @@ fn they_are_left_out_as_by_the_crop_that_is_named() {
         .find(|(name, _)| *name == "report.html")
         .unwrap();
     let report = std::str::from_utf8(report).unwrap();
-    let (said, table) = (report.find("left out: 0 to 2.98"), report.find("<table"));
+    let (said, table) = (report.find("not fitted: 0 to 2.98"), report.find("<table"));
     assert!(said.is_some() && said < table, "{said:?} {table:?}");
 }
 
@@ -112,4 +112,45 @@ fn validation_leaves_them_out_too() {
     let (fit, unseen) = (&found.result.fit, &found.result.validation[0].fit);
     // Unlike that of the rests, which is 17 N and more.
     assert!(unseen.rmse < fit.rmse + 2.0, "{} {}", unseen.rmse, fit.rmse);
+}
+
+/// Between two motions the force climbs in steps towards break-away, and the axis does not move: no law of the motion
+/// follows that, so it is carried along and not fitted. Where the force is held, the rest is fitted.
+#[test]
+fn rests_in_which_the_force_varies_are_not_fitted() {
+    let bench = Bench::new();
+    let motion = |t: f64| match t {
+        t if t < 5.0 => Some(t),
+        t if t < 11.0 => None,
+        t => Some(t - 11.0),
+    };
+    let log = |name: &str, at_rest: &dyn Fn(f64) -> f64| {
+        bench.log(
+            name,
+            (16.0 * RATE) as usize,
+            |t| motion(t).map_or(0.0, |t| to_and_fro(t)[0]),
+            |i, t| {
+                let force = motion(t).map_or_else(|| at_rest(t), |t| friction(to_and_fro(t)));
+                force + 0.5 * noise(4, i)
+            },
+        )
+    };
+    let steps = fit(&log("steps.csv", &|t| 3.0 * (t - 5.0).floor()), None);
+    let codes: Vec<Code> = steps.result.inputs[0]
+        .excluded
+        .iter()
+        .map(|e| e.code)
+        .collect();
+    assert_eq!(codes, [Code::RestBetween]);
+    let excluded = &steps.result.inputs[0].excluded[0];
+    assert!(
+        (excluded.from_s - 5.02).abs() < 0.02 && (excluded.to_s - 10.98).abs() < 0.02,
+        "{excluded:?}"
+    );
+    for (name, truth) in [("coulomb", 20.0), ("sigma2", 60.0), ("mass", 9.0)] {
+        let value = steps.law().value(name).unwrap();
+        assert!((value / truth - 1.0).abs() < 0.03, "{name}: {value}");
+    }
+    let held = fit(&log("held.csv", &|_| 0.0), None);
+    assert!(held.result.inputs[0].excluded.is_empty());
 }

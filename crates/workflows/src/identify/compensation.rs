@@ -52,14 +52,14 @@ pub(super) fn judged(evidence: &Evidence, reasons: &mut Reasons) -> Option<Compe
             );
         }
     }
-    if !(left <= MOST_FRICTION_LEFT) {
-        let where_ = match judged_on {
+    if left.is_nan() || left > MOST_FRICTION_LEFT {
+        let samples = match judged_on {
             "held-out" => "held-out samples",
             "validation" => "the validation data",
             _ => "the samples it was fitted to",
         };
         let text = format!(
-            "the law leaves {} of the friction on {where_}; at most {} may be left to compensate with it",
+            "the law leaves {} of the friction on {samples}; at most {} may be left to compensate with it",
             percent(left),
             percent(MOST_FRICTION_LEFT)
         );
