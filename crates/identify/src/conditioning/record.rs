@@ -383,6 +383,7 @@ impl Record {
                 acceleration: pick(&acceleration[0]),
                 drive: pick(&s.drive),
                 valid: s.valid.iter().step_by(every).copied().collect(),
+                at_rest: s.at_rest.iter().step_by(every).copied().collect(),
                 time: s.time.clone(),
                 force: s.force.clone(),
                 keep: s.keep.clone(),
