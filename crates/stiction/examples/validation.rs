@@ -5,7 +5,9 @@
 mod measure;
 
 use std::fmt::Write;
-use stiction_testkit::{CASES, recordings, workspace};
+use std::path::Path;
+use stiction::result::Next;
+use stiction_testkit::{CASES, DEFAULT_RUNS, recordings, workspace};
 
 fn main() -> std::io::Result<()> {
     let Some(data) = recordings() else {
@@ -20,6 +22,7 @@ fn main() -> std::io::Result<()> {
          fitted. Where a recording is treated otherwise, its recipe says so. Fits by simulation (`--method \
          output-error`) compare the position as measured.\n",
     );
+    defaults(&data, &mut out);
     let mut last = "";
     for case in CASES {
         if case.name != last {
@@ -84,6 +87,46 @@ fn main() -> std::io::Result<()> {
     }
     stiction::commands::write_atomic(workspace().join("docs/validation.md"), out.as_bytes())
         .map_err(std::io::Error::other)
+}
+
+/// What each recording gives with columns and units in the axis file, and no option.
+fn defaults(data: &Path, out: &mut String) {
+    out.push_str(
+        "\n## Default runs\n\n\
+         `stiction identify LOG --axis AXIS.toml --out DIR` with an axis file that names columns and units and \
+         nothing else, no option. Left: rms of the residual over that of the friction, on samples that the law \
+         was not fitted to. Best: the least held-out error of the laws that can be exported. Time: of the whole \
+         command but its report, on two threads.\n\n\
+         | recording | exit | law | held-out error | best | friction left | time | next |\n\
+         |---|---|---|---|---|---|---|---|\n",
+    );
+    for run in &DEFAULT_RUNS {
+        let outcome = measure::run_by_default(run, data);
+        let result = &outcome.result;
+        let (law, least) = measure::reported(result);
+        let side = if law.asymmetric { ", asymmetric" } else { "" };
+        let without = match law.without.as_slice() {
+            [] => String::new(),
+            names => format!(", without {}", names.join(" and ")),
+        };
+        let left = result.trust.compensation.as_ref();
+        let _ = writeln!(
+            out,
+            "| {} | {} | {}{side}{without} | {:.2} % | {least:.2} % | {:.1} % | {:.1} s | {} |",
+            run.name,
+            u8::from(!result.trust.trustworthy),
+            law.law,
+            law.held_out_error_percent.unwrap_or(f64::NAN),
+            left.map_or(f64::NAN, |seen| seen.friction_left_percent),
+            result.search.wall_s,
+            match result.trust.next {
+                Next::Export => "`stiction export DIR/model.toml --target c --out DIR/c`",
+                Next::Simulate => "`--method output-error`",
+                Next::Check => "`stiction check`",
+                Next::LetTheDataChoose | Next::FitTogether | Next::Again => "identify again",
+            }
+        );
+    }
 }
 
 /// Four decimals, and more where they would leave no digits.

@@ -23,6 +23,48 @@ pub struct Case {
     pub limits: &'static [Limit],
 }
 
+/// A recording as a new user brings it: columns and units in the axis file, no option.
+#[derive(Clone, Copy, Debug)]
+pub struct DefaultRun {
+    /// Name of the recording.
+    pub name: &'static str,
+    /// Log, below the folder of recordings.
+    pub log: &'static str,
+    /// Axis file, below the same folder.
+    pub axis: &'static str,
+}
+
+/// Every recording whose default run has to end in code.
+pub const DEFAULT_RUNS: [DefaultRun; 7] = [
+    default_run("EMPS", "emps/DATA_EMPS.mat", "axes/emps.toml"),
+    default_run(
+        "UR10e joint 1",
+        "ur10e/joint_1.csv",
+        "axes/ur10e_joint_1.toml",
+    ),
+    default_run(
+        "UR10e joint 4",
+        "ur10e/joint_4.csv",
+        "axes/ur10e_joint_4.toml",
+    ),
+    default_run(
+        "Tribometer",
+        "tribometer/presliding.tsv",
+        "axes/tribometer.toml",
+    ),
+    default_run("Servo, sliding", "servo/sliding_1.txt", "axes/servo.toml"),
+    default_run("Damiao motor 1", "damiao/motor_1.npz", "axes/damiao.toml"),
+    default_run(
+        "Robot joint",
+        "robot_joint/slow.csv",
+        "axes/robot_joint.toml",
+    ),
+];
+
+const fn default_run(name: &'static str, log: &'static str, axis: &'static str) -> DefaultRun {
+    DefaultRun { name, log, axis }
+}
+
 /// A number that must not be exceeded.
 #[derive(Clone, Copy, Debug)]
 pub struct Limit {

@@ -20,7 +20,7 @@ mod mean_of_ends;
 mod pages;
 pub mod st;
 
-pub use cases::{CASES, Case, Limit, Metric};
+pub use cases::{CASES, Case, DEFAULT_RUNS, DefaultRun, Limit, Metric};
 pub use mean_of_ends::MeanOfEnds;
 pub use pages::assert_tables_fit;
 

@@ -1,7 +1,8 @@
 //! What must hold on measured recordings.
 
 use crate::measure;
-use stiction_testkit::{CASES, recordings};
+use stiction::{ExportOptions, ModelFile, Target, export};
+use stiction_testkit::{CASES, DEFAULT_RUNS, recordings};
 
 #[test]
 fn every_limit_holds() {
@@ -24,6 +25,26 @@ fn every_limit_holds() {
         }
     }
     assert!(broken.is_empty(), "{}", broken.join("\n"));
+}
+
+/// Every recording, with columns and units and no option, ends in a law that may be used and can be exported, and that
+/// leaves at most a tenth more on held-out samples than the best law of the table.
+#[test]
+fn default_runs_end_in_code() {
+    let Some(data) = recordings() else {
+        return;
+    };
+    for run in &DEFAULT_RUNS {
+        let outcome = measure::run_by_default(run, &data);
+        let result = &outcome.result;
+        assert!(result.trust.trustworthy, "{}: {:?}", run.name, result.trust);
+        let (law, least) = measure::reported(result);
+        let error = law.held_out_error_percent.unwrap();
+        assert!(error <= 1.1 * least, "{}: {error} {least}", run.name);
+        let model = ModelFile::from_result(result);
+        let code = export(&model, &ExportOptions::new(Target::C, 1e-3)).unwrap();
+        assert!(code.trustworthy, "{}: {:?}", run.name, code.warnings);
+    }
 }
 
 #[test]

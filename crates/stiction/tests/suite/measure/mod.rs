@@ -2,8 +2,9 @@
 
 use std::path::Path;
 use stiction::commands::{Files, Outcome, identify};
+use stiction::result::{LawEntry, ResultFile};
 use stiction::{LawKind, Method, Options, Silent};
-use stiction_testkit::{Case, Limit, Metric, workspace};
+use stiction_testkit::{Case, DefaultRun, Limit, Metric, workspace};
 
 /// A limit with what was measured.
 pub struct Measured {
@@ -37,6 +38,28 @@ fn with_law(case: &Case, data: &Path, law: &str) -> Outcome {
     options.procedures.method =
         Method::from_name(case.method).expect("a method of the cases exists");
     identify(&files, &options, &mut Silent).unwrap_or_else(|e| panic!("{}: {e}", case.name))
+}
+
+/// Identifies a recording with no option.
+pub fn run_by_default(run: &DefaultRun, data: &Path) -> Outcome {
+    let files = Files {
+        logs: vec![data.join(run.log)],
+        axis: Some(data.join(run.axis)),
+        validate: Vec::new(),
+    };
+    identify(&files, &Options::default(), &mut Silent)
+        .unwrap_or_else(|e| panic!("{}: {e}", run.name))
+}
+
+/// The law of a result in the table of laws, and the least held-out error of that table, percent.
+pub fn reported(result: &ResultFile) -> (&LawEntry, f64) {
+    let errors = result.laws.iter().filter_map(|l| l.held_out_error_percent);
+    let least = errors.fold(f64::INFINITY, f64::min);
+    let mut laws = result.laws.iter();
+    (
+        laws.find(|l| l.reported).expect("a law of the table"),
+        least,
+    )
 }
 
 /// Published errors are relative to the position as the encoder counts it.
