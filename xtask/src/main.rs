@@ -93,13 +93,13 @@ fn setup() -> shell::Outcome {
 
 fn validation() -> shell::Outcome {
     shell::run(shell::cargo(
-        "run --release --quiet --workspace --example validation",
+        "run --release --quiet -p stiction --example validation",
     ))
 }
 
 fn searches() -> shell::Outcome {
     shell::run(shell::cargo(
-        "run --release --quiet --workspace --example searches",
+        "run --release --quiet -p stiction --example searches",
     ))
 }
 

@@ -61,9 +61,11 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
 /// A path as a shell takes it: in quotes where it holds anything but letters, digits and plain signs.
 pub(crate) fn quoted(path: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "/._-+=:,@%".contains(c);
+    // What begins with a dash would be taken for an option.
+    let folder = if path.starts_with('-') { "./" } else { "" };
     match !path.is_empty() && path.chars().all(plain) {
-        true => path.to_string(),
-        false => format!("'{}'", path.replace('\'', "'\\''")),
+        true => format!("{folder}{path}"),
+        false => format!("'{folder}{}'", path.replace('\'', "'\\''")),
     }
 }
 
@@ -75,6 +77,7 @@ mod tests {
     fn a_path_is_quoted_where_a_shell_would_split_it() {
         assert_eq!(quoted("logs/a-1.csv"), "logs/a-1.csv");
         assert_eq!(quoted("my log.csv"), "'my log.csv'");
+        assert_eq!(quoted("-a.csv"), "./-a.csv");
         assert_eq!(quoted("it's"), "'it'\\''s'");
         assert_eq!(quoted(""), "''");
     }

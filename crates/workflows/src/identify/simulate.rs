@@ -127,7 +127,8 @@ pub(super) fn run(
         moves_both_ways: found.signals.moves_both_ways(quantum),
         sources,
         laws: &[],
-        chosen: false,
+        // The laws that the data choose among are fitted to the force: no way on from here.
+        chosen: true,
         held_back: None,
         held_out_rmse: None,
         validation: &[],
