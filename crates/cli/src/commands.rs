@@ -342,7 +342,15 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
         output::json(&outcome.result)?;
     } else if !common.quiet {
         let text = stiction::commands::text::outcome(outcome);
-        let next = stiction::commands::text::next(&outcome.result, dir);
+        let next = match outcome.result.trust.next {
+            stiction::result::Next::Again => {
+                let arguments = std::env::args_os().skip(1);
+                let arguments = arguments.map(|a| a.to_string_lossy().into_owned());
+                let command = stiction::commands::text::command(arguments);
+                format!("next: the same again, to the end\n  {command}\n")
+            }
+            _ => stiction::commands::text::next(&outcome.result, dir),
+        };
         output::print(&format!("{text}\n{}{next}", written_to(dir, &written)))?;
     }
     // An interrupt may also have come while laws were compared, after the search had converged.

@@ -63,7 +63,7 @@ pub struct Simulation<'a> {
 ///
 /// # Errors
 /// Where a recording cannot be simulated: no position, no reference although a controller is given, no
-/// motion, no force, a force without inertia. A search that ends badly is a [`Status`].
+/// motion, no force, a force without inertia. A search that ends badly is a [`Status`](crate::Status).
 pub fn output_error(
     recordings: &[Recording],
     law: Law,

@@ -54,7 +54,6 @@ fn family(law: &str) -> &str {
 pub(crate) fn chosen_by(who: &str) -> &'static str {
     match who {
         "cross-validation" => " (chosen by cross-validation)",
-        "validation" => " (chosen on the validation data)",
         "bic" => " (chosen by the Bayesian criterion: too few samples to hold some out)",
         _ => "",
     }

@@ -1,6 +1,6 @@
 //! What to do next, as commands to type.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use stiction_files::result::{Next, ResultFile};
 
 /// What the commands are for.
@@ -10,7 +10,7 @@ pub(crate) fn why(next: Next) -> &'static str {
             "the compensator as C; also st, tcpou, plcopen, rust, mujoco, hal, fmu and tf5200"
         }
         Next::LetTheDataChoose => "let the data choose the law",
-        Next::FitTogether => "fit both together",
+        Next::IdentifyTheOther => "what the other log says by itself, to compare the parameters",
         Next::Simulate => "fit the position of the simulated axis, which differentiates nothing",
         Next::Check => "see what the log shows, and what motion to record instead",
         Next::Again => "the same again, to the end",
@@ -19,13 +19,15 @@ pub(crate) fn why(next: Next) -> &'static str {
 
 /// The command that leads on from the result in a folder.
 pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
+    // Without a slash or a dot at its end, to which a suffix would be added.
+    let dir: &Path = &dir.components().collect::<PathBuf>();
     let folder = quoted(&dir.display().to_string());
     let another = |suffix: &str| quoted(&format!("{}-{suffix}", dir.display()));
-    let mut logs: Vec<String> = result.inputs.iter().map(|i| quoted(&i.path)).collect();
     let next = result.trust.next;
-    if next == Next::FitTogether {
-        logs.extend(result.validation.iter().map(|v| quoted(&v.path)));
-    }
+    let logs: Vec<String> = match next {
+        Next::IdentifyTheOther => result.validation.iter().map(|v| quoted(&v.path)).collect(),
+        _ => result.inputs.iter().map(|i| quoted(&i.path)).collect(),
+    };
     let mut log = logs.join(" ");
     if let Some(file) = &result.axis.file {
         log.push_str(&format!(" --axis {}", quoted(file)));
@@ -37,7 +39,7 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
             format!("stiction export {model} --target c --out {code}")
         }
         Next::LetTheDataChoose => format!("stiction identify {log} --out {}", another("auto")),
-        Next::FitTogether => format!("stiction identify {log} --out {}", another("together")),
+        Next::IdentifyTheOther => format!("stiction identify {log} --out {}", another("other")),
         Next::Simulate => format!(
             "stiction identify {log} --method output-error --out {}",
             another("simulated")
@@ -58,9 +60,21 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
     }
 }
 
+/// An argument as a shell takes it.
+pub(crate) fn argument(text: &str) -> String {
+    match text.strip_prefix('-') {
+        // An option stays one.
+        Some(_) if text.chars().all(plain) => text.to_string(),
+        _ => quoted(text),
+    }
+}
+
+fn plain(c: char) -> bool {
+    c.is_alphanumeric() || "/._-+=:,@%".contains(c)
+}
+
 /// A path as a shell takes it: in quotes where it holds anything but letters, digits and plain signs.
 pub(crate) fn quoted(path: &str) -> String {
-    let plain = |c: char| c.is_alphanumeric() || "/._-+=:,@%".contains(c);
     // What begins with a dash would be taken for an option.
     let folder = if path.starts_with('-') { "./" } else { "" };
     match !path.is_empty() && path.chars().all(plain) {

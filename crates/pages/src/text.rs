@@ -191,6 +191,14 @@ fn verdicts(result: &ResultFile) -> String {
     out
 }
 
+/// A command with its arguments, as a shell takes them.
+pub fn command(arguments: impl Iterator<Item = String>) -> String {
+    let quoted: Vec<String> = arguments
+        .map(|argument| next::argument(&argument))
+        .collect();
+    format!("stiction {}", quoted.join(" "))
+}
+
 /// What to do next with the result in a folder.
 pub fn next(result: &ResultFile, dir: &Path) -> String {
     format!(

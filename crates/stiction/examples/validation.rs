@@ -123,7 +123,7 @@ fn defaults(data: &Path, out: &mut String) {
                 Next::Export => "`stiction export DIR/model.toml --target c --out DIR/c`",
                 Next::Simulate => "`--method output-error`",
                 Next::Check => "`stiction check`",
-                Next::LetTheDataChoose | Next::FitTogether | Next::Again => "identify again",
+                Next::LetTheDataChoose | Next::IdentifyTheOther | Next::Again => "identify again",
             }
         );
     }

@@ -17,7 +17,7 @@ use std::time::Instant;
 use stiction_codes::Code;
 use stiction_files::axis::Axis;
 use stiction_files::result::Input;
-use stiction_identify::{LawKind, Observer};
+use stiction_identify::Observer;
 use stiction_log::{Log, Severity, Understood};
 use stiction_number::four_digits as short;
 
@@ -53,7 +53,7 @@ pub struct LogCheck {
     pub motion: Option<Motion>,
     /// What that motion can show, from plain facts.
     pub shows: Vec<Shows>,
-    /// What a LuGre fit to this log would and would not determine.
+    /// What the law that the data choose would and would not determine.
     pub parameters: Vec<ParameterCheck>,
     /// Why nothing could be identified, if so.
     pub refused: Option<String>,
@@ -157,11 +157,7 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
     if let (Some(motion), true) = (&out.motion, log.force.is_some()) {
         out.shows = shows::shows(log, motion, axis.terms.mass);
     }
-    let options = Options {
-        law: Some(LawKind::LuGre),
-        compare_laws: false,
-        ..Options::default()
-    };
+    let options = Options::default();
     let asked = Asked {
         options: &options,
         axis,

@@ -50,8 +50,8 @@ pub enum Next {
     Export,
     /// Identify again and let the data choose the law.
     LetTheDataChoose,
-    /// Identify the logs together with those that they were validated on.
-    FitTogether,
+    /// Identify the logs that it was validated on by themselves, and compare.
+    IdentifyTheOther,
     /// Identify again by simulation of the axis.
     Simulate,
     /// See what the log shows, and record the motion that is missing.

@@ -1,7 +1,9 @@
 //! The result that every fit of a law gives, whether it fitted the force, the position or points of the
 //! steady curve.
 
+use crate::conditioning::record::extent;
 use crate::estimate::series::Series;
+use crate::estimate::sliding::is_presliding;
 use crate::fit::Fit;
 use crate::gms::score::ElementsScore;
 use crate::law::Law;
@@ -57,6 +59,13 @@ impl FittedLaw {
         Name: PartialEq<N>,
     {
         self.parameter(name).map(|p| p.value)
+    }
+
+    /// Whether the stroke is shorter than the travel that turns the bristles from one side to the other (`2 Fc/sigma0`), so
+    /// that the axis hardly slides. False for a law without a bristle and a fit without positions.
+    pub fn stays_in_presliding(&self) -> bool {
+        let (low, high) = extent(&self.series.position);
+        low <= high && is_presliding(high - low, &self.parameters)
     }
 
     /// All values, those that were given too.

@@ -29,14 +29,20 @@ pub(crate) fn flag_one_direction(
     parameters: &mut [Parameter],
     moves_both_ways: impl FnOnce() -> bool,
 ) {
-    let offset_fitted = |p: &Parameter| p.name == Quantity::Offset && p.identified;
-    if !parameters.iter().any(offset_fitted) || moves_both_ways() {
+    // Levels of their own for each direction hold a constant force too.
+    let holds_a_constant = |p: &Parameter| {
+        p.identified
+            && (p.name == Quantity::Offset
+                || (p.name.quantity == Quantity::Coulomb && p.name.side != Side::Both))
+    };
+    if !parameters.iter().any(holds_a_constant) || moves_both_ways() {
         return;
     }
     for p in parameters.iter_mut().filter(|p| p.identified) {
         let other = match p.name.quantity {
             Quantity::Offset => "Coulomb friction",
-            Quantity::Coulomb => "the offset",
+            Quantity::Coulomb if p.name.side == Side::Both => "the offset",
+            Quantity::Coulomb | Quantity::Static if p.name.side != Side::Both => "a constant force",
             _ => continue,
         };
         if p.identifiable {
@@ -47,9 +53,25 @@ pub(crate) fn flag_one_direction(
     }
 }
 
-/// Flags the parameters of sliding where the stroke (m or rad) is shorter than the travel that turns the
-/// bristles from one side to the other, which is the sum of the Coulomb levels divided by sigma0.
+/// Flags the parameters of sliding where the axis does not slide.
 fn stays_in_presliding(stroke: f64, parameters: &mut [Parameter]) {
+    if !is_presliding(stroke, parameters) {
+        return;
+    }
+    for p in parameters
+        .iter_mut()
+        .filter(|p| p.identifiable && SLIDING.contains(&p.name.quantity))
+    {
+        p.identifiable = false;
+        p.reason =
+            "the stroke is shorter than the travel of the bristles from one side to the other"
+                .into();
+    }
+}
+
+/// Whether the stroke (m or rad) is shorter than the travel that turns the bristles from one side to the other, which is the
+/// sum of the Coulomb levels divided by sigma0.
+pub(crate) fn is_presliding(stroke: f64, parameters: &[Parameter]) -> bool {
     let of = |quantity: Quantity, side| {
         let mut known = parameters.iter();
         let found = known.find(|p| p.name.quantity == quantity && p.name.side == side);
@@ -63,21 +85,8 @@ fn stays_in_presliding(stroke: f64, parameters: &mut [Parameter]) {
     ) {
         (Some(level), ..) => 2.0 * level,
         (_, Some(positive), Some(negative)) => positive + negative,
-        _ => return,
+        _ => return false,
     };
-    let Some(stiffness) = of(Quantity::Sigma0, Side::Both) else {
-        return;
-    };
-    if stroke * stiffness >= levels {
-        return;
-    }
-    for p in parameters
-        .iter_mut()
-        .filter(|p| p.identifiable && SLIDING.contains(&p.name.quantity))
-    {
-        p.identifiable = false;
-        p.reason =
-            "the stroke is shorter than the travel of the bristles from one side to the other"
-                .into();
-    }
+    let stiffness = of(Quantity::Sigma0, Side::Both);
+    stiffness.is_some_and(|stiffness| stroke * stiffness < levels)
 }

@@ -68,7 +68,7 @@ fn log_check(log: &LogCheck, axis: Option<&Path>) -> String {
         out.push_str(&shows(log));
     }
     if !log.parameters.is_empty() {
-        out.push_str("  a LuGre fit to this log\n");
+        out.push_str("  the law that a fit to this log would take\n");
         let mut rows = Vec::new();
         for p in &log.parameters {
             rows.push(vec![

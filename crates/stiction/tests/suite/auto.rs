@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::ops::Range;
 use std::path::PathBuf;
 use stiction::commands::Outcome;
-use stiction::result::LawEntry;
+use stiction::result::{LawEntry, Next};
 use stiction::{Control, LawKind, Observer, Progress, Silent};
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 
@@ -238,30 +238,28 @@ fn an_interrupted_choice_is_not_trusted() {
     }
 }
 
-/// Validation data decide where they are given; `--asymmetric` has nothing to add.
+/// Validation data judge the law and do not choose it; `--asymmetric` has nothing to add.
 #[test]
-fn validation_data_choose() {
+fn validation_data_do_not_choose() {
     let bench = Bench::new();
     let (a, b) = (
         log(&bench, LawKind::CoulombViscous, true, 4, 50e-9),
-        log(&bench, LawKind::CoulombViscous, true, 5, 50e-9),
+        log(&bench, LawKind::Dahl, false, 5, 50e-9),
     );
     let mut options = options(&[&a], LawKind::LuGre);
     options.law = None;
-    options.compare_laws = true;
+    let alone = options.identify(&mut Silent).unwrap().result;
     options.files.validate = vec![b];
     let result = options.identify(&mut Silent).unwrap().result;
-    assert_eq!(result.law_chosen_by, "validation");
+    assert_eq!(result.law_chosen_by, "cross-validation");
     assert_eq!(
         (result.law.as_str(), result.asymmetric),
         ("coulomb-viscous", true)
     );
-    let best = result.laws.iter().find(|l| l.best).unwrap();
-    let validated = &result.validation[0].fit;
-    assert_eq!(
-        best.held_out_error_percent,
-        Some(validated.relative_error_percent)
-    );
+    assert_eq!(result.laws, alone.laws);
+    assert_eq!(result.parameters, alone.parameters);
+    // The other axis has friction of another kind.
+    assert!(!result.trust.trustworthy && result.trust.next == Next::IdentifyTheOther);
     options.asymmetric = true;
     let refused = options.identify(&mut Silent).unwrap_err();
     assert_eq!(refused.code().as_str(), "usage");

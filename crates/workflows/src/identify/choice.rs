@@ -9,7 +9,7 @@ use stiction_identify::{Estimate, Law, LawKind, Observer, Optimum, Settings, Sta
 use stiction_parameters::{Quantity, Side};
 
 /// The families that a compensator can be exported of.
-const EXPORTED: [LawKind; 4] = [
+pub(super) const EXPORTED: [LawKind; 4] = [
     LawKind::CoulombViscous,
     LawKind::Stribeck,
     LawKind::Dahl,
@@ -138,12 +138,8 @@ pub(super) fn auto(
     laws[at].reported = true;
     let Climb { mut rungs, stopped } = climb;
     let held_out = laws.iter().all(|law| law.held_out_error_percent.is_some());
-    let by = match (held_out, ladder.held_out.is_empty()) {
-        (true, true) => "cross-validation",
-        (true, false) => "validation",
-        // Too few samples to hold some out.
-        (false, _) => "bic",
-    };
+    // Too few samples may be left to hold some out.
+    let by = if held_out { "cross-validation" } else { "bic" };
     let rung = rungs.swap_remove(at);
     let held_out_rmse = rung.cross_validated_rmse(ladder);
     let held_back = unfit::unseen_force(&rung.estimate);

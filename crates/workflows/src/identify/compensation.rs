@@ -37,19 +37,15 @@ pub(super) fn judged(evidence: &Evidence, reasons: &mut Reasons) -> Option<Compe
         }
         if found > LITTLE_LEFT && found > VALIDATION_FAILS_ABOVE * fitted {
             let text = format!(
-                "on {name} the law leaves {} of the friction, where it was fitted {}: it does not hold for that motion",
+                "on {name} the law leaves {} of the friction, where it was fitted {}: friction, load or motion differ there",
                 percent(found),
                 percent(fitted)
             );
-            let together = evidence.validated_on_logs;
-            reasons.push(
-                text,
-                if together {
-                    Next::FitTogether
-                } else {
-                    Next::Check
-                },
-            );
+            let next = match evidence.validated_on_logs {
+                true => Next::IdentifyTheOther,
+                false => Next::Check,
+            };
+            reasons.push(text, next);
         }
     }
     if left.is_nan() || left > MOST_FRICTION_LEFT {

@@ -95,7 +95,14 @@ fn at_once(
             &settings,
             observer,
         ),
-        None => choice::auto(law(asked), &ladder, &settings, observer),
+        None => {
+            // What the law is to be judged by must not choose it.
+            let ladder = Ladder {
+                held_out: &[],
+                ..ladder
+            };
+            choice::auto(law(asked), &ladder, &settings, observer)
+        }
     };
     let choice = choice.map_err(|source: engine::Error| Error::Identify {
         inputs: paths(&loaded.sources).join(", "),

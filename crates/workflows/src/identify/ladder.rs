@@ -315,9 +315,9 @@ pub(super) fn symmetric(base: Law, kinds: &[LawKind]) -> Vec<Law> {
     kinds.iter().map(law).collect()
 }
 
-/// The laws to compare a law with: every family up to its own, each symmetric and asymmetric.
+/// The laws to compare a law with: every family up to its own, at least up to LuGre, each symmetric and asymmetric.
 pub(super) fn beside(law: &Law) -> Vec<Law> {
-    let top = law.kind.max(LawKind::Stribeck);
+    let top = law.kind.max(LawKind::LuGre);
     symmetric(*law, &LawKind::ALL)
         .into_iter()
         .flat_map(|law| [law, law.asymmetric()])

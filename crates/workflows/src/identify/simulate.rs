@@ -8,6 +8,7 @@ use super::logs::{log_warnings, paths};
 use super::outcome::{Found, Outcome, Simulated};
 use super::procedure::break_away;
 use super::trust::{self, Evidence};
+use super::unfit;
 use crate::entries;
 use crate::error::Error;
 use crate::source::Source;
@@ -121,6 +122,7 @@ pub(super) fn run(
         unseen.push((name, one));
     }
 
+    let held_back = unfit::above_every_force(&found.fitted, sources);
     let evidence = Evidence {
         law: &found.fitted,
         signal: "position",
@@ -129,7 +131,7 @@ pub(super) fn run(
         laws: &[],
         // The laws that the data choose among are fitted to the force: no way on from here.
         chosen: true,
-        held_back: None,
+        held_back: held_back.as_deref(),
         held_out_rmse: None,
         validation: &[],
         validated_on_logs: false,

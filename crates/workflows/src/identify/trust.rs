@@ -1,5 +1,6 @@
 //! Whether a result may be used: every rule that can say no, in one place. What a process exits with follows from it.
 
+use super::choice::EXPORTED;
 use super::compensation;
 use crate::source::Source;
 use stiction_codes::Code;
@@ -65,14 +66,19 @@ impl Judged {
     ) -> Self {
         let names = |determined: bool| -> Vec<String> {
             let identified = law.parameters.iter().filter(|p| p.identified);
+            let known = |p: &Parameter| p.identifiable && law.status == Status::Converged;
             identified
-                .filter(|p| p.identifiable == determined)
+                .filter(|p| known(p) == determined)
                 .map(|p| p.name.to_string())
                 .collect()
         };
+        let use_it = match EXPORTED.contains(&law.law.kind) {
+            true => Next::Export,
+            false => Next::LetTheDataChoose,
+        };
         let trust = Trust {
             trustworthy: reasons.is_empty(),
-            next: reasons.first().map_or(Next::Export, |(_, next)| *next),
+            next: reasons.first().map_or(use_it, |(_, next)| *next),
             reasons: reasons.into_iter().map(|(text, _)| text).collect(),
             compensation,
             constants: names(true),
@@ -246,6 +252,10 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
         }
         reasons.push(text, Next::Check);
     }
+    if law.stays_in_presliding() {
+        let text = "the axis never slides: its stroke is shorter than the travel of the bristles from one side to the other";
+        reasons.push(text, Next::Check);
+    }
     saturation(evidence.sources, reasons);
     unidentifiable(law, evidence.motion, warnings);
     another_wins(evidence, warnings, reasons);
@@ -376,7 +386,9 @@ fn another_wins(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
             format!("{errors}: this law is too simple for the axis, its parameters are biased"),
         ));
     }
-    if least < UNTRUSTED_BELOW * mine {
+    // What the choice itself passed over is no way on.
+    let passed_over = evidence.chosen && best.held_back.is_some();
+    if least < UNTRUSTED_BELOW * mine && !passed_over {
         reasons.push(errors, evidence.another_law());
     }
 }

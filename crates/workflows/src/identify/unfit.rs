@@ -1,5 +1,6 @@
 //! Why a compensator should not rely on a law, although it follows the log: what it says where the log has seen nothing.
 
+use crate::source::Source;
 use stiction_identify::{Estimate, FittedLaw, Optimum, Status};
 use stiction_number::Percent;
 use stiction_parameters::Quantity;
@@ -27,14 +28,34 @@ pub(super) fn at_its_end(optimum: &Optimum) -> bool {
 
 /// Says that the law has a static friction that the log never shows.
 pub(super) fn unseen_force(law: &FittedLaw) -> Option<String> {
-    let levels = law.parameters.iter();
-    let levels = levels.filter(|p| p.name.quantity == Quantity::Static);
-    let most = levels.map(|p| p.value).fold(0.0, f64::max);
-    let largest = largest_friction(law);
+    above(law, largest_friction(law), "friction")
+}
+
+/// The same where the largest force of the logs is all that is known.
+pub(super) fn above_every_force(law: &FittedLaw, sources: &[Source]) -> Option<String> {
+    let forces = sources
+        .iter()
+        .filter_map(|source| source.log.force.as_ref());
+    let largest = forces.flatten().fold(0.0, |most: f64, f| most.max(f.abs()));
+    above(law, largest, "force")
+}
+
+/// Names the largest level of a law where it is far above a force.
+fn above(law: &FittedLaw, largest: f64, what: &str) -> Option<String> {
+    let level = |quantity: Quantity| {
+        let levels = law.parameters.iter();
+        let levels = levels.filter(|p| p.name.quantity == quantity);
+        levels.map(|p| p.value).fold(0.0, f64::max)
+    };
+    let (coulomb, fixed) = (level(Quantity::Coulomb), level(Quantity::Static));
+    let (name, most) = match fixed >= coulomb {
+        true => ("static friction", fixed),
+        false => ("Coulomb friction", coulomb),
+    };
     (most > UNSEEN_FORCE_RATIO * largest).then(|| {
         let part = Percent::error(100.0 * (most / largest - 1.0));
         format!(
-            "its static friction is {} above the largest friction of the log",
+            "its {name} is {} above the largest {what} of the log",
             part.digits(2)
         )
     })
