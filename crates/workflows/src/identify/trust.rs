@@ -431,7 +431,7 @@ fn systematic(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
             Code::CorrelatedResidual,
             format!(
                 "the residual is strongly autocorrelated: {:.0} effective samples of {}. An effect that the \
-                 law does not describe is left (another law, cogging, gravity, force and position \
+                 law does not describe may be left (another law, cogging, gravity, force and position \
                  logged at different instants); it may bias the parameters by more than their intervals",
                 fit.effective_samples, fit.samples
             ),
