@@ -144,7 +144,7 @@ fn the_data_choose_the_law_of_the_axis() {
 
 /// The same over the seeds of decision 0012.
 #[test]
-#[ignore = "soak: four minutes"]
+#[ignore = "soak: half a minute"]
 fn the_data_choose_the_law_over_six_seeds() {
     let (all, wrong) = wrongly_chosen(0..6);
     println!("{} of {all} laws chosen rightly", all - wrong.len());

@@ -1,5 +1,6 @@
 //! From what the engine found to what goes to disk.
 
+use super::compensation;
 use super::load::Asked;
 use super::trust::Judged;
 use crate::entries;
@@ -129,8 +130,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
 }
 
 fn top_speed(estimate: &FittedLaw) -> Option<f64> {
-    let speeds = estimate.series.velocity.iter().map(|v| v.abs());
-    let top = speeds.fold(0.0, f64::max);
+    let top = compensation::top_speed(&estimate.series);
     (top > 0.0 && top.is_finite()).then_some(top)
 }
 

@@ -106,8 +106,9 @@ pub(super) fn fitted_already(
 
 /// Fits the laws that can be exported, each with what it holds, and takes the best that a compensator may rely on.
 ///
-/// In three rounds, so that only laws are fitted that may turn out best: the symmetric ones; what these leave open held
-/// at nothing, and asymmetric laws of the families that hold best; the same of the best asymmetric one.
+/// In rounds, so that only laws are fitted that may turn out best: the symmetric ones; what these leave open held at
+/// nothing, and asymmetric laws of the families that hold best; the same of the best asymmetric one; the best of all with
+/// its static friction kept below what the log shows, where it is above that.
 pub(super) fn auto(
     base: Law,
     ladder: &Ladder,
@@ -211,10 +212,11 @@ fn capped<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
     let Some(rung) = best.map(|best| &climb.rungs[best]) else {
         return Vec::new();
     };
-    if unfit::unseen_force(&rung.estimate).is_none() {
+    let law = rung.estimate.law;
+    // Without a Stribeck curve there is no static friction to keep below anything.
+    if !law.has_stribeck() || unfit::unseen_force(&rung.estimate).is_none() {
         return Vec::new();
     }
-    let law = rung.estimate.law;
     let values = rung.estimate.values();
     let level = |side| values.on(Quantity::Coulomb, side).unwrap_or(f64::INFINITY);
     let coulomb = [Side::Positive, Side::Negative].map(level);

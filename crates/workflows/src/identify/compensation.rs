@@ -85,7 +85,8 @@ fn rms(x: &[f64]) -> f64 {
     (x.iter().map(|x| x * x).sum::<f64>() / x.len().max(1) as f64).sqrt()
 }
 
-fn top_speed(series: &Series) -> f64 {
+/// Largest speed of a record, m/s or rad/s.
+pub(super) fn top_speed(series: &Series) -> f64 {
     series
         .velocity
         .iter()
