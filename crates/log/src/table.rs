@@ -28,6 +28,10 @@ pub struct Scalar {
 pub struct Table {
     /// Columns in file order.
     pub columns: Vec<Column>,
+    /// Numbers in the file, counted from 1 and ascending, of columns that are not among `columns`: text,
+    /// or no number in any row. A column keeps the number that it has in the file, so that an axis file
+    /// that names columns by number means the same ones in the next log, where another column is empty.
+    pub left_out: Vec<usize>,
     /// Single numbers in the file.
     pub scalars: Vec<Scalar>,
     /// Sample time in seconds where the file states one apart from a time column.
@@ -46,5 +50,18 @@ impl Table {
             .map(|c| c.values.len())
             .max()
             .unwrap_or(0)
+    }
+
+    /// The number in the file, counted from 1, of the column at `index` of `columns`.
+    pub fn number(&self, index: usize) -> usize {
+        let ascending = self.left_out.iter();
+        ascending.fold(index + 1, |number, &gone| {
+            number + usize::from(gone <= number)
+        })
+    }
+
+    /// Where in `columns` the column with a number in the file is, if it was not left out.
+    pub fn index(&self, number: usize) -> Option<usize> {
+        (0..self.columns.len()).find(|&index| self.number(index) == number)
     }
 }

@@ -107,7 +107,7 @@ pub fn template(
             .get(i)
             .map_or(String::new(), |looks| format!(": {looks}"));
         let line = format!("{name}{unit}{looks}").replace(char::is_control, " ");
-        let _ = writeln!(out, "#   {}: {line}", i + 1);
+        let _ = writeln!(out, "#   {}: {line}", table.number(i));
     }
     for role in Role::ALL {
         match detected.channel(role) {

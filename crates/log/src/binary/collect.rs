@@ -125,6 +125,13 @@ impl Collector {
         });
     }
 
+    /// Says what was left out of the columns of a table, whose others keep their numbers.
+    pub(crate) fn skip_column(&mut self, name: &str, why: &str) {
+        let number = self.table.columns.len() + self.table.left_out.len() + 1;
+        self.table.left_out.push(number);
+        self.skip(name, why);
+    }
+
     /// Adds one column.
     pub(crate) fn column(&mut self, name: &str, unit: Option<String>, values: Vec<f64>) {
         self.table.columns.push(Column {

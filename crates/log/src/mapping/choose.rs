@@ -178,7 +178,7 @@ impl<'a> Scan<'a> {
                 ..Channel::index(0)
             }
         } else {
-            Channel::index(column + 1)
+            Channel::index(self.table.number(column))
         }
     }
 

@@ -11,8 +11,8 @@ pub(super) fn column(table: &Table, index: usize) -> String {
 /// `5 "Torque [N m]"`, or `5` where it has no name: a column as the place of an error.
 pub(super) fn place(table: &Table, index: usize) -> String {
     match key(table, index) {
-        name if name.is_empty() => (index + 1).to_string(),
-        name => format!("{} {name}", index + 1),
+        name if name.is_empty() => table.number(index).to_string(),
+        name => format!("{} {name}", table.number(index)),
     }
 }
 
@@ -88,6 +88,6 @@ fn value(table: &Table, index: usize) -> String {
     if unique && plain {
         format!("\"{name}\"")
     } else {
-        (index + 1).to_string()
+        table.number(index).to_string()
     }
 }

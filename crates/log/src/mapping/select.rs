@@ -9,11 +9,15 @@ use crate::{Error, Kind, Table};
 pub(super) fn select(table: &Table, selector: &Selector, role: Role) -> Result<usize, Error> {
     match selector {
         Selector::Index(number) => {
-            let count = table.columns.len();
-            if (1..=count).contains(number) {
-                return Ok(number - 1);
+            if let Some(index) = table.index(*number) {
+                return Ok(index);
             }
-            let found = format!("{role} is column {number}, and the table has {count}");
+            let found = if table.left_out.contains(number) {
+                format!("{role} is column {number}, which has no numbers")
+            } else {
+                let count = table.columns.len() + table.left_out.len();
+                format!("{role} is column {number}, and the table has {count}")
+            };
             Err(Error::new(Kind::Missing, found, columns(table)))
         }
         Selector::Name(name) => by_name(table, name, role),
@@ -66,7 +70,7 @@ fn by_name(table: &Table, name: &str, role: Role) -> Result<usize, Error> {
         several => {
             let lines: Vec<_> = several
                 .iter()
-                .map(|i| format!("{role} = {}", i + 1))
+                .map(|&i| format!("{role} = {}", table.number(i)))
                 .collect();
             let found = format!(
                 "{} columns are named {wanted:?}, with different samples: {}",

@@ -66,7 +66,7 @@ fn one(
         .column(index);
     let meaning = Meaning::of(&descriptor);
     if let Meaning::Other(what) = &meaning {
-        collector.skip(name, what);
+        collector.skip_column(name, what);
         return Ok(());
     }
     let mut samples = Samples::default();
@@ -115,7 +115,7 @@ fn one(
         }
     }
     match meaning {
-        _ if total == 0 => collector.skip(name, "empty"),
+        _ if total == 0 => collector.skip_column(name, "empty"),
         Meaning::Ticks(period, clock) => {
             let (values, done) = seconds(&samples.ticks, period, clock);
             collector.detected(format!("{name}: {done}"));

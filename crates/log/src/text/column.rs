@@ -43,11 +43,11 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
                     format!(" such as {} in row {}", s.text, s.line)
                 });
                 table.skipped.push(format!("{label}: text{example}"));
-                left_out.push(c);
+                left_out.push(c + 1);
             }
             Role::Unknown if layout.scope.is_none() => {
                 table.skipped.push(format!("{label}: no number in any row"));
-                left_out.push(c);
+                left_out.push(c + 1);
             }
             Role::Moment { dated, .. } => {
                 unit = Some("s".to_owned());
@@ -77,11 +77,12 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
         scope::finish(scope, &mut table);
     }
     if layout.scope.is_none() {
-        let mut index = 0;
+        let mut number = 0;
         table.columns.retain(|_| {
-            index += 1;
-            !left_out.contains(&(index - 1))
+            number += 1;
+            !left_out.contains(&number)
         });
+        table.left_out = left_out;
     }
     if body.comments > 0 {
         table.skipped.push(format!(

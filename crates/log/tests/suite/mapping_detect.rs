@@ -1,6 +1,7 @@
 //! Which columns are recognised, what is assumed, and what is refused with the choices.
 
 use crate::mapping_common::{axis, codes, column, message, table, told};
+use stiction_log::text::{TextOptions, read};
 use stiction_log::{Channel, Kind, Log, Mapping, Motion, Selector, Table, Unit, Value};
 
 /// A table with these headers; samples that move, each column its own.
@@ -176,6 +177,36 @@ fn selectors_by_name_number_and_header() {
     };
     lines.push(Log::from_table(&table, &mapping).unwrap_err().to_string());
     insta::assert_snapshot!(lines.join("\n"));
+}
+
+#[test]
+fn a_column_keeps_its_number_where_another_has_no_numbers() {
+    // The same recorder twice: in the second log the temperature was not connected.
+    let rows = |temperature: &str| {
+        let row = |k: usize| {
+            let x = (0.01 * k as f64).sin();
+            format!("{}.000,{temperature},jog,{x:.6},{:.6}\n", k, 3.0 * x)
+        };
+        (0..200).map(row).collect::<String>()
+    };
+    let mapping = Mapping {
+        time: Some(Channel::index(1).unit(Unit::parse("ms").unwrap())),
+        position: Some(Channel::index(4).unit(Unit::parse("mm").unwrap())),
+        force: Some(Channel::index(5).unit(Unit::parse("N").unwrap())),
+        ..Mapping::default()
+    };
+    let log = |temperature: &str, mapping: &Mapping| {
+        let table = read(rows(temperature).as_bytes(), &TextOptions::default()).unwrap();
+        Log::from_table(&table, mapping).map_err(|e| e.to_string())
+    };
+    let (connected, not) = (log("21.5", &mapping).unwrap(), log("", &mapping).unwrap());
+    assert_eq!(connected.position, not.position);
+    assert_eq!(connected.force, not.force);
+    let wrong = Mapping {
+        force: Some(Channel::index(2)),
+        ..mapping
+    };
+    insta::assert_snapshot!(log("", &wrong).unwrap_err());
 }
 
 #[test]
