@@ -62,6 +62,17 @@ fn next(error: &Error, command: &Command) -> Option<String> {
     {
         return simulated(identify);
     }
+    if let Command::Identify(identify) = command
+        && matches!(error.code(), Code::NoMotion | Code::NoForce)
+    {
+        let axis = identify.axis.iter();
+        let axis = axis.map(|file| format!(" --axis {}", quoted(file)));
+        let log = quoted(identify.logs.first()?);
+        return Some(format!(
+            "next: stiction check {log}{} shows what was read as position and force",
+            axis.collect::<String>()
+        ));
+    }
     let (logs, axis) = match command {
         Command::Check(check) if check.init.is_none() => (&check.logs, &check.axis),
         Command::Identify(identify) => (&identify.logs, &identify.axis),

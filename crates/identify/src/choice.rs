@@ -10,7 +10,7 @@ use stiction_signal::effective_sample_size;
 const EQUAL_STANDARD_ERRORS: f64 = 1.0;
 /// Ratio of two held-out errors above which the laws are never equal, however uncertain that ratio is: who compensates
 /// with the simpler law would leave a tenth more.
-const NEVER_EQUAL_RATIO: f64 = 1.1;
+pub const NEVER_EQUAL_RATIO: f64 = 1.1;
 
 /// How a law compares with the others.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -74,7 +74,7 @@ mod separable;
 mod tune;
 mod watch;
 
-pub use choice::{Standing, choose};
+pub use choice::{NEVER_EQUAL_RATIO, Standing, choose};
 pub use conditioning::channels::Channels;
 pub use conditioning::losses::Losses;
 pub use conditioning::record::{Record, Samples, Segment};

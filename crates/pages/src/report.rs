@@ -21,7 +21,7 @@ use crate::next;
 use crate::trust::{compensation, constants};
 use std::path::Path;
 use stiction_files::compare_file::CompareFile;
-use stiction_files::result::{Input, ResultFile};
+use stiction_files::result::{Input, Next, ResultFile};
 use stiction_number::Percent;
 use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
 use stiction_workflows::identify::Outcome;
@@ -226,7 +226,12 @@ fn verdicts(outcome: &Outcome) -> [Callout; 2] {
     };
     let known = match (trust.constants.is_empty(), trust.open.is_empty()) {
         (_, true) => Severity::Good,
-        _ => Severity::Warning,
+        (true, false) => Severity::Warning,
+        (false, false) => Severity::Info,
+    };
+    let symbol = |name: &str| {
+        let of_name = result.parameters.iter().find(|p| p.name == name);
+        of_name.map_or(name, |p| p.symbol.as_str()).to_string()
     };
     let callout = |severity, text: &str| Callout {
         severity,
@@ -238,18 +243,22 @@ fn verdicts(outcome: &Outcome) -> [Callout; 2] {
         callout(use_it, &text),
         callout(
             known,
-            &format!("Constants of the machine: {}.", constants(trust)),
+            &format!("Constants of the machine: {}.", constants(trust, symbol)),
         ),
     ]
 }
 
 /// The command that leads on.
 fn next_step(result: &ResultFile) -> Text {
-    Text::from(format!(
-        "Next: {}. DIR is the folder of this report: ",
-        next::why(result.trust.next)
-    ))
-    .code(next::command(result, Path::new("DIR")))
+    let next = result.trust.next;
+    let (place, dir) = match next {
+        // It was typed with options that a result does not keep.
+        Next::Again => return format!("Next: {}.", next::why(next)).into(),
+        Next::Export => ("In the folder of this report", ""),
+        _ => ("In the folder it was identified in", "result"),
+    };
+    Text::from(format!("Next: {}. {place}: ", next::why(next)))
+        .code(next::command(result, Path::new(dir)))
 }
 
 fn key_figures(outcome: &Outcome) -> Vec<KeyFigure> {

@@ -187,7 +187,11 @@ fn verdicts(result: &ResultFile) -> String {
     if let Some(seen) = &trust.compensation {
         let _ = writeln!(out, "                  {}", compensation(seen, result));
     }
-    let _ = writeln!(out, "as constants      {}", constants(trust));
+    let _ = writeln!(
+        out,
+        "as constants      {}",
+        constants(trust, str::to_string)
+    );
     out
 }
 

@@ -30,12 +30,16 @@ pub(crate) fn compensation(seen: &Compensation, result: &ResultFile) -> String {
     out
 }
 
-/// Which parameters are constants of the machine.
-pub(crate) fn constants(trust: &Trust) -> String {
+/// Which parameters are constants of the machine, each called as its name or its symbol.
+pub(crate) fn constants(trust: &Trust, called: impl Fn(&str) -> String) -> String {
+    let listed = |names: &[String]| {
+        let called: Vec<_> = names.iter().map(|name| called(name)).collect();
+        called.join(", ")
+    };
     match (trust.constants.as_slice(), trust.open.as_slice()) {
         ([], []) => "none was identified".into(),
         (_, []) => "every parameter, within its interval".into(),
         ([], _) => "none: the log leaves every parameter open".into(),
-        (known, open) => format!("{}; left open: {}", known.join(", "), open.join(", ")),
+        (known, open) => format!("{}; left open: {}", listed(known), listed(open)),
     }
 }

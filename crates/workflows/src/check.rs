@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 use stiction_codes::Code;
 use stiction_files::axis::Axis;
-use stiction_files::result::Input;
+use stiction_files::result::{Input, Next};
 use stiction_identify::Observer;
 use stiction_log::{Log, Severity, Understood};
 use stiction_number::four_digits as short;
@@ -57,6 +57,20 @@ pub struct LogCheck {
     pub parameters: Vec<ParameterCheck>,
     /// Why nothing could be identified, if so.
     pub refused: Option<String>,
+    /// What leads on: a fit, a fit by simulation, or another record.
+    pub next: Lead,
+}
+
+/// What leads on from a log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Lead {
+    /// `stiction identify`.
+    Identify,
+    /// The same by simulation: filters leave too little of the log.
+    Simulate,
+    /// Nothing can be identified from the log; another has to be recorded.
+    Record,
 }
 
 /// A column of the file, as it was understood.
@@ -152,11 +166,17 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
         shows: Vec::new(),
         parameters: Vec::new(),
         refused: None,
+        next: Lead::Record,
     };
     // Without a force nothing shows, whatever the motion.
     if let (Some(motion), true) = (&out.motion, log.force.is_some()) {
         out.shows = shows::shows(log, motion, axis.terms.mass);
     }
+    let slides = out
+        .shows
+        .iter()
+        .any(|s| s.name == "coulomb" && s.shown != "no");
+    let simulates = axis.has_inertia() && log.position.is_some();
     let options = Options::default();
     let asked = Asked {
         options: &options,
@@ -166,12 +186,22 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
     match identify_asked(asked, vec![source], Vec::new(), observer) {
         Ok(outcome) => {
             out.refused = untrusted(&outcome);
+            out.next = match outcome.result.trust.next {
+                Next::Simulate => Lead::Simulate,
+                // A fit would lead back here.
+                Next::Check => Lead::Record,
+                _ if slides => Lead::Identify,
+                _ => Lead::Record,
+            };
             out.parameters = verdicts(&outcome);
             out.conditioning = outcome.result.axis.conditioning;
         }
         // What the log cannot give is a verdict on the log; a bad axis file is an error of its own.
         Err(e @ Error::Identify { .. }) if e.code() != Code::BadSetting => {
             out.refused = Some(format!("{}: {e}", e.code()));
+            if e.code() == Code::TooFewSamples && simulates && slides {
+                out.next = Lead::Simulate;
+            }
         }
         Err(Error::File(stiction_files::Error::Log(e))) => {
             out.refused = Some(format!("{}: {e}", e.kind.code()))

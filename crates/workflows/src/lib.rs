@@ -46,6 +46,7 @@ pub mod reproduce;
 pub mod source;
 mod spread;
 pub mod study;
+mod turns;
 pub mod verdict;
 mod wording;
 

@@ -227,6 +227,7 @@ fn exit_codes() {
     let (code, out, err) = bench.run(&["identify", "rest.csv", "--out", "c"]);
     assert_eq!((code, out.as_str()), (2, ""));
     assert!(err.starts_with("stiction: [no-motion] rest.csv: "), "{err}");
+    assert!(err.contains("next: stiction check rest.csv"), "{err}");
     assert!(!bench.path("c").exists(), "nothing is made for nothing");
     let (code, out, _) = bench.run(&["check", "rest.csv"]);
     assert_eq!(code, 1, "{out}");

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::path::Path;
 use stiction_files::symbols;
 use stiction_number::{counted, four_digits as short, unit};
-use stiction_workflows::check::{Check, LogCheck, Started};
+use stiction_workflows::check::{Check, Lead, LogCheck, Started};
 
 /// The outcome of a check.
 pub fn check(check: &Check) -> String {
@@ -171,15 +171,16 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
             "next: stiction check {path}{with} --init {file} writes down the units that were assumed; correct them there"
         ));
     }
-    let shown = |shown: &str| {
-        log.shows
-            .iter()
-            .any(|s| s.name == "coulomb" && s.shown == shown)
-    };
-    if log.shows.is_empty() || shown("no") {
-        out.push("next: record a log that moves both ways, with its force; what to record: docs/procedures.md".into());
-    } else {
-        out.push(format!("next: stiction identify {path}{with} --out result"));
-    }
+    out.push(match log.next {
+        Lead::Identify => format!("next: stiction identify {path}{with} --out result"),
+        Lead::Simulate => {
+            format!("next: stiction identify {path}{with} --method output-error --out result")
+        }
+        Lead::Record => {
+            "next: record a log that moves both ways, with its force (what to record: docs/procedures.md); then stiction \
+             check on it"
+                .into()
+        }
+    });
     out
 }

@@ -3,7 +3,7 @@
 use crate::common::{Bench, both_ways, friction, noise, options};
 use std::f64::consts::PI;
 use std::path::Path;
-use stiction::commands::check::{Check, check, init};
+use stiction::commands::check::{Check, Lead, check, init};
 use stiction::commands::text;
 use stiction::{Axis, LawKind, Silent};
 
@@ -114,6 +114,42 @@ fn a_motion_shows_nothing_that_it_lacks() {
         "{}",
         text::check(&found)
     );
+}
+
+/// Never to a command that would refuse the log.
+#[test]
+fn every_log_leads_on() {
+    let bench = Bench::new();
+    let moves = |t: f64| both_ways(t)[0];
+    let rubs = |i: usize, t: f64| friction(both_ways(t)) + noise(4, i);
+    let fast = |t: f64| 0.005 * (60.0 * t).sin();
+    let logs = [
+        (bench.log("good.csv", 4000, moves, rubs), Lead::Identify),
+        (bench.log("short.csv", 100, fast, rubs), Lead::Simulate),
+        (bench.log("off.csv", 4000, moves, |_, _| 0.0), Lead::Record),
+        (bench.log("still.csv", 4000, |_| 0.1, rubs), Lead::Record),
+        (bench.log("away.csv", 4000, |t| 0.1 * t, rubs), Lead::Record),
+    ];
+    for (log, expected) in logs {
+        let next = checked(&log, None).logs[0].next;
+        assert_eq!(next, expected, "{}", log.display());
+    }
+}
+
+/// Two logs of an axis whose encoder was set to zero elsewhere before the second.
+#[test]
+fn a_fit_sees_the_reversals_that_check_sees() {
+    let bench = Bench::new();
+    let rubs = |i: usize, t: f64| friction(both_ways(t)) + noise(5, i);
+    let first = bench.log("a.csv", 3000, |t| both_ways(t)[0], rubs);
+    let second = bench.log("b.csv", 3000, |t| 2.0 + both_ways(t)[0], rubs);
+    let found = [&first, &second].map(|log| checked(log, None).logs[0].motion.clone().unwrap());
+    let asked = options(&[&first, &second], LawKind::CoulombViscous);
+    let fit = asked.identify(&mut Silent).unwrap();
+    let seen = fit.result.trust.compensation.as_ref().unwrap();
+    assert_eq!(seen.reversals, found[0].reversals + found[1].reversals);
+    let stroke = seen.stroke.unwrap();
+    assert!((stroke / found[0].range - 1.0).abs() < 0.02, "{stroke}");
 }
 
 /// A log whose units stand nowhere, with an encoder of a thousandth of whatever unit.

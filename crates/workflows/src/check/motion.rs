@@ -1,8 +1,9 @@
 //! Plain facts about the motion of a log, without a fit.
 
+use crate::turns::turns;
 use serde::Serialize;
 use stiction_log::Log;
-use stiction_signal::{Travel, noise_deviation};
+use stiction_signal::noise_deviation;
 
 /// Longest window to either side over which a speed is taken from a position, s.
 const LONGEST_WINDOW: f64 = 0.05;
@@ -88,8 +89,7 @@ impl Motion {
                 .copied()
                 .unwrap_or(0.0)
         };
-        let (x, movement) = path(log)?;
-        let turns = turns(&x, movement);
+        let (x, turns) = turns(log)?;
         let low = x.iter().copied().fold(f64::INFINITY, f64::min);
         let high = x.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let accelerations: Vec<f64> = (2 * window..n)
@@ -155,59 +155,6 @@ fn speeds(log: &Log) -> Option<(Vec<f64>, f64, usize)> {
         }
         window *= 2;
     }
-}
-
-/// The position, or the integral of the velocity, and the shortest movement that is one.
-fn path(log: &Log) -> Option<(Vec<f64>, f64)> {
-    if let Some(x) = &log.position {
-        let noise = noise_deviation(log.segments.iter().filter_map(|s| x.get(s.clone())));
-        return Some((
-            x.clone(),
-            Travel::shortest_movement(log.quantum.unwrap_or(0.0), noise),
-        ));
-    }
-    let velocity = log.velocity.as_ref()?;
-    let mut x = 0.0;
-    let mut path = vec![0.0];
-    for (t, v) in log.time.windows(2).zip(velocity.windows(2)) {
-        x += 0.5 * (v[0] + v[1]) * (t[1] - t[0]);
-        path.push(x);
-    }
-    let noise = noise_deviation(std::iter::once(&velocity[..]));
-    let seconds = log.time[velocity.len() - 1] - log.time[0];
-    Some((
-        path,
-        Travel::shortest_integrated(noise, seconds, velocity.len()),
-    ))
-}
-
-/// The samples at which a position turns back by more than the shortest movement.
-fn turns(x: &[f64], shortest: f64) -> Vec<usize> {
-    let mut out = Vec::new();
-    let (mut low, mut high) = (0, 0);
-    let mut rises = None;
-    for (i, &now) in x.iter().enumerate() {
-        // The last sample at an extreme is where the axis sets out again.
-        if now >= x[high] {
-            high = i;
-        }
-        if now <= x[low] {
-            low = i;
-        }
-        match rises {
-            Some(true) if x[high] - now > shortest => {
-                out.push(high);
-                (low, rises) = (i, Some(false));
-            }
-            Some(false) if now - x[low] > shortest => {
-                out.push(low);
-                (high, rises) = (i, Some(true));
-            }
-            None if x[high] - x[low] > shortest => rises = Some(high > low),
-            _ => {}
-        }
-    }
-    out
 }
 
 /// Samples from a turn until the force has gone most of the way from its level in one direction to that in the other,

@@ -16,10 +16,6 @@ pub(super) const EXPORTED: [LawKind; 4] = [
     LawKind::LuGre,
 ];
 
-/// Ratio of the held-out errors of two laws below which one with every parameter inside its search range comes before one
-/// with a parameter at an end, dimensionless: it leaves at most a tenth more.
-const SAME_FOR_COMPENSATION_RATIO: f64 = 1.1;
-
 /// A fitted law and the laws it was compared with.
 pub(super) struct Choice {
     pub estimate: Estimate,
@@ -221,7 +217,15 @@ fn capped<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
     let level = |side| values.on(Quantity::Coulomb, side).unwrap_or(f64::INFINITY);
     let coulomb = [Side::Positive, Side::Negative].map(level);
     let most = unfit::largest_friction(&rung.estimate);
-    let candidate = ladder.usual(law).from(&[rung]);
+    let both = ladder.terms.asymmetric_with_offset.as_ref();
+    let beside_it =
+        both.filter(|terms| law.asymmetric && rung.estimate.terms.offset == terms.offset);
+    let usual = ladder.usual(law);
+    let candidate = Candidate {
+        terms: beside_it.unwrap_or(usual.terms),
+        ..usual
+    };
+    let candidate = candidate.from(&[rung]);
     vec![Candidate {
         capped: Some(rung.optimum.bounds_with_static_below(coulomb, most)),
         ..candidate
@@ -267,8 +271,8 @@ fn stated(
     estimate
 }
 
-/// The best of the laws that a compensator may rely on. Of those with about the same error, one without a parameter at the
-/// end of its search range comes first.
+/// The best of the laws that a compensator may rely on. Of those that leave at most a tenth more, one without a parameter
+/// at the end of its search range comes first.
 fn reliable(climb: &Climb, laws: &[LawEntry], best: usize) -> usize {
     let rungs = &climb.rungs;
     let able: Vec<usize> = (0..laws.len())
@@ -280,7 +284,7 @@ fn reliable(climb: &Climb, laws: &[LawEntry], best: usize) -> usize {
         return best;
     }
     let errors = able.iter().map(|&i| rungs[i].held_out_error());
-    let most = SAME_FOR_COMPENSATION_RATIO * errors.fold(f64::INFINITY, f64::min);
+    let most = engine::NEVER_EQUAL_RATIO * errors.fold(f64::INFINITY, f64::min);
     let near = |&i: &usize| rungs[i].held_out_error() <= most;
     let within: Vec<usize> = able.into_iter().filter(inside).filter(near).collect();
     climb.best_of(&within).unwrap_or(best)

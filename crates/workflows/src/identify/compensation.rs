@@ -1,6 +1,8 @@
 //! How well a law predicts friction on motion like that of its logs, and what motion that was.
 
 use super::trust::{Evidence, Reasons};
+use crate::source::Source;
+use crate::turns::turns;
 use stiction_files::result::{Compensation, Next};
 use stiction_identify::Series;
 use stiction_number::Percent;
@@ -13,8 +15,6 @@ const VALIDATION_FAILS_ABOVE: f64 = 2.0;
 /// Part of the friction that a validation may leave whatever the fit left, dimensionless: a tenth is little for a
 /// compensator.
 const LITTLE_LEFT: f64 = 0.1;
-/// Part of the top speed that a motion must exceed both ways to count as a reversal, dimensionless: far above noise at rest.
-const REVERSAL_SPEED: f64 = 0.01;
 
 /// What the law leaves of the friction and where that was seen, with the reasons against it; `None` without a force that
 /// friction is a part of.
@@ -66,7 +66,7 @@ pub(super) fn judged(evidence: &Evidence, reasons: &mut Reasons) -> Option<Compe
         judged_on: judged_on.into(),
         top_speed: top_speed(own),
         stroke: stroke(own),
-        reversals: reversals(own),
+        reversals: reversals(evidence.sources),
     })
 }
 
@@ -93,27 +93,22 @@ pub(super) fn top_speed(series: &Series) -> f64 {
         .fold(0.0, |top: f64, v| top.max(v.abs()))
 }
 
+/// The longest stroke of a log, m or rad: where another log has its origin is not known.
 fn stroke(series: &Series) -> Option<f64> {
-    let ends = series.position.iter().fold(None, |ends, &x| {
-        let (low, high) = ends.unwrap_or((x, x));
-        Some((f64::min(low, x), f64::max(high, x)))
-    });
-    ends.map(|(low, high)| high - low)
+    let mut strokes = Vec::new();
+    let mut at = series.log.iter().zip(&series.position).peekable();
+    while let Some((log, &first)) = at.next() {
+        let (mut low, mut high) = (first, first);
+        while let Some((_, &x)) = at.next_if(|(own, _)| *own == log) {
+            (low, high) = (low.min(x), high.max(x));
+        }
+        strokes.push(high - low);
+    }
+    strokes.into_iter().reduce(f64::max)
 }
 
-/// How often the direction changes between speeds that are not noise, within each log.
-fn reversals(series: &Series) -> usize {
-    let least = REVERSAL_SPEED * top_speed(series);
-    let mut count = 0;
-    let mut before: Option<(usize, f64)> = None;
-    for (&log, &v) in series.log.iter().zip(&series.velocity) {
-        if v.abs() <= least {
-            continue;
-        }
-        if before.is_some_and(|(own, sign)| own == log && sign != v.signum()) {
-            count += 1;
-        }
-        before = Some((log, v.signum()));
-    }
-    count
+/// How often the axis turns back.
+fn reversals(sources: &[Source]) -> usize {
+    let turns = sources.iter().filter_map(|source| turns(&source.log));
+    turns.map(|(_, turns)| turns.len()).sum()
 }

@@ -131,9 +131,10 @@ impl Evidence<'_> {
         }
     }
 
-    /// What leads on where no law does: a coarse encoder is not differentiated by a simulation.
+    /// What leads on where no law does: a coarse encoder is not differentiated by a simulation; motion in one direction
+    /// stays that.
     pub fn where_no_law_predicts(&self) -> Next {
-        match self.can_be_simulated {
+        match self.can_be_simulated && self.moves_both_ways {
             true => Next::Simulate,
             false => Next::Check,
         }
