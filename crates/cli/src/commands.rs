@@ -60,7 +60,7 @@ fn next(error: &Error, command: &Command) -> Option<String> {
     if let Command::Identify(identify) = command
         && error.code() == Code::TooFewSamples
     {
-        return simulated(identify);
+        return more_samples(error, identify);
     }
     if let Command::Identify(identify) = command
         && matches!(error.code(), Code::NoMotion | Code::NoForce)
@@ -89,6 +89,44 @@ fn next(error: &Error, command: &Command) -> Option<String> {
     ))
 }
 
+/// Samples of a log with which a simulation goes on for any law: ten for each of thirty unknowns.
+const ENOUGH_TO_SIMULATE: usize = 300;
+
+/// What leads to enough samples: a setting of the axis file where that is what left them out, a simulation where filters did, and
+/// else a look at the log.
+fn more_samples(error: &Error, identify: &arguments::Identify) -> Option<String> {
+    let Some((losses, needed)) = error.losses() else {
+        return simulated(identify);
+    };
+    if let Some(axis) = &identify.axis {
+        let file = quoted(axis);
+        let taken = (losses.logged - losses.short) / losses.decimate.max(1);
+        if losses.slow > 0 && taken >= needed {
+            return Some(format!(
+                "next: lower min_speed in [conditioning] of {file}, or leave it out"
+            ));
+        }
+        let asks = Axis::read(axis).is_ok_and(|axis| axis.conditioning.decimate.is_some());
+        if asks && losses.decimate > 1 && losses.logged >= needed {
+            return Some(format!(
+                "next: lower decimate in [conditioning] of {file}, or leave it out: then it follows from the cut-off"
+            ));
+        }
+    }
+    let is_long = losses.logged >= ENOUGH_TO_SIMULATE;
+    simulated(identify).filter(|_| is_long).or_else(|| {
+        let mut next = String::from("next: stiction check");
+        for log in &identify.logs {
+            next.push_str(&format!(" {}", quoted(log)));
+        }
+        if let Some(axis) = &identify.axis {
+            next.push_str(&format!(" --axis {}", quoted(axis)));
+        }
+        next.push_str(" says what the log shows, and what motion to record instead");
+        Some(next)
+    })
+}
+
 /// The same identification by simulation, which filters nothing and needs fewer samples; for a law that can be simulated.
 fn simulated(identify: &arguments::Identify) -> Option<String> {
     let from_force = identify.method == arguments::Method::Separable;
@@ -103,7 +141,9 @@ fn simulated(identify: &arguments::Identify) -> Option<String> {
         arguments::Law::CoulombViscous => " --law coulomb-viscous",
         arguments::Law::Stribeck => " --law stribeck",
         arguments::Law::Dahl => " --law dahl",
-        _ => return None,
+        arguments::Law::MaxwellSlip => " --law maxwell-slip",
+        arguments::Law::Gms => " --law gms",
+        arguments::Law::ElastoPlastic => return None,
     };
     if !from_force || !has_mass {
         return None;

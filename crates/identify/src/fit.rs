@@ -29,6 +29,11 @@ impl Fit {
     /// Compares a residual with the measured force; `None` without samples, or where the force is zero
     /// throughout or the values are too large to square.
     pub fn new(measured: &[f64], residual: &[f64]) -> Option<Self> {
+        Self::up_to_lag(measured, residual, MOST_LAGS)
+    }
+
+    /// The same with an autocorrelation of at most `lags`.
+    pub(crate) fn up_to_lag(measured: &[f64], residual: &[f64], lags: usize) -> Option<Self> {
         let n = measured.len().min(residual.len());
         if n == 0 {
             return None;
@@ -49,8 +54,7 @@ impl Fit {
                 f64::NAN
             },
             samples: n,
-            effective_samples: effective_sample_size(residual, MOST_LAGS)
-                .map_or(n as f64, |e| e.size),
+            effective_samples: effective_sample_size(residual, lags).map_or(n as f64, |e| e.size),
         })
     }
 

@@ -16,7 +16,7 @@
 mod choose;
 mod count;
 mod curves;
-mod dictionary;
+pub(crate) mod dictionary;
 mod kink;
 mod ladder;
 mod limit;

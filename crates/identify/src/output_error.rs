@@ -17,18 +17,25 @@
 //! See Ljung 1999, System Identification, section 4.3 (output-error models); Janot, Gautier, Brunot
 //! 2019 for the same on the EMPS benchmark.
 
+pub(crate) mod bristles;
 pub(crate) mod controller;
+pub(crate) mod covariance;
 pub(crate) mod descent;
 pub(crate) mod drawn;
+pub(crate) mod elements;
 pub(crate) mod outcome;
+pub(crate) mod physical;
+pub(crate) mod places;
 pub(crate) mod plant;
 pub(crate) mod problem;
 pub(crate) mod run;
 pub(crate) mod rungs;
 pub(crate) mod search;
+pub(crate) mod signals;
 pub(crate) mod simulate;
 pub(crate) mod start;
 pub(crate) mod unknowns;
+pub(crate) mod unseen;
 
 use crate::error::Error;
 use crate::estimate::Estimate;
@@ -101,6 +108,10 @@ pub fn output_error(
         // The controller acts on what it computed a moment ago; no force can act before that.
         terms.delay = Delay::NONE;
     }
+    let mut law = law;
+    if law.kind.has_elements() && law.elements == 0 {
+        law.elements = elements_of(simulation.start).unwrap_or(ELEMENTS);
+    }
     let kept: usize = runs
         .iter()
         .map(|r| r.keep.iter().filter(|&&k| k).count())
@@ -133,6 +144,16 @@ pub fn output_error(
     let mut fit = outcome::describe(&search, found, law, &terms, watch.counts);
     fit.judge_horizons(recordings, &mut watch);
     Ok(fit)
+}
+
+/// Elements of a Maxwell-slip law whose number nothing says. The fit of the force chooses by blocks that it leaves out; a run
+/// that is simulated whole has no such blocks.
+const ELEMENTS: usize = 4;
+
+/// Elements that an earlier fit of the same axis has.
+fn elements_of(start: Option<&Estimate>) -> Option<usize> {
+    let elements = start.map(|found| found.law.elements);
+    elements.filter(|&many| many > 0)
 }
 
 /// Whether a fitted delay ended at the end of its range.

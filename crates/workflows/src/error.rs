@@ -55,6 +55,17 @@ pub enum Error {
 }
 
 impl Error {
+    /// Where too few samples are left: what became of the others, and how many are needed.
+    pub fn losses(&self) -> Option<(&stiction_identify::Losses, usize)> {
+        match self {
+            Error::Identify {
+                source: stiction_identify::Error::TooFewSamples { losses, needed, .. },
+                ..
+            } => Some((losses, *needed)),
+            _ => None,
+        }
+    }
+
     /// Stable code, the name of a page in `docs/codes/`.
     pub fn code(&self) -> Code {
         use stiction_identify::Error as Fit;

@@ -6,7 +6,7 @@ use crate::separable::search_box::SearchBox;
 
 /// An element: the logarithm of its yield deflection, and its yield force.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Atom {
+pub(crate) struct Atom {
     pub place: f64,
     pub force: f64,
 }
@@ -25,7 +25,7 @@ pub(super) fn places(bounds: &SearchBox, layout: &Layout, many: usize) -> Vec<f6
 }
 
 /// Equal steps from `low` to `high`, half a step from both.
-pub(super) fn steps(low: f64, high: f64, many: usize) -> Vec<f64> {
+pub(crate) fn steps(low: f64, high: f64, many: usize) -> Vec<f64> {
     (0..many)
         .map(|i| low + (i as f64 + 0.5) / many as f64 * (high - low))
         .collect()
@@ -54,7 +54,7 @@ pub(super) fn atoms(law: &Law, p: &[f64], at: &Evaluation) -> Vec<Atom> {
 
 /// Joins neighbours until no more than `most` are left; each time the pair is joined that moves the
 /// smallest force over the shortest distance.
-pub(super) fn join(mut atoms: Vec<Atom>, most: usize) -> Vec<Atom> {
+pub(crate) fn join(mut atoms: Vec<Atom>, most: usize) -> Vec<Atom> {
     while atoms.len() > most.max(1) {
         let loss = |pair: &[Atom]| {
             let way = pair[1].place - pair[0].place;

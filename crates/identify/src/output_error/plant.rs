@@ -6,6 +6,7 @@
 //! mean of the states at both ends, without the correction of the servo crate: its derivatives would cost
 //! more than smaller steps of the same accuracy. The servo crate is the reference it is tested against.
 
+use crate::output_error::elements::Elements;
 use libm::{cos, exp, expm1, fabs, pow, sin};
 use stiction_friction::LuGre;
 use stiction_parameters::{LawKind, Name, ParameterSet, Quantity, Side};
@@ -50,7 +51,7 @@ impl Wave {
     }
 
     /// Its shape at a position, and the slope of the shape.
-    fn shape(&self, x: f64) -> (f64, f64) {
+    pub fn shape(&self, x: f64) -> (f64, f64) {
         let angle = self.rate * x;
         if self.is_cosine {
             (cos(angle), -self.rate * sin(angle))
@@ -79,9 +80,12 @@ pub(crate) struct Axis {
     pub delay: f64,
     /// Gravity and cogging.
     pub waves: Vec<Wave>,
+    /// Maxwell-slip elements in the place of the bristles.
+    pub elements: Option<Elements>,
 }
 
-/// Position, velocity, bristle deflection: m, m/s, m (rad, rad/s, rad).
+/// Position, velocity, bristle deflection: m, m/s, m (rad, rad/s, rad). Where an axis with elements is shown, the third is
+/// their force, N (N m).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct State {
     pub x: f64,
@@ -217,7 +221,7 @@ impl Axis {
     }
 
     /// The position-dependent force and its slope.
-    fn waves_at(&self, x: f64) -> (f64, f64) {
+    pub fn waves_at(&self, x: f64) -> (f64, f64) {
         self.waves.iter().fold((0.0, 0.0), |(f, s), wave| {
             let (value, slope) = wave.shape(x);
             (f + wave.factor * value, s + wave.factor * slope)

@@ -8,6 +8,7 @@
 use crate::law::terms::Terms;
 use crate::law::{Law, LawKind};
 use crate::output_error::Simulation;
+use crate::output_error::places;
 use crate::output_error::plant::Axis;
 use crate::output_error::problem::Point;
 use crate::output_error::run::Run;
@@ -24,6 +25,11 @@ const FOR_THE_LAW: [usize; 2] = [6, 2];
 const FOR_A_RUNG: [usize; 2] = [2, 1];
 /// The same for other Stribeck curves on short pieces.
 const FOR_CURVES: [usize; 2] = [6, 3];
+/// Elements that are fitted first where fewer are asked for.
+const MANY_ELEMENTS: usize = 8;
+/// Most turns of other places and other curves, and the fall of the cost, as a part of it, that is worth another.
+const MOST_TURNS: usize = 4;
+const TURN_GAIN: f64 = 0.05;
 /// Steps of a descent whose end is the starting point of another one.
 const RUNG_STEPS: usize = 60;
 /// Fs/Fc - 1 where a law with a Stribeck curve is to be one without.
@@ -103,7 +109,10 @@ impl<'a> Ladder<'a> {
         }
         let layout = Layout::new(law, terms);
         let search = self.search(self.runs, &layout);
-        let best = self.rung(law, terms, &layout, (&rungs, FOR_THE_LAW), watch)?;
+        let mut best = self.rung(law, terms, &layout, (&rungs, FOR_THE_LAW), watch)?;
+        if law.kind.has_elements() {
+            best = self.other_elements(&search, best, watch);
+        }
         let best = self.not_worse(&search, best, law, &rungs, watch);
         let settled = search.settle(best, watch);
         // Weights and steps are others now.
@@ -165,7 +174,8 @@ impl<'a> Ladder<'a> {
             let here = search.axis(&best);
             let curves = self.other_curves(&here);
             let mut finalists = vec![vec![here]];
-            if self.pieces.is_empty() {
+            // What elements remember is not known where a piece begins.
+            if self.pieces.is_empty() || law.kind.has_elements() {
                 finalists.push(curves);
             } else {
                 let short = self.search(&self.pieces, layout);
@@ -180,6 +190,27 @@ impl<'a> Ladder<'a> {
                 .next()?;
         }
         Some(best)
+    }
+
+    /// The best so far, with elements at other places and, where they follow a curve, other curves, in turn.
+    fn other_elements(&self, search: &Search, mut best: Found, watch: &mut Watch) -> Found {
+        for _ in 0..MOST_TURNS {
+            let before = best.descent.cost;
+            best = places::elsewhere(search, best, watch);
+            if !has_curve(search.layout) || watch.stopped {
+                break;
+            }
+            let curves = self.other_curves(&search.axis(&best));
+            let starts = best.descent.at.starts.clone();
+            let found = places::best_of(search, curves, &starts, &best, watch);
+            if let Some(found) = found.filter(|f| f.descent.cost < best.descent.cost) {
+                best = found;
+            }
+            if best.descent.cost > (1.0 - TURN_GAIN) * before {
+                break;
+            }
+        }
+        best
     }
 
     /// The best so far, or where a descent from a nested law ends, if that law itself is better.
@@ -221,11 +252,12 @@ impl<'a> Ladder<'a> {
         let bristles = law.kind.has_bristle() && !from.kind.has_bristle();
         let curve = law.kind.has_stribeck() && !from.kind.has_stribeck();
         let mut out = vec![self.expressed(axis, from, law)];
-        let with_bristles = match bristles {
-            true => start::with_bristles(axis, law, self.scale),
-            false => start::with_damping(axis, law, self.scale),
-        };
-        out.extend(with_bristles);
+        let elements = law.kind.has_elements() && !from.kind.has_elements();
+        out.extend(match (bristles, elements) {
+            (true, _) => start::with_bristles(axis, law, self.scale),
+            (false, true) => start::with_elements(axis, law, self.scale),
+            (false, false) => start::with_damping(axis, law, self.scale),
+        });
         if curve {
             let here = out.clone();
             out.extend(here.iter().flat_map(|axis| self.other_curves(axis)));
@@ -241,6 +273,22 @@ impl<'a> Ladder<'a> {
             for side in &mut out.sides {
                 side.fixed = (1.0 + NO_FALL) * side.coulomb;
                 side.velocity = 0.1 * self.scale.speed;
+            }
+        }
+        if law.kind.has_elements() {
+            if from.kind.has_elements() {
+                if let Some(elements) = &mut out.elements {
+                    elements.all = places::joined(&elements.all, law.elements);
+                    if !elements.attraction.is_finite() {
+                        elements.attraction = 1.0 / self.scale.step;
+                    }
+                }
+                out.follow_curves();
+            } else if let Some(first) = start::with_elements(&out, law, self.scale).pop() {
+                out = first;
+            }
+            if let Some(elements) = out.elements.as_mut().filter(|_| !law.kind.has_stribeck()) {
+                elements.attraction = f64::INFINITY;
             }
         }
         if law.kind == LawKind::LuGre && out.micro_damping <= 0.0 {
@@ -263,10 +311,11 @@ impl<'a> Ladder<'a> {
                         side.fixed = (1.0 + excess) * side.coulomb;
                         side.velocity = part * self.scale.speed;
                     }
+                    other.follow_curves();
                     if share == 0.0
                         || other.sides != out.last().map_or(axis.sides, |o: &Axis| o.sides)
                     {
-                        out.push(other);
+                        out.extend(start::with_attractions(&other, self.scale));
                     }
                 }
             }
@@ -282,18 +331,32 @@ fn nested(law: &Law) -> Vec<Law> {
         asymmetric,
         ..*law
     };
+    let many = |mut below: Vec<Law>| {
+        // Few elements stick at wrong places where many find theirs: they are fitted first, and joined.
+        if law.kind.has_elements() && law.elements < MANY_ELEMENTS {
+            let more = |kind| Law {
+                elements: MANY_ELEMENTS,
+                ..of(kind, law.asymmetric)
+            };
+            below.push(more(LawKind::MaxwellSlip));
+            below.extend((law.kind == LawKind::Gms).then(|| more(LawKind::Gms)));
+        }
+        below
+    };
     let families: &[LawKind] = match law.kind {
         LawKind::CoulombViscous => &[],
         LawKind::Stribeck | LawKind::Dahl => &[LawKind::CoulombViscous],
+        LawKind::MaxwellSlip => &[LawKind::CoulombViscous, LawKind::Dahl],
+        LawKind::Gms => &[LawKind::CoulombViscous, LawKind::Stribeck, LawKind::Dahl],
         _ => &[LawKind::CoulombViscous, LawKind::Stribeck, LawKind::Dahl],
     };
     if !law.asymmetric {
-        return families.iter().map(|&kind| of(kind, false)).collect();
+        return many(families.iter().map(|&kind| of(kind, false)).collect());
     }
     // The same in both directions first: from there each direction needs only what sets it apart.
     let mut out = vec![of(LawKind::CoulombViscous, false)];
     out.extend(families.iter().map(|&kind| of(kind, true)));
-    out
+    many(out)
 }
 
 /// Whether no other rung stands between two laws.
@@ -311,16 +374,18 @@ fn is_next(below: &Law, law: &Law) -> bool {
 /// An axis as a law without a constant force of its own can express it: the difference of the directions is that force.
 fn without_offset(axis: &Axis, layout: &Layout) -> Axis {
     let mut out = axis.clone();
-    let one_level_each = layout
-        .unknowns
-        .iter()
-        .any(|u| matches!(u, Unknown::Coulomb(side) if side.index() == 1));
+    let one_level_each = layout.unknowns.iter().any(|u| match u {
+        Unknown::Coulomb(side) => side.index() == 1,
+        Unknown::Ratio => true,
+        _ => false,
+    });
     if layout.place(Unknown::Offset).is_none() && one_level_each {
         for (side, sign) in out.sides.iter_mut().zip([1.0, -1.0]) {
             let level = (side.coulomb + sign * axis.offset).max(0.1 * side.coulomb);
             side.fixed *= level / side.coulomb;
             side.coulomb = level;
         }
+        out.follow_curves();
         out.offset = 0.0;
     }
     out

@@ -1,17 +1,19 @@
 //! One run simulated from its initial state, with the derivatives of position and force.
 
+use crate::output_error::bristles::Bristles;
 use crate::output_error::controller::{Controller, Memory};
 use crate::output_error::drawn::Drawn;
-use crate::output_error::plant::{Axis, State, slot};
+use crate::output_error::elements::Slipping;
+use crate::output_error::plant::{Axis, State};
 use crate::output_error::run::{Hold, Run};
 use crate::output_error::unknowns::{Layout, Unknown};
-use stiction_parameters::Side;
 
 /// Unknowns of each run: position, velocity, bristle deflection over `Fc/s0`, and with a PI controller
 /// its integral.
 pub(crate) const LOCALS: usize = 4;
-/// Most unknowns in all: 13 of an asymmetric law, gravity and cogging, those of a run.
-pub(crate) const MOST: usize = 32;
+/// Most unknowns in all: two of each of ten elements, ten more of an asymmetric law with them, gravity and cogging, those of a
+/// run.
+pub(crate) const MOST: usize = 44;
 
 /// Where a run starts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,6 +38,38 @@ impl Drive<'_> {
     }
 }
 
+/// An axis as it is stepped, whatever its friction remembers.
+pub(crate) trait Plant {
+    type State: Copy;
+    /// Derivative of a state in one unknown.
+    type Slope: Copy;
+
+    fn start(&self, initial: &Initial) -> Self::State;
+
+    /// Derivatives of the start in each unknown, those of the run last.
+    fn start_slopes(&self, layout: &Layout, initial: &Initial) -> [Self::Slope; MOST];
+
+    fn shown(&self, state: &Self::State) -> State;
+
+    fn position(state: &Self::State) -> f64;
+
+    fn position_slope(slope: &Self::Slope) -> f64;
+
+    /// Advances by `h` seconds under a constant force.
+    fn step(&self, state: Self::State, h: f64, force: f64) -> Self::State;
+
+    /// The same for a state and all its derivatives.
+    fn advance(
+        &self,
+        state: Self::State,
+        h: f64,
+        force: f64,
+        layout: &Layout,
+        force_slopes: &[f64; MOST],
+        slopes: &mut [Self::Slope],
+    ) -> Self::State;
+}
+
 /// Values at one instant: simulated position, velocity and force, with the derivatives of position and
 /// force in each unknown, those of the run last; force only in closed loop.
 pub(crate) struct Instant<'a> {
@@ -51,25 +85,43 @@ pub(crate) fn simulate(
     drive: &Drive,
     run: &Run,
     initial: &Initial,
+    see: impl FnMut(usize, &State, f64) -> bool,
+) {
+    match &axis.elements {
+        None => plain(&Bristles::new(axis, None), axis, drive, run, initial, see),
+        Some(elements) => {
+            let plant = Slipping::new(axis, elements);
+            plain(&plant, axis, drive, run, initial, see);
+        }
+    }
+}
+
+fn plain<P: Plant>(
+    plant: &P,
+    axis: &Axis,
+    drive: &Drive,
+    run: &Run,
+    initial: &Initial,
     mut see: impl FnMut(usize, &State, f64) -> bool,
 ) {
     let n = run.time.len();
     let periods = periods(run);
     let control = run.step / periods as f64;
     let h = control / drive.substeps as f64;
-    let mut state = start(axis, initial);
+    let mut state = plant.start(initial);
     let mut memory = memory(initial, control);
     let mut before = None;
     let drawn = Drawn::new(run, drive.hold, axis.delay, drive.substeps);
     for k in 0..n {
         let mut logged = 0.0;
         let mut seen = false;
-        let at = state;
+        let at = plant.shown(&state);
         for i in 0..periods {
             let force = match drive.controller {
                 Some(c) => {
                     let wanted = run.wanted[k * periods + i];
-                    c.force(&mut memory, control, wanted, state.x).force
+                    c.force(&mut memory, control, wanted, P::position(&state))
+                        .force
                 }
                 None => run.force[k],
             };
@@ -84,7 +136,7 @@ pub(crate) fn simulate(
                         Some(_) => force,
                         None => drawn.at(k, j),
                     };
-                    state = axis.step(state, h, force);
+                    state = plant.step(state, h, force);
                 }
             }
         }
@@ -101,6 +153,28 @@ pub(crate) fn simulate_with_slopes(
     drive: &Drive,
     run: &Run,
     initial: &Initial,
+    see: impl FnMut(usize, &Instant) -> bool,
+) {
+    match &axis.elements {
+        None => {
+            let plant = Bristles::new(axis, Some(layout));
+            with_slopes(&plant, axis, layout, drive, run, initial, see);
+        }
+        Some(elements) => {
+            let plant = Slipping::new(axis, elements);
+            with_slopes(&plant, axis, layout, drive, run, initial, see);
+        }
+    }
+}
+
+#[allow(clippy::too_many_arguments)]
+fn with_slopes<P: Plant>(
+    plant: &P,
+    axis: &Axis,
+    layout: &Layout,
+    drive: &Drive,
+    run: &Run,
+    initial: &Initial,
     mut see: impl FnMut(usize, &Instant) -> bool,
 ) {
     let n = run.time.len();
@@ -109,10 +183,9 @@ pub(crate) fn simulate_with_slopes(
     let h = control / drive.substeps as f64;
     let shared = layout.len();
     let count = shared + drive.locals();
-    let places = places(layout);
-    let mut state = start(axis, initial);
+    let mut state = plant.start(initial);
     let mut memory = memory(initial, control);
-    let mut slopes = start_slopes(axis, layout, initial);
+    let mut slopes = plant.start_slopes(layout, initial);
     let mut memories = [Memory::default(); MOST];
     // The position one control period before the first instant follows from the initial velocity.
     memories[shared].last = 1.0;
@@ -124,10 +197,10 @@ pub(crate) fn simulate_with_slopes(
     let drawn = Drawn::new(run, drive.hold, axis.delay, drive.substeps);
     let delay = layout.place(Unknown::Delay);
     for k in 0..n {
-        let at = state;
+        let at = plant.shown(&state);
         let mut position_slopes = [0.0; MOST];
         for (p, d) in position_slopes.iter_mut().zip(&slopes[..count]) {
-            *p = d[0];
+            *p = P::position_slope(d);
         }
         let mut logged = 0.0;
         for i in 0..periods {
@@ -135,10 +208,11 @@ pub(crate) fn simulate_with_slopes(
             let force = match drive.controller {
                 Some(c) => {
                     let wanted = run.wanted[k * periods + i];
-                    let command = c.force(&mut memory, control, wanted, state.x);
+                    let x = P::position(&state);
+                    let command = c.force(&mut memory, control, wanted, x);
                     for j in 0..count {
-                        force_slopes[j] =
-                            c.slope(&mut memories[j], control, &command, slopes[j][0]);
+                        let dx = P::position_slope(&slopes[j]);
+                        force_slopes[j] = c.slope(&mut memories[j], control, &command, dx);
                     }
                     command.force
                 }
@@ -163,16 +237,8 @@ pub(crate) fn simulate_with_slopes(
                     if let Some(own) = delay {
                         force_slopes[own] = drawn.slope(k, j);
                     }
-                    state = advance(
-                        axis,
-                        state,
-                        h,
-                        force,
-                        &places,
-                        &force_slopes,
-                        &mut slopes,
-                        count,
-                    );
+                    let slopes = &mut slopes[..count];
+                    state = plant.advance(state, h, force, layout, &force_slopes, slopes);
                 }
             }
         }
@@ -188,42 +254,6 @@ pub(crate) fn simulate_with_slopes(
     }
 }
 
-/// One step of the axis and of all derivatives.
-#[allow(clippy::too_many_arguments)]
-#[inline]
-fn advance(
-    axis: &Axis,
-    state: State,
-    h: f64,
-    force: f64,
-    places: &[(usize, Side)],
-    force_slopes: &[f64; MOST],
-    slopes: &mut [[f64; 3]; MOST],
-    count: usize,
-) -> State {
-    let (next, step) = axis.step_with_slopes(state, h, force);
-    let [by_x, by_v, by_z] = step.by_state;
-    for (j, (d, du)) in slopes.iter_mut().zip(force_slopes).take(count).enumerate() {
-        let [dx, dv, dz] = *d;
-        let mut balance = by_x * dx + by_v * dv + by_z * dz - du;
-        let mut z = 0.0;
-        if let Some((slot, side)) = places.get(j)
-            && side.holds(step.side)
-        {
-            let (in_balance, in_z) = step.direct[*slot];
-            balance += in_balance;
-            z = in_z;
-        }
-        let dw = step.gain * balance;
-        *d = [
-            dx + h * dw,
-            2.0 * dw - dv,
-            step.z_by_z * dz + step.z_by_w * dw + z,
-        ];
-    }
-    next
-}
-
 /// Control periods in one sample.
 pub(crate) fn periods(run: &Run) -> usize {
     (run.wanted.len() / run.time.len().max(1)).max(1)
@@ -237,54 +267,9 @@ fn mean_with(before: Option<f64>, force: f64, hold: Hold) -> f64 {
     }
 }
 
-fn start(axis: &Axis, initial: &Initial) -> State {
-    State {
-        x: initial.0[0],
-        v: initial.0[1],
-        z: initial.0[2] * axis.sides[0].coulomb / axis.stiffness,
-    }
-}
-
 fn memory(initial: &Initial, control: f64) -> Memory {
     Memory {
         last: initial.0[0] - control * initial.0[1],
         integral: initial.0[3],
     }
-}
-
-fn start_slopes(axis: &Axis, layout: &Layout, initial: &Initial) -> [[f64; 3]; MOST] {
-    let mut slopes = [[0.0; 3]; MOST];
-    let shared = layout.len();
-    let z = start(axis, initial).z;
-    for (d, unknown) in slopes.iter_mut().zip(&layout.unknowns) {
-        d[2] = match unknown {
-            Unknown::Stiffness => -z,
-            Unknown::Coulomb(side) if side.holds(0) => z,
-            _ => 0.0,
-        };
-    }
-    slopes[shared][0] = 1.0;
-    slopes[shared + 1][1] = 1.0;
-    slopes[shared + 2][2] = axis.sides[0].coulomb / axis.stiffness;
-    slopes
-}
-
-/// Index of the derivative of each shared unknown among the derivatives of a step, and its direction.
-fn places(layout: &Layout) -> Vec<(usize, Side)> {
-    layout
-        .unknowns
-        .iter()
-        .map(|unknown| match *unknown {
-            Unknown::Stiffness => (slot::STIFFNESS, Side::Both),
-            Unknown::MicroDamping => (slot::MICRO_DAMPING, Side::Both),
-            Unknown::Viscous(side) => (slot::VISCOUS, side),
-            Unknown::Coulomb(side) => (slot::COULOMB, side),
-            Unknown::Excess(side) => (slot::EXCESS, side),
-            Unknown::Velocity(side) => (slot::VELOCITY, side),
-            Unknown::Mass => (slot::MASS, Side::Both),
-            Unknown::Offset => (slot::OFFSET, Side::Both),
-            Unknown::Delay => (slot::FORCE_ONLY, Side::Both),
-            Unknown::Wave(i) => (slot::WAVES + i, Side::Both),
-        })
-        .collect()
 }

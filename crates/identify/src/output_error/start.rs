@@ -4,6 +4,7 @@ use crate::estimate::Estimate;
 use crate::law::terms::{Delay, Mass, Terms};
 use crate::law::{Law, LawKind};
 use crate::output_error::controller::Controller;
+use crate::output_error::elements::{self, Element, Elements};
 use crate::output_error::plant::{Axis, Curve, Wave};
 use crate::output_error::run::{Hold, Run};
 use crate::output_error::simulate::Initial;
@@ -101,6 +102,10 @@ pub(crate) fn from_estimate(
         }
         side.viscous = value(Quantity::Sigma2, i).unwrap_or(0.0).max(0.0);
     }
+    let elements = match law.kind.has_elements() {
+        true => Some(elements_of(found, law, scale)?),
+        false => None,
+    };
     let mass = match terms.mass {
         Mass::Given(mass) => mass,
         _ => found.value(Quantity::Mass).filter(|m| *m > 0.0)?,
@@ -119,9 +124,92 @@ pub(crate) fn from_estimate(
             Delay::Given(delay) => given_delay(delay, scale),
         },
         waves: waves(layout, |name| found.value(name).unwrap_or(0.0)),
+        elements,
     };
+    axis.follow_curves();
     complete(&mut axis, law, scale);
     Some(axis)
+}
+
+/// The elements that an earlier fit found; they are scaled to its curves later.
+fn elements_of(found: &Estimate, law: &Law, scale: &Scale) -> Option<Elements> {
+    let positive = |name: Quantity| found.value(name).filter(|x| *x > 0.0 && x.is_finite());
+    let all: Option<Vec<Element>> = (1..=law.elements as u32)
+        .map(|i| {
+            let reach = positive(Quantity::ElementYield(i))?;
+            let stiffness = positive(Quantity::ElementStiffness(i))?;
+            Some(Element {
+                reach,
+                force: stiffness * reach,
+            })
+        })
+        .collect();
+    Some(Elements {
+        all: all?,
+        ratio: 1.0,
+        attraction: match law.kind.has_stribeck() {
+            true => positive(Quantity::Attraction).unwrap_or(attractions(scale).1),
+            false => f64::INFINITY,
+        },
+    })
+}
+
+/// Range of the rate at which slipping elements follow the curve, 1/s, as in the fit of the force: from one over the time of a
+/// stroke to one over a sample time.
+fn attractions(scale: &Scale) -> (f64, f64) {
+    let slowest = (scale.stroke / scale.speed).max(100.0 * scale.step);
+    (1.0 / slowest, 1.0 / scale.step)
+}
+
+/// Yield deflections of the last element over that of the first, for elements that are not known yet.
+const WIDTHS: [f64; 2] = [5.0, 50.0];
+
+/// An axis with its sliding friction and elements that load like bristles of one length, m or rad.
+fn with_elements_of(axis: &Axis, law: &Law, scale: &Scale, length: f64, wide: f64) -> Axis {
+    let mut new = axis.clone();
+    new.exponent = law.exponent;
+    let (slow, fast) = attractions(scale);
+    new.elements = Some(Elements {
+        all: elements::spread(law.elements, new.sides[0].fixed, length, wide),
+        ratio: 1.0,
+        attraction: match law.kind.has_stribeck() {
+            true => (slow * fast).sqrt(),
+            false => f64::INFINITY,
+        },
+    });
+    new.follow_curves();
+    new
+}
+
+/// The same axis with every attraction of its elements that the runs can show; as it is where it has none.
+pub(crate) fn with_attractions(axis: &Axis, scale: &Scale) -> Vec<Axis> {
+    let attracted = axis.elements.as_ref().map(|e| e.attraction.is_finite());
+    if attracted != Some(true) {
+        return vec![axis.clone()];
+    }
+    let (slow, fast) = attractions(scale);
+    let mut out = Vec::new();
+    for part in [0.2, 0.5, 0.8] {
+        let mut new = axis.clone();
+        if let Some(elements) = &mut new.elements {
+            elements.attraction = slow * libm::pow(fast / slow, part);
+        }
+        out.push(new);
+    }
+    out
+}
+
+/// A given axis with elements in the place of its bristles, that load like them; and on the main loop, where a bristle lets go
+/// twice as fast as elements that load like it.
+pub(crate) fn with_elements(axis: &Axis, law: &Law, scale: &Scale) -> Vec<Axis> {
+    let length = axis.sides[0].coulomb / axis.stiffness;
+    let mut out = Vec::new();
+    for factor in [0.5, 1.0, 2.0] {
+        for wide in WIDTHS {
+            out.push(with_elements_of(axis, law, scale, factor * length, wide));
+        }
+    }
+    out
 }
 
 /// Longest delay that is looked for, either way, in samples, as in the fit of the force.
@@ -188,7 +276,11 @@ pub(crate) fn guesses(law: &Law, terms: &Terms, layout: &Layout, scale: &Scale) 
                             Delay::Given(delay) => given_delay(delay, scale),
                         },
                         waves: waves(layout, |_| 0.0),
+                        elements: None,
                     };
+                    if law.kind.has_elements() {
+                        axis = with_elements_of(&axis, law, scale, length, 10.0);
+                    }
                     complete(&mut axis, law, scale);
                     out.push(axis);
                 }
@@ -214,6 +306,10 @@ pub(crate) fn with_bristles(axis: &Axis, law: &Law, scale: &Scale) -> Vec<Axis> 
             new.exponent = law.exponent;
             new.stiffness = level / (scale.count * libm::pow(part, f64::from(i)));
             new.micro_damping = 2.0 * zeta * (new.stiffness * new.mass).sqrt();
+            if law.kind.has_elements() {
+                let length = level / new.stiffness;
+                new = with_elements_of(&new, law, scale, length, 10.0);
+            }
             complete(&mut new, law, scale);
             out.push(new);
         }
@@ -250,6 +346,10 @@ fn waves(layout: &Layout, factor: impl Fn(Name) -> f64) -> Vec<Wave> {
 /// Bristle parameters for simulating a law without a bristle of its own (or with one that the data left
 /// at zero): as stiff as the step can follow or the encoder can resolve, and damped.
 fn complete(axis: &mut Axis, law: &Law, scale: &Scale) {
+    if axis.elements.is_some() {
+        axis.micro_damping = 0.0;
+        return;
+    }
     let level = axis.sides[0].coulomb.min(axis.sides[1].coulomb);
     let followed = axis.mass / (scale.step * scale.step);
     let stiff = (level / scale.count).min(followed);
@@ -282,6 +382,14 @@ pub(crate) fn bounds(layout: &Layout, axis: &Axis, scale: &Scale) -> SearchBox {
             Unknown::Coulomb(_) => (ln(1e-3 * scale.force), ln(100.0 * scale.force)),
             Unknown::Excess(_) => (ln(0.02), ln(3.0)),
             Unknown::Velocity(_) => (ln(1e-4 * scale.speed), ln(scale.speed)),
+            // As in the fit of the force: an element that yields after more than half the stroke is not certain to slip.
+            Unknown::Reach(_) => (ln(scale.count), ln(0.5 * scale.stroke)),
+            Unknown::Yield(_) => (ln(1e-4 * scale.force), ln(100.0 * scale.force)),
+            Unknown::Ratio => (ln(0.1), ln(10.0)),
+            Unknown::Attraction => {
+                let (slow, fast) = attractions(scale);
+                (ln(slow), ln(fast))
+            }
             Unknown::Mass => (start - ln(1e3), start + ln(1e3)),
             Unknown::Delay => (-most_delay(scale), most_delay(scale)),
             Unknown::Offset | Unknown::Wave(_) => (-10.0 * scale.force, 10.0 * scale.force),

@@ -2,13 +2,14 @@
 
 use super::controller::{Controller, Memory, Wanted};
 use super::drawn::Drawn;
+use super::elements::{Elements, Slipping, spread};
 use super::plant::{Axis, Curve, State, Wave};
 use super::run::{Hold, Run};
-use super::simulate::{Drive, Initial, simulate, simulate_with_slopes};
+use super::simulate::{Drive, Initial, Plant as _, simulate, simulate_with_slopes};
 use super::unknowns::Layout;
 use crate::law::terms::{Delay, Mass, Terms};
 use crate::law::{Law, LawKind};
-use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
+use stiction_friction::{Damping, Direction, Gms, LuGre, Shape, Stribeck};
 use stiction_servo::cascade::{Cascade, CascadeState};
 use stiction_servo::path::Reference;
 use stiction_servo::plant::{Load, Motion, Plant};
@@ -30,6 +31,7 @@ fn axis() -> Axis {
         offset: 1.5,
         delay: 0.0,
         waves: Vec::new(),
+        elements: None,
     }
 }
 
@@ -50,6 +52,56 @@ fn plant(axis: &Axis) -> Plant<MeanOfEnds> {
     let damping = Damping::Constant(axis.micro_damping);
     let law = LuGre::new(axis.stiffness, damping, curve.unwrap()).unwrap();
     Plant::new(axis.mass, MeanOfEnds(law)).unwrap()
+}
+
+/// Elements that yield between a tenth of a millimetre and two.
+fn elements(many: usize, attracted: bool) -> Elements {
+    Elements {
+        all: spread(many, 30.0, 4e-4, 20.0),
+        ratio: 0.8,
+        attraction: if attracted { 60.0 } else { f64::INFINITY },
+    }
+}
+
+/// With elements, too, and where they follow a Stribeck curve.
+#[test]
+fn a_step_with_elements_is_that_of_the_servo_crate() {
+    for attracted in [false, true] {
+        let mut axis = axis();
+        axis.elements = Some(elements(3, attracted));
+        if !attracted {
+            axis.sides.iter_mut().for_each(|s| s.fixed = s.coulomb);
+        }
+        axis.follow_elements();
+        let known = axis.elements.clone().unwrap();
+        let side = |c: &Curve| Direction {
+            coulomb: c.coulomb,
+            static_friction: c.fixed,
+            stribeck_velocity: c.velocity,
+            viscous: c.viscous,
+        };
+        let [up, down] = axis.sides.each_ref().map(side);
+        let curve = Stribeck::new(Shape::Gaussian, up, down, axis.offset).unwrap();
+        let all = [0, 1, 2].map(|i| stiction_friction::Element {
+            stiffness: known.all[i].force / known.all[i].reach,
+            share: known.all[i].force,
+        });
+        let law = Gms::new(all, known.attraction * known.force(), 0.0, curve).unwrap();
+        let plant = Plant::new(axis.mass, law).unwrap();
+        let mine = Slipping::new(&axis, &known);
+        let h = 1e-3;
+        let mut state = mine.start(&Initial::default());
+        let mut theirs = Motion::default();
+        let mut furthest = 0.0_f64;
+        for k in 0..4000 {
+            state = mine.step(state, h, push(k));
+            theirs = plant.step(theirs, h, Load::force(push(k))).motion;
+            let off = (state.x - theirs.position).abs();
+            assert!(off < 1e-10, "{attracted} {k}: {state:?} {theirs:?}");
+            furthest = furthest.max(state.x.abs());
+        }
+        assert!(furthest > 0.05, "the axis slid: {furthest}");
+    }
 }
 
 /// Reversals, sticking and sliding.
@@ -209,6 +261,14 @@ fn derivatives_agree_with_differences() {
                 ..Law::new(LawKind::Stribeck).asymmetric()
             },
             Law::new(LawKind::CoulombViscous),
+            Law {
+                elements: 3,
+                ..Law::new(LawKind::MaxwellSlip).asymmetric()
+            },
+            Law {
+                elements: 4,
+                ..Law::new(LawKind::Gms).asymmetric()
+            },
         ] {
             let layout = Layout::new(&law, &terms);
             let mut base = axis();
@@ -224,6 +284,11 @@ fn derivatives_agree_with_differences() {
             }
             if !law.kind.has_stribeck() {
                 base.sides.iter_mut().for_each(|s| s.fixed = s.coulomb);
+            }
+            if law.kind.has_elements() {
+                base.micro_damping = 0.0;
+                base.elements = Some(elements(law.elements, law.kind == LawKind::Gms));
+                base.follow_elements();
             }
             let q = layout.read(&base);
             let drive = Drive {
@@ -351,4 +416,74 @@ fn a_row_acts_where_hold_and_delay_say() {
     assert_eq!(early.at(5, 0), 0.0);
     let late = Drawn::new(&run, Hold::Held, 30.0 * step, 1);
     assert_eq!(late.at(5, 0), 19.0);
+}
+
+/// What an evaluation costs: ns a plant step without and with derivatives, the least of forty. Prints the table of
+/// `docs/performance.md`: `cargo nextest run -p stiction-identify --run-ignored only --no-capture an_evaluation_costs`.
+#[test]
+#[ignore = "prints times"]
+fn an_evaluation_costs() {
+    const SAMPLES: usize = 6000;
+    let terms = Terms {
+        delay: Delay::Fitted,
+        ..Terms::default()
+    };
+    let drive = Drive {
+        controller: None,
+        hold: Hold::Held,
+        substeps: 1,
+    };
+    let run = run(SAMPLES, 1, false);
+    let initial = Initial([0.0; 4]);
+    let with = |kind| Law {
+        elements: 4,
+        ..Law::new(kind)
+    };
+    for kind in [
+        LawKind::CoulombViscous,
+        LawKind::Stribeck,
+        LawKind::Dahl,
+        LawKind::LuGre,
+        LawKind::MaxwellSlip,
+        LawKind::Gms,
+    ] {
+        let law = with(kind);
+        let layout = Layout::new(&law, &terms);
+        let mut axis = axis();
+        axis.sides[1] = axis.sides[0];
+        if !kind.has_stribeck() {
+            axis.sides.iter_mut().for_each(|s| s.fixed = s.coulomb);
+        }
+        if kind == LawKind::Dahl {
+            axis.micro_damping = 0.0;
+        }
+        if kind.has_elements() {
+            axis.elements = Some(elements(4, kind == LawKind::Gms));
+            axis.follow_elements();
+        }
+        let mut least = [f64::INFINITY; 2];
+        for _ in 0..40 {
+            let mut end = 0.0;
+            let begin = std::time::Instant::now();
+            simulate(&axis, &drive, &run, &initial, |_, s, _| {
+                end += s.x;
+                true
+            });
+            least[0] = least[0].min(begin.elapsed().as_secs_f64());
+            let begin = std::time::Instant::now();
+            simulate_with_slopes(&axis, &layout, &drive, &run, &initial, |_, now| {
+                end += now.position_slopes[0];
+                true
+            });
+            least[1] = least[1].min(begin.elapsed().as_secs_f64());
+            assert!(end.is_finite());
+        }
+        let [plain, slopes] = least.map(|s| 1e9 * s / SAMPLES as f64);
+        println!(
+            "| {} | {} | {plain:.0} | {slopes:.0} | {:.1} |",
+            kind.name(),
+            layout.len() + 3,
+            slopes / plain
+        );
+    }
 }

@@ -4,6 +4,7 @@
 
 use crate::law::terms::{Delay, Mass, Terms};
 use crate::law::{Law, LawKind};
+use crate::output_error::elements::MOST_ELEMENTS;
 use crate::output_error::plant::{Axis, Wave};
 use std::f64::consts::TAU;
 use stiction_parameters::{Name, Quantity, Side, Wave as Part};
@@ -23,6 +24,14 @@ pub(crate) enum Unknown {
     Excess(Side),
     /// `ln vs`.
     Velocity(Side),
+    /// `ln d` of a Maxwell-slip element, by its place.
+    Reach(usize),
+    /// `ln W`, the yield force of a Maxwell-slip element at rest, by its place.
+    Yield(usize),
+    /// `ln` of the limit of the elements in the negative direction over that in the positive one.
+    Ratio,
+    /// `ln a`, the rate at which slipping elements follow the Stribeck curve.
+    Attraction,
     /// `ln M`.
     Mass,
     /// Constant force.
@@ -46,17 +55,26 @@ impl Layout {
     pub fn new(law: &Law, terms: &Terms) -> Self {
         let sides = Side::all(law.asymmetric);
         let mut unknowns = Vec::new();
-        if law.kind.has_bristle() {
+        let elements = law.kind.has_elements();
+        if law.kind.has_bristle() && !elements {
             unknowns.push(Unknown::Stiffness);
         }
         if law.kind == LawKind::LuGre {
             unknowns.push(Unknown::MicroDamping);
         }
         unknowns.extend(sides.iter().map(|&side| Unknown::Viscous(side)));
-        unknowns.extend(sides.iter().map(|&side| Unknown::Coulomb(side)));
+        if elements {
+            let many = law.elements.min(MOST_ELEMENTS);
+            unknowns.extend((0..many).map(Unknown::Reach));
+            unknowns.extend((0..many).map(Unknown::Yield));
+            unknowns.extend(law.asymmetric.then_some(Unknown::Ratio));
+        } else {
+            unknowns.extend(sides.iter().map(|&side| Unknown::Coulomb(side)));
+        }
         if law.kind.has_stribeck() {
             unknowns.extend(sides.iter().map(|&side| Unknown::Excess(side)));
             unknowns.extend(sides.iter().map(|&side| Unknown::Velocity(side)));
+            unknowns.extend(elements.then_some(Unknown::Attraction));
         }
         if terms.mass == Mass::Fitted {
             unknowns.push(Unknown::Mass);
@@ -105,6 +123,10 @@ impl Layout {
                     ln(s.fixed / s.coulomb - 1.0)
                 }
                 Unknown::Velocity(side) => ln(axis.sides[side.index()].velocity),
+                Unknown::Reach(i) => ln(axis.element(i).reach),
+                Unknown::Yield(i) => ln(axis.element(i).force),
+                Unknown::Ratio => ln(axis.elements.as_ref().map_or(1.0, |e| e.ratio)),
+                Unknown::Attraction => ln(axis.elements.as_ref().map_or(1.0, |e| e.attraction)),
                 Unknown::Mass => ln(axis.mass),
                 Unknown::Offset => axis.offset,
                 Unknown::Delay => axis.delay,
@@ -138,6 +160,11 @@ impl Layout {
                 Unknown::Velocity(side) => {
                     each(side).for_each(|s| axis.sides[s].velocity = libm::exp(x));
                 }
+                Unknown::Reach(_) | Unknown::Yield(_) | Unknown::Ratio | Unknown::Attraction => {
+                    if let Some(elements) = &mut axis.elements {
+                        elements.set(*unknown, libm::exp(x));
+                    }
+                }
                 Unknown::Mass => axis.mass = libm::exp(x),
                 Unknown::Offset => axis.offset = x,
                 Unknown::Delay => axis.delay = x,
@@ -148,6 +175,7 @@ impl Layout {
                 }
             }
         }
+        axis.follow_elements();
         axis
     }
 }

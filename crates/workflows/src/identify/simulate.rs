@@ -32,7 +32,12 @@ const GOOD_START_R2: f64 = 0.9;
 fn is_simulated(law: LawKind) -> bool {
     matches!(
         law,
-        LawKind::CoulombViscous | LawKind::Stribeck | LawKind::Dahl | LawKind::LuGre
+        LawKind::CoulombViscous
+            | LawKind::Stribeck
+            | LawKind::Dahl
+            | LawKind::LuGre
+            | LawKind::MaxwellSlip
+            | LawKind::Gms
     )
 }
 
@@ -52,7 +57,7 @@ pub(super) fn run(
                 " with ".into(),
                 Setting::Law.is(kind.name()),
             ],
-            "coulomb-viscous, stribeck, dahl or lugre",
+            "coulomb-viscous, stribeck, dahl, lugre, maxwell-slip or gms",
         ));
     }
     let first = &sources[0].log;
@@ -73,6 +78,7 @@ pub(super) fn run(
     let law = Law {
         asymmetric: options.asymmetric,
         exponent: axis.stribeck_exponent,
+        elements: axis.gms_elements.unwrap_or(0),
         ..Law::new(kind)
     };
     let mut recordings = recordings(sources)?;
@@ -273,6 +279,10 @@ fn separable(
 ) -> Option<Estimate> {
     let wanted = conditioning::wanted(sources, axis);
     let record = conditioned(sources, &wanted).ok()?;
+    let record = match law.kind.has_elements() {
+        true => record.settled(),
+        false => record,
+    };
     let settings = settings(seed);
     let low_speed = engine::low_speed_bound(&record);
     let (found, _) = engine::fit_law(&record, law, terms, low_speed, &settings, observer).ok()?;
@@ -304,8 +314,12 @@ fn notes(found: &SimulationFit, axis: &Axis, started: &str) -> Vec<String> {
         Hold::Held => "the force of a sample holds until the next",
         Hold::Centred => "the force of a sample is the mean around its instant",
     };
-    out.push(match found.fitted.terms.delay {
-        Delay::Fitted => format!("{acts}; a further delay of the force is fitted"),
+    out.push(match (found.fitted.terms.delay, found.is_closed_loop()) {
+        (Delay::Fitted, _) => format!("{acts}; a further delay of the force is fitted"),
+        (_, true) => format!(
+            "{acts}; a delay between controller and axis is not fitted: it would change the mass. To find it, leave \
+             [controller] out, so that the logged force drives the axis, with segment of [simulation] where it slides"
+        ),
         _ => acts.to_string(),
     });
     let starts = if found.is_closed_loop() {
