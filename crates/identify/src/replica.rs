@@ -14,6 +14,7 @@ use crate::reaction::{Logging, Reaction};
 use std::borrow::Cow;
 use stiction_parameters::Quantity;
 use stiction_servo::encoder::Encoder;
+use stiction_servo::integrator::{Integrator, Quick};
 use stiction_servo::noise::Noise;
 use stiction_servo::plant::{Load, Motion, Plant};
 
@@ -123,7 +124,7 @@ impl<'a> Axis<'a> {
     ) -> Option<Samples> {
         let record = self.record;
         let h = segment.step;
-        let fine = h / f64::from(self.substeps);
+        let mut integrator = Quick::new(self.substeps).ok()?;
         let n = segment.position.len();
         let tracking = if answered.is_some() {
             ANSWERED_TRACKING_FREQUENCY
@@ -181,9 +182,7 @@ impl<'a> Axis<'a> {
             before = applied;
             force.push(logged + force_noise * noise.normal());
             let load = Load::force(applied - other);
-            for _ in 0..self.substeps {
-                motion = self.plant.step(motion, fine, load).motion;
-            }
+            motion = integrator.advance(&self.plant, motion, h, load, 0.0);
         }
         Some(Samples {
             time: (0..n).map(|k| k as f64 * h).collect(),

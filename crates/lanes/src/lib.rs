@@ -14,6 +14,7 @@
 //! | the cost of the best linear coefficients, for many trials | [`levels`], [`shared_sums`] |
 //! | the columns of one trial, written out | [`trace`] |
 //! | their derivatives, for given coefficients | [`slopes`] |
+//! | both of a law with parameters for each direction | [`directed_levels`], [`directed_slopes`] |
 //!
 //! Loops over `[f64; N]` are compiled for several instruction sets, of which [`InstructionSet::best`] is
 //! chosen at run time. A result has the same bits with any of them, with any number of threads, and whatever
@@ -47,6 +48,7 @@
 mod candidate;
 mod cost;
 mod curve;
+mod directed;
 mod error;
 mod exp;
 mod lane_array;
@@ -59,6 +61,7 @@ mod track;
 
 pub use candidate::Candidate;
 pub use cost::{Scheme, costs};
+pub use directed::{DIRECTED, Directed, directed_levels, directed_slopes};
 pub use error::Error;
 pub use normal::{Sums, Trial, levels, shared_sums, sums, sums_alone};
 pub use plant::{Axis, Drive, Measured, Motion, Outcome, Stepping, plants};

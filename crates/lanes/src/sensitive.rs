@@ -15,7 +15,7 @@ pub(crate) const UNKNOWNS: usize = 3;
 
 /// Lower limit of the exponents in the Stribeck curve: there the excess is below the rounding of the level,
 /// and its square is still a normal number.
-const LOWEST_STRIBECK_EXPONENT: f64 = -80.0;
+pub(crate) const LOWEST_STRIBECK_EXPONENT: f64 = -80.0;
 
 /// A node: its level, speed over level, and the derivatives of the level; `kappa` has none.
 #[derive(Clone, Copy)]

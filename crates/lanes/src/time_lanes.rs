@@ -74,7 +74,7 @@ fn levels<const POWER: bool>(
 }
 
 #[inline(always)]
-fn weights(
+pub(crate) fn weights(
     half_step: &[f64; TILE],
     g: [&[f64; TILE]; 2],
     q: [&[f64; TILE]; 2],

@@ -163,7 +163,7 @@ impl Sink for Writing<'_> {
 
 /// Appends the samples of a block, each with the sign of the motion.
 #[inline(always)]
-fn append(track: &Track, at: usize, column: &[f64; BLOCK], out: &mut Vec<f64>) {
+pub(crate) fn append(track: &Track, at: usize, column: &[f64; BLOCK], out: &mut Vec<f64>) {
     let sign: &[i8; BLOCK] = chunk(&track.sign, at);
     let marks: &[u8; BLOCK] = chunk(&track.marks, at);
     let mut values = [0.0; BLOCK];

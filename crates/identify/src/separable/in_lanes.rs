@@ -1,15 +1,15 @@
-//! Symmetric LuGre and Dahl on the kernels of `stiction-lanes`.
+//! LuGre and Dahl on the kernels of `stiction-lanes`.
 
 use crate::conditioning::record::{self, Record};
 use crate::law::terms::{ColumnKind, LinearTerm};
-use crate::law::{Law, LawKind};
+use crate::law::{Law, LawKind, Layout};
 use crate::separable::recursion::Trace;
 use crate::separable::reduced::{self, Products};
 use std::borrow::Cow;
 use std::sync::Arc;
 use stiction_lanes::{
-    InstructionSet, Segment, Sums, Time, Track, Trial, levels, shared_sums, slopes, sums,
-    sums_alone, trace,
+    Directed, InstructionSet, Segment, Sums, Time, Track, Trial, directed_levels, directed_slopes,
+    levels, shared_sums, slopes, sums, sums_alone, trace,
 };
 use stiction_search::Derivatives;
 
@@ -21,6 +21,8 @@ pub(crate) struct InLanes {
     lengths: Vec<usize>,
     exponent: f64,
     unknowns: usize,
+    /// Where the unknowns of a law with parameters for each direction stand; `None` for a symmetric law.
+    directed: Option<Layout>,
     summed: Option<Summed>,
 }
 
@@ -51,9 +53,7 @@ impl InLanes {
     /// Whether the kernels know this law.
     pub fn knows(law: &Law) -> bool {
         let layout = law.layout();
-        matches!(law.kind, LawKind::Dahl | LawKind::LuGre)
-            && layout.ratio.is_none()
-            && layout.exponent.is_none()
+        matches!(law.kind, LawKind::Dahl | LawKind::LuGre) && layout.exponent.is_none()
     }
 
     /// The motion of a record, for [`traces`](Self::traces); `None` where the kernels do not know the law or
@@ -108,6 +108,7 @@ impl InLanes {
         if !Self::knows(law) {
             return None;
         }
+        let layout = law.layout();
         let keep: Vec<Cow<[bool]>> = record.segments.iter().map(|s| kept(record, s)).collect();
         let columns: Vec<Vec<&[f64]>> = (0..record.segments.len())
             .map(|s| columns.iter().map(|c| &*c[s]).collect())
@@ -128,7 +129,8 @@ impl InLanes {
             track: Arc::new(Track::new(&segments).ok()?),
             lengths: record.segments.iter().map(|s| s.velocity.len()).collect(),
             exponent: law.exponent,
-            unknowns: law.nonlinear(),
+            unknowns: layout.count,
+            directed: layout.ratio.is_some().then_some(layout),
             summed: None,
         })
     }
@@ -158,16 +160,49 @@ impl InLanes {
         }
     }
 
-    /// The law along each segment; `None` for unknowns that the kernels refuse.
+    /// The unknowns of a law with parameters for each direction.
+    fn directed(&self, layout: &Layout, p: &[f64]) -> Directed {
+        let read = |index: Option<usize>, otherwise: f64| index.map_or(otherwise, |i| p[i]);
+        Directed {
+            ln_kappa: read(layout.kappa, 0.0),
+            ln_ratio: read(layout.ratio, 0.0),
+            // Without a Stribeck curve there is nothing above the Coulomb level.
+            ln_excess: layout.excess.map(|i| read(i, -230.0)),
+            ln_velocity: layout.velocity.map(|i| read(i, 0.0)),
+            exponent: if self.unknowns > 2 {
+                self.exponent
+            } else {
+                2.0
+            },
+        }
+    }
+
+    /// The law along each segment; `None` for unknowns that the kernels refuse, and for the derivatives of a law with
+    /// parameters for each direction, of which there are only [`slopes`](Self::slopes).
     pub fn traces(&self, p: &[f64], slopes: bool) -> Option<Vec<Trace>> {
-        let found = trace(&self.track, &self.trial(p), slopes, InstructionSet::best()).ok()?;
-        let own = if slopes { self.unknowns } else { 0 };
-        let mut whole = Trace {
-            eta: found.eta,
-            rate: found.rate,
-            eta_slope: found.eta_slope.into_iter().take(own).collect(),
-            rate_slope: found.rate_slope.into_iter().take(own).collect(),
-            elements: Vec::new(),
+        let set = InstructionSet::best();
+        let mut whole = match &self.directed {
+            Some(_) if slopes => return None,
+            Some(layout) => {
+                let found = directed_levels(&self.track, &self.directed(layout, p), set).ok()?;
+                let [eta, rate] = found;
+                Trace {
+                    eta,
+                    rate,
+                    ..Trace::default()
+                }
+            }
+            None => {
+                let found = trace(&self.track, &self.trial(p), slopes, set).ok()?;
+                let own = if slopes { self.unknowns } else { 0 };
+                Trace {
+                    eta: found.eta,
+                    rate: found.rate,
+                    eta_slope: found.eta_slope.into_iter().take(own).collect(),
+                    rate_slope: found.rate_slope.into_iter().take(own).collect(),
+                    elements: Vec::new(),
+                }
+            }
         };
         let mut out = Vec::with_capacity(self.lengths.len());
         // From the last segment on, so that the first, often the only one, is not copied.
@@ -185,8 +220,34 @@ impl InLanes {
     /// The derivatives of `weights[0] eta + weights[1] rate` along each segment, one column for each unknown;
     /// `None` for unknowns that the kernels refuse.
     pub fn slopes(&self, p: &[f64], weights: [f64; 2]) -> Option<Vec<Vec<Vec<f64>>>> {
-        let found = slopes(&self.track, &self.trial(p), weights, InstructionSet::best()).ok()?;
-        let mut whole: Vec<Vec<f64>> = found.into_iter().take(self.unknowns).collect();
+        let set = InstructionSet::best();
+        let mut whole: Vec<Vec<f64>> = match &self.directed {
+            Some(layout) => {
+                let [plus, minus] = [0, 1].map(|side| [layout.excess[side], layout.velocity[side]]);
+                let places = [
+                    layout.kappa,
+                    plus[0],
+                    plus[1],
+                    minus[0],
+                    minus[1],
+                    layout.ratio,
+                ];
+                let wanted = places.map(|place| place.is_some());
+                let trial = self.directed(layout, p);
+                let found = directed_slopes(&self.track, &trial, weights, wanted, set).ok()?;
+                let mut whole = vec![Vec::new(); self.unknowns];
+                for (place, column) in places.into_iter().zip(found) {
+                    if let Some(i) = place {
+                        whole[i] = column;
+                    }
+                }
+                whole
+            }
+            None => {
+                let found = slopes(&self.track, &self.trial(p), weights, set).ok()?;
+                found.into_iter().take(self.unknowns).collect()
+            }
+        };
         let mut out = Vec::with_capacity(self.lengths.len());
         for (i, &n) in self.lengths.iter().enumerate().rev() {
             let last = |column: &mut Vec<f64>| match i {
@@ -423,8 +484,11 @@ mod tests {
                 .is_none()
         );
         assert!(!objective.evaluate(&[300.0, 0.0, 0.0], true).cost.is_nan());
-        let asymmetric = Law::new(LawKind::LuGre).asymmetric();
-        assert!(!InLanes::knows(&asymmetric));
+        let fitted = Law {
+            exponent_fitted: true,
+            ..Law::new(LawKind::LuGre)
+        };
+        assert!(!InLanes::knows(&fitted));
         let mut broken = record.clone();
         broken.segments[1].velocity[3] = f64::NAN;
         assert!(InLanes::motion(&broken, &Law::new(LawKind::LuGre)).is_none());

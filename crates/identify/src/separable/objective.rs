@@ -167,7 +167,8 @@ impl<'a> Objective<'a> {
     fn lanes(&self) -> Option<&InLanes> {
         let made = self.lanes.get_or_init(|| {
             let still = self.delay == Delay::NONE;
-            if self.record.common.is_some() || !still || !self.varying.is_empty() {
+            let directed = self.law.layout().ratio.is_some();
+            if self.record.common.is_some() || directed || !still || !self.varying.is_empty() {
                 return InLanes::motion(self.record, &self.law);
             }
             let target = self.target(Shift::NONE);

@@ -395,8 +395,9 @@ mod tests {
             .collect();
         let parts = [&velocity[..1000], &velocity[1000..1001], &velocity[1001..]];
         let record = crate::conditioning::record::tests::of_velocities(1e-3, &parts);
-        for kind in [LawKind::Dahl, LawKind::LuGre] {
-            let law = Law::new(kind);
+        let symmetric = [LawKind::Dahl, LawKind::LuGre].map(Law::new);
+        for law in symmetric {
+            let kind = law.kind;
             let p = &unknowns(1.2e5)[..law.nonlinear()];
             let lanes = InLanes::motion(&record, &law).unwrap();
             let found = lanes.traces(p, true).unwrap();
@@ -421,6 +422,67 @@ mod tests {
                     for (x, y) in found.iter().zip(right) {
                         assert!((x - y).abs() <= 1e-12 * size, "{kind} {i}: {x} {y}");
                     }
+                }
+            }
+        }
+    }
+
+    /// The same with parameters for each direction, through reversals between samples, at rest and at the ends of blocks.
+    #[test]
+    fn lanes_and_recursion_agree_on_each_direction() {
+        let wave = |k: usize| {
+            let v = 0.02 * libm::sin(0.01 * k as f64) * libm::sin(0.0013 * k as f64 + 0.3);
+            if k % 700 < 20 { 0.0 } else { v }
+        };
+        let mut velocity: Vec<f64> = (0..3000).map(wave).collect();
+        for (k, v) in velocity.iter_mut().enumerate() {
+            // Reversals from sample to sample, so that some stand at the ends of blocks.
+            *v = if (1900..2300).contains(&k) && k % 3 == 0 {
+                -*v
+            } else {
+                *v
+            };
+        }
+        let parts = [&velocity[..1000], &velocity[1000..1001], &velocity[1001..]];
+        let record = crate::conditioning::record::tests::of_velocities(1e-3, &parts);
+        let weights = [17.0, 230.0];
+        let lugre = Law::new(LawKind::LuGre).asymmetric();
+        let power = Law {
+            exponent: 1.3,
+            ..lugre
+        };
+        for law in [
+            lugre,
+            lugre.flat(),
+            power,
+            Law::new(LawKind::Dahl).asymmetric(),
+        ] {
+            let all = [8.7, -0.7, -5.0, 0.3, -0.2, -5.6];
+            let p = match law.nonlinear() {
+                2 => &[8.7, 0.3][..],
+                _ => &all[..],
+            };
+            let lanes = InLanes::motion(&record, &law).unwrap();
+            let traces = lanes.traces(p, false).unwrap();
+            let slopes = lanes.slopes(p, weights).unwrap();
+            for ((found, slopes), part) in traces.iter().zip(&slopes).zip(parts) {
+                let right = trace(&law, p, 1e-3, part, true);
+                let near = |found: &[f64], right: &[f64], what: &str| {
+                    assert_eq!(found.len(), right.len());
+                    let size = right.iter().fold(1e-3, |m: f64, x| m.max(x.abs()));
+                    for (i, (x, y)) in found.iter().zip(right).enumerate() {
+                        assert!((x - y).abs() <= 1e-11 * size, "{law:?} {what} {i}: {x} {y}");
+                    }
+                };
+                near(&found.eta, &right.eta, "eta");
+                near(&found.rate, &right.rate, "rate");
+                assert_eq!(slopes.len(), law.nonlinear());
+                for (k, found) in slopes.iter().enumerate() {
+                    let pairs = right.eta_slope[k].iter().zip(&right.rate_slope[k]);
+                    let right: Vec<f64> = pairs
+                        .map(|(e, r)| weights[0] * e + weights[1] * r)
+                        .collect();
+                    near(found, &right, &format!("slope {k}"));
                 }
             }
         }

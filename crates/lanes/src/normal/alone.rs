@@ -228,12 +228,12 @@ fn node_tile<const POWER: bool>(
 
 /// A tile of each row, from a node on.
 #[inline(always)]
-fn row_chunks(rows: &[[f64; BLOCK + 1]; 6], from: usize) -> [&[f64; TILE]; 6] {
+pub(crate) fn row_chunks(rows: &[[f64; BLOCK + 1]; 6], from: usize) -> [&[f64; TILE]; 6] {
     rows.each_ref().map(|row| chunk(row, from))
 }
 
 #[inline(always)]
-fn interval_tile(
+pub(crate) fn interval_tile(
     curve: &Curve,
     half_step: &[f64; TILE],
     ends: &[[&[f64; TILE]; 6]; 2],

@@ -2,7 +2,9 @@
 
 use crate::common::{candidate, force, motion, sine, spread, track};
 use proptest::prelude::*;
-use stiction_lanes::{Candidate, InstructionSet, Scheme, Track, costs};
+use stiction_lanes::{
+    Candidate, Directed, InstructionSet, Scheme, Track, costs, directed_levels, directed_slopes,
+};
 
 fn bits(track: &Track, all: &[Candidate], scheme: Scheme, set: InstructionSet) -> Vec<u64> {
     let found = costs(track, all, scheme, set).unwrap();
@@ -44,6 +46,42 @@ fn costs_have_the_same_bits_with_any_number_of_threads() {
     };
     assert_eq!(with(1), with(2));
     assert_eq!(with(1), with(5));
+}
+
+#[test]
+fn a_law_of_each_direction_has_the_same_bits_with_any_instruction_set() {
+    let velocity = sine(900, 1e-3, 0.05, 7.0);
+    let track = track(1e-3, &velocity, &force(&velocity));
+    for exponent in [2.0, 1.3] {
+        let trial = Directed {
+            ln_kappa: 8.7,
+            ln_ratio: 0.3,
+            ln_excess: [-0.7, -0.2],
+            ln_velocity: [-5.0, -5.6],
+            exponent,
+        };
+        let all = |set: InstructionSet| -> Vec<u64> {
+            let levels = directed_levels(&track, &trial, set).unwrap();
+            let wanted = [true, true, false, true, true, true];
+            let slopes = directed_slopes(&track, &trial, [20.0, 600.0], wanted, set).unwrap();
+            assert!(slopes[2].is_empty());
+            let columns = levels.iter().chain(&slopes).flatten();
+            columns.map(|x| x.to_bits()).collect()
+        };
+        let right = all(InstructionSet::best());
+        assert_eq!(right.len(), 7 * velocity.len());
+        for set in InstructionSet::all() {
+            assert!(all(set) == right, "{set}");
+        }
+    }
+    let far = Directed {
+        ln_kappa: 8.7,
+        ln_ratio: 61.0,
+        ln_excess: [0.0; 2],
+        ln_velocity: [0.0; 2],
+        exponent: 2.0,
+    };
+    assert!(directed_levels(&track, &far, InstructionSet::best()).is_err());
 }
 
 proptest! {
