@@ -10,8 +10,9 @@ use stiction_friction::ParamError;
 /// Product inference, singleton consequents and their weighted mean as the result: with triangles that
 /// overlap by half that is the bilinear interpolation of the table, exactly, at the cost of four entries.
 ///
-/// The tables are those of Zhang et al. 2025 (doi 10.1371/journal.pone.0322844). The entries of the proportional and the integral
-/// table change sign with error and rate, where an equal response in both directions would need equal gains: so a
+/// The tables are an assumption of ours, in the form that is usual for a fuzzy PID: Zhang et al. 2025 (doi
+/// 10.1371/journal.pone.0322844) control their axis with a fuzzy PID of two inputs and 49 rules but print no table. The
+/// entries of the proportional and the integral table change sign with error and rate, where an equal response in both directions would need equal gains: so a
 /// symmetric axis is controlled asymmetrically.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FuzzyPid {

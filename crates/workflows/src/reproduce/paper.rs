@@ -35,14 +35,15 @@ use stiction_files::reproduce_file::ReproduceFile;
 use stiction_search::Observer;
 
 /// What is assumed where the paper gives no number, each with what is known.
-const ASSUMPTIONS: [&str; 12] = [
+const ASSUMPTIONS: [&str; 13] = [
     "Friction of the stage: σ₀ 2·10⁶ N/m, σ₁ 1500 N·s/m (constant), σ₂ 30 N·s/m, Fc 12 N, Fs 18 N, vs 3 mm/s. The \
      paper's table is an image that no text carries.",
     "172.8 N/V: 96 N/A are published, 1.8 A/V follow if 10 V are the 18 A of the drive's peak.",
     "Neither damper B nor spring K beside the friction, no disturbance force, no delay, no current loop of its own; a \
      thermal time of 10 s for the rated 221 N.",
     "Fuzzy PID: gains for a bandwidth of 60 Hz (45 Hz on the second axis), scales from the friction, gains within \
-     30 % of them, velocity and acceleration fed forward. The paper gives no gains.",
+     30 % of them, velocity and acceleration fed forward. Its tables of 49 rules have the usual form. The paper gives \
+     neither gains nor tables.",
     "Constant velocities: 16 from 0.2 to 100 mm/s in both directions, 0.3 s to settle and 0.3 s to average.",
     "Dynamic test: a sine of ±0.5 mm at 2 Hz, three cycles, with velocity and acceleration as the simulation has them.",
     "Voltage step: 20 mV (3.5 N, a fifth of the static level).",
@@ -53,6 +54,8 @@ const ASSUMPTIONS: [&str; 12] = [
     "Tracked sine: ±20 mm at 0.5 Hz, 3.8 m/min at the most; its second cycle counts.",
     "Corner: 20 mm by 20 mm at 3 m/min, with a stop at the corner, 0.2 s to either side of which count; the second axis is a slide of 10 kg, σ₀ 1.2·10⁵ N/m, \
      Fc 20 N, Fs 30 N, whose parameters are known to its compensation.",
+    "Corner and contour: each axis by itself, without coupling between the two; the paper does not say how its cross \
+     coupling is made.",
     "Change of load: from 4.6 to 6.9 kg after 2 s of a sine of ±15 mm at 1.5 Hz.",
 ];
 

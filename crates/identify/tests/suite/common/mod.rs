@@ -105,7 +105,7 @@ pub fn force_along(
     (v, u)
 }
 
-/// 30 001 samples of 3 s at 10 kHz, velocity sine of 10 mm/s and 1 Hz (the excitation of Zhang et al. 2025).
+/// 30 001 samples of 3 s at 10 kHz, a velocity sine of 1 Hz.
 pub fn sine_record(set: &Set) -> (Vec<f64>, Vec<f64>) {
     force_along(&set.law(), 30_001, 1e-4, 20, |t| {
         set.amplitude * (TAU * t).sin()
