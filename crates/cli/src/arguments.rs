@@ -228,6 +228,10 @@ pub enum Cost {
 /// For the searches (ga to lm).
 #[derive(Clone, Debug, Args)]
 pub struct Searching {
+    /// For --method static and static-then-dynamic: the search that finds the parameters of each step before least squares,
+    /// one of ga to lm [default: least squares alone].
+    #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(stiction::Method::SEARCHES))]
+    pub search: Option<String>,
     /// What a search evaluates [default: six for ga, adaptive-ga and annealing-ga on the symmetric
     /// LuGre law, else separable].
     #[arg(long, value_enum, value_name = "COST")]
@@ -264,8 +268,8 @@ pub struct Compare {
     /// (steady curves).
     #[arg(long, value_name = "NAME")]
     pub problem: Option<String>,
-    /// What is known of the axis and the columns of a log.
-    #[arg(long, value_name = "AXIS.toml", conflicts_with = "problem")]
+    /// What is known of the axis and the columns of a log; for a problem only its [search] counts.
+    #[arg(long, value_name = "AXIS.toml")]
     pub axis: Option<PathBuf>,
     /// Methods, separated by commas [default: all that the cost allows]; lm-one is least squares from
     /// one start drawn at random.

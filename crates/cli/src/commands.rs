@@ -322,9 +322,9 @@ fn compare(compare: &arguments::Compare, common: &Common) -> Result<Exit, Error>
             Some(name) => Input::Named(name.clone()),
             None => Input::Log {
                 logs: compare.logs.clone(),
-                axis: compare.axis.clone(),
             },
         },
+        axis: compare.axis.clone(),
         methods: compare.methods.clone(),
         seeds: compare.seeds,
         evaluations: compare.evaluations,
@@ -373,7 +373,10 @@ fn method(typed: arguments::Method) -> Method {
 }
 
 fn searching(typed: &arguments::Searching) -> Searching {
+    let names = Method::SEARCHES;
+    let name = |search: &String| names.into_iter().find(|name| name == search);
     Searching {
+        search: typed.search.as_ref().and_then(name),
         cost: typed.cost.map(|cost| match cost {
             arguments::Cost::Six => CostKind::Six,
             arguments::Cost::Separable => CostKind::Separable,

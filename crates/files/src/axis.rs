@@ -4,6 +4,7 @@ mod controller;
 mod extend;
 mod gain;
 mod resolve;
+mod search;
 mod template;
 mod tied;
 mod values;

@@ -5,7 +5,8 @@
 //! |---|---|---|
 //! | [`SixParameters`] | logarithms of sigma0, sigma1, sigma2, Fc, Fs - Fc, vs (Zhang et al. 2025) | mass, offset and what else stands beside the law |
 //! | [`Nonlinear`] | those of the separable method | everything linear |
-//! | [`Curve`] | logarithms of Fc, Fs - Fc, vs, sigma2 of a static law, for each direction | |
+//! | [`Dynamic`] | logarithms of sigma0 and sigma1, the steady curve held | as the six |
+//! | [`Curve`] | logarithms of Fc, Fs - Fc, vs, sigma2 of a static law, for each direction | a constant force, if asked for |
 //! | [`Simulated`] | the six of LuGre, position out for a given force | |
 //!
 //! A cost is the sum of squares of the residual over that of the measured signal: the square of the
@@ -19,14 +20,16 @@
 mod algebra;
 mod boxes;
 mod curve;
+mod dynamic;
 mod nonlinear;
 mod problem;
 mod simulated;
 mod six;
 mod sums;
 
-pub use boxes::six_parameters as box_of_six;
+pub use boxes::{curve as box_of_curve, six_parameters as box_of_six};
 pub use curve::Curve;
+pub use dynamic::Dynamic;
 pub use nonlinear::Nonlinear;
 pub use problem::{Candidates, Named, thinned};
 pub use simulated::Simulated;

@@ -30,8 +30,9 @@ mod step_model;
 mod stretch;
 
 pub use break_away::{BreakAway, Predicted, break_away, predict_break_away};
-pub use dynamic::dynamic;
-pub use static_map::{Exponent, StaticMap, StaticSettings, static_map};
+pub use dynamic::{dynamic, dynamic_near};
+pub(crate) use static_map::LEAST_VELOCITY_SHARE;
+pub use static_map::{Exponent, StaticMap, StaticSettings, static_map, static_map_near};
 pub use statics::Statics;
 pub use step::{Inversion, StepResponse};
 pub use step_fit::{StepFit, StepSeries, StepSettings, fit_steps};

@@ -5,6 +5,7 @@ mod comparison;
 mod export;
 mod procedure;
 mod reproduction;
+mod searched;
 mod study;
 mod table;
 
@@ -20,28 +21,11 @@ pub use procedure::procedure_commands;
 pub use reproduction::reproduction;
 use std::fmt::Write;
 use std::path::Path;
-use stiction_files::result::{LawEntry, ResultFile, SearchedEntry, SearchedPoint, SimulationEntry};
+use stiction_files::result::{LawEntry, ResultFile, SimulationEntry};
 use stiction_number::{Percent, four_digits as short, r_squared, unit};
 use stiction_workflows::identify::Outcome;
 pub use study::study;
 use table::table;
-
-/// A search, and how far it came before the last least squares.
-fn searched(method: &str, entry: &SearchedEntry) -> String {
-    let error = |point: &Option<SearchedPoint>| match point {
-        Some(point) => Percent::error(100.0 * point.cost.sqrt()).fine(),
-        None => "nothing".into(),
-    };
-    format!(
-        "{method} ({} cost) {}: {} by itself, {} after its descents; {:.0} evaluations of the full \
-         record",
-        entry.cost,
-        entry.status,
-        error(&entry.own),
-        error(&entry.after_least_squares),
-        entry.evaluations.full_records
-    )
-}
 
 /// The outcome of an identification.
 pub fn outcome(outcome: &Outcome) -> String {
@@ -123,9 +107,6 @@ pub fn outcome(outcome: &Outcome) -> String {
     if let Some(simulation) = &result.simulation {
         let _ = writeln!(out, "simulation  {}", simulated(simulation));
     }
-    if let Some(entry) = &result.searched {
-        let _ = writeln!(out, "search      {}", searched(&result.method, entry));
-    }
     if let Some(low) = &result.low_speed {
         let _ = writeln!(
             out,
@@ -159,6 +140,7 @@ pub fn outcome(outcome: &Outcome) -> String {
         out.push_str("\nagainst the truth\n");
         out.push_str(&truth(outcome));
     }
+    out.push_str(&searched::sections(result));
     out.push_str(&procedure::sections(result));
     if !result.laws.is_empty() {
         out.push_str("\nlaws on held-out samples\n");

@@ -89,6 +89,14 @@ impl Method {
         }
     }
 
+    /// Whether its settings are within what it allows.
+    ///
+    /// # Errors
+    /// For a setting outside its range.
+    pub fn check(&self) -> Result<(), Error> {
+        self.start(1, 0).map(|_| ())
+    }
+
     /// The search in a box of `dimensions` dimensions.
     pub fn start(&self, dimensions: usize, seed: u64) -> Result<Searcher, Error> {
         let (n, name) = (dimensions, self.name());

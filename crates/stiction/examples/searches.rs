@@ -24,6 +24,7 @@ const ROBUST: [&str; 7] = [
 fn options(problem: &str, seeds: u64) -> CompareOptions {
     CompareOptions {
         input: Input::Named(problem.into()),
+        axis: None,
         methods: Vec::new(),
         seeds,
         evaluations: 20_000,

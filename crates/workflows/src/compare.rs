@@ -19,6 +19,7 @@ use crate::wording::{Setting, TOGETHER_WITH};
 use known::Known;
 use options::USUAL_NOISE;
 use std::time::Instant;
+use stiction_files::Axis;
 use stiction_files::compare_file::{CompareFile, Reference, SCHEMA};
 use stiction_identify::Observer;
 use stiction_identify::candidates::Scheme;
@@ -70,7 +71,9 @@ pub fn compare(
             ],
         ));
     }
-    let subject = subject(options, observer)?;
+    let axis = options.axis.as_deref();
+    let axis = axis.map_or_else(|| Ok(Axis::default()), Axis::read)?;
+    let subject = subject(options, &axis, observer)?;
     let methods = methods(options, &subject)?;
     let (least, by) = subject.reference(observer)?;
     let problem = subject.problem()?;
@@ -78,6 +81,7 @@ pub fn compare(
         problem: &*problem,
         evaluations: options.evaluations,
         descends: subject.descends(),
+        axis: &axis,
     };
     let tasks: Vec<(&str, u64)> = (0..options.seeds)
         .flat_map(|seed| methods.iter().map(move |name| (name.as_str(), seed)))
@@ -149,9 +153,13 @@ pub fn compare(
 }
 
 /// Reads or makes what is compared on.
-fn subject(options: &CompareOptions, observer: &mut dyn Observer) -> Result<Subject, Error> {
+fn subject(
+    options: &CompareOptions,
+    axis: &Axis,
+    observer: &mut dyn Observer,
+) -> Result<Subject, Error> {
     match &options.input {
-        Input::Log { logs, axis } => logged::subject(options, logs, axis.as_deref(), observer),
+        Input::Log { logs } => logged::subject(options, logs, axis, observer),
         Input::Named(name) => match known::find(name) {
             Some(Known::Axis(axis)) => made::from_axis(options, &axis),
             Some(Known::Curve(curve)) => made::from_curve(options, curve),

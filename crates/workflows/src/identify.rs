@@ -34,3 +34,4 @@ pub use outcome::{ForceFit, Found, Outcome, Simulated};
 pub use predict::{Prediction, predict};
 pub(crate) use run::identify_asked;
 pub use run::{identify, identify_logs};
+pub(crate) use searched::ranges;

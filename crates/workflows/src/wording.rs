@@ -29,6 +29,8 @@ pub enum Setting {
     Model,
     /// Logs of force ramps.
     BreakAway,
+    /// The search that finds the parameters of each step.
+    Search,
     /// What a search evaluates.
     Cost,
     /// Most evaluations.
@@ -61,7 +63,7 @@ pub enum Setting {
 
 impl Setting {
     /// Every option.
-    pub const ALL: [Setting; 22] = [
+    pub const ALL: [Setting; 23] = [
         Setting::Law,
         Setting::Asymmetric,
         Setting::Method,
@@ -70,6 +72,7 @@ impl Setting {
         Setting::Statics,
         Setting::Model,
         Setting::BreakAway,
+        Setting::Search,
         Setting::Cost,
         Setting::Evaluations,
         Setting::Target,
@@ -97,6 +100,7 @@ impl Setting {
             Setting::Statics => "statics",
             Setting::Model => "model",
             Setting::BreakAway => "break_away",
+            Setting::Search => "search",
             Setting::Cost => "cost",
             Setting::Evaluations => "evaluations",
             Setting::Target => "target",

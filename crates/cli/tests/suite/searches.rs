@@ -86,7 +86,7 @@ fn every_method_finds_a_law_and_says_what_it_had_before_the_least_squares() {
             "identify log.csv --method {method} --evaluations 600 --out {method}"
         ));
         assert!(code <= 1 && err.is_empty(), "{method}: {out}{err}");
-        assert!(out.contains(&format!("search      {method} (")), "{out}");
+        assert!(out.contains(&format!("\n{method} over ")), "{out}");
         let result = bench.json(&format!("{method}/result.json"));
         assert_eq!(result["method"], method);
         let searched = &result["searched"];

@@ -41,7 +41,7 @@ impl Axis {
     }
 
     /// A gain in units of force per `below`.
-    fn gain(
+    pub(super) fn gain(
         &self,
         gain: &Gain,
         log: &Log,

@@ -2,6 +2,7 @@
 
 mod columns;
 mod resolver;
+mod search;
 mod simulation;
 mod terms;
 
@@ -74,6 +75,7 @@ impl Resolver {
         self.terms(root, axis)?;
         self.simulation(root, axis)?;
         self.controller(root, axis)?;
+        axis.search = search::search(root)?;
         if let Some(table) = root.table("report")? {
             axis.low_speed = self.positive(table.get("low_speed"), &SPEEDS)?;
             table.end()?;

@@ -1,6 +1,7 @@
 //! What an axis file says, in SI units and the types of the log and the engine.
 
 use super::gain::ControllerValues;
+use super::search::SearchValues;
 use super::tied::Tied;
 use crate::config::Places;
 use crate::error::Error;
@@ -38,6 +39,8 @@ pub struct Axis {
     pub segment: Option<f64>,
     /// The controller as typed; its units are known with the log.
     pub(super) controller: Option<ControllerValues>,
+    /// Settings and boxes of searches as typed, likewise.
+    pub(super) search: SearchValues,
     /// Whether to fit a constant force; `None` follows from the law.
     pub(super) offset: Option<bool>,
     /// Values whose unit fits one kind of axis only, checked when the log says which it is.
@@ -67,6 +70,7 @@ impl Default for Axis {
             hold: Hold::Held,
             segment: None,
             controller: None,
+            search: SearchValues::default(),
             offset: None,
             tied: Vec::new(),
             file: PathBuf::new(),

@@ -1,5 +1,6 @@
 //! What the procedures add to `result.json`; each section stands only where it was used.
 
+use super::SearchedEntry;
 use serde::{Deserialize, Serialize};
 
 /// The static map: forces at constant velocities.
@@ -15,6 +16,9 @@ pub struct StaticMapEntry {
     pub points: Vec<StaticPointEntry>,
     /// Stretches of nearly constant velocity that were not used as points.
     pub rejected: Vec<RejectedEntry>,
+    /// What a search found before least squares, where one was asked for.
+    #[serde(default)]
+    pub searched: Option<SearchedEntry>,
 }
 
 /// One constant-velocity stretch.

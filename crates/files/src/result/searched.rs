@@ -5,7 +5,10 @@ use serde::{Deserialize, Serialize};
 /// A search as it goes into `result.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SearchedEntry {
-    /// `six` or `separable`.
+    /// Name of the search.
+    #[serde(default)]
+    pub method: String,
+    /// `six` or `separable` for whole records; `curve` for the steady curve and `dynamic` for σ₀ and σ₁ beside it.
     pub cost: String,
     /// `converged`, `exhausted`, `stalled`, `target`, `budget`, `time` or `interrupted`.
     pub status: String,

@@ -7,6 +7,8 @@ use stiction_files::axis::{Found, template};
 use stiction_files::{Axis, Error};
 use stiction_identify::{Cutoff, Hold, Source};
 use stiction_log::{Channel, Column, Log, Mapping, Motion, Role, Selector, Table, Unit, Value};
+use stiction_search::Method;
+use stiction_search::genetic::{self, Annealing, Crossover, Rates, Ratio, Selection};
 
 /// Every key once.
 const WHOLE: &str = r#"name = "X axis"
@@ -172,6 +174,66 @@ fn gains_come_in_the_unit_of_the_force_or_of_the_file() {
 }
 
 /// The examples of the documentation are axis files.
+/// Settings of a search, and a name that is none.
+#[test]
+fn searches_have_settings() {
+    let text = "[search.annealing-ga]\npopulation = 80\nelite = 8\nselection = \"roulette\"\n\
+                crossover = \"heuristic\"\ncrossover_ratio = 0.3\ncrossover_rate = 0.8\n\
+                mutation_rate = [0.02, 0.2]\ntemperature = 9.0\ncooling = 0.9\nshrink = \"none\"\n\
+                [search.de]\nscale = [0.4, 0.9]\n";
+    let axis = parse(text).unwrap();
+    let expected = genetic::Settings {
+        population: 80,
+        elite: 8,
+        selection: Selection::Roulette,
+        crossover: Crossover::Heuristic,
+        ratio: Ratio::Constant(0.3),
+        crossover_rate: Rates::fixed(0.8),
+        mutation_rate: Rates {
+            low: 0.02,
+            high: 0.2,
+        },
+        annealing: Some(Annealing {
+            start: 9.0,
+            factor: 0.9,
+        }),
+        precision: None,
+        ..genetic::Settings::default()
+    };
+    let found = axis.search_method("annealing-ga");
+    assert_eq!(found, Some(Method::AnnealingGa(expected)));
+    let usual = Method::named("ga");
+    assert_eq!(axis.search_method("ga"), usual);
+    assert_eq!(axis.search_method("gaa"), None);
+    let Some(Method::De(de)) = axis.search_method("de") else {
+        panic!("de has settings");
+    };
+    assert_eq!(de.scale, [0.4, 0.9]);
+}
+
+#[test]
+fn settings_of_searches_are_refused_at_their_keys() {
+    let texts = [
+        "[search]\ngaa = 1",
+        "[search.ga]\npopulation = 3",
+        "[search.ga]\nelite = 60",
+        "[search.ga]\nselection_pressure = 1.2",
+        "[search.annealing-ga]\ntemperature = 0",
+        "[search.annealing-ga]\ntemperature = \"none\"\ncooling = 0.9",
+        "[search.annealing-ga]\nshrink = 2",
+        "[search.annealing-ga]\ncrossover_rate = [0.9, 0.6]",
+        "[search.annealing-ga]\nmutation_rate = [0.9]",
+        "[search.cma-es]\npopulation = 2",
+        "[search.nelder-mead]\nedge = 0.7",
+        "[search.box]\nsigma3 = [\"1 N\", \"2 N\"]",
+        "[search.box]\ncoulomb = [\"2 N\", \"1 N\"]",
+        "[search.box]\ncoulomb = [\"1 N\", \"2 m\"]",
+        "[search.box]\ncoulomb = \"1 N\"",
+    ];
+    let messages = texts.map(|text| parse(text).unwrap_err().to_string());
+    insta::assert_snapshot!(messages.join("\n"));
+}
+
 #[test]
 fn documented_examples_are_accepted() {
     let file = stiction_testkit::workspace().join("docs/axis.md");

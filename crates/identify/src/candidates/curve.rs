@@ -9,8 +9,8 @@ use stiction_search::{Bounds, CostsOnly, Derivatives, Fidelity, Points, Problem}
 /// Genes of one direction.
 const GENES: usize = 4;
 
-/// Mean square of measured force minus `(Fc + (Fs - Fc) exp(-(v/vs)^2)) sgn v + sigma2 v`, over that of
-/// the force. The genome is the natural logarithms of `[sigma2, Fc, Fs - Fc, vs]`, SI, once for both
+/// Mean square of measured force minus `(Fc + (Fs - Fc) exp(-|v/vs|^delta)) sgn v + sigma2 v`, over that of
+/// the force; delta is 2 unless another is given. The genome is the natural logarithms of `[sigma2, Fc, Fs - Fc, vs]`, SI, once for both
 /// directions or once for each, the positive one first.
 ///
 /// ```
@@ -37,6 +37,8 @@ pub struct Curve {
     speed: Vec<f64>,
     force: Vec<f64>,
     energy: f64,
+    exponent: f64,
+    offset: bool,
 }
 
 impl Curve {
@@ -69,7 +71,43 @@ impl Curve {
             speed,
             force,
             energy,
+            exponent: 2.0,
+            offset: false,
         })
+    }
+
+    /// The same with another Stribeck exponent, above 0.
+    pub fn exponent(self, exponent: f64) -> Self {
+        Self { exponent, ..self }
+    }
+
+    /// The same with a constant force beside the curve, which is solved for each candidate; beside one curve for both
+    /// directions only, as it cannot be told from two.
+    pub fn with_offset(self) -> Self {
+        Self {
+            offset: self.bounds.dimensions() == GENES,
+            ..self
+        }
+    }
+
+    /// Residuals with their slopes at every point of the map, the constant force taken out.
+    fn rows(&self, x: &[f64]) -> Vec<(f64, [f64; GENES])> {
+        let p: Vec<f64> = x.iter().map(|&x| libm::exp(x)).collect();
+        let each = self.speed.iter().zip(&self.force);
+        let mut rows: Vec<_> = each
+            .map(|(&v, &f)| residual(&p[self.side(v)..], v, f, self.exponent))
+            .collect();
+        if self.offset {
+            let n = rows.len() as f64;
+            let mean = rows.iter().map(|row| row.0).sum::<f64>() / n;
+            let means: [f64; GENES] =
+                std::array::from_fn(|i| rows.iter().map(|row| row.1[i]).sum::<f64>() / n);
+            for row in &mut rows {
+                row.0 -= mean;
+                row.1.iter_mut().zip(means).for_each(|(x, mean)| *x -= mean);
+            }
+        }
+        rows
     }
 
     /// Where the genes of the direction of a speed begin.
@@ -83,16 +121,20 @@ impl Curve {
 }
 
 /// Residual (model minus measured) and its derivatives with respect to the four genes.
-fn residual(p: &[f64], v: f64, force: f64) -> (f64, [f64; GENES]) {
+fn residual(p: &[f64], v: f64, force: f64, exponent: f64) -> (f64, [f64; GENES]) {
     let [s2, fc, excess, vs] = [p[0], p[1], p[2], p[3]];
-    let square = (v / vs) * (v / vs);
-    let fall = excess * libm::exp(-square) * v.signum();
+    let power = if exponent == 2.0 {
+        (v / vs) * (v / vs)
+    } else {
+        libm::pow((v / vs).abs(), exponent)
+    };
+    let fall = excess * libm::exp(-power) * v.signum();
     let level = fc * v.signum();
     // Far above vs the exponential term is zero, and so are its derivatives.
     let slope = if fall == 0.0 {
         0.0
     } else {
-        2.0 * fall * square
+        exponent * fall * power
     };
     (level + fall + s2 * v - force, [s2 * v, level, fall, slope])
 }
@@ -104,12 +146,7 @@ impl Problem for Curve {
 
     fn costs(&self, points: &Points, _: Fidelity, out: &mut [f64]) {
         for (x, out) in points.rows().zip(out) {
-            let p: Vec<f64> = x.iter().map(|&x| libm::exp(x)).collect();
-            let each = self.speed.iter().zip(&self.force);
-            let sum: f64 = each
-                .map(|(&v, &f)| residual(&p[self.side(v)..], v, f).0)
-                .map(|r| r * r)
-                .sum();
+            let sum: f64 = self.rows(x).iter().map(|(r, _)| r * r).sum();
             *out = sum / self.energy;
         }
     }
@@ -122,10 +159,8 @@ impl Problem for Curve {
     ) -> Result<(), CostsOnly> {
         let n = self.bounds.dimensions();
         for (x, out) in points.rows().zip(out) {
-            let p: Vec<f64> = x.iter().map(|&x| libm::exp(x)).collect();
-            for (&v, &f) in self.speed.iter().zip(&self.force) {
+            for (&v, (r, slopes)) in self.speed.iter().zip(self.rows(x)) {
                 let side = self.side(v);
-                let (r, slopes) = residual(&p[side..], v, f);
                 out.cost += r * r / self.energy;
                 for (i, a) in slopes.iter().enumerate() {
                     out.gradient[side + i] += a * r / self.energy;

@@ -50,6 +50,21 @@ pub fn dynamic(
     low_speed: f64,
     observer: &mut dyn Observer,
 ) -> Result<Estimate, Error> {
+    dynamic_near(None, record, statics, terms, low_speed, observer)
+}
+
+/// The same with sigma0 sought only around a given `ln(sigma0/Fc)`, sigma0/Fc in 1/m or 1/rad: what a search has found.
+///
+/// # Errors
+/// As [`dynamic`].
+pub fn dynamic_near(
+    near: Option<f64>,
+    record: &Record,
+    statics: &Statics,
+    terms: &Terms,
+    low_speed: f64,
+    observer: &mut dyn Observer,
+) -> Result<Estimate, Error> {
     let law = Law {
         asymmetric: statics.asymmetric,
         exponent: statics.exponent,
@@ -79,7 +94,7 @@ pub fn dynamic(
         p,
         c,
     };
-    let (best, status, counts) = held.search(&bounds, observer);
+    let (best, status, counts) = held.search(&bounds, near, observer);
     let mut p = held.p.clone();
     p[held.kappa] = best;
     let solved = held.solve(best);
@@ -166,8 +181,16 @@ impl Held<'_> {
         c
     }
 
-    fn search(&self, bounds: &SearchBox, observer: &mut dyn Observer) -> (f64, Status, Counts) {
+    fn search(
+        &self,
+        bounds: &SearchBox,
+        near: Option<f64>,
+        observer: &mut dyn Observer,
+    ) -> (f64, Status, Counts) {
         let (low, high) = (bounds.low(self.kappa), bounds.high(self.kappa));
+        if let Some(near) = near {
+            return self.follow(near.clamp(low, high), (low, high));
+        }
         let mut counts = Counts::default();
         let mut grid = Vec::with_capacity(GRID_POINTS);
         let mut best = (f64::INFINITY, low);
@@ -219,6 +242,22 @@ impl Held<'_> {
             Status::Stalled
         };
         (best.1, status, counts)
+    }
+
+    /// The minimum next to a place, as far as a place of the grid is from the next.
+    fn follow(&self, near: f64, (low, high): (f64, f64)) -> (f64, Status, Counts) {
+        let reach = (high - low) / (GRID_POINTS - 1) as f64;
+        let ends = ((near - reach).max(low), (near + reach).min(high));
+        let trials = std::cell::Cell::new(0);
+        let x = golden(ends, SETTLED_WIDTH, |x| {
+            trials.set(trials.get() + 1);
+            self.solve(x).cost
+        });
+        let counts = Counts {
+            costs: trials.get(),
+            ..Counts::default()
+        };
+        (x, Status::Converged, counts)
     }
 
     /// Slopes of the model force with `(p, c)`.

@@ -116,8 +116,9 @@ impl Block {
             .collect()
     }
 
-    /// The fit of least Tukey loss over all vs: the minima of the grid are followed and the best is taken.
-    pub fn best(&self, exponent: f64, scale: f64) -> Best {
+    /// The fit of least Tukey loss over all vs: the minima of the grid are followed and the best is taken; or only the place
+    /// of the grid that is next to a given vs.
+    pub fn best(&self, exponent: f64, scale: f64, near: Option<f64>) -> Best {
         let grid = self.grid(exponent);
         let Some((low, high)) = self.range else {
             let start = &grid[0].1.weights;
@@ -138,6 +139,11 @@ impl Block {
             .collect();
         minima.sort_by(|&a, &b| cost(a).total_cmp(&cost(b)));
         minima.truncate(FOLLOWED);
+        if let Some(near) = near.filter(|vs| *vs > 0.0) {
+            let off = |i: &usize| (grid[*i].0 - libm::log(near)).abs();
+            let next = (0..GRID_POINTS).min_by(|a, b| off(a).total_cmp(&off(b)));
+            minima = next.into_iter().collect();
+        }
         let mut best: Option<(f64, Solved)> = None;
         for i in minima {
             let start = &grid[i].1.weights;
@@ -181,7 +187,7 @@ pub(super) fn best_exponent(blocks: &[Block], scale: f64) -> f64 {
     let cost = |delta: f64| -> f64 {
         blocks
             .iter()
-            .map(|b| b.best(delta, scale).solved.cost)
+            .map(|b| b.best(delta, scale, None).solved.cost)
             .sum()
     };
     let costs = EXPONENTS_TRIED.map(cost);

@@ -24,7 +24,7 @@ use stiction_parameters::{Name, Quantity, Side};
 const FORCE_RESOLUTION: f64 = 1e-6;
 /// The Stribeck velocity is searched from this share of the slowest speed up to the top speed: with a
 /// lower Stribeck velocity the exponential is practically zero at the slowest speed already.
-const LEAST_VELOCITY_SHARE: f64 = 0.2;
+pub(crate) const LEAST_VELOCITY_SHARE: f64 = 0.2;
 /// Rise of static friction, as a part of the Coulomb level, below which the curve has no rise. It
 /// also stands for no rise where a logarithm is needed; it is far below any rise that a log determines.
 pub(super) const LEAST_RISE: f64 = 1e-9;
@@ -108,6 +108,19 @@ impl StaticMap {
 /// For too few points ([`Error::TooFewSpeeds`]), numbers that are not finite, or an exponent out of
 /// range.
 pub fn static_map(points: &[StaticPoint], settings: &StaticSettings) -> Result<StaticMap, Error> {
+    static_map_near(points, settings, &[])
+}
+
+/// The same with the Stribeck velocity sought only around the one that is given for each curve, m/s or rad/s, of positive
+/// velocities first: what a search has found. Without any it is sought everywhere.
+///
+/// # Errors
+/// As [`static_map`].
+pub fn static_map_near(
+    points: &[StaticPoint],
+    settings: &StaticSettings,
+    near: &[f64],
+) -> Result<StaticMap, Error> {
     let points = checked(points, settings)?;
     let mut blocks = blocks(&points, settings)?;
     let first = match settings.exponent {
@@ -128,7 +141,10 @@ pub fn static_map(points: &[StaticPoint], settings: &StaticSettings) -> Result<S
         Exponent::Given(delta) => delta,
         Exponent::Fitted => best_exponent(&blocks, scale),
     };
-    let best: Vec<Best> = blocks.iter().map(|b| b.best(exponent, scale)).collect();
+    let each = blocks.iter().enumerate();
+    let best: Vec<Best> = each
+        .map(|(k, b)| b.best(exponent, scale, near.get(k).copied()))
+        .collect();
     Ok(Fitted {
         settings,
         points,

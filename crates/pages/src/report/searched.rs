@@ -7,24 +7,40 @@ use stiction_report::{Align, Axis, Block, Color, Figure, Layer, Panel, Table, Te
 use stiction_workflows::identify::Outcome;
 
 pub(super) fn sections(outcome: &Outcome) -> Vec<Block> {
-    let Some(entry) = &outcome.result.searched else {
-        return Vec::new();
-    };
-    let mut out = vec![
-        Block::Heading(2, Text::from("The search")),
-        Block::Paragraph(Text::from(told(outcome, entry))),
-    ];
-    out.push(stages(outcome, entry).into());
-    out.push(convergence(entry).into());
-    out
+    let result = &outcome.result;
+    let curve = result.static_map.as_ref();
+    let curve = curve.and_then(|map| map.searched.as_ref());
+    let searches = curve.into_iter().chain(&result.searched);
+    searches
+        .flat_map(|entry| {
+            [
+                Block::Heading(2, Text::from(heading(entry))),
+                Block::Paragraph(Text::from(told(entry))),
+                stages(outcome, entry).into(),
+                convergence(entry).into(),
+            ]
+        })
+        .collect()
 }
 
-fn told(outcome: &Outcome, entry: &SearchedEntry) -> String {
+fn heading(entry: &SearchedEntry) -> &'static str {
+    match entry.cost.as_str() {
+        "curve" => "The search for the steady curve",
+        "dynamic" => "The search for σ₀ and σ₁",
+        _ => "The search",
+    }
+}
+
+fn told(entry: &SearchedEntry) -> String {
+    let then = match entry.cost.as_str() {
+        "curve" => "follow the search and count points that lie off the curve less",
+        "dynamic" => "follow the search, the steady curve held",
+        _ => "fit everything at once, a delay included",
+    };
     format!(
-        "{} over {} unknowns ({} cost), ended: {}, after {} evaluations of the full record. The \
-         parameters of this report are those after the last least squares, which fit everything at \
-         once, a delay included.",
-        outcome.result.method,
+        "{} over {} unknowns ({} cost), ended: {}, after {} evaluations of all samples. The parameters of this report are \
+         those after the last least squares, which {then}.",
+        entry.method,
         entry.unknowns.len(),
         entry.cost,
         entry.status,
@@ -50,8 +66,11 @@ fn stages(outcome: &Outcome, entry: &SearchedEntry) -> Table {
             Some(Percent::error(100.0 * p.cost.sqrt()).digits(5))
         })
     });
-    let last = outcome.result.fit.relative_error_percent;
-    let last = Percent::error(last).digits(5);
+    // The least squares after a step do not minimise its cost.
+    let last = match entry.cost.as_str() {
+        "curve" | "dynamic" => "–".into(),
+        _ => Percent::error(outcome.result.fit.relative_error_percent).digits(5),
+    };
     table = table.row([
         Text::from("Relative error"),
         a.into(),
@@ -65,7 +84,8 @@ fn stages(outcome: &Outcome, entry: &SearchedEntry) -> Table {
                 Some(number::sig(found.value, 5))
             })
         });
-        if a == "–" && b == "–" {
+        let held = entry.cost == "dynamic" && !entry.unknowns.contains(&p.name);
+        if held || (a == "–" && b == "–") {
             continue;
         }
         let name = symbols::meaning(&p.name, outcome.motion);

@@ -7,6 +7,7 @@ use stiction::{Control, Progress, Silent};
 fn options(problem: &str, methods: &[&str]) -> CompareOptions {
     CompareOptions {
         input: Input::Named(problem.into()),
+        axis: None,
         methods: methods.iter().map(|m| (*m).to_string()).collect(),
         seeds: 2,
         evaluations: 500,
@@ -224,7 +225,6 @@ fn what_cannot_be_compared_is_refused_in_words() {
         refused(&|o| {
             o.input = Input::Log {
                 logs: vec!["log.csv".into()],
-                axis: None,
             };
             o.rate = Some(1000.0);
         }),

@@ -48,10 +48,8 @@ fn compared(folder: &Path, log: PathBuf, axis: &str, decades: Option<f64>) -> Co
     )
     .unwrap();
     let options = CompareOptions {
-        input: Input::Log {
-            logs: vec![log],
-            axis: Some(path),
-        },
+        input: Input::Log { logs: vec![log] },
+        axis: Some(path),
         methods: vec!["lm".into()],
         seeds: 3,
         evaluations: 2000,

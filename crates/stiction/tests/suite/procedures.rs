@@ -318,3 +318,101 @@ fn terms_that_a_static_map_does_not_count_are_refused_with_their_key() {
         bench.good("log.csv", 3);
     }
 }
+
+/// Less searching than by default, as an axis file asks for it.
+const SEARCH: &str = "[search.ga]
+population = 20
+generations = 40
+[search.adaptive-ga]
+population = 20
+generations = 40
+[search.annealing-ga]
+population = 20
+generations = 20
+rounds = 2
+[search.box]
+sigma0 = [\"1e4 N/m\", \"1e7 N/m\"]
+sigma1 = [\"10 N s/m\", \"1e5 N s/m\"]
+sigma2 = [\"1 N s/m\", \"1e3 N s/m\"]
+coulomb = [\"1 N\", \"100 N\"]
+static_excess = [\"0.1 N\", \"100 N\"]
+stribeck_velocity = [\"0.1 mm/s\", \"100 mm/s\"]
+";
+
+/// Both steps of the paper, each by a search with settings and a box of the axis file, then least squares.
+#[test]
+fn both_steps_by_a_search() {
+    let bench = Bench::new();
+    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap();
+    let (speeds, motion) = (&logs[0], &logs[1]);
+    let axis = bench.write("axis.toml", SEARCH);
+    for name in ["ga", "adaptive-ga", "annealing-ga", "niched-ga"] {
+        let mut asked = with(
+            &[motion],
+            Procedures {
+                statics: vec![speeds.clone()],
+                ..method(Method::StaticThenDynamic)
+            },
+        );
+        asked.files.axis = Some(axis.clone());
+        asked.searching.search = Some(name);
+        let outcome = run(&asked).unwrap();
+        near_truth(&outcome, 0.01);
+        let result = &outcome.result;
+        let curve = result.static_map.as_ref().unwrap().searched.as_ref();
+        let (curve, bristle) = (curve.unwrap(), result.searched.as_ref().unwrap());
+        assert_eq!(
+            (curve.method.as_str(), curve.cost.as_str()),
+            (name, "curve")
+        );
+        assert_eq!(
+            (bristle.method.as_str(), bristle.cost.as_str()),
+            (name, "dynamic")
+        );
+        assert_eq!(bristle.unknowns, ["sigma0", "sigma1"]);
+        for (found, expected) in bristle.bounds.iter().zip([[1e4, 1e7], [10.0, 1e5]]) {
+            let off = |i: usize| (found[i] / expected[i] - 1.0).abs();
+            assert!(off(0) < 1e-12 && off(1) < 1e-12, "{found:?}");
+        }
+        if name == "ga" {
+            // 20 individuals through 40 generations, and the first ones.
+            assert!(
+                curve.evaluations.costs <= 20 * 41,
+                "{:?}",
+                curve.evaluations
+            );
+        }
+    }
+}
+
+/// A search where none is made, or a setting that it cannot have there.
+#[test]
+fn searches_of_steps_are_refused_elsewhere() {
+    let bench = Bench::new();
+    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap();
+    let refused = |method_: Method, change: &dyn Fn(&mut Asked)| {
+        let mut asked = with(&[&logs[0]], method(method_));
+        change(&mut asked);
+        bench.plain(&run(&asked).unwrap_err().to_string())
+    };
+    let texts = [
+        refused(Method::Separable, &|o| o.searching.search = Some("ga")),
+        refused(Method::Searched("ga"), &|o| o.searching.search = Some("de")),
+        refused(Method::Static, &|o| o.searching.search = Some("gaa")),
+        refused(Method::Static, &|o| o.searching.target = Some(1.0)),
+        refused(Method::Static, &|o| {
+            o.searching.search = Some("ga");
+            o.searching.checkpoint = Some("c.json".into());
+        }),
+        refused(Method::Static, &|o| {
+            o.searching.search = Some("ga");
+            let text = "[search.box]\nsigma2 = [\"1 N\", \"2 N\"]\n";
+            o.files.axis = Some(bench.write("box.toml", text));
+        }),
+        refused(Method::Searched("de"), &|o| {
+            let text = "[search.box]\nsigma2 = [\"1 N s/m\", \"2 N s/m\"]\n";
+            o.files.axis = Some(bench.write("ratios.toml", text));
+        }),
+    ];
+    insta::assert_snapshot!(texts.join("\n"));
+}

@@ -4,9 +4,9 @@ use super::genome::{Floor, about, genome};
 use super::options::{CompareOptions, Cost};
 use super::subject::{Data, Subject, lugre};
 use crate::error::Error;
-use crate::identify::record_of;
+use crate::identify::{ranges, record_of};
 use crate::wording::Setting;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use stiction_files::Axis;
 use stiction_identify as engine;
 use stiction_identify::candidates::{box_of_six, thinned};
@@ -17,7 +17,7 @@ use stiction_search::Bounds;
 pub(super) fn subject(
     options: &CompareOptions,
     logs: &[PathBuf],
-    axis: Option<&Path>,
+    axis: &Axis,
     observer: &mut dyn Observer,
 ) -> Result<Subject, Error> {
     let made = [
@@ -36,7 +36,6 @@ pub(super) fn subject(
             "only a problem is made; a log is what it is",
         ));
     }
-    let axis = axis.map_or_else(|| Ok(Axis::default()), Axis::read)?;
     if axis.exponent_fitted {
         return Err(Error::usage(
             "stribeck_exponent = \"fit\"",
@@ -47,8 +46,7 @@ pub(super) fn subject(
         exponent: axis.stribeck_exponent,
         ..lugre()
     };
-    let (sources, record, terms) =
-        record_of(logs, &axis, observer).map_err(|e| e.at_axis(&axis))?;
+    let (sources, record, terms) = record_of(logs, axis, observer).map_err(|e| e.at_axis(axis))?;
     let name: Vec<String> = sources
         .iter()
         .map(|s| s.path.display().to_string())
@@ -61,6 +59,7 @@ pub(super) fn subject(
     let cost = options.cost.unwrap_or(Cost::Six);
     let bounds = match (options.decades, cost) {
         (None, Cost::Separable) => {
+            ranges::refuse_beside_separable(axis)?;
             let inner = SearchBox::from_record(&record, &law).map_err(refused)?;
             let ends = |end: fn(&SearchBox, usize) -> f64| {
                 (0..inner.len()).map(|i| end(&inner, i)).collect()
@@ -68,7 +67,10 @@ pub(super) fn subject(
             Bounds::new(ends(SearchBox::low), ends(SearchBox::high))
                 .map_err(|e| Error::usage(e.to_string(), "a log with motion and force"))?
         }
-        (None, _) => box_of_six(&record).map_err(refused)?,
+        (None, _) => {
+            let usual = box_of_six(&record).map_err(refused)?;
+            ranges::given(axis, &sources, usual, ranges::SIX)?
+        }
         (Some(decades), _) => {
             let settings = Settings::default();
             let (estimate, _) =

@@ -11,8 +11,6 @@ pub enum Input {
     Log {
         /// Fitted together.
         logs: Vec<PathBuf>,
-        /// Axis file; `None` leaves all to detection.
-        axis: Option<PathBuf>,
     },
     /// A problem by name: C95, machine, motor, V2, V3, V5, V6, V7, V10, V16.
     Named(String),
@@ -55,6 +53,8 @@ pub const ONE_START: &str = "lm-one";
 pub struct CompareOptions {
     /// On what.
     pub input: Input,
+    /// Axis file: of the logs, `None` leaves all to detection; for a problem only its `[search]` counts.
+    pub axis: Option<PathBuf>,
     /// Names of the methods; empty takes all that can work on the cost.
     pub methods: Vec<String>,
     /// Seeds of each method, from 0 on.

@@ -5,6 +5,7 @@ use crate::entries;
 use crate::spread::Spread;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
+use stiction_files::Axis;
 use stiction_files::result::Evaluations;
 use stiction_identify::candidates::Named;
 use stiction_search::{
@@ -18,6 +19,8 @@ pub(super) struct Setting<'a> {
     pub evaluations: u64,
     /// Whether least squares can follow the search: the problem has derivatives.
     pub descends: bool,
+    /// Settings of the methods.
+    pub axis: &'a Axis,
 }
 
 /// A complete run.
@@ -62,7 +65,10 @@ impl Setting<'_> {
                 finish: None,
             };
         }
-        let method = Method::named(name).expect("a name that was checked");
+        let method = self
+            .axis
+            .search_method(name)
+            .expect("a name that was checked");
         let descends_itself = matches!(name, "niched-ga" | "lm");
         let finish = (self.descends && !descends_itself).then(Finish::default);
         Plan { method, finish }
@@ -75,7 +81,7 @@ impl Setting<'_> {
         let search = self
             .plan(name)
             .start(dimensions, seed)
-            .expect("default settings");
+            .expect("checked settings");
         let mut run = Run::new(search, &problem);
         let limits = Limits {
             costs: self.evaluations,

@@ -123,6 +123,7 @@ fn by_search(
     let found = searched::search(
         searched::Task {
             options,
+            axis: asked.axis,
             inputs: &loaded.sources,
             record: &conditioned.record,
             law: law(asked),
@@ -158,8 +159,7 @@ fn in_two_steps(
     let asymmetric = asked.options.asymmetric;
     let (estimate, both) = two_step(
         TwoStep {
-            options: asked.options,
-            axis: asked.axis,
+            asked,
             sources: &loaded.sources,
             beside: &loaded.beside,
             record: &conditioned.record,

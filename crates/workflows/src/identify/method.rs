@@ -29,6 +29,9 @@ impl Method {
         Method::PreslidingStep,
     ];
 
+    /// Names of the searches.
+    pub const SEARCHES: [&'static str; 10] = stiction_search::Method::NAMES;
+
     /// The method of this name.
     pub fn from_name(name: &str) -> Option<Self> {
         let own = Self::ALL.into_iter();

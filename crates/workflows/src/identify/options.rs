@@ -98,6 +98,9 @@ impl CostKind {
 /// How far a search goes, and where it keeps its state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Searching {
+    /// For the methods `static` and `static-then-dynamic`: the search that finds the parameters of each step, before
+    /// least squares; `None` takes least squares alone. One of [`stiction_search::Method::NAMES`].
+    pub search: Option<&'static str>,
     /// What it evaluates; `None` takes six for the genetic algorithms of the publication where the law
     /// allows it, separable for all else.
     pub cost: Option<CostKind>,

@@ -87,7 +87,7 @@ pub(crate) fn identify_asked(
 ) -> Result<Outcome, Error> {
     let loaded = load(asked, sources, held_out)?;
     let outcome = match asked.options.procedures.method {
-        Method::Static => static_map::run(asked, loaded),
+        Method::Static => static_map::run(asked, loaded, observer),
         Method::PreslidingStep => step::run(asked, loaded, observer),
         Method::OutputError => simulate::run(asked, loaded, observer),
         Method::Separable | Method::StaticThenDynamic | Method::Searched(_) => {

@@ -189,6 +189,7 @@ pub(super) fn of_static_map(
     mut warnings: Vec<Warning>,
 ) -> Judged {
     let mut reasons = Reasons::default();
+    interrupted(law, &mut warnings, &mut reasons);
     saturation(sources, &mut reasons);
     unidentifiable(law, motion, &mut warnings);
     if law.fit.r2.is_nan() || law.fit.r2 < LEAST_R2 {
@@ -271,13 +272,9 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
 
 fn search_ended(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
     let estimate = evidence.law;
+    interrupted(estimate, warnings, reasons);
     match estimate.status {
-        Status::Converged => {}
-        Status::Interrupted => {
-            let text = "the search was interrupted; the best found so far is given";
-            warnings.push(Warning::new(Code::Interrupted, text));
-            reasons.push(text, Next::Again);
-        }
+        Status::Converged | Status::Interrupted => {}
         Status::Budget | Status::Stalled | Status::Exhausted | Status::Target => {
             let text = format!(
                 "the search did not converge (status {})",
@@ -286,6 +283,14 @@ fn search_ended(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
             warnings.push(Warning::new(Code::NotConverged, text.clone()));
             reasons.push(text, evidence.another_law());
         }
+    }
+}
+
+fn interrupted(law: &FittedLaw, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
+    if law.status == Status::Interrupted {
+        let text = "the search was interrupted; the best found so far is given";
+        warnings.push(Warning::new(Code::Interrupted, text));
+        reasons.push(text, Next::Again);
     }
 }
 

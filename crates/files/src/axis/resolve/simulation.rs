@@ -70,7 +70,8 @@ fn kind<'a>(table: &Table<'a>) -> Result<&'a str, Error> {
 }
 
 /// A value above 0 whose unit can be judged only with the log.
-fn gain(given: &Given<'_>) -> Result<Gain, Error> {
+/// A value above 0 whose unit is checked with the log.
+pub(super) fn gain(given: &Given<'_>) -> Result<Gain, Error> {
     let value = given.quantity("\"300 N s/m\"")?;
     if value.number <= 0.0 {
         return Err(given.refused("a finite value above 0"));

@@ -3,17 +3,16 @@
 use super::map::{self, Mapped};
 use crate::error::Error;
 use crate::identify::beside::Beside;
+use crate::identify::load::Asked;
 use crate::identify::logs::refused;
-use crate::identify::options::Options;
 use crate::source::Source;
-use stiction_files::Axis;
 use stiction_files::ModelFile;
 use stiction_files::Warning;
 use stiction_files::model::ReadModel;
 use stiction_files::result::StaticMapEntry;
 use stiction_friction::Direction;
 use stiction_identify::procedure::Statics;
-use stiction_identify::{Covariance, Parameter};
+use stiction_identify::{Covariance, Observer, Parameter};
 use stiction_parameters::{LawKind, Name, ParameterSet, Quantity, Side};
 use stiction_servo::plant::Plant;
 
@@ -24,14 +23,16 @@ pub(super) struct Known {
     pub from: &'static str,
     pub map: Option<StaticMapEntry>,
     pub warnings: Vec<Warning>,
+    /// Whether a search for it was stopped.
+    pub interrupted: bool,
 }
 
 /// The curve of the model, else of the static logs, else of the logs themselves.
 pub(super) fn known(
-    options: &Options,
-    axis: &Axis,
+    asked: Asked,
     sources: &[Source],
     beside: &Beside,
+    observer: &mut dyn Observer,
 ) -> Result<Known, Error> {
     if let Some(model) = &beside.model {
         return from_model(model);
@@ -45,12 +46,14 @@ pub(super) fn known(
         map,
         entry,
         warnings,
-    } = map::map(options, axis, logs)?;
+        interrupted,
+    } = map::map(asked, logs, observer)?;
     Ok(Known {
         statics: Statics::from_map(&map).map_err(|e| refused(logs, e))?,
         from,
         map: Some(entry),
         warnings,
+        interrupted,
     })
 }
 
@@ -85,6 +88,7 @@ fn from_model(read: &ReadModel) -> Result<Known, Error> {
         from: "model",
         map: None,
         warnings: Vec::new(),
+        interrupted: false,
     })
 }
 

@@ -1,8 +1,10 @@
 //! The static map of logs of constant velocity: the stretches, the curve, and what to beware of.
 
 use crate::error::Error;
+use crate::identify::load::Asked;
 use crate::identify::logs::{path_of, refused, run_of, samples};
 use crate::identify::options::Options;
+use crate::identify::searched;
 use crate::source::Source;
 use crate::wording::{Setting, TOGETHER_WITH};
 use stiction_codes::Code;
@@ -10,9 +12,9 @@ use stiction_files::result::{RejectedEntry, StaticMapEntry, StaticPointEntry};
 use stiction_files::symbols;
 use stiction_files::{Axis, Warning};
 use stiction_identify::procedure::{
-    Exponent, Run, StaticMap, StaticSettings, Stretches, static_map, stretches,
+    Exponent, Run, StaticMap, StaticSettings, Stretches, static_map, static_map_near, stretches,
 };
-use stiction_identify::{Dependence, LawKind, Terms};
+use stiction_identify::{Dependence, LawKind, Observer, Terms};
 use stiction_log::Motion;
 
 /// Different speeds in each direction below which a map is warned of: twelve show the Stribeck curve from well below its
@@ -28,10 +30,17 @@ pub(super) struct Mapped {
     pub map: StaticMap,
     pub entry: StaticMapEntry,
     pub warnings: Vec<Warning>,
+    /// Whether a search for it was stopped.
+    pub interrupted: bool,
 }
 
 /// Finds the stretches in logs and fits the map.
-pub(super) fn map(options: &Options, axis: &Axis, sources: &[Source]) -> Result<Mapped, Error> {
+pub(super) fn map(
+    asked: Asked,
+    sources: &[Source],
+    observer: &mut dyn Observer,
+) -> Result<Mapped, Error> {
+    let Asked { options, axis, .. } = asked;
     let motion = sources[0].log.motion;
     let terms = axis.terms_for(&sources[0].log, options.asymmetric)?;
     refuse_uncounted(options, axis, &terms)?;
@@ -48,13 +57,28 @@ pub(super) fn map(options: &Options, axis: &Axis, sources: &[Source]) -> Result<
         stribeck: options.law != Some(LawKind::CoulombViscous),
         exponent: Exponent::Given(axis.stribeck_exponent),
     };
-    let map = static_map(&found.points, &settings).map_err(|e| refused(sources, e))?;
+    // Least squares refuse what no search could be given either.
+    let everywhere = static_map(&found.points, &settings).map_err(|e| refused(sources, e))?;
+    let searched = match settings.stribeck {
+        true => searched::curve(asked, sources, &found.points, &settings, observer)?,
+        false => None,
+    };
+    let map = match &searched {
+        None => everywhere,
+        Some(step) => static_map_near(&found.points, &settings, &step.near)
+            .map_err(|e| refused(sources, e))?,
+    };
     let warnings = warnings(&map, &found, sources, motion);
-    let entry = entry(&map, &found, sources, motion);
+    let interrupted = searched.as_ref().is_some_and(|step| step.interrupted);
+    let entry = StaticMapEntry {
+        searched: searched.map(|step| step.entry),
+        ..entry(&map, &found, sources, motion)
+    };
     Ok(Mapped {
         map,
         entry,
         warnings,
+        interrupted,
     })
 }
 
@@ -212,5 +236,6 @@ fn entry(map: &StaticMap, found: &Stretches, sources: &[Source], motion: Motion)
                 reason: r.reason.name().into(),
             })
             .collect(),
+        searched: None,
     }
 }

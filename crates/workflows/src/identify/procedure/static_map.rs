@@ -11,17 +11,24 @@ use crate::identify::trust;
 use crate::source::Source;
 use stiction_codes::Code;
 use stiction_files::{Axis, Warning};
-use stiction_identify::LawKind;
+use stiction_identify::{LawKind, Observer, Status};
 
 /// The whole workflow.
-pub(in crate::identify) fn run(asked: Asked, loaded: Loaded) -> Result<Outcome, Error> {
+pub(in crate::identify) fn run(
+    asked: Asked,
+    loaded: Loaded,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, Error> {
     asked.options.require(
         &[LawKind::CoulombViscous, LawKind::Stribeck, LawKind::LuGre],
         "a static map has no stiffness: coulomb-viscous, or stribeck (also meant by lugre)",
     )?;
     let sources = &loaded.sources;
-    let mut found = map(asked.options, asked.axis, sources)?;
-    let law = found.map.fitted_law();
+    let mut found = map(asked, sources, observer)?;
+    let mut law = found.map.fitted_law();
+    if found.interrupted {
+        law.status = Status::Interrupted;
+    }
     let mut warnings = log_warnings(sources);
     // A log of constant velocities moves at few speeds on purpose, perhaps in one direction: what counts is whether all
     // points together do.

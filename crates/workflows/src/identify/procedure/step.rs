@@ -48,7 +48,14 @@ pub(in crate::identify) fn run(
     }
     let mut warnings = log_warnings(sources);
     warnings.retain(|w| !ON_PURPOSE.contains(&w.code));
-    let (settings, map) = settings(asked, sources, &loaded.beside, &runs, &mut warnings)?;
+    let (settings, map) = settings(
+        asked,
+        sources,
+        &loaded.beside,
+        &runs,
+        &mut warnings,
+        observer,
+    )?;
     let fit = fit_steps(&runs, &settings, observer).map_err(|e| refused(sources, e))?;
     let law = fit.fitted_law(&settings);
     let mut judged = trust::of_steps(&law, &fit, loaded.motion(), warnings);
@@ -79,12 +86,14 @@ pub(in crate::identify) fn run(
 
 /// What is known beside the steps: mass and steady curve.
 fn settings(
-    Asked { options, axis, .. }: Asked,
+    asked: Asked,
     sources: &[Source],
     beside: &Beside,
     runs: &[(Run, StepResponse)],
     warnings: &mut Vec<Warning>,
+    observer: &mut dyn Observer,
 ) -> Result<(StepSettings, Option<StaticMapEntry>), Error> {
+    let Asked { options, axis, .. } = asked;
     let terms = axis.terms_for(&sources[0].log, options.asymmetric)?;
     let mass = match terms.mass {
         Mass::Given(mass) => Some(mass),
@@ -118,7 +127,7 @@ fn settings(
         ));
         return Ok((settings, None));
     }
-    let known = curve::known(options, axis, sources, beside)?;
+    let known = curve::known(asked, sources, beside, observer)?;
     warnings.extend(known.warnings);
     let forth = runs.iter().all(|(_, step)| step.height > 0.0);
     let back = runs.iter().all(|(_, step)| step.height < 0.0);

@@ -4,15 +4,17 @@
 use super::curve;
 use crate::error::Error;
 use crate::identify::beside::Beside;
+use crate::identify::load::Asked;
 use crate::identify::logs::refused;
-use crate::identify::options::Options;
+use crate::identify::searched;
 use crate::source::Source;
-use stiction_files::Axis;
 use stiction_files::Warning;
-use stiction_files::result::{ResultFile, StaticMapEntry, TwoStepEntry, TwoStepParameter};
+use stiction_files::result::{
+    ResultFile, SearchedEntry, StaticMapEntry, TwoStepEntry, TwoStepParameter,
+};
 use stiction_files::symbols;
 use stiction_identify as engine;
-use stiction_identify::procedure::dynamic;
+use stiction_identify::procedure::dynamic_near;
 use stiction_identify::{
     Delay, Estimate, FittedLaw, Law, LawKind, Observer, Record, Settings, Terms,
 };
@@ -27,8 +29,7 @@ const CONFUSED_CORRELATION: f64 = 0.9;
 
 /// What the two steps work on.
 pub(in crate::identify) struct TwoStep<'a> {
-    pub options: &'a Options,
-    pub axis: &'a Axis,
+    pub asked: Asked<'a>,
     pub sources: &'a [Source],
     pub beside: &'a Beside,
     pub record: &'a Record,
@@ -44,6 +45,7 @@ pub(in crate::identify) struct TwoSteps {
     joint: Estimate,
     from: &'static str,
     map: Option<StaticMapEntry>,
+    searched: Option<SearchedEntry>,
     pub warnings: Vec<Warning>,
 }
 
@@ -53,12 +55,13 @@ pub(in crate::identify) fn two_step(
     observer: &mut dyn Observer,
 ) -> Result<(Estimate, TwoSteps), Error> {
     let allowed = "the dynamic parameters are those of lugre";
-    parts.options.require(&[LawKind::LuGre], allowed)?;
-    let known = curve::known(parts.options, parts.axis, parts.sources, parts.beside)?;
+    let options = parts.asked.options;
+    options.require(&[LawKind::LuGre], allowed)?;
+    let known = curve::known(parts.asked, parts.sources, parts.beside, observer)?;
     let fail = |e| refused(parts.sources, e);
     let statics = &known.statics;
     // A model may be asymmetric where a symmetric law was asked for, or the reverse.
-    let terms = parts.terms[usize::from(statics.asymmetric != parts.options.asymmetric)];
+    let terms = parts.terms[usize::from(statics.asymmetric != options.asymmetric)];
     let law = Law {
         asymmetric: statics.asymmetric,
         exponent: statics.exponent,
@@ -83,11 +86,19 @@ pub(in crate::identify) fn two_step(
         delay,
         ..terms.clone()
     };
-    let estimate = dynamic(parts.record, statics, &terms, low_speed, observer).map_err(fail)?;
+    let (record, sources) = (parts.record, parts.sources);
+    let step = searched::dynamic(parts.asked, sources, record, statics, &terms, observer)?;
+    let near = step.as_ref().map(|step| step.near[0]);
+    let mut estimate =
+        dynamic_near(near, record, statics, &terms, low_speed, observer).map_err(fail)?;
+    if known.interrupted || step.as_ref().is_some_and(|step| step.interrupted) {
+        estimate = estimate.interrupted();
+    }
     let beside = TwoSteps {
         joint,
         from: known.from,
         map: known.map,
+        searched: step.map(|step| step.entry),
         warnings: known.warnings,
     };
     Ok((estimate, beside))
@@ -126,6 +137,7 @@ impl TwoSteps {
             explanation,
         });
         result.static_map = self.map;
+        result.searched = self.searched;
     }
 
     fn explanation(

@@ -7,11 +7,12 @@ use super::search::{METHODS, Searched, search};
 use super::stage::{RATE, along, settings, truth};
 use crate::reproduce::watch::Watch;
 use rayon::prelude::*;
-use stiction_identify::candidates::{Candidates, Named, Scheme, SixParameters};
+use stiction_friction::Direction;
+use stiction_identify::candidates::{Dynamic, Named, Scheme, SixParameters};
 use stiction_identify::{
     Conditioning, Cutoff, Law, LawKind, Mass, Record, Samples, Source, Terms, condition,
 };
-use stiction_search::{Bounds, CostsOnly, Derivatives, Fidelity, Points, Problem};
+use stiction_search::Bounds;
 use stiction_servo::motion::Sine;
 
 /// Amplitude of the motion, m: through presliding six times, up to twice the Stribeck velocity.
@@ -39,11 +40,7 @@ pub struct Dynamics {
 pub(super) fn run(statics: &Named, budget: Budget, watch: &Watch) -> Result<Dynamics, Fault> {
     let record = record()?;
     watch.done()?;
-    let held = Held {
-        bounds: bounds(&BOX_LOW[..2], &BOX_HIGH[..2])?,
-        all: cost(&record)?,
-        statics: logarithms(statics),
-    };
+    let held = Dynamic::new(cost(&record)?, &curve(statics))?;
     let two = search(&held, "annealing-ga", budget, 1, watch)?;
     let tasks: Vec<(&str, u64)> = METHODS
         .iter()
@@ -105,77 +102,16 @@ fn cost(record: &Record) -> Result<SixParameters, Fault> {
     )?)
 }
 
-/// `[sigma2, Fc, Fs - Fc, vs]` as the genome has them.
-fn logarithms(statics: &Named) -> [f64; 4] {
+/// The steady curve that was found.
+fn curve(statics: &Named) -> Direction<f64> {
     let value = |name: &str| {
         let found = statics.iter().find(|(n, _)| n == name);
         found.map_or(f64::NAN, |(_, x)| *x)
     };
-    let excess = value("static") - value("coulomb");
-    [
-        value("sigma2"),
-        value("coulomb"),
-        excess,
-        value("stribeck_velocity"),
-    ]
-    .map(libm::log)
-}
-
-/// The cost of the six parameters with four of them held.
-struct Held {
-    bounds: Bounds,
-    all: SixParameters,
-    statics: [f64; 4],
-}
-
-impl Held {
-    fn whole(&self, points: &Points) -> Points {
-        let mut whole = Points::new(6);
-        for x in points.rows() {
-            let [s2, fc, excess, vs] = self.statics;
-            whole.push(&[x[0], x[1], s2, fc, excess, vs]);
-        }
-        whole
-    }
-}
-
-impl Problem for Held {
-    fn bounds(&self) -> &Bounds {
-        &self.bounds
-    }
-
-    fn costs(&self, points: &Points, fidelity: Fidelity, out: &mut [f64]) {
-        self.all.costs(&self.whole(points), fidelity, out);
-    }
-
-    fn derivatives(
-        &self,
-        points: &Points,
-        fidelity: Fidelity,
-        out: &mut [Derivatives],
-    ) -> Result<(), CostsOnly> {
-        let mut all = vec![Derivatives::zeros(6); out.len()];
-        self.all
-            .derivatives(&self.whole(points), fidelity, &mut all)?;
-        for (all, out) in all.iter().zip(out) {
-            out.cost = all.cost;
-            out.gradient.copy_from_slice(&all.gradient[..2]);
-            for i in 0..2 {
-                out.normal[2 * i..2 * i + 2].copy_from_slice(&all.normal[6 * i..6 * i + 2]);
-            }
-        }
-        Ok(())
-    }
-
-    fn coarse_share(&self) -> f64 {
-        self.all.coarse_share()
-    }
-}
-
-impl Candidates for Held {
-    fn parameters(&self, point: &[f64]) -> Named {
-        let [s2, fc, excess, vs] = self.statics;
-        let whole = [point[0], point[1], s2, fc, excess, vs];
-        self.all.parameters(&whole)
+    Direction {
+        coulomb: value("coulomb"),
+        static_friction: value("static"),
+        stribeck_velocity: value("stribeck_velocity"),
+        viscous: value("sigma2"),
     }
 }
