@@ -9,7 +9,7 @@ use stiction_files::result::{Compensation, LawEntry, Next, Trust};
 use stiction_files::symbols;
 use stiction_identify::Parameter;
 use stiction_identify::procedure::StepFit;
-use stiction_identify::{Fit, FittedLaw, Series, SimulationFit, Status, Unseen};
+use stiction_identify::{Fit, FittedLaw, LawKind, Series, SimulationFit, Status, Unseen};
 use stiction_log::Motion;
 use stiction_number::{Percent, short};
 use stiction_parameters::Quantity;
@@ -173,6 +173,11 @@ pub(super) fn of_position(
     let mut reasons = Reasons::default();
     whole_record(evidence, &mut warnings, &mut reasons);
     open_loop(found, &mut warnings, &mut reasons);
+    if evidence.law.law.kind == LawKind::Gms {
+        let text = "simulated, this law jumps where slipping elements begin to stick: its search may end beside the truth, and \
+                    its intervals do not say so. Take maxwell-slip, or the fit of the force";
+        reasons.push(text, Next::Check);
+    }
     for (name, one) in unseen {
         if let Some(text) = position_fails(found, name, one) {
             reasons.push(text, Next::Check);
