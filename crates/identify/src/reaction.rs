@@ -8,6 +8,7 @@
 use crate::conditioning::record::{Record, Segment};
 use crate::conditioning::shift::Shift;
 use nalgebra::{SMatrix, SVector};
+use std::cmp::Ordering;
 use stiction_signal::Sos;
 
 /// Longest duration of a response, samples: a difference of positions over one sample lasts two samples,
@@ -24,6 +25,8 @@ const OUTSTANDING_SAMPLE: f64 = 4.0;
 /// How much smaller than without a response the residual variance of the fast part of the force must be
 /// for a response to be accepted, in units of what chance explains.
 const CERTAIN_ANSWER: f64 = 4.0;
+/// Standard deviations of the response to a standing difference of position from which on it is believed.
+const CERTAIN_STANDING: f64 = 4.0;
 
 /// How a force that is held from sample to sample was logged: as the mean of two neighbours where it is
 /// logged late by a part of a sample (half for a force centred about its instant).
@@ -93,11 +96,23 @@ impl Reaction {
                 samples += 1;
             }
         }
-        let by_lag = square.cholesky()?.solve(&product);
+        let factor = square.cholesky()?;
+        let mut by_lag = factor.solve(&product);
         let explained = by_lag.dot(&product);
-        let chance =
-            ANSWER_LAGS as f64 * (power - explained) / (samples.saturating_sub(ANSWER_LAGS)) as f64;
-        (explained > CERTAIN_ANSWER * chance).then(|| Self {
+        let variance = (power - explained) / (samples.saturating_sub(ANSWER_LAGS)) as f64;
+        let chance = ANSWER_LAGS as f64 * variance;
+        if explained.partial_cmp(&(CERTAIN_ANSWER * chance)) != Some(Ordering::Greater) {
+            return None;
+        }
+        // A standing difference of position is answered by a hundredth of what a step is. Where noise hides that, none
+        // is assumed: one of the wrong sign would make the simulated axis run away.
+        let moved = factor.solve(&SVector::repeat(1.0));
+        let standing = by_lag.sum();
+        let deviation = (variance * moved.sum()).sqrt();
+        if standing > -CERTAIN_STANDING * deviation {
+            by_lag -= moved * (standing / moved.sum());
+        }
+        Some(Self {
             by_lag: by_lag.into(),
         })
     }
@@ -180,8 +195,13 @@ mod tests {
 
     /// A record of a controller that answers its readings, and the force that the axis got.
     fn record(answers: bool, late: f64) -> (Record, Vec<f64>) {
-        let mut noise = Noise::new(5);
-        let encoder = Encoder::new(100e-9).unwrap();
+        read(answers, late, 100e-9, 5)
+    }
+
+    /// The same with an encoder of this count.
+    fn read(answers: bool, late: f64, count: f64, seed: u64) -> (Record, Vec<f64>) {
+        let mut noise = Noise::new(seed);
+        let encoder = Encoder::new(count).unwrap();
         let t = |k: usize| k as f64 * STEP;
         let x: Vec<f64> = (0..16_000)
             .map(|k| encoder.read(2e-3 * libm::sin(9.0 * t(k)) + 1e-4 * libm::sin(31.0 * t(k))))
@@ -225,6 +245,18 @@ mod tests {
             let square: f64 = middle.clone().map(|k| (felt[k] - held[k]).powi(2)).sum();
             let off = (square / middle.len() as f64).sqrt();
             assert!(off < 0.3 * NOISE, "late by {late}: off by {off} N");
+        }
+    }
+
+    #[test]
+    fn a_standing_difference_that_noise_hides_is_not_answered() {
+        for seed in 0..6 {
+            // Of 10 nm the noise leaves a tenth of each lag open, ten times the sum of the answer.
+            let (record, _) = read(true, 0.0, 10e-9, seed);
+            let reaction = Reaction::of(&record, Logging::new(0.0)).unwrap();
+            let standing: f64 = reaction.by_lag.iter().sum();
+            assert!(standing < 1e-6 * ANSWER[1], "seed {seed}: {standing:e}");
+            assert!((reaction.by_lag[0] - ANSWER[0]).abs() < 0.5 * ANSWER[1]);
         }
     }
 

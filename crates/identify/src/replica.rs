@@ -20,6 +20,8 @@ use stiction_servo::plant::{Load, Motion, Plant};
 
 /// Delay of a force that is logged where it is held, from its sample to the next, samples.
 const HELD_DELAY: f64 = -0.5;
+/// Deviations of a fitted delay that chance explains.
+const CHANCE: f64 = 2.0;
 /// The spring that keeps the simulated axis on the recorded motion: its frequency over the sample rate.
 const TRACKING_FREQUENCY: f64 = 0.01;
 /// The same where the response of the controller keeps it there: a stiff spring with its damper would
@@ -54,7 +56,7 @@ impl<'a> Axis<'a> {
     /// `None` for an axis that cannot be simulated: without inertia, or without a bristle.
     pub fn of(record: &'a Record, fitted: &'a Estimate) -> Option<Self> {
         let plant = plant(fitted)?;
-        let logging = Logging::new(fitted.delay_samples() - HELD_DELAY);
+        let logging = Logging::new(late(fitted, record.step()));
         let segments = &record.segments;
         let linear = fitted.terms.columns(&fitted.law);
         let beside = linear.iter().zip(fitted.coefficients());
@@ -193,6 +195,19 @@ impl<'a> Axis<'a> {
             ..Samples::default()
         })
     }
+}
+
+/// Samples by which the force is logged later than it was held. A drive logs the force of this sample or of one before, or
+/// the mean of two: a fitted delay that chance may have moved from there is taken as that.
+fn late(fitted: &Estimate, step: f64) -> f64 {
+    let late = fitted.delay_samples() - HELD_DELAY;
+    let delay = fitted.parameter(Quantity::Delay).and_then(|p| p.std);
+    let Some(deviation) = delay.filter(|_| fitted.terms.delay == Delay::Fitted) else {
+        return late;
+    };
+    let within = |near: &f64| (late - near).abs() <= CHANCE * deviation / step;
+    let near = [late.round(), 0.5 * (2.0 * late).round()];
+    near.into_iter().find(within).unwrap_or(late)
 }
 
 /// The force beside friction and inertia along a segment; `None` where a term cannot be simulated.

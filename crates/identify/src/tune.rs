@@ -46,7 +46,7 @@ const COARSE_BELOW: [i32; 2] = [2, 5];
 /// too small is worse than one that comes out ten times too small, and both are of no use.
 const LARGEST_ERROR: f64 = 5.0;
 /// Where the search begins, on that scale.
-const START: (i32, i32) = (6, 2);
+const START: (i32, i32) = (6, 4);
 /// Number of the same steps by which the cut-off of the common filter is below that of the position.
 const BELOW: std::ops::RangeInclusive<i32> = 1..=6;
 
