@@ -55,41 +55,72 @@ fn coarse_encoders_within_ten_percent() {
     holds(&[("machine", 1e-6, 10.0), ("motor", 1e-6, 10.0)]);
 }
 
+/// Largest error, %, of a parameter of the `machine` axis from one slow sine of 3 s at 10 kHz, and which it is.
+///
 /// The controller answers the noise of its encoder, which draws the fitted delay and sigma1 with it the more the more of
-/// the band is fitted: on these logs -4 to -7 % of sigma1 with 250 to 700 Hz. Replicas have to show it.
+/// the band is fitted. Replicas have to show it.
+fn largest_on_a_sine(count: f64, seed: u64) -> (f64, &'static str) {
+    let axis = axis("machine");
+    let log = ClosedLoop {
+        plant: Plant::new(axis.mass, axis.law).unwrap(),
+        controller: Cascade {
+            position_gain: 80.0,
+            speed_gain: 2000.0,
+            integral_gain: 1e5,
+            mass_feedforward: 0.0,
+            force_limit: 1e3,
+        },
+        path: Path::sine(0.0503, 1.0, 3.0).unwrap(),
+        encoder: encoder(count, seed),
+        rate: 1e4,
+        substeps: 10,
+        force_noise: 0.3,
+        force_log: ForceLog::Held,
+        seed,
+    }
+    .run()
+    .unwrap();
+    let (_, found) = identified(&log, count);
+    let errors = truth("machine").map(|(name, truth)| {
+        let (off, _) = error(found.parameter(name).unwrap(), truth);
+        (off.abs(), name)
+    });
+    errors
+        .into_iter()
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .unwrap()
+}
+
+/// With a common cut-off of 250 to 700 Hz sigma1 is off by 5 and 7 % here.
 #[test]
 fn the_answer_of_the_controller_keeps_the_cutoff_low() {
-    let axis = axis("machine");
     for (count, seed) in [(10e-9, 10), (100e-9, 9)] {
-        let log = ClosedLoop {
-            plant: Plant::new(axis.mass, axis.law).unwrap(),
-            controller: Cascade {
-                position_gain: 80.0,
-                speed_gain: 2000.0,
-                integral_gain: 1e5,
-                mass_feedforward: 0.0,
-                force_limit: 1e3,
-            },
-            path: Path::sine(0.0503, 1.0, 3.0).unwrap(),
-            encoder: encoder(count, seed),
-            rate: 1e4,
-            substeps: 10,
-            force_noise: 0.3,
-            force_log: ForceLog::Held,
-            seed,
-        }
-        .run()
-        .unwrap();
-        let (tuned, found) = identified(&log, count);
-        for (parameter, truth) in truth("machine") {
-            let (off, _) = error(found.parameter(parameter).unwrap(), truth);
-            assert!(
-                off.abs() < 2.0,
-                "{:.0} nm, {:?}: {parameter} is off by {off:.2} %",
-                1e9 * count,
-                tuned.conditioning.common_cutoff
-            );
-        }
+        let (off, name) = largest_on_a_sine(count, seed);
+        assert!(
+            off < 2.0,
+            "{:.0} nm: {name} is off by {off:.2} %",
+            1e9 * count
+        );
+    }
+}
+
+/// The best window used throughout leaves 1.31, 1.35 and 1.87 % (docs/conditioning.md).
+#[test]
+#[ignore = "soak: identifies 36 logs of 3 s"]
+fn the_choice_is_better_than_any_window() {
+    for (count, window) in [(10e-9, 1.31), (100e-9, 1.35), (1e-6, 1.87)] {
+        let off: Vec<f64> = (1..=12)
+            .map(|seed| largest_on_a_sine(count, seed).0)
+            .collect();
+        let square = off.iter().map(|x| x * x).sum::<f64>() / off.len() as f64;
+        let worst = off.iter().copied().fold(0.0, f64::max);
+        println!(
+            "{:.0} nm: {:.2} %, at most {worst:.2} %",
+            1e9 * count,
+            square.sqrt()
+        );
+        assert!(square.sqrt() < window, "{:.2} %", square.sqrt());
+        assert!(worst < 3.5, "{worst:.2} %");
     }
 }
 
