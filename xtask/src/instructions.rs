@@ -24,6 +24,10 @@ const WHAT: [&str; 7] = [
 const COMMAND: &str = "command-";
 /// Largest relative difference of a count: the C library picks its copying loops by processor.
 const TOLERANCE: f64 = 0.02;
+/// The same of a whole command: two checkouts of one commit differ by 2 %. Presumably because Cargo hashes the folder into the
+/// names of functions, by which the compiler deals those of most crates out to units that it optimises apart; the crates
+/// of the kernels are one unit each.
+const COMMAND_TOLERANCE: f64 = 0.05;
 const SNAPSHOT: &str = "bench/instructions.txt";
 
 /// Fails where a count differs from the snapshot.
@@ -39,9 +43,10 @@ pub fn compare() -> Outcome {
         return Ok(());
     }
     Err(format!(
-        "instruction counts differ by more than {} %, see the table above; {}. If that is meant: \
-         cargo xtask instructions --accept",
+        "instruction counts differ by more than {} % (whole commands {} %), see the table above; {}. If that is \
+         meant: cargo xtask instructions --accept",
         100.0 * TOLERANCE,
+        100.0 * COMMAND_TOLERANCE,
         compilers(&text)?
     ))
 }
@@ -130,7 +135,11 @@ fn table(snapshot: &str, counts: &[u64]) -> Table {
                 .ok()
         });
         let shift = old.map_or(f64::INFINITY, |old| now as f64 / old as f64 - 1.0);
-        let same = shift.abs() <= TOLERANCE;
+        let most = match what.starts_with(COMMAND) {
+            true => COMMAND_TOLERANCE,
+            false => TOLERANCE,
+        };
+        let same = shift.abs() <= most;
         out.same &= same;
         let old = old.map_or_else(|| "none".into(), |old| old.to_string());
         let _ = writeln!(
@@ -169,16 +178,13 @@ mod tests {
     #[test]
     fn a_count_that_moves_is_marked() {
         let snapshot = "# a\nfriction-step 1000\ncosts 1000\nsums 1000\nsums-alone 1000\n\
-                        command-identify 7\ncommand-auto 8\n";
-        let found = table(snapshot, &[1019, 1021, 979, 1000, 5, 7, 8]);
+                        command-identify 1000\ncommand-auto 1000\n";
+        let found = table(snapshot, &[1019, 1021, 979, 1000, 5, 1049, 949]);
         assert!(!found.same);
         let marked: Vec<bool> = found.text.lines().map(|l| l.ends_with('<')).collect();
-        assert_eq!(
-            marked,
-            [false, false, true, true, false, true, false, false]
-        );
+        assert_eq!(marked, [false, false, true, true, false, true, false, true]);
         let identify = format!("{snapshot}identify 5\n");
-        assert!(table(&identify, &[1000, 1000, 1000, 1000, 5, 7, 8]).same);
+        assert!(table(&identify, &[1000, 1000, 1000, 1000, 5, 970, 1030]).same);
     }
 
     #[test]
