@@ -12,7 +12,7 @@ use crate::fit::Fit;
 use crate::law::Law;
 use crate::left_out::Whole;
 use crate::separable::objective::Objective;
-use crate::separable::search_box::SearchBox;
+use crate::separable::optimum::Optimum;
 use crate::watch::Watch;
 use stiction_search::{Observer, Stage};
 
@@ -70,11 +70,11 @@ impl LawScore {
 }
 
 /// Refits a law with each of `blocks` parts of the record left out, starting from the full fit, and puts together the
-/// residuals of the parts, in the order of the samples.
+/// residuals of the parts, in the order of the samples. `optimum` is what the estimate was made from.
 pub fn cross_validate(
     record: &Record,
     fitted: &Estimate,
-    bounds: &SearchBox,
+    optimum: &Optimum,
     blocks: usize,
     observer: &mut dyn Observer,
 ) -> LawScore {
@@ -91,7 +91,8 @@ pub fn cross_validate(
     let whole = Whole {
         objective: &objective,
         terms: &fitted.terms,
-        bounds,
+        bounds: &optimum.bounds,
+        secant: &optimum.secant,
         p: fitted.unknowns(),
         at: &at,
         steps: REFIT_STEPS,

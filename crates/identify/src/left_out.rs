@@ -7,11 +7,12 @@
 
 use crate::conditioning::blocks::Folds;
 use crate::law::terms::Terms;
-use crate::separable::descent::descend;
+use crate::separable::descent::{descend_as, settings};
 use crate::separable::linear::{self, dot};
 use crate::separable::objective::{Evaluation, Objective};
 use crate::separable::reduced::{self, Products};
 use crate::separable::search_box::SearchBox;
+use crate::separable::secant::Secant;
 use crate::watch::Watch;
 use nalgebra::DMatrix;
 use stiction_search::{Control, descent};
@@ -30,6 +31,8 @@ pub(crate) struct Whole<'a> {
     pub objective: &'a Objective<'a>,
     pub terms: &'a Terms,
     pub bounds: &'a SearchBox,
+    /// What its descent learnt of the curvature.
+    pub secant: &'a Secant,
     /// Nonlinear unknowns.
     pub p: &'a [f64],
     /// The evaluation there, with sensitivities.
@@ -72,6 +75,11 @@ impl Whole<'_> {
         Some(out)
     }
 
+    /// Part of the samples that a fit without a fold sees.
+    fn share(&self, folds: &Folds) -> f64 {
+        1.0 - 1.0 / folds.count.max(1) as f64
+    }
+
     /// The unknowns after one step, and the coefficients that suit the other folds; `None` where more than that is needed.
     fn stepped(
         &self,
@@ -83,6 +91,7 @@ impl Whole<'_> {
         let bounded = self.objective.nonnegative();
         let products = Others { sums, out: fold };
         let here = reduced::from_products(&products, bounded, self.p.len(), None);
+        let here = self.secant.corrected(&here, self.share(folds));
         let region = self.bounds.region();
         let mut p = self.p.to_vec();
         let mut promised = 0.0;
@@ -114,7 +123,14 @@ impl Whole<'_> {
     fn descended(&self, folds: &Folds, fold: usize, watch: &mut Watch) -> (Vec<f64>, Vec<f64>) {
         let record = folds.masked(self.objective.record(), fold, false);
         let objective = Objective::new(&record, *self.objective.law(), self.terms);
-        let found = descend(&objective, self.bounds, self.p, self.steps, watch);
+        let settings = descent::Settings {
+            trusted_step: LONGEST_STEP,
+            trusted_gain: NO_GAIN,
+            no_gain: NO_GAIN,
+            ..settings(objective.energy(), self.steps)
+        };
+        let secant = self.secant.times(self.share(folds));
+        let found = descend_as(&objective, self.bounds, self.p, &settings, secant, watch);
         (found.p, found.evaluation.solution.coefficients)
     }
 }
@@ -237,6 +253,7 @@ mod tests {
                 objective: &objective,
                 terms: &terms,
                 bounds: &found.bounds,
+                secant: &found.secant,
                 p: &found.p,
                 at: &found.evaluation,
                 steps: 60,

@@ -14,6 +14,7 @@ pub(crate) mod recursion;
 pub(crate) mod reduced;
 pub(crate) mod search;
 pub(crate) mod search_box;
+pub(crate) mod secant;
 pub(crate) mod settings;
 
 use crate::conditioning::record::Record;
@@ -86,6 +87,7 @@ pub fn separable(
         history: descent.history,
         delay: fitted,
         elements: Vec::new(),
+        secant: descent.secant,
         evaluation: descent.evaluation,
     })
 }
@@ -131,6 +133,7 @@ pub(crate) fn follow(
         history: found.history,
         delay,
         elements: Vec::new(),
+        secant: found.secant,
         evaluation: found.evaluation,
     })
 }

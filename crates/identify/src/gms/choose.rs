@@ -71,6 +71,7 @@ fn held_out(
         objective: full,
         terms,
         bounds: &rung.bounds,
+        secant: &rung.descent.secant,
         p: &rung.descent.p,
         at: &rung.descent.evaluation,
         steps: REFIT_STEPS,

@@ -208,6 +208,7 @@ impl Search<'_> {
             history: descent.history,
             elements: Vec::new(),
             delay: false,
+            secant: descent.secant,
             evaluation: descent.evaluation,
         })
     }

@@ -23,6 +23,7 @@ use crate::separable::linear::{self, Solution, dot};
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
 use crate::separable::search_box::SearchBox;
+use crate::separable::secant::Secant;
 use nalgebra::{DMatrix, DVector};
 use stiction_parameters::{Name, Quantity};
 use stiction_search::{Control, Counts, Observer, Progress, Stage, Status};
@@ -117,6 +118,7 @@ pub fn dynamic_near(
         iterations: counts.total(),
         history: Vec::new(),
         delay: false,
+        secant: Secant::default(),
         evaluation,
     };
     let mut out = estimate(record, law, terms, &optimum, low_speed);

@@ -3,6 +3,7 @@
 use crate::separable::in_lanes::InLanes;
 use crate::separable::objective::{Evaluation, Objective};
 use crate::separable::search_box::SearchBox;
+use crate::separable::secant::Secant;
 use crate::watch::Watch;
 use stiction_search::descent::{self, LeastSquares, Settings, Sums};
 use stiction_search::{Control, Derivatives, Status};
@@ -13,6 +14,8 @@ pub(crate) struct Descent {
     pub p: Vec<f64>,
     pub evaluation: Evaluation,
     pub status: Status,
+    /// What it learnt of the curvature.
+    pub secant: Secant,
     pub iterations: usize,
     /// Relative residual after each accepted step, with the number of evaluations until then.
     pub history: Vec<(usize, f64)>,
@@ -30,7 +33,7 @@ const FADING_PROMISE: f64 = 0.1;
 
 /// Settings of a descent of at most `most_trials` trials, on a record whose force has this energy (sum of
 /// squares).
-pub(super) fn settings(energy: f64, most_trials: usize) -> Settings {
+pub(crate) fn settings(energy: f64, most_trials: usize) -> Settings {
     Settings {
         most_trials,
         exact_cost: EXACT_COST * energy,
@@ -49,6 +52,27 @@ pub(crate) fn descend(
     steps: usize,
     watch: &mut Watch,
 ) -> Descent {
+    let settings = settings(objective.energy(), steps);
+    descend_as(
+        objective,
+        bounds,
+        start,
+        &settings,
+        Secant::default(),
+        watch,
+    )
+}
+
+/// The same by other rules, with what is known of the curvature from a descent near by.
+pub(crate) fn descend_as(
+    objective: &Objective,
+    bounds: &SearchBox,
+    start: &[f64],
+    settings: &Settings,
+    secant: Secant,
+    watch: &mut Watch,
+) -> Descent {
+    let steps = settings.most_trials;
     let mut history = Vec::new();
     let led = objective
         .sums()
@@ -57,21 +81,25 @@ pub(crate) fn descend(
     let evaluation = objective.evaluate(&start, true);
     watch.count(objective, true);
     history.push((watch.counts.total(), objective.relative(evaluation.cost)));
-    let settings = settings(objective.energy(), steps);
-    let mut walk = descent::Descent::new(start, &settings).after(done);
+    let mut walk = descent::Descent::new(start.clone(), settings).after(done);
     if interrupted {
         walk.end(Status::Interrupted);
     }
+    let sums = evaluation.reduced();
     let mut columns = Columns {
         objective,
-        sums: evaluation.reduced(),
+        model: sums.clone(),
+        sums,
         now: evaluation,
+        at: start,
+        secant,
         tried: None,
         history,
         watch,
     };
-    let walk = descent::descend(&mut columns, walk, bounds.region(), &settings);
+    let walk = descent::descend(&mut columns, walk, bounds.region(), settings);
     Descent {
+        secant: columns.secant,
         evaluation: columns.now,
         status: walk.status().unwrap_or(Status::Budget),
         iterations: walk.trials(),
@@ -83,29 +111,42 @@ pub(crate) fn descend(
 /// An objective evaluated with all of its columns.
 struct Columns<'a, 'w, 'o> {
     objective: &'a Objective<'a>,
+    /// Where the descent stands.
+    at: Vec<f64>,
     now: Evaluation,
     sums: Derivatives,
-    tried: Option<Evaluation>,
+    secant: Secant,
+    /// The sums with the curvature that was learnt.
+    model: Derivatives,
+    tried: Option<(Vec<f64>, Evaluation)>,
     history: Vec<(usize, f64)>,
     watch: &'w mut Watch<'o>,
 }
 
 impl LeastSquares for Columns<'_, '_, '_> {
     fn sums(&mut self, _: f64) -> Option<Sums<'_>> {
-        Some((&self.sums).into())
+        if let Some((trial, failed)) = self.tried.take() {
+            // A trial that was not taken shows the curvature all the same.
+            self.learn(&trial, &failed.reduced(), false);
+        }
+        self.model = self.secant.corrected(&self.sums, 1.0);
+        Some((&self.model).into())
     }
 
     fn cost(&mut self, trial: &[f64], _: f64) -> f64 {
         let next = self.objective.evaluate(trial, true);
         self.watch.count(self.objective, true);
         let cost = next.cost;
-        self.tried = Some(next);
+        self.tried = Some((trial.to_vec(), next));
         cost
     }
 
     fn accept(&mut self) {
-        if let Some(next) = self.tried.take() {
-            self.sums = next.reduced();
+        if let Some((trial, next)) = self.tried.take() {
+            let sums = next.reduced();
+            self.learn(&trial, &sums, true);
+            self.at = trial;
+            self.sums = sums;
             self.now = next;
             let relative = self.objective.relative(self.now.cost);
             self.history.push((self.watch.counts.total(), relative));
@@ -114,6 +155,26 @@ impl LeastSquares for Columns<'_, '_, '_> {
 
     fn after_trial(&mut self) -> Control {
         self.watch.report(self.objective.relative(self.now.cost))
+    }
+}
+
+impl Columns<'_, '_, '_> {
+    /// Learns from the gradient at a trial, which is `taken` or not.
+    fn learn(&mut self, trial: &[f64], there: &Derivatives, taken: bool) {
+        // The elements of a Maxwell-slip law change between stick and slip at corners of the cost, which no parabola shows.
+        if !there.cost.is_finite() || self.objective.law().kind.has_elements() {
+            return;
+        }
+        let step = descent::difference(trial, &self.at);
+        let change = descent::difference(&there.gradient, &self.sums.gradient);
+        self.secant
+            .judge(&self.sums, &step, self.sums.cost - there.cost);
+        let normal = if taken {
+            &there.normal
+        } else {
+            &self.sums.normal
+        };
+        self.secant.learn(&step, &change, normal);
     }
 }
 

@@ -4,6 +4,7 @@ use crate::gms::score::ElementsScore;
 use crate::law::Law;
 use crate::separable::objective::Evaluation;
 use crate::separable::search_box::SearchBox;
+use crate::separable::secant::Secant;
 use stiction_search::{Counts, Status};
 
 /// What a search found.
@@ -27,6 +28,8 @@ pub struct Optimum {
     pub(crate) delay: bool,
     /// The numbers of elements that were tried for a Maxwell-slip law; empty where it was given.
     pub elements: Vec<ElementsScore>,
+    /// What the last descent learnt of the curvature.
+    pub(crate) secant: Secant,
     /// The evaluation at the optimum, with sensitivities.
     pub evaluation: Evaluation,
 }

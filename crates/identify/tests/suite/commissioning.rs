@@ -80,7 +80,7 @@ fn chosen(backwards: f64) -> (LawKind, bool) {
         };
         let found = separable(&record, law, &terms, &Settings::default(), &mut Silent).unwrap();
         let fitted = estimate(&record, law, &terms, &found, 1e-3);
-        cross_validate(&record, &fitted, &found.bounds, 4, &mut Silent)
+        cross_validate(&record, &fitted, &found, 4, &mut Silent)
     })
     .collect();
     let standings = choose(&scores);

@@ -245,7 +245,7 @@ fn held_out_error_names_the_law() {
         let law = Law::new(kind);
         let found = separable(record, law, &terms(), &Settings::default(), &mut Silent).unwrap();
         let fitted = estimate(record, law, &terms(), &found, 1e-3);
-        cross_validate(record, &fitted, &found.bounds, 4, &mut Silent)
+        cross_validate(record, &fitted, &found, 4, &mut Silent)
             .held_out
             .unwrap()
             .rmse

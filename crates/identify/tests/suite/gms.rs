@@ -257,7 +257,7 @@ fn four_elements_are_found() {
             counts.with_derivatives(),
             counts.coarse(),
         ),
-        (58, 466, 351)
+        (58, 464, 351)
     );
     assert_eq!(found.status, Status::Converged);
     assert!(estimate.fit.rmse < 0.155, "residual {}", estimate.fit.rmse);

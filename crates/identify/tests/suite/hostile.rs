@@ -359,7 +359,7 @@ fn run(
     }
     prop_assert_eq!(e.fit.samples, record.kept());
     prop_assert_eq!(predict(&record, &e).model.len(), record.kept());
-    let score = cross_validate(&record, &e, &found.bounds, 2, &mut counter);
+    let score = cross_validate(&record, &e, &found, 2, &mut counter);
     prop_assert!(score.held_out.is_none_or(|f| f.samples == record.kept()));
     Ok(())
 }

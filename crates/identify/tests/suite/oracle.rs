@@ -431,7 +431,7 @@ fn held_out(record: &Record, kind: LawKind) -> f64 {
     let terms = Terms::default();
     let found = separable(record, law, &terms, &Settings::default(), &mut Silent).unwrap();
     let e = estimate(record, law, &terms, &found, 1e-3);
-    let score = cross_validate(record, &e, &found.bounds, 4, &mut Silent);
+    let score = cross_validate(record, &e, &found, 4, &mut Silent);
     score.held_out.unwrap().rmse
 }
 

@@ -52,7 +52,7 @@ fn the_observer_is_asked_after_a_handful_of_evaluations() {
         let found = separable(&record, law, &terms, &settings, &mut gaps).unwrap();
         let mut fitted = estimate(&record, law, &terms, &found, 1e-3);
         intervals(&record, &found, &mut fitted, &mut gaps);
-        cross_validate(&record, &fitted, &found.bounds, 4, &mut gaps);
+        cross_validate(&record, &fitted, &found, 4, &mut gaps);
     }
     println!("{} looks, at most {} evaluations", gaps.looks, gaps.most);
     assert!(gaps.looks > 100);

@@ -153,7 +153,7 @@ impl Ladder<'_> {
             engine::cross_validate(
                 self.record,
                 &estimate,
-                &optimum.bounds,
+                &optimum,
                 CROSS_VALIDATION_BLOCKS,
                 &mut relay,
             )
