@@ -126,7 +126,13 @@ pub fn tune(
         tuned.counts.add(&found.counts);
         let fitted = estimate(&record, law, terms, &found, 0.0);
         tuned.interrupted = found.status == Status::Interrupted;
-        if tuned.interrupted || !worth(&fitted) {
+        if tuned.interrupted {
+            break;
+        }
+        if !worth(&fitted) {
+            // Replicas of a fit with low cut-offs know nothing of what the axis does above them.
+            tuned.conditioning = *wanted;
+            tuned.trials.clear();
             break;
         }
         let Some(axis) = Axis::of(&record, &fitted) else {
