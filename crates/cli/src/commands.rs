@@ -84,8 +84,9 @@ fn next(error: &Error, command: &Command) -> Option<String> {
     );
     let log = logs.first().filter(|_| unclear && axis.is_none())?;
     Some(format!(
-        "next: stiction check {} --init axis.toml writes an axis file with the columns that are clear filled in",
-        log.display()
+        "next, for an axis file with the columns that are clear filled in: stiction check {} --init {}",
+        quoted(log),
+        stiction::commands::text::axis_file(&log.display().to_string())
     ))
 }
 

@@ -33,6 +33,7 @@ mod finding;
 mod force;
 mod motion;
 pub(crate) mod rest;
+mod stray;
 mod stuck;
 mod velocity;
 
@@ -49,6 +50,7 @@ pub(crate) fn inspect(log: &mut Log, mapping: &Mapping) {
     motion::few_samples(log);
     encoder::jumps(log);
     encoder::steps(log, mapping);
+    stray::strays(log);
     stuck::stuck(log);
     force::saturation(log, mapping);
     force::sign(log);

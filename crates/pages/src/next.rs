@@ -12,6 +12,7 @@ pub(crate) fn why(next: Next) -> &'static str {
         Next::LetTheDataChoose => "let the data choose the law",
         Next::IdentifyTheOther => "what the other log says by itself, to compare the parameters",
         Next::Simulate => "fit the position of the simulated axis, which differentiates nothing",
+        Next::AxisFile => "correct the axis file as said above",
         Next::Check => "see what the log shows, and what motion to record instead",
         Next::Again => "the same again, to the end",
     }
@@ -44,6 +45,13 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
             "stiction identify {log} --method output-error --out {}",
             another("simulated")
         ),
+        Next::AxisFile => match &result.axis.file {
+            Some(_) => format!("stiction identify {log} --out {}", another("corrected")),
+            None => format!(
+                "stiction check {log} --init {}",
+                axis_file(&result.inputs[0].path)
+            ),
+        },
         Next::Check => format!("stiction check {log}"),
         Next::Again => {
             let law = match (result.law_chosen_by.as_str(), result.asymmetric) {
@@ -58,6 +66,14 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
             format!("stiction identify {log}{law}{method} --out {folder}")
         }
     }
+}
+
+/// What an axis file for a log may be called, as a shell takes it: by the log, so that those of several do not meet.
+pub fn axis_file(log: &str) -> String {
+    let stem = Path::new(log)
+        .file_stem()
+        .map(|stem| stem.to_string_lossy());
+    quoted(&format!("{}.axis.toml", stem.as_deref().unwrap_or("log")))
 }
 
 /// An argument as a shell takes it.

@@ -124,6 +124,7 @@ fn defaults(data: &Path, out: &mut String) {
                 Next::Simulate => "`--method output-error`",
                 Next::Check => "`stiction check`",
                 Next::LetTheDataChoose | Next::IdentifyTheOther | Next::Again => "identify again",
+                Next::AxisFile => "correct the axis file",
             }
         );
     }

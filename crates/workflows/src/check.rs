@@ -69,6 +69,8 @@ pub enum Lead {
     Identify,
     /// The same by simulation: filters leave too little of the log.
     Simulate,
+    /// The axis file needs a line that is named.
+    AxisFile,
     /// Nothing can be identified from the log; another has to be recorded.
     Record,
 }
@@ -188,6 +190,7 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
             out.refused = untrusted(&outcome);
             out.next = match outcome.result.trust.next {
                 Next::Simulate => Lead::Simulate,
+                Next::AxisFile => Lead::AxisFile,
                 // A fit would lead back here.
                 Next::Check => Lead::Record,
                 _ if slides => Lead::Identify,
@@ -226,8 +229,11 @@ fn verdicts(outcome: &Outcome) -> Vec<ParameterCheck> {
             name: p.name.clone(),
             value: p.value,
             unit: p.unit.clone(),
-            identifiable: p.identifiable,
-            reason: p.reason.clone(),
+            identifiable: outcome.result.trust.constants.contains(&p.name),
+            reason: match p.identifiable {
+                true => "the law explains too little of the force".into(),
+                false => p.reason.clone(),
+            },
         })
         .collect()
 }

@@ -684,7 +684,7 @@ fn unclear_columns_lead_to_an_axis_file() {
         let (code, _, err) = bench.run(&arguments);
         assert_eq!(code, 2, "{err}");
         assert!(
-            err.contains("next: stiction check plain.csv --init axis.toml"),
+            err.contains(": stiction check plain.csv --init plain.axis.toml"),
             "{err}"
         );
     }

@@ -54,6 +54,8 @@ pub enum Next {
     IdentifyTheOther,
     /// Identify again by simulation of the axis.
     Simulate,
+    /// Correct the axis file as the reasons say, and identify again.
+    AxisFile,
     /// See what the log shows, and record the motion that is missing.
     Check,
     /// Give the same command again, and let it end.

@@ -9,6 +9,7 @@ mod file;
 mod inputs;
 mod machine;
 mod paths;
+mod published;
 
 use super::belief::{Belief, Family, Undrawn};
 use super::plan::{Machine, Named, Study};

@@ -28,6 +28,8 @@ pub(crate) const LEAST_VELOCITY_SHARE: f64 = 0.2;
 /// Rise of static friction, as a part of the Coulomb level, below which the curve has no rise. It
 /// also stands for no rise where a logarithm is needed; it is far below any rise that a log determines.
 pub(super) const LEAST_RISE: f64 = 1e-9;
+/// Weight of a point in the robust loss, 0 to 1, below which it lies off the curve.
+const OUTLYING_WEIGHT: f64 = 0.1;
 /// How far, in standard deviations, the loss must rise towards either end of the range of vs for vs to
 /// count as bounded: somewhere on a whole grid noise alone reaches two or three.
 const BOUNDED_RISE: f64 = 3.5;
@@ -80,6 +82,8 @@ pub struct StaticMap {
     pub weights: Vec<f64>,
     /// Scatter of the points beyond their standard errors, in the unit of the force.
     pub scatter: f64,
+    /// The robust loss, dimensionless: that of two maps of the same points can be compared.
+    pub loss: f64,
     /// The parameters, in the order of tables.
     pub parameters: Vec<Parameter>,
     /// Their covariance, without what was given.
@@ -94,6 +98,12 @@ impl StaticMap {
     {
         let found = self.parameters.iter().find(|p| p.name == name);
         found.map(|p| p.value)
+    }
+
+    /// Points that lie off the curve: the robust loss leaves them less than a tenth of their weight.
+    pub fn outlying(&self) -> impl Iterator<Item = &StaticPoint> {
+        let points = self.points.iter().zip(&self.weights);
+        points.filter_map(|(point, weight)| (*weight < OUTLYING_WEIGHT).then_some(point))
     }
 
     /// The exponent of the curve.
@@ -342,6 +352,7 @@ impl Fitted<'_> {
             deviation,
             weights,
             scatter: self.scatter,
+            loss: self.best.iter().map(|best| best.solved.cost).sum(),
             parameters,
             covariance,
         }

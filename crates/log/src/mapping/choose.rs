@@ -28,8 +28,17 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
     let mut scan = Scan::new(table);
     for role in Role::ALL {
         if let Some(channel) = given.channel(role) {
-            let column = select(table, &channel.column, role);
-            scan.used[column.map_err(|e| e.of_setting(role.key("column")))?] = true;
+            let of_role = |e: Error| e.of_setting(role.key("column"));
+            let column = select(table, &channel.column, role).map_err(of_role)?;
+            if scan.used[column] {
+                let found = format!(
+                    "{} has another role already",
+                    describe::column(table, column)
+                );
+                let error = Error::new(Kind::Ambiguous, found, "a column of its own for each role");
+                return Err(of_role(error));
+            }
+            scan.used[column] = true;
         }
     }
     if given.time.is_some() && given.rate_hz.is_some() {

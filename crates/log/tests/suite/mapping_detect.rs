@@ -141,6 +141,17 @@ fn equal_columns_are_one_column() {
 }
 
 #[test]
+fn a_column_has_one_role() {
+    let table = headed(&["t [s]", "x [m]", "F [N]"]);
+    let mapping = Mapping {
+        position: Some(Channel::index(3)),
+        force: Some(Channel::named("F")),
+        ..Mapping::default()
+    };
+    insta::assert_snapshot!(Log::from_table(&table, &mapping).unwrap_err().to_string());
+}
+
+#[test]
 fn selectors_by_name_number_and_header() {
     let table = headed(&["t [s]", "Pos A [mm]", "F [N]", "F [kN]"]);
     let log = |column: Selector| {

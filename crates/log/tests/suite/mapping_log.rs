@@ -1,7 +1,7 @@
 //! From a table to a log: closed forms, and each finding on a recording made to have it.
 
 use crate::mapping_common;
-use crate::mapping_common::{axis, codes, column, message, noise, table, told, warnings};
+use crate::mapping_common::{Axis, axis, codes, column, message, noise, table, told, warnings};
 use std::f64::consts::PI;
 use stiction_log::{Channel, Kind, Log, Mapping, Table, Unit, Wrap};
 
@@ -268,6 +268,41 @@ fn a_wrapping_position_is_put_together() {
         message(&log, "position-wrap"),
         "position never wraps: no step is longer than half the wrap of 40 m; nothing was unwrapped"
     );
+}
+
+/// Counts that are lost in motion, for good or for one sample; a slip out of a rest is no fault.
+#[test]
+fn single_steps_that_no_motion_makes_split_the_record() {
+    let count = |x: &mut f64| *x = (*x / 1e-6).round() * 1e-6;
+    let mut lost = axis(4000);
+    lost.position[1501..].iter_mut().for_each(|x| *x -= 3e-3);
+    let mut garbled = axis(4000);
+    garbled.position[2400] += 3e-3;
+    let mut slips = axis(4000);
+    // Rests of 0.3 s, between which it slips by 0.3 mm within one sample.
+    let hold = |i: usize| 3e-4 * (i / 300) as f64;
+    (0..4000).for_each(|i| slips.position[i] = hold(i));
+    for axis in [&mut lost, &mut garbled, &mut slips] {
+        axis.position.iter_mut().for_each(count);
+    }
+    let read = |axis: Axis| {
+        let table = table(vec![
+            column("time [s]", axis.time),
+            column("position [m]", axis.position),
+            column("force [N]", axis.force),
+        ]);
+        read(&table)
+    };
+    let (lost, garbled, slips) = (read(lost), read(garbled), read(slips));
+    assert_eq!(lost.segments, [0..1501, 1501..4000], "{}", told(&lost));
+    assert_eq!(garbled.segments, [0..2400, 2400..2401, 2401..4000]);
+    assert!(
+        !codes(&slips).contains(&"position-jump"),
+        "{}",
+        told(&slips)
+    );
+    let said = [&lost, &garbled].map(|log| message(log, "position-jump"));
+    insta::assert_snapshot!(said.join("\n"));
 }
 
 #[test]

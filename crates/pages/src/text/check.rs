@@ -1,7 +1,7 @@
 //! The outcome of a check, and what an axis file was begun with.
 
 use super::table::table;
-use crate::next::quoted;
+use crate::next::{axis_file, quoted};
 use std::fmt::Write;
 use std::path::Path;
 use stiction_files::symbols;
@@ -161,18 +161,27 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
         Some(file) => format!(" --axis {}", quoted(&file.display().to_string())),
         None => String::new(),
     };
+    let init = format!(
+        "stiction check {path}{with} --init {}",
+        axis_file(&log.input.path)
+    );
     if !log.input.assumed.is_empty() {
-        let file = if axis.is_some() {
-            "axis-2.toml"
-        } else {
-            "axis.toml"
-        };
         out.push(format!(
-            "next: stiction check {path}{with} --init {file} writes down the units that were assumed; correct them there"
+            "to write down the units that were assumed, and correct them there: {init}"
         ));
+    }
+    if log.next == Lead::Simulate {
+        out.push("where a fit by simulation is refused too: record what is named above".into());
     }
     out.push(match log.next {
         Lead::Identify => format!("next: stiction identify {path}{with} --out result"),
+        Lead::AxisFile => match axis {
+            Some(file) => format!(
+                "next: correct {} as said above, then: stiction identify {path}{with} --out result",
+                file.display()
+            ),
+            None => format!("next, to correct what is said above in it: {init}"),
+        },
         Lead::Simulate => {
             format!("next: stiction identify {path}{with} --method output-error --out result")
         }

@@ -136,6 +136,47 @@ fn every_log_leads_on() {
     }
 }
 
+/// Gravity on a joint, and a force of the wrong sign, are named; the next step is the axis file, not another fit.
+#[test]
+fn what_the_axis_file_lacks_is_named() {
+    let bench = Bench::new();
+    let joint = |t: f64| both_ways(t).map(|x| 10.0 * x);
+    let text = |force: &dyn Fn(usize, f64) -> f64| {
+        let row = |i: usize| {
+            let t = i as f64 / 1000.0;
+            format!("{t:.4},{:.6},{:.4}\n", joint(t)[0], force(i, t))
+        };
+        let rows: String = (0..6000).map(row).collect();
+        format!("Time [s],Angle [rad],Torque [N m]\n{rows}")
+    };
+    let rubs = |i: usize, t: f64| {
+        let [_, v, a] = joint(t);
+        0.5 * v.signum() + 0.02 * v + 0.01 * a + 0.01 * noise(6, i)
+    };
+    let gravity = text(&|i, t| rubs(i, t) + 4.0 * joint(t)[0].sin());
+    let wrong = text(&|i, t| -rubs(i, t));
+    for (name, text, said) in [
+        ("arm.csv", gravity, "gravity = true"),
+        ("wrong.csv", wrong, "invert = true"),
+    ] {
+        let log = bench.write(name, &text);
+        let found = checked(&log, None);
+        let refused = found.logs[0].refused.as_deref().unwrap_or_default();
+        assert!(refused.contains(said), "{refused}");
+        assert_eq!(found.logs[0].next, Lead::AxisFile);
+        assert!(found.logs[0].parameters.iter().all(|p| !p.identifiable));
+    }
+    // With the line that was named it is an axis like any other.
+    let axis = bench.write("arm.toml", "[terms]\ngravity = true\n");
+    let found = checked(&bench.path("arm.csv"), Some(&axis));
+    assert_eq!(
+        found.logs[0].next,
+        Lead::Identify,
+        "{:?}",
+        found.logs[0].refused
+    );
+}
+
 /// Two logs of an axis whose encoder was set to zero elsewhere before the second.
 #[test]
 fn a_fit_sees_the_reversals_that_check_sees() {

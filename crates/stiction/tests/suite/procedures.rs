@@ -385,6 +385,31 @@ fn both_steps_by_a_search() {
     }
 }
 
+/// A box that keeps the search from the curve: least squares find it, and the box is named.
+#[test]
+fn a_box_off_the_truth_does_not_decide() {
+    let bench = Bench::new();
+    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap();
+    let alone = run(&with(&[&logs[0]], method(Method::Static))).unwrap();
+    for range in [
+        "sigma2 = [\"600 N s/m\", \"6000 N s/m\"]",
+        "stribeck_velocity = [\"0.1 m/s\", \"0.2 m/s\"]",
+    ] {
+        let mut asked = with(&[&logs[0]], method(Method::Static));
+        let text = format!("[search.lm]\nstarts = 2\n[search.box]\n{range}\n");
+        asked.files.axis = Some(bench.write("off.toml", &text));
+        asked.searching.search = Some("lm");
+        let outcome = run(&asked).unwrap();
+        assert_eq!(
+            outcome.result.parameters, alone.result.parameters,
+            "{range}"
+        );
+        let warnings = &outcome.result.warnings;
+        let named = warnings.iter().any(|w| w.message.contains("[search.box]"));
+        assert!(named, "{warnings:?}");
+    }
+}
+
 /// A search where none is made, or a setting that it cannot have there.
 #[test]
 fn searches_of_steps_are_refused_elsewhere() {

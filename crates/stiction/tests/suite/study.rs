@@ -600,6 +600,18 @@ fn learning_stops_between_passes() {
     assert_eq!(outcome.file.results.len(), 1);
 }
 
+/// Published numbers in the study itself: the known axis that has them, and its results.
+#[test]
+fn six_published_numbers_are_simulated() {
+    let desk = Desk::new();
+    let known = together(&[AXIS, SINE, CASCADE, WHOLE]);
+    let numbers = "mass = \"4.6 kg\"\nparameters = { sigma0 = \"2e6 N/m\", sigma1 = \"1500 N s/m\", sigma2 = \"0.03 N s/mm\", \
+                   coulomb = \"12 N\", static = \"18 N\", stribeck_velocity = \"3 mm/s\" }";
+    let given = known.replace("known        = \"motor\"", numbers);
+    let (known, given) = (desk.run(&known), desk.run(&given));
+    assert_eq!(known.results, given.results);
+}
+
 #[test]
 fn what_is_refused() {
     let good = together(&[AXIS, SINE, CASCADE, WHOLE]);
@@ -623,6 +635,25 @@ fn what_is_refused() {
     desk.write("weightless.toml", &model(0.1, 0.1).replace("4.6", "0.0"));
     desk.write("points.csv", "t [s],x [parsec]\n0,0\n1,1\n");
     let changes = [
+        ("known        = \"motor\"", "parameters = \"motor\""),
+        (
+            "known        = \"motor\"",
+            "parameters = { sigma0 = \"2e6 N/m\", coulomb = \"12 N\" }",
+        ),
+        (
+            "known        = \"motor\"",
+            "parameters = { sigma0 = \"2e6 N/m\", sigma1 = \"1500 N s/m\", sigma2 = \"30 N s/m\", coulomb = \"12 N\", \
+             static = \"8 N\", stribeck_velocity = \"3 mm/s\" }",
+        ),
+        (
+            "known        = \"motor\"",
+            "parameters = { sigma0 = \"2e6 N/m\", sigma1 = \"1500 N s/m\", sigma2 = \"30 N s/m\", coulomb = \"12 N m\", \
+             static = \"18 N\", stribeck_velocity = \"3 mm/s\" }",
+        ),
+        (
+            "known        = \"motor\"",
+            "known = \"motor\"\nparameters = { sigma0 = \"2e6 N/m\" }",
+        ),
         ("known        = \"motor\"", "known = \"Motor\""),
         ("known        = \"motor\"", "model = \"\""),
         ("known        = \"motor\"", "model = \".\""),

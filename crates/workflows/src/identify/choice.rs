@@ -5,7 +5,9 @@ use super::trust::RICHER_LAW_WINS_BELOW;
 use super::unfit;
 use stiction_files::result::LawEntry;
 use stiction_identify as engine;
-use stiction_identify::{Estimate, Law, LawKind, Observer, Optimum, Settings, Status};
+use stiction_identify::{
+    Control, Estimate, Law, LawKind, Observer, Optimum, Progress, Settings, Status,
+};
 use stiction_parameters::{Quantity, Side};
 
 /// The families that a compensator can be exported of.
@@ -266,7 +268,15 @@ fn stated(
     observer: &mut dyn Observer,
 ) -> Estimate {
     if estimate.status != Status::Interrupted {
-        engine::intervals(ladder.record, optimum, &mut estimate, observer);
+        let mut heard = Heard {
+            observer,
+            stopped: false,
+        };
+        engine::intervals(ladder.record, optimum, &mut estimate, &mut heard);
+        if heard.stopped {
+            // What its intervals lack is not told from what they have.
+            estimate = estimate.interrupted();
+        }
     }
     estimate
 }
@@ -288,4 +298,18 @@ fn reliable(climb: &Climb, laws: &[LawEntry], best: usize) -> usize {
     let near = |&i: &usize| rungs[i].held_out_error() <= most;
     let within: Vec<usize> = able.into_iter().filter(inside).filter(near).collect();
     climb.best_of(&within).unwrap_or(best)
+}
+
+/// An observer, and whether it has asked to stop.
+struct Heard<'o> {
+    observer: &'o mut dyn Observer,
+    stopped: bool,
+}
+
+impl Observer for Heard<'_> {
+    fn progress(&mut self, progress: &Progress) -> Control {
+        let control = self.observer.progress(progress);
+        self.stopped |= control == Control::Stop;
+        control
+    }
 }

@@ -5,7 +5,8 @@ use crate::source::Source;
 use crate::turns::turns;
 use stiction_files::result::{Compensation, Next};
 use stiction_identify::Series;
-use stiction_number::Percent;
+use stiction_number::{Percent, counted};
+use stiction_parameters::Quantity;
 
 /// Largest part of the friction that a law may leave on samples that it was not fitted to, dimensionless: with half of it
 /// left, a compensator takes away the other half.
@@ -15,6 +16,10 @@ const VALIDATION_FAILS_ABOVE: f64 = 2.0;
 /// Part of the friction that a validation may leave whatever the fit left, dimensionless: a tenth is little for a
 /// compensator.
 const LITTLE_LEFT: f64 = 0.1;
+
+/// Fewest reversals on which a law is relied on that leaves its Coulomb level open: the third may confirm what the first two
+/// suggest.
+const FEWEST_REVERSALS: usize = 3;
 
 /// What the law leaves of the friction and where that was seen, with the reasons against it; `None` without a force that
 /// friction is a part of.
@@ -61,12 +66,29 @@ pub(super) fn judged(evidence: &Evidence, reasons: &mut Reasons) -> Option<Compe
         );
         reasons.push(text, evidence.where_no_law_predicts());
     }
+    if judged_on == "fitted" && evidence.chosen {
+        let text = "the log is too short to hold samples out: nothing shows what the law predicts";
+        reasons.push(text, evidence.where_no_law_predicts());
+    }
+    let reversals = reversals(evidence.sources);
+    let coulomb = law.parameters.iter();
+    let mut coulomb = coulomb.filter(|p| p.name.quantity == Quantity::Coulomb);
+    if reversals < FEWEST_REVERSALS && coulomb.any(|p| !p.identifiable) {
+        let text = format!(
+            "the axis turns back {}, which shows too little of friction: its Coulomb level is not determined",
+            match reversals {
+                0 => "nowhere".to_string(),
+                n => counted(n, "time"),
+            }
+        );
+        reasons.push(text, Next::Check);
+    }
     Some(Compensation {
         friction_left_percent: 100.0 * left,
         judged_on: judged_on.into(),
         top_speed: top_speed(own),
         stroke: stroke(own),
-        reversals: reversals(evidence.sources),
+        reversals,
     })
 }
 

@@ -2,6 +2,7 @@
 
 use super::choice::EXPORTED;
 use super::compensation;
+use super::unfit;
 use crate::source::Source;
 use stiction_codes::Code;
 use stiction_files::Warning;
@@ -9,7 +10,9 @@ use stiction_files::result::{Compensation, LawEntry, Next, Trust};
 use stiction_files::symbols;
 use stiction_identify::Parameter;
 use stiction_identify::procedure::StepFit;
-use stiction_identify::{Fit, FittedLaw, LawKind, Series, SimulationFit, Status, Unseen};
+use stiction_identify::{
+    Fit, FittedLaw, LawKind, Series, SimulationFit, Status, Swing, Unseen, explained_by_gravity,
+};
 use stiction_log::Motion;
 use stiction_number::{Percent, short};
 use stiction_parameters::Quantity;
@@ -17,6 +20,11 @@ use stiction_parameters::Quantity;
 /// Part of the variance of what was fitted that a law must explain, dimensionless: half. A law that leaves more than it
 /// explains is not the law of this axis.
 const LEAST_R2: f64 = 0.5;
+/// Relative error of a fit, percent, above which something else than friction and inertia is looked for: a quarter.
+const MUCH_LEFT_PERCENT: f64 = 25.0;
+/// Part of the points of a static map that may lie off its curve, dimensionless: a third. What two thirds agree on may still
+/// be the curve; with fewer it is one of several.
+const MOST_OUTLYING_SHARE: f64 = 1.0 / 3.0;
 /// Part of the samples whose force may be cut off at a limit, dimensionless. Those are left out; with more of them the
 /// accelerations, which determine the mass, are missing.
 const MOST_SATURATED_SHARE: f64 = 0.2;
@@ -66,7 +74,11 @@ impl Judged {
     ) -> Self {
         let names = |determined: bool| -> Vec<String> {
             let identified = law.parameters.iter().filter(|p| p.identified);
-            let known = |p: &Parameter| p.identifiable && law.status == Status::Converged;
+            // A law that explains less than half has no constants of the machine, whatever its curvature says.
+            let holds = law.status == Status::Converged
+                && law.fit.r2 >= LEAST_R2
+                && !law.stays_in_presliding();
+            let known = |p: &Parameter| p.identifiable && holds;
             identified
                 .filter(|p| known(p) == determined)
                 .map(|p| p.name.to_string())
@@ -186,9 +198,10 @@ pub(super) fn of_position(
     Judged::new(evidence.law, None, reasons, warnings)
 }
 
-/// A steady curve through points of constant velocity.
+/// A steady curve through points of constant velocity, of which some lie off it.
 pub(super) fn of_static_map(
     law: &FittedLaw,
+    outlying: usize,
     sources: &[Source],
     motion: Motion,
     mut warnings: Vec<Warning>,
@@ -197,6 +210,18 @@ pub(super) fn of_static_map(
     interrupted(law, &mut warnings, &mut reasons);
     saturation(sources, &mut reasons);
     unidentifiable(law, motion, &mut warnings);
+    let left_out = outlying as f64 / law.series.measured.len().max(1) as f64;
+    if left_out > MOST_OUTLYING_SHARE {
+        let text = format!(
+            "{} of the points lie off the curve and hardly count",
+            Percent::error(100.0 * left_out).digits(2)
+        );
+        reasons.push(text, Next::Check);
+    }
+    slides_freely(law, &mut reasons, Next::Check);
+    if let Some(why) = unfit::above_every_force(law, sources) {
+        reasons.push(why, Next::Check);
+    }
     if law.fit.r2.is_nan() || law.fit.r2 < LEAST_R2 {
         let text = "the curve explains less than half of the variance of the forces";
         warnings.push(Warning::new(Code::PoorFit, text));
@@ -249,6 +274,7 @@ fn record(
 /// What can be said of any law that was fitted to whole records.
 fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
     let law = evidence.law;
+    term_is_missing(evidence, reasons);
     search_ended(evidence, warnings, reasons);
     explains_little(evidence, warnings, reasons);
     if !evidence.moves_both_ways {
@@ -259,6 +285,7 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
         }
         reasons.push(text, Next::Check);
     }
+    slides_freely(law, reasons, evidence.where_no_law_predicts());
     if law.stays_in_presliding() {
         let text = "the axis never slides: its stroke is shorter than the travel of the bristles from one side to the other";
         reasons.push(text, Next::Check);
@@ -289,6 +316,52 @@ fn search_ended(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
             reasons.push(text, evidence.another_law());
         }
     }
+}
+
+/// Names what the axis file lacks where a law explains little, or nothing of it makes sense: the sign of the force, or
+/// gravity.
+fn term_is_missing(evidence: &Evidence, reasons: &mut Reasons) {
+    let law = evidence.law;
+    let much = law.fit.relative_error_percent;
+    let poor = much.is_nan() || much > MUCH_LEFT_PERCENT;
+    let braked = evidence
+        .sources
+        .iter()
+        .flat_map(|source| &source.log.findings);
+    let mut braked = braked.filter(|finding| finding.code == Code::ForceSign);
+    if let Some(finding) = braked.next() {
+        reasons.push(finding.message.clone(), Next::AxisFile);
+    } else if poor && evidence.motion == Motion::Rotary && !law.terms.gravity {
+        let swings = evidence.sources.iter().filter_map(swing);
+        let part = explained_by_gravity(&swings.collect::<Vec<_>>());
+        if part > LEAST_R2 {
+            let text = format!(
+                "{} of what friction and inertia leave follows the sine and cosine of the angle, as gravity does: set \
+                 gravity = true under [terms]",
+                Percent::error(100.0 * part).digits(2)
+            );
+            reasons.push(text, Next::AxisFile);
+        }
+    }
+}
+
+/// Refuses a law without Coulomb friction: it leaves nothing to compensate at a reversal, and no compensator takes it.
+fn slides_freely(law: &FittedLaw, reasons: &mut Reasons, next: Next) {
+    let levels = law.parameters.iter();
+    let mut levels = levels.filter(|p| p.name.quantity == Quantity::Coulomb);
+    if levels.any(|p| p.value.is_nan() || p.value <= 0.0) {
+        reasons.push("its Coulomb friction is zero", next);
+    }
+}
+
+fn swing(source: &Source) -> Option<Swing<'_>> {
+    let log = &source.log;
+    Some(Swing {
+        time: &log.time,
+        angle: log.position.as_ref()?,
+        force: log.force.as_ref()?,
+        rate: log.rate_hz,
+    })
 }
 
 fn interrupted(law: &FittedLaw, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
@@ -408,7 +481,10 @@ fn another_wins(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
 fn shifted(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
     let far = |p: &&stiction_identify::Parameter| {
         let part = p.bias.map_or(0.0, |bias| (bias / p.value).abs());
+        // A part of what may be zero says nothing.
+        let from_zero = p.ci95.is_none_or(|(low, high)| low > 0.0 || high < 0.0);
         p.identifiable
+            && from_zero
             && p.name != Quantity::Offset
             && p.name != Quantity::Delay
             && part > NAMED_SHIFT

@@ -1,6 +1,7 @@
 //! `[axis]` and `[second_axis]`
 
 use super::dimensions::Dimensions;
+use super::published::published;
 use crate::config::Table;
 use crate::error::{Error, Warning};
 use crate::model::MODEL;
@@ -32,23 +33,33 @@ pub(super) fn machine(
     folder: &Path,
     first: Option<f64>,
 ) -> Result<Machine, Error> {
-    let mut model = match (table.get("model"), table.get("known")) {
-        (Some(given), None) => {
+    let mut model = match (
+        table.get("model"),
+        table.get("known"),
+        table.get("parameters"),
+    ) {
+        (None, None, Some(given)) => published(&given)?,
+        (Some(given), None, None) => {
             let (file, text) = given.file(folder, MODEL)?;
             Model::parse(&text, &file)?
         }
-        (None, Some(given)) => {
+        (None, Some(given), None) => {
             let names: Vec<_> = known::all().map(|axis| axis.name).collect();
             let name = given.choice(&names)?;
             Model::known(name).ok_or_else(|| given.refused(&names.join(", ")))?
         }
-        (None, None) => {
-            let allowed = "give a model file, or known = \"motor\" for a known axis";
+        (None, None, None) => {
+            let allowed = "give a model file, known = \"motor\" for a known axis, or parameters = { sigma0 = \"2e6 N/m\", .. }";
             return Err(table.refuse("model", "is missing".into(), allowed));
         }
-        (Some(_), Some(_)) => {
-            let allowed = "either a model file or a known axis";
+        (Some(_), Some(_), _) => {
+            let allowed = "a model file, a known axis or parameters";
             return Err(table.refuse("known", "stands beside model".into(), allowed));
+        }
+        (model, _, Some(given)) => {
+            let beside = if model.is_some() { "model" } else { "known" };
+            let allowed = "a model file, a known axis or parameters";
+            return Err(given.refuse(format!("stands beside {beside}"), allowed));
         }
     };
     let motion = model.motion;

@@ -129,7 +129,13 @@ fn servo_logs_have_neither_names_nor_time() {
             assert!((log.time.last().unwrap() - seconds).abs() < 0.01);
             if kind == "sliding" {
                 assert!((log.quantum.unwrap() / 6.2832e-4 - 1.0).abs() < 1e-3);
-                assert_eq!(warnings(&log), [""; 0]);
+            }
+            // Between steps of 24 counts this one has a single step of 134, after which it goes on as before.
+            let lost = (kind, run) == ("sliding", 1);
+            if kind == "sliding" {
+                let expected: &[&str] = if lost { &["position-jump"] } else { &[] };
+                assert_eq!(warnings(&log), expected);
+                assert_eq!(log.segments.len(), 1 + usize::from(lost));
             }
             let faults = [
                 "stuck-encoder",
@@ -140,7 +146,9 @@ fn servo_logs_have_neither_names_nor_time() {
                 "no-motion",
             ];
             assert!(
-                faults.iter().all(|f| !codes(&log).contains(f)),
+                faults
+                    .iter()
+                    .all(|f| !codes(&log).contains(f) || (lost && *f == "position-jump")),
                 "{}",
                 told(&log)
             );

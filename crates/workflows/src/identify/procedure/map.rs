@@ -22,8 +22,9 @@ use stiction_log::Motion;
 const ADVISED_SPEEDS: usize = 12;
 /// Difference of two speeds, as a part of the lower one, up to which they count as one, dimensionless.
 const SAME_SPEED_WITHIN: f64 = 0.02;
-/// Weight of a point in the robust loss, 0 to 1, below which it is named as lying off the curve.
-const OUTLYING_WEIGHT: f64 = 0.1;
+
+/// Part of its loss up to which a map counts as the same, dimensionless: far above rounding, far below any other minimum.
+const SAME_LOSS_WITHIN: f64 = 1e-6;
 
 /// A map with what goes into the result.
 pub(super) struct Mapped {
@@ -63,12 +64,25 @@ pub(super) fn map(
         true => searched::curve(asked, sources, &found.points, &settings, observer)?,
         false => None,
     };
-    let map = match &searched {
-        None => everywhere,
-        Some(step) => static_map_near(&found.points, &settings, &step.near)
-            .map_err(|e| refused(sources, e))?,
+    let (map, elsewhere) = match &searched {
+        None => (everywhere, false),
+        Some(step) => {
+            let near = static_map_near(&found.points, &settings, &step.near);
+            let near = near.map_err(|e| refused(sources, e))?;
+            match everywhere.loss < near.loss * (1.0 - SAME_LOSS_WITHIN) {
+                true => (everywhere, true),
+                false => (near, false),
+            }
+        }
     };
-    let warnings = warnings(&map, &found, sources, motion);
+    let mut warnings = warnings(&map, &found, sources, motion);
+    if elsewhere {
+        warnings.push(Warning::new(
+            Code::NotConverged,
+            "the search for the steady curve ended at another one than least squares find over all Stribeck velocities, which \
+             is given: its box, [search.box] of the axis file, or its budget keeps it away",
+        ));
+    }
     let interrupted = searched.as_ref().is_some_and(|step| step.interrupted);
     let entry = StaticMapEntry {
         searched: searched.map(|step| step.entry),
@@ -177,13 +191,8 @@ fn warnings(
             ),
         ));
     }
-    let outlying: Vec<String> = map
-        .points
-        .iter()
-        .zip(&map.weights)
-        .filter(|(_, w)| **w < OUTLYING_WEIGHT)
-        .map(|(p, _)| speed(p.velocity, motion))
-        .collect();
+    let outlying = map.outlying().map(|p| speed(p.velocity, motion));
+    let outlying: Vec<String> = outlying.collect();
     if !outlying.is_empty() {
         out.push(Warning::new(
             Code::OutlyingPoints,

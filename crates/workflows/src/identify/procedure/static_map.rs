@@ -26,6 +26,7 @@ pub(in crate::identify) fn run(
     let sources = &loaded.sources;
     let mut found = map(asked, sources, observer)?;
     let mut law = found.map.fitted_law();
+    let outlying = found.map.outlying().count();
     if found.interrupted {
         law.status = Status::Interrupted;
     }
@@ -35,7 +36,7 @@ pub(in crate::identify) fn run(
     warnings.retain(|w| ![Code::ConstantVelocity, Code::OneDirection].contains(&w.code));
     warnings.extend(one_direction(&found));
     warnings.append(&mut found.warnings);
-    let judged = trust::of_static_map(&law, sources, loaded.motion(), warnings);
+    let judged = trust::of_static_map(&law, outlying, sources, loaded.motion(), warnings);
     let break_away = break_away(&loaded.beside, &law)?;
     let mut result = assemble::result(Parts {
         asked,

@@ -8,6 +8,7 @@ use crate::identify::load::Asked;
 use crate::identify::logs::refused;
 use crate::identify::searched;
 use crate::source::Source;
+use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::result::{
     ResultFile, SearchedEntry, StaticMapEntry, TwoStepEntry, TwoStepParameter,
@@ -24,6 +25,8 @@ use stiction_parameters::{Name, Quantity};
 /// Difference of a parameter between the two ways, in standard deviations of the joint fit, above which it is explained:
 /// two, as the 95 % intervals.
 const EXPLAINED_DIFFERENCE: f64 = 2.0;
+/// Part of its residual up to which a fit counts as the same, dimensionless: far above rounding.
+const SAME_ERROR_WITHIN: f64 = 1e-6;
 /// Correlation of two parameters in the joint fit, 0 to 1, from which they are named as hard to tell apart.
 const CONFUSED_CORRELATION: f64 = 0.9;
 
@@ -91,6 +94,19 @@ pub(in crate::identify) fn two_step(
     let near = step.as_ref().map(|step| step.near[0]);
     let mut estimate =
         dynamic_near(near, record, statics, &terms, low_speed, observer).map_err(fail)?;
+    let mut warnings = known.warnings;
+    if near.is_some() {
+        let everywhere =
+            dynamic_near(None, record, statics, &terms, low_speed, observer).map_err(fail)?;
+        if everywhere.fit.rmse < estimate.fit.rmse * (1.0 - SAME_ERROR_WITHIN) {
+            estimate = everywhere;
+            warnings.push(Warning::new(
+                Code::NotConverged,
+                "the search for sigma0 and sigma1 ended at other values than least squares find over the whole range of sigma0, \
+                 which are given: its box, [search.box] of the axis file, or its budget keeps it away",
+            ));
+        }
+    }
     if known.interrupted || step.as_ref().is_some_and(|step| step.interrupted) {
         estimate = estimate.interrupted();
     }
@@ -99,7 +115,7 @@ pub(in crate::identify) fn two_step(
         from: known.from,
         map: known.map,
         searched: step.map(|step| step.entry),
-        warnings: known.warnings,
+        warnings,
     };
     Ok((estimate, beside))
 }

@@ -1,0 +1,82 @@
+//! Single steps of a moving position that no motion makes: counts that an encoder lost or a transmission garbled.
+
+use super::finding::{Finding, Severity, place};
+use crate::log::Log;
+use stiction_codes::Code;
+use stiction_number::{counted as count, short};
+use stiction_signal::noise_deviation;
+
+/// Steps to either side that one is compared with.
+const NEIGHBOURS: usize = 5;
+/// How far a step must be off the median of its neighbours, in the second largest such difference of the neighbours:
+/// under a finite force the speed changes little from sample to sample.
+const MIN_OFF_NEIGHBOURS: f64 = 10.0;
+/// The same in encoder steps, or in deviations of the noise where these are larger.
+const MIN_OFF_COUNTS: f64 = 20.0;
+/// The same in usual steps: a row that was lost without a time to show it doubles a step.
+const MIN_OFF_USUAL: f64 = 2.0;
+/// Least usual step, in encoder steps: an axis that slips after a rest may well move in one sample, one in motion does not.
+const MIN_MOTION: f64 = 2.0;
+/// Most such steps of a record: more are how it moves, or how it was logged.
+const MOST_STRAYS: usize = 20;
+
+/// Finds such steps and splits the record there.
+pub(super) fn strays(log: &mut Log) {
+    let Some(x) = &log.position else { return };
+    let noise = noise_deviation(log.segments.iter().filter_map(|s| x.get(s.clone())));
+    let unit = log.quantum.unwrap_or(0.0).max(noise);
+    if unit.is_nan() || unit <= 0.0 {
+        return;
+    }
+    let mut found = Vec::new();
+    for segment in &log.segments {
+        let Some(x) = x.get(segment.clone()) else {
+            continue;
+        };
+        let times = log.time[segment.clone()].windows(2);
+        // Over a few lost rows it moves on for as long as the time says.
+        let samples = times.map(|t| ((t[1] - t[0]) * log.rate_hz).max(1.0));
+        let steps = x.windows(2).zip(samples).map(|(x, n)| (x[1] - x[0]) / n);
+        let steps: Vec<f64> = steps.collect();
+        let middles = NEIGHBOURS..steps.len().saturating_sub(NEIGHBOURS);
+        found.extend(
+            middles
+                .filter(|&i| stray(&steps, i, unit))
+                .map(|i| segment.start + i),
+        );
+        if found.len() > MOST_STRAYS {
+            return;
+        }
+    }
+    let Some(&first) = found.first() else { return };
+    let message = format!(
+        "position steps {} by far more than just before and after, which no motion does, first by {} {} after {}: counts were \
+         lost or garbled; the record is split there",
+        count(found.len(), "time"),
+        short(x[first + 1] - x[first]),
+        log.motion.position().si_text(),
+        place(log, first)
+    );
+    log.findings
+        .push(Finding::new(Code::PositionJump, Severity::Warning, message).at(first));
+    log.split(&found.iter().map(|i| i + 1).collect::<Vec<_>>());
+}
+
+/// Whether a step is off its neighbours by more than they differ among each other.
+fn stray(steps: &[f64], i: usize, unit: f64) -> bool {
+    let near = &steps[i - NEIGHBOURS..=i + NEIGHBOURS];
+    let mut others = [0.0; 2 * NEIGHBOURS];
+    others[..NEIGHBOURS].copy_from_slice(&near[..NEIGHBOURS]);
+    others[NEIGHBOURS..].copy_from_slice(&near[NEIGHBOURS + 1..]);
+    others.sort_by(f64::total_cmp);
+    let usual = 0.5 * (others[NEIGHBOURS - 1] + others[NEIGHBOURS]);
+    let mut differences = others.map(|step| (step - usual).abs());
+    differences.sort_by(f64::total_cmp);
+    // All but one: a single sample that is off makes two such steps, there and back.
+    let spread = differences[2 * NEIGHBOURS - 2];
+    let off = (steps[i] - usual).abs();
+    usual.abs() >= MIN_MOTION * unit
+        && off > MIN_OFF_COUNTS * unit
+        && off > MIN_OFF_USUAL * usual.abs()
+        && off > MIN_OFF_NEIGHBOURS * spread.max(unit)
+}
