@@ -404,7 +404,11 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
                 let command = stiction::commands::text::command(arguments);
                 format!("next: the same again, to the end\n  {command}\n")
             }
-            _ => stiction::commands::text::next(&outcome.result, dir),
+            _ => {
+                let is_study = |path: &&PathBuf| path.ends_with("study.toml");
+                let study = written.iter().find(is_study).map(PathBuf::as_path);
+                stiction::commands::text::next(&outcome.result, dir, study)
+            }
         };
         output::print(&format!("{text}\n{}{next}", written_to(dir, &written)))?;
     }

@@ -8,6 +8,7 @@ mod model;
 mod plan;
 mod resolve;
 pub mod result;
+pub mod template;
 
 pub use belief::{Belief, Family};
 pub use grid::Job;

@@ -68,6 +68,13 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
     }
 }
 
+/// The command that runs a study of the result in a folder.
+pub(crate) fn simulate(study: &Path, dir: &Path) -> String {
+    let [study, out] = [study.to_path_buf(), dir.join("study")];
+    let [study, out] = [study, out].map(|path| quoted(&path.display().to_string()));
+    format!("stiction simulate {study} --out {out}")
+}
+
 /// What an axis file for a log may be called, as a shell takes it: by the log, so that those of several do not meet.
 pub fn axis_file(log: &str) -> String {
     let stem = Path::new(log)

@@ -22,7 +22,7 @@ pub use procedure::procedure_commands;
 pub use reproduction::reproduction;
 use std::fmt::Write;
 use std::path::Path;
-use stiction_files::result::{LawEntry, ResultFile, SimulationEntry};
+use stiction_files::result::{LawEntry, Next, ResultFile, SimulationEntry};
 use stiction_number::{Percent, four_digits as short, r_squared, unit};
 use stiction_workflows::identify::Outcome;
 pub use study::study;
@@ -186,13 +186,23 @@ pub fn command(arguments: impl Iterator<Item = String>) -> String {
     format!("stiction {}", quoted.join(" "))
 }
 
-/// What to do next with the result in a folder.
-pub fn next(result: &ResultFile, dir: &Path) -> String {
-    format!(
-        "next: {}\n  {}\n",
+/// What to do next with the result in a folder; `study` is one that was written there.
+pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
+    let mut out = String::new();
+    if let Some(study) = study.filter(|_| result.trust.next == Next::Export) {
+        let _ = writeln!(
+            out,
+            "what it does on this axis, simulated\n  {}",
+            next::simulate(study, dir)
+        );
+    }
+    let _ = writeln!(
+        out,
+        "next: {}\n  {}",
         next::why(result.trust.next),
         next::command(result, dir)
-    )
+    );
+    out
 }
 
 /// What was simulated, and how far off its force and the encoder's steps are.

@@ -527,8 +527,20 @@ fn the_demo_finds_the_truth() {
     assert_eq!((code, err.as_str()), (0, ""), "{out}");
     assert!(out.contains("against the truth"));
     let mut files = bench.names("stiction-demo");
-    files.retain(|name| name != "demo.csv");
+    files.retain(|name| !["demo.csv", "study.toml"].contains(&name.as_str()));
     assert_eq!(files, FOUR);
+    // What is written beside the model runs as it is.
+    let study = [
+        "simulate",
+        "stiction-demo/study.toml",
+        "--out",
+        "stiction-demo/study",
+    ];
+    assert!(
+        out.contains(&format!("stiction {}", study.join(" "))),
+        "{out}"
+    );
+    assert_eq!(bench.run(&study).0, 0);
     let result = json(&std::fs::read_to_string(bench.path("stiction-demo/result.json")).unwrap());
     let value = |name: &str| {
         let all = result["parameters"].as_array().unwrap();

@@ -280,7 +280,17 @@ fn the_uncertainty_of_what_is_given_is_carried_on() {
 /// moves sigma0, sigma1 and the mass of a log together, and the position shows nothing of it.
 #[test]
 fn intervals_count_the_noise_of_the_force() {
-    const LOGS: u64 = 40;
+    noisy_forces(10);
+}
+
+/// The same on four times as many logs.
+#[test]
+#[ignore = "half a minute; in the soak"]
+fn intervals_count_the_noise_of_many_forces() {
+    noisy_forces(40);
+}
+
+fn noisy_forces(logs: u64) {
     let axis = level_axis(0.4);
     let truth = [
         ("sigma0", 1e5),
@@ -289,8 +299,8 @@ fn intervals_count_the_noise_of_the_force() {
     ];
     for memory in [0.0, 0.8] {
         let (mut held, mut off) = (0, 0.0);
-        for seed in 0..LOGS {
-            let logs: Vec<Samples> = [0.1, 0.3]
+        for seed in 0..logs {
+            let pair: Vec<Samples> = [0.1, 0.3]
                 .iter()
                 .zip([7000, 8000])
                 .map(|(share, first)| {
@@ -304,15 +314,15 @@ fn intervals_count_the_noise_of_the_force() {
                     log
                 })
                 .collect();
-            let fit = fit(&axis, &logs, false, true);
+            let fit = fit(&axis, &pair, false, true);
             for (name, truth) in truth {
                 let p = fit.parameters.iter().find(|p| p.name == name).unwrap();
                 let (low, high) = p.ci95.unwrap();
                 held += u64::from((low..=high).contains(&truth));
-                off += ((p.value - truth) / p.std.unwrap()).powi(2) / (3 * LOGS) as f64;
+                off += ((p.value - truth) / p.std.unwrap()).powi(2) / (3 * logs) as f64;
             }
         }
-        let share = 100.0 * held as f64 / (3 * LOGS) as f64;
+        let share = 100.0 * held as f64 / (3 * logs) as f64;
         println!(
             "memory {memory}: {share:.0} % held, off by {:.2} deviations",
             off.sqrt()

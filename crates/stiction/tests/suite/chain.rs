@@ -4,7 +4,7 @@
 use crate::common::{Bench, options};
 use std::fmt::Write;
 use std::path::PathBuf;
-use stiction::{LawKind, Silent};
+use stiction::{LawKind, Silent, Study, bundle};
 use stiction_friction::compensator::{Compensator, Friction, Settings, Source};
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_servo::axis::AxisSettings;
@@ -90,5 +90,34 @@ fn what_is_identified_takes_nine_tenths_off_the_reversal_peak() {
     }
     for p in &outcome.result.parameters {
         println!("{} {}", p.name, p.value);
+    }
+}
+
+/// The study that is written beside a model runs as it is, each path long enough for the watchdog to learn before it is
+/// scored.
+#[test]
+fn the_study_beside_a_model_shows_what_compensation_does() {
+    let bench = Bench::new();
+    let log = log(&bench);
+    let outcome = options(&[&log], LawKind::LuGre).identify(&mut Silent);
+    let dir = bench.path("found");
+    bundle::identification(&outcome.unwrap())
+        .write(&dir)
+        .unwrap();
+    let study = Study::read(dir.join("study.toml")).unwrap();
+    let results = stiction::simulate(&study, &mut Silent).file.results;
+    // Two paths, without, with Coulomb friction and with LuGre.
+    assert_eq!(results.len(), 6);
+    for path in results.chunks(3) {
+        let error = |compensator: &str| {
+            let row = path
+                .iter()
+                .find(|row| row.compensator == compensator)
+                .unwrap();
+            assert_eq!((row.still_learning, row.switched_off), (0, 0), "{row:?}");
+            let peak = row.metrics.iter().find(|m| m.name == "reversal_peak");
+            peak.unwrap().mean
+        };
+        assert!(error("lugre") < 0.5 * error("none"), "{path:#?}");
     }
 }
