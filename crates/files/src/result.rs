@@ -87,6 +87,15 @@ pub struct ResultFile {
     pub warnings: Vec<Warning>,
 }
 
+impl ResultFile {
+    /// The searches that were made, in their order: for the steady curve, then for the rest.
+    pub fn searches(&self) -> impl Iterator<Item = &SearchedEntry> {
+        let curve = self.static_map.as_ref();
+        let curve = curve.and_then(|map| map.searched.as_ref());
+        curve.into_iter().chain(&self.searched)
+    }
+}
+
 /// The entry of results that were written before the data could choose a law.
 fn by_user() -> String {
     "user".into()

@@ -12,6 +12,7 @@ mod condition;
 mod conditioning;
 mod fit;
 mod judge;
+mod lacking;
 mod ladder;
 mod load;
 mod logs;

@@ -10,6 +10,9 @@ use stiction_log::Motion;
 use stiction_parameters::{LawError, LawKind, Name, ParameterSet, Quantity};
 use stiction_servo::known::{self, Kind};
 
+/// Laws that a study simulates.
+pub(super) const SIMULATED: [LawKind; 2] = [LawKind::LuGre, LawKind::Dahl];
+
 /// Parameters of a law with bristles, and what is known of their errors.
 pub struct Model {
     /// Linear or rotary.
@@ -101,7 +104,7 @@ impl Model {
     fn of(read: ReadModel) -> Result<Self, Error> {
         let model = &read.model;
         let kind = match LawKind::from_name(&model.law) {
-            Some(kind @ (LawKind::LuGre | LawKind::Dahl)) => kind,
+            Some(kind) if SIMULATED.contains(&kind) => kind,
             _ => {
                 let allowed = "a study simulates lugre and dahl; identify the law lugre";
                 return Err(read.refuse("law", format!("{:?}", model.law), allowed));

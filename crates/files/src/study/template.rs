@@ -1,13 +1,13 @@
 //! The study that an identification begins: its axis on motion like that of the log, without and with compensation.
 
+use super::model::SIMULATED;
 use crate::result::ResultFile;
 use crate::symbols;
 use std::f64::consts::TAU;
 use stiction_log::Motion;
 use stiction_number::short;
+use stiction_parameters::LawKind;
 
-/// Laws that a study simulates.
-const SIMULATED: [&str; 2] = ["lugre", "dahl"];
 /// Bandwidth of the controller, Hz: that of a usual servo axis ...
 const BANDWIDTH: f64 = 30.0;
 /// ... and its least ratio to the control rate, below which the delay of a period no longer counts.
@@ -18,9 +18,12 @@ const BANDWIDTH_OVER_FREQUENCY: f64 = 20.0;
 const LEAST_RATE: f64 = 10.0;
 /// Most samples of a path: a study of seconds.
 const MOST_SAMPLES: f64 = 2e5;
-/// Time that a watchdog learns from the first reversal on, and in which the force then comes in, s.
+/// Time that a watchdog learns from the first reversal on, s.
 const LEARNING: f64 = 2.0;
-const RAMP: f64 = 0.05;
+/// In which the force then comes in, and what is left to spare, s; beside it a twentieth of a cycle, as it counts time in
+/// motion.
+const RAMP: f64 = 0.1;
+const SPARE_CYCLES: f64 = 0.05;
 /// Force limit over the largest force of the log, dimensionless.
 const LIMIT_OVER_FORCE: f64 = 3.0;
 
@@ -56,7 +59,8 @@ pub fn template(result: &ResultFile, shown: &Shown) -> Option<String> {
     let slides = levels.all(|p| p.value > 0.0);
     let unit_fits = result.axis.force_unit == symbols::force_unit(shown.motion);
     let moves = seen.top_speed > 0.0 && shown.force > 0.0 && shown.rate >= LEAST_RATE;
-    if !SIMULATED.contains(&result.law.as_str()) || !unit_fits || !slides || !moves {
+    let simulated = LawKind::from_name(&result.law).is_some_and(|law| SIMULATED.contains(&law));
+    if !simulated || !unit_fits || !slides || !moves {
         return None;
     }
     let bandwidth = BANDWIDTH.min(shown.rate / RATE_OVER_BANDWIDTH);
@@ -64,7 +68,7 @@ pub fn template(result: &ResultFile, shown: &Shown) -> Option<String> {
     // the same speed with another stroke.
     let mut frequency = seen.top_speed / (TAU * 0.5 * stroke);
     frequency = frequency.min(bandwidth / BANDWIDTH_OVER_FREQUENCY);
-    let learnt = |f: f64| 0.5 / f + (LEARNING * f).ceil().max(1.0) / f + RAMP;
+    let learnt = |f: f64| 0.5 / f + ((LEARNING * f).ceil().max(1.0) + SPARE_CYCLES) / f + RAMP;
     let cycles = |f: f64| (learnt(f) * f).ceil() + 2.0;
     while cycles(frequency) / frequency * shown.rate > MOST_SAMPLES {
         frequency *= 2.0;

@@ -285,7 +285,7 @@ fn intervals_count_the_noise_of_the_force() {
 
 /// The same on four times as many logs.
 #[test]
-#[ignore = "half a minute; in the soak"]
+#[ignore = "soak: 80 fits, half a minute"]
 fn intervals_count_the_noise_of_many_forces() {
     noisy_forces(40);
 }

@@ -7,10 +7,7 @@ use stiction_report::{Align, Axis, Block, Color, Figure, Layer, Panel, Table, Te
 use stiction_workflows::identify::Outcome;
 
 pub(super) fn sections(outcome: &Outcome) -> Vec<Block> {
-    let result = &outcome.result;
-    let curve = result.static_map.as_ref();
-    let curve = curve.and_then(|map| map.searched.as_ref());
-    let searches = curve.into_iter().chain(&result.searched);
+    let searches = outcome.result.searches();
     searches
         .flat_map(|entry| {
             [

@@ -7,9 +7,7 @@ use stiction_number::{Percent, four_digits as short};
 
 /// A table for each search that was made.
 pub(super) fn sections(result: &ResultFile) -> String {
-    let curve = result.static_map.as_ref();
-    let curve = curve.and_then(|map| map.searched.as_ref());
-    let searches = curve.into_iter().chain(&result.searched);
+    let searches = result.searches();
     searches.map(|entry| section(entry, result)).collect()
 }
 

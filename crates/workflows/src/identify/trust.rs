@@ -2,6 +2,7 @@
 
 use super::choice::EXPORTED;
 use super::compensation;
+use super::lacking;
 use super::unfit;
 use crate::source::Source;
 use stiction_codes::Code;
@@ -10,18 +11,14 @@ use stiction_files::result::{Compensation, LawEntry, Next, Trust};
 use stiction_files::symbols;
 use stiction_identify::Parameter;
 use stiction_identify::procedure::StepFit;
-use stiction_identify::{
-    Fit, FittedLaw, LawKind, Series, SimulationFit, Status, Swing, Unseen, explained_by_gravity,
-};
+use stiction_identify::{Fit, FittedLaw, LawKind, Series, SimulationFit, Status, Unseen};
 use stiction_log::Motion;
 use stiction_number::{Percent, short};
 use stiction_parameters::Quantity;
 
 /// Part of the variance of what was fitted that a law must explain, dimensionless: half. A law that leaves more than it
 /// explains is not the law of this axis.
-const LEAST_R2: f64 = 0.5;
-/// Relative error of a fit, percent, above which something else than friction and inertia is looked for: a quarter.
-const MUCH_LEFT_PERCENT: f64 = 25.0;
+pub(super) const LEAST_R2: f64 = 0.5;
 /// Part of the points of a static map that may lie off its curve, dimensionless: a third. What two thirds agree on may still
 /// be the curve; with fewer it is one of several.
 const MOST_OUTLYING_SHARE: f64 = 1.0 / 3.0;
@@ -274,7 +271,7 @@ fn record(
 /// What can be said of any law that was fitted to whole records.
 fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
     let law = evidence.law;
-    term_is_missing(evidence, reasons);
+    lacking::named(evidence, reasons);
     search_ended(evidence, warnings, reasons);
     explains_little(evidence, warnings, reasons);
     if !evidence.moves_both_ways {
@@ -318,33 +315,6 @@ fn search_ended(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
     }
 }
 
-/// Names what the axis file lacks where a law explains little, or nothing of it makes sense: the sign of the force, or
-/// gravity.
-fn term_is_missing(evidence: &Evidence, reasons: &mut Reasons) {
-    let law = evidence.law;
-    let much = law.fit.relative_error_percent;
-    let poor = much.is_nan() || much > MUCH_LEFT_PERCENT;
-    let braked = evidence
-        .sources
-        .iter()
-        .flat_map(|source| &source.log.findings);
-    let mut braked = braked.filter(|finding| finding.code == Code::ForceSign);
-    if let Some(finding) = braked.next() {
-        reasons.push(finding.message.clone(), Next::AxisFile);
-    } else if poor && evidence.motion == Motion::Rotary && !law.terms.gravity {
-        let swings = evidence.sources.iter().filter_map(swing);
-        let part = explained_by_gravity(&swings.collect::<Vec<_>>());
-        if part > LEAST_R2 {
-            let text = format!(
-                "{} of what friction and inertia leave follows the sine and cosine of the angle, as gravity does: set \
-                 gravity = true under [terms]",
-                Percent::error(100.0 * part).digits(2)
-            );
-            reasons.push(text, Next::AxisFile);
-        }
-    }
-}
-
 /// Refuses a law without Coulomb friction: it leaves nothing to compensate at a reversal, and no compensator takes it.
 fn slides_freely(law: &FittedLaw, reasons: &mut Reasons, next: Next) {
     let levels = law.parameters.iter();
@@ -352,16 +322,6 @@ fn slides_freely(law: &FittedLaw, reasons: &mut Reasons, next: Next) {
     if levels.any(|p| p.value.is_nan() || p.value <= 0.0) {
         reasons.push("its Coulomb friction is zero", next);
     }
-}
-
-fn swing(source: &Source) -> Option<Swing<'_>> {
-    let log = &source.log;
-    Some(Swing {
-        time: &log.time,
-        angle: log.position.as_ref()?,
-        force: log.force.as_ref()?,
-        rate: log.rate_hz,
-    })
 }
 
 fn interrupted(law: &FittedLaw, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {

@@ -123,7 +123,7 @@ fn elements_are_found_and_covered() {
 /// The force of this law jumps where slipping elements begin to stick, and so does the simulated position with the parameters:
 /// searches end in different minima, near the truth and not on it.
 #[test]
-#[ignore = "half a minute"]
+#[ignore = "soak: half a minute"]
 fn elements_with_a_stribeck_curve_are_followed() {
     let log = [log(0.4, 3.0, FINE, 2e-6, 12)];
     let found = fitted(&log, law(LawKind::Gms));
@@ -137,7 +137,7 @@ fn elements_with_a_stribeck_curve_are_followed() {
 
 /// Presliding of a servo axis, three counts to each side: what remembers its reversals follows it better than what does not.
 #[test]
-#[ignore = "half a minute"]
+#[ignore = "soak: half a minute"]
 fn a_measured_presliding_is_followed_better_than_by_one_deflection() {
     let Some(data) = stiction_testkit::recordings() else {
         return;

@@ -30,7 +30,7 @@ fn an_unseen_run_is_never_restarted() {
     let fitted = open(2.0, 0.0, 1e-6, 0.0, 1);
     let unseen = open(3.0, 1.1, 1e-6, 0.0, 2);
     let law = Law::new(LawKind::CoulombViscous);
-    for segment in [Some(0.5), None] {
+    for segment in [Some(0.25), Some(0.5), None] {
         let simulation = Simulation {
             segment,
             quantum: Some(1e-6),

@@ -1,0 +1,49 @@
+//! What the axis file lacks where a law explains little: the sign of the force, or gravity.
+
+use super::trust::{Evidence, LEAST_R2, Reasons};
+use crate::source::Source;
+use stiction_codes::Code;
+use stiction_files::result::Next;
+use stiction_identify::{Swing, explained_by_gravity};
+use stiction_log::Motion;
+use stiction_number::Percent;
+
+/// Relative error of a fit, percent, above which something else than friction and inertia is looked for: a quarter.
+const MUCH_LEFT_PERCENT: f64 = 25.0;
+
+/// Names what the axis file lacks where a law explains little, or nothing of it makes sense: the sign of the force, or
+/// gravity.
+pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) {
+    let law = evidence.law;
+    let much = law.fit.relative_error_percent;
+    let poor = much.is_nan() || much > MUCH_LEFT_PERCENT;
+    let braked = evidence
+        .sources
+        .iter()
+        .flat_map(|source| &source.log.findings);
+    let mut braked = braked.filter(|finding| finding.code == Code::ForceSign);
+    if let Some(finding) = braked.next() {
+        reasons.push(finding.message.clone(), Next::AxisFile);
+    } else if poor && evidence.motion == Motion::Rotary && !law.terms.gravity {
+        let swings = evidence.sources.iter().filter_map(swing);
+        let part = explained_by_gravity(&swings.collect::<Vec<_>>());
+        if part > LEAST_R2 {
+            let text = format!(
+                "{} of what friction and inertia leave follows the sine and cosine of the angle, as gravity does: set \
+                 gravity = true under [terms]",
+                Percent::error(100.0 * part).digits(2)
+            );
+            reasons.push(text, Next::AxisFile);
+        }
+    }
+}
+
+fn swing(source: &Source) -> Option<Swing<'_>> {
+    let log = &source.log;
+    Some(Swing {
+        time: &log.time,
+        angle: log.position.as_ref()?,
+        force: log.force.as_ref()?,
+        rate: log.rate_hz,
+    })
+}
