@@ -15,7 +15,7 @@ use stiction_servo::encoder::Encoder;
 use stiction_servo::feedforward::Feedforward;
 use stiction_servo::integrator::Quick;
 use stiction_servo::known;
-use stiction_servo::metrics::{Tracking, ripple_at_constant_velocity};
+use stiction_servo::metrics::{Crawl, Feed, Hunting, Tracking, standing_error};
 use stiction_servo::motion::Sine;
 use stiction_servo::path::Reference;
 use stiction_servo::plant::Plant;
@@ -120,7 +120,10 @@ fn run_of_study(settings: &AxisSettings, motion: &Sampled) -> Result<usize, Para
     let samples = follow_sampled(&mut axis, motion)?;
     black_box((
         Tracking::of(&samples),
-        ripple_at_constant_velocity(&samples),
+        Crawl::of(&samples),
+        Feed::of(&samples),
+        standing_error(&samples),
+        Hunting::of(&samples),
     ));
     Ok(samples.len())
 }

@@ -1,10 +1,17 @@
 //! Tracking metrics of an axis.
 
 mod contour;
+mod crawl;
+mod feed;
+mod rest;
 
 pub use contour::{Contour, circular_deviation};
+pub use crawl::Crawl;
+pub use feed::Feed;
+pub use rest::{Hunting, standing_error};
 
 use crate::axis::Sample;
+use crate::path::Reference;
 
 /// Tracking of one axis. Errors are reference less true position, m (rad).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,8 +40,8 @@ const REVERSAL_SHARE_OF_STROKE: f64 = 0.25;
 /// Speed below which the axis stands still, as a fraction of the fastest reference.
 const STANDSTILL_SHARE: f64 = 0.01;
 
-/// Shortest stretch of constant velocity whose ripple is measured, s; in shorter ones the axis is still settling.
-const MIN_CONSTANT_STRETCH: f64 = 0.1;
+/// Shortest stretch of constant velocity, or of rest, in which an axis is measured, s; in shorter ones it is still settling.
+const MIN_STRETCH: f64 = 0.1;
 
 impl Tracking {
     /// From the given samples; all 0 without samples. Leave out those that should not count, such as the first cycle.
@@ -139,31 +146,23 @@ pub fn share_at_limit(samples: &[Sample], limit: f64) -> f64 {
     at as f64 / samples.len().max(1) as f64
 }
 
-/// Rms deviation of the velocity from its mean over the mean: the ripple of a constant speed. Infinite at standstill.
-pub fn velocity_ripple(samples: &[Sample]) -> f64 {
-    let n = samples.len().max(1) as f64;
-    let mean = samples.iter().map(|s| s.velocity).sum::<f64>() / n;
-    let off = samples.iter().map(|s| (s.velocity - mean).powi(2));
-    root_mean(off) / mean.abs()
-}
-
-/// The largest [`velocity_ripple`] of all stretches of constant reference velocity of at least .1 s, each from its middle
-/// on; `None` without such a stretch.
-pub fn ripple_at_constant_velocity(samples: &[Sample]) -> Option<f64> {
-    let constant = |s: &Sample| s.reference.acceleration == 0.0 && s.reference.velocity != 0.0;
-    let same = |a: &Sample, b: &Sample| {
-        constant(a) && constant(b) && a.reference.velocity == b.reference.velocity
-    };
-    samples
-        .chunk_by(same)
-        .filter(|stretch| constant(&stretch[0]))
-        .filter(|stretch| stretch[stretch.len() - 1].time - stretch[0].time >= MIN_CONSTANT_STRETCH)
-        .map(|stretch| velocity_ripple(&stretch[stretch.len() / 2..]))
-        .reduce(f64::max)
-}
-
 /// The square root of the mean; 0 without values.
 pub(crate) fn root_mean(squares: impl Iterator<Item = f64>) -> f64 {
     let (sum, n) = squares.fold((0.0, 0.0), |(sum, n), x| (sum + x, n + 1.0));
     if n == 0.0 { 0.0 } else { libm::sqrt(sum / n) }
+}
+
+/// Samples that follow each other while the reference does the same, from the middle of at least `least` seconds on.
+fn settled<'a>(
+    samples: &'a [Sample],
+    least: f64,
+    same: impl Fn(&Reference, &Reference) -> bool + 'a,
+) -> impl Iterator<Item = &'a [Sample]> {
+    samples
+        .chunk_by(move |a, b| same(&a.reference, &b.reference))
+        .filter(move |stretch| {
+            // Rounding of two instants must not decide.
+            stretch[stretch.len() - 1].time - stretch[0].time >= least * (1.0 - 1e-9)
+        })
+        .map(|stretch| &stretch[stretch.len() / 2..])
 }

@@ -1,6 +1,7 @@
 //! The report of a study.
 
 mod contour;
+pub(crate) mod rates;
 pub(crate) mod rows;
 
 use rows::{COLORS, believed, drawn, judged, left_out, less};
@@ -63,6 +64,9 @@ pub fn study(outcome: &StudyOutcome) -> Document {
                 true => contour::table(rows),
                 false => table(rows),
             });
+        document = rates::table(rows)
+            .into_iter()
+            .fold(document, |d, t| d.block(t));
         if i < MOST_SECTIONS_WITH_FIGURES && contour::is_contour(rows) {
             let figures = contour::figures(outcome, rows);
             document = figures.into_iter().fold(document, |d, f| d.block(f));
@@ -87,7 +91,7 @@ pub fn study(outcome: &StudyOutcome) -> Document {
         .block(Block::List(MEANING.map(Text::from).to_vec()))
 }
 
-const MEANING: [&str; 7] = [
+const MEANING: [&str; 9] = [
     "Errors are reference less true position. What the encoder does not see counts.",
     "Reduction: by how much the largest error is below that without compensation, on the same path and \
      under the same controller.",
@@ -97,6 +101,11 @@ const MEANING: [&str; 7] = [
      that hold the whole path between them.",
     "Worst: the reduction with the largest error of all runs of a row, in place of their mean; negative where \
      compensation makes the error larger. A row with one run has none.",
+    "Feed error: the largest difference of the velocity along the motion from that of the reference, and its part of the \
+     fastest reference. Ripple and at rest: where the reference goes at constant velocity, the rms deviation of the \
+     velocity from its mean, in parts of that of the reference, and the share of the time below a tenth of it.",
+    "Standing error: the mean error in the second half of a rest after a move. Hunting: half the way between the outermost \
+     positions of a limit cycle in a rest of 1 s or more, and the length of a cycle.",
     "Δu: rms change of the commanded force from sample to sample. Still: longest standstill about a \
      reversal.",
     "Wrong parameters are those of the compensator; the axis keeps its own. A mass that is drawn \

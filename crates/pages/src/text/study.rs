@@ -1,6 +1,7 @@
 //! A study on the terminal.
 
 use super::table::table;
+use crate::report::study::rates::columns;
 use crate::report::study::rows::{judged, less};
 use std::fmt::Write;
 use stiction_files::study::result::ResultRow;
@@ -36,6 +37,7 @@ pub fn study(outcome: &StudyOutcome) -> String {
             &lines,
             &[false, false, true, true, true, true, true, false],
         ));
+        out.push_str(&speeds(rows));
     }
     if !file.results.is_empty() {
         out.push_str(LEGEND);
@@ -49,11 +51,31 @@ pub fn study(outcome: &StudyOutcome) -> String {
     out
 }
 
+/// What is said of speed and standing still; nothing where the motion shows nothing of them.
+fn speeds(rows: &[ResultRow]) -> String {
+    let (headers, cells) = columns(rows);
+    if headers.is_empty() {
+        return String::new();
+    }
+    let names = ["compensator", "parameters"];
+    let header = names.iter().chain(&headers).map(|s| s.to_string());
+    let mut lines = vec![header.collect::<Vec<_>>()];
+    lines.extend(rows.iter().zip(cells).map(|(row, cells)| {
+        let names = [row.scheme(), row.parameters.clone()];
+        names.into_iter().chain(cells).collect()
+    }));
+    let right: Vec<bool> = (0..lines[0].len()).map(|c| c >= names.len()).collect();
+    format!("\n{}", table(&lines, &right))
+}
+
 /// What the columns are.
 const LEGEND: &str = "
 rms, largest, at reversals: tracking error (on a contour: the distance to it), mean over the runs of a row
 less: by how much the largest error is below that without compensation, on the same path and controller
 worst: the same with the largest error of all runs of a row; negative where compensation makes it larger
+feed error: largest difference of the velocity along the motion from that of the reference; of the feed: in parts of the fastest
+ripple, at rest: at constant velocity, its rms deviation and the share of the time below a tenth of it
+standing error, hunting, period: mean error, half width and length of a limit cycle while the reference stands still
 ";
 
 fn line(row: &ResultRow) -> Vec<String> {

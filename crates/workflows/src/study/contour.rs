@@ -6,6 +6,7 @@ use super::course;
 use super::done::Done;
 use super::learnt::learnt;
 use super::machine::{self, largest_force};
+use super::metrics::feed;
 use stiction_files::study::result::PathEntry;
 use stiction_files::study::{Belief, ContourPlan, Job, Machine, Scheme, Second, Study};
 use stiction_friction::ParamError;
@@ -13,7 +14,7 @@ use stiction_servo::axis::{Axis, Sample};
 use stiction_servo::controller::Controller;
 use stiction_servo::cross_coupling::CrossCoupling;
 use stiction_servo::integrator::Quick;
-use stiction_servo::metrics::{Contour, Tracking, circular_deviation, share_at_limit};
+use stiction_servo::metrics::{Contour, Feed, Tracking, circular_deviation, share_at_limit};
 use stiction_servo::two_axes::{PlaneSample, follow};
 
 /// What is asked of one run.
@@ -93,7 +94,7 @@ fn metrics(
         _ => f64::NAN,
     };
     let [x, y] = sides.map(Tracking::of);
-    vec![
+    let mut metrics = vec![
         deviation.rms,
         deviation.peak,
         circular,
@@ -103,7 +104,9 @@ fn metrics(
         y.command_change,
         share_at_limit(sides[0], limits[0]),
         share_at_limit(sides[1], limits[1]),
-    ]
+    ];
+    metrics.extend(feed(Feed::along(samples)));
+    metrics
 }
 
 pub(super) fn on_contour(

@@ -34,8 +34,9 @@ pub(super) fn largest_force(machine: &Machine, controller: &Controller) -> f64 {
 /// Unit of a metric.
 pub(super) fn unit(machine: &Machine, metric: &str) -> String {
     match (metric, machine.motion) {
-        ("stick_time", _) => "s",
-        ("velocity_ripple", _) => "1",
+        ("stick_time" | "hunting_period", _) => "s",
+        ("velocity_ripple" | "rest_share" | "feed_error_share", _) => "1",
+        ("feed_error_rms" | "feed_error_peak", motion) => symbols::speed_unit(motion),
         (name, _) if name.starts_with("saturation") => "1",
         (name, Motion::Linear) if name.starts_with("command_change") => "N",
         (name, Motion::Rotary) if name.starts_with("command_change") => "N*m",

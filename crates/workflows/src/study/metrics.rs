@@ -1,9 +1,11 @@
-//! Names of what is measured of a run; what they mean is in `docs/study.md`.
+//! What is measured of a run; what it means is in `docs/study.md`.
 
 use stiction_files::study::{Job, Study};
+use stiction_servo::axis::Sample;
+use stiction_servo::metrics::{Crawl, Feed, Hunting, Tracking, share_at_limit, standing_error};
 
 /// Of a path, in the order in which a run gives them.
-const PATH: [&str; 7] = [
+const PATH: [&str; 14] = [
     "rms_error",
     "peak_error",
     "reversal_peak",
@@ -11,10 +13,17 @@ const PATH: [&str; 7] = [
     "stick_time",
     "saturation",
     "velocity_ripple",
+    "rest_share",
+    "feed_error_rms",
+    "feed_error_peak",
+    "feed_error_share",
+    "standing_error",
+    "hunting_amplitude",
+    "hunting_period",
 ];
 
 /// Of a contour, in the same order.
-const CONTOUR: [&str; 9] = [
+const CONTOUR: [&str; 12] = [
     "contour_rms",
     "contour_peak",
     "circular_deviation",
@@ -24,6 +33,22 @@ const CONTOUR: [&str; 9] = [
     "command_change_y",
     "saturation_x",
     "saturation_y",
+    "feed_error_rms",
+    "feed_error_peak",
+    "feed_error_share",
+];
+
+/// Those that not every motion has: NaN where they mean nothing.
+const NOT_ALWAYS: [&str; 9] = [
+    "velocity_ripple",
+    "rest_share",
+    "feed_error_rms",
+    "feed_error_peak",
+    "feed_error_share",
+    "standing_error",
+    "hunting_amplitude",
+    "hunting_period",
+    "circular_deviation",
 ];
 
 /// Names of the metrics of a run.
@@ -32,4 +57,38 @@ pub(super) fn metrics(study: &Study, job: Job) -> &'static [&'static str] {
         true => &PATH,
         false => &CONTOUR,
     }
+}
+
+/// Whether a run may be without this metric.
+pub(super) fn may_be_absent(name: &str) -> bool {
+    NOT_ALWAYS.contains(&name)
+}
+
+/// The errors of the feed rate in the order above.
+pub(super) fn feed(feed: Option<Feed>) -> [f64; 3] {
+    feed.map_or([f64::NAN; 3], |f| [f.rms, f.peak, f.share])
+}
+
+/// All metrics of a path.
+pub(super) fn of_path(samples: &[Sample], largest_force: f64) -> Vec<f64> {
+    let tracking = Tracking::of(samples);
+    let crawl = Crawl::of(samples);
+    let hunting = Hunting::of(samples);
+    let mut metrics = vec![
+        tracking.rms,
+        tracking.peak,
+        tracking.reversal_peak,
+        tracking.command_change,
+        tracking.stick_time,
+        share_at_limit(samples, largest_force),
+        crawl.map_or(f64::NAN, |c| c.ripple),
+        crawl.map_or(f64::NAN, |c| c.rest_share),
+    ];
+    metrics.extend(feed(Feed::of(samples)));
+    metrics.extend([
+        standing_error(samples).unwrap_or(f64::NAN),
+        hunting.map_or(f64::NAN, |h| h.amplitude),
+        hunting.and_then(|h| h.period).unwrap_or(f64::NAN),
+    ]);
+    metrics
 }

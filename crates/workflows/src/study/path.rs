@@ -5,13 +5,13 @@ use super::course;
 use super::done::Done;
 use super::learnt::learnt;
 use super::machine::{largest_force, settings};
+use super::metrics::of_path;
 use super::trace::Trace;
 use stiction_files::study::result::PathEntry;
 use stiction_files::study::{Job, PathPlan, Scheme, Study};
 use stiction_friction::ParamError;
 use stiction_servo::axis::Axis;
 use stiction_servo::integrator::Quick;
-use stiction_servo::metrics::{Tracking, ripple_at_constant_velocity, share_at_limit};
 use stiction_servo::run::{follow, follow_sampled, sample_count};
 use stiction_servo::sampled::Sampled;
 
@@ -71,19 +71,10 @@ pub(super) fn on_path(
     let learnt = learnt(scheme, &samples, study.machine.rate);
     let from = samples.partition_point(|s| s.time < path.skip);
     let counted = &samples[from.min(samples.len())..];
-    let tracking = Tracking::of(counted);
     let compensator = axis.feedforward().compensator();
     Ok(Some(Done {
         job,
-        metrics: vec![
-            tracking.rms,
-            tracking.peak,
-            tracking.reversal_peak,
-            tracking.command_change,
-            tracking.stick_time,
-            share_at_limit(counted, largest_force(&study.machine, &controller)),
-            ripple_at_constant_velocity(counted).unwrap_or(f64::NAN),
-        ],
+        metrics: of_path(counted, largest_force(&study.machine, &controller)),
         switched_off: compensator.is_some_and(|c| c.state().watch.tripped),
         still_learning: learnt.is_some_and(|t| t > path.skip),
         trace: exact.then(|| Trace::of(study.names(job), counted)),

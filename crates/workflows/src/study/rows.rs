@@ -69,7 +69,12 @@ fn entry(name: String, unit: String, mut values: Vec<f64>, family: &str) -> Metr
 
 /// By how much the metrics of a row are below those without compensation.
 fn compare(row: &mut ResultRow, without: &ResultRow) {
-    for metric in &mut row.metrics {
+    // A period is neither good nor bad.
+    for metric in row
+        .metrics
+        .iter_mut()
+        .filter(|m| m.name != "hunting_period")
+    {
         let Some(other) = without.metric(&metric.name).filter(|m| m.mean > 0.0) else {
             continue;
         };

@@ -1,7 +1,7 @@
 //! The grid of a study, run in parallel, and what is kept of each run.
 
 use super::done::Done;
-use super::metrics::metrics;
+use super::metrics::{may_be_absent, metrics};
 use super::outcome::StudyOutcome;
 use super::rows::rows;
 use super::{contour, course, doubt, machine, path};
@@ -92,8 +92,7 @@ fn one(
         .iter()
         .zip(done.iter().flat_map(|d| &d.metrics))
     {
-        // Not every motion has these.
-        let absent = ["velocity_ripple", "circular_deviation"].contains(&name) && value.is_nan();
+        let absent = may_be_absent(name) && value.is_nan();
         if !(value.is_finite() || absent) {
             let allowed =
                 "a finite number: a smaller motion, slower, with smaller gains and forces";

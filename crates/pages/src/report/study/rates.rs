@@ -1,0 +1,65 @@
+//! What the rows of a study say of the feed rate, of motion at constant velocity and of standing still: the columns that mean
+//! something on a path.
+
+use super::rows::believed;
+use stiction_files::study::result::{MetricEntry, ResultRow};
+use stiction_number::{Percent, quantity};
+use stiction_report::{Align, Table, Text, number};
+
+/// Metrics and the words for them, in the order of the columns.
+const COLUMNS: [(&str, &str); 7] = [
+    ("feed_error_peak", "feed error"),
+    ("feed_error_share", "of the feed"),
+    ("velocity_ripple", "ripple"),
+    ("rest_share", "at rest"),
+    ("standing_error", "standing error"),
+    ("hunting_amplitude", "hunting"),
+    ("hunting_period", "period"),
+];
+
+/// Headers and, for each row, the values in words; no columns where the motion has none of them.
+pub(crate) fn columns(rows: &[ResultRow]) -> (Vec<&'static str>, Vec<Vec<String>>) {
+    let shown = |name: &str| rows.iter().any(|r| r.metric(name).is_some());
+    let columns: Vec<_> = COLUMNS.iter().filter(|(name, _)| shown(name)).collect();
+    let cells = |row: &ResultRow| {
+        let values = columns.iter().map(|(name, _)| row.metric(name));
+        values.map(|m| m.map_or("n/a".into(), value)).collect()
+    };
+    (
+        columns.iter().map(|(_, words)| *words).collect(),
+        rows.iter().map(cells).collect(),
+    )
+}
+
+/// The mean in the unit of the field: feed rates by the minute, shares in percent.
+fn value(metric: &MetricEntry) -> String {
+    let mean = metric.mean;
+    match metric.unit.as_str() {
+        "m/s" => format!("{} mm/min", number::sig(60e3 * mean, 3)),
+        "rad/s" => format!("{} °/min", number::sig(60.0 * mean.to_degrees(), 3)),
+        "1" => Percent::error(100.0 * mean).digits(3),
+        _ if metric.name == "hunting_amplitude" && mean == 0.0 => "none".into(),
+        unit => quantity(mean, unit),
+    }
+}
+
+/// The same as a table of the report.
+pub(super) fn table(rows: &[ResultRow]) -> Option<Table> {
+    let (headers, cells) = columns(rows);
+    if headers.is_empty() {
+        return None;
+    }
+    let capital = |words: &str| words[..1].to_uppercase() + &words[1..];
+    let mut columns = vec![
+        ("Compensator".to_string(), Align::Left),
+        ("Parameters".to_string(), Align::Left),
+    ];
+    columns.extend(headers.iter().map(|words| (capital(words), Align::Right)));
+    let columns = columns.iter().map(|(text, align)| (text.as_str(), *align));
+    let table =
+        Table::new(columns).caption("Speed and standing still, means over the runs of a row.");
+    Some(rows.iter().zip(cells).fold(table, |table, (row, cells)| {
+        let names = [row.scheme(), believed(row)];
+        table.row(names.into_iter().chain(cells).map(Text::from))
+    }))
+}
