@@ -23,6 +23,7 @@ pub(crate) mod covariance;
 pub(crate) mod descent;
 pub(crate) mod drawn;
 pub(crate) mod elements;
+pub(crate) mod late;
 pub(crate) mod outcome;
 pub(crate) mod physical;
 pub(crate) mod places;
@@ -104,8 +105,8 @@ pub fn output_error(
         simulation.segment,
     )?;
     let mut terms = terms.clone();
-    if simulation.controller.is_some() {
-        // The controller acts on what it computed a moment ago; no force can act before that.
+    if simulation.controller.is_some() && simulation.hold == Hold::Centred {
+        // What a sensor shows is the force that acts: it says nothing of when that was asked for.
         terms.delay = Delay::NONE;
     }
     let mut law = law;
@@ -125,15 +126,14 @@ pub fn output_error(
             losses: run::losses(recordings, whole, kept),
         });
     }
-    let scale =
-        Scale::of(&runs, simulation.quantum, simulation.hold).ok_or_else(|| nothing(&runs))?;
+    let scale = Scale::of(&runs, simulation).ok_or_else(|| nothing(&runs))?;
     let mut watch = Watch::new(observer, Stage::Scan);
     let ladder = Ladder::new(&runs, simulation, &scale);
     let mut found = ladder.climb(&law, &terms, &mut watch);
     // A delay at the end of its range is something else that the law does not explain.
     if found
         .as_ref()
-        .is_some_and(|found| is_beyond(found, &law, &terms))
+        .is_some_and(|found| is_beyond(found, &law, &terms, &scale))
     {
         terms.delay = Delay::NONE;
         found = ladder.climb(&law, &terms, &mut watch);
@@ -156,10 +156,11 @@ fn elements_of(start: Option<&Estimate>) -> Option<usize> {
     elements.filter(|&many| many > 0)
 }
 
-/// Whether a fitted delay ended at the end of its range.
-fn is_beyond(found: &Found, law: &Law, terms: &Terms) -> bool {
+/// Whether a fitted delay ended at an end of its range that is a choice.
+fn is_beyond(found: &Found, law: &Law, terms: &Terms, scale: &Scale) -> bool {
     let delay = Layout::new(law, terms).place(Unknown::Delay);
-    delay.is_some_and(|i| found.bounds.at_bound(&found.descent.at.q, i))
+    let q = &found.descent.at.q;
+    delay.is_some_and(|i| found.bounds.at_bound(q, i) && !scale.acts_at_once(q[i]))
 }
 
 /// Why nothing can be identified from runs that have no scale.

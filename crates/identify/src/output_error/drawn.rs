@@ -14,44 +14,49 @@ pub(crate) struct Drawn<'a> {
     rate: f64,
 }
 
-/// Where the plant steps of a sample read, relative to the sample.
+/// Where a plant step reads among forces that are held, relative to the one that begins with its sample.
 #[derive(Clone, Copy)]
-struct Place {
+pub(crate) struct Place {
     /// The row at the beginning of the step.
-    row: isize,
+    pub row: isize,
     /// Part of the step that it covers; the next row covers the rest.
-    share: f64,
+    pub share: f64,
     /// The rows on both sides of the beginning and of the end of the step, equal inside of a row.
-    begins: [isize; 2],
-    ends: [isize; 2],
+    pub begins: [isize; 2],
+    pub ends: [isize; 2],
+}
+
+/// The places of the plant steps of a sample that read `ahead` samples later.
+pub(crate) fn places(substeps: usize, ahead: f64) -> Vec<Place> {
+    let n = substeps as f64;
+    let place = |j: usize| {
+        let (begin, is_whole) = snapped(j as f64 / n + ahead);
+        let (end, ends_whole) = snapped((j + 1) as f64 / n + ahead);
+        let row = begin.floor();
+        let sides = |at: f64, whole: bool| {
+            let row = at.floor() as isize;
+            [row - isize::from(whole), row]
+        };
+        Place {
+            row: row as isize,
+            share: ((row + 1.0 - begin) * n).min(1.0),
+            begins: sides(begin, is_whole),
+            ends: sides(end, ends_whole),
+        }
+    };
+    (0..substeps).map(place).collect()
 }
 
 impl<'a> Drawn<'a> {
     pub fn new(run: &'a Run, hold: Hold, delay: f64, substeps: usize) -> Self {
-        let n = substeps as f64;
-        let later = match hold {
+        let middle = match hold {
             Hold::Held => 0.0,
-            Hold::Centred => -0.5,
-        } - delay / run.step;
-        let place = |j: usize| {
-            let (begin, is_whole) = snapped(j as f64 / n - later);
-            let (end, ends_whole) = snapped((j + 1) as f64 / n - later);
-            let row = begin.floor();
-            let sides = |at: f64, whole: bool| {
-                let row = at.floor() as isize;
-                [row - isize::from(whole), row]
-            };
-            Place {
-                row: row as isize,
-                share: ((row + 1.0 - begin) * n).min(1.0),
-                begins: sides(begin, is_whole),
-                ends: sides(end, ends_whole),
-            }
+            Hold::Centred => 0.5,
         };
         Self {
             force: &run.force,
-            steps: (0..substeps).map(place).collect(),
-            rate: n / run.step,
+            steps: places(substeps, middle + delay / run.step),
+            rate: substeps as f64 / run.step,
         }
     }
 

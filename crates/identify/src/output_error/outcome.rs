@@ -20,7 +20,7 @@ use crate::output_error::simulate::Drive;
 use crate::output_error::unknowns::Unknown;
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
-use crate::parameter::physical::propagate;
+use crate::parameter::physical::{Physical, propagate};
 use nalgebra::DMatrix;
 use stiction_parameters::Quantity;
 use stiction_search::{Counts, Status};
@@ -120,7 +120,11 @@ pub(crate) fn describe(
         .unknowns
         .iter()
         .zip(&at.q)
-        .map(|(unknown, x)| matches!(unknown, Unknown::Viscous(_)) && *x <= 0.0)
+        .map(|(unknown, x)| match unknown {
+            Unknown::Viscous(_) => *x <= 0.0,
+            Unknown::Delay => search.scale.acts_at_once(*x),
+            _ => false,
+        })
         .collect();
     let stopped_early = status == Status::Interrupted && problem.steps() > MOST_STEPS_AFTER_A_STOP;
     let (unknowns, without) = match stopped_early {
@@ -130,7 +134,10 @@ pub(crate) fn describe(
         ),
         false => covariance(&problem, &at, &held),
     };
-    let raw = parameters(&law, &problem.layout, &axis, &at.q, search.scale.centre);
+    let mut raw = parameters(&law, &problem.layout, &axis, &at.q, search.scale.centre);
+    // No dead time is an answer, and not one with an interval.
+    let at_once = |p: &Physical| p.name == Quantity::Delay && p.nonlinear.is_some_and(|k| held[k]);
+    raw.retain(|p| !at_once(p));
     let matrix = propagate(&raw, &unknowns);
     let level = axis.sides[0].coulomb.max(axis.sides[1].coulomb);
     let mut parameters: Vec<Parameter> = raw

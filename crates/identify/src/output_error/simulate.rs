@@ -4,6 +4,7 @@ use crate::output_error::bristles::Bristles;
 use crate::output_error::controller::{Controller, Memory};
 use crate::output_error::drawn::Drawn;
 use crate::output_error::elements::Slipping;
+use crate::output_error::late::Late;
 use crate::output_error::plant::{Axis, State};
 use crate::output_error::run::{Hold, Run};
 use crate::output_error::unknowns::{Layout, Unknown};
@@ -112,6 +113,8 @@ fn plain<P: Plant>(
     let mut memory = memory(initial, control);
     let mut before = None;
     let drawn = Drawn::new(run, drive.hold, axis.delay, drive.substeps);
+    let is_late = drive.controller.is_some() && axis.delay < 0.0;
+    let mut late = is_late.then(|| Late::new(axis.delay, control, drive.substeps));
     for k in 0..n {
         let mut logged = 0.0;
         let mut seen = false;
@@ -130,11 +133,15 @@ fn plain<P: Plant>(
                 logged = mean_with(before, force, drive.hold);
             }
             before = Some(force);
+            if let Some(late) = &mut late {
+                late.ask(force, &[0.0; MOST]);
+            }
             if k + 1 < n {
                 for j in 0..drive.substeps {
-                    let force = match drive.controller {
-                        Some(_) => force,
-                        None => drawn.at(k, j),
+                    let force = match (&late, drive.controller) {
+                        (Some(late), _) => late.at(j),
+                        (None, Some(_)) => force,
+                        (None, None) => drawn.at(k, j),
                     };
                     state = plant.step(state, h, force);
                 }
@@ -196,6 +203,9 @@ fn with_slopes<P: Plant>(
     let mut before = None;
     let drawn = Drawn::new(run, drive.hold, axis.delay, drive.substeps);
     let delay = layout.place(Unknown::Delay);
+    let is_late = drive.controller.is_some() && (axis.delay < 0.0 || delay.is_some());
+    let mut late = is_late.then(|| Late::new(axis.delay, control, drive.substeps));
+    let mut acting = [0.0; MOST];
     for k in 0..n {
         let at = plant.shown(&state);
         let mut position_slopes = [0.0; MOST];
@@ -228,17 +238,26 @@ fn with_slopes<P: Plant>(
                 }
             }
             before = Some(force);
+            if let Some(late) = &mut late {
+                late.ask(force, &force_slopes);
+            }
             if k + 1 < n {
                 for j in 0..drive.substeps {
-                    let force = match drive.controller {
-                        Some(_) => force,
-                        None => drawn.at(k, j),
+                    let (force, by) = match (&late, drive.controller) {
+                        (Some(late), _) => {
+                            late.slopes(j, delay, &mut acting[..count]);
+                            (late.at(j), &acting)
+                        }
+                        (None, Some(_)) => (force, &force_slopes),
+                        (None, None) => {
+                            if let Some(own) = delay {
+                                force_slopes[own] = drawn.slope(k, j);
+                            }
+                            (drawn.at(k, j), &force_slopes)
+                        }
                     };
-                    if let Some(own) = delay {
-                        force_slopes[own] = drawn.slope(k, j);
-                    }
                     let slopes = &mut slopes[..count];
-                    state = plant.advance(state, h, force, layout, &force_slopes, slopes);
+                    state = plant.advance(state, h, force, layout, by, slopes);
                 }
             }
         }

@@ -3,6 +3,7 @@
 use crate::estimate::Estimate;
 use crate::law::terms::{Delay, Mass, Terms};
 use crate::law::{Law, LawKind};
+use crate::output_error::Simulation;
 use crate::output_error::controller::Controller;
 use crate::output_error::elements::{self, Element, Elements};
 use crate::output_error::plant::{Axis, Curve, Wave};
@@ -30,11 +31,13 @@ pub(crate) struct Scale {
     /// Delay of the middle of a row's force against its instant, without any of its own, s: half a sample ahead where the
     /// force is held.
     pub centre: f64,
+    /// Whether a controller asks for the force, which then cannot act before its row.
+    pub is_closed: bool,
 }
 
 impl Scale {
     /// `None` where nothing moves, or nothing drives.
-    pub fn of(runs: &[Run], quantum: Option<f64>, hold: Hold) -> Option<Self> {
+    pub fn of(runs: &[Run], simulation: &Simulation) -> Option<Self> {
         let mut out = Self {
             stroke: 0.0,
             speed: 0.0,
@@ -43,6 +46,7 @@ impl Scale {
             length: 0.0,
             count: 0.0,
             centre: 0.0,
+            is_closed: simulation.controller.is_some(),
         };
         for run in runs {
             let (low, high) = run
@@ -59,11 +63,12 @@ impl Scale {
             }
             out.force = run.force.iter().fold(out.force, |m, f| m.max(f.abs()));
         }
-        out.count = quantum
+        out.count = simulation
+            .quantum
             .filter(|q| *q > 0.0)
             .unwrap_or(1e-4 * out.stroke)
             .min(0.5 * out.stroke);
-        if hold == Hold::Held {
+        if simulation.hold == Hold::Held {
             out.centre = -0.5 * out.step;
         }
         if out.speed == 0.0 {
@@ -71,6 +76,23 @@ impl Scale {
         }
         let sound = |x: f64| x > 0.0 && x.is_finite();
         (sound(out.stroke) && sound(out.speed) && sound(out.force)).then_some(out)
+    }
+
+    /// Delays that are looked for, beyond what the way says in which the force is held, s: as far as in the fit of the force.
+    fn delays(&self) -> (f64, f64) {
+        let most = MOST_DELAY * self.step;
+        (-most, if self.is_closed { 0.0 } else { most })
+    }
+
+    /// A delay within that range.
+    fn possible(&self, delay: f64) -> f64 {
+        let (low, high) = self.delays();
+        delay.max(low).min(high)
+    }
+
+    /// Whether the force of a controller acts as soon as it can.
+    pub fn acts_at_once(&self, delay: f64) -> bool {
+        self.is_closed && delay >= -AT_ONCE * self.step
     }
 }
 
@@ -118,9 +140,9 @@ pub(crate) fn from_estimate(
         mass,
         offset: found.value(Quantity::Offset).unwrap_or(0.0),
         delay: match terms.delay {
-            Delay::Fitted => found.value(Quantity::Delay).map_or(0.0, |delay| {
-                (delay - scale.centre).clamp(-most_delay(scale), most_delay(scale))
-            }),
+            Delay::Fitted => found
+                .value(Quantity::Delay)
+                .map_or(0.0, |delay| scale.possible(delay - scale.centre)),
             Delay::Given(delay) => given_delay(delay, scale),
         },
         waves: waves(layout, |name| found.value(name).unwrap_or(0.0)),
@@ -212,18 +234,18 @@ pub(crate) fn with_elements(axis: &Axis, law: &Law, scale: &Scale) -> Vec<Axis> 
     out
 }
 
-/// Longest delay that is looked for, either way, in samples, as in the fit of the force.
+/// Longest delay that is looked for, either way, in samples.
 const MOST_DELAY: f64 = 4.0;
+/// Dead time, in samples, below which a force acts at once.
+const AT_ONCE: f64 = 1e-6;
 
-fn most_delay(scale: &Scale) -> f64 {
-    MOST_DELAY * scale.step
-}
-
-/// A given delay beyond what the way says in which the force is held; none leaves it at that.
+/// A given delay beyond what the way says in which the force is held; none leaves it at that. The force of a controller
+/// acts at once at the earliest.
 fn given_delay(delay: f64, scale: &Scale) -> f64 {
-    match delay == 0.0 {
-        true => 0.0,
-        false => delay - scale.centre,
+    match (delay == 0.0, scale.is_closed) {
+        (true, _) => 0.0,
+        (false, true) => (delay - scale.centre).min(0.0),
+        (false, false) => delay - scale.centre,
     }
 }
 
@@ -391,7 +413,7 @@ pub(crate) fn bounds(layout: &Layout, axis: &Axis, scale: &Scale) -> SearchBox {
                 (ln(slow), ln(fast))
             }
             Unknown::Mass => (start - ln(1e3), start + ln(1e3)),
-            Unknown::Delay => (-most_delay(scale), most_delay(scale)),
+            Unknown::Delay => scale.delays(),
             Unknown::Offset | Unknown::Wave(_) => (-10.0 * scale.force, 10.0 * scale.force),
         };
         low.push(a.min(start));

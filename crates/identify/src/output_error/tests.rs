@@ -246,6 +246,8 @@ fn derivatives_agree_with_differences() {
         (None, Hold::Held, Some(0.7e-3)),
         (None, Hold::Centred, Some(-3.1e-3)),
         (Some(&p), Hold::Held, None),
+        (Some(&pi), Hold::Held, Some(-1.7e-3)),
+        (Some(&pi), Hold::Held, Some(-0.2e-3)),
         (Some(&pi), Hold::Centred, None),
     ] {
         let terms = Terms {
@@ -332,7 +334,7 @@ fn derivatives_agree_with_differences() {
                     }
                     simulated(&q, &initial)
                 };
-                let pairs = [1.0, 0.1, 0.01].map(|part| {
+                let pairs = [10.0, 1.0, 0.1].map(|part| {
                     let d = part * size;
                     (moved(d), moved(-d), d)
                 });

@@ -145,10 +145,8 @@ pub(super) fn run(
         motion,
     };
     let mut warnings = log_warnings(sources);
-    if terms.delay == Delay::Fitted
-        && found.fitted.terms.delay == Delay::NONE
-        && !found.is_closed_loop()
-    {
+    let was_sought = !(found.is_closed_loop() && axis.hold == Hold::Centred);
+    if terms.delay == Delay::Fitted && found.fitted.terms.delay == Delay::NONE && was_sought {
         warnings.push(Warning::new(
             Code::DelayOutOfRange,
             super::judge::DELAY_OUT_OF_RANGE,
@@ -314,11 +312,18 @@ fn notes(found: &SimulationFit, axis: &Axis, started: &str) -> Vec<String> {
         Hold::Held => "the force of a sample holds until the next",
         Hold::Centred => "the force of a sample is the mean around its instant",
     };
+    let is_found = found.fitted.parameter("delay").is_some();
     out.push(match (found.fitted.terms.delay, found.is_closed_loop()) {
-        (Delay::Fitted, _) => format!("{acts}; a further delay of the force is fitted"),
-        (_, true) => format!(
-            "{acts}; a delay between controller and axis is not fitted: it would change the mass. To find it, leave \
-             [controller] out, so that the logged force drives the axis, with segment of [simulation] where it slides"
+        (Delay::Fitted, true) if !is_found => format!(
+            "{acts}; no dead time between controller and axis was found: the force acts as soon as it is asked for"
+        ),
+        (Delay::Fitted, true) => format!(
+            "{acts}; the dead time between controller and axis, by which the force acts later than that, is fitted"
+        ),
+        (Delay::Fitted, false) => format!("{acts}; a further delay of the force is fitted"),
+        (_, true) if axis.hold == Hold::Centred => format!(
+            "{acts}; a dead time between controller and axis is not fitted: a measured force does not say when it was \
+             asked for. Where the log shows the command, set force = \"held\" in [simulation]"
         ),
         _ => acts.to_string(),
     });
