@@ -83,6 +83,8 @@ pub struct Axis<L: Held<f64> = LuGre<f64>, I = Mid> {
     period: f64,
     stretch: f64,
     span: f64,
+    /// The plant with the damper of the drive.
+    plant: Plant<L>,
     drive: RunningDrive,
     controller: ControllerState,
     feedforward: RunningFeedforward,
@@ -116,6 +118,7 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
             period,
             stretch,
             span: period * stretch,
+            plant: damped(settings.plant, &drive)?,
             drive,
             controller: ControllerState::default(),
             feedforward,
@@ -148,6 +151,7 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
     /// Changes the mass of the plant, kg (kg m^2), from now on: a load taken up or put down.
     pub fn set_mass(&mut self, mass: f64) -> Result<(), ParamError> {
         self.settings.plant = self.settings.plant.with_mass(mass)?;
+        self.plant = self.plant.with_mass(mass)?;
         self.integrator.forget();
         Ok(())
     }
@@ -155,6 +159,7 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
     /// Changes the plant's law from now on; its state is kept.
     pub fn set_law(&mut self, law: L) {
         self.settings.plant = self.settings.plant.with_law(law);
+        self.plant = self.plant.with_law(law);
         self.integrator.forget();
     }
 
@@ -236,7 +241,7 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
     fn advance(&mut self, time: f64, i: u32) {
         let span = self.span;
         let driven = self.drive.force(i as usize);
-        let mut force = driven;
+        let mut force = driven + self.drive.induced_force();
         // Position and time at the middle of the substep.
         if let Some(cogging) = &self.settings.cogging {
             force += cogging.force(self.motion.position + 0.5 * span * self.motion.velocity);
@@ -249,7 +254,13 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
             // The other forces change little over a substep.
             self.integrator.expect(next + (force - driven));
         }
-        let (plant, load) = (&self.settings.plant, Load::force(force));
+        let (plant, load, from) = (&self.plant, Load::force(force), self.motion.position);
         self.motion = self.integrator.advance(plant, self.motion, span, load, 0.0);
+        self.drive.moved(self.motion.position - from);
     }
+}
+
+/// A plant with the damper that the drive adds to it.
+fn damped<L: Held<f64>>(plant: Plant<L>, drive: &RunningDrive) -> Result<Plant<L>, ParamError> {
+    plant.with_viscous(plant.viscous() + drive.damper())
 }

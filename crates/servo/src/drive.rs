@@ -1,5 +1,8 @@
 //! Between the controller's command and the force on the axis: amplifier, current loop, motor.
 
+mod back_emf;
+
+use back_emf::BackEmf;
 use stiction_friction::ParamError;
 
 /// Longest delay, in control periods.
@@ -16,7 +19,7 @@ const DELAY_ROUNDING: f64 = 1e-9;
 pub struct Drive {
     /// Kf, > 0, N/A (N m/A).
     pub force_constant: f64,
-    /// Ka, amperes per volt of command, > 0, A/V.
+    /// Ka, amperes per volt of command, > 0, A/V; of an amplifier that gives a voltage one over the resistance of the motor.
     pub amplifier_gain: f64,
     /// Largest current either way, > 0, A; infinite: none.
     pub peak_current: f64,
@@ -25,8 +28,12 @@ pub struct Drive {
     pub rated_current: f64,
     /// Time constant of that average, > 0, s.
     pub thermal_time: f64,
-    /// Time constant of the current loop, >= 0, s: 159e-6 for 1 kHz.
+    /// Time constant of the current loop, >= 0, s: 159e-6 for 1 kHz; of an amplifier that gives a voltage inductance over
+    /// resistance.
     pub current_lag: f64,
+    /// Voltage that motion takes from that of the amplifier, >= 0, V s/m (V s/rad); 0 for an amplifier that controls the
+    /// current.
+    pub back_emf: f64,
     /// Transport delay from the controller to the amplifier, s: 0 to 32 control periods, not necessarily a whole number.
     pub delay: f64,
 }
@@ -41,6 +48,7 @@ impl Drive {
             rated_current: f64::INFINITY,
             thermal_time: 1.0,
             current_lag: 0.0,
+            back_emf: 0.0,
             delay: 0.0,
         }
     }
@@ -55,6 +63,7 @@ impl Drive {
             rated_current: 221.0 / 96.0,
             thermal_time: 10.0,
             current_lag: 1.0 / (2.0 * std::f64::consts::PI * 1000.0),
+            back_emf: 0.0,
             delay,
         }
     }
@@ -62,6 +71,21 @@ impl Drive {
     /// Force per volt of command, Kf Ka, N/V (N m/V).
     pub fn gain(&self) -> f64 {
         self.force_constant * self.amplifier_gain
+    }
+
+    /// A motor on an amplifier that gives a voltage: the command in volts is `force R/Kf`, the current follows
+    /// `L i' + R i = u - k v`. Without limits and delay.
+    ///
+    /// `force_constant` Kf > 0 in N/A (N m/A), `back_emf` k >= 0 in V s/m (V s/rad), `resistance` R > 0 in ohm, `inductance`
+    /// L >= 0 in H.
+    pub fn voltage(force_constant: f64, back_emf: f64, resistance: f64, inductance: f64) -> Self {
+        Drive {
+            force_constant,
+            amplifier_gain: 1.0 / resistance,
+            current_lag: inductance / resistance,
+            back_emf,
+            ..Drive::ideal()
+        }
     }
 
     /// The largest force that can be commanded, N (N m).
@@ -90,6 +114,7 @@ impl Drive {
         }
         ParamError::positive("thermal_time", self.thermal_time)?;
         ParamError::not_negative("current_lag", self.current_lag)?;
+        ParamError::not_negative("back_emf", self.back_emf)?;
         ParamError::not_negative("delay", self.delay)?;
         if self.delay > MAX_DELAY_PERIODS as f64 * period {
             let allowed = "at most 32 control periods";
@@ -114,6 +139,7 @@ pub struct RunningDrive {
     heat: f64,
     warming: f64,
     stretches: Vec<Stretch>,
+    back_emf: Option<BackEmf>,
     /// Force, N (N m), and current over the stretch to come, if they have been asked for.
     known: Option<(f64, f64)>,
 }
@@ -163,6 +189,7 @@ impl RunningDrive {
             heat: 0.0,
             warming: -libm::expm1(-period / drive.thermal_time),
             stretches: stretches.collect(),
+            back_emf: BackEmf::new(&drive, period * each),
             known: None,
         })
     }
@@ -188,7 +215,8 @@ impl RunningDrive {
             let rated = self.drive.rated_current;
             self.commands[self.newest] = self.commands[self.newest].clamp(-rated, rated);
         }
-        self.heat += self.warming * (self.current * self.current - self.heat);
+        let current = self.current + self.back_emf.map_or(0.0, |emf| emf.current());
+        self.heat += self.warming * (current * current - self.heat);
     }
 
     /// Mean force, N (N m), over the substep `i` of the present period, from 0. To be called for all of them, in order.
@@ -208,6 +236,25 @@ impl RunningDrive {
     pub fn next_force(&mut self, i: usize) -> Option<f64> {
         self.known = self.next(i);
         self.known.map(|(force, _)| force)
+    }
+
+    /// What the voltage of the motion does beside the commands over a substep: a damper, N s/m (N m s/rad).
+    pub fn damper(&self) -> f64 {
+        self.back_emf.map_or(0.0, |emf| emf.damper())
+    }
+
+    /// And the mean force, N (N m), that is left over the coming substep from those before.
+    #[inline]
+    pub fn induced_force(&self) -> f64 {
+        self.back_emf.map_or(0.0, |emf| emf.force())
+    }
+
+    /// To be told by how much the axis moved in a substep, m (rad).
+    #[inline]
+    pub fn moved(&mut self, distance: f64) {
+        if let Some(emf) = &mut self.back_emf {
+            emf.moved(distance);
+        }
     }
 
     /// Force and current as in [`after`](Self::after).
@@ -278,15 +325,20 @@ impl Drive {
         }
     }
 
-    fn following(&self, late: usize, length: f64, period: f64) -> Following {
-        let (left, mean) = match self.current_lag {
+    /// What remains of a distance of the current to its end after `span` seconds, and on average over them.
+    fn remaining(&self, span: f64) -> (f64, f64) {
+        match self.current_lag {
             0.0 => (0.0, 0.0),
             lag => {
-                let x = length * period / lag;
+                let x = span / lag;
                 let gone = -libm::expm1(-x);
                 (1.0 - gone, gone / x)
             }
-        };
+        }
+    }
+
+    fn following(&self, late: usize, length: f64, period: f64) -> Following {
+        let (left, mean) = self.remaining(length * period);
         Following {
             late,
             length,

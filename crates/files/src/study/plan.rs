@@ -9,7 +9,7 @@ use stiction_friction::compensator::{Adaptation, Source, Watchdog};
 use stiction_log::Motion;
 use stiction_servo::controller::Controller;
 use stiction_servo::cross_coupling::CrossCoupling;
-use stiction_servo::disturbance::Cogging;
+use stiction_servo::disturbance::{Cogging, Disturbance};
 use stiction_servo::drive::Drive;
 use stiction_servo::encoder::Encoder;
 use stiction_servo::learning::Learning;
@@ -84,6 +84,8 @@ pub struct Machine {
     pub position_noise: f64,
     /// Cogging of the motor.
     pub cogging: Option<Cogging>,
+    /// Force on the axis over time.
+    pub disturbance: Option<Disturbance>,
 }
 
 /// A reference motion of one axis, and the time from which its samples count.

@@ -4,6 +4,8 @@ mod compensators;
 mod contours;
 mod controllers;
 mod dimensions;
+mod disturbance;
+mod drive;
 mod entry;
 mod file;
 mod inputs;
@@ -65,6 +67,11 @@ fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
     for table in [Some(axis), other].iter().flatten() {
         if let Some(model) = table.text("model")? {
             inputs.push(folder.join(model));
+        }
+        if let Some(disturbance) = table.table("disturbance")?
+            && let Some(file) = disturbance.text("file")?
+        {
+            inputs.push(folder.join(file));
         }
     }
     let inputs = inputs.iter().map(|path| input(path));

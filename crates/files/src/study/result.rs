@@ -70,6 +70,50 @@ pub struct SimulatedAxis {
     pub encoder: f64,
     /// Standard deviation of the noise on the position, m or rad.
     pub position_noise: f64,
+    /// Damper beside the law, N s/m or N m s/rad.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub viscous: f64,
+    /// Spring to the origin, N/m or N m/rad.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub spring: f64,
+    /// Force on the axis over time, where there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub disturbance: Option<DisturbanceEntry>,
+    /// Amplifier and motor, where the command is a voltage.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub voltage: Option<VoltageEntry>,
+}
+
+/// A force on the axis over time, against the positive direction.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct DisturbanceEntry {
+    /// `constant`, `sine` or `file`.
+    pub kind: String,
+    /// N or N m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force: Option<f64>,
+    /// N or N m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub amplitude: Option<f64>,
+    /// Hz
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frequency_hz: Option<f64>,
+    /// rad
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub phase_rad: Option<f64>,
+}
+
+/// Amplifier and motor.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VoltageEntry {
+    /// N/A or N m/A.
+    pub force_constant: f64,
+    /// A/V; one over the resistance of a motor on a voltage.
+    pub amplifier_gain: f64,
+    /// V s/m or V s/rad.
+    pub back_emf: f64,
+    /// Largest voltage, V; `null` without a limit.
+    pub limit: Option<f64>,
 }
 
 /// One parameter of the axis.
@@ -119,6 +163,10 @@ pub struct ResultRow {
     pub still_learning: usize,
     /// The metrics.
     pub metrics: Vec<MetricEntry>,
+}
+
+fn is_none(value: &f64) -> bool {
+    *value == 0.0
 }
 
 fn is_zero(count: &usize) -> bool {

@@ -48,6 +48,10 @@ impl Dimension {
     pub const CURRENT: Self = of([0, 0, 0, 1, 0, 0, 0]);
     /// Voltage, V.
     pub const VOLTAGE: Self = of([2, 1, -3, -1, 0, 0, 0]);
+    /// Electrical resistance, ohm.
+    pub const RESISTANCE: Self = of([2, 1, -3, -2, 0, 0, 0]);
+    /// Inductance, H.
+    pub const INDUCTANCE: Self = of([2, 1, -2, -2, 0, 0, 0]);
     /// Temperature, K.
     pub const TEMPERATURE: Self = of([0, 0, 0, 0, 1, 0, 0]);
     /// Encoder counts.
@@ -144,6 +148,8 @@ const NAMED: &[(Dimension, &str, &str)] = &[
     (Dimension::TORQUE, "N*m", "torque"),
     (Dimension::CURRENT, "A", "current"),
     (Dimension::VOLTAGE, "V", "voltage"),
+    (Dimension::RESISTANCE, "ohm", "resistance"),
+    (Dimension::INDUCTANCE, "H", "inductance"),
     (Dimension::TEMPERATURE, "K", "temperature"),
     (Dimension::COUNTS, "count", "encoder counts"),
     (of([0, 1, -2, 0, 0, 0, 0]), "N/m", "stiffness"),

@@ -1,11 +1,13 @@
 //! The report of a study.
 
+mod axis;
 mod contour;
 pub(crate) mod rates;
 pub(crate) mod rows;
 
+use axis::{axis, mass_unit, motion, parameters};
 use rows::{COLORS, believed, drawn, judged, left_out, less};
-use stiction_files::study::result::{MetricEntry, ResultRow, SimulatedAxis, StudyFile};
+use stiction_files::study::result::{MetricEntry, ResultRow, StudyFile};
 use stiction_files::symbols;
 use stiction_log::Motion;
 use stiction_number::quantity;
@@ -111,20 +113,6 @@ const MEANING: [&str; 9] = [
     "Wrong parameters are those of the compensator; the axis keeps its own. A mass that is drawn \
      with them is the one fed forward.",
 ];
-
-fn motion(axis: &SimulatedAxis) -> Motion {
-    match axis.kind.as_str() {
-        "rotary" => Motion::Rotary,
-        _ => Motion::Linear,
-    }
-}
-
-fn mass_unit(axis: &SimulatedAxis) -> &'static str {
-    match motion(axis) {
-        Motion::Linear => "kg",
-        Motion::Rotary => "kg·m²",
-    }
-}
 
 fn verdict(file: &StudyFile) -> Callout {
     let runs: usize = file.results.iter().map(|r| r.runs).sum();
@@ -347,69 +335,4 @@ fn wrong(rows: &[ResultRow]) -> Option<Figure> {
              without compensation.",
         ),
     )
-}
-
-fn axis(file: &StudyFile, axis: &SimulatedAxis) -> Block {
-    let length = symbols::length_unit(motion(axis));
-    let mut facts = vec![
-        ("Friction", axis.origin.clone()),
-        ("σ₁", axis.sigma1.clone()),
-        (
-            "Control rate",
-            format!(
-                "{} Hz, plant stepped {} times a period",
-                number::sig(axis.rate_hz, 4),
-                axis.substeps
-            ),
-        ),
-        ("Delay", quantity(axis.delay_s, "s")),
-        (
-            "Current loop",
-            match axis.current_lag_s {
-                0.0 => "at once".into(),
-                lag => format!("lag of {}", quantity(lag, "s")),
-            },
-        ),
-        ("Encoder step", quantity(axis.encoder, length)),
-    ];
-    if axis.position_noise > 0.0 {
-        let noise = quantity(axis.position_noise, length);
-        facts.push(("Position noise", format!("{noise} rms")));
-    }
-    for path in &file.paths {
-        let text = format!(
-            "{}, {} s, counted from {} s on",
-            path.kind,
-            number::sig(path.duration_s, 4),
-            number::sig(path.skip_s, 4)
-        );
-        facts.push((&path.name, text));
-    }
-    let text = |(name, value): (&str, String)| (Text::from(name), Text::from(value));
-    let mut facts: Vec<_> = facts.into_iter().map(text).collect();
-    for input in &file.inputs {
-        facts.push((
-            Text::new().code(input.path.as_str()),
-            Text::new().code(input.sha256.as_str()),
-        ));
-    }
-    Block::Facts(facts)
-}
-
-fn parameters(axis: &SimulatedAxis) -> Table {
-    let columns = [
-        ("Parameter", Align::Left),
-        ("", Align::Left),
-        ("Value", Align::Right),
-        ("Unit", Align::Left),
-    ];
-    let table = Table::new(columns).caption("Parameters of the simulated axis.");
-    axis.parameters.iter().fold(table, |table, p| {
-        table.row([
-            symbols::meaning(&p.name, motion(axis)),
-            symbols::symbol(&p.name),
-            number::sig(p.value, 4),
-            number::unit(&p.unit),
-        ])
-    })
 }

@@ -1,7 +1,7 @@
 //! The drive against closed forms: delay, lag, limits; and the other forces.
 
 use proptest::prelude::*;
-use stiction_servo::disturbance::{Cogging, Disturbance};
+use stiction_servo::disturbance::{Cogging, Disturbance, Recorded};
 use stiction_servo::drive::{Drive, RunningDrive};
 
 const H: f64 = 250e-6;
@@ -150,7 +150,7 @@ fn drives_that_cannot_be_are_named() {
 }
 
 #[test]
-fn cogging_repeats_with_its_pitch_and_disturbances_begin_when_they_should() {
+fn cogging_repeats_with_its_pitch_and_disturbances_follow_time() {
     let cogging = Cogging {
         amplitude: 3.0,
         pitch: 0.02,
@@ -159,14 +159,22 @@ fn cogging_repeats_with_its_pitch_and_disturbances_begin_when_they_should() {
     assert_eq!(cogging.validate(), Ok(()));
     assert!((cogging.force(0.005) - 3.0).abs() < 1e-12);
     assert!((cogging.force(0.123) - cogging.force(0.103)).abs() < 1e-12);
-    let disturbance = Disturbance {
-        step: 5.0,
-        from: 1.0,
+    let sine = Disturbance::Sine {
         amplitude: 2.0,
         frequency: 10.0,
+        phase: 0.0,
     };
-    assert_eq!(disturbance.validate(), Ok(()));
-    assert_eq!(disturbance.force(0.0), 0.0);
-    assert!((disturbance.force(0.025) - 2.0).abs() < 1e-12);
-    assert!((disturbance.force(1.025) - 7.0).abs() < 1e-12);
+    assert_eq!(sine.validate(), Ok(()));
+    assert!((sine.force(0.025) - 2.0).abs() < 1e-12);
+    assert!((sine.force(0.325) - 2.0).abs() < 1e-12);
+    let recorded = Recorded::new(vec![1.0, 2.0, 4.0], vec![5.0, 7.0, -1.0]).unwrap();
+    let recorded = Disturbance::Recorded(recorded);
+    let at = [0.0, 1.0, 1.25, 2.0, 3.0, 4.0, 9.0].map(|t| recorded.force(t));
+    assert_eq!(at, [5.0, 5.0, 5.5, 7.0, 3.0, -1.0, -1.0]);
+    let name = |times: &[f64], forces: &[f64]| {
+        Recorded::new(times.into(), forces.into()).unwrap_err().name
+    };
+    assert_eq!(name(&[], &[]), "times");
+    assert_eq!(name(&[0.0, 0.0], &[1.0, 1.0]), "time");
+    assert_eq!(name(&[0.0, 1.0], &[1.0, f64::NAN]), "disturbance");
 }

@@ -5,6 +5,7 @@ mod c95;
 mod closed_loop;
 mod compensation;
 mod drive;
+mod forces;
 mod integrators;
 mod load;
 mod metrics;

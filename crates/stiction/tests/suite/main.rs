@@ -17,5 +17,6 @@ mod recordings;
 mod rests;
 mod simulation;
 mod study;
+mod study_axis;
 mod terms;
 mod workflow;

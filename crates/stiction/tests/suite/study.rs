@@ -8,29 +8,29 @@ use stiction::{Control, Progress, Silent, Study};
 use tempfile::TempDir;
 
 /// A folder with a study in it.
-struct Desk(TempDir);
+pub(crate) struct Desk(TempDir);
 
 impl Desk {
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Desk(tempfile::tempdir().unwrap())
     }
 
-    fn write(&self, name: &str, text: &str) -> PathBuf {
+    pub(crate) fn write(&self, name: &str, text: &str) -> PathBuf {
         let path = self.0.path().join(name);
         std::fs::write(&path, text).unwrap();
         path
     }
 
-    fn study(&self, text: &str) -> Result<Study, FileError> {
+    pub(crate) fn study(&self, text: &str) -> Result<Study, FileError> {
         Study::read(self.write("study.toml", text))
     }
 
-    fn run(&self, text: &str) -> StudyFile {
+    pub(crate) fn run(&self, text: &str) -> StudyFile {
         run(&self.study(text).unwrap())
     }
 
     /// What is said of a study, without the folder that it is in.
-    fn refusal(&self, text: &str) -> String {
+    pub(crate) fn refusal(&self, text: &str) -> String {
         let Err(error) = self.study(text) else {
             panic!("not refused: {text}");
         };
@@ -44,7 +44,7 @@ fn run(study: &Study) -> StudyFile {
     stiction::simulate(study, &mut Silent).file
 }
 
-fn row<'f>(file: &'f StudyFile, compensator: &str, parameters: &str) -> &'f ResultRow {
+pub(crate) fn row<'f>(file: &'f StudyFile, compensator: &str, parameters: &str) -> &'f ResultRow {
     let found = file
         .results
         .iter()
@@ -52,7 +52,7 @@ fn row<'f>(file: &'f StudyFile, compensator: &str, parameters: &str) -> &'f Resu
     found.unwrap_or_else(|| panic!("no row {compensator}, {parameters}"))
 }
 
-const AXIS: &str = r#"
+pub(crate) const AXIS: &str = r#"
 [axis]
 known        = "motor"
 rate         = "4 kHz"
@@ -68,14 +68,14 @@ amplitude = "5 mm"
 frequency = "0.5 Hz"
 "#;
 
-const CASCADE: &str = r#"
+pub(crate) const CASCADE: &str = r#"
 [[controller]]
 kind        = "cascade"
 bandwidth   = "60 Hz"
 force_limit = "200 N"
 "#;
 
-const WHOLE: &str = r#"
+pub(crate) const WHOLE: &str = r#"
 [[compensator]]
 name     = "whole"
 kind     = "lugre"
@@ -84,7 +84,7 @@ watchdog = false
 ramp     = "0 s"
 "#;
 
-fn together(parts: &[&str]) -> String {
+pub(crate) fn together(parts: &[&str]) -> String {
     parts.concat()
 }
 
@@ -119,7 +119,7 @@ fn the_published_sine() {
     );
 }
 
-const SHORT: &str = r#"
+pub(crate) const SHORT: &str = r#"
 [[path]]
 kind      = "sine"
 amplitude = "0.2 mm"

@@ -1,12 +1,14 @@
 //! The simulated axis: its settings for a run, and what is said of it.
 
 use stiction_files::study::Machine;
-use stiction_files::study::result::{AxisParameter, SimulatedAxis};
+use stiction_files::study::result::{AxisParameter, DisturbanceEntry, SimulatedAxis, VoltageEntry};
 use stiction_files::symbols;
 use stiction_friction::Damping;
 use stiction_log::Motion;
 use stiction_servo::axis::AxisSettings;
 use stiction_servo::controller::Controller;
+use stiction_servo::disturbance::Disturbance;
+use stiction_servo::drive::Drive;
 use stiction_servo::feedforward::Feedforward;
 
 /// The axis with a controller and without compensation.
@@ -17,7 +19,7 @@ pub(super) fn settings(machine: &Machine, controller: Controller, seed: u64) -> 
         encoder: machine.encoder,
         position_noise: machine.position_noise,
         cogging: machine.cogging,
-        disturbance: None,
+        disturbance: machine.disturbance.clone(),
         controller,
         feedforward: Feedforward::default(),
         rate: machine.rate,
@@ -73,5 +75,46 @@ pub(super) fn entry(machine: &Machine) -> SimulatedAxis {
         peak_force: Some(machine.drive.peak_force()).filter(|f| f.is_finite()),
         encoder: machine.encoder.resolution(),
         position_noise: machine.position_noise,
+        viscous: machine.plant.viscous(),
+        spring: machine.plant.stiffness(),
+        disturbance: machine.disturbance.as_ref().map(disturbance),
+        voltage: voltage(&machine.drive),
     }
+}
+
+/// A disturbance in the direction of the study file, which is against that of the axis.
+fn disturbance(disturbance: &Disturbance) -> DisturbanceEntry {
+    match *disturbance {
+        Disturbance::Constant(force) => DisturbanceEntry {
+            kind: "constant".into(),
+            force: Some(-force),
+            ..DisturbanceEntry::default()
+        },
+        Disturbance::Sine {
+            amplitude,
+            frequency,
+            phase,
+        } => DisturbanceEntry {
+            kind: "sine".into(),
+            amplitude: Some(-amplitude),
+            frequency_hz: Some(frequency),
+            phase_rad: Some(phase),
+            ..DisturbanceEntry::default()
+        },
+        Disturbance::Recorded(_) => DisturbanceEntry {
+            kind: "file".into(),
+            ..DisturbanceEntry::default()
+        },
+    }
+}
+
+/// What a command in volts becomes; `None` where the command is the force.
+fn voltage(drive: &Drive) -> Option<VoltageEntry> {
+    let volts = drive.peak_current / drive.amplifier_gain;
+    (drive.gain() != 1.0 || drive.back_emf > 0.0).then(|| VoltageEntry {
+        force_constant: drive.force_constant,
+        amplifier_gain: drive.amplifier_gain,
+        back_emf: drive.back_emf,
+        limit: Some(volts).filter(|v| v.is_finite()),
+    })
 }

@@ -93,7 +93,7 @@ pub(super) fn contour(
         "square" => (asked.polygon(Polygon::square)?, 1.0, 4.0),
         "figure-eight" => asked.figure_eight()?,
         _ => {
-            let points = file::points::<2>(table, folder, asked.is.length)?;
+            let points = file::points::<2>(table, folder, asked.is.length, &file::PLANE)?;
             let [x, y] = points.axes;
             study.reads(&points.file, points.warning)?;
             let motion = FreeForm::timed(points.times, x, y).map_err(|e| table.together(&e))?;

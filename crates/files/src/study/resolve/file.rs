@@ -1,4 +1,4 @@
-//! Set points from a file: `kind = "file"` of a path or a contour.
+//! Values over time from a file: `kind = "file"` of a path, a contour or a disturbance.
 
 use super::entry::MOST_SAMPLES;
 use crate::config::Table;
@@ -10,7 +10,33 @@ use stiction_log::{Column, Dimension, Kind, Limits, ReadOptions, Unit, read_tabl
 /// Largest file, bytes.
 const MOST_BYTES: u64 = 256 << 20;
 
-/// Times, s, and positions, m (rad), of the axes.
+/// What the columns of a file are to be.
+pub(super) struct Columns {
+    /// A header for example.
+    example: &'static str,
+    /// What is needed, with their number.
+    needed: &'static str,
+}
+
+/// Set points of one axis.
+pub(super) const POSITION: Columns = Columns {
+    example: "`t [s],x [mm]`",
+    needed: "two: time and position",
+};
+
+/// Set points of two axes.
+pub(super) const PLANE: Columns = Columns {
+    example: "`t [s],x [mm]`",
+    needed: "three: time, x and y",
+};
+
+/// A force.
+pub(super) const FORCE: Columns = Columns {
+    example: "`t [s],force [N]`",
+    needed: "two: time and force",
+};
+
+/// Times, s, and values, SI, of the axes.
 pub(super) struct Points<const AXES: usize> {
     pub times: Vec<f64>,
     pub axes: [Vec<f64>; AXES],
@@ -18,15 +44,16 @@ pub(super) struct Points<const AXES: usize> {
     pub warning: Option<Warning>,
 }
 
-/// The first columns of the file that the key `file` names: time, then a position of each axis.
+/// The first columns of the file that the key `file` names: time, then a value of this dimension for each axis.
 pub(super) fn points<const AXES: usize>(
     table: &Table<'_>,
     folder: &Path,
-    length: Dimension,
+    dimension: Dimension,
+    columns: &Columns,
 ) -> Result<Points<AXES>, Error> {
-    let what = "a file with columns such as `t [s],x [mm]`";
-    let given = table.required("file", table.get("file"), what)?;
-    let file = folder.join(given.path(what)?);
+    let what = format!("a file with columns such as {}", columns.example);
+    let given = table.required("file", table.get("file"), &what)?;
+    let file = folder.join(given.path(&what)?);
     let mut options = ReadOptions::default();
     options.limits = Limits {
         file_bytes: MOST_BYTES,
@@ -46,12 +73,8 @@ pub(super) fn points<const AXES: usize>(
         allowed: allowed.into(),
     };
     if read.columns.len() < 1 + AXES {
-        let allowed = match AXES {
-            1 => "two: time and position",
-            _ => "three: time, x and y",
-        };
         let found = format!("{} columns of numbers", read.columns.len());
-        return Err(refuse(String::new(), found, allowed));
+        return Err(refuse(String::new(), found, columns.needed));
     }
     if read.rows() > MOST_SAMPLES {
         let found = format!("{} rows", read.rows());
@@ -110,7 +133,7 @@ pub(super) fn points<const AXES: usize>(
     }
     let mut axes = [const { Vec::new() }; AXES];
     for (i, axis) in axes.iter_mut().enumerate() {
-        *axis = si(1 + i, length)?;
+        *axis = si(1 + i, dimension)?;
     }
     let bare = read.columns[..=AXES]
         .iter()
@@ -122,7 +145,7 @@ pub(super) fn points<const AXES: usize>(
         let message = format!(
             "{}: no unit at {columns}; taken as s and {}",
             file.display(),
-            length.si_text()
+            dimension.si_text()
         );
         Warning::new(Code::UnitAssumed, message)
     });

@@ -1,6 +1,8 @@
 //! `[axis]` and `[second_axis]`
 
 use super::dimensions::Dimensions;
+use super::disturbance::disturbance;
+use super::drive::drive;
 use super::published::published;
 use crate::config::Table;
 use crate::error::{Error, Warning};
@@ -14,7 +16,6 @@ use stiction_log::Dimension;
 use stiction_log::mapping::WRAPS;
 use stiction_parameters::Quantity;
 use stiction_servo::disturbance::Cogging;
-use stiction_servo::drive::Drive;
 use stiction_servo::encoder::Encoder;
 use stiction_servo::known;
 use stiction_servo::plant::Plant;
@@ -97,7 +98,13 @@ pub(super) fn machine(
     if !(10.0..=1e6).contains(&rate) {
         return Err(table.refuse("rate", format!("{rate} Hz"), "10 Hz to 1 MHz"));
     }
-    let swing = (law.stiffness() / mass).sqrt();
+    let stiffness = Dimensions::per(is.force, is.length);
+    let viscous = table.not_negative("viscous", Dimensions::per(is.force, is.speed))?;
+    let spring = table.not_negative("spring", stiffness)?.unwrap_or(0.0);
+    let plant = Plant::new(mass, law)
+        .and_then(|plant| plant.with_viscous(viscous.unwrap_or(0.0)))
+        .and_then(|plant| plant.with_stiffness(spring));
+    let swing = ((law.stiffness() + spring) / mass).sqrt();
     let substeps = (PLANT_RATE.max(swing / LONGEST_STEP) / rate).ceil();
     let substeps = substeps.clamp(1.0, MOST_SUBSTEPS.max(PLANT_RATE / rate).ceil());
     let long = swing / (rate * substeps);
@@ -112,12 +119,14 @@ pub(super) fn machine(
             ),
         ));
     }
+    let (disturbance, said) = disturbance(table, folder, &is)?;
+    model.warnings.extend(said);
     let encoder = table.not_negative("encoder", is.length)?.unwrap_or(0.0);
     let machine = Machine {
         motion,
         law,
         mass,
-        plant: Plant::new(mass, law).map_err(|e| table.together(&e))?,
+        plant: plant.map_err(|e| table.together(&e))?,
         given_mass: given.is_some(),
         rate,
         substeps: substeps as u32,
@@ -127,32 +136,11 @@ pub(super) fn machine(
             .not_negative("position_noise", is.length)?
             .unwrap_or(0.0),
         cogging: cogging(table, &is, encoder)?,
+        disturbance,
         model,
     };
     table.end()?;
     Ok(machine)
-}
-
-fn drive(table: &Table<'_>, is: &Dimensions, rate: f64) -> Result<Drive, Error> {
-    let current_lag = match table.get("current_loop").map(|g| g.or_word(&["none"])) {
-        None | Some((_, Some(_))) => 0.0,
-        Some((given, None)) => {
-            let (bandwidth, _) = given.positive(&[Dimension::FREQUENCY])?;
-            1.0 / (2.0 * std::f64::consts::PI * bandwidth)
-        }
-    };
-    let drive = Drive {
-        peak_current: table
-            .positive("peak_force", is.force)?
-            .unwrap_or(f64::INFINITY),
-        current_lag,
-        delay: table
-            .not_negative("delay", Dimension::TIME)?
-            .unwrap_or(1.0 / rate),
-        ..Drive::ideal()
-    };
-    drive.validate(1.0 / rate).map_err(|e| table.together(&e))?;
-    Ok(drive)
 }
 
 fn cogging(table: &Table<'_>, is: &Dimensions, encoder: f64) -> Result<Option<Cogging>, Error> {

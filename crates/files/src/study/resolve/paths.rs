@@ -45,7 +45,7 @@ pub(super) fn path(
         "constant-velocity" => asked.constant_velocity()?,
         "excitation" => asked.excitation()?,
         _ => {
-            let points = file::points::<1>(table, folder, asked.is.length)?;
+            let points = file::points::<1>(table, folder, asked.is.length, &file::POSITION)?;
             let [positions] = points.axes;
             study.reads(&points.file, points.warning)?;
             let points = asked.made(SetPoints::timed(points.times, positions))?;
