@@ -24,6 +24,9 @@ pub struct ReproduceFile {
     /// Figures of ours beside claims of the publication, which are not of the same experiment.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub claims: Vec<ClaimEntry>,
+    /// Every run of an experiment with its metrics: controllers and compensations beside each other.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub runs: Vec<RunEntry>,
     /// What was assumed where the publication gives no number.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assumptions: Vec<String>,
@@ -57,9 +60,12 @@ pub struct CheckEntry {
 pub struct ClaimEntry {
     /// What it is.
     pub name: String,
-    /// SI unit.
+    /// SI unit, or m/min for a feed.
     pub unit: String,
-    /// What drives the compensation.
+    /// The controller of both runs.
+    #[serde(default)]
+    pub controller: String,
+    /// What compensates.
     pub compensation: String,
     /// Without compensation.
     pub without: f64,
@@ -69,6 +75,30 @@ pub struct ClaimEntry {
     pub reduction_percent: f64,
     /// What the publication claims, in its words; may be empty.
     pub published: String,
+}
+
+/// A run of an experiment.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RunEntry {
+    /// Name of the experiment.
+    pub experiment: String,
+    /// The controller.
+    pub controller: String,
+    /// What compensates friction.
+    pub compensation: String,
+    /// What came of it.
+    pub metrics: Vec<MetricEntry>,
+}
+
+/// A metric of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MetricEntry {
+    /// What it is.
+    pub name: String,
+    /// SI unit, or m/min for a feed.
+    pub unit: String,
+    /// Its value.
+    pub value: f64,
 }
 
 impl ReproduceFile {
@@ -82,6 +112,7 @@ impl ReproduceFile {
             all_within: true,
             checks: Vec::new(),
             claims: Vec::new(),
+            runs: Vec::new(),
             assumptions: Vec::new(),
         }
     }

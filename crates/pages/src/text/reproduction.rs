@@ -55,7 +55,7 @@ fn one_digit(x: f64) -> String {
 fn claims(claims: &[ClaimEntry]) -> String {
     let header = [
         "metric",
-        "law fed by",
+        "compensation",
         "without",
         "with",
         "less",

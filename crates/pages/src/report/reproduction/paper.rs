@@ -1,13 +1,13 @@
 //! The report of the paper's experiments: every one of its figures as a picture of ours.
 
+mod beside;
+mod corners;
 mod identified;
 mod simulated;
 
 use super::checks::verdict;
-use stiction_files::reproduce_file::{ClaimEntry, ReproduceFile};
-use stiction_number::Percent;
-use stiction_number::quantity;
-use stiction_report::{Align, Block, Callout, Document, Severity, Table, Text};
+use stiction_files::reproduce_file::ReproduceFile;
+use stiction_report::{Block, Callout, Document, Severity, Text};
 use stiction_workflows::reproduce::Paper;
 
 pub(super) fn report(file: &ReproduceFile, paper: &Paper) -> Document {
@@ -35,17 +35,7 @@ pub(super) fn report(file: &ReproduceFile, paper: &Paper) -> Document {
     );
     document = identified::sections(document, file, paper);
     document = simulated::sections(document, file, paper);
-    if !file.claims.is_empty() {
-        document = document
-            .heading(2, "Beside the paper's claims")
-            .paragraph(
-                "Not the same experiment: the paper gives neither baseline nor metric for its two figures, and \
-                 concludes from simulation. Those here are of an axis whose friction follows the law and was identified \
-                 to a few tenths of a percent; a machine does worse. The effect of wrong parameters is shown by a \
-                 study with parameter errors.",
-            )
-            .block(claims(&file.claims));
-    }
+    document = beside::sections(document, file);
     document
         .heading(2, "Assumptions")
         .paragraph("Where the paper gives no number, and what was assumed.")
@@ -55,28 +45,4 @@ pub(super) fn report(file: &ReproduceFile, paper: &Paper) -> Document {
                 .map(|a| Text::from(a.as_str()))
                 .collect(),
         ))
-}
-
-fn claims(claims: &[ClaimEntry]) -> Table {
-    let columns = [
-        ("Metric", Align::Left),
-        ("Without", Align::Right),
-        ("Law fed by", Align::Left),
-        ("With", Align::Right),
-        ("Less", Align::Right),
-        ("The paper's words", Align::Left),
-    ];
-    claims.iter().fold(Table::new(columns), |table, claim| {
-        table.row([
-            claim.name.clone(),
-            quantity(claim.without, &claim.unit),
-            claim.compensation.clone(),
-            quantity(claim.with, &claim.unit),
-            Percent::error(claim.reduction_percent).digits(4),
-            match claim.published.as_str() {
-                "" => "–".into(),
-                words => words.to_string(),
-            },
-        ])
-    })
 }

@@ -4,7 +4,7 @@
 use super::budget::Budget;
 use super::fault::Fault;
 use super::search::{METHODS, Searched, search};
-use super::stage::{RATE, along, settings, truth};
+use super::stage::{Control, RATE, Stage, along};
 use crate::reproduce::watch::Watch;
 use rayon::prelude::*;
 use stiction_friction::Direction;
@@ -37,8 +37,13 @@ pub struct Dynamics {
     pub six: Vec<Searched>,
 }
 
-pub(super) fn run(statics: &Named, budget: Budget, watch: &Watch) -> Result<Dynamics, Fault> {
-    let record = record()?;
+pub(super) fn run(
+    stage: &Stage,
+    statics: &Named,
+    budget: Budget,
+    watch: &Watch,
+) -> Result<Dynamics, Fault> {
+    let record = record(stage)?;
     watch.done()?;
     let held = Dynamic::new(cost(&record)?, &curve(statics))?;
     let two = search(&held, "annealing-ga", budget, 1, watch)?;
@@ -55,9 +60,10 @@ pub(super) fn run(statics: &Named, budget: Budget, watch: &Watch) -> Result<Dyna
 
 /// Friction `Ke u - M a` over the velocity. Force and acceleration are taken at the instant of the velocity: the mean
 /// of the forces held before and after it, and the central difference.
-fn record() -> Result<Record, Fault> {
-    let mass = truth()?.mass;
-    let samples = along(&settings()?, &Sine::new(AMPLITUDE, FREQUENCY, CYCLES)?)?;
+fn record(stage: &Stage) -> Result<Record, Fault> {
+    let mass = stage.truth.mass;
+    let sine = Sine::new(AMPLITUDE, FREQUENCY, CYCLES)?;
+    let samples = along(&stage.settings(Control::Fuzzy)?, &sine)?;
     let mut log = Samples::default();
     let mut velocity = Vec::new();
     for three in samples.windows(3).step_by(FITTED_SAMPLE) {

@@ -1,7 +1,7 @@
 //! A load taken up while running, and the mass found by recursive least squares: Z25 Fig. 14.
 
 use super::fault::Fault;
-use super::stage::{RATE, settings, truth};
+use super::stage::{Control, RATE, Stage};
 use crate::reproduce::watch::Watch;
 use stiction_friction::LuGre;
 use stiction_servo::axis::{Axis, Correction};
@@ -35,9 +35,9 @@ impl LoadFound {
     }
 }
 
-pub(super) fn run(law: &LuGre<f64>, watch: &Watch) -> Result<LoadFound, Fault> {
-    let settings = settings()?;
-    let before = truth()?.mass;
+pub(super) fn run(stage: &Stage, law: &LuGre<f64>, watch: &Watch) -> Result<LoadFound, Fault> {
+    let settings = stage.settings(Control::Fuzzy)?;
+    let before = stage.truth.mass;
     let defaults = LoadSettings::default();
     let mut estimator = LoadEstimator::new(*law, before, settings.drive, RATE, defaults)?;
     let mut axis = Axis::new(settings, Ode4::new(1)?)?;

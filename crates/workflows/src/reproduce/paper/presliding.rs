@@ -2,7 +2,7 @@
 
 use super::fault::Fault;
 use super::law::law;
-use super::stage::{RATE, settings};
+use super::stage::{Control, RATE, Stage};
 use crate::reproduce::watch::Watch;
 use stiction_friction::Direction;
 use stiction_identify::candidates::Named;
@@ -39,8 +39,8 @@ pub struct Presliding {
     pub onset: f64,
 }
 
-pub(super) fn run(identified: &Named, watch: &Watch) -> Result<Presliding, Fault> {
-    let settings = settings()?;
+pub(super) fn run(stage: &Stage, identified: &Named, watch: &Watch) -> Result<Presliding, Fault> {
+    let settings = stage.settings(Control::Fuzzy)?;
     let height = VOLTS * settings.drive.gain();
     let mut ode4 = Ode4::new(1)?;
     let mut log = Samples::default();

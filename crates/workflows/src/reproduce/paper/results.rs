@@ -5,12 +5,12 @@ use super::dynamics::Dynamics;
 use super::load::{HEAVIER, LoadFound};
 use super::presliding::Presliding;
 use super::search::Searched;
+use super::stage::Stage;
 use super::statics::Statics;
-use super::tracking::{Fed, Tracked};
-use stiction_files::reproduce_file::{CheckEntry, ClaimEntry};
+use super::tracking::Tracked;
+use stiction_files::reproduce_file::CheckEntry;
 use stiction_friction::LuGre;
 use stiction_parameters::{Name, Quantity};
-use stiction_servo::known::KnownAxis;
 
 /// Largest relative error of a found parameter, dimensionless: what Liao et al. 2023 (doi 10.3390/s23042076), the work
 /// closest to the paper, claim without noise.
@@ -22,7 +22,7 @@ const MASS_TOLERANCE: f64 = 0.02;
 #[derive(Clone, Debug)]
 pub struct Paper {
     /// The axis that was simulated.
-    pub truth: KnownAxis,
+    pub stage: Stage,
     /// Static parameters from constant velocities.
     pub statics: Option<Statics>,
     /// Stiffness and micro-damping, and all six parameters at once.
@@ -31,9 +31,9 @@ pub struct Paper {
     pub presliding: Option<Presliding>,
     /// The law that all later experiments compensate with.
     pub law: Option<LuGre<f64>>,
-    /// A sine without and with compensation.
+    /// A sine under each controller with each compensation.
     pub tracked: Vec<Tracked>,
-    /// A corner without and with compensation.
+    /// A corner, likewise, without and with coupling.
     pub cornered: Vec<Cornered>,
     /// A load found while running.
     pub load: Option<LoadFound>,
@@ -52,7 +52,7 @@ pub const PARAMETERS: [(&str, &str); 6] = [
 impl Paper {
     /// The true value of a parameter, SI.
     pub fn true_value(&self, name: &str) -> f64 {
-        let law = &self.truth.law;
+        let law = &self.stage.truth.law;
         let side = law.curve().positive();
         match name {
             "sigma0" => law.stiffness(),
@@ -104,34 +104,6 @@ impl Paper {
         }
         checks
     }
-
-    /// Our metrics, each with the paper's claim where the paper makes one.
-    pub(super) fn claims(&self) -> Vec<ClaimEntry> {
-        let mut claims = Vec::new();
-        let speed = "feed error 2.8 to 2.3 m/min, 17.8 %";
-        let corner = "up to 25.1 % at corners";
-        type Metric = fn(&Tracked) -> f64;
-        let metrics: [(&str, &str, &str, Metric); 4] = [
-            ("largest speed error", "m/s", speed, |t| t.speed_peak),
-            ("rms speed error", "m/s", "", |t| t.speed_rms),
-            ("largest error at reversals", "m", "", |t| {
-                t.position.reversal_peak
-            }),
-            ("rms position error", "m", "", |t| t.position.rms),
-        ];
-        for (name, unit, published, metric) in metrics {
-            let values = self.tracked.iter().map(|t| (t.fed, metric(t)));
-            claims.extend(beside(name, unit, published, values.collect()));
-        }
-        let contour = self.cornered.iter();
-        let peaks = contour.clone().map(|c| (c.fed, c.contour.peak));
-        let name = "largest contour error, corner";
-        claims.extend(beside(name, "m", corner, peaks.collect()));
-        let rms = contour.map(|c| (c.fed, c.contour.rms));
-        let name = "rms contour error, corner";
-        claims.extend(beside(name, "m", "", rms.collect()));
-        claims
-    }
 }
 
 impl Dynamics {
@@ -139,21 +111,4 @@ impl Dynamics {
     pub fn first_of_six(&self) -> Option<&Searched> {
         self.six.iter().find(|s| s.method == "annealing-ga")
     }
-}
-
-/// The value with each compensation beside the first one, which is the value without compensation.
-fn beside(name: &str, unit: &str, published: &str, values: Vec<(Fed, f64)>) -> Vec<ClaimEntry> {
-    let Some(((_, without), with)) = values.split_first() else {
-        return Vec::new();
-    };
-    let entry = |(fed, with): &(Fed, f64)| ClaimEntry {
-        name: name.into(),
-        unit: unit.into(),
-        compensation: fed.name().into(),
-        without: *without,
-        with: *with,
-        reduction_percent: 100.0 * (1.0 - with / without),
-        published: published.into(),
-    };
-    with.iter().map(entry).collect()
 }

@@ -1,13 +1,15 @@
-//! The axis of the paper, with numbers of our own where it gives none.
+//! The axis of the experiments, with numbers of our own where the paper gives none.
 
 use stiction_friction::ParamError;
 use stiction_servo::axis::{AxisSettings, Sample};
 use stiction_servo::controller::Controller;
 use stiction_servo::drive::Drive;
+use stiction_servo::encoder::Encoder;
 use stiction_servo::feedforward::Feedforward;
 use stiction_servo::fuzzy::FuzzyPid;
 use stiction_servo::integrator::Ode4;
 use stiction_servo::known::{self, KnownAxis};
+use stiction_servo::pid::Pid;
 use stiction_servo::plant::Plant;
 use stiction_servo::run::run_with;
 use stiction_servo::trajectory::Trajectory;
@@ -15,43 +17,99 @@ use stiction_servo::trajectory::Trajectory;
 /// Control rate, Hz: one step of ode4 of 1e-4 s in each period.
 pub(super) const RATE: f64 = 1e4;
 
-/// Bandwidths for which the fuzzy PIDs of x and y are tuned, Hz.
-const BANDWIDTHS: [f64; 2] = [60.0, 45.0];
+/// Bandwidths for which the controllers of x and y are tuned, Hz.
+pub(super) const BANDWIDTHS: [f64; 2] = [60.0, 45.0];
 
-/// The simulated truth of the stage that is identified: mass and friction.
-pub(super) fn truth() -> Result<KnownAxis, ParamError> {
-    axis("motor")
+/// Encoder step of the stage, m: published.
+const ENCODER: f64 = 50e-9;
+
+/// A controller of the experiments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Control {
+    /// PID with fixed gains.
+    Pid,
+    /// The same PID with gains scheduled by fuzzy rules: that of the paper.
+    Fuzzy,
+}
+
+impl Control {
+    /// Both, the plain one first.
+    pub const ALL: [Control; 2] = [Control::Pid, Control::Fuzzy];
+
+    /// Name for tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Control::Pid => "PID",
+            Control::Fuzzy => "fuzzy PID",
+        }
+    }
+}
+
+/// The axes of the experiments.
+#[derive(Clone, Debug)]
+pub struct Stage {
+    /// Mass and friction of the axis that is identified: the truth.
+    pub truth: KnownAxis,
+    /// The other axis of the corner, if there is one.
+    pub(super) second: Option<KnownAxis>,
+    pub(super) drive: Drive,
+    pub(super) encoder: Encoder,
+}
+
+impl Stage {
+    /// The stage of this project.
+    pub(super) fn ours() -> Result<Self, ParamError> {
+        Ok(Stage {
+            truth: axis("motor")?,
+            // A heavier slide carries the stage.
+            second: Some(axis("machine")?),
+            drive: Drive {
+                current_lag: 0.0,
+                ..Drive::linear_motor(0.0)
+            },
+            encoder: Encoder::new(ENCODER)?,
+        })
+    }
+
+    /// The stage under a controller, Z25 eqs. (23)-(24): `M x'' = Ke u - F`, no delay and no current loop of its own.
+    pub(super) fn settings(&self, control: Control) -> Result<AxisSettings, ParamError> {
+        self.controlled(&self.truth, control, BANDWIDTHS[0])
+    }
+
+    /// The second axis of the corner.
+    pub(super) fn second(&self, control: Control) -> Option<Result<AxisSettings, ParamError>> {
+        let axis = self.second.as_ref()?;
+        Some(self.controlled(axis, control, BANDWIDTHS[1]))
+    }
+
+    fn controlled(
+        &self,
+        axis: &KnownAxis,
+        control: Control,
+        bandwidth: f64,
+    ) -> Result<AxisSettings, ParamError> {
+        let limit = self.drive.peak_force();
+        let friction = axis.law.curve().largest_static_level();
+        let controller = match control {
+            Control::Pid => Controller::Pid(Pid::tuned(axis.mass, bandwidth, limit)?),
+            Control::Fuzzy => {
+                Controller::Fuzzy(FuzzyPid::tuned(axis.mass, bandwidth, limit, friction)?)
+            }
+        };
+        Ok(AxisSettings {
+            plant: Plant::new(axis.mass, axis.law)?,
+            drive: self.drive,
+            encoder: self.encoder,
+            controller,
+            feedforward: Feedforward::default(),
+            substeps: 1,
+            ..axis.simulated(RATE, bandwidth)?
+        })
+    }
 }
 
 fn axis(name: &str) -> Result<KnownAxis, ParamError> {
     known::find(name).ok_or(ParamError::new("axis", 0.0, "a known one"))
-}
-
-/// The stage, Z25 eqs. (23)-(24): `M x'' = Ke u - F`, no delay and no current loop of its own.
-pub(super) fn settings() -> Result<AxisSettings, ParamError> {
-    controlled(&truth()?, BANDWIDTHS[0])
-}
-
-/// The axis that carries the stage in the corner: a heavier slide.
-pub(super) fn second() -> Result<AxisSettings, ParamError> {
-    controlled(&axis("machine")?, BANDWIDTHS[1])
-}
-
-fn controlled(axis: &KnownAxis, bandwidth: f64) -> Result<AxisSettings, ParamError> {
-    let drive = Drive {
-        current_lag: 0.0,
-        ..Drive::linear_motor(0.0)
-    };
-    let friction = axis.law.curve().largest_static_level();
-    let fuzzy = FuzzyPid::tuned(axis.mass, bandwidth, drive.peak_force(), friction)?;
-    Ok(AxisSettings {
-        plant: Plant::new(axis.mass, axis.law)?,
-        drive,
-        controller: Controller::Fuzzy(fuzzy),
-        feedforward: Feedforward::default(),
-        substeps: 1,
-        ..axis.simulated(RATE, bandwidth)?
-    })
 }
 
 /// Along a trajectory as the paper integrates it.

@@ -3,7 +3,7 @@
 use super::budget::Budget;
 use super::fault::Fault;
 use super::search::{Searched, search};
-use super::stage::{along, settings};
+use super::stage::{Control, Stage, along};
 use crate::reproduce::watch::Watch;
 use rayon::prelude::*;
 use stiction_friction::ParamError;
@@ -34,8 +34,8 @@ pub struct Statics {
     pub search: Searched,
 }
 
-pub(super) fn run(budget: Budget, watch: &Watch) -> Result<Statics, Fault> {
-    let (speed, force) = map(watch)?;
+pub(super) fn run(stage: &Stage, budget: Budget, watch: &Watch) -> Result<Statics, Fault> {
+    let (speed, force) = map(stage, watch)?;
     // Coulomb and static friction to 100 N, Stribeck velocity .1 to 100 mm/s, viscous to 1000 N s/m.
     let bounds = Bounds::new(
         [0.1, 0.1, 0.1, 1e-4].map(libm::log).into(),
@@ -50,10 +50,10 @@ pub(super) fn run(budget: Budget, watch: &Watch) -> Result<Statics, Fault> {
     })
 }
 
-fn map(watch: &Watch) -> Result<(Vec<f64>, Vec<f64>), Fault> {
+fn map(stage: &Stage, watch: &Watch) -> Result<(Vec<f64>, Vec<f64>), Fault> {
     let speeds: Vec<f64> = SPEEDS.iter().flat_map(|v| [-1e-3 * v, 1e-3 * v]).collect();
     let points: Result<Vec<(f64, f64)>, ParamError> =
-        speeds.par_iter().map(|&v| Ok((v, at(v)?))).collect();
+        speeds.par_iter().map(|&v| Ok((v, at(stage, v)?))).collect();
     let mut points = points?;
     watch.done()?;
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -61,13 +61,13 @@ fn map(watch: &Watch) -> Result<(Vec<f64>, Vec<f64>), Fault> {
 }
 
 /// Mean control force, N, at a constant velocity, m/s.
-fn at(velocity: f64) -> Result<f64, ParamError> {
+fn at(stage: &Stage, velocity: f64) -> Result<f64, ParamError> {
     let run = SpeedRun {
         velocity,
         hold: SETTLE + MEAN,
         ramp: RAMP,
     };
-    let samples = along(&settings()?, &Speeds::new(vec![run])?)?;
+    let samples = along(&stage.settings(Control::Fuzzy)?, &Speeds::new(vec![run])?)?;
     let settled = RAMP + SETTLE..RAMP + SETTLE + MEAN;
     let forces = samples.iter().filter(|s| settled.contains(&s.time));
     let (sum, n) = forces.fold((0.0, 0.0), |(sum, n), s| (sum + s.command, n + 1.0));

@@ -24,7 +24,7 @@ pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Pap
         .heading(2, "Static parameters")
         .block(numbers(file, "static"))
         .block(map(paper, statics))
-        .block(stribeck(&paper.truth.law));
+        .block(stribeck(&paper.stage.truth.law));
     let Some(dynamics) = &paper.dynamics else {
         return document;
     };
@@ -71,7 +71,7 @@ fn map(paper: &Paper, statics: &Statics) -> Figure {
         let mut panel = Panel::new(Axis::new("Velocity", "m/s"), Axis::new("Friction", "N"))
             .title(title)
             .layer(
-                Layer::line(v.clone(), steady(&paper.truth.law, &v))
+                Layer::line(v.clone(), steady(&paper.stage.truth.law, &v))
                     .color(Color::Grey)
                     .label("True"),
             );

@@ -1,13 +1,15 @@
 //! The axis in motion: tracking without and with compensation, corner, change of load.
 
+use super::corners;
 use crate::report::reproduction::checks::numbers;
 use stiction_files::reproduce_file::ReproduceFile;
-use stiction_report::{Axis, Block, Color, Dash, Document, Figure, Layer, Panel};
+use stiction_report::{Axis, Color, Dash, Document, Figure, Layer, Panel};
 use stiction_servo::axis::Sample;
-use stiction_workflows::reproduce::{Cornered, Fed, LoadFound, Paper, Tracked};
+use stiction_workflows::reproduce::{Compensation, LoadFound, Paper, Tracked};
 
 pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Paper) -> Document {
-    if let [without, ..] = &paper.tracked[..] {
+    let drawn: Vec<&Tracked> = paper.tracked.iter().filter(|t| t.is_drawn()).collect();
+    if let [without, ..] = drawn[..] {
         document = document
             .heading(2, "A sine without compensation")
             .block(sine(without))
@@ -20,20 +22,13 @@ pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Pap
                  difference of two readings of an encoder of 50 nm over a period of 0.1 ms, not the true one. Both \
                  work beside the same fuzzy PID.",
             )
-            .block(compensation(&paper.tracked))
-            .block(speed(&paper.tracked))
-            .block(position(&paper.tracked))
-            .block(control(&paper.tracked))
-            .block(loops(&paper.tracked));
+            .block(compensation(&drawn))
+            .block(speed(&drawn))
+            .block(position(&drawn))
+            .block(control(&drawn))
+            .block(loops(&drawn));
     }
-    if !paper.cornered.is_empty() {
-        document = document
-            .heading(2, "A corner of two axes")
-            .block(Block::Columns(vec![
-                corner(&paper.cornered).into(),
-                deviation(&paper.cornered).into(),
-            ]));
-    }
+    document = corners::sections(document, paper);
     match &paper.load {
         Some(load) => document
             .heading(2, "A change of load")
@@ -43,18 +38,18 @@ pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Pap
     }
 }
 
-fn color(fed: Fed) -> Color {
-    match fed {
-        Fed::Nothing => Color::Grey,
-        Fed::Reference => Color::Blue,
-        Fed::Measured => Color::Orange,
+pub(super) fn color(of: Compensation) -> Color {
+    match of {
+        Compensation::Nothing => Color::Grey,
+        Compensation::Measured => Color::Orange,
+        _ => Color::Blue,
     }
 }
 
-fn label(fed: Fed) -> String {
-    match fed {
-        Fed::Nothing => "Without".into(),
-        _ => format!("Law fed by the {}", fed.name()),
+pub(super) fn label(of: Compensation) -> &'static str {
+    match of {
+        Compensation::Nothing => "Without",
+        _ => of.name(),
     }
 }
 
@@ -63,14 +58,17 @@ fn column(samples: &[Sample], of: impl Fn(&Sample) -> f64) -> Vec<f64> {
 }
 
 /// One line for each run, over time.
-fn each(panel: Panel, runs: &[Tracked], of: impl Fn(&Sample) -> f64) -> Panel {
+fn each(panel: Panel, runs: &[&Tracked], of: impl Fn(&Sample) -> f64) -> Panel {
     runs.iter().fold(panel, |panel, run| {
         let line = Layer::line(column(&run.samples, |s| s.time), column(&run.samples, &of));
-        panel.layer(line.color(color(run.fed)).label(label(run.fed)))
+        panel.layer(
+            line.color(color(run.compensation))
+                .label(label(run.compensation)),
+        )
     })
 }
 
-fn over_time(name: &str, unit: &str) -> Panel {
+pub(super) fn over_time(name: &str, unit: &str) -> Panel {
     Panel::new(Axis::new("Time", "s"), Axis::new(name, unit))
 }
 
@@ -134,7 +132,7 @@ fn friction(run: &Tracked) -> Figure {
         .caption("Both laws along the same motion.")
 }
 
-fn compensation(runs: &[Tracked]) -> Figure {
+fn compensation(runs: &[&Tracked]) -> Figure {
     let mut force = over_time("Compensating force", "N").height(160.0);
     if let [without, with @ ..] = runs {
         let line = Layer::line(
@@ -162,7 +160,7 @@ fn about_reversal(samples: &[Sample]) -> std::ops::Range<f64> {
     middle - 0.05..middle + 0.15
 }
 
-fn speed(runs: &[Tracked]) -> Figure {
+fn speed(runs: &[&Tracked]) -> Figure {
     let window = runs
         .first()
         .map_or(0.0..1.0, |r| about_reversal(&r.samples));
@@ -191,7 +189,7 @@ fn speed(runs: &[Tracked]) -> Figure {
         .panel(each(reversal, runs, |s| s.velocity))
 }
 
-fn position(runs: &[Tracked]) -> Figure {
+fn position(runs: &[&Tracked]) -> Figure {
     let window = runs
         .first()
         .map_or(0.0..1.0, |r| about_reversal(&r.samples));
@@ -205,77 +203,24 @@ fn position(runs: &[Tracked]) -> Figure {
         .panel(each(reversal, runs, Sample::error))
 }
 
-fn control(runs: &[Tracked]) -> Figure {
+fn control(runs: &[&Tracked]) -> Figure {
     Figure::new("Control force (FIG. 21)")
         .panel(each(over_time("Control force", "N"), runs, |s| s.command))
 }
 
-fn loops(runs: &[Tracked]) -> Figure {
+fn loops(runs: &[&Tracked]) -> Figure {
     let panel = Panel::new(Axis::new("Position", "m"), Axis::new("Friction", "N"));
     let panel = runs.iter().take(2).fold(panel, |panel, run| {
         let line = Layer::line(
             column(&run.samples, |s| s.position),
             run.friction[0].clone(),
         );
-        panel.layer(line.color(color(run.fed)).label(label(run.fed)))
+        panel.layer(
+            line.color(color(run.compensation))
+                .label(label(run.compensation)),
+        )
     });
     Figure::new("Friction over displacement (FIG. 22)").panel(panel)
-}
-
-/// Height of the pictures of the corner, px.
-const CORNER_PICTURE_HEIGHT: f64 = 320.0;
-
-/// How far beyond the corner its picture reaches, m.
-const ABOUT_CORNER: f64 = 12e-6;
-
-fn corner(runs: &[Cornered]) -> Figure {
-    let at = runs
-        .first()
-        .and_then(|r| r.samples.last())
-        .map_or(0.0, |s| s.axes[0].reference.position);
-    let range = |low: f64, high: f64| (at + low * ABOUT_CORNER, at + high * ABOUT_CORNER);
-    let x = range(-1.0, 0.5);
-    // The second edge begins at y = 0.
-    let y = (-0.5 * ABOUT_CORNER, ABOUT_CORNER);
-    let panel = Panel::new(
-        Axis::new("x less the corner", "m").range(x.0 - at, x.1 - at),
-        Axis::new("y", "m").range(y.0, y.1),
-    )
-    .height(CORNER_PICTURE_HEIGHT)
-    .layer(
-        Layer::line(vec![-1.0, 0.0, 0.0], vec![0.0, 0.0, 1.0])
-            .color(Color::Green)
-            .dash(Dash::Dotted)
-            .label("Reference"),
-    );
-    let panel = runs.iter().fold(panel, |panel, run| {
-        let along = |i: usize, from: f64| -> Vec<f64> {
-            run.samples
-                .iter()
-                .map(|s| s.axes[i].position - from)
-                .collect()
-        };
-        let line = Layer::line(along(0, at), along(1, 0.0));
-        panel.layer(line.color(color(run.fed)).label(label(run.fed)))
-    });
-    Figure::new("The corner").half().panel(panel)
-}
-
-fn deviation(runs: &[Cornered]) -> Figure {
-    let panel = over_time("Contour error", "m").height(CORNER_PICTURE_HEIGHT);
-    let panel = runs.iter().fold(panel, |panel, run| {
-        let time: Vec<f64> = run.samples.iter().map(|s| s.axes[0].time).collect();
-        let error: Vec<f64> = run.samples.iter().map(|s| s.deviation).collect();
-        let line = Layer::line(time, error);
-        panel.layer(line.color(color(run.fed)).label(label(run.fed)))
-    });
-    Figure::new("Deviation from the contour")
-        .half()
-        .panel(panel)
-        .caption(
-            "Positive where the contour lies to the left of the axes. The whole run; the table below counts \
-             0.2 s to either side of the corner, without the start and the stop at the end.",
-        )
 }
 
 fn mass(load: &LoadFound) -> Figure {

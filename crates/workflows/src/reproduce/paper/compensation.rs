@@ -1,0 +1,88 @@
+//! What compensates friction in the experiments: nothing, less than the law, and the law.
+
+use stiction_friction::compensator::{Compensator, Friction, Settings, Source};
+use stiction_friction::{CoulombViscous, LuGre, ParamError};
+use stiction_servo::axis::AxisSettings;
+use stiction_servo::feedforward::Feedforward;
+
+/// Part of the force that is applied where the measured velocity drives the law, dimensionless: below 1, since this
+/// compensation is a positive feedback of friction.
+const MEASURED_GAIN: f64 = 0.9;
+
+/// What compensates friction. All but [`Measured`](Self::Measured) are driven by the reference velocity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Compensation {
+    /// There is none.
+    Nothing,
+    /// Coulomb and viscous friction.
+    Coulomb,
+    /// The steady curve.
+    Stribeck,
+    /// LuGre, driven by the reference velocity: a feedforward.
+    Reference,
+    /// LuGre, driven by the measured velocity, as the paper draws it.
+    Measured,
+}
+
+impl Compensation {
+    /// All of them, none first.
+    pub const ALL: [Compensation; 5] = [
+        Compensation::Nothing,
+        Compensation::Coulomb,
+        Compensation::Stribeck,
+        Compensation::Reference,
+        Compensation::Measured,
+    ];
+
+    /// Name for tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Compensation::Nothing => "none",
+            Compensation::Coulomb => "Coulomb",
+            Compensation::Stribeck => "Stribeck",
+            Compensation::Reference => "LuGre, reference velocity",
+            Compensation::Measured => "LuGre, measured velocity",
+        }
+    }
+
+    /// Whether it is that of the paper or what that is compared with in its pictures.
+    pub fn is_drawn(self) -> bool {
+        !matches!(self, Compensation::Coulomb | Compensation::Stribeck)
+    }
+
+    /// An axis with that compensation by an identified law.
+    pub(super) fn compensate(
+        self,
+        settings: AxisSettings,
+        law: &LuGre<f64>,
+    ) -> Result<AxisSettings, ParamError> {
+        let curve = law.curve();
+        let friction = match self {
+            Compensation::Nothing => return Ok(settings),
+            Compensation::Coulomb => {
+                let sides = [curve.positive(), curve.negative()];
+                let levels = sides.map(|s| s.coulomb);
+                let viscous = sides.map(|s| s.viscous);
+                Friction::Coulomb(CoulombViscous::new(levels, viscous, curve.offset())?)
+            }
+            Compensation::Stribeck => Friction::Stribeck(*curve),
+            Compensation::Reference | Compensation::Measured => Friction::LuGre(*law),
+        };
+        let period = 1.0 / settings.rate;
+        let whole = Settings::bare(period, settings.drive.peak_force());
+        let (source, limits, preview) = match self {
+            Compensation::Measured => {
+                let gain = MEASURED_GAIN;
+                (Source::Measured, Settings { gain, ..whole }, 0.0)
+            }
+            _ => (Source::Reference, whole, settings.drive.preview(period)),
+        };
+        Ok(AxisSettings {
+            feedforward: Feedforward::compensator(
+                Compensator::new(friction, source, limits)?,
+                preview,
+            ),
+            ..settings
+        })
+    }
+}
