@@ -99,7 +99,6 @@ codes! {
     TooFewSamples = "too-few-samples": "too few usable samples are left after conditioning",
     BadSetting = "bad-setting": "a setting of the conditioning is out of range for this log",
     TooFewSpeeds = "too-few-speeds": "too few constant-velocity stretches for a static map",
-    StillLearning = "still-learning": "a watchdog still holds the compensation back while a run is evaluated",
     AtForceLimit = "at-force-limit": "a simulated command is at its limit",
     UnsteadyCommand = "unsteady-command": "a simulated command changes wildly from sample to sample",
     FewSpeeds = "few-speeds": "a static map rests on too few speeds",

@@ -69,6 +69,19 @@ impl<T: Real> Compensator<T> {
         })
     }
 
+    /// As it is after it has been enabled for a while at standstill: with the whole gain, and a watchdog that has learnt what
+    /// `watch` has. Its first window is not judged.
+    #[must_use]
+    pub fn running(mut self, watch: &Watch<T>) -> Self {
+        self.state.share = self.settings.gain;
+        self.state.watch = Watch {
+            without: watch.without,
+            peak_without: watch.peak_without,
+            ..Watch::default()
+        };
+        self
+    }
+
     /// The law.
     pub fn friction(&self) -> &Friction<T> {
         &self.friction

@@ -3,6 +3,7 @@
 mod compensators;
 mod contours;
 mod controllers;
+mod crawl;
 mod dimensions;
 mod disturbance;
 mod drive;
@@ -12,6 +13,7 @@ mod inputs;
 mod machine;
 mod paths;
 mod published;
+mod usual;
 
 use super::belief::{Belief, Family, Undrawn};
 use super::plan::{Machine, Named, Study};
@@ -89,15 +91,16 @@ fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
         machine,
     };
     for table in root.tables("path", MOST_ENTRIES)? {
-        let path = paths::path(&table, folder, &mut study)?;
-        let (motion, machine) = (&path.trajectory, &study.machine);
-        let span = (motion.duration(), machine.rate);
-        few(&table, span.0, span.1)?;
-        let unit = machine.motion.position().si_text();
-        let step = machine.encoder.resolution();
-        seen(&table, span, step, &unit, |t| motion.at(t).position)?;
-        once(&table, study.paths.iter().map(|p| &p.name), &path.name)?;
-        study.paths.push(path);
+        for path in paths::paths(&table, folder, &mut study)? {
+            let (motion, machine) = (&path.trajectory, &study.machine);
+            let span = (motion.duration(), machine.rate);
+            few(&table, span.0, span.1)?;
+            let unit = machine.motion.position().si_text();
+            let step = machine.encoder.resolution();
+            seen(&table, span, step, &unit, |t| motion.at(t).position)?;
+            once(&table, study.paths.iter().map(|p| &p.name), &path.name)?;
+            study.paths.push(path);
+        }
     }
     for table in root.tables("contour", MOST_ENTRIES)? {
         let contour = contours::contour(&table, folder, &mut study)?;

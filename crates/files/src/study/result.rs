@@ -158,9 +158,6 @@ pub struct ResultRow {
     pub runs: usize,
     /// Runs in which the watchdog switched the compensation off.
     pub switched_off: usize,
-    /// Runs in which the watchdog still learnt, and let no force through, when the run began to count.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub still_learning: usize,
     /// The metrics.
     pub metrics: Vec<MetricEntry>,
 }
@@ -169,23 +166,14 @@ fn is_none(value: &f64) -> bool {
     *value == 0.0
 }
 
-fn is_zero(count: &usize) -> bool {
-    *count == 0
-}
-
 impl ResultRow {
-    /// What became of the compensation: `switched off`, `still learning`, each with how often in several runs.
+    /// What became of the compensation: `switched off`, with how often in several runs; else nothing.
     pub fn remarks(&self) -> String {
-        let counts = [
-            (self.switched_off, "switched off"),
-            (self.still_learning, "still learning"),
-        ];
-        let remarks = counts.into_iter().filter(|(n, _)| *n > 0);
-        let words = remarks.map(|(n, what)| match n {
-            _ if n == self.runs => what.to_string(),
-            n => format!("{what} in {n} of {}", self.runs),
-        });
-        words.collect::<Vec<_>>().join(", ")
+        match self.switched_off {
+            0 => String::new(),
+            n if n == self.runs => "switched off".into(),
+            n => format!("switched off in {n} of {}", self.runs),
+        }
     }
 
     /// The compensator, and the coupling where there is one.

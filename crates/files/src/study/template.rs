@@ -18,12 +18,8 @@ const BANDWIDTH_OVER_FREQUENCY: f64 = 20.0;
 const LEAST_RATE: f64 = 10.0;
 /// Most samples of a path: a study of seconds.
 const MOST_SAMPLES: f64 = 2e5;
-/// Time that a watchdog learns from the first reversal on, s.
-const LEARNING: f64 = 2.0;
-/// In which the force then comes in, and what is left to spare, s; beside it a twentieth of a cycle, as it counts time in
-/// motion.
-const RAMP: f64 = 0.1;
-const SPARE_CYCLES: f64 = 0.05;
+/// Cycles of a path, where it gives none.
+const CYCLES: f64 = 4.0;
 /// Force limit over the largest force of the log, dimensionless.
 const LIMIT_OVER_FORCE: f64 = 3.0;
 
@@ -68,9 +64,7 @@ pub fn template(result: &ResultFile, shown: &Shown) -> Option<String> {
     // the same speed with another stroke.
     let mut frequency = seen.top_speed / (TAU * 0.5 * stroke);
     frequency = frequency.min(bandwidth / BANDWIDTH_OVER_FREQUENCY);
-    let learnt = |f: f64| 0.5 / f + ((LEARNING * f).ceil().max(1.0) + SPARE_CYCLES) / f + RAMP;
-    let cycles = |f: f64| (learnt(f) * f).ceil() + 2.0;
-    while cycles(frequency) / frequency * shown.rate > MOST_SAMPLES {
+    while CYCLES / frequency * shown.rate > MOST_SAMPLES {
         frequency *= 2.0;
     }
     let amplitude = seen.top_speed / (TAU * frequency);
@@ -86,12 +80,9 @@ pub fn template(result: &ResultFile, shown: &Shown) -> Option<String> {
     });
     let path = |name: &str, part: f64| {
         format!(
-            "\n[[path]]\nname      = \"{name}\"\nkind      = \"sine\"\namplitude = \"{} {length}\"\nfrequency = \"{} Hz\"\n\
-             cycles    = {}\nskip      = \"{} s\"    # until the watchdog has learnt\n",
+            "\n[[path]]\nname      = \"{name}\"\nkind      = \"sine\"\namplitude = \"{} {length}\"\nfrequency = \"{} Hz\"\n",
             short(part * amplitude),
             short(frequency),
-            cycles(frequency),
-            short(learnt(frequency))
         )
     };
     Some(format!(

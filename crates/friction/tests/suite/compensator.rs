@@ -354,6 +354,37 @@ fn the_watchdog_trips_on_worse_and_not_on_better() {
     }
 }
 
+/// Running at once is what a compensator comes to that has learnt, is enabled, and stands for longer than its ramp.
+#[test]
+fn running_is_as_after_a_while() {
+    let mut waited = coulomb(watched(0.75));
+    let error = |k: usize| 1e-6 * (1.0 + to_and_fro(k).signum());
+    let step = |compensator: &mut Compensator<f64>, k: usize, enable: bool| {
+        compensator.step(Input {
+            reference_velocity: to_and_fro(k),
+            tracking_error: error(k),
+            enable,
+            ..Input::default()
+        })
+    };
+    let learnt = (0..).find(|k| {
+        step(&mut waited, *k, false);
+        waited.state().watch.allows()
+    });
+    assert!(learnt.is_some());
+    let mut running = coulomb(watched(0.75)).running(&waited.state().watch);
+    for _ in 0..8000 {
+        waited.step(Input {
+            enable: true,
+            ..Input::default()
+        });
+    }
+    for k in 0..20_000 {
+        assert_eq!(step(&mut waited, k, true), step(&mut running, k, true));
+    }
+    assert_eq!(waited.state(), running.state());
+}
+
 /// Enabled with a gain of 0 it adds nothing: what it sees is what is normal, however the error changes, and a gain set
 /// later is judged by it.
 #[test]

@@ -213,6 +213,9 @@ fn table(rows: &[ResultRow]) -> Table {
             let metric = row.metric(name);
             Text::from(metric.map_or("–".into(), |m| quantity(m.mean, &m.unit)))
         };
+        // Without reversals there is neither an error nor a standstill about one.
+        let turns = row.metric("reversal_peak").is_some_and(|m| m.largest > 0.0);
+        let about_turns = |name: &str| if turns { value(name) } else { "–".into() };
         let percent = |x: Option<f64>| Text::from(x.map_or("–".into(), less));
         let judged = judged(row).filter(|_| row.compensator != "none");
         let worst = judged.and_then(|m| m.worst_reduction_percent);
@@ -221,11 +224,11 @@ fn table(rows: &[ResultRow]) -> Table {
             Text::from(believed(row)),
             value("rms_error"),
             value("peak_error"),
-            value("reversal_peak"),
+            about_turns("reversal_peak"),
             percent(judged.and_then(|m| m.reduction_percent)),
             percent(worst.filter(|_| row.runs > 1)),
             value("command_change"),
-            value("stick_time"),
+            about_turns("stick_time"),
         ];
         table = if worst < Some(0.0) && judged.is_some() {
             table.marked(Severity::Warning, cells)

@@ -81,8 +81,9 @@ standing error, hunting, period: mean error, half width and length of a limit cy
 fn line(row: &ResultRow) -> Vec<String> {
     let contour = row.metric("contour_peak").is_some();
     let value = |name: &str| {
-        let metric = row.metric(name);
-        metric.map_or("-".into(), |m| quantity(m.mean, &m.unit))
+        // Without reversals there is no error about one.
+        let metric = row.metric(name).filter(|m| m.largest > 0.0);
+        metric.map_or("n/a".into(), |m| quantity(m.mean, &m.unit))
     };
     let judged = judged(row).filter(|_| row.compensator != "none" || row.coupled);
     let percent = |x: Option<f64>| x.map_or(String::new(), less);

@@ -11,6 +11,7 @@ mod export;
 mod library;
 mod measure;
 mod model;
+mod motions;
 mod paper;
 mod procedures;
 mod recordings;

@@ -331,51 +331,46 @@ fn stiff_bristles_get_shorter_steps() {
     }
 }
 
-/// A watchdog whose learning reaches into what counts is named, in the rows too; one that is done by then is not.
+/// A watchdog has learnt before the run: a move with default settings is the one without a watchdog, which compensates from the
+/// first sample of the motion on.
 #[test]
-fn a_watchdog_that_still_learns() {
+fn a_watchdog_has_learnt_before_the_run() {
+    let there = "\n[[path]]\nkind = \"move\"\ndistance = \"10 mm\"\nvelocity = \"50 mm/s\"\nacceleration = \"1 m/s2\"\njerk = \"50 m/s3\"\n";
     let supplied = "\n[[compensator]]\nkind = \"lugre\"\n";
-    let run = |more: &str, skip: &str| {
-        let path = SHORT.replace("cycles    = 2", &format!("cycles = 4\nskip = \"{skip}\""));
-        let text = together(&[AXIS, &path, CASCADE, supplied, more]);
-        let study = Desk::new().study(&text).unwrap();
-        stiction::simulate(&study, &mut Silent)
-    };
-    let outcome = run("", "0.5 s");
+    let unwatched = "\n[[compensator]]\nname = \"unwatched\"\nkind = \"lugre\"\nwatchdog = false\n";
+    let study = Desk::new().study(&together(&[AXIS, there, CASCADE, supplied, unwatched]));
+    let outcome = stiction::simulate(&study.unwrap(), &mut Silent);
     let file = &outcome.file;
-    assert_eq!(codes(file), ["still-learning"]);
-    let lugre = row(file, "lugre", "exact");
-    assert_eq!(
-        (lugre.still_learning, lugre.remarks().as_str()),
-        (1, "still learning")
-    );
-    assert!(
-        lugre
-            .metric("rms_error")
-            .unwrap()
-            .reduction_percent
-            .unwrap()
-            .abs()
-            < 1e-9
-    );
-    let html = String::from_utf8(stiction::bundle::study(&outcome).files()[0].1.clone()).unwrap();
-    stiction_testkit::assert_tables_fit(&html);
-    assert!(html.contains("exact, still learning") && html.contains("some figures are misleading"));
-    assert!(stiction::commands::text::study(&outcome).contains("still learning"));
-    // Half a second from the first turn, at 0.125 s; the force has come in 50 ms later.
-    for (skip, still) in [("0.67 s", 1), ("0.68 s", 0)] {
-        let outcome = run("watchdog_window = \"0.5 s\"\n", skip);
-        let courses =
-            String::from_utf8(stiction::bundle::study(&outcome).files()[1].1.clone()).unwrap();
-        let first = courses.lines().find_map(|line| {
-            let numbers: Vec<f64> = line.split(',').filter_map(|x| x.parse().ok()).collect();
-            (numbers.last().is_some_and(|force| *force != 0.0)).then(|| numbers[0])
-        });
-        assert!((first.unwrap() - 0.625).abs() < 2e-3, "{first:?}");
-        let file = outcome.file;
-        assert_eq!(row(&file, "lugre", "exact").still_learning, still, "{skip}");
-        assert_eq!(codes(&file).len(), still);
-    }
+    let metrics = |name: &str| &row(file, name, "exact").metrics;
+    assert_eq!(metrics("lugre"), metrics("unwatched"));
+    let peak = row(file, "lugre", "exact").metric("peak_error").unwrap();
+    assert!(peak.reduction_percent.unwrap() > 40.0, "{peak:?}");
+    assert!(file.warnings.is_empty(), "{:?}", file.warnings);
+    let courses =
+        String::from_utf8(stiction::bundle::study(&outcome).files()[1].1.clone()).unwrap();
+    let first = courses.lines().find_map(|line| {
+        let numbers: Vec<f64> = line.split(',').filter_map(|x| x.parse().ok()).collect();
+        (numbers.last().is_some_and(|force| *force != 0.0)).then(|| numbers[0])
+    });
+    assert!(first.unwrap() < 2e-3, "{first:?}");
+}
+
+/// Too large a force under a slow loop on motion of the presliding length is worse than none (docs/compensation.md): what the
+/// watchdog has learnt before makes it switch off, in some of the sets and not with the exact parameters.
+#[test]
+fn a_watchdog_switches_off_what_is_worse() {
+    let axis = AXIS.replace("4 kHz", "1 kHz");
+    let small =
+        "\n[[path]]\nkind = \"sine\"\namplitude = \"20 um\"\nfrequency = \"1 Hz\"\ncycles = 8\n";
+    let slow = CASCADE.replace("60 Hz", "30 Hz");
+    let whole = "\n[[compensator]]\nkind = \"lugre\"\ngain = 1.0\n";
+    let corners = "\n[[parameter_error]]\nkind = \"corners\"\nby = \"30 %\"\n";
+    let file = Desk::new().run(&together(&[&axis, small, &slow, whole, corners]));
+    assert_eq!(row(&file, "lugre", "exact").switched_off, 0);
+    let wrong = row(&file, "lugre", "±30 %");
+    assert!((1..64).contains(&wrong.switched_off), "{wrong:?}");
+    let said = format!("switched off in {} of 64", wrong.switched_off);
+    assert_eq!(wrong.remarks(), said);
 }
 
 /// A drive that cannot even overcome friction, and a loop so fast that it swings between its limits, are named.

@@ -2,7 +2,7 @@
 
 use stiction_files::study::{Belief, Machine, ModelKind, ModelScheme, Scheme};
 use stiction_friction::compensator::{
-    Compensator, DisturbanceObserver, Friction, Settings, Source,
+    Compensator, DisturbanceObserver, Friction, Settings, Source, Watch,
 };
 use stiction_friction::{CoulombViscous, LuGre, ParamError};
 use stiction_servo::controller::Controller;
@@ -14,12 +14,14 @@ pub(super) fn believing(controller: Controller, machine: &Machine, belief: Belie
     controller.with_mass_feedforward(fed)
 }
 
-/// The compensation of an axis whose parameters are assumed to be `belief`.
+/// The compensation of an axis whose parameters are assumed to be `belief`, on since the axis stands, with what its watchdog has
+/// learnt before.
 pub(super) fn feedforward(
     scheme: &Scheme,
     machine: &Machine,
     controller: &Controller,
     belief: Belief,
+    watch: &Watch<f64>,
 ) -> Result<Feedforward, ParamError> {
     let limit = controller.force_limit();
     let observer = |bandwidth: f64| {
@@ -30,7 +32,7 @@ pub(super) fn feedforward(
         Scheme::Observer(bandwidth) => Ok(Feedforward::observer(observer(*bandwidth)?)),
         Scheme::Model(model) => Ok(Feedforward {
             observer: model.observer.map(observer).transpose()?,
-            ..from_law(model, machine, limit, &belief.law)?
+            ..from_law(model, machine, limit, &belief.law, watch)?
         }),
     }
 }
@@ -41,6 +43,7 @@ fn from_law(
     machine: &Machine,
     limit: f64,
     law: &LuGre<f64>,
+    watch: &Watch<f64>,
 ) -> Result<Feedforward, ParamError> {
     let curve = law.curve();
     let sides = [curve.positive(), curve.negative()];
@@ -69,5 +72,8 @@ fn from_law(
         _ => 0.0,
     });
     let compensator = Compensator::new(friction, model.source, settings)?;
-    Ok(Feedforward::compensator(compensator, preview))
+    Ok(Feedforward::compensator(
+        compensator.running(watch),
+        preview,
+    ))
 }

@@ -4,13 +4,13 @@ use super::compensation::{believing, feedforward};
 use super::contour_trace::ContourTrace;
 use super::course;
 use super::done::Done;
-use super::learnt::learnt;
+use super::learnt::Learnt;
 use super::machine::{self, largest_force};
 use super::metrics::feed;
 use stiction_files::study::result::PathEntry;
-use stiction_files::study::{Belief, ContourPlan, Job, Machine, Scheme, Second, Study};
+use stiction_files::study::{Belief, ContourPlan, Job, Scheme, Second, Study};
 use stiction_friction::ParamError;
-use stiction_servo::axis::{Axis, Sample};
+use stiction_servo::axis::{Axis, AxisSettings, Sample};
 use stiction_servo::controller::Controller;
 use stiction_servo::cross_coupling::CrossCoupling;
 use stiction_servo::integrator::Quick;
@@ -29,32 +29,51 @@ struct Plan<'a> {
 /// What a run gives.
 struct Ran {
     pub metrics: Vec<f64>,
-    /// Whether a watchdog switched off, whether one still learnt when the run began to count.
+    /// Whether a watchdog switched off.
     pub switched_off: bool,
-    pub still_learning: bool,
     /// All samples, and from which on they count.
     pub samples: Vec<PlaneSample>,
     pub counted: usize,
 }
 
-fn along(study: &Study, second: &Second, plan: &Plan) -> Result<Ran, ParamError> {
-    let axis = |i: usize, machine: &Machine| {
-        let belief = plan.beliefs[i];
-        let controller = believing(plan.controllers[i], machine, belief);
-        // Noise of its own on each axis.
-        let mut settings =
-            machine::settings(machine, controller, study.seed.wrapping_add(i as u64));
-        settings.feedforward = feedforward(plan.scheme, machine, &controller, belief)?;
-        Axis::new(settings, Quick::new(1)?)
-    };
-    let mut axes = [axis(0, &study.machine)?, axis(1, &second.machine)?];
+fn along(
+    study: &Study,
+    second: &Second,
+    plan: &Plan,
+    job: Job,
+    before: &Learnt,
+) -> Result<Ran, ParamError> {
     let contour = plan.contour;
-    let samples = follow(&mut axes, plan.coupling.as_ref(), contour.motion.as_ref())?;
-    let sides: [Vec<Sample>; 2] = [0, 1].map(|i| samples.iter().map(|s| s.axes[i]).collect());
-    let learnt = sides
-        .iter()
-        .filter_map(|side| learnt(plan.scheme, side, study.machine.rate));
-    let still_learning = learnt.fold(0.0, f64::max) > contour.skip;
+    let machines = [&study.machine, &second.machine];
+    // Without compensation.
+    let settings = [0, 1].map(|i| {
+        let controller = believing(plan.controllers[i], machines[i], plan.beliefs[i]);
+        // Noise of its own on each axis.
+        machine::settings(machines[i], controller, study.seed.wrapping_add(i as u64))
+    });
+    let follow = |[x, y]: [AxisSettings; 2]| -> Result<_, ParamError> {
+        let mut axes = [Axis::new(x, Quick::new(1)?)?, Axis::new(y, Quick::new(1)?)?];
+        let samples = follow(&mut axes, plan.coupling.as_ref(), contour.motion.as_ref())?;
+        Ok((axes, samples))
+    };
+    let own_mass = (machines.iter().zip(&plan.beliefs)).any(|(m, b)| m.mass != b.mass);
+    let watches = before.before(study, job, own_mass, || {
+        let (_, samples) = follow(settings.clone())?;
+        Ok(sides(&samples).to_vec())
+    })?;
+    let mut with = settings.clone();
+    for i in [0, 1] {
+        let controller = &with[i].controller;
+        with[i].feedforward = feedforward(
+            plan.scheme,
+            machines[i],
+            controller,
+            plan.beliefs[i],
+            &watches[i],
+        )?;
+    }
+    let (axes, samples) = follow(with)?;
+    let sides = sides(&samples);
     let from = samples.partition_point(|s| s.axes[0].time < contour.skip);
     let counted = &samples[from..];
     let switched_off = axes.iter().any(|axis| {
@@ -73,10 +92,14 @@ fn along(study: &Study, second: &Second, plan: &Plan) -> Result<Ran, ParamError>
             limits,
         ),
         switched_off,
-        still_learning,
         counted: from,
         samples,
     })
+}
+
+/// The samples of each axis.
+fn sides(samples: &[PlaneSample]) -> [Vec<Sample>; 2] {
+    [0, 1].map(|i| samples.iter().map(|s| s.axes[i]).collect())
 }
 
 fn metrics(
@@ -113,6 +136,7 @@ pub(super) fn on_contour(
     study: &Study,
     job: Job,
     contour: &ContourPlan,
+    before: &Learnt,
 ) -> Result<Done, ParamError> {
     let missing = ParamError::new("axes", 1.0, "two, for a contour");
     let second = study.second.as_ref().ok_or(missing)?;
@@ -132,14 +156,13 @@ pub(super) fn on_contour(
         ],
         coupling: coupling.map(|c| c.above(controllers.each_ref())),
     };
-    let ran = along(study, second, &plan)?;
+    let ran = along(study, second, &plan, job, before)?;
     let names = study.names(job);
     let exact = family.kind == "exact";
     Ok(Done {
         job,
         metrics: ran.metrics,
         switched_off: ran.switched_off,
-        still_learning: ran.still_learning,
         trace: None,
         course: match exact {
             true => course::contour_rows(

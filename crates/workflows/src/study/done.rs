@@ -9,7 +9,6 @@ pub(super) struct Done {
     pub job: Job,
     pub metrics: Vec<f64>,
     pub switched_off: bool,
-    pub still_learning: bool,
     pub trace: Option<Trace>,
     pub contour: Option<ContourTrace>,
     /// Rows of `trajectories.csv` or `contours.csv`.

@@ -1,11 +1,10 @@
-//! What a run shows that its figures do not: a watchdog that still learns while they count, a force at its limit, a
-//! command that shakes.
+//! What a run shows that its figures do not: a force at its limit, a command that shakes.
 
 use super::machine::largest_force;
 use stiction_codes::Code;
 use stiction_files::Warning;
+use stiction_files::study::Study;
 use stiction_files::study::result::ResultRow;
-use stiction_files::study::{Scheme, Study};
 use stiction_number::Percent;
 use stiction_number::quantity;
 
@@ -16,11 +15,7 @@ const WARNED_SHARE_AT_LIMIT: f64 = 0.01;
 const WARNED_COMMAND_CHANGE: f64 = 0.1;
 
 /// Codes of the warnings that are made here.
-pub const CODES: [Code; 3] = [
-    Code::StillLearning,
-    Code::AtForceLimit,
-    Code::UnsteadyCommand,
-];
+pub const CODES: [Code; 2] = [Code::AtForceLimit, Code::UnsteadyCommand];
 
 /// What is to be said of the rows of a path or contour under a controller.
 pub(super) fn warnings(study: &Study, rows: &[ResultRow]) -> Vec<Warning> {
@@ -29,41 +24,7 @@ pub(super) fn warnings(study: &Study, rows: &[ResultRow]) -> Vec<Warning> {
         warnings.extend(at_limit(study, rows));
         warnings.extend(shaking(study, rows));
     }
-    let mut learning: Vec<&ResultRow> = Vec::new();
-    for row in rows.iter().filter(|r| r.still_learning > 0) {
-        // The same under every controller and with all parameters.
-        let same = |r: &&ResultRow| (&r.path, &r.compensator) == (&row.path, &row.compensator);
-        if !learning.iter().any(same) {
-            learning.push(row);
-        }
-    }
-    warnings.extend(learning.iter().filter_map(|row| still_learning(study, row)));
     warnings
-}
-
-fn still_learning(study: &Study, row: &ResultRow) -> Option<Warning> {
-    let compensator = study
-        .compensators
-        .iter()
-        .find(|c| c.name == row.compensator)?;
-    let Scheme::Model(model) = &compensator.value else {
-        return None;
-    };
-    let window = model.watchdog.as_ref()?.window;
-    let (duration, skip) = span(study, &row.path)?;
-    Some(Warning::new(
-        Code::StillLearning,
-        format!(
-            "{}, {}: the watchdog lets no force through until it has learned the error without compensation, from \
-             the first reversal of the motion over {} and at least two strokes; the run lasts {} and is evaluated from \
-             {} on. Give a longer run and a skip beyond the learning, a shorter watchdog_window (a cycle of the motion), or watchdog = false",
-            row.path,
-            row.compensator,
-            quantity(window, "s"),
-            quantity(duration, "s"),
-            quantity(skip, "s"),
-        ),
-    ))
 }
 
 /// The largest of a metric over all runs of some rows, on any axis, as a part of what `of` gives for that axis.
@@ -115,14 +76,6 @@ fn shaking(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
             ),
         )
     })
-}
-
-/// Length of a path or contour and from when on it counts, s.
-fn span(study: &Study, name: &str) -> Option<(f64, f64)> {
-    let path = study.paths.iter().find(|p| p.name == name);
-    let path = path.map(|p| (p.trajectory.duration(), p.skip));
-    let contour = study.contours.iter().find(|c| c.name == name);
-    path.or_else(|| contour.map(|c| (c.motion.duration(), c.skip)))
 }
 
 /// The largest force of each axis under a controller, N (N m); with one axis its force twice.

@@ -3,7 +3,7 @@
 use super::compensation::{believing, feedforward};
 use super::course;
 use super::done::Done;
-use super::learnt::learnt;
+use super::learnt::Learnt;
 use super::machine::{largest_force, settings};
 use super::metrics::of_path;
 use super::trace::Trace;
@@ -34,6 +34,7 @@ pub(super) fn on_path(
     study: &Study,
     job: Job,
     sampled: Option<&Sampled>,
+    before: &Learnt,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Option<Done>, ParamError> {
     let path = &study.paths[job.path];
@@ -47,7 +48,13 @@ pub(super) fn on_path(
     let controller = believing(controller, &study.machine, belief);
     let scheme = &study.compensators[job.compensator].value;
     let mut settings = settings(&study.machine, controller, study.seed);
-    settings.feedforward = feedforward(scheme, &study.machine, &controller, belief)?;
+    let without = || {
+        let mut axis = Axis::new(settings.clone(), Quick::new(1)?)?;
+        Ok(vec![follow(&mut axis)?])
+    };
+    let own_mass = belief.mass != study.machine.mass;
+    let watches = before.before(study, job, own_mass, without)?;
+    settings.feedforward = feedforward(scheme, &study.machine, &controller, belief, &watches[0])?;
     let mut axis = Axis::new(settings.clone(), Quick::new(1)?)?;
     let mut samples = follow(&mut axis)?;
     if let Scheme::Learning(learning, passes) = scheme {
@@ -68,7 +75,6 @@ pub(super) fn on_path(
         }
     }
     let exact = family.kind == "exact";
-    let learnt = learnt(scheme, &samples, study.machine.rate);
     let from = samples.partition_point(|s| s.time < path.skip);
     let counted = &samples[from.min(samples.len())..];
     let compensator = axis.feedforward().compensator();
@@ -76,7 +82,6 @@ pub(super) fn on_path(
         job,
         metrics: of_path(counted, largest_force(&study.machine, &controller)),
         switched_off: compensator.is_some_and(|c| c.state().watch.tripped),
-        still_learning: learnt.is_some_and(|t| t > path.skip),
         trace: exact.then(|| Trace::of(study.names(job), counted)),
         contour: None,
         course: match exact {

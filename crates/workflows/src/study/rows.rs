@@ -30,7 +30,6 @@ pub(super) fn rows(study: &Study, done: &[Done]) -> Vec<ResultRow> {
             parameters: family.name.clone(),
             runs: cell.len(),
             switched_off: cell.iter().filter(|d| d.switched_off).count(),
-            still_learning: cell.iter().filter(|d| d.still_learning).count(),
             metrics: metrics.collect(),
         };
         let without = rows

@@ -1,6 +1,7 @@
 //! The grid of a study, run in parallel, and what is kept of each run.
 
 use super::done::Done;
+use super::learnt::Learnt;
 use super::metrics::{may_be_absent, metrics};
 use super::outcome::StudyOutcome;
 use super::rows::rows;
@@ -23,13 +24,14 @@ pub fn simulate(study: &Study, observer: &mut dyn Observer) -> StudyOutcome {
     let watch = Shared::new(observer, jobs.len());
     let mut warnings = study.warnings.clone();
     let sampled = path::sampled(study);
+    let learnt = Learnt::of(study);
     let done: Vec<Option<Result<Done, (Job, ParamError)>>> = jobs
         .par_iter()
         .map(|&job| {
             if watch.is_stopped() {
                 return None;
             }
-            let done = one(study, job, &sampled, &|| watch.go_on()).transpose()?;
+            let done = one(study, job, &sampled, &learnt, &|| watch.go_on()).transpose()?;
             watch.one_more();
             watch.go_on();
             Some(done.map_err(|e| (job, e)))
@@ -82,11 +84,12 @@ fn one(
     study: &Study,
     job: Job,
     sampled: &[Option<Sampled>],
+    before: &Learnt,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Option<Done>, ParamError> {
     let done = match study.contours.get(job.path.wrapping_sub(study.paths.len())) {
-        Some(contour) => Some(contour::on_contour(study, job, contour)?),
-        None => path::on_path(study, job, sampled[job.path].as_ref(), go_on)?,
+        Some(contour) => Some(contour::on_contour(study, job, contour, before)?),
+        None => path::on_path(study, job, sampled[job.path].as_ref(), before, go_on)?,
     };
     for (&name, &value) in metrics(study, job)
         .iter()

@@ -1,12 +1,13 @@
 //! `[[compensator]]`
 
 use super::dimensions::Dimensions;
-use super::entry::{below_half_the_rate, name};
+use super::entry::{MOST_SAMPLES, below_half_the_rate, name};
 use crate::config::Table;
 use crate::error::Error;
 use crate::study::plan::{ModelKind, ModelScheme, Named, Scheme, Study};
 use stiction_friction::compensator::{Adaptation, Settings, Source, Watchdog};
 use stiction_log::Dimension;
+use stiction_number::short;
 use stiction_servo::learning::Learning;
 use stiction_servo::trajectory::MAX_PREVIEW;
 
@@ -86,17 +87,26 @@ fn model(table: &Table<'_>, study: &Study, kind: ModelKind) -> Result<ModelSchem
         adaptation: adaptation(table)?,
         watchdog: match table.flag("watchdog")? {
             Some(false) => None,
-            _ => Some(Watchdog {
-                window: table
-                    .positive("watchdog_window", Dimension::TIME)?
-                    .unwrap_or(Watchdog::default().window),
-                ..Watchdog::default()
-            }),
+            _ => Some(watchdog(table, study.machine.rate)?),
         },
         preview: table.number("preview", 0.0, MAX_PREVIEW)?,
         observer: below_half_the_rate(table, "observer_bandwidth", study.machine.rate)?,
     };
     Ok(scheme)
+}
+
+fn watchdog(table: &Table<'_>, rate: f64) -> Result<Watchdog<f64>, Error> {
+    let usual = Watchdog::default();
+    let Some(window) = table.positive("watchdog_window", Dimension::TIME)? else {
+        return Ok(usual);
+    };
+    // It learns over so many samples before a run.
+    let longest = MOST_SAMPLES as f64 / rate;
+    if window > longest {
+        let allowed = format!("at most {} s, {MOST_SAMPLES} samples", short(longest));
+        return Err(table.refused("watchdog_window", &allowed));
+    }
+    Ok(Watchdog { window, ..usual })
 }
 
 fn source(table: &Table<'_>, kind: ModelKind) -> Result<Source<f64>, Error> {

@@ -3,6 +3,7 @@
 use super::dimensions::Dimensions;
 use super::entry::{below_half_the_rate, name, sampled};
 use super::machine::machine;
+use super::usual::Usual;
 use super::{controllers, file};
 use crate::config::Table;
 use crate::error::Error;
@@ -79,6 +80,7 @@ pub(super) fn contour(
     let asked = Asked {
         table,
         is: Dimensions::of(study.machine.motion),
+        usual: Usual::of(study.machine.motion),
     };
     // The key that gives the size, and the part of the motion that must have enough samples.
     let (size, part) = match kind {
@@ -89,8 +91,8 @@ pub(super) fn contour(
     };
     let (motion, turns, parts) = match kind {
         "circle" => asked.circle()?,
-        "corner" => (asked.polygon(Polygon::corner)?, 1.0, 2.0),
-        "square" => (asked.polygon(Polygon::square)?, 1.0, 4.0),
+        "corner" => (asked.corner()?, 1.0, 2.0),
+        "square" => (asked.square()?, 1.0, 4.0),
         "figure-eight" => asked.figure_eight()?,
         _ => {
             let points = file::points::<2>(table, folder, asked.is.length, &file::PLANE)?;
@@ -142,9 +144,28 @@ fn first_turn(motion: &dyn PlaneMotion, turns: f64) -> f64 {
 struct Asked<'t, 'a> {
     table: &'t Table<'a>,
     is: Dimensions,
+    usual: Usual,
 }
 
 impl Asked<'_, '_> {
+    /// A length that has a usual value, and limits that have, divided by the scale that belongs to the length.
+    fn sized(&self, key: &'static str, scale: fn(f64) -> f64) -> Result<(f64, Limits), Error> {
+        let length = self.table.positive(key, self.is.length)?;
+        let length = length.unwrap_or(self.usual.way);
+        let Limits {
+            velocity,
+            acceleration,
+            jerk,
+        } = self.usual.limits(self.table)?;
+        let scale = scale(length);
+        let limits = Limits {
+            velocity: velocity / scale,
+            acceleration: acceleration / scale,
+            jerk: jerk / scale,
+        };
+        Ok((length, limits))
+    }
+
     fn length(&self, key: &'static str) -> Result<f64, Error> {
         let value = self.table.positive(key, self.is.length)?;
         self.table
@@ -182,15 +203,19 @@ impl Asked<'_, '_> {
     }
 
     fn circle(&self) -> Result<(Boxed, f64, f64), Error> {
-        let (radius, turns) = (self.length("radius")?, self.turns()?);
-        let limits = self.limits(radius)?;
+        let ((radius, limits), turns) = (self.sized("radius", |radius| radius)?, self.turns()?);
         let circle = self.along(Circle::new(radius, turns), limits)?;
         Ok((circle, turns, turns.max(1.0)))
     }
 
-    fn polygon(&self, make: fn(f64) -> Result<Polygon, ParamError>) -> Result<Boxed, Error> {
+    fn corner(&self) -> Result<Boxed, Error> {
+        let (side, limits) = self.sized("side", |_| 1.0)?;
+        self.along(Polygon::corner(side), limits)
+    }
+
+    fn square(&self) -> Result<Boxed, Error> {
         let side = self.length("side")?;
-        self.along(make(side), self.limits(1.0)?)
+        self.along(Polygon::square(side), self.limits(1.0)?)
     }
 
     fn figure_eight(&self) -> Result<(Boxed, f64, f64), Error> {

@@ -2,48 +2,79 @@
 
 use super::dimensions::Dimensions;
 use super::entry::{name, sampled};
-use super::file;
+use super::usual::Usual;
+use super::{crawl, file};
 use crate::config::Table;
 use crate::error::Error;
 use crate::study::plan::{PathPlan, Study};
 use std::path::Path as FilePath;
 use stiction_friction::ParamError;
 use stiction_log::Dimension;
-use stiction_servo::motion::{Chirp, Limits, Moves, SetPoints, Sine};
+use stiction_servo::motion::{Chirp, Limits, Move, Moves, SetPoints, Sine};
 use stiction_servo::path::Path;
 use stiction_servo::trajectory::Trajectory;
 
-const KINDS: [&str; 7] = [
+const KINDS: [&str; 9] = [
     "sine",
     "chirp",
     "move",
     "staircase",
     "constant-velocity",
     "excitation",
+    "crawl",
+    "hold",
     "file",
 ];
 
+/// Rest after a move, s.
+const DWELL: f64 = 0.2;
+/// The same where it is the rest that is looked at: hunting goes through some cycles in it.
+const HOLD_DWELL: f64 = 20.0;
+
 type Boxed = Box<dyn Trajectory + Send + Sync>;
 
-pub(super) fn path(
+/// The paths of an entry: one, or one for each velocity of a crawl.
+pub(super) fn paths(
     table: &Table<'_>,
     folder: &FilePath,
     study: &mut Study,
-) -> Result<PathPlan, Error> {
-    let is = Dimensions::of(study.machine.motion);
+) -> Result<Vec<PathPlan>, Error> {
+    let motion = study.machine.motion;
+    let is = Dimensions::of(motion);
+    if let Some(kind @ ("circle" | "corner" | "square" | "figure-eight")) = table.text("kind")? {
+        let allowed = "a [[contour]] has two axes; the part of one axis in a circle is a sine, in a corner a move";
+        return Err(table.refuse("kind", format!("{kind:?}"), allowed));
+    }
     let found = table.choice("kind", &KINDS)?;
     let found = table.required("kind", found, &format!("one of {}", KINDS.join(", ")))?;
     // The choice gave one of them.
     let kind = KINDS.into_iter().find(|k| *k == found).unwrap_or(KINDS[0]);
-    let rate = study.machine.rate;
-    let asked = Asked { table, is, rate };
-    let trajectory = match kind {
+    let asked = Asked {
+        table,
+        is,
+        rate: study.machine.rate,
+        usual: Usual::of(motion),
+    };
+    let one = match kind {
         "sine" => asked.sine()?,
         "chirp" => asked.chirp()?,
         "move" => asked.there_and_back()?,
         "staircase" => asked.staircase()?,
         "constant-velocity" => asked.constant_velocity()?,
         "excitation" => asked.excitation()?,
+        "hold" => asked.hold()?,
+        "crawl" => {
+            let name = name(table, kind.into())?;
+            let plans = crawl::motions(table, &study.machine)?.into_iter();
+            let plans = plans.map(|(velocity, motion)| {
+                let trajectory = asked.moves("hold", Ok(motion), (1, 0.0))?;
+                let name = format!("{name} at {velocity}");
+                asked.plan(name, kind, trajectory)
+            });
+            let plans = plans.collect::<Result<_, _>>()?;
+            table.end()?;
+            return Ok(plans);
+        }
         _ => {
             let points = file::points::<1>(table, folder, asked.is.length, &file::POSITION)?;
             let [positions] = points.axes;
@@ -53,23 +84,9 @@ pub(super) fn path(
             points
         }
     };
-    let duration = trajectory.duration();
-    let default = if kind == "sine" { 0.5 * duration } else { 0.0 };
-    let skip = table
-        .not_negative("skip", Dimension::TIME)?
-        .unwrap_or(default);
-    if skip >= duration {
-        let allowed = format!("shorter than the path, {duration} s");
-        return Err(table.refuse("skip", format!("{skip} s"), &allowed));
-    }
-    let plan = PathPlan {
-        name: name(table, kind.into())?,
-        kind,
-        trajectory,
-        skip,
-    };
+    let plan = asked.plan(name(table, kind.into())?, kind, one)?;
     table.end()?;
-    Ok(plan)
+    Ok(vec![plan])
 }
 
 struct Asked<'t, 'a> {
@@ -77,9 +94,28 @@ struct Asked<'t, 'a> {
     is: Dimensions,
     /// Hz
     rate: f64,
+    usual: Usual,
 }
 
 impl Asked<'_, '_> {
+    /// A path of a name, with the part of it that does not count.
+    fn plan(&self, name: String, kind: &'static str, trajectory: Boxed) -> Result<PathPlan, Error> {
+        let duration = trajectory.duration();
+        let default = if kind == "sine" { 0.5 * duration } else { 0.0 };
+        let skip = self.table.not_negative("skip", Dimension::TIME)?;
+        let skip = skip.unwrap_or(default);
+        if skip >= duration {
+            let allowed = format!("shorter than the path, {duration} s");
+            return Err(self.table.refuse("skip", format!("{skip} s"), &allowed));
+        }
+        Ok(PathPlan {
+            name,
+            kind,
+            trajectory,
+            skip,
+        })
+    }
+
     fn value(&self, key: &'static str, dimension: Dimension, example: &str) -> Result<f64, Error> {
         let value = self.table.positive(key, dimension)?;
         self.table.required(key, value, example)
@@ -145,14 +181,23 @@ impl Asked<'_, '_> {
         self.made(Chirp::new(amplitude, from, to, duration))
     }
 
-    fn dwell(&self) -> Result<f64, Error> {
+    fn dwell(&self, usual: f64) -> Result<f64, Error> {
         let dwell = self.table.not_negative("dwell", Dimension::TIME)?;
-        Ok(dwell.unwrap_or(0.2))
+        Ok(dwell.unwrap_or(usual))
+    }
+
+    fn hold(&self) -> Result<Boxed, Error> {
+        let distance = self.table.positive("distance", self.is.length)?;
+        let dwell = self.dwell(HOLD_DWELL)?;
+        let limits = self.usual.limits(self.table)?;
+        let distance = distance.unwrap_or(self.usual.way);
+        let made = Moves::new(&[Move { distance, dwell }], limits);
+        self.moves("distance", made, (1, dwell))
     }
 
     fn there_and_back(&self) -> Result<Boxed, Error> {
         let distance = self.value("distance", self.is.length, "a way such as \"20 mm\"")?;
-        let (dwell, limits) = (self.dwell()?, self.limits()?);
+        let (dwell, limits) = (self.dwell(DWELL)?, self.limits()?);
         let made = Moves::there_and_back(distance, dwell, limits);
         self.moves("distance", made, (2, dwell))
     }
@@ -160,7 +205,7 @@ impl Asked<'_, '_> {
     fn staircase(&self) -> Result<Boxed, Error> {
         let distance = self.value("distance", self.is.length, "one step, such as \"1 um\"")?;
         let steps = self.table.count("steps", 1, 1000)?.unwrap_or(5) as u32;
-        let (dwell, limits) = (self.dwell()?, self.limits()?);
+        let (dwell, limits) = (self.dwell(DWELL)?, self.limits()?);
         let made = Moves::staircase(distance, steps, dwell, limits);
         self.moves("distance", made, (2 * steps, dwell))
     }
