@@ -14,5 +14,6 @@ pub use belief::{Belief, Family};
 pub use grid::Job;
 pub use model::{Model, Parameter};
 pub use plan::{
-    ContourPlan, Machine, ModelKind, ModelScheme, Named, PathPlan, Scheme, Second, Study,
+    ContourPlan, Machine, ModelKind, ModelScheme, Named, PathPlan, Scheme, Second, Study, Sweep,
+    SweepPoint,
 };

@@ -13,6 +13,7 @@ mod outcome;
 mod path;
 mod rows;
 mod run;
+mod sweeps;
 mod trace;
 
 pub use contour_trace::ContourTrace;

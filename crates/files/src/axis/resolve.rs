@@ -49,6 +49,7 @@ fn resolve(text: &str, file: &Path) -> Result<Axis, Error> {
         file,
         text,
         page: "docs/axis.md",
+        swept: None,
     };
     let entries = source.parse()?;
     let root = Table::root(source, &entries);

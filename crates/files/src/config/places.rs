@@ -72,6 +72,7 @@ impl Places {
             file: &self.file,
             text: self.text.as_ref().map_or("", |(text, _)| text.as_str()),
             page: "",
+            swept: None,
         }
     }
 }

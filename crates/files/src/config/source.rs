@@ -1,5 +1,6 @@
 //! The text of a file that a user types, and the places in it.
 
+use super::swept::Swept;
 use super::syntax;
 use crate::error::Error;
 use std::path::Path;
@@ -13,6 +14,8 @@ pub(crate) struct Source<'a> {
     pub text: &'a str,
     /// The page that lists every key.
     pub page: &'a str,
+    /// A value in place of one of the file.
+    pub swept: Option<Swept<'a>>,
 }
 
 impl<'a> Source<'a> {

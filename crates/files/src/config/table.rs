@@ -3,6 +3,7 @@
 use super::given::Given;
 use super::name::cut;
 use super::source::Source;
+use super::swept::Swept;
 use crate::error::Error;
 use std::cell::RefCell;
 use stiction_friction::ParamError;
@@ -60,12 +61,22 @@ impl<'a> Table<'a> {
 
     fn find(&self, key: &str) -> Option<Given<'a>> {
         let mut entries = self.entries.iter();
-        let (_, value) = entries.find(|(name, _)| name.get_ref() == key)?;
+        let found = entries.find(|(name, _)| name.get_ref() == key);
+        let swept = self.source.swept;
+        if let Some(given) = swept.and_then(|s| s.of(&self.prefix, key, found.is_some())) {
+            return Some(given);
+        }
+        let (_, value) = found?;
         Some(Given::new(
             self.source,
             format!("{}{key}", self.prefix),
             value,
         ))
+    }
+
+    /// The value that stands in place of one of the file.
+    pub fn swept(&self) -> Option<Swept<'a>> {
+        self.source.swept
     }
 
     /// A table of this one.

@@ -60,6 +60,7 @@ impl ReadModel {
             file,
             text,
             page: "docs/result.md",
+            swept: None,
         };
         let entries = source.parse()?;
         let model = model(&Table::root(source, &entries))?;

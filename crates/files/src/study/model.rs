@@ -1,12 +1,14 @@
 //! The friction of the simulated axis: from a model file, or of a known axis.
 
+use super::resolve::Dimensions;
+use crate::config::{Given, Swept};
 use crate::error::{Error, Warning};
 use crate::model::ReadModel;
 use crate::result::CovarianceEntry;
 use crate::symbols;
 use std::path::Path;
 use stiction_codes::Code;
-use stiction_log::Motion;
+use stiction_log::{Dimension, Motion};
 use stiction_parameters::{LawError, LawKind, Name, ParameterSet, Quantity};
 use stiction_servo::known::{self, Kind};
 
@@ -187,6 +189,34 @@ impl Model {
                 Err(read.refuse("parameter", e.to_string(), allowed))
             }
         }
+    }
+
+    /// Takes the value of a sweep where it is one of a parameter of the law, in both directions of motion, and returns it.
+    pub(super) fn take<'a>(&mut self, swept: &Swept<'a>) -> Result<Option<&'a Given<'a>>, Error> {
+        let quantity = swept.key.strip_prefix("law.").and_then(Quantity::from_stem);
+        let of_the_law =
+            |q: &Quantity| is_simulated(*q) && !matches!(q, Quantity::Mass | Quantity::Delay);
+        let Some(quantity) = quantity.filter(of_the_law) else {
+            return Ok(None);
+        };
+        let given = swept.value;
+        let value = match Dimensions::of(self.motion).of_parameter(quantity) {
+            Dimension::ONE => given
+                .as_number()
+                .ok_or_else(|| given.refused("a number, without quotes"))?,
+            dimension => given.value(&[dimension])?.0,
+        };
+        let allowed = quantity.allowed();
+        if !allowed.admits(value) {
+            return Err(given.refused(allowed.words()));
+        }
+        for parameter in &mut self.parameters {
+            if parameter.name.quantity == quantity {
+                parameter.value = value;
+                swept.taken.set(true);
+            }
+        }
+        Ok(swept.taken.get().then_some(given))
     }
 
     /// A value of a parameter that cannot be used, at its place in the file that it was read from.

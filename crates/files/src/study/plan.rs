@@ -4,6 +4,7 @@ use super::belief::{Belief, Family};
 use super::model::Model;
 use super::result::StudyInput;
 use crate::error::Warning;
+use stiction_codes::Code;
 use stiction_friction::LuGre;
 use stiction_friction::compensator::{Adaptation, Source, Watchdog};
 use stiction_log::Motion;
@@ -37,6 +38,10 @@ pub struct Study {
     pub compensators: Vec<Named<Scheme>>,
     /// What is believed of the first axis; the first family is the exact parameters.
     pub families: Vec<Family>,
+    /// Values of a key in turn.
+    pub sweeps: Vec<Sweep>,
+    /// Whether the course of each run is kept.
+    pub keeps_courses: bool,
     /// Files that were read, the study itself first.
     pub inputs: Vec<StudyInput>,
     /// What to beware of before anything runs.
@@ -48,6 +53,47 @@ impl Study {
     pub fn inputs(&self) -> impl Iterator<Item = &str> {
         self.inputs.iter().map(|i| i.path.as_str())
     }
+
+    /// The study itself, and that of each value of its sweeps, in their order.
+    pub fn grids(&self) -> impl Iterator<Item = &Study> {
+        let points = self.sweeps.iter().flat_map(|sweep| &sweep.points);
+        std::iter::once(self).chain(points.map(|point| &point.study))
+    }
+
+    /// Takes over what is to beware of with the values of its sweeps and not without; once for each sweep and code.
+    pub(super) fn warn_of_sweeps(&mut self) {
+        for sweep in &mut self.sweeps {
+            let mut said: Vec<Code> = self.warnings.iter().map(|w| w.code).collect();
+            for point in &mut sweep.points {
+                for mut warning in point.study.warnings.drain(..) {
+                    if !said.contains(&warning.code) {
+                        said.push(warning.code);
+                        let value = stiction_number::quantity(point.value, &sweep.unit);
+                        warning.message = format!("{} = {value}: {}", sweep.key, warning.message);
+                        self.warnings.push(warning);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A key with several values in turn.
+pub struct Sweep {
+    /// The key with its table, such as `path.amplitude`; parameters of the law are `law.sigma0` and so on.
+    pub key: String,
+    /// SI unit of its values; empty for numbers.
+    pub unit: String,
+    /// Ascending.
+    pub points: Vec<SweepPoint>,
+}
+
+/// One value of a sweep.
+pub struct SweepPoint {
+    /// SI.
+    pub value: f64,
+    /// The study with that value, with exact parameters alone.
+    pub study: Study,
 }
 
 /// Something with the name under which it stands in tables.

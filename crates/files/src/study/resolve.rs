@@ -13,12 +13,14 @@ mod inputs;
 mod machine;
 mod paths;
 mod published;
+mod sweeps;
 mod usual;
 
 use super::belief::{Belief, Family, Undrawn};
 use super::plan::{Machine, Named, Study};
 use crate::config::{Source, Table};
 use crate::error::Error;
+pub(super) use dimensions::Dimensions;
 use entry::{few, once, seen};
 use inputs::input;
 use std::path::Path;
@@ -46,9 +48,26 @@ fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
         file,
         text,
         page: "docs/study.md",
+        swept: None,
     };
     let entries = source.parse()?;
     let root = Table::root(source, &entries);
+    let mut study = study(&root, file)?;
+    let asked = sweeps::asked(&root)?;
+    root.end()?;
+    let sweeps = asked.iter().map(|sweep| sweep.resolve(source, &entries));
+    study.sweeps = sweeps.collect::<Result<_, _>>()?;
+    let runs = study.grids().map(|grid| grid.jobs().len()).sum::<usize>();
+    if runs > MOST_RUNS {
+        let found = format!("{runs} runs");
+        return Err(root.refuse("path", found, &format!("at most {MOST_RUNS} in all")));
+    }
+    study.warn_of_sweeps();
+    Ok(study)
+}
+
+/// The study of a file, without its sweeps: for a value of one of these, the study with that value.
+fn study(root: &Table<'_>, file: &Path) -> Result<Study, Error> {
     let name = match root.line("name")?.map(str::trim) {
         None | Some("") => file
             .file_stem()
@@ -62,7 +81,7 @@ fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
     let machine = machine::machine(&axis, folder, None)?;
     let other = root.table("second_axis")?;
     let second = match &other {
-        Some(table) => Some(contours::second(&root, table, folder, &machine)?),
+        Some(table) => Some(contours::second(root, table, folder, &machine)?),
         None => None,
     };
     let mut inputs = vec![file.to_path_buf()];
@@ -88,6 +107,8 @@ fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
         controllers: Vec::new(),
         compensators: Vec::new(),
         families: Vec::new(),
+        sweeps: Vec::new(),
+        keeps_courses: root.swept().is_none(),
         machine,
     };
     for table in root.tables("path", MOST_ENTRIES)? {
@@ -139,13 +160,7 @@ fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
             return Err(root.refuse(key, "is missing".into(), &allowed));
         }
     }
-    families(&root, &mut study)?;
-    root.end()?;
-    let runs = study.jobs().len();
-    if runs > MOST_RUNS {
-        let found = format!("{runs} runs");
-        return Err(root.refuse("path", found, &format!("at most {MOST_RUNS} in all")));
-    }
+    families(root, &mut study)?;
     study.warnings.append(&mut study.machine.model.warnings);
     if let Some(second) = &mut study.second {
         study.warnings.append(&mut second.machine.model.warnings);
@@ -160,7 +175,9 @@ fn families(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
     if let Some(second) = &study.second {
         others.push(Family::exact(second.machine.truth()).beliefs);
     }
-    for table in root.tables("parameter_error", MOST_ENTRIES)? {
+    let wrong = root.tables("parameter_error", MOST_ENTRIES)?;
+    // A sweep shows what a value does, not what an error of it does.
+    for table in wrong.iter().filter(|_| root.swept().is_none()) {
         let kind = table.choice("kind", &["corners", "covariance"])?;
         let family = match table.required("kind", kind, "\"corners\" or \"covariance\"")? {
             "corners" => {
@@ -208,7 +225,7 @@ fn families(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
             }
         };
         table.end()?;
-        once(&table, families.iter().map(|f| &f.name), &family.name)?;
+        once(table, families.iter().map(|f| &f.name), &family.name)?;
         families.push(family);
     }
     study.families = families;

@@ -30,8 +30,51 @@ pub struct StudyFile {
     pub paths: Vec<PathEntry>,
     /// One row for each path, controller, compensator and kind of parameters.
     pub results: Vec<ResultRow>,
+    /// The same over the values of a key.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sweeps: Vec<SweepEntry>,
     /// What to beware of.
     pub warnings: Vec<Warning>,
+}
+
+/// A key with several values in turn.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SweepEntry {
+    /// The key, such as `law.sigma0` or `path.amplitude`.
+    pub key: String,
+    /// SI unit of the values; empty for numbers.
+    pub unit: String,
+    /// The values, ascending.
+    pub values: Vec<f64>,
+    /// One for each path, controller and compensator, all with exact parameters.
+    pub results: Vec<SweepRow>,
+}
+
+/// The metrics of a path, controller and compensator over a sweep.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SweepRow {
+    /// Name of the path.
+    pub path: String,
+    /// Name of the controller.
+    pub controller: String,
+    /// Name of the compensator.
+    pub compensator: String,
+    /// Whether the axes are controlled together.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub coupled: bool,
+    /// The metrics.
+    pub metrics: Vec<SweepMetric>,
+}
+
+/// One metric over a sweep.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SweepMetric {
+    /// Name, such as `peak_error`.
+    pub name: String,
+    /// SI unit.
+    pub unit: String,
+    /// One for each value of the sweep; `null` where the motion has no such metric or the run could not be made.
+    pub values: Vec<Option<f64>>,
 }
 
 /// A file that was read.
@@ -166,6 +209,26 @@ fn is_none(value: &f64) -> bool {
     *value == 0.0
 }
 
+fn scheme(compensator: &str, coupled: bool) -> String {
+    match (coupled, compensator) {
+        (false, name) => name.into(),
+        (true, "none") => "coupling".into(),
+        (true, name) => format!("{name}, coupling"),
+    }
+}
+
+impl SweepRow {
+    /// The compensator, and the coupling where there is one.
+    pub fn scheme(&self) -> String {
+        scheme(&self.compensator, self.coupled)
+    }
+
+    /// A metric by its name.
+    pub fn metric(&self, name: &str) -> Option<&SweepMetric> {
+        self.metrics.iter().find(|m| m.name == name)
+    }
+}
+
 impl ResultRow {
     /// What became of the compensation: `switched off`, with how often in several runs; else nothing.
     pub fn remarks(&self) -> String {
@@ -178,11 +241,7 @@ impl ResultRow {
 
     /// The compensator, and the coupling where there is one.
     pub fn scheme(&self) -> String {
-        match (self.coupled, self.compensator.as_str()) {
-            (false, name) => name.into(),
-            (true, "none") => "coupling".into(),
-            (true, name) => format!("{name}, coupling"),
-        }
+        scheme(&self.compensator, self.coupled)
     }
 
     /// A metric by its name.

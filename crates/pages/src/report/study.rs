@@ -4,6 +4,7 @@ mod axis;
 mod contour;
 pub(crate) mod rates;
 pub(crate) mod rows;
+pub(crate) mod sweep;
 
 use axis::{axis, mass_unit, motion, parameters};
 use rows::{COLORS, believed, drawn, judged, left_out, less};
@@ -78,7 +79,7 @@ pub fn study(outcome: &StudyOutcome) -> Document {
             document = figures.fold(document, |d, f| d.block(f));
         }
     }
-    document = document
+    document = sweep::sections(document, file)
         .heading(2, "The axis")
         .block(axis(file, &file.axis))
         .block(parameters(&file.axis));
@@ -115,7 +116,13 @@ const MEANING: [&str; 9] = [
 ];
 
 fn verdict(file: &StudyFile) -> Callout {
-    let runs: usize = file.results.iter().map(|r| r.runs).sum();
+    let swept = file.sweeps.iter().map(|s| s.values.len() * s.results.len());
+    let runs = file
+        .results
+        .iter()
+        .map(|r| r.runs)
+        .chain(swept)
+        .sum::<usize>();
     let worse = file
         .results
         .iter()

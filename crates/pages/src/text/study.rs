@@ -3,6 +3,7 @@
 use super::table::table;
 use crate::report::study::rates::columns;
 use crate::report::study::rows::{judged, less};
+use crate::report::study::sweep::{groups, label, lines};
 use std::fmt::Write;
 use stiction_files::study::result::ResultRow;
 use stiction_number::quantity;
@@ -38,6 +39,19 @@ pub fn study(outcome: &StudyOutcome) -> String {
             &[false, false, true, true, true, true, true, false],
         ));
         out.push_str(&speeds(rows));
+    }
+    for sweep in &file.sweeps {
+        for rows in groups(sweep) {
+            let _ = writeln!(
+                out,
+                "\n{}, {}: largest error over {}",
+                rows[0].path,
+                rows[0].controller,
+                label(file, sweep)
+            );
+            let lines = lines(sweep, rows);
+            out.push_str(&table(&lines, &vec![true; lines[0].len()]));
+        }
     }
     if !file.results.is_empty() {
         out.push_str(LEGEND);

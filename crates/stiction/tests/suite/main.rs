@@ -19,5 +19,6 @@ mod rests;
 mod simulation;
 mod study;
 mod study_axis;
+mod study_sweep;
 mod terms;
 mod workflow;

@@ -5,7 +5,7 @@ use crate::study::{AXIS, CASCADE, Desk, SHORT, row, together};
 use std::f64::consts::TAU;
 use stiction::commands::study::result::StudyFile;
 
-const FRICTIONLESS: &str = r#"
+pub(crate) const FRICTIONLESS: &str = r#"
 [axis]
 parameters = { sigma0 = "1 N/m", sigma1 = "0 N s/m", sigma2 = "0 N s/m", coulomb = "1 uN", static = "1 uN", stribeck_velocity = "1 mm/s" }
 mass  = "4.6 kg"
@@ -16,8 +16,8 @@ delay = "0 s"
 /// kg, N s/m and N/m of the loop below.
 const MASS: f64 = 4.6;
 const DAMPER: f64 = 920.0;
-const STIFFNESS: f64 = 920.0 * 50.0;
-const LOOP: &str = r#"
+pub(crate) const STIFFNESS: f64 = 920.0 * 50.0;
+pub(crate) const LOOP: &str = r#"
 [[controller]]
 kind          = "cascade"
 position_gain = "50 1/s"
@@ -27,7 +27,7 @@ force_limit   = "1 kN"
 "#;
 
 /// There, and a second of rest at 10 mm, which ends the run.
-const REST: &str = r#"
+pub(crate) const REST: &str = r#"
 [[path]]
 kind = "file"
 file = "rest.csv"
@@ -43,7 +43,7 @@ acceleration = "5 m/s2"
 jerk         = "500 m/s3"
 "#;
 
-fn desk() -> Desk {
+pub(crate) fn desk() -> Desk {
     let desk = Desk::new();
     desk.write(
         "rest.csv",

@@ -158,7 +158,7 @@ pub(super) fn on_contour(
     };
     let ran = along(study, second, &plan, job, before)?;
     let names = study.names(job);
-    let exact = family.kind == "exact";
+    let exact = family.kind == "exact" && study.keeps_courses;
     Ok(Done {
         job,
         metrics: ran.metrics,

@@ -18,9 +18,10 @@ use stiction_servo::sampled::Sampled;
 /// Most reference samples that are kept for all runs, of all paths together: a hundred megabytes.
 const MOST_SHARED_SAMPLES: usize = 4_000_000;
 
-/// The reference of each path at the control rate, for all runs along it; `None` where that would be too much to keep.
-pub(super) fn sampled(study: &Study) -> Vec<Option<Sampled>> {
-    let mut left = MOST_SHARED_SAMPLES;
+/// The reference of each path at the control rate, for all runs along it, where there are so many grids in all; `None` where
+/// that would be too much to keep.
+pub(super) fn sampled(study: &Study, grids: usize) -> Vec<Option<Sampled>> {
+    let mut left = MOST_SHARED_SAMPLES / grids;
     let sampled = study.paths.iter().map(|path| {
         let count = sample_count(path.trajectory.duration(), study.machine.rate).ok()?;
         left = left.checked_sub(count)?;
@@ -74,7 +75,7 @@ pub(super) fn on_path(
             samples = follow(&mut axis)?;
         }
     }
-    let exact = family.kind == "exact";
+    let exact = family.kind == "exact" && study.keeps_courses;
     let from = samples.partition_point(|s| s.time < path.skip);
     let counted = &samples[from.min(samples.len())..];
     let compensator = axis.feedforward().compensator();

@@ -5,14 +5,14 @@ use super::learnt::Learnt;
 use super::metrics::{may_be_absent, metrics};
 use super::outcome::StudyOutcome;
 use super::rows::rows;
-use super::{contour, course, doubt, machine, path};
+use super::{contour, course, doubt, machine, path, sweeps};
 use rayon::prelude::*;
 use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::study::result::{SCHEMA, StudyFile};
 use stiction_files::study::{Job, Study};
 use stiction_friction::ParamError;
-use stiction_number::four_digits as short;
+use stiction_number::{four_digits as short, quantity};
 use stiction_search::{Observer, Shared};
 use stiction_servo::sampled::Sampled;
 
@@ -20,34 +20,49 @@ use stiction_servo::sampled::Sampled;
 /// passes of learning, and may stop the work: what is done then is kept. Results do not depend on the number of
 /// threads.
 pub fn simulate(study: &Study, observer: &mut dyn Observer) -> StudyOutcome {
-    let jobs = study.jobs();
+    let grids: Vec<Grid> = {
+        let count = study.grids().count();
+        study.grids().map(|grid| Grid::of(grid, count)).collect()
+    };
+    let jobs = grids.iter().enumerate();
+    let jobs: Vec<(usize, Job)> = jobs
+        .flat_map(|(i, grid)| grid.study.jobs().into_iter().map(move |job| (i, job)))
+        .collect();
     let watch = Shared::new(observer, jobs.len());
     let mut warnings = study.warnings.clone();
-    let sampled = path::sampled(study);
-    let learnt = Learnt::of(study);
-    let done: Vec<Option<Result<Done, (Job, ParamError)>>> = jobs
+    let done: Vec<Option<Result<Done, ParamError>>> = jobs
         .par_iter()
-        .map(|&job| {
+        .map(|&(i, job)| {
             if watch.is_stopped() {
                 return None;
             }
-            let done = one(study, job, &sampled, &learnt, &|| watch.go_on()).transpose()?;
+            let done = grids[i].run(job, &|| watch.go_on()).transpose()?;
             watch.one_more();
             watch.go_on();
-            Some(done.map_err(|e| (job, e)))
+            Some(done)
         })
         .collect();
     let complete = done.iter().all(Option::is_some);
-    let (mut kept, mut failed) = (Vec::new(), Vec::new());
-    for result in done.into_iter().flatten() {
+    let mut kept: Vec<Vec<Done>> = grids.iter().map(|_| Vec::new()).collect();
+    let mut failed = Vec::new();
+    for (&(i, job), result) in jobs.iter().zip(done) {
         match result {
-            Ok(done) => kept.push(done),
-            Err(e) => failed.push(e),
+            Some(Ok(done)) => kept[i].push(done),
+            Some(Err(e)) => failed.push((i, job, e)),
+            None => {}
         }
     }
-    // The same fault in every member of a cell is said once.
-    failed.dedup_by_key(|(job, _)| job.cell());
-    warnings.extend(failed.iter().map(|(job, e)| not_run(study, *job, e)));
+    // The same fault in every member of a cell, and with every value of a sweep, is said once.
+    failed.dedup_by_key(|(i, job, _)| (*i, job.cell()));
+    let mut said: Vec<Job> = Vec::new();
+    for (i, job, e) in &failed {
+        if *i == 0 || !said.contains(job) {
+            said.push(*job);
+            warnings.push(not_run(study, grids[*i].study, *job, e));
+        }
+    }
+    let sweeps = sweeps::entries(study, &kept[1..]);
+    let kept = kept.swap_remove(0);
     let results = rows(study, &kept);
     warnings.extend(doubt::warnings(study, &results));
     let (mut traces, mut contours) = (Vec::new(), Vec::new());
@@ -71,6 +86,7 @@ pub fn simulate(study: &Study, observer: &mut dyn Observer) -> StudyOutcome {
                 .chain(study.contours.iter().map(contour::entry))
                 .collect(),
             results,
+            sweeps,
             warnings,
         },
         traces,
@@ -79,30 +95,46 @@ pub fn simulate(study: &Study, observer: &mut dyn Observer) -> StudyOutcome {
     }
 }
 
-/// One run, whose metrics must be finite numbers; `None` where the work was stopped.
-fn one(
-    study: &Study,
-    job: Job,
-    sampled: &[Option<Sampled>],
-    before: &Learnt,
-    go_on: &dyn Fn() -> bool,
-) -> Result<Option<Done>, ParamError> {
-    let done = match study.contours.get(job.path.wrapping_sub(study.paths.len())) {
-        Some(contour) => Some(contour::on_contour(study, job, contour, before)?),
-        None => path::on_path(study, job, sampled[job.path].as_ref(), before, go_on)?,
-    };
-    for (&name, &value) in metrics(study, job)
-        .iter()
-        .zip(done.iter().flat_map(|d| &d.metrics))
-    {
-        let absent = may_be_absent(name) && value.is_nan();
-        if !(value.is_finite() || absent) {
-            let allowed =
-                "a finite number: a smaller motion, slower, with smaller gains and forces";
-            return Err(ParamError::new(name, value, allowed));
+/// The runs of a study, or of one with a value of a sweep, and what they have in common.
+struct Grid<'a> {
+    study: &'a Study,
+    sampled: Vec<Option<Sampled>>,
+    learnt: Learnt,
+}
+
+impl<'a> Grid<'a> {
+    /// One of `count` grids.
+    fn of(study: &'a Study, count: usize) -> Self {
+        Grid {
+            study,
+            sampled: path::sampled(study, count),
+            learnt: Learnt::of(study),
         }
     }
-    Ok(done)
+
+    /// One run, whose metrics must be finite numbers; `None` where the work was stopped.
+    fn run(&self, job: Job, go_on: &dyn Fn() -> bool) -> Result<Option<Done>, ParamError> {
+        let study = self.study;
+        let done = match study.contours.get(job.path.wrapping_sub(study.paths.len())) {
+            Some(contour) => Some(contour::on_contour(study, job, contour, &self.learnt)?),
+            None => {
+                let sampled = self.sampled[job.path].as_ref();
+                path::on_path(study, job, sampled, &self.learnt, go_on)?
+            }
+        };
+        for (&name, &value) in metrics(study, job)
+            .iter()
+            .zip(done.iter().flat_map(|d| &d.metrics))
+        {
+            let absent = may_be_absent(name) && value.is_nan();
+            if !(value.is_finite() || absent) {
+                let allowed =
+                    "a finite number: a smaller motion, slower, with smaller gains and forces";
+                return Err(ParamError::new(name, value, allowed));
+            }
+        }
+        Ok(done)
+    }
 }
 
 /// Headers of the courses on paths and on contours, where there are any.
@@ -120,14 +152,24 @@ fn headers(study: &Study) -> [String; 2] {
     ]
 }
 
-fn not_run(study: &Study, job: Job, e: &ParamError) -> Warning {
+/// A run of a grid of the study that could not be made.
+fn not_run(study: &Study, grid: &Study, job: Job, e: &ParamError) -> Warning {
+    let [path, controller, compensator] = study.names(job);
+    let points = study.sweeps.iter().flat_map(|sweep| {
+        let points = sweep.points.iter();
+        points.map(move |point| (sweep, point))
+    });
+    let point = points
+        .into_iter()
+        .find(|(_, p)| std::ptr::eq(&p.study, grid));
+    let with = point.map_or(String::new(), |(sweep, point)| {
+        let value = quantity(point.value, &sweep.unit);
+        format!(" with {} = {value}", sweep.key)
+    });
     Warning::new(
         Code::NotRun,
         format!(
-            "{}, {}, {} was not run: {} = {}; allowed: {}",
-            study.path_name(job),
-            study.controllers[job.controller].name,
-            study.compensators[job.compensator].name,
+            "{path}, {controller}, {compensator}{with} was not run: {} = {}; allowed: {}",
             e.name,
             short(e.value),
             e.allowed

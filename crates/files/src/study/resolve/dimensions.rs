@@ -1,9 +1,10 @@
 //! Dimensions of what a study file gives.
 
 use stiction_log::{Dimension, Motion};
+use stiction_parameters::{Dimension as Measured, Quantity};
 
 /// Dimensions that depend on the kind of axis.
-pub(super) struct Dimensions {
+pub(in crate::study) struct Dimensions {
     pub length: Dimension,
     pub speed: Dimension,
     pub force: Dimension,
@@ -20,6 +21,17 @@ impl Dimensions {
                 Motion::Linear => Dimension::MASS,
                 Motion::Rotary => Dimension::INERTIA,
             },
+        }
+    }
+
+    /// That of a parameter of the law.
+    pub fn of_parameter(&self, quantity: Quantity) -> Dimension {
+        match quantity.dimension() {
+            Measured::Stiffness => Self::per(self.force, self.length),
+            Measured::Damping => Self::per(self.force, self.speed),
+            Measured::Speed => self.speed,
+            Measured::One => Dimension::ONE,
+            _ => self.force,
         }
     }
 

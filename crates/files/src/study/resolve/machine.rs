@@ -65,13 +65,17 @@ pub(super) fn machine(
     };
     let motion = model.motion;
     let is = Dimensions::of(motion);
+    let swept = match (first, table.swept()) {
+        (None, Some(swept)) => model.take(&swept)?,
+        _ => None,
+    };
     // The law of a model that was read, or of a known axis, is one.
     let law = model.values().lugre().map_err(|e| {
-        table.refuse(
-            "model",
-            e.to_string(),
-            "a model whose parameters make a law",
-        )
+        let allowed = "a model whose parameters make a law";
+        match swept {
+            Some(given) => given.refuse(e.to_string(), allowed),
+            None => table.refuse("model", e.to_string(), allowed),
+        }
     })?;
     let law = match table.choice("sigma1", &["capped", "constant"])? {
         Some("constant") => Ok(law),

@@ -41,12 +41,7 @@ pub(super) fn published(given: &Given<'_>) -> Result<Model, Error> {
     let force = symbols::force_unit(motion);
     let mut parameters = Vec::new();
     for (key, quantity) in NEEDED {
-        let dimension = match quantity.dimension() {
-            Dimension::Stiffness => Dimensions::per(is.force, is.length),
-            Dimension::Damping => Dimensions::per(is.force, is.speed),
-            Dimension::Speed => is.speed,
-            _ => is.force,
-        };
+        let dimension = is.of_parameter(quantity);
         // Damping may be none; the other numbers of the law are above zero.
         let value = match quantity.dimension() {
             Dimension::Damping => table.not_negative(key, dimension)?,

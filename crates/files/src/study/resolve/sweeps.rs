@@ -1,0 +1,144 @@
+//! `[[sweep]]`: a key with several values in turn, each of which makes a study of its own.
+
+use crate::config::{Given, Source, Swept, Table};
+use crate::error::Error;
+use crate::study::plan::{Sweep, SweepPoint};
+use std::cell::Cell;
+use stiction_log::Dimension;
+use toml::de::DeTable;
+
+/// Most sweeps, and most values of one: each is a study in memory, with its paths.
+const MOST_SWEEPS: usize = 4;
+const MOST_VALUES: usize = 16;
+/// Tables whose keys can be swept; `law` has the parameters of the first axis.
+const TABLES: [&str; 6] = [
+    "law",
+    "axis",
+    "path",
+    "contour",
+    "controller",
+    "compensator",
+];
+
+/// A sweep as it stands in the file.
+pub(super) struct Asked<'a> {
+    key: Given<'a>,
+    name: &'a str,
+    dimension: Dimension,
+    values: Vec<(f64, Given<'a>)>,
+}
+
+/// The sweeps of a study file.
+pub(super) fn asked<'a>(root: &Table<'a>) -> Result<Vec<Asked<'a>>, Error> {
+    let mut all: Vec<Asked<'a>> = Vec::new();
+    for table in root.tables("sweep", MOST_SWEEPS)? {
+        let key = table.required("key", table.get("key"), "one such as \"law.sigma0\"")?;
+        let name = key.text()?;
+        let known = |(first, rest): (&str, &str)| TABLES.contains(&first) && !rest.is_empty();
+        if !name.split_once('.').is_some_and(known) {
+            let allowed = format!(
+                "a key with its table, {}, such as \"law.sigma0\" or \"path.amplitude\"",
+                TABLES.join(", ")
+            );
+            return Err(key.refused(&allowed));
+        }
+        if all.iter().any(|other| other.name == name) {
+            return Err(key.refuse(format!("{name:?} twice"), "each key once"));
+        }
+        let example = "a list such as [\"1e6 N/m\", \"2e6 N/m\"]";
+        let list = table.required("values", table.get("values"), example)?;
+        let values = list.as_list().ok_or_else(|| list.refused(example))?;
+        if !(2..=MOST_VALUES).contains(&values.len()) {
+            let found = format!("{} values", values.len());
+            return Err(list.refuse(found, &format!("2 to {MOST_VALUES}")));
+        }
+        let (values, dimension) = ascending(values)?;
+        table.end()?;
+        all.push(Asked {
+            key,
+            name,
+            dimension,
+            values,
+        });
+    }
+    Ok(all)
+}
+
+/// The values in SI, each larger than the one before, and what they measure.
+fn ascending<'a>(values: Vec<Given<'a>>) -> Result<(Vec<(f64, Given<'a>)>, Dimension), Error> {
+    let mut known: Vec<(f64, Given<'a>)> = Vec::new();
+    let mut dimension = Dimension::ONE;
+    for (i, given) in values.into_iter().enumerate() {
+        let (x, of) = match given.as_number().filter(|x| x.is_finite()) {
+            Some(x) => (x, Dimension::ONE),
+            None => {
+                let value = given.quantity("\"1e6 N/m\", or a number")?;
+                (value.si(), value.unit.dimension())
+            }
+        };
+        if i > 0 && of != dimension {
+            return Err(given.refused("a unit of the same kind as that of the first value"));
+        }
+        if known.last().is_some_and(|(before, _)| x <= *before) {
+            return Err(given.refused("above the value before it"));
+        }
+        dimension = of;
+        known.push((x, given));
+    }
+    Ok((known, dimension))
+}
+
+impl<'a> Asked<'a> {
+    /// The study of each value.
+    pub fn resolve(&self, source: Source<'a>, entries: &'a DeTable<'a>) -> Result<Sweep, Error> {
+        let point = |(value, given): &(f64, Given<'a>)| {
+            let taken = Cell::new(false);
+            let swept = Swept {
+                key: self.name,
+                value: given,
+                taken: &taken,
+            };
+            let swept = Source {
+                swept: Some(swept),
+                ..source
+            };
+            let study = super::study(&Table::root(swept, entries), source.file);
+            let study = study.map_err(|e| self.with(given, e))?;
+            if !taken.get() {
+                let allowed = "a parameter that the law has, a key of [axis], or one that a path, contour, controller or \
+                               compensator of this study gives";
+                return Err(self.key.refused(allowed));
+            }
+            Ok(SweepPoint {
+                value: *value,
+                study,
+            })
+        };
+        Ok(Sweep {
+            key: self.name.into(),
+            unit: match self.dimension.si_text() {
+                unit if unit == "1" => String::new(),
+                unit => unit,
+            },
+            points: self.values.iter().map(point).collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// What is refused with a value of the sweep, at another place than that value.
+    fn with(&self, given: &Given<'_>, error: Error) -> Error {
+        match error {
+            Error::Config {
+                file,
+                place,
+                found,
+                allowed,
+            } if place != given.place() => Error::Config {
+                found: format!("{found}, with {} = {}", self.name, given.shown()),
+                file,
+                place,
+                allowed,
+            },
+            other => other,
+        }
+    }
+}
