@@ -1,6 +1,7 @@
 //! `reproduce.json`: the numbers of published experiments beside their references. Schema `stiction.reproduce/1`.
 
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// Name of the schema.
 pub const SCHEMA: &str = "stiction.reproduce/1";
@@ -27,6 +28,9 @@ pub struct ReproduceFile {
     /// Every run of an experiment with its metrics: controllers and compensations beside each other.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub runs: Vec<RunEntry>,
+    /// Every search of parameters with its seed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub searches: Vec<SearchEntry>,
     /// What was assumed where the publication gives no number.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assumptions: Vec<String>,
@@ -101,6 +105,25 @@ pub struct MetricEntry {
     pub value: f64,
 }
 
+/// A search of parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SearchEntry {
+    /// Name of the experiment.
+    pub experiment: String,
+    /// Name of the method.
+    pub method: String,
+    /// Its seed.
+    pub seed: u64,
+    /// Least cost J of the method itself, dimensionless.
+    pub cost: f64,
+    /// Evaluations until J was at most 1e-3.
+    pub evaluations_to_1e3: Option<f64>,
+    /// What the method found by itself, SI.
+    pub own: BTreeMap<String, f64>,
+    /// What stands after least squares, where they follow, SI.
+    pub found: BTreeMap<String, f64>,
+}
+
 impl ReproduceFile {
     /// A complete reproduction of a publication, in which nothing has been done yet.
     pub fn of(name: &str) -> Self {
@@ -113,6 +136,7 @@ impl ReproduceFile {
             checks: Vec::new(),
             claims: Vec::new(),
             runs: Vec::new(),
+            searches: Vec::new(),
             assumptions: Vec::new(),
         }
     }

@@ -28,6 +28,7 @@
 
 mod color;
 mod document;
+mod drawing;
 mod escape;
 mod figure;
 mod heatmap;
@@ -37,6 +38,7 @@ mod text;
 
 pub use color::Color;
 pub use document::{Align, Block, Callout, Document, KeyFigure, Row, Severity, Table};
+pub use drawing::Drawing;
 pub use figure::{Axis, Dash, Figure, Layer, Panel, Range, Samples, Scale, Shape};
 pub use heatmap::Heatmap;
 pub use math::Math;

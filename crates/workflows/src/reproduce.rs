@@ -8,6 +8,6 @@ mod watch;
 pub use canudas::canudas_1995;
 pub use outcome::{Body, Reproduction};
 pub use paper::{
-    Budget, Compensation, Control, Cornered, Dynamics, LoadFound, PARAMETERS, Paper, Presliding,
-    Searched, Stage, Statics, Tracked, zhang_2025,
+    Budget, Compensation, Control, Cornered, Crawled, Dynamics, LoadFound, Measured, PARAMETERS,
+    Paper, Presliding, Pull, REACHED, Searched, Stage, Statics, Stiffness, Tracked, zhang_2025,
 };

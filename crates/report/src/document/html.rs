@@ -135,6 +135,10 @@ impl Body {
                 let svg = figure.to_inline_svg();
                 self.figure(class, "", &svg, &figure.title, &figure.caption);
             }
+            Block::Drawing(drawing) => {
+                let class = if drawing.half { "half" } else { "full" };
+                self.figure(class, "", drawing.svg, &drawing.title, &drawing.caption);
+            }
             Block::Heatmap(map) => {
                 let (width, svg) = map.to_inline_svg();
                 let style = format!(" style=\"max-width:{width}px\"");

@@ -7,6 +7,7 @@ mod width;
 
 pub use table::{Align, Row, Table};
 
+use crate::drawing::Drawing;
 use crate::figure::Figure;
 use crate::heatmap::Heatmap;
 use crate::math::Math;
@@ -94,6 +95,8 @@ pub enum Block {
     Table(Table),
     /// A figure.
     Figure(Figure),
+    /// A drawing.
+    Drawing(Drawing),
     /// A matrix.
     Heatmap(Heatmap),
     /// Formulas under one another, with a caption that may be empty.
@@ -117,7 +120,7 @@ macro_rules! block_from {
         }
     )*};
 }
-block_from!(Table, Figure, Heatmap, Callout);
+block_from!(Table, Figure, Drawing, Heatmap, Callout);
 
 /// A report.
 #[derive(Debug, Clone, PartialEq)]

@@ -41,6 +41,10 @@ fn blocks(out: &mut String, parts: &[Block]) {
                 heads.chain(cells).for_each(|text| push(out, text));
             }
             Block::Figure(shown) => figure(out, shown),
+            Block::Drawing(drawing) => {
+                push(out, &drawing.title);
+                push(out, &drawing.caption);
+            }
             Block::Heatmap(map) => {
                 let names = map.rows.iter().chain(&map.columns);
                 [&map.title, &map.caption]

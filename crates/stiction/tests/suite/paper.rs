@@ -20,14 +20,16 @@ fn the_simulated_axis_is_found_and_compensated() {
         steps = counted(progress);
         Control::Continue
     });
-    assert_eq!(steps, (11, 11));
+    assert_eq!(steps, (16, 16));
     let file = &outcome.file;
     assert_eq!(file.status, "complete");
     for check in &file.checks {
         assert!(check.within, "{check:?}");
     }
-    // Four static, two dynamic, six at once, two from the step, one mass.
-    assert_eq!(file.checks.len(), 4 + 2 + 6 + 2 + 1);
+    // Four static, two dynamic, six at once, five as measured, two from the step, three masses.
+    assert_eq!(file.checks.len(), 4 + 2 + 6 + 5 + 2 + 3);
+    // Static, dynamic, six with each method; as measured static, dynamic, six.
+    assert_eq!(file.searches.len(), 2 + 3 + 3);
     assert!(!file.assumptions.is_empty());
 
     let claim = |name: &str, compensation: &str| {
@@ -77,6 +79,7 @@ fn the_simulated_axis_is_found_and_compensated() {
     for figure in [
         "FIG. 1)",
         "FIG. 4–6",
+        "End of a round",
         "FIG. 7)",
         "FIG. 12",
         "FIG. 13",

@@ -2,8 +2,13 @@
 
 mod beside;
 mod corners;
+mod drawings;
 mod identified;
+mod measured;
+mod parts;
+mod searches;
 mod simulated;
+mod slow;
 
 use super::checks::verdict;
 use stiction_files::reproduce_file::ReproduceFile;
@@ -31,7 +36,7 @@ pub(super) fn report(file: &ReproduceFile, paper: &Paper) -> Document {
          1 %, the mass of a changed load to 2 %. The paper's own friction parameters, gains and search boxes \
          are not available as text, so the axis is one of this project and nothing here repeats the paper's run; what \
          was assumed is listed at the end. Everything is simulated with ode4 at 0.1 ms, as there. FIG. n names \
-         the figure of the paper that a picture stands for.",
+         the figure of the paper that a picture stands for; the drawings stand for its schematics (FIG. 2, 3, 8, 11, 18).",
     );
     document = identified::sections(document, file, paper);
     document = simulated::sections(document, file, paper);

@@ -3,16 +3,15 @@
 
 use super::budget::Budget;
 use super::fault::Fault;
-use super::search::{METHODS, Searched, search};
-use super::stage::{Control, RATE, Stage, along};
+use super::search::{METHODS, Searched, bounds, search, search_box};
+use super::stage::{Control, RATE, Stage};
 use crate::reproduce::watch::Watch;
 use rayon::prelude::*;
-use stiction_friction::Direction;
+use stiction_friction::{Direction, ParamError};
 use stiction_identify::candidates::{Dynamic, Named, Scheme, SixParameters};
 use stiction_identify::{
-    Conditioning, Cutoff, Law, LawKind, Mass, Record, Samples, Source, Terms, condition,
+    Conditioning, Cutoff, Delay, Law, LawKind, Mass, Record, Samples, Source, Terms, condition,
 };
-use stiction_search::Bounds;
 use stiction_servo::motion::Sine;
 
 /// Amplitude of the motion, m: through presliding six times, up to twice the Stribeck velocity.
@@ -23,10 +22,6 @@ const FREQUENCY: f64 = 2.0;
 const CYCLES: f64 = 3.0;
 /// Every n-th sample is fitted, n: 5 kHz of 10 kHz.
 const FITTED_SAMPLE: usize = 2;
-
-/// The box of the six parameters `[sigma0, sigma1, sigma2, Fc, Fs - Fc, vs]`, SI.
-const BOX_LOW: [f64; 6] = [1e4, 10.0, 0.1, 0.1, 0.1, 1e-4];
-const BOX_HIGH: [f64; 6] = [1e8, 1e5, 1e3, 100.0, 100.0, 0.1];
 
 /// Both identifications.
 #[derive(Clone, Debug)]
@@ -45,7 +40,8 @@ pub(super) fn run(
 ) -> Result<Dynamics, Fault> {
     let record = record(stage)?;
     watch.done()?;
-    let held = Dynamic::new(cost(&record)?, &curve(statics))?;
+    let cost = || cost(stage, &record, Mass::Absent);
+    let held = Dynamic::new(cost()?, &curve(statics))?;
     let two = search(&held, "annealing-ga", budget, 1, watch)?;
     let tasks: Vec<(&str, u64)> = METHODS
         .iter()
@@ -53,7 +49,7 @@ pub(super) fn run(
         .collect();
     let six: Result<Vec<Searched>, Fault> = tasks
         .par_iter()
-        .map(|(method, seed)| search(&cost(&record)?, method, budget, *seed, watch))
+        .map(|(method, seed)| search(&cost()?, method, budget, *seed, watch))
         .collect();
     Ok(Dynamics { two, six: six? })
 }
@@ -62,8 +58,7 @@ pub(super) fn run(
 /// of the forces held before and after it, and the central difference.
 fn record(stage: &Stage) -> Result<Record, Fault> {
     let mass = stage.truth.mass;
-    let sine = Sine::new(AMPLITUDE, FREQUENCY, CYCLES)?;
-    let samples = along(&stage.settings(Control::Fuzzy)?, &sine)?;
+    let samples = stage.along(&stage.settings(Control::Fuzzy)?, &sine(stage)?)?;
     let mut log = Samples::default();
     let mut velocity = Vec::new();
     for three in samples.windows(3).step_by(FITTED_SAMPLE) {
@@ -86,19 +81,22 @@ fn record(stage: &Stage) -> Result<Record, Fault> {
     Ok(condition(&[log], &as_it_is)?)
 }
 
-fn bounds(low: &[f64], high: &[f64]) -> Result<Bounds, Fault> {
-    let logarithms = |ends: &[f64]| ends.iter().map(|x| libm::log(*x)).collect();
-    Ok(Bounds::new(logarithms(low), logarithms(high))?)
+/// The motion of the dynamic test.
+pub(super) fn sine(stage: &Stage) -> Result<Sine, ParamError> {
+    Sine::new(stage.stroke(AMPLITUDE), FREQUENCY, CYCLES)
 }
 
-fn cost(record: &Record) -> Result<SixParameters, Fault> {
+/// The cost of all six parameters on a record.
+pub(super) fn cost(stage: &Stage, record: &Record, mass: Mass) -> Result<SixParameters, Fault> {
     let terms = Terms {
-        mass: Mass::Absent,
+        mass,
         offset: false,
+        delay: Delay::NONE,
         ..Terms::default()
     };
     let law = Law::new(LawKind::LuGre);
-    let bounds = bounds(&BOX_LOW, &BOX_HIGH)?;
+    let [low, high] = search_box(stage);
+    let bounds = bounds(&low, &high)?;
     Ok(SixParameters::new(
         record,
         law,
@@ -109,7 +107,7 @@ fn cost(record: &Record) -> Result<SixParameters, Fault> {
 }
 
 /// The steady curve that was found.
-fn curve(statics: &Named) -> Direction<f64> {
+pub(super) fn curve(statics: &Named) -> Direction<f64> {
     let value = |name: &str| {
         let found = statics.iter().find(|(n, _)| n == name);
         found.map_or(f64::NAN, |(_, x)| *x)

@@ -13,8 +13,8 @@ use stiction_identify::{Samples, Silent};
 use stiction_servo::integrator::{Integrator, Ode4};
 use stiction_servo::plant::{Load, Motion};
 
-/// Height of the step, V.
-pub(super) const VOLTS: f64 = 0.02;
+/// Height of the step over the static level, dimensionless: 20 mV on our stage.
+const HEIGHT: f64 = 0.192;
 /// When the step comes, s.
 const STEP_AT: f64 = 0.01;
 /// When the record ends, s.
@@ -41,8 +41,8 @@ pub struct Presliding {
 
 pub(super) fn run(stage: &Stage, identified: &Named, watch: &Watch) -> Result<Presliding, Fault> {
     let settings = stage.settings(Control::Fuzzy)?;
-    let height = VOLTS * settings.drive.gain();
-    let mut ode4 = Ode4::new(1)?;
+    let height = HEIGHT * stage.truth.law.curve().largest_static_level();
+    let mut ode4 = Ode4::new(stage.steps)?;
     let mut log = Samples::default();
     let (mut motion, mut position) = (Motion::default(), Vec::new());
     for k in 0..=(RECORD_END * RATE) as usize {

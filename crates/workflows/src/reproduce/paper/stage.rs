@@ -23,6 +23,13 @@ pub(super) const BANDWIDTHS: [f64; 2] = [60.0, 45.0];
 /// Encoder step of the stage, m: published.
 const ENCODER: f64 = 50e-9;
 
+/// Stribeck velocity (m/s) and deflection at break-away (m) of our stage, which motions on it are chosen for.
+const STRIBECK_VELOCITY: f64 = 3e-3;
+const PRESLIDING: f64 = 9e-6;
+/// Least stroke over the deflection at break-away, in parts of that ratio on our stage, dimensionless: ten deflections
+/// for the shortest one.
+const LEAST_STROKE: f64 = 0.2;
+
 /// A controller of the experiments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Control {
@@ -54,6 +61,8 @@ pub struct Stage {
     pub(super) second: Option<KnownAxis>,
     pub(super) drive: Drive,
     pub(super) encoder: Encoder,
+    /// Steps of ode4 in a control period.
+    pub(super) steps: u32,
 }
 
 impl Stage {
@@ -68,7 +77,43 @@ impl Stage {
                 ..Drive::linear_motor(0.0)
             },
             encoder: Encoder::new(ENCODER)?,
+            steps: 1,
         })
+    }
+
+    /// `[sigma0, sigma1, sigma2, Fc, Fs - Fc, vs]` of the axis, SI.
+    pub(super) fn genome(&self) -> [f64; 6] {
+        let law = &self.truth.law;
+        let side = law.curve().positive();
+        [
+            law.stiffness(),
+            law.damping().at_rest(),
+            side.viscous,
+            side.coulomb,
+            side.static_friction - side.coulomb,
+            side.stribeck_velocity,
+        ]
+    }
+
+    /// A speed on our stage, m/s, as the same part of the Stribeck velocity of this axis, m/s (rad/s).
+    pub(super) fn speed(&self, ours: f64) -> f64 {
+        ours * self.truth.law.curve().positive().stribeck_velocity / STRIBECK_VELOCITY
+    }
+
+    /// A stroke on our stage, m, on this axis, m (rad): longer by as much as speeds are higher, and long enough to leave
+    /// presliding.
+    pub(super) fn stroke(&self, ours: f64) -> f64 {
+        let presliding = self.truth.law.bound() / PRESLIDING;
+        ours * self.speed(1.0).max(LEAST_STROKE * presliding)
+    }
+
+    /// Along a trajectory as the paper integrates it.
+    pub(super) fn along(
+        &self,
+        settings: &AxisSettings,
+        trajectory: &impl Trajectory,
+    ) -> Result<Vec<Sample>, ParamError> {
+        run_with(settings, trajectory, Ode4::new(self.steps)?)
     }
 
     /// The stage under a controller, Z25 eqs. (23)-(24): `M x'' = Ke u - F`, no delay and no current loop of its own.
@@ -110,12 +155,4 @@ impl Stage {
 
 fn axis(name: &str) -> Result<KnownAxis, ParamError> {
     known::find(name).ok_or(ParamError::new("axis", 0.0, "a known one"))
-}
-
-/// Along a trajectory as the paper integrates it.
-pub(super) fn along(
-    settings: &AxisSettings,
-    trajectory: &impl Trajectory,
-) -> Result<Vec<Sample>, ParamError> {
-    run_with(settings, trajectory, Ode4::new(1)?)
 }

@@ -2,13 +2,12 @@
 
 use super::budget::Budget;
 use super::fault::Fault;
-use super::search::{Searched, search};
-use super::stage::{Control, Stage, along};
+use super::search::{Searched, bounds, search, search_box};
+use super::stage::{Control, Stage};
 use crate::reproduce::watch::Watch;
 use rayon::prelude::*;
 use stiction_friction::ParamError;
 use stiction_identify::candidates::Curve;
-use stiction_search::Bounds;
 use stiction_servo::speeds::{SpeedRun, Speeds};
 
 /// Velocities of the runs, mm/s, each in both directions.
@@ -21,7 +20,7 @@ const RAMP: f64 = 0.1;
 /// Time to settle there, s.
 const SETTLE: f64 = 0.3;
 /// Time over which the force is averaged, s.
-const MEAN: f64 = 0.3;
+pub(super) const MEAN: f64 = 0.3;
 
 /// The map and what was made of it.
 #[derive(Clone, Debug)]
@@ -36,13 +35,7 @@ pub struct Statics {
 
 pub(super) fn run(stage: &Stage, budget: Budget, watch: &Watch) -> Result<Statics, Fault> {
     let (speed, force) = map(stage, watch)?;
-    // Coulomb and static friction to 100 N, Stribeck velocity .1 to 100 mm/s, viscous to 1000 N s/m.
-    let bounds = Bounds::new(
-        [0.1, 0.1, 0.1, 1e-4].map(libm::log).into(),
-        [1000.0, 100.0, 100.0, 0.1].map(libm::log).into(),
-    )?;
-    let curve = Curve::new(speed.clone(), force.clone(), bounds)?;
-    let search = search(&curve, "annealing-ga", budget, 1, watch)?;
+    let search = identify(stage, (speed.clone(), force.clone()), budget, 1, watch)?;
     Ok(Statics {
         speed,
         force,
@@ -50,8 +43,27 @@ pub(super) fn run(stage: &Stage, budget: Budget, watch: &Watch) -> Result<Static
     })
 }
 
+/// The static parameters of a map of speeds and forces.
+pub(super) fn identify(
+    stage: &Stage,
+    (speed, force): (Vec<f64>, Vec<f64>),
+    budget: Budget,
+    seed: u64,
+    watch: &Watch,
+) -> Result<Searched, Fault> {
+    // sigma2, Fc, Fs - Fc, vs.
+    let pick = |ends: [f64; 6]| [2, 3, 4, 5].map(|i| ends[i]);
+    let [low, high] = search_box(stage).map(pick);
+    let curve = Curve::new(speed, force, bounds(&low, &high)?)?;
+    search(&curve, "annealing-ga", budget, seed, watch)
+}
+
 fn map(stage: &Stage, watch: &Watch) -> Result<(Vec<f64>, Vec<f64>), Fault> {
-    let speeds: Vec<f64> = SPEEDS.iter().flat_map(|v| [-1e-3 * v, 1e-3 * v]).collect();
+    let speeds: Vec<f64> = SPEEDS
+        .iter()
+        .map(|v| stage.speed(1e-3 * v))
+        .flat_map(|v| [-v, v])
+        .collect();
     let points: Result<Vec<(f64, f64)>, ParamError> =
         speeds.par_iter().map(|&v| Ok((v, at(stage, v)?))).collect();
     let mut points = points?;
@@ -67,7 +79,7 @@ fn at(stage: &Stage, velocity: f64) -> Result<f64, ParamError> {
         hold: SETTLE + MEAN,
         ramp: RAMP,
     };
-    let samples = along(&stage.settings(Control::Fuzzy)?, &Speeds::new(vec![run])?)?;
+    let samples = stage.along(&stage.settings(Control::Fuzzy)?, &Speeds::new(vec![run])?)?;
     let settled = RAMP + SETTLE..RAMP + SETTLE + MEAN;
     let forces = samples.iter().filter(|s| settled.contains(&s.time));
     let (sum, n) = forces.fold((0.0, 0.0), |(sum, n), s| (sum + s.command, n + 1.0));

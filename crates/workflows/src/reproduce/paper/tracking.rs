@@ -2,12 +2,12 @@
 
 use super::compensation::Compensation;
 use super::fault::Fault;
-use super::stage::{Control, RATE, Stage, along};
+use super::stage::{Control, RATE, Stage};
 use crate::reproduce::watch::Watch;
 use rayon::prelude::*;
 use stiction_friction::{LuGre, ParamError};
 use stiction_servo::axis::Sample;
-use stiction_servo::metrics::{Feed, Tracking};
+use stiction_servo::metrics::{Feed, Tracking, reversals};
 use stiction_servo::motion::Sine;
 
 /// m: 3.8 m/min at the most.
@@ -30,6 +30,8 @@ pub struct Tracked {
     pub samples: Vec<Sample>,
     /// Friction force along the motion, N: of the law of the axis and of the identified one.
     pub friction: [Vec<f64>; 2],
+    /// The last reversal of the reference, s.
+    pub reversal: f64,
     /// Tracking of the position.
     pub position: Tracking,
     /// Error of the velocity.
@@ -67,14 +69,14 @@ fn one(
     law: &LuGre<f64>,
 ) -> Result<Tracked, ParamError> {
     let settings = compensation.compensate(stage.settings(control)?, law)?;
-    let sine = Sine::new(AMPLITUDE, FREQUENCY, CYCLES)?;
-    let all = along(&settings, &sine)?;
+    let all = stage.along(&settings, &sine(stage)?)?;
     let laws = [settings.plant.law(), law];
-    let from = all.partition_point(|s| s.time < COUNTS_FROM);
+    let from = counts_from(&all);
     let samples = all[from..].to_vec();
     Ok(Tracked {
         control,
         compensation,
+        reversal: reversals(&samples).last().copied().unwrap_or(f64::NAN),
         position: Tracking::of(&samples),
         feed: Feed::of(&samples),
         friction: laws.map(|law| friction(law, &all).split_off(from)),
@@ -82,8 +84,18 @@ fn one(
     })
 }
 
+/// The reference.
+pub(super) fn sine(stage: &Stage) -> Result<Sine, ParamError> {
+    Sine::new(stage.stroke(AMPLITUDE), FREQUENCY, CYCLES)
+}
+
+/// The first sample that counts.
+pub(super) fn counts_from(samples: &[Sample]) -> usize {
+    samples.partition_point(|s| s.time < COUNTS_FROM)
+}
+
 /// The force that a law gives along a motion from rest, N.
-fn friction(law: &LuGre<f64>, motion: &[Sample]) -> Vec<f64> {
+pub(super) fn friction(law: &LuGre<f64>, motion: &[Sample]) -> Vec<f64> {
     let mut z = 0.0;
     let mut force = Vec::with_capacity(motion.len());
     for (i, sample) in motion.iter().enumerate() {

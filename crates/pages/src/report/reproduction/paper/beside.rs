@@ -57,7 +57,8 @@ fn table(runs: &[&RunEntry]) -> Table {
             match bare.and_then(|b| b.metrics.get(i)) {
                 Some(without) if run.compensation != "none" => {
                     let less = 100.0 * (1.0 - metric.value / without.value);
-                    format!("{value} ({})", Percent::error(-less).signed(1))
+                    let sign = if less < 0.0 { "+" } else { "" };
+                    format!("{value} ({sign}{})", Percent::error(-less).digits(4))
                 }
                 _ => value,
             }

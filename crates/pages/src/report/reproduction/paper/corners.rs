@@ -32,8 +32,8 @@ pub(super) fn sections(document: Document, paper: &Paper) -> Document {
              the start and the stop at the end.",
         )
         .block(Block::Columns(vec![
-            corner(&apart, "The corner, each axis by itself (FIG. 15)").into(),
-            corner(&coupled, "The corner, cross-coupled (FIG. 15)").into(),
+            corner(&apart, "The corner, each axis by itself (FIG. 14, 15)").into(),
+            corner(&coupled, "The corner, cross-coupled (FIG. 14, 15)").into(),
         ]))
         .block(Block::Columns(vec![
             over(&apart, "Contour error", "m", |s| s.deviation)
@@ -99,5 +99,7 @@ fn over(runs: &[&Cornered], name: &str, unit: &str, of: fn(&PlaneSample) -> f64)
         let line = Layer::line(time, error).color(color(run.compensation));
         panel.layer(line.label(label(run.compensation)))
     });
-    Figure::new(name).half().panel(panel)
+    Figure::new(format!("{name} (FIG. 14, 15)"))
+        .half()
+        .panel(panel)
 }

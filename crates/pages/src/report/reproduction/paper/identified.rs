@@ -1,26 +1,21 @@
 //! What was identified: map, static and dynamic parameters, searches, step response.
 
+use super::{drawings, measured, searches};
 use crate::report::reproduction::checks::numbers;
 use stiction_files::reproduce_file::ReproduceFile;
 use stiction_files::symbols;
 use stiction_friction::LuGre;
 use stiction_log::Motion;
 use stiction_number::Percent;
-use stiction_report::{Align, Axis, Color, Dash, Document, Figure, Layer, Panel, Table, number};
-use stiction_workflows::reproduce::{Dynamics, PARAMETERS, Paper, Presliding, Searched, Statics};
-
-/// Methods by name with the colour of their lines.
-const METHODS: [(&str, &str, Color); 3] = [
-    ("ga", "Genetic", Color::Grey),
-    ("adaptive-ga", "Adaptive", Color::Orange),
-    ("annealing-ga", "Annealing", Color::Blue),
-];
+use stiction_report::{Axis, Color, Dash, Document, Figure, Layer, Panel, number};
+use stiction_workflows::reproduce::{Paper, Presliding, Statics};
 
 pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Paper) -> Document {
     let Some(statics) = &paper.statics else {
         return document;
     };
     document = document
+        .block(drawings::law())
         .heading(2, "Static parameters")
         .block(numbers(file, "static"))
         .block(map(paper, statics))
@@ -30,18 +25,9 @@ pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Pap
     };
     document = document
         .heading(2, "Dynamic parameters")
-        .block(numbers(file, "dynamic"))
-        .heading(2, "The searches")
-        .paragraph(
-            "J is the mean square of what the model leaves over that of the force. All six parameters at once \
-             are searched from the record of the dynamic test by each method. The paper names a module for the \
-             precision of the optimum after its annealing search and does not describe it; least squares from the \
-             best that the search found stand for it here, after that search only.",
-        )
-        .block(numbers(file, "six"))
-        .block(convergence(statics, dynamics))
-        .block(methods(dynamics))
-        .block(values(paper, statics, dynamics));
+        .block(numbers(file, "dynamic"));
+    document = searches::sections(document, file, paper, statics, dynamics);
+    document = measured::sections(document, file, paper);
     match &paper.presliding {
         Some(step) => document
             .heading(2, "Presliding")
@@ -116,90 +102,6 @@ fn stribeck(law: &LuGre<f64>) -> Figure {
             .label("vs"),
     );
     Figure::new("The Stribeck curve of the axis (FIG. 1)").panel(panel)
-}
-
-/// A course as steps, and its end drawn on to `until`.
-fn course(search: &Searched, until: f64) -> Layer {
-    let (mut x, mut y): (Vec<f64>, Vec<f64>) = search.course.iter().copied().unzip();
-    if let Some(last) = y.last().copied() {
-        x.push(until);
-        y.push(last);
-    }
-    Layer::steps(x, y)
-}
-
-fn end(search: &Searched) -> f64 {
-    search.course.last().map_or(0.0, |(n, _)| *n)
-}
-
-fn convergence(statics: &Statics, dynamics: &Dynamics) -> Figure {
-    let searches = [
-        ("Static: Fc, Fs, vs, σ₂", Some(&statics.search)),
-        ("Dynamic: σ₀, σ₁", Some(&dynamics.two)),
-        ("All six", dynamics.first_of_six()),
-    ];
-    let figure = Figure::new("Convergence of J, annealing search alone (FIG. 4–6)");
-    searches
-        .into_iter()
-        .fold(figure, |figure, (title, search)| {
-            let Some(search) = search else { return figure };
-            figure.panel(
-                Panel::new(Axis::new("Evaluations", ""), Axis::new("J", "").log())
-                    .title(title)
-                    .height(150.0)
-                    .layer(course(search, end(search)).color(Color::Blue)),
-            )
-        })
-}
-
-fn methods(dynamics: &Dynamics) -> Figure {
-    let until = dynamics.six.iter().map(end).fold(0.0, f64::max);
-    let mut panel = Panel::new(Axis::new("Evaluations", ""), Axis::new("J", "").log());
-    for (method, label, color) in METHODS {
-        let own = dynamics.six.iter().filter(|s| s.method == method);
-        for (i, search) in own.enumerate() {
-            let layer = course(search, until).color(color).opacity(0.8);
-            panel = panel.layer(if i == 0 { layer.label(label) } else { layer });
-        }
-    }
-    Figure::new("Plain, adaptive and annealing search (FIG. 7)")
-        .panel(panel)
-        .caption("All six parameters, one line a seed, without the least squares that follow.")
-}
-
-fn values(paper: &Paper, statics: &Statics, dynamics: &Dynamics) -> Table {
-    let columns = [
-        ("Parameter", Align::Left),
-        ("True", Align::Right),
-        ("Static then dynamic", Align::Right),
-        ("with least squares", Align::Right),
-        ("Six at once", Align::Right),
-        ("with least squares", Align::Right),
-        ("Unit", Align::Left),
-    ];
-    let six = dynamics.first_of_six();
-    let text = |search: Option<&Searched>, own: bool, name: &str| {
-        let all = search.map(|s| if own { &s.own } else { &s.found });
-        let value = all.and_then(|all| all.iter().find(|(n, _)| n == name));
-        value.map_or("–".into(), |(_, x)| number::sig(*x, 5))
-    };
-    let table = Table::new(columns)
-        .caption("What the annealing search found by itself, and after least squares.");
-    PARAMETERS.iter().fold(table, |table, (name, unit)| {
-        let two = match *name {
-            "sigma0" | "sigma1" => &dynamics.two,
-            _ => &statics.search,
-        };
-        table.row([
-            symbols::symbol(name),
-            number::sig(paper.true_value(name), 5),
-            text(Some(two), true, name),
-            text(Some(two), false, name),
-            text(six, true, name),
-            text(six, false, name),
-            unit.replace('*', " "),
-        ])
-    })
 }
 
 fn inversion(paper: &Paper, step: &Presliding) -> String {

@@ -1,9 +1,9 @@
 //! The axis in motion: tracking without and with compensation, corner, change of load.
 
-use super::corners;
+use super::{corners, drawings, parts, slow};
 use crate::report::reproduction::checks::numbers;
 use stiction_files::reproduce_file::ReproduceFile;
-use stiction_report::{Axis, Color, Dash, Document, Figure, Layer, Panel};
+use stiction_report::{Axis, Color, Dash, Document, Figure, Layer, Panel, number};
 use stiction_servo::axis::Sample;
 use stiction_workflows::reproduce::{Compensation, LoadFound, Paper, Tracked};
 
@@ -22,20 +22,28 @@ pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Pap
                  difference of two readings of an encoder of 50 nm over a period of 0.1 ms, not the true one. Both \
                  work beside the same fuzzy PID.",
             )
+            .block(drawings::control())
             .block(compensation(&drawn))
             .block(speed(&drawn))
-            .block(position(&drawn))
-            .block(control(&drawn))
-            .block(loops(&drawn));
+            .block(position(&drawn));
+        let truth = &paper.stage.truth;
+        let mass = truth.mass;
+        let over_time = parts::over_time_of(&drawn, mass);
+        let figures =
+            over_time
+                .into_iter()
+                .chain(parts::over_displacement(&drawn, mass, truth.law.bound()));
+        document = figures.fold(document, Document::block);
     }
     document = corners::sections(document, paper);
-    match &paper.load {
-        Some(load) => document
-            .heading(2, "A change of load")
-            .block(numbers(file, "load"))
-            .block(mass(load)),
-        None => document,
+    document = slow::sections(document, paper);
+    if paper.loads.is_empty() {
+        return document;
     }
+    document
+        .heading(2, "A change of load")
+        .block(numbers(file, "load"))
+        .block(mass(&paper.loads))
 }
 
 pub(super) fn color(of: Compensation) -> Color {
@@ -53,7 +61,7 @@ pub(super) fn label(of: Compensation) -> &'static str {
     }
 }
 
-fn column(samples: &[Sample], of: impl Fn(&Sample) -> f64) -> Vec<f64> {
+pub(super) fn column(samples: &[Sample], of: impl Fn(&Sample) -> f64) -> Vec<f64> {
     samples.iter().map(of).collect()
 }
 
@@ -148,25 +156,22 @@ fn compensation(runs: &[&Tracked]) -> Figure {
             |s| s.compensation,
         );
     }
-    Figure::new("Compensation and what it leaves (FIG. 15)")
+    Figure::new("Compensation and what it leaves (FIG. 15, on the sine)")
         .panel(force)
         .panel(each(over_time("Position error", "m"), runs, Sample::error))
         .shared_x()
 }
 
-/// The part of a run about its reversal in the middle.
-fn about_reversal(samples: &[Sample]) -> std::ops::Range<f64> {
-    let middle = samples.get(samples.len() / 2).map_or(0.0, |s| s.time);
-    middle - 0.05..middle + 0.15
+/// The part of a run about its last reversal.
+fn about_reversal(run: &Tracked) -> std::ops::Range<f64> {
+    run.reversal - 0.05..run.reversal + 0.15
 }
 
 fn speed(runs: &[&Tracked]) -> Figure {
-    let window = runs
-        .first()
-        .map_or(0.0..1.0, |r| about_reversal(&r.samples));
+    let window = runs.first().map_or(0.0..1.0, |r| about_reversal(r));
     let mut reversal = Panel::new(
         Axis::new("Time", "s").range(window.start, window.end),
-        Axis::new("Velocity", "m/s").range(-0.035, 0.015),
+        Axis::new("Velocity", "m/s").range(-0.01, 0.03),
     )
     .title("About the reversal");
     if let Some(first) = runs.first() {
@@ -190,9 +195,7 @@ fn speed(runs: &[&Tracked]) -> Figure {
 }
 
 fn position(runs: &[&Tracked]) -> Figure {
-    let window = runs
-        .first()
-        .map_or(0.0..1.0, |r| about_reversal(&r.samples));
+    let window = runs.first().map_or(0.0..1.0, |r| about_reversal(r));
     let reversal = Panel::new(
         Axis::new("Time", "s").range(window.start, window.end),
         Axis::new("Position error", "m"),
@@ -203,39 +206,24 @@ fn position(runs: &[&Tracked]) -> Figure {
         .panel(each(reversal, runs, Sample::error))
 }
 
-fn control(runs: &[&Tracked]) -> Figure {
-    Figure::new("Control force (FIG. 21)")
-        .panel(each(over_time("Control force", "N"), runs, |s| s.command))
-}
-
-fn loops(runs: &[&Tracked]) -> Figure {
-    let panel = Panel::new(Axis::new("Position", "m"), Axis::new("Friction", "N"));
-    let panel = runs.iter().take(2).fold(panel, |panel, run| {
-        let line = Layer::line(
-            column(&run.samples, |s| s.position),
-            run.friction[0].clone(),
-        );
-        panel.layer(
-            line.color(color(run.compensation))
-                .label(label(run.compensation)),
-        )
-    });
-    Figure::new("Friction over displacement (FIG. 22)").panel(panel)
-}
-
-fn mass(load: &LoadFound) -> Figure {
-    let [true_mass, found] = &load.mass;
-    let line = |y: &[f64]| Layer::line(load.time.clone(), y);
+fn mass(loads: &[LoadFound]) -> Figure {
+    let mut masses = over_time("Mass", "kg");
+    let mut level = over_time("Level of friction", "").height(110.0);
+    for (i, (load, color)) in loads.iter().zip(Color::CYCLE).enumerate() {
+        let [true_mass, found] = &load.mass;
+        let line = |y: &[f64]| Layer::line(load.time.clone(), y);
+        let truth = line(true_mass).color(Color::Grey);
+        masses = masses
+            .layer(if i == 0 { truth.label("True") } else { truth })
+            .layer(
+                line(found)
+                    .color(color)
+                    .label(format!("Found, {} kg", number::sig(load.heavier, 3))),
+            );
+        level = level.layer(line(&load.level).color(color));
+    }
     Figure::new("Load estimation: mass and friction level (FIG. 14)")
-        .panel(
-            over_time("Mass", "kg")
-                .layer(line(true_mass).color(Color::Grey).label("True"))
-                .layer(line(found).color(Color::Blue).label("Found")),
-        )
-        .panel(
-            over_time("Level of friction", "")
-                .height(110.0)
-                .layer(line(&load.level).color(Color::Blue)),
-        )
+        .panel(masses)
+        .panel(level)
         .shared_x()
 }

@@ -1,0 +1,38 @@
+//! Drawings of what the experiments are about, made for this report.
+
+use stiction_report::{Block, Drawing};
+
+/// The law, and the axis in presliding.
+pub(super) fn law() -> Block {
+    Block::Columns(vec![
+        Drawing::new("The LuGre law", include_str!("drawings/bristles.svg"))
+            .half()
+            .caption(
+                "Bristles of mean deflection z carry the force and slip as they reach their limit.",
+            )
+            .into(),
+        Drawing::new(
+            "The axis below break-away",
+            include_str!("drawings/presliding.svg"),
+        )
+        .half()
+        .caption("A system of second order, as long as the bristles do not slip.")
+        .into(),
+    ])
+}
+
+/// The steps of the search.
+pub(super) fn search() -> Drawing {
+    Drawing::new(
+        "The annealing genetic search",
+        include_str!("drawings/search.svg"),
+    )
+}
+
+/// The axis under control.
+pub(super) fn control() -> Drawing {
+    Drawing::new(
+        "The axis under control with compensation",
+        include_str!("drawings/loop.svg"),
+    )
+}
