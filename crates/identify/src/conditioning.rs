@@ -403,8 +403,8 @@ impl Filters {
             return None;
         }
         let thinning = self.thinning.as_ref();
-        let read = thinning.and_then(|t| t.read(drive, 0, every().len(), &[Reading::SAMPLE]));
-        match read.into_iter().flatten().next() {
+        let read = thinning.and_then(|t| t.read(&[drive], 0, every().len(), &[Reading::SAMPLE]));
+        match read.into_iter().flatten().flatten().next() {
             Some(force) => Some(force),
             None => {
                 let whole = common.zero_phase(drive).ok()?;

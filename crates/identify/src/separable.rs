@@ -5,6 +5,7 @@ pub(crate) mod coarse;
 pub(crate) mod descent;
 pub(crate) mod dual;
 pub(crate) mod elasto_plastic;
+pub(crate) mod fixed;
 pub(crate) mod in_lanes;
 pub(crate) mod linear;
 pub(crate) mod nonnegative;

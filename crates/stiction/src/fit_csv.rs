@@ -4,6 +4,9 @@ use std::fmt::Write;
 use stiction_files::symbols;
 use stiction_workflows::identify::{Outcome, Simulated};
 
+/// Bytes of one number and its comma, of most numbers.
+const WIDTH: usize = 22;
+
 /// The samples of a fit, one a row.
 pub(crate) fn fit_csv(outcome: &Outcome) -> String {
     match outcome.simulation() {
@@ -19,13 +22,12 @@ fn of_force(outcome: &Outcome) -> String {
     let several = outcome.sources.len() > 1;
     let mut out = format!("time [s],measured [{unit}],model [{unit}],residual [{unit}]");
     out.push_str(if several { ",log\n" } else { "\n" });
+    out.reserve(series.time.len() * 4 * WIDTH);
+    let mut row = Row::default();
     for i in 0..series.time.len() {
         let (u, y) = (series.measured[i], series.model[i]);
-        let _ = write!(out, "{},{},{},{}", series.time[i], u, y, u - y);
-        if several {
-            let _ = write!(out, ",{}", series.log[i] + 1);
-        }
-        out.push('\n');
+        row.numbers(&mut out, &[series.time[i], u, y, u - y]);
+        row.end(&mut out, several.then(|| series.log[i]));
     }
     out
 }
@@ -46,25 +48,42 @@ fn of_position(outcome: &Outcome, simulated: &Simulated) -> String {
         let _ = write!(out, ",model force [{force}]");
     }
     out.push_str(if several { ",log\n" } else { "\n" });
+    out.reserve(signals.time.len() * 7 * WIDTH);
+    let mut row = Row::default();
     for i in 0..signals.time.len() {
         let (x, y) = (signals.position[i], signals.simulated[i]);
-        let _ = write!(
-            out,
-            "{},{},{},{},{},{}",
-            signals.time[i],
-            x,
-            y,
-            x - y,
-            signals.velocity[i],
-            signals.force[i]
-        );
+        let (v, f) = (signals.velocity[i], signals.force[i]);
+        row.numbers(&mut out, &[signals.time[i], x, y, x - y, v, f]);
         if closed {
-            let _ = write!(out, ",{}", signals.simulated_force[i]);
+            out.push(',');
+            row.numbers(&mut out, &[signals.simulated_force[i]]);
         }
-        if several {
-            let _ = write!(out, ",{}", signals.log[i] + 1);
+        row.end(&mut out, several.then(|| signals.log[i]));
+    }
+    out
+}
+
+/// Writes numbers so that they are read back as they were. There are millions of them, and who stops a search waits for them.
+#[derive(Default)]
+struct Row {
+    buffer: zmij::Buffer,
+}
+
+impl Row {
+    fn numbers(&mut self, out: &mut String, values: &[f64]) {
+        for (i, value) in values.iter().enumerate() {
+            if i > 0 {
+                out.push(',');
+            }
+            out.push_str(self.buffer.format(*value));
+        }
+    }
+
+    /// The number of the log, counted from 1, where there are several.
+    fn end(&mut self, out: &mut String, log: Option<usize>) {
+        if let Some(log) = log {
+            let _ = write!(out, ",{}", log + 1);
         }
         out.push('\n');
     }
-    out
 }

@@ -93,14 +93,17 @@ pub struct Record {
 }
 
 impl Segment {
-    /// A full-rate channel, filtered, at the kept samples, earlier by each of some shifts; `None` where a shift reaches
-    /// beyond an end.
-    fn read(&self, full: &[f64], shifts: &[Shift], thinning: &Thinning) -> Option<Vec<Vec<f64>>> {
-        if full.is_empty() {
-            return Some(vec![Vec::new(); shifts.len()]);
-        }
+    /// Full-rate channels, filtered, at the kept samples, earlier by each of some shifts; an empty channel has none. `None`
+    /// where a shift reaches beyond an end.
+    fn read(
+        &self,
+        full: &[&[f64]],
+        shifts: &[Shift],
+        thinning: &Thinning,
+    ) -> Option<Vec<Vec<Vec<f64>>>> {
+        let mut out = vec![vec![Vec::new(); shifts.len()]; full.len()];
         let Some(first) = self.keep.iter().position(|&k| k) else {
-            return Some(vec![Vec::new(); shifts.len()]);
+            return Some(out);
         };
         let last = self.keep.iter().rposition(|&k| k)?;
         let kept = &self.keep[first..=last];
@@ -112,9 +115,14 @@ impl Segment {
             false => shifts.iter().map(|shift| shift.among()).collect(),
         };
         let at = (first * thinning.every()).checked_add_signed(offset)?;
-        let mut out = thinning.read(full, at, kept.len(), &readings)?;
+        let there: Vec<&[f64]> = full.iter().copied().filter(|x| !x.is_empty()).collect();
+        let read = thinning.read(&there, at, kept.len(), &readings)?;
+        let places = out.iter_mut().zip(full).filter(|(_, x)| !x.is_empty());
+        for ((out, _), read) in places.zip(read) {
+            *out = read;
+        }
         if kept.contains(&false) {
-            for column in &mut out {
+            for column in out.iter_mut().flatten() {
                 let mut kept = kept.iter();
                 column.retain(|_| kept.next() == Some(&true));
             }
@@ -278,10 +286,13 @@ impl Record {
             kept_runs(full, &segment.keep, out);
             return;
         }
-        for (i, &keep) in segment.keep.iter().enumerate() {
-            if keep {
-                out.push(shift.at(full, i * self.decimate));
+        let mut at = 0;
+        for run in segment.keep.chunk_by(|a, b| a == b) {
+            let end = at + run.len();
+            if run[0] {
+                out.extend((at..end).map(|i| shift.at(full, i * self.decimate)));
             }
+            at = end;
         }
     }
 
@@ -294,10 +305,7 @@ impl Record {
         shifts: &[Shift],
         thinning: Option<&Thinning>,
     ) -> Vec<Vec<Vec<f64>>> {
-        let thinned = thinning.and_then(|thinning| {
-            let read = full.iter().map(|x| segment.read(x, shifts, thinning));
-            read.collect()
-        });
+        let thinned = thinning.and_then(|thinning| segment.read(full, shifts, thinning));
         thinned.unwrap_or_else(|| {
             let mut full: Vec<Vec<f64>> = full.iter().map(|x| x.to_vec()).collect();
             self.filter(&mut full);

@@ -1,5 +1,6 @@
 //! A channel read between its samples, as a delay between force and motion needs.
 
+use crate::separable::linear::dot;
 use stiction_signal::Reading;
 
 /// Points of the Lagrange interpolation (docs/identification.md).
@@ -60,20 +61,18 @@ impl Shift {
     }
 
     /// The shifted channel at sample `at`; beyond the ends the end values go on.
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, full: &[f64], at: usize) -> f64 {
         let last = full.len() as isize - 1;
         let read = |i: isize| full[(at as isize + i).clamp(0, last) as usize];
         if let Some(whole) = self.whole {
             return read(whole);
         }
-        let start = at as isize + self.first;
-        if start >= 0 && start + (INTERPOLATION_POINTS as isize) <= last + 1 {
-            let start = start as usize;
-            return crate::separable::linear::dot(
-                &full[start..start + INTERPOLATION_POINTS],
-                &self.weights,
-            );
+        let inside = at
+            .checked_add_signed(self.first)
+            .and_then(|start| full.get(start..)?.first_chunk::<INTERPOLATION_POINTS>());
+        if let Some(six) = inside {
+            return dot(six, &self.weights);
         }
         (0..INTERPOLATION_POINTS)
             .map(|i| self.weights[i] * read(self.first + i as isize))

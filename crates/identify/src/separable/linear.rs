@@ -10,6 +10,7 @@ const DEPENDENT_REMAINDER: f64 = 1e-13;
 const MOST_TRIED: usize = 6;
 
 /// Sum of products in a fixed order: four partial sums for speed, the same bits everywhere.
+#[inline]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sum = Dot::default();
     sum.add(a, b);
@@ -38,6 +39,7 @@ impl Dot {
         self.tail = rest_a.iter().zip(rest_b).map(|(x, y)| x * y).sum();
     }
 
+    #[inline]
     fn sum(self) -> f64 {
         let [a, b, c, d] = self.sums;
         (a + b) + (c + d) + self.tail

@@ -7,6 +7,7 @@ use crate::gms;
 use crate::law::Law;
 use crate::law::dependence::product;
 use crate::law::terms::{ColumnKind, Delay, LinearTerm, Mass, Side, Terms};
+use crate::separable::fixed::{Column, Fixed, fixed_columns};
 use crate::separable::in_lanes::InLanes;
 use crate::separable::linear::{self, Solution, dot};
 use crate::separable::recursion::{Trace, trace};
@@ -42,18 +43,6 @@ pub struct Objective<'a> {
     thinning: Option<Thinning>,
     /// The record on the batch kernels, where they know the law; made when first needed.
     lanes: OnceLock<Option<InLanes>>,
-}
-
-/// A column of the regression at the kept samples; one that nothing changes is shared by all trials.
-pub(crate) type Column = Arc<Vec<f64>>;
-
-/// A known column of the regression.
-#[derive(Clone, Debug)]
-enum Fixed {
-    /// At the kept samples: without a delay it never changes.
-    Thin(Column),
-    /// At the full rate, filtered, for each segment: a delay moves it.
-    Full(Vec<Vec<f64>>),
 }
 
 /// A column `f(t) eta`.
@@ -119,10 +108,15 @@ impl<'a> Objective<'a> {
             delay => delay,
         };
         let moves = delay != Delay::NONE;
-        let fixed = linear
-            .iter()
-            .map(|term| fixed_column(record, term.column, moves))
-            .collect();
+        let mut kinds: Vec<ColumnKind> = linear.iter().map(|term| term.column).collect();
+        if let Mass::Given(_) = terms.mass {
+            kinds.push(ColumnKind::Acceleration);
+        }
+        let mut fixed = fixed_columns(record, &kinds, moves);
+        let inertia = match terms.mass {
+            Mass::Given(mass) => fixed.pop().flatten().map(|a| (mass, a)),
+            Mass::Fitted | Mass::Absent => None,
+        };
         let varying = linear
             .iter()
             .enumerate()
@@ -140,12 +134,6 @@ impl<'a> Objective<'a> {
         let nonnegative = linear.iter().map(|term| term.is_never_negative()).collect();
         let lengths = record.segments.iter().map(|s| s.velocity.len());
         let longest = lengths.max().unwrap_or(0);
-        let inertia = match terms.mass {
-            Mass::Given(mass) => {
-                fixed_column(record, ColumnKind::Acceleration, moves).map(|a| (mass, a))
-            }
-            Mass::Fitted | Mass::Absent => None,
-        };
         Self {
             record,
             law,
@@ -616,49 +604,4 @@ impl Run {
 
 fn difference(from: &[f64], part: &[f64]) -> Vec<f64> {
     from.iter().zip(part).map(|(u, x)| u - x).collect()
-}
-
-/// A column that does not depend on the parameters of the law; `None` if it does.
-fn fixed_column(record: &Record, column: ColumnKind, moves: bool) -> Option<Fixed> {
-    let each = |f: &dyn Fn(&Segment) -> Vec<f64>| -> Vec<Vec<f64>> {
-        record.segments.iter().map(f).collect()
-    };
-    let of = |x: &[f64], f: &dyn Fn(f64) -> f64| -> Vec<f64> { x.iter().map(|&x| f(x)).collect() };
-    let one_way = |side: Option<Side>, v: f64| match side {
-        Some(side) if !side.selects(v) => 0.0,
-        _ => v,
-    };
-    let mut full = match column {
-        ColumnKind::Level
-        | ColumnKind::Element(_)
-        | ColumnKind::Rate
-        | ColumnKind::LevelTimes(..) => return None,
-        ColumnKind::Sign(side) => each(&|s| {
-            of(&s.velocity, &|v| {
-                if side.selects(v) { v.signum() } else { 0.0 }
-            })
-        }),
-        ColumnKind::Speed(side) => each(&|s| of(&s.velocity, &|v| one_way(side, v))),
-        ColumnKind::Square(side) => each(&|s| of(&s.velocity, &|v| one_way(side, v) * v.abs())),
-        ColumnKind::SpeedTimes(factor, side) => each(&|s| {
-            let velocity = s.velocity.iter().map(|&v| one_way(side, v));
-            velocity.zip(factor.along(s)).map(|(v, f)| v * f).collect()
-        }),
-        ColumnKind::Acceleration => each(&|s| s.acceleration.clone()),
-        ColumnKind::One if !moves => return Some(Fixed::Thin(Arc::new(vec![1.0; record.kept()]))),
-        ColumnKind::One => each(&|s| vec![1.0; s.velocity.len()]),
-        ColumnKind::Sine(rate) => each(&|s| of(&s.position, &|x| libm::sin(rate * x))),
-        ColumnKind::Cosine(rate) => each(&|s| of(&s.position, &|x| libm::cos(rate * x))),
-    };
-    for column in &mut full {
-        record.filter([column]);
-    }
-    if moves {
-        return Some(Fixed::Full(full));
-    }
-    let mut thin = Vec::new();
-    for (segment, full) in record.segments.iter().zip(full) {
-        record.thin_whole(segment, full, Shift::NONE, &mut thin);
-    }
-    Some(Fixed::Thin(Arc::new(thin)))
 }
