@@ -346,11 +346,31 @@ pub enum CompareCost {
 #[derive(Clone, Debug, Args)]
 pub struct Simulate {
     /// What to simulate: axis, paths, controllers, compensators.
-    #[arg(value_name = "STUDY.toml")]
-    pub study: PathBuf,
+    #[arg(
+        value_name = "STUDY.toml",
+        required_unless_present = "init",
+        conflicts_with = "init"
+    )]
+    pub study: Option<PathBuf>,
     /// Folder for study.json and report.html.
-    #[arg(long, value_name = "DIR")]
-    pub out: PathBuf,
+    #[arg(
+        long,
+        value_name = "DIR",
+        required_unless_present = "init",
+        conflicts_with = "init"
+    )]
+    pub out: Option<PathBuf>,
+    /// Write a study file that runs as it is, of a known axis or of that of --model.
+    #[arg(long, value_name = "STUDY.toml", num_args = 0..=1, default_missing_value = "study.toml")]
+    pub init: Option<PathBuf>,
+    /// For --init: the model of the axis, as written by stiction identify.
+    #[arg(
+        long,
+        value_name = "MODEL.toml",
+        requires = "init",
+        conflicts_with = "study"
+    )]
+    pub model: Option<PathBuf>,
     /// Write into a folder that holds something else.
     #[arg(long)]
     pub force: bool,

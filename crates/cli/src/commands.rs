@@ -40,8 +40,10 @@ pub fn run(arguments: &Arguments) -> Exit {
     result.unwrap_or_else(|e| {
         // With standard error closed only the exit code is left to tell.
         let message = wording::message(&e);
-        let line = output::line(&message);
-        let _ = writeln!(std::io::stderr(), "stiction: [{}] {line}", e.code());
+        for line in wording::lines(&e) {
+            let line = output::line(&line);
+            let _ = writeln!(std::io::stderr(), "stiction: [{}] {line}", e.code());
+        }
         if let Some(next) = next(&e, &arguments.command) {
             // As above.
             let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&next));
@@ -245,12 +247,18 @@ fn check(check: &arguments::Check, common: &Common) -> Result<Exit, Error> {
     Ok(found.verdict().into())
 }
 
-fn init(check: &arguments::Check, file: &Path, common: &Common) -> Result<Exit, Error> {
+/// Whether there is no file to begin yet.
+fn is_new(file: &Path) -> Result<(), FileError> {
     // A dangling link is something too, and renaming onto it would replace it.
     if file.symlink_metadata().is_ok() {
         let reason = "exists already and is kept; name another file: --init OTHER.toml";
-        return Err(FileError::output(file, reason).into());
+        return Err(FileError::output(file, reason));
     }
+    Ok(())
+}
+
+fn init(check: &arguments::Check, file: &Path, common: &Common) -> Result<Exit, Error> {
+    is_new(file)?;
     let log = &check.logs[0];
     let started = stiction::commands::check::init(log, check.axis.as_deref())?;
     write_atomic(file, started.text.as_bytes())?;
@@ -420,13 +428,17 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
 }
 
 fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Error> {
-    let dir = &simulate.out;
+    // The arguments have both but for --init.
+    let (Some(study), Some(dir)) = (&simulate.study, &simulate.out) else {
+        let file = simulate.init.as_deref().unwrap_or(Path::new("study.toml"));
+        return init_study(file, simulate.model.as_deref(), common);
+    };
     check_folder_of(
         dir,
         stiction::commands::study::result::SCHEMA,
         simulate.force,
     )?;
-    let study = Study::read(&simulate.study)?;
+    let study = Study::read(study)?;
     let inputs: Vec<PathBuf> = study.inputs().map(PathBuf::from).collect();
     check_inputs(dir, &inputs)?;
     let mut bar = Bar::new(common.json || common.quiet);
@@ -440,6 +452,21 @@ fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Err
         output::print(&format!("{text}\n{}", written_to(dir, &written)))?;
     }
     Ok(outcome.verdict().into())
+}
+
+fn init_study(file: &Path, model: Option<&Path>, common: &Common) -> Result<Exit, Error> {
+    is_new(file)?;
+    let started = stiction::commands::study::start(model, file)?;
+    write_atomic(file, started.text.as_bytes())?;
+    if common.json {
+        output::json(&serde_json::json!({
+            "written": file.to_string_lossy(),
+            "undecided": started.undecided,
+        }))?;
+    } else if !common.quiet {
+        output::print(&stiction::commands::text::started_study(&started, file))?;
+    }
+    Ok(Exit::Done)
 }
 
 fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {

@@ -4,6 +4,14 @@ use stiction::Error;
 use stiction::commands::export::ExportError;
 use stiction::commands::{FileError, Remedy, Setting};
 
+/// The message of an error, a line for each thing that is wrong.
+pub fn lines(error: &Error) -> Vec<String> {
+    match error {
+        Error::File(FileError::Several(all)) => all.iter().map(FileError::to_string).collect(),
+        _ => vec![message(error)],
+    }
+}
+
 /// The message of an error.
 pub fn message(error: &Error) -> String {
     match error {

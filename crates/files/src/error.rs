@@ -22,6 +22,9 @@ pub enum Error {
         /// What is allowed.
         allowed: String,
     },
+    /// Everything that is wrong with one file: two things or more, a line each.
+    #[error("{}", lines(.0))]
+    Several(Vec<Error>),
     /// A value of an axis file that does not go with a recording.
     #[error("{}: {place}{found}; {allowed}", .file.display())]
     Misfit {
@@ -75,9 +78,17 @@ impl Error {
     pub fn code(&self) -> Code {
         match self {
             Error::Log(e) => e.kind.code(),
-            Error::Config { .. } => Code::BadConfig,
+            Error::Config { .. } | Error::Several(_) => Code::BadConfig,
             Error::Misfit { code, .. } => *code,
             Error::Output { .. } | Error::Taken { .. } => Code::Output,
+        }
+    }
+
+    /// One error of all that were found, if any were.
+    pub(crate) fn of_all(mut found: Vec<Error>) -> Option<Self> {
+        match found.len() {
+            0 | 1 => found.pop(),
+            _ => Some(Error::Several(found)),
         }
     }
 
@@ -96,6 +107,11 @@ impl Error {
             remedy,
         }
     }
+}
+
+fn lines(all: &[Error]) -> String {
+    let lines: Vec<_> = all.iter().map(Error::to_string).collect();
+    lines.join("\n")
 }
 
 /// Something a user should know although the work went on.

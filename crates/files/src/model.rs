@@ -7,5 +7,5 @@ mod read;
 mod refusal;
 
 pub use form::{ModelFile, ModelParameter, SCHEMA, SourceEntry, SourceInput};
-pub(crate) use read::MODEL;
 pub use read::ReadModel;
+pub(crate) use read::{BY_HAND, MODEL};

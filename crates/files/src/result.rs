@@ -223,7 +223,7 @@ pub struct PartnerEntry {
 }
 
 /// Covariance matrix with its names.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CovarianceEntry {
     /// Names of rows and columns.
     pub names: Vec<String>,

@@ -8,6 +8,7 @@ mod model;
 mod plan;
 mod resolve;
 pub mod result;
+mod start;
 pub mod template;
 
 pub use belief::{Belief, Family};
@@ -17,3 +18,4 @@ pub use plan::{
     ContourPlan, Machine, ModelKind, ModelScheme, Named, PathPlan, Scheme, Second, Study, Sweep,
     SweepPoint,
 };
+pub use start::{Started, results, start};

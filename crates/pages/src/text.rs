@@ -25,7 +25,7 @@ use std::path::Path;
 use stiction_files::result::{LawEntry, Next, ResultFile, SimulationEntry};
 use stiction_number::{Percent, four_digits as short, r_squared, unit};
 use stiction_workflows::identify::Outcome;
-pub use study::study;
+pub use study::{started_study, study};
 use table::table;
 
 /// The outcome of an identification.

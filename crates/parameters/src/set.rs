@@ -96,9 +96,9 @@ impl ParameterSet {
             .any(|(name, _)| name.side != Side::Both && name.quantity.is_of_the_steady_curve())
     }
 
-    /// The first parameter without a value, in any direction, that the law cannot do without. LuGre does without
+    /// The parameters without a value, in any direction, that the law cannot do without. LuGre does without
     /// `static` and `stribeck_velocity` where it has neither: then `Fs = Fc`.
-    pub fn missing(&self) -> Option<Quantity> {
+    pub fn missing(&self) -> impl Iterator<Item = Quantity> {
         let has = |quantity| {
             self.values
                 .iter()
@@ -107,8 +107,8 @@ impl ParameterSet {
         let flat = !self.falls();
         self.kind
             .needs()
-            .filter(|quantity| !(flat && of_the_fall(*quantity)))
-            .find(|quantity| !has(*quantity))
+            .filter(move |quantity| !(flat && of_the_fall(*quantity)))
+            .filter(move |quantity| !has(*quantity))
     }
 
     /// The law, with a constant sigma1 as identification finds it; [`FrictionLaw::capped`] is the form for simulation and

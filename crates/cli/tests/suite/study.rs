@@ -62,6 +62,145 @@ fn interrupted(folder: &Path, arguments: &[&str], after: u64, file: &str) {
     assert_eq!(file["status"], "interrupted");
 }
 
+/// `--init` writes a study that runs as it is and says how; what exists is kept.
+#[test]
+fn a_study_that_is_begun_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let (code, out, err) = run(at, &["simulate", "--init"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert_eq!(
+        out,
+        "study.toml written\nnext: stiction simulate study.toml --out study\n"
+    );
+    let text = std::fs::read_to_string(at.join("study.toml")).unwrap();
+    assert!(text.contains("stiction simulate study.toml --out study\n"));
+    let (code, out, err) = run(at, &["simulate", "study.toml", "--out", "study"]);
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    for part in ["move, cascade 30 Hz", "crawl at 10 um/s", "hold, cascade"] {
+        assert!(out.contains(part), "{out}");
+    }
+    assert!(!out.contains("warning"), "{out}");
+
+    let (code, out, err) = run(at, &["simulate", "--init", "--json"]);
+    assert_eq!(code, 2, "{out}");
+    assert!(
+        err.contains("exists already and is kept; name another file: --init OTHER.toml"),
+        "{err}"
+    );
+    assert_eq!(
+        std::fs::read_to_string(at.join("study.toml")).unwrap(),
+        text
+    );
+    for wrong in [
+        &["simulate", "study.toml", "--init", "other.toml"] as &[&str],
+        &["simulate", "--init", "other.toml", "--out", "a"],
+        &[
+            "simulate",
+            "study.toml",
+            "--out",
+            "a",
+            "--model",
+            "model.toml",
+        ],
+        &["simulate", "--init", "other.toml", "--model", "absent.toml"],
+        &["simulate"],
+    ] {
+        let (code, out, err) = run(at, wrong);
+        assert_eq!((code, out.as_str()), (2, ""), "{err}");
+        assert!(!at.join("other.toml").exists());
+    }
+}
+
+/// Law, parameters and units as a data sheet has them, without anything that an identification writes beside.
+const BY_HAND: &str = r#"
+law = "lugre"
+parameter = [
+    { name = "sigma0", value = 2e6, unit = "N/m" },
+    { name = "sigma1", value = 1500, unit = "N*s/m" },
+    { name = "sigma2", value = 30, unit = "N*s/m" },
+    { name = "coulomb", value = 12, unit = "N" },
+    { name = "static", value = 18, unit = "N" },
+    { name = "stribeck_velocity", value = 0.003, unit = "m/s" },
+    { name = "mass", value = 4.6, unit = "kg" },
+]
+"#;
+
+#[test]
+fn a_model_by_hand_is_simulated_and_exported() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::create_dir(at.join("models")).unwrap();
+    std::fs::write(at.join("models/hand.toml"), BY_HAND).unwrap();
+    let (code, _, err) = run(at, &["simulate", "--init", "--model", "models/hand.toml"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    let (code, out, err) = run(at, &["simulate", "study.toml", "--out", "a"]);
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    assert!(out.starts_with("study: an axis written by hand\n"), "{out}");
+    // The same numbers are those of the known axis.
+    let (_, known, _) = run(at, &["simulate", "--init", "known.toml"]);
+    assert!(
+        known.contains("next: stiction simulate known.toml --out known"),
+        "{known}"
+    );
+    let (_, known, _) = run(at, &["simulate", "known.toml", "--out", "b"]);
+    let table = |text: &str| text.split_once("move, ").map(|(_, rows)| rows.to_string());
+    let (found, expected) = (table(&out).unwrap(), table(&known).unwrap());
+    assert_eq!(found.replace("to a:", "to b:"), expected);
+    let export = ["export", "models/hand.toml", "--target", "c", "--out", "c"];
+    let (code, out, err) = run(at, &export);
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+
+    // A study elsewhere finds the model; without a mass it has to be filled in.
+    let weightless = BY_HAND.replace("    { name = \"mass\", value = 4.6, unit = \"kg\" },\n", "");
+    std::fs::write(at.join("light.toml"), weightless).unwrap();
+    let (code, out, _) = run(
+        at,
+        &[
+            "simulate",
+            "--init",
+            "models/s.toml",
+            "--model",
+            "light.toml",
+        ],
+    );
+    assert_eq!(
+        (code, out.as_str()),
+        (
+            0,
+            "models/s.toml written\nto decide: the model has no mass; give that of the moving part\n\
+             next: fill in what is to decide, then stiction simulate models/s.toml --out models/s\n"
+        )
+    );
+    let (code, _, err) = run(at, &["simulate", "models/s.toml", "--out", "d"]);
+    assert_eq!(code, 2);
+    assert!(err.contains("axis.mass: \"? kg\""), "{err}");
+    let text = std::fs::read_to_string(at.join("models/s.toml")).unwrap();
+    std::fs::write(at.join("models/s.toml"), text.replace("? kg", "4.6 kg")).unwrap();
+    let (code, _, err) = run(at, &["simulate", "models/s.toml", "--out", "d"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+}
+
+/// Everything that is wrong with a model is said at once, a line each.
+#[test]
+fn faults_of_a_model_are_lines() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let wrong = BY_HAND
+        .replace("unit = \"m/s\"", "unit = \"mm/s\"")
+        .replace("value = 12", "value = -12");
+    std::fs::write(at.join("m.toml"), wrong).unwrap();
+    let (code, _, err) = run(at, &["export", "m.toml", "--target", "c", "--out", "c"]);
+    assert_eq!(code, 2);
+    let lines: Vec<_> = err.lines().collect();
+    assert_eq!(lines.len(), 2, "{err}");
+    assert!(lines[0].starts_with("stiction: [bad-config] m.toml: line 7, column 33, parameter[4].value: coulomb = -12.00; "), "{err}");
+    assert!(
+        lines[1].contains("parameter[6].unit: stribeck_velocity in \"mm/s\"; \"m/s\""),
+        "{err}"
+    );
+}
+
 #[test]
 fn a_study_from_a_clean_folder() {
     let folder = tempfile::tempdir().unwrap();

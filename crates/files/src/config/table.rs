@@ -199,27 +199,35 @@ impl<'a> Table<'a> {
 
     /// Refuses keys that nobody asked for.
     pub fn end(&self) -> Result<(), Error> {
+        match self.strangers().into_iter().next() {
+            Some(error) => Err(error),
+            None => Ok(()),
+        }
+    }
+
+    /// An error for each key that nobody asked for.
+    pub fn strangers(&self) -> Vec<Error> {
         let asked = self.asked.borrow();
-        for name in self.entries.keys() {
-            let text = name.get_ref();
-            if !asked.iter().any(|key| key == text) {
-                let found = match asked.iter().find(|key| near(key, text)) {
-                    Some(key) => format!("is not a key here; did you mean {key}?"),
-                    None => "is not a key here".into(),
-                };
-                let at = self.source.at(name.span().start);
-                let place = format!("{at}, {}{}: ", self.prefix, cut(text));
-                let mut keys: Vec<&str> = Vec::new();
-                for key in asked.iter() {
-                    if !keys.contains(key) {
-                        keys.push(key);
-                    }
-                }
-                let allowed = format!("one of {} (see {})", keys.join(", "), self.source.page);
-                return Err(self.source.error(place, found, &allowed));
+        let mut keys: Vec<&str> = Vec::new();
+        for key in asked.iter() {
+            if !keys.contains(key) {
+                keys.push(key);
             }
         }
-        Ok(())
+        let allowed = format!("one of {} (see {})", keys.join(", "), self.source.page);
+        let names = self.entries.keys();
+        let strangers = names.filter(|name| !keys.contains(&name.get_ref().as_ref()));
+        let errors = strangers.map(|name| {
+            let text = name.get_ref();
+            let found = match keys.iter().find(|key| near(key, text)) {
+                Some(key) => format!("is not a key here; did you mean {key}?"),
+                None => "is not a key here".into(),
+            };
+            let at = self.source.at(name.span().start);
+            let place = format!("{at}, {}{}: ", self.prefix, cut(text));
+            self.source.error(place, found, &allowed)
+        });
+        errors.collect()
     }
 
     /// A value that makes no sense, or a key that is missing.

@@ -61,7 +61,7 @@ fn parameter_of(name: &str) -> Option<Name> {
 }
 
 /// Whether two texts are one unit, however written.
-fn same_unit(found: &str, wanted: &str) -> bool {
+pub(super) fn same_unit(found: &str, wanted: &str) -> bool {
     let parsed = |text| Unit::parse(text).map(|unit| (unit.dimension(), unit.factor()));
     found == wanted || matches!((parsed(found), parsed(wanted)), (Ok(a), Ok(b)) if a == b)
 }
@@ -109,31 +109,43 @@ fn directions(model: &ModelFile) -> Option<Fault> {
     }
 }
 
-/// The first thing that is wrong with a model.
-pub(super) fn fault(model: &ModelFile) -> Option<Fault> {
-    let Some(law) = LawKind::from_name(&model.law) else {
+/// Everything that is wrong with a model, in its order.
+pub(super) fn faults(model: &ModelFile) -> Vec<Fault> {
+    let mut all = Vec::new();
+    let law = LawKind::from_name(&model.law);
+    if law.is_none() {
         let laws: Vec<_> = LawKind::ALL.iter().map(|law| law.name()).collect();
         let allowed = format!("one of {}", laws.join(", "));
-        return Some(("law".into(), format!("{:?}", model.law), allowed));
-    };
+        let short: String = model.law.chars().take(60).collect();
+        all.push(("law".into(), format!("{short:?}"), allowed));
+    }
     let motion = match model.kind.as_str() {
-        "linear" => Motion::Linear,
-        "rotary" => Motion::Rotary,
+        "linear" => Some(Motion::Linear),
+        "rotary" => Some(Motion::Rotary),
         other => {
-            return Some((
-                "kind".into(),
-                format!("{other:?}"),
-                "linear or rotary".into(),
-            ));
+            let short: String = other.chars().take(60).collect();
+            let found = format!("{short:?}");
+            all.push(("kind".into(), found, "linear or rotary".into()));
+            None
         }
     };
-    if let Some(fault) = force_unit(model, motion) {
-        return Some(fault);
+    let unit = motion.and_then(|motion| force_unit(model, motion));
+    // Units of parameters are those of this kind of axis, with this unit of the force.
+    let motion = motion.filter(|_| unit.is_none());
+    all.extend(unit);
+    all.extend(top_speed(model));
+    let before = all.len();
+    for i in 0..model.parameter.len() {
+        let own = parameter(model, law, motion, i);
+        // A value that is wrong contradicts its interval as well.
+        all.extend(contradiction(model, i).filter(|_| own.is_empty()));
+        all.extend(own);
     }
-    (0..model.parameter.len())
-        .find_map(|i| parameter(model, law, motion, i).or_else(|| contradiction(model, i)))
-        .or_else(|| directions(model))
-        .or_else(|| covariance::fault(model))
+    all.extend(directions(model));
+    if all.len() == before {
+        all.extend(covariance::fault(model));
+    }
+    all
 }
 
 /// Refuses an unknown unit, which would go into every text about the model: identification writes that of a force, or
@@ -153,27 +165,25 @@ fn force_unit(model: &ModelFile, motion: Motion) -> Option<Fault> {
     })
 }
 
-/// What is wrong with one parameter.
-fn parameter(model: &ModelFile, law: LawKind, motion: Motion, i: usize) -> Option<Fault> {
+/// What is wrong with one parameter; the law and the kind of the axis where they are known.
+fn parameter(
+    model: &ModelFile,
+    law: Option<LawKind>,
+    motion: Option<Motion>,
+    i: usize,
+) -> Vec<Fault> {
     let p = &model.parameter[i];
     let key = |field: &str| format!("parameter[{}].{field}", i + 1);
     let (name, value) = (&p.name, stiction_number::four_digits(p.value));
     if model.parameter[..i].iter().any(|other| other.name == *name) {
-        return Some((
-            key("name"),
-            format!("{name} a second time"),
-            "each parameter once".into(),
-        ));
+        let found = format!("{name} a second time");
+        return vec![(key("name"), found, "each parameter once".into())];
     }
-    if p.value.is_nan() || p.value.abs() > LARGEST_NUMBER {
-        return Some((
-            key("value"),
-            format!("{name} = {value}"),
-            format!("from -{LARGEST_NUMBER:e} to {LARGEST_NUMBER:e}"),
-        ));
-    }
-    if let Some((found, allowed)) = stranger(name) {
-        return Some((key("name"), found, allowed));
+    let mut all = Vec::new();
+    let finite = !p.value.is_nan() && p.value.abs() <= LARGEST_NUMBER;
+    if !finite {
+        let allowed = format!("from -{LARGEST_NUMBER:e} to {LARGEST_NUMBER:e}");
+        all.push((key("value"), format!("{name} = {value}"), allowed));
     }
     // An end that is not known is infinite.
     if let Some([low, high]) = p
@@ -181,40 +191,46 @@ fn parameter(model: &ModelFile, law: LawKind, motion: Motion, i: usize) -> Optio
         .filter(|[low, high]| low.is_nan() || high.is_nan() || low > high)
     {
         let found = format!("{name}: ci95 = [{low:?}, {high:?}]");
-        return Some((key("ci95"), found, "the lower end, then the upper".into()));
+        all.push((key("ci95"), found, "the lower end, then the upper".into()));
     }
     if let Some(std) = p.std.filter(|std| std.is_nan() || *std < 0.0) {
         let found = format!("{name}: std = {std:?}");
-        return Some((key("std"), found, "0 or above".into()));
+        all.push((key("std"), found, "0 or above".into()));
     }
-    let quantity = parameter_of(name)?.quantity;
+    if let Some((found, allowed)) = stranger(name) {
+        all.push((key("name"), found, allowed));
+        return all;
+    }
+    let Some(quantity) = parameter_of(name).map(|name| name.quantity) else {
+        return all;
+    };
     if !is_checked(quantity) {
-        return None;
+        return all;
     }
-    let unit = symbols::unit(quantity.dimension(), motion, &model.force_unit, "");
-    if !same_unit(&p.unit, &unit) {
-        return Some((
-            key("unit"),
-            format!("{name} in {:?}", p.unit),
-            format!("{unit:?}, with its value"),
-        ));
+    if let Some(motion) = motion {
+        let unit = symbols::unit(quantity.dimension(), motion, &model.force_unit, "");
+        if !same_unit(&p.unit, &unit) {
+            let short: String = p.unit.chars().take(60).collect();
+            let found = format!("{name} in {short:?}");
+            all.push((key("unit"), found, format!("{unit:?}, with its value")));
+        }
     }
-    if !law.has(quantity) {
-        return Some((
-            key("name"),
-            format!("{name} in a model of {law}"),
-            "parameters of that law".into(),
-        ));
+    if let Some(law) = law.filter(|law| !law.has(quantity)) {
+        let found = format!("{name} in a model of {law}");
+        all.push((key("name"), found, "parameters of that law".into()));
     }
     let range = quantity.allowed();
     let allowed = if !range.admits(p.value) {
-        range.words()
+        Some(range.words())
     } else if range.is_never_negative() && p.value != 0.0 && p.value < 1.0 / LARGEST_NUMBER {
-        "at least 1e-100"
+        Some("at least 1e-100")
     } else {
-        return None;
+        None
     };
-    Some((key("value"), format!("{name} = {value}"), allowed.into()))
+    if let Some(allowed) = allowed.filter(|_| finite) {
+        all.push((key("value"), format!("{name} = {value}"), allowed.into()));
+    }
+    all
 }
 
 /// An entry of a parameter that contradicts its other entries.
@@ -247,7 +263,8 @@ fn against_itself(p: &ModelParameter) -> Option<(&'static str, String, &'static 
         let found = format!("{field} of a parameter that was given");
         return Some((field, found, "none: only what was identified has one"));
     }
-    let [low, high] = p.ci95?;
+    // One that is no interval is refused as such.
+    let [low, high] = p.ci95.filter(|[low, high]| low <= high)?;
     if !(low..=high).contains(&p.value) {
         let found = format!("ci95 = [{low:?}, {high:?}] without its value {:?}", p.value);
         return Some(("ci95", found, "an interval that holds the value"));
@@ -264,7 +281,7 @@ fn against_itself(p: &ModelParameter) -> Option<(&'static str, String, &'static 
 }
 
 /// What is wrong with the top speed.
-pub(super) fn top_speed(model: &ModelFile) -> Option<Fault> {
+fn top_speed(model: &ModelFile) -> Option<Fault> {
     let speed = model.source.top_speed?;
     let within = speed > 0.0 && speed <= LARGEST_NUMBER;
     (!within).then(|| {

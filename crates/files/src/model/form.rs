@@ -33,7 +33,7 @@ pub struct ModelFile {
 }
 
 /// Where the numbers came from.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct SourceEntry {
     /// Version of stiction.
     pub version: String,
@@ -58,7 +58,7 @@ pub struct SourceInput {
 }
 
 /// One parameter.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ModelParameter {
     /// Name, such as `sigma0`.
     pub name: String,

@@ -6,10 +6,19 @@ use crate::config::{Given, Places, Source, Table};
 use crate::error::Error;
 use crate::hash::sha256_of;
 use crate::result::CovarianceEntry;
+use crate::symbols;
 use std::path::Path;
+use stiction_log::Motion;
+use stiction_parameters::Name;
 
 /// What a model file is, for messages.
 pub(crate) const MODEL: &str = "a model file as an identification writes it";
+
+/// The method of a model that was written by hand.
+pub(crate) const BY_HAND: &str = "by hand";
+
+/// Most faults of one file that are said.
+const MOST_SAID: usize = 20;
 
 /// What the text of a model is called in messages where it is in no file.
 const IN_MEMORY: &str = "model";
@@ -52,6 +61,7 @@ impl ReadModel {
             model.clone(),
             model.to_toml().as_bytes(),
             Places::in_memory(IN_MEMORY),
+            Faults::default(),
         )
     }
 
@@ -63,19 +73,55 @@ impl ReadModel {
             swept: None,
         };
         let entries = source.parse()?;
-        let model = model(&Table::root(source, &entries))?;
-        Self::checked(model, text.as_bytes(), Places::of(&source, &entries))
+        let mut faults = Faults::default();
+        let model = model(&Table::root(source, &entries), &mut faults)?;
+        let places = Places::of(&source, &entries);
+        Self::checked(model, text.as_bytes(), places, faults)
     }
 
-    fn checked(model: ModelFile, text: &[u8], places: Places) -> Result<Self, Error> {
-        match fault::fault(&model).or_else(|| fault::top_speed(&model)) {
-            Some((key, found, allowed)) => Err(places.refuse(&key, found, &allowed)),
-            None => Ok(ReadModel {
-                model,
-                sha256: sha256_of(text),
-                places,
-            }),
+    /// Everything that is wrong, of the form and of the values, is said at once.
+    fn checked(
+        model: ModelFile,
+        text: &[u8],
+        places: Places,
+        mut faults: Faults,
+    ) -> Result<Self, Error> {
+        for (key, found, allowed) in fault::faults(&model) {
+            // What could not be read has no value that could be wrong.
+            let unread = |unread: &String| {
+                let together = ["parameter", "asymmetric"].contains(&key.as_str());
+                key.starts_with(unread) || together && unread.starts_with("parameter")
+            };
+            if !faults.unread.iter().any(unread) {
+                faults.errors.push(places.refuse(&key, found, &allowed));
+            }
         }
+        let by_hand = model.source.method == BY_HAND;
+        let read = ReadModel {
+            model,
+            sha256: sha256_of(text),
+            places,
+        };
+        if let Some(missing) = read.missing().filter(|_| by_hand && faults.knows_the_law()) {
+            let allowed = format!(
+                "a [[parameter]] for each that the law {} has",
+                read.model.law
+            );
+            let error = read.refuse("parameter", format!("no {missing}"), &allowed);
+            faults.errors.push(error);
+        }
+        faults.errors.truncate(MOST_SAID);
+        match Error::of_all(faults.errors) {
+            Some(error) => Err(error),
+            None => Ok(read),
+        }
+    }
+
+    /// The parameters of its law that it does not have.
+    pub fn missing(&self) -> Option<String> {
+        let values = self.model.values()?;
+        let names: Vec<_> = values.missing().map(|quantity| quantity.stem()).collect();
+        (!names.is_empty()).then(|| names.join(", "))
     }
 
     /// A value that cannot be used: its key, such as `law` or `parameter[2].value`, what was found, what is allowed.
@@ -115,31 +161,122 @@ impl ReadModel {
     }
 }
 
-fn model(root: &Table<'_>) -> Result<ModelFile, Error> {
-    let schema = text(root, "schema", &format!("{SCHEMA:?}"))?;
-    if schema != SCHEMA {
-        let allowed = format!("this version reads {SCHEMA:?}");
-        return Err(root.refuse("schema", format!("{schema:?}"), &allowed));
+/// What is wrong with the form of a file, gathered so that all of it is said at once.
+#[derive(Default)]
+struct Faults {
+    errors: Vec<Error>,
+    /// Beginnings of the keys that could not be read.
+    unread: Vec<String>,
+}
+
+impl Faults {
+    /// What was read, if it could be; `key` is what could not.
+    fn take<T>(&mut self, key: impl Into<String>, read: Result<T, Error>) -> Option<T> {
+        read.map_err(|e| {
+            self.errors.push(e);
+            self.unread.push(key.into());
+        })
+        .ok()
     }
-    let source = root.table("source")?;
-    let source = root.required("source", source, "a table [source]")?;
-    let covariance = root.table("covariance")?;
-    let covariance = root.required("covariance", covariance, "a table [covariance]")?;
-    let parameters = list(root, "parameter", "tables [[parameter]]")?;
-    let model = ModelFile {
-        schema,
-        name: root.text("name")?.map(str::to_string),
-        kind: text(root, "kind", "\"linear\" or \"rotary\"")?,
-        law: text(root, "law", "a law such as \"lugre\"")?,
-        asymmetric: flag(root, "asymmetric")?,
-        force_unit: text(root, "force_unit", "a unit such as \"N\"")?,
-        trustworthy: flag(root, "trustworthy")?,
-        source: self::source(&source)?,
-        parameter: each(&parameters, parameter)?,
-        covariance: self::covariance(&covariance)?,
+
+    /// Whether law and names of the parameters are known.
+    fn knows_the_law(&self) -> bool {
+        let of = |key: &String| key == "law" || key.starts_with("parameter");
+        !self.unread.iter().any(of)
+    }
+}
+
+/// The model; keys that could not be read stand in the faults. What an identification writes beside law, parameters and
+/// units may be left out of a file that is written by hand.
+fn model(root: &Table<'_>, faults: &mut Faults) -> Result<ModelFile, Error> {
+    let schema = root.text("schema").and_then(|schema| match schema {
+        Some(schema) if schema != SCHEMA => {
+            let allowed = format!("this version reads {SCHEMA:?}");
+            Err(root.refuse("schema", format!("{schema:?}"), &allowed))
+        }
+        _ => Ok(()),
+    });
+    // Another schema has other keys.
+    schema?;
+    let name = faults.take("name", root.text("name")).flatten();
+    let law = text(root, "law", "a law such as \"lugre\"");
+    let law = faults.take("law", law);
+    let kind = faults.take("kind", root.text("kind")).flatten();
+    let unit = faults.take("force_unit", root.text("force_unit")).flatten();
+    let asymmetric = faults.take("asymmetric", root.flag("asymmetric")).flatten();
+    let trustworthy = faults.take("trustworthy", root.flag("trustworthy"));
+    let source = root.table("source").and_then(|table| match table {
+        Some(table) => self::source(&table),
+        None => Ok(SourceEntry {
+            version: String::new(),
+            method: BY_HAND.into(),
+            seed: 0,
+            top_speed: None,
+            inputs: Vec::new(),
+        }),
+    });
+    let source = faults.take("source", source);
+    let covariance = root.table("covariance").and_then(|table| match table {
+        Some(table) => self::covariance(&table),
+        None => Ok(CovarianceEntry::default()),
+    });
+    let covariance = faults.take("covariance", covariance);
+    let listed = list(root, "parameter", "tables [[parameter]]");
+    let listed = faults.take("parameter", listed).unwrap_or_default();
+    let parameter: Vec<_> = (listed.iter().enumerate())
+        .map(|(i, given)| parameter(given, &format!("parameter[{}]", i + 1), faults))
+        .collect();
+    faults.errors.extend(root.strangers());
+    let sided = |p: &ModelParameter| p.name.ends_with("_pos") || p.name.ends_with("_neg");
+    let force_unit = unit.map_or_else(|| unit_of_force(&parameter), str::to_string);
+    Ok(ModelFile {
+        schema: SCHEMA.into(),
+        name: name.map(str::to_string),
+        kind: match kind {
+            Some(kind) => kind.into(),
+            None => kind_of(&parameter, &force_unit).into(),
+        },
+        law: law.unwrap_or_default(),
+        asymmetric: asymmetric.unwrap_or_else(|| parameter.iter().any(sided)),
+        force_unit,
+        trustworthy: trustworthy.flatten().unwrap_or(true),
+        source: source.unwrap_or_default(),
+        parameter,
+        covariance: covariance.unwrap_or_default(),
+    })
+}
+
+/// The unit of the first parameter that is a force.
+fn unit_of_force(parameters: &[ModelParameter]) -> String {
+    let forces = [
+        "coulomb",
+        "coulomb_pos",
+        "coulomb_neg",
+        "static",
+        "static_pos",
+    ];
+    let found = forces
+        .iter()
+        .find_map(|name| parameters.iter().find(|p| p.name == *name));
+    found.map_or("N".into(), |p| p.unit.clone())
+}
+
+/// Linear or rotary, as more of the units have it.
+fn kind_of(parameters: &[ModelParameter], force: &str) -> &'static str {
+    let fits = |motion: Motion| {
+        let fits = |p: &&ModelParameter| {
+            let name: Option<Name> = p.name.parse().ok();
+            name.is_some_and(|name| {
+                let unit = symbols::unit(name.quantity.dimension(), motion, force, "");
+                fault::same_unit(&p.unit, &unit)
+            })
+        };
+        parameters.iter().filter(fits).count()
     };
-    root.end()?;
-    Ok(model)
+    match fits(Motion::Rotary) > fits(Motion::Linear) {
+        true => "rotary",
+        false => "linear",
+    }
 }
 
 fn source(table: &Table<'_>) -> Result<SourceEntry, Error> {
@@ -167,21 +304,43 @@ fn source(table: &Table<'_>) -> Result<SourceEntry, Error> {
     Ok(source)
 }
 
-fn parameter(table: &Table<'_>) -> Result<ModelParameter, Error> {
-    let value = table.required("value", table.get("value"), "a number in its unit")?;
-    let parameter = ModelParameter {
-        name: text(table, "name", "a parameter such as \"sigma0\"")?,
-        symbol: text(table, "symbol", "a symbol such as \"σ₀\"")?,
-        value: number(&value)?,
-        unit: text(table, "unit", "a unit such as \"N/m\"")?,
-        std: table.get("std").map(|x| number(&x)).transpose()?,
-        ci95: table.get("ci95").map(|x| interval(&x)).transpose()?,
-        interval: table.text("interval")?.map(str::to_string),
-        identifiable: flag(table, "identifiable")?,
-        origin: text(table, "origin", "\"identified\" or \"given\"")?,
+/// A parameter; one that could not be read is empty and stands in the faults by `place`.
+fn parameter(given: &Given<'_>, place: &str, faults: &mut Faults) -> ModelParameter {
+    let Some(table) = given.as_table() else {
+        let read: Result<(), Error> = Err(given.refused("a table [[parameter]]"));
+        faults.take(place, read);
+        return ModelParameter::default();
     };
-    table.end()?;
-    Ok(parameter)
+    let name = text(&table, "name", "a parameter such as \"sigma0\"");
+    let name = faults.take(place, name).unwrap_or_default();
+    let value = table.required("value", table.get("value"), "a number in its unit");
+    let value = faults.take(place, value.and_then(|value| number(&value)));
+    let unit = faults.take(place, text(&table, "unit", "a unit such as \"N/m\""));
+    let symbol = faults.take(place, table.text("symbol")).flatten();
+    let std = table.get("std").map(|x| number(&x)).transpose();
+    let std = faults.take(place, std).flatten();
+    let ci95 = table.get("ci95").map(|x| self::interval(&x)).transpose();
+    let ci95 = faults.take(place, ci95).flatten();
+    let interval = faults.take(place, table.text("interval")).flatten();
+    let identifiable = faults.take(place, table.flag("identifiable")).flatten();
+    let origin = faults.take(place, table.text("origin")).flatten();
+    faults.errors.extend(table.strangers());
+    let measured = std.is_some() || ci95.is_some();
+    ModelParameter {
+        symbol: symbol.map_or_else(|| symbols::symbol(&name), str::to_string),
+        name,
+        value: value.unwrap_or_default(),
+        unit: unit.unwrap_or_default(),
+        std,
+        ci95,
+        interval: interval.map(str::to_string),
+        identifiable: identifiable.unwrap_or(true),
+        origin: match origin {
+            Some(origin) => origin.into(),
+            None if measured => "identified".into(),
+            None => "given".into(),
+        },
+    }
 }
 
 fn covariance(table: &Table<'_>) -> Result<CovarianceEntry, Error> {
@@ -205,11 +364,6 @@ fn covariance(table: &Table<'_>) -> Result<CovarianceEntry, Error> {
 fn text(table: &Table<'_>, key: &'static str, example: &str) -> Result<String, Error> {
     let text = table.text(key)?.map(str::to_string);
     table.required(key, text, example)
-}
-
-fn flag(table: &Table<'_>, key: &'static str) -> Result<bool, Error> {
-    let flag = table.flag(key)?;
-    table.required(key, flag, "true or false")
 }
 
 /// Any number, also infinite or NaN: its range is checked later, together with the others.

@@ -3,7 +3,7 @@
 use super::resolve::Dimensions;
 use crate::config::{Given, Swept};
 use crate::error::{Error, Warning};
-use crate::model::ReadModel;
+use crate::model::{BY_HAND, ReadModel};
 use crate::result::CovarianceEntry;
 use crate::symbols;
 use std::path::Path;
@@ -123,9 +123,9 @@ impl Model {
             let found = format!("{:?}", model.force_unit);
             return Err(read.refuse("force_unit", found, &allowed));
         }
-        if let Some(missing) = model.values().and_then(|values| values.missing()) {
+        if let Some(missing) = read.missing() {
             let allowed = "a study needs every parameter of the law";
-            return Err(read.refuse("parameter", format!("no {}", missing.stem()), allowed));
+            return Err(read.refuse("parameter", format!("no {missing}"), allowed));
         }
         let mut warnings = Vec::new();
         if !model.trustworthy {
@@ -164,11 +164,17 @@ impl Model {
                 unit: p.unit.clone(),
             })
         });
-        let name = model.name.as_deref().unwrap_or("an identified axis");
+        let name = model.name.as_deref();
         let found = Model {
             motion,
             kind,
-            origin: format!("{name}, identified by {}", model.source.method),
+            origin: match model.source.method.as_str() {
+                BY_HAND => name.unwrap_or("an axis written by hand").into(),
+                method => format!(
+                    "{}, identified by {method}",
+                    name.unwrap_or("an identified axis")
+                ),
+            },
             parameters: parameters.collect(),
             covariance: Some(model.covariance.clone()),
             warnings,
@@ -237,6 +243,11 @@ impl Model {
     pub fn values(&self) -> ParameterSet {
         let values = self.parameters.iter().map(|p| (p.name, p.value));
         ParameterSet::of(self.kind, values)
+    }
+
+    /// Largest speed of the logs that it was identified from, m/s (rad/s), where that is known.
+    pub fn top_speed(&self) -> Option<f64> {
+        self.read.as_ref()?.model.source.top_speed
     }
 
     /// A parameter by its name.

@@ -162,3 +162,118 @@ fn places_are_known_after_reading() {
         "model: line 15, column 1, parameter: no static; one"
     );
 }
+
+/// Law, parameters and units: nothing else has to be written.
+const BY_HAND: &str = r#"law = "lugre"
+
+[[parameter]]
+name = "sigma0"
+value = 260.0
+unit = "N*m/rad"
+
+[[parameter]]
+name = "sigma1"
+value = 0.6
+unit = "N*m*s/rad"
+
+[[parameter]]
+name = "sigma2"
+value = 0.0176
+unit = "N*m*s/rad"
+
+[[parameter]]
+name = "coulomb"
+value = 0.28
+unit = "N*m"
+
+[[parameter]]
+name = "static"
+value = 0.33
+unit = "N*m"
+
+[[parameter]]
+name = "stribeck_velocity"
+value = 0.01
+unit = "rad/s"
+
+[[parameter]]
+name = "mass"
+value = 0.0023
+unit = "kg*m^2"
+"#;
+
+#[test]
+fn a_model_may_be_written_by_hand() {
+    let model = ModelFile::parse(BY_HAND).unwrap();
+    assert_eq!(
+        (model.kind.as_str(), model.force_unit.as_str()),
+        ("rotary", "N*m")
+    );
+    assert!(model.trustworthy && !model.asymmetric && model.covariance.names.is_empty());
+    assert!(
+        model
+            .parameter
+            .iter()
+            .all(|p| p.origin == "given" && p.identifiable)
+    );
+    assert_eq!(ModelFile::parse(&model.to_toml()).unwrap(), model);
+    // The units say what it is: a current that drives a linear axis, each direction for itself.
+    let linear = "law = \"coulomb-viscous\"\n\
+                  [[parameter]]\nname = \"coulomb_pos\"\nvalue = 1.0\nunit = \"A\"\n\
+                  [[parameter]]\nname = \"coulomb_neg\"\nvalue = 1.2\nunit = \"A\"\n\
+                  [[parameter]]\nname = \"sigma2\"\nvalue = 0.1\nunit = \"A*s/m\"\n";
+    let model = ModelFile::parse(linear).unwrap();
+    assert_eq!(
+        (model.kind.as_str(), model.force_unit.as_str()),
+        ("linear", "A")
+    );
+    assert!(model.asymmetric);
+}
+
+/// All that is missing and all that is wrong of a file that is written by hand is said at once, each with its line.
+#[test]
+fn everything_wrong_is_said_at_once() {
+    let mut said = String::new();
+    for changes in [
+        &[("law = \"lugre\"\n", "")] as &[(&str, &str)],
+        &[
+            ("law = \"lugre\"", "law = \"lugree\""),
+            ("value = 260.0", "value = -260.0"),
+        ],
+        &[
+            ("value = 260.0\n", ""),
+            (
+                "unit = \"N*m*s/rad\"\n\n[[parameter]]\nname = \"sigma2\"",
+                "units = \"N*m*s/rad\"\n\n[[parameter]]\nname = \"sigma3\"",
+            ),
+            (
+                "value = 0.28\nunit = \"N*m\"",
+                "value = -0.28\nunit = \"N\"",
+            ),
+        ],
+        &[
+            (
+                "[[parameter]]\nname = \"sigma1\"\nvalue = 0.6\nunit = \"N*m*s/rad\"\n\n",
+                "",
+            ),
+            (
+                "[[parameter]]\nname = \"static\"\nvalue = 0.33\nunit = \"N*m\"\n\n",
+                "",
+            ),
+            ("value = 0.01\n", "value = 0\n"),
+        ],
+        &[
+            ("unit = \"kg*m^2\"", "unit = \"kg\""),
+            ("value = 0.33", "value = \"0.33 N m\""),
+        ],
+    ] {
+        let mut text = BY_HAND.to_string();
+        for (from, to) in changes {
+            assert_eq!(text.matches(from).count(), 1, "{from}");
+            text = text.replace(from, to);
+        }
+        let _ = writeln!(said, "{}\n", refusal(&text));
+    }
+    let _ = writeln!(said, "{}", refusal(""));
+    insta::assert_snapshot!(said);
+}

@@ -1,13 +1,35 @@
 //! A study on the terminal.
 
 use super::table::table;
+use crate::next::quoted;
 use crate::report::study::rates::columns;
 use crate::report::study::rows::{judged, less};
 use crate::report::study::sweep::{groups, label, lines};
 use std::fmt::Write;
+use std::path::Path;
 use stiction_files::study::result::ResultRow;
+use stiction_files::study::{Started, results};
 use stiction_number::quantity;
 use stiction_workflows::study::StudyOutcome;
+
+/// What a study file was begun with, and what to type next.
+pub fn started_study(started: &Started, file: &Path) -> String {
+    let mut out = format!("{} written\n", file.display());
+    let then = match &started.undecided {
+        Some(reason) => {
+            let _ = writeln!(out, "to decide: {reason}");
+            "next: fill in what is to decide, then"
+        }
+        None => "next:",
+    };
+    let _ = writeln!(
+        out,
+        "{then} stiction simulate {} --out {}",
+        quoted(&file.display().to_string()),
+        quoted(&results(file).display().to_string())
+    );
+    out
+}
 
 /// The outcome of a study.
 pub fn study(outcome: &StudyOutcome) -> String {

@@ -159,7 +159,7 @@ fn what_is_missing_or_wrong_is_named() {
     for kind in LawKind::ALL {
         for quantity in kind.needs() {
             let without = set(kind, false).without(quantity);
-            assert_eq!(without.missing(), Some(quantity), "{kind}");
+            assert_eq!(without.missing().next(), Some(quantity), "{kind}");
             let error = without.law().unwrap_err();
             let name = Name::from(quantity);
             assert_eq!(error, LawError::Missing { kind, name });
@@ -168,7 +168,7 @@ fn what_is_missing_or_wrong_is_named() {
                 format!("the law {kind} needs {quantity}", quantity = name)
             );
         }
-        assert_eq!(set(kind, true).missing(), None);
+        assert_eq!(set(kind, true).missing().next(), None);
     }
     let only_one = ParameterSet::of(
         LawKind::CoulombViscous,
