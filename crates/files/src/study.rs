@@ -15,7 +15,7 @@ pub use belief::{Belief, Family};
 pub use grid::Job;
 pub use model::{Model, Parameter};
 pub use plan::{
-    ContourPlan, Machine, ModelKind, ModelScheme, Named, PathPlan, Scheme, Second, Study, Sweep,
-    SweepPoint,
+    ContourPlan, Event, Machine, ModelKind, ModelScheme, Named, PathPlan, Scheme, Second, Study,
+    Sweep, SweepPoint,
 };
 pub use start::{Started, results, start};

@@ -1,7 +1,7 @@
 //! Load estimation: mass and friction level of a running axis by recursive least squares.
 
 use crate::drive::{Drive, RunningDrive};
-use stiction_friction::{Held, LuGre, ParamError};
+use stiction_friction::{Damping, Direction, Held, LuGre, ParamError, Stribeck};
 
 /// Settings of a load estimate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,6 +68,29 @@ const MAX_COVARIANCE: f64 = 1e6;
 /// The diagonal at the start, in the same units: the nominal mass is doubted more than the nominal level.
 const INITIAL_COVARIANCE: [f64; 2] = [1.0, 1e-2];
 
+/// A law with its whole friction, but for the offset, `by` > 0 times as large at every deflection and velocity: what a load
+/// or a temperature does to it.
+pub fn scaled(law: &LuGre<f64>, by: f64) -> Result<LuGre<f64>, ParamError> {
+    ParamError::positive("friction", by)?;
+    let curve = law.curve();
+    let [positive, negative] = [curve.positive(), curve.negative()].map(|side| Direction {
+        coulomb: by * side.coulomb,
+        static_friction: by * side.static_friction,
+        viscous: by * side.viscous,
+        ..*side
+    });
+    let damping = match law.damping() {
+        Damping::Constant(sigma1) => Damping::Constant(by * sigma1),
+        Damping::Capped(sigma1) => Damping::Capped(by * sigma1),
+        Damping::Olsson { sigma1, velocity } => Damping::Olsson {
+            sigma1: by * sigma1,
+            velocity,
+        },
+    };
+    let curve = Stribeck::new(curve.shape(), positive, negative, curve.offset())?;
+    LuGre::new(by * law.stiffness(), damping, curve)
+}
+
 impl LoadEstimator {
     /// For a law at its nominal level and a nominal mass (kg, kg m^2), a model of the drive, and a control rate in Hz.
     pub fn new(
@@ -120,7 +143,9 @@ impl LoadEstimator {
         self.deflection = end;
         let acceleration = (position - 2.0 * newer + older) * self.rate * self.rate;
         // `force` is that of the period that ends now, for the command of a sample ago.
-        let force = self.drive.force(0);
+        let induced = self.drive.induced_force() - self.drive.damper() * velocity;
+        let force = self.drive.force(0) + induced;
+        self.drive.moved(position - newer);
         let raw = [
             0.5 * (self.force + force),
             acceleration,

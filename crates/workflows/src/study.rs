@@ -1,5 +1,6 @@
 //! Simulation of a study: every run of its grid, and what is told of them.
 
+mod changing;
 mod compensation;
 mod contour;
 mod contour_trace;
@@ -16,6 +17,7 @@ mod run;
 mod sweeps;
 mod trace;
 
+pub use changing::LoadCourse;
 pub use contour_trace::ContourTrace;
 pub use outcome::StudyOutcome;
 pub use run::simulate;

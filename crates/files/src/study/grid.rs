@@ -55,9 +55,13 @@ impl Study {
         jobs
     }
 
-    /// Without and with control of the contour, where there is one. Learning is of one axis.
+    /// Without and with control of the contour, where there is one. Learning and the estimate of the load are of one axis.
     fn couplings(&self, path: usize, compensator: usize) -> &'static [bool] {
-        let learns = matches!(self.compensators[compensator].value, Scheme::Learning(..));
+        let learns = match &self.compensators[compensator].value {
+            Scheme::Learning(..) => true,
+            Scheme::Model(model) => model.load_estimate,
+            _ => false,
+        };
         let coupling = self.second.as_ref().and_then(|s| s.coupling);
         match (path < self.paths.len(), coupling) {
             (true, _) => &[false],

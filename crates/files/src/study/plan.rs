@@ -38,6 +38,8 @@ pub struct Study {
     pub compensators: Vec<Named<Scheme>>,
     /// What is believed of the first axis; the first family is the exact parameters.
     pub families: Vec<Family>,
+    /// What changes on the axis while it runs, in order of time.
+    pub events: Vec<Event>,
     /// Values of a key in turn.
     pub sweeps: Vec<Sweep>,
     /// Whether the course of each run is kept.
@@ -76,6 +78,17 @@ impl Study {
             }
         }
     }
+}
+
+/// A change of the axis while it runs; nothing told to the compensator.
+#[derive(Clone, Copy)]
+pub struct Event {
+    /// s from the beginning of a run.
+    pub time: f64,
+    /// The mass from then on, kg (kg m^2), where it changes.
+    pub mass: Option<f64>,
+    /// Factor on the friction of the law from then on, where it changes.
+    pub friction: Option<f64>,
 }
 
 /// A key with several values in turn.
@@ -180,6 +193,8 @@ pub struct ModelScheme {
     pub watchdog: Option<Watchdog<f64>>,
     /// How far ahead the reference is read, samples; `None`: what the drive needs, for the reference velocity.
     pub preview: Option<f64>,
+    /// Whether mass and level of friction are estimated while running, and fed forward.
+    pub load_estimate: bool,
     /// Bandwidth of a disturbance observer beside it, Hz.
     pub observer: Option<f64>,
 }
@@ -191,6 +206,8 @@ pub enum ModelKind {
     Coulomb,
     /// The steady curve.
     Stribeck,
+    /// The bristles without the Stribeck effect: static friction is Coulomb friction.
+    Simplified,
     /// The whole law with its bristles.
     LuGre,
 }

@@ -8,6 +8,7 @@ mod dimensions;
 mod disturbance;
 mod drive;
 mod entry;
+mod events;
 mod file;
 mod inputs;
 mod machine;
@@ -107,6 +108,7 @@ fn study(root: &Table<'_>, file: &Path) -> Result<Study, Error> {
         controllers: Vec::new(),
         compensators: Vec::new(),
         families: Vec::new(),
+        events: Vec::new(),
         sweeps: Vec::new(),
         keeps_courses: root.swept().is_none(),
         machine,
@@ -161,6 +163,7 @@ fn study(root: &Table<'_>, file: &Path) -> Result<Study, Error> {
         }
     }
     families(root, &mut study)?;
+    events::events(root, &mut study)?;
     study.warnings.append(&mut study.machine.model.warnings);
     if let Some(second) = &mut study.second {
         study.warnings.append(&mut second.machine.model.warnings);

@@ -28,6 +28,9 @@ pub struct StudyFile {
     pub second_axis: Option<SimulatedAxis>,
     /// Reference motions, those of two axes last.
     pub paths: Vec<PathEntry>,
+    /// What changed on the axis while it ran.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub events: Vec<EventEntry>,
     /// One row for each path, controller, compensator and kind of parameters.
     pub results: Vec<ResultRow>,
     /// The same over the values of a key.
@@ -35,6 +38,19 @@ pub struct StudyFile {
     pub sweeps: Vec<SweepEntry>,
     /// What to beware of.
     pub warnings: Vec<Warning>,
+}
+
+/// A change of the axis while it runs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EventEntry {
+    /// s from the beginning of a run.
+    pub time_s: f64,
+    /// The mass from then on, kg or kg m^2.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass: Option<f64>,
+    /// Factor on the friction of the law from then on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<f64>,
 }
 
 /// A key with several values in turn.

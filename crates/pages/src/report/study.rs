@@ -2,6 +2,7 @@
 
 mod axis;
 mod contour;
+mod load;
 pub(crate) mod rates;
 pub(crate) mod rows;
 pub(crate) mod sweep;
@@ -77,6 +78,9 @@ pub fn study(outcome: &StudyOutcome) -> Document {
         } else if i < MOST_SECTIONS_WITH_FIGURES {
             let figures = in_time(outcome, rows).into_iter().chain(wrong(rows));
             document = figures.fold(document, |d, f| d.block(f));
+            if let Some((figure, table)) = load::blocks(outcome, rows) {
+                document = document.block(figure).block(table);
+            }
         }
     }
     document = sweep::sections(document, file)
@@ -129,20 +133,27 @@ fn verdict(file: &StudyFile) -> Callout {
         .filter(|r| judged(r).is_some_and(|m| m.worst_reduction_percent < Some(0.0)))
         .filter(|r| r.compensator != "none" || r.coupled)
         .count();
+    let swept_worse = sweep::count_worse(file);
     let (severity, text) = if file.status == "interrupted" {
         let text = format!(
             "Stopped early: {} runs are done.",
             number::count(runs as u64)
         );
         (Severity::Warning, text)
-    } else if worse > 0 {
+    } else if worse > 0 || swept_worse > 0 {
         let rows = if worse == 1 { "row holds" } else { "rows hold" };
-        let text = format!(
-            "{} runs. {worse} {rows} a run that tracks worse with compensation than without: marked \
-             in the tables.",
-            number::count(runs as u64)
-        );
-        (Severity::Warning, text)
+        let values = if swept_worse == 1 { "value" } else { "values" };
+        let mut text = format!("{} runs.", number::count(runs as u64));
+        if worse > 0 {
+            text +=
+                &format!(" {worse} {rows} a run that tracks worse with compensation than without.");
+        }
+        if swept_worse > 0 {
+            text += &format!(
+                " With {swept_worse} swept {values} a compensator tracks worse than none."
+            );
+        }
+        (Severity::Warning, text + " Marked in the tables.")
     } else if file.warnings.iter().any(|w| CODES.contains(&w.code)) {
         let text = format!(
             "{} runs. No compensator made the error that counts larger, but some figures are misleading: \
@@ -251,15 +262,20 @@ fn in_time(outcome: &StudyOutcome, rows: &[ResultRow]) -> Vec<Figure> {
     let (rows, all) = drawn(rows);
     let traces: Vec<&Trace> = rows.iter().filter_map(|r| outcome.trace(r)).collect();
     let motion = motion(&outcome.file.axis);
+    let counted = traces.first().and_then(|t| t.whole.time.first()).copied();
+    let events = outcome.file.events.iter().map(|e| e.time_s);
+    let events: Vec<f64> = events
+        .filter(|t| counted.is_some_and(|from| *t >= from))
+        .collect();
     let caption = format!(
         "The part of the run that counts, with the parameters of the axis itself.{}",
         left_out(traces.len(), all)
     );
     let mut figures =
-        vec![courses("Tracking error", &traces, motion, &|t| &t.whole).caption(caption)];
+        vec![courses("Tracking error", &traces, motion, &|t| &t.whole, &events).caption(caption)];
     if traces.iter().any(|t| !t.reversal.time.is_empty()) {
         let title = "The same about a reversal";
-        figures.push(courses(title, &traces, motion, &|t| &t.reversal));
+        figures.push(courses(title, &traces, motion, &|t| &t.reversal, &[]));
     }
     figures
 }
@@ -269,6 +285,7 @@ fn courses(
     traces: &[&Trace],
     motion: Motion,
     of: &dyn Fn(&Trace) -> &Course,
+    events: &[f64],
 ) -> Figure {
     let length = symbols::length_unit(motion);
     let force = match motion {
@@ -289,6 +306,9 @@ fn courses(
         }
         let line = line(&course.error).color(color);
         error = error.layer(line.label(trace.compensator.as_str()));
+    }
+    for time in events {
+        error = error.layer(Layer::vline(*time));
     }
     let figure = Figure::new(title).panel(reference).panel(error).shared_x();
     match traces.len() {

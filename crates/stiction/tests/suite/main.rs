@@ -19,6 +19,8 @@ mod rests;
 mod simulation;
 mod study;
 mod study_axis;
+mod study_events;
+mod study_examples;
 mod study_sweep;
 mod terms;
 mod workflow;

@@ -4,7 +4,7 @@ use stiction_files::study::{Belief, Machine, ModelKind, ModelScheme, Scheme};
 use stiction_friction::compensator::{
     Compensator, DisturbanceObserver, Friction, Settings, Source, Watch,
 };
-use stiction_friction::{CoulombViscous, LuGre, ParamError};
+use stiction_friction::{CoulombViscous, Direction, LuGre, ParamError, Stribeck};
 use stiction_servo::controller::Controller;
 use stiction_servo::feedforward::Feedforward;
 
@@ -54,6 +54,7 @@ fn from_law(
             curve.offset(),
         )?),
         ModelKind::Stribeck => Friction::Stribeck(*curve),
+        ModelKind::Simplified => Friction::LuGre(without_stribeck(law)?),
         ModelKind::LuGre => Friction::LuGre(*law),
     };
     let period = 1.0 / machine.rate;
@@ -76,4 +77,15 @@ fn from_law(
         compensator.running(watch),
         preview,
     ))
+}
+
+/// The law with Coulomb friction for static friction.
+fn without_stribeck(law: &LuGre<f64>) -> Result<LuGre<f64>, ParamError> {
+    let curve = law.curve();
+    let [positive, negative] = [curve.positive(), curve.negative()].map(|side| Direction {
+        static_friction: side.coulomb,
+        ..*side
+    });
+    let curve = Stribeck::new(curve.shape(), positive, negative, curve.offset())?;
+    LuGre::new(law.stiffness(), law.damping(), curve)
 }

@@ -1,7 +1,9 @@
 //! The simulated axis: its settings for a run, and what is said of it.
 
-use stiction_files::study::Machine;
-use stiction_files::study::result::{AxisParameter, DisturbanceEntry, SimulatedAxis, VoltageEntry};
+use stiction_files::study::result::{
+    AxisParameter, DisturbanceEntry, EventEntry, SimulatedAxis, VoltageEntry,
+};
+use stiction_files::study::{Event, Machine};
 use stiction_files::symbols;
 use stiction_friction::Damping;
 use stiction_log::Motion;
@@ -79,6 +81,15 @@ pub(super) fn entry(machine: &Machine) -> SimulatedAxis {
         spring: machine.plant.stiffness(),
         disturbance: machine.disturbance.as_ref().map(disturbance),
         voltage: voltage(&machine.drive),
+    }
+}
+
+/// A change of the axis as it goes into `study.json`.
+pub(super) fn event(event: &Event) -> EventEntry {
+    EventEntry {
+        time_s: event.time,
+        mass: event.mass,
+        friction: event.friction,
     }
 }
 

@@ -1,5 +1,6 @@
 //! One axis along a path: one run of the grid, and what is kept of it.
 
+use super::changing::Changing;
 use super::compensation::{believing, feedforward};
 use super::course;
 use super::done::Done;
@@ -12,8 +13,10 @@ use stiction_files::study::{Job, PathPlan, Scheme, Study};
 use stiction_friction::ParamError;
 use stiction_servo::axis::Axis;
 use stiction_servo::integrator::Quick;
+use stiction_servo::path::Reference;
 use stiction_servo::run::{follow, follow_sampled, sample_count};
 use stiction_servo::sampled::Sampled;
+use stiction_servo::trajectory::Lookahead;
 
 /// Most reference samples that are kept for all runs, of all paths together: a hundred megabytes.
 const MOST_SHARED_SAMPLES: usize = 4_000_000;
@@ -56,6 +59,20 @@ pub(super) fn on_path(
     let own_mass = belief.mass != study.machine.mass;
     let watches = before.before(study, job, own_mass, without)?;
     settings.feedforward = feedforward(scheme, &study.machine, &controller, belief, &watches[0])?;
+    let changing = Changing::of(study, scheme, belief, controller.mass_feedforward());
+    let mut load = None;
+    let mut follow = |axis: &mut Axis<_, _>| {
+        let Some(changing) = &changing else {
+            return follow(axis);
+        };
+        let preview = axis.settings().feedforward.preview;
+        let (samples, course) = match sampled {
+            Some(sampled) => changing.follow(axis, sampled.with_preview(preview)),
+            None => changing.follow(axis, along(path, study.machine.rate, preview)?),
+        }?;
+        load = Some(course);
+        Ok(samples)
+    };
     let mut axis = Axis::new(settings.clone(), Quick::new(1)?)?;
     let mut samples = follow(&mut axis)?;
     if let Scheme::Learning(learning, passes) = scheme {
@@ -83,7 +100,10 @@ pub(super) fn on_path(
         job,
         metrics: of_path(counted, largest_force(&study.machine, &controller)),
         switched_off: compensator.is_some_and(|c| c.state().watch.tripped),
-        trace: exact.then(|| Trace::of(study.names(job), counted)),
+        trace: exact.then(|| Trace {
+            load,
+            ..Trace::of(study.names(job), counted)
+        }),
         contour: None,
         course: match exact {
             true => course::rows(study.names(job), &samples, course::rows_of_a_run(study)),
@@ -91,6 +111,18 @@ pub(super) fn on_path(
         },
     }))
 }
+
+/// The references of a path that is not sampled for all runs.
+fn along(
+    path: &PathPlan,
+    rate: f64,
+    preview: f64,
+) -> Result<impl ExactSizeIterator<Item = (Reference, f64)> + '_, ParamError> {
+    let count = sample_count(path.trajectory.duration(), rate)?;
+    let mut reference = Lookahead::new(path.trajectory.as_ref(), rate, preview);
+    Ok((0..count).map(move |_| reference.sample()))
+}
+
 /// A path as it goes into `study.json`.
 pub(super) fn entry(plan: &PathPlan) -> PathEntry {
     PathEntry {

@@ -85,6 +85,7 @@ pub fn simulate(study: &Study, observer: &mut dyn Observer) -> StudyOutcome {
             paths: (study.paths.iter().map(path::entry))
                 .chain(study.contours.iter().map(contour::entry))
                 .collect(),
+            events: study.events.iter().map(machine::event).collect(),
             results,
             sweeps,
             warnings,

@@ -1,5 +1,6 @@
 //! The course of a run on a path, for figures.
 
+use super::changing::LoadCourse;
 use stiction_servo::axis::Sample;
 use stiction_servo::metrics::reversals;
 
@@ -18,6 +19,8 @@ pub struct Trace {
     pub whole: Course,
     /// Samples about the last reversal but one; empty where there is none.
     pub reversal: Course,
+    /// The load over the whole run, where it changes or is looked for.
+    pub load: Option<LoadCourse>,
 }
 
 /// Signals over time, thinned to what a figure can show.
@@ -51,6 +54,7 @@ impl Trace {
             compensator: compensator.into(),
             whole: Course::of(samples),
             reversal: Course::of(about),
+            load: None,
         }
     }
 }

@@ -11,9 +11,10 @@ use stiction_number::short;
 use stiction_servo::learning::Learning;
 use stiction_servo::trajectory::MAX_PREVIEW;
 
-const KINDS: [&str; 5] = [
+const KINDS: [&str; 6] = [
     "coulomb",
     "stribeck",
+    "simplified",
     "lugre",
     "disturbance-observer",
     "learning",
@@ -33,6 +34,7 @@ pub(super) fn compensator(table: &Table<'_>, study: &Study) -> Result<Named<Sche
     let scheme = match kind {
         "coulomb" => Scheme::Model(model(table, study, ModelKind::Coulomb)?),
         "stribeck" => Scheme::Model(model(table, study, ModelKind::Stribeck)?),
+        "simplified" => Scheme::Model(model(table, study, ModelKind::Simplified)?),
         "lugre" => Scheme::Model(model(table, study, ModelKind::LuGre)?),
         "learning" => learning(table, study)?,
         _ => {
@@ -89,6 +91,7 @@ fn model(table: &Table<'_>, study: &Study, kind: ModelKind) -> Result<ModelSchem
             Some(false) => None,
             _ => Some(watchdog(table, study.machine.rate)?),
         },
+        load_estimate: load_estimate(table)?,
         preview: table.number("preview", 0.0, MAX_PREVIEW)?,
         observer: below_half_the_rate(table, "observer_bandwidth", study.machine.rate)?,
     };
@@ -119,8 +122,8 @@ fn source(table: &Table<'_>, kind: ModelKind) -> Result<Source<f64>, Error> {
             let share = table.required("measured_share", share, "a number from 0 to 1")?;
             Ok(Source::Blend(share))
         }
-        Some(_) if kind != ModelKind::LuGre => {
-            let allowed = "with kind = \"lugre\" only: the others have no bristles to observe";
+        Some(_) if !matches!(kind, ModelKind::Simplified | ModelKind::LuGre) => {
+            let allowed = "with kind = \"simplified\" or \"lugre\" only: the others have no bristles to observe";
             Err(table.refuse("source", "\"observer\"".into(), allowed))
         }
         Some(_) => {
@@ -129,6 +132,16 @@ fn source(table: &Table<'_>, kind: ModelKind) -> Result<Source<f64>, Error> {
             Ok(Source::Observer(gain))
         }
     }
+}
+
+/// Whether the load is estimated; it sets the level that an adaptation would.
+fn load_estimate(table: &Table<'_>) -> Result<bool, Error> {
+    let asked = table.flag("load_estimate")?.unwrap_or(false);
+    if asked && table.get("adaptation").is_some() {
+        let allowed = "one of them: both set the level of the force";
+        return Err(table.refuse("load_estimate", "stands beside adaptation".into(), allowed));
+    }
+    Ok(asked)
 }
 
 fn adaptation(table: &Table<'_>) -> Result<Option<Adaptation<f64>>, Error> {

@@ -108,21 +108,8 @@ pub(super) fn machine(
     let plant = Plant::new(mass, law)
         .and_then(|plant| plant.with_viscous(viscous.unwrap_or(0.0)))
         .and_then(|plant| plant.with_stiffness(spring));
-    let swing = ((law.stiffness() + spring) / mass).sqrt();
-    let substeps = (PLANT_RATE.max(swing / LONGEST_STEP) / rate).ceil();
-    let substeps = substeps.clamp(1.0, MOST_SUBSTEPS.max(PLANT_RATE / rate).ceil());
-    let long = swing / (rate * substeps);
-    if long > LONGEST_STEP {
-        model.warnings.push(Warning::new(
-            Code::LongSteps,
-            format!(
-                "the bristles are too stiff for a plant step of {:.3e} s: h sqrt(sigma0/M) = {}, above {LONGEST_STEP}; \
-                 what happens before break-away is not to be relied on; a higher rate makes the steps shorter",
-                1.0 / (rate * substeps),
-                stiction_number::short(long)
-            ),
-        ));
-    }
+    let (substeps, warning) = plant_steps((law.stiffness() + spring) / mass, rate);
+    model.warnings.extend(warning);
     let (disturbance, said) = disturbance(table, folder, &is)?;
     model.warnings.extend(said);
     let encoder = table.not_negative("encoder", is.length)?.unwrap_or(0.0);
@@ -133,7 +120,7 @@ pub(super) fn machine(
         plant: plant.map_err(|e| table.together(&e))?,
         given_mass: given.is_some(),
         rate,
-        substeps: substeps as u32,
+        substeps,
         drive: drive(table, &is, rate)?,
         encoder: Encoder::new(encoder).map_err(|e| table.together(&e))?,
         position_noise: table
@@ -145,6 +132,27 @@ pub(super) fn machine(
     };
     table.end()?;
     Ok(machine)
+}
+
+/// Plant steps of a control period for a stiffness over a mass, 1/s^2, at a control rate, Hz; with a warning where they are
+/// too long.
+pub(super) fn plant_steps(stiffness_over_mass: f64, rate: f64) -> (u32, Option<Warning>) {
+    let swing = stiffness_over_mass.sqrt();
+    let substeps = (PLANT_RATE.max(swing / LONGEST_STEP) / rate).ceil();
+    let substeps = substeps.clamp(1.0, MOST_SUBSTEPS.max(PLANT_RATE / rate).ceil());
+    let long = swing / (rate * substeps);
+    let warning = (long > LONGEST_STEP).then(|| {
+        Warning::new(
+            Code::LongSteps,
+            format!(
+                "the bristles are too stiff for a plant step of {:.3e} s: h sqrt(sigma0/M) = {}, above {LONGEST_STEP}; \
+                 what happens before break-away is not to be relied on; a higher rate makes the steps shorter",
+                1.0 / (rate * substeps),
+                stiction_number::short(long)
+            ),
+        )
+    });
+    (substeps as u32, warning)
 }
 
 fn cogging(table: &Table<'_>, is: &Dimensions, encoder: f64) -> Result<Option<Cogging>, Error> {

@@ -11,13 +11,14 @@ use toml::de::DeTable;
 const MOST_SWEEPS: usize = 4;
 const MOST_VALUES: usize = 16;
 /// Tables whose keys can be swept; `law` has the parameters of the first axis.
-const TABLES: [&str; 6] = [
+const TABLES: [&str; 7] = [
     "law",
     "axis",
     "path",
     "contour",
     "controller",
     "compensator",
+    "event",
 ];
 
 /// A sweep as it stands in the file.
@@ -105,8 +106,8 @@ impl<'a> Asked<'a> {
             let study = super::study(&Table::root(swept, entries), source.file);
             let study = study.map_err(|e| self.with(given, e))?;
             if !taken.get() {
-                let allowed = "a parameter that the law has, a key of [axis], or one that a path, contour, controller or \
-                               compensator of this study gives";
+                let allowed = "a parameter that the law has, a key of [axis], or one that a path, contour, controller, compensator or \
+                               event of this study gives";
                 return Err(self.key.refused(allowed));
             }
             Ok(SweepPoint {
@@ -116,12 +117,19 @@ impl<'a> Asked<'a> {
         };
         Ok(Sweep {
             key: self.name.into(),
-            unit: match self.dimension.si_text() {
-                unit if unit == "1" => String::new(),
-                unit => unit,
-            },
+            unit: self.unit(),
             points: self.values.iter().map(point).collect::<Result<_, _>>()?,
         })
+    }
+
+    /// SI unit of the values; a rate that is written in hertz is one.
+    fn unit(&self) -> String {
+        let first = self.values.first().and_then(|(_, given)| given.as_text());
+        match self.dimension {
+            Dimension::ONE => String::new(),
+            Dimension::FREQUENCY if first.is_some_and(|text| text.ends_with("Hz")) => "Hz".into(),
+            dimension => dimension.si_text(),
+        }
     }
 
     /// What is refused with a value of the sweep, at another place than that value.

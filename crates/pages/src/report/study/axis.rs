@@ -49,6 +49,21 @@ pub(super) fn axis(file: &StudyFile, axis: &SimulatedAxis) -> Block {
         facts.push(("Position noise", format!("{noise} rms")));
     }
     facts.extend(forces(axis));
+    for event in file
+        .events
+        .iter()
+        .filter(|_| std::ptr::eq(axis, &file.axis))
+    {
+        let mass = event
+            .mass
+            .map(|mass| format!("mass {} {}", number::sig(mass, 4), mass_unit(axis)));
+        let friction = event
+            .friction
+            .map(|by| format!("friction × {} of the law", number::sig(by, 3)));
+        let changes: Vec<String> = mass.into_iter().chain(friction).collect();
+        let at = number::sig(event.time_s, 4);
+        facts.push(("Changes", format!("from {at} s on: {}", changes.join(", "))));
+    }
     for path in &file.paths {
         let text = format!(
             "{}, {} s, counted from {} s on",

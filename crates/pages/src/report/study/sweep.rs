@@ -4,8 +4,8 @@ use super::axis::motion;
 use super::rows::COLORS;
 use stiction_files::study::result::{StudyFile, SweepEntry, SweepMetric, SweepRow};
 use stiction_files::symbols;
-use stiction_number::quantity;
-use stiction_report::{Align, Axis, Document, Figure, Layer, Panel, Table, Text};
+use stiction_number::{prefixed, quantity};
+use stiction_report::{Align, Axis, Document, Figure, Layer, Panel, Severity, Table, Text};
 
 /// Most paths and controllers of a sweep that are shown.
 const MOST_SHOWN: usize = 12;
@@ -97,13 +97,13 @@ fn figure(label: &str, sweep: &SweepEntry, rows: &[SweepRow]) -> Figure {
     };
     let found = rows.iter().filter_map(judged).flat_map(|m| &m.values);
     let errors: Vec<f64> = found.copied().flatten().collect();
-    let x = spread(Axis::new(label, sweep.unit.as_str()), &sweep.values);
-    let y = spread(Axis::new(words, unit), &errors);
+    let (x, per_x) = spread(label, &sweep.unit, &sweep.values);
+    let (y, per_y) = spread(words, unit, &errors);
     let mut panel = Panel::new(x, y).height(240.0);
     for (row, color) in rows.iter().zip(COLORS) {
         let Some(metric) = judged(row) else { continue };
         let points = sweep.values.iter().zip(&metric.values);
-        let points = points.filter_map(|(x, y)| Some((*x, (*y)?)));
+        let points = points.filter_map(|(x, y)| Some((x / per_x, (*y)? / per_y)));
         let (x, y): (Vec<f64>, Vec<f64>) = points.unzip();
         panel = panel
             .layer(
@@ -122,29 +122,61 @@ fn figure(label: &str, sweep: &SweepEntry, rows: &[SweepRow]) -> Figure {
         ))
 }
 
-/// Logarithmic where the values go over decades.
-fn spread(axis: Axis, values: &[f64]) -> Axis {
+/// An axis for values in SI and what they are divided by on it; logarithmic where they go over decades, in the unit whose
+/// prefix suits the largest then.
+fn spread(label: &str, unit: &str, values: &[f64]) -> (Axis, f64) {
     let ends = values
         .iter()
         .fold((f64::INFINITY, 0.0_f64), |(low, high), x| {
             (low.min(*x), high.max(*x))
         });
-    match ends.0 > 0.0 && ends.1 >= LOGARITHMIC_FROM * ends.0 {
-        true => axis.log(),
-        false => axis,
+    if ends.0 <= 0.0 || ends.1 < LOGARITHMIC_FROM * ends.0 {
+        return (Axis::new(label, unit), 1.0);
+    }
+    let power = 3 * (libm::log10(ends.1) / 3.0).floor() as i32;
+    let power = power.min(0);
+    match prefixed(unit, power) {
+        Some(unit) => (Axis::new(label, unit).log(), libm::exp10(f64::from(power))),
+        None => (Axis::new(label, unit).log(), 1.0),
     }
 }
 
+/// Whether a compensator tracks worse than none with the value of this place.
+fn worse(rows: &[SweepRow], i: usize) -> bool {
+    let at = |row: &SweepRow| judged(row).and_then(|m| m.values[i]);
+    let without = rows.first().and_then(at);
+    without.is_some_and(|without| rows.iter().filter_map(at).any(|x| x > without))
+}
+
+/// How many values there are, over all paths and controllers, with which a compensator tracks worse than none.
+pub(super) fn count_worse(file: &StudyFile) -> usize {
+    let each = file.sweeps.iter().flat_map(|sweep| {
+        let groups = groups(sweep).into_iter();
+        groups.map(|rows| (0..sweep.values.len()).filter(|i| worse(rows, *i)).count())
+    });
+    each.sum()
+}
+
 fn table(sweep: &SweepEntry, rows: &[SweepRow]) -> Table {
-    let rows = &rows[..rows.len().min(COLORS.len())];
-    let lines = lines(sweep, rows);
-    let header = lines[0].iter().map(|text| (capital(text), Align::Right));
-    let header: Vec<_> = header.collect();
-    let header = header.iter().map(|(text, align)| (text.as_str(), *align));
-    lines[1..].iter().fold(
-        Table::new(header).caption("The same in numbers."),
-        |table, line| table.row(line.iter().map(|cell| Text::from(cell.as_str()))),
-    )
+    let shown = &rows[..rows.len().min(COLORS.len())];
+    let lines = lines(sweep, shown);
+    let names = lines[0].iter().skip(1).map(String::as_str);
+    let header: Vec<_> = std::iter::once("Value")
+        .chain(names)
+        .map(|text| (text, Align::Right))
+        .collect();
+    let table = Table::new(header)
+        .caption("The same in numbers; marked where a compensator tracks worse than none.");
+    lines[1..]
+        .iter()
+        .enumerate()
+        .fold(table, |table, (i, line)| {
+            let cells = line.iter().map(|cell| Text::from(cell.as_str()));
+            match worse(rows, i) {
+                true => table.marked(Severity::Warning, cells),
+                false => table.row(cells),
+            }
+        })
 }
 
 fn capital(words: &str) -> String {

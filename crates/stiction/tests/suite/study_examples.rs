@@ -1,0 +1,86 @@
+//! The examples of studies, run: what they are there to show.
+
+use stiction::commands::study::result::ResultRow;
+use stiction::{Silent, Study, StudyOutcome};
+
+fn example(name: &str) -> StudyOutcome {
+    let folder = stiction_testkit::workspace().join("examples/stage");
+    let outcome = stiction::simulate(&Study::read(folder.join(name)).unwrap(), &mut Silent);
+    assert_eq!(outcome.file.status, "complete");
+    let warnings = &outcome.file.warnings;
+    assert!(warnings.is_empty(), "{warnings:?}");
+    let html = String::from_utf8(stiction::bundle::study(&outcome).files()[0].1.clone()).unwrap();
+    stiction_testkit::assert_tables_fit(&html);
+    outcome
+}
+
+/// Three controllers, none and four compensators, on every kind of motion. Of these LuGre leaves the least everywhere: the axis
+/// follows that law.
+#[test]
+fn every_controller_and_compensation_on_every_motion() {
+    let file = example("comparison.toml").file;
+    let kinds = [
+        "sine",
+        "chirp",
+        "move",
+        "staircase",
+        "constant-velocity",
+        "crawl",
+        "hold",
+        "excitation",
+    ];
+    for kind in kinds {
+        assert!(file.paths.iter().any(|path| path.kind == kind), "{kind}");
+    }
+    assert_eq!(file.results.len(), file.paths.len() * 3 * 5);
+    let same = |a: &ResultRow, b: &ResultRow| (&a.path, &a.controller) == (&b.path, &b.controller);
+    for rows in file.results.chunk_by(same) {
+        let names: Vec<&str> = rows.iter().map(|r| r.compensator.as_str()).collect();
+        assert_eq!(
+            names,
+            ["none", "Coulomb", "Stribeck", "simplified", "LuGre"]
+        );
+        let peak = |row: &ResultRow| row.metric("peak_error").unwrap().mean;
+        for row in &rows[..4] {
+            assert!(
+                peak(&rows[4]) < peak(row),
+                "{}, {}: {}",
+                row.path,
+                row.controller,
+                row.compensator
+            );
+        }
+    }
+}
+
+/// Stiffer bristles, larger and faster motion: more error without compensation; and a load that is found.
+#[test]
+fn influences_and_a_load() {
+    let outcome = example("influence.toml");
+    let keys: Vec<&str> = outcome.file.sweeps.iter().map(|s| s.key.as_str()).collect();
+    assert_eq!(
+        keys,
+        [
+            "law.sigma0",
+            "path.amplitude",
+            "path.frequency",
+            "event.friction"
+        ]
+    );
+    for sweep in &outcome.file.sweeps[1..] {
+        let none = sweep.results.iter().find(|r| r.compensator == "none");
+        let errors = &none.unwrap().metric("peak_error").unwrap().values;
+        assert!(
+            errors.windows(2).all(|pair| pair[0] < pair[1]),
+            "{}: {errors:?}",
+            sweep.key
+        );
+    }
+    let found = outcome
+        .traces
+        .iter()
+        .find(|t| t.compensator == "LuGre, load estimate");
+    let load = found.unwrap().load.as_ref().unwrap();
+    let last = *load.found_mass.last().unwrap();
+    assert!((last / 6.9 - 1.0).abs() < 0.02, "{last}");
+}

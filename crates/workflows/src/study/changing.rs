@@ -1,0 +1,113 @@
+//! An axis that changes while it runs, and what is found of it: the load that is estimated, the level that is adapted.
+
+use stiction_files::study::{Belief, Event, Machine, ModelScheme, Scheme, Study};
+use stiction_friction::{LuGre, ParamError};
+use stiction_servo::axis::{Axis, Correction, Sample};
+use stiction_servo::integrator::Quick;
+use stiction_servo::load::{LoadEstimator, LoadSettings, scaled};
+use stiction_servo::path::Reference;
+
+/// Most points of a course that are kept.
+const MOST_POINTS_KEPT: usize = 1000;
+
+/// The load of an axis over a run, from its beginning, and what was found of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LoadCourse {
+    /// s
+    pub time: Vec<f64>,
+    /// kg (kg m^2)
+    pub mass: Vec<f64>,
+    /// Factor on the friction of the law.
+    pub level: Vec<f64>,
+    /// The mass that is estimated; empty where none is.
+    pub found_mass: Vec<f64>,
+    /// The level that is estimated or adapted; empty where neither is.
+    pub found_level: Vec<f64>,
+}
+
+/// What changes in a run and is looked for.
+pub(super) struct Changing<'a> {
+    events: &'a [Event],
+    machine: &'a Machine,
+    belief: Belief,
+    /// Part of the mass that is fed forward, where the load is estimated.
+    estimates: Option<f64>,
+    adapts: bool,
+}
+
+impl<'a> Changing<'a> {
+    /// `None` where nothing changes and nothing is looked for. `fed` is the mass that the controller feeds forward.
+    pub fn of(study: &'a Study, scheme: &Scheme, belief: Belief, fed: f64) -> Option<Self> {
+        let model = |test: fn(&ModelScheme) -> bool| match scheme {
+            Scheme::Model(model) => test(model),
+            _ => false,
+        };
+        let changing = Changing {
+            events: &study.events,
+            machine: &study.machine,
+            belief,
+            estimates: model(|m| m.load_estimate).then_some(fed / belief.mass),
+            adapts: model(|m| m.adaptation.is_some()),
+        };
+        let any = !study.events.is_empty() || changing.estimates.is_some() || changing.adapts;
+        any.then_some(changing)
+    }
+
+    /// Runs the axis over the references, each with the velocity ahead.
+    pub fn follow(
+        &self,
+        axis: &mut Axis<LuGre<f64>, Quick>,
+        references: impl ExactSizeIterator<Item = (Reference, f64)>,
+    ) -> Result<(Vec<Sample>, LoadCourse), ParamError> {
+        let machine = self.machine;
+        let mut estimator = match self.estimates {
+            Some(share) => {
+                let (law, mass) = (self.belief.law, self.belief.mass);
+                let settings = LoadSettings::default();
+                let made = LoadEstimator::new(law, mass, machine.drive, machine.rate, settings)?;
+                Some((made, share))
+            }
+            None => None,
+        };
+        let mut events = self.events.iter().peekable();
+        let (mut mass, mut level) = (machine.mass, 1.0);
+        let thin = references.len().div_ceil(MOST_POINTS_KEPT).max(1);
+        let mut samples = Vec::with_capacity(references.len());
+        let mut course = LoadCourse::default();
+        for (k, (now, ahead)) in references.enumerate() {
+            let time = k as f64 / machine.rate;
+            while let Some(event) = events.next_if(|event| event.time <= time) {
+                if let Some(new) = event.mass {
+                    mass = new;
+                    axis.set_mass(mass)?;
+                }
+                if let Some(new) = event.friction {
+                    level = new;
+                    axis.set_law(scaled(&machine.law, level)?);
+                }
+            }
+            let sample = axis.step(now, ahead, Correction::default());
+            if let Some((estimator, share)) = &mut estimator {
+                let load = estimator.sample(sample.measured, sample.command);
+                axis.set_mass_feedforward(*share * load.mass)?;
+                axis.set_friction_level(load.level);
+            }
+            samples.push(sample);
+            if k % thin != 0 {
+                continue;
+            }
+            course.time.push(time);
+            course.mass.push(mass);
+            course.level.push(level);
+            if let Some((estimator, _)) = &estimator {
+                course.found_mass.push(estimator.load().mass);
+                course.found_level.push(estimator.load().level);
+            } else if self.adapts
+                && let Some(compensator) = axis.feedforward().compensator()
+            {
+                course.found_level.push(compensator.state().level);
+            }
+        }
+        Ok((samples, course))
+    }
+}
