@@ -22,6 +22,17 @@ impl Covariance {
         }
     }
 
+    /// The same with rows and columns in the order of tables.
+    pub(crate) fn in_order(&self) -> Self {
+        let mut order: Vec<usize> = (0..self.names.len()).collect();
+        order.sort_by_key(|i| self.names[*i].quantity.place());
+        let row = |i: &usize| order.iter().map(|j| self.matrix[*i][*j]).collect();
+        Self {
+            names: order.iter().map(|i| self.names[*i]).collect(),
+            matrix: order.iter().map(row).collect(),
+        }
+    }
+
     /// Place of a parameter among its rows and columns.
     pub fn place(&self, name: Name) -> Option<usize> {
         self.names.iter().position(|own| *own == name)

@@ -1,5 +1,6 @@
 //! A static map and a step fit in the form of any fitted law, so that the same code can read all of them.
 
+use super::parameter::Found;
 use super::static_map::StaticMap;
 use super::step_fit::{StepFit, StepSettings};
 use crate::estimate::fitted::FittedLaw;
@@ -7,8 +8,8 @@ use crate::estimate::series::Series;
 use crate::fit::Fit;
 use crate::law::terms::{Mass, Terms};
 use crate::law::{Law, LawKind};
-use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
+use crate::parameter::{NORMAL_Q95, Parameter};
 use stiction_friction::Direction;
 use stiction_parameters::Quantity;
 use stiction_search::{Counts, Status};
@@ -103,21 +104,28 @@ impl StepFit {
             stribeck_velocity: 1.0,
             viscous: 0.0,
         });
-        parameters.push(Parameter::given(Quantity::Sigma2, curve.viscous));
-        parameters.push(Parameter::given(Quantity::Coulomb, curve.coulomb));
+        // What is given and not exact was identified before.
+        let known = |quantity: Quantity, value: f64| match self.covariance.place(quantity.into()) {
+            Some(i) => Found {
+                name: quantity.into(),
+                value,
+                variance: self.covariance.matrix[i][i],
+                reason: "",
+            }
+            .parameter(curve.coulomb, NORMAL_Q95),
+            None => Parameter::given(quantity, value),
+        };
+        parameters.push(known(Quantity::Sigma2, curve.viscous));
+        parameters.push(known(Quantity::Coulomb, curve.coulomb));
         if settings.curve.is_some() {
-            parameters.push(Parameter::given(Quantity::Static, curve.static_friction));
-            parameters.push(Parameter::given(
-                Quantity::StribeckVelocity,
-                curve.stribeck_velocity,
-            ));
-            parameters.push(Parameter::given(
-                Quantity::StribeckExponent,
-                settings.exponent,
-            ));
+            parameters.extend([
+                known(Quantity::Static, curve.static_friction),
+                known(Quantity::StribeckVelocity, curve.stribeck_velocity),
+                known(Quantity::StribeckExponent, settings.exponent),
+            ]);
         }
         if let Some(mass) = settings.mass {
-            parameters.push(Parameter::given(Quantity::Mass, mass));
+            parameters.push(known(Quantity::Mass, mass));
         }
         let mut series = Series::default();
         for (log, response) in self.series.iter().enumerate() {
@@ -131,6 +139,7 @@ impl StepFit {
             series.other.extend(std::iter::repeat_n(0.0, n));
         }
         let ended = (self.status, self.counts);
-        fitted_law(law, terms, parameters, &self.covariance, series, ended)
+        let covariance = self.covariance.in_order();
+        fitted_law(law, terms, parameters, &covariance, series, ended)
     }
 }

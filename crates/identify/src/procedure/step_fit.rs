@@ -7,7 +7,7 @@
 
 use super::parameter::{Found, quantile};
 use super::step::StepResponse;
-use super::step_given::carried;
+use super::step_given::{GIVEN, carried};
 use super::step_model::{Response, Trial};
 use super::stretch::Run;
 use crate::error::Error;
@@ -52,9 +52,9 @@ pub struct StepSettings {
     pub curve: Option<Direction<f64>>,
     /// Stribeck exponent.
     pub exponent: f64,
-    /// Covariance of what is given, in the order Fc, Fs, vs, sigma2, mass; zero for what is exact.
-    /// The intervals of the result count it.
-    pub given: [[f64; 5]; 5],
+    /// Covariance of what is given, in the order Fc, Fs, vs, sigma2, mass, exponent; zero for what is exact.
+    /// The intervals of the result count it, and its covariance contains it.
+    pub given: [[f64; 6]; 6],
 }
 
 /// The fit of one or more step responses.
@@ -62,7 +62,7 @@ pub struct StepSettings {
 pub struct StepFit {
     /// sigma0, sigma1, and mass and static friction where they were unknown.
     pub parameters: Vec<Parameter>,
-    /// Their covariance.
+    /// Their covariance, and that of what was given and is not exact, with which they vary.
     pub covariance: Covariance,
     /// How much later the position is logged than the force, s, and its standard deviation.
     pub delay: (f64, f64),
@@ -361,8 +361,11 @@ impl Problem {
             at += response.position.len();
             breaks.push(at);
         }
-        let mut covariance = uncertainty::sandwich(&columns, &residual, &breaks).covariance;
-        covariance += carried(&mut self, p, &slopes);
+        // The unknowns, and behind them the settings.
+        let mut covariance = carried(&mut self, p, &slopes);
+        let own = uncertainty::sandwich(&columns, &residual, &breaks).covariance;
+        let mut corner = covariance.view_mut((0, 0), own.shape());
+        corner += own;
         let trial = self.trial(p);
         let n = residual.len() as f64;
         let level = trial.curve.coulomb;
@@ -394,6 +397,12 @@ impl Problem {
                 .parameter(level, quantile(n))
             })
             .collect();
+        for (j, quantity) in GIVEN.into_iter().enumerate() {
+            let i = p.len() + j;
+            if covariance[(i, i)] > 0.0 && rows.iter().all(|row| row.0 != quantity) {
+                rows.push((quantity, f64::NAN, i, 1.0));
+            }
+        }
         let matrix = rows
             .iter()
             .map(|a| {

@@ -5,13 +5,37 @@
 use super::step_fit::Problem;
 use crate::separable::linear::dot;
 use nalgebra::{DMatrix, DVector};
+use stiction_parameters::Quantity;
 
-/// Numbers of the settings: Fc, Fs, vs, sigma2, mass. Two for each response come after them.
-const SETTINGS: usize = 5;
+/// Numbers of the settings, in the order of their covariance.
+pub(super) const GIVEN: [Quantity; 6] = [
+    Quantity::Coulomb,
+    Quantity::Static,
+    Quantity::StribeckVelocity,
+    Quantity::Sigma2,
+    Quantity::Mass,
+    Quantity::StribeckExponent,
+];
+/// Two for each response come after them.
+const SETTINGS: usize = GIVEN.len();
 
-/// Effect of their uncertainty on the unknowns: `K G K^T` with `G` their covariance and
-/// `K = -(J^T J)^-1 J^T J_given`, `J` being `slopes`.
+/// What the uncertainty of the known inputs adds to the covariance of the unknowns and the settings: with `G` that of the
+/// inputs and `K = -(J^T J)^-1 J^T J_given`, `J` being `slopes`, the unknowns get `K G K^T` and vary with the inputs by
+/// `K G`, since the noise of the record has nothing to do with them.
 pub(super) fn carried(problem: &mut Problem, p: &[f64], slopes: &[Vec<f64>]) -> DMatrix<f64> {
+    let (answer, known) = answer(problem, p, slopes);
+    let (n, all) = (p.len(), p.len() + SETTINGS);
+    // The unknowns, and the settings themselves.
+    let of = DMatrix::from_fn(all, known.nrows(), |i, j| match i.checked_sub(n) {
+        None => answer[(i, j)],
+        Some(own) if own == j => 1.0,
+        Some(_) => 0.0,
+    });
+    &of * known * of.transpose()
+}
+
+/// `K` and `G`.
+fn answer(problem: &mut Problem, p: &[f64], slopes: &[Vec<f64>]) -> (DMatrix<f64>, DMatrix<f64>) {
     let n = p.len();
     let known = covariance(problem);
     let scale: Vec<f64> = slopes
@@ -21,10 +45,10 @@ pub(super) fn carried(problem: &mut Problem, p: &[f64], slopes: &[Vec<f64>]) -> 
     let gram = DMatrix::from_fn(n, n, |i, j| {
         dot(&slopes[i], &slopes[j]) * scale[i] * scale[j]
     });
-    let Some(factor) = gram.cholesky() else {
-        return DMatrix::zeros(n, n);
-    };
     let mut answer = DMatrix::zeros(n, known.nrows());
+    let Some(factor) = gram.cholesky() else {
+        return (answer, known);
+    };
     for j in 0..known.nrows() {
         let std = known[(j, j)].sqrt();
         if !(std > 0.0 && std.is_finite()) {
@@ -46,7 +70,7 @@ pub(super) fn carried(problem: &mut Problem, p: &[f64], slopes: &[Vec<f64>]) -> 
             answer[(i, j)] = -x[i] * scale[i];
         }
     }
-    &answer * known * answer.transpose()
+    (answer, known)
 }
 
 /// Covariance of the known inputs: that of the settings, and for each response those of the two force
@@ -81,17 +105,19 @@ fn moved(problem: &mut Problem, p: &[f64], which: usize, by: f64) -> Option<Vec<
     } else {
         let before = problem.settings;
         let mut after = before;
-        if which == 4 {
-            after.mass = Some(before.mass? + by);
-        } else {
-            let mut curve = before.curve?;
-            match which {
-                0 => curve.coulomb += by,
-                1 => curve.static_friction += by,
-                2 => curve.stribeck_velocity += by,
-                _ => curve.viscous += by,
+        match GIVEN[which] {
+            Quantity::Mass => after.mass = Some(before.mass? + by),
+            Quantity::StribeckExponent => after.exponent += by,
+            quantity => {
+                let mut curve = before.curve?;
+                match quantity {
+                    Quantity::Coulomb => curve.coulomb += by,
+                    Quantity::Static => curve.static_friction += by,
+                    Quantity::StribeckVelocity => curve.stribeck_velocity += by,
+                    _ => curve.viscous += by,
+                }
+                after.curve = Some(curve);
             }
-            after.curve = Some(curve);
         }
         problem.settings = after;
         let residual = problem.residual(p);

@@ -5,6 +5,7 @@ use crate::common::Noise;
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_identify::procedure::{Run, StepFit, StepResponse, StepSettings, fit_steps};
 use stiction_identify::{Error, Samples, Silent};
+use stiction_parameters::{Name, Quantity};
 use stiction_servo::known;
 use stiction_servo::plant::{Load, Motion, Plant};
 
@@ -85,7 +86,7 @@ fn fit(axis: &Axis, logs: &[Samples], mass: bool, curve: bool) -> StepFit {
         mass: mass.then_some(axis.plant.mass()),
         curve: curve.then_some(axis.curve),
         exponent: 2.0,
-        given: [[0.0; 5]; 5],
+        given: [[0.0; 6]; 6],
     };
     fit_steps(&runs, &settings, &mut Silent).unwrap()
 }
@@ -243,7 +244,7 @@ fn the_uncertainty_of_what_is_given_is_carried_on() {
     for (which, share) in [(1, 0.01), (4, 0.01)] {
         let mut curve = axis.curve;
         let mut mass = axis.plant.mass();
-        let mut given = [[0.0; 5]; 5];
+        let mut given = [[0.0; 6]; 6];
         let std = if which == 1 {
             share * curve.static_friction
         } else {
@@ -272,6 +273,22 @@ fn the_uncertainty_of_what_is_given_is_carried_on() {
             if name == "sigma0" {
                 assert!(deviations > 0.5, "{name}: {deviations}");
             }
+            // By as much as it varies with what is given: that is one of its deviations off.
+            let other: Quantity = if which == 1 {
+                Quantity::Static
+            } else {
+                Quantity::Mass
+            };
+            let covariance = &fit.covariance;
+            let [own, other] =
+                [p.name, other.into()].map(|name: Name| covariance.place(name).unwrap());
+            assert_eq!(covariance.matrix[other][other], std * std);
+            let expected = covariance.matrix[own][other] / std;
+            let found = p.value - truth;
+            assert!(
+                (found / expected - 1.0).abs() < 0.2,
+                "{which} {name}: {found:.3e}, expected {expected:.3e}"
+            );
         }
     }
 }
@@ -375,7 +392,7 @@ fn what_is_no_step_is_refused() {
             viscous: 0.0,
         }),
         exponent: 2.0,
-        given: [[0.0; 5]; 5],
+        given: [[0.0; 6]; 6],
     };
     assert!(matches!(
         fit_steps(&[(run(&good), step)], &settings, &mut Silent),

@@ -48,7 +48,7 @@ pub(in crate::identify) fn run(
     }
     let mut warnings = log_warnings(sources);
     warnings.retain(|w| !ON_PURPOSE.contains(&w.code));
-    let (settings, map) = settings(
+    let (settings, map, undetermined) = settings(
         asked,
         sources,
         &loaded.beside,
@@ -57,7 +57,14 @@ pub(in crate::identify) fn run(
         observer,
     )?;
     let fit = fit_steps(&runs, &settings, observer).map_err(|e| refused(sources, e))?;
-    let law = fit.fitted_law(&settings);
+    let mut law = fit.fitted_law(&settings);
+    // What an earlier identification left open has no covariance there, and is not exact for that.
+    for p in law.parameters.iter_mut().filter(|p| !p.identified) {
+        if undetermined.contains(&p.name.quantity) {
+            p.identifiable = false;
+            p.reason = "the identification that it is taken from did not determine it".into();
+        }
+    }
     let mut judged = trust::of_steps(&law, &fit, loaded.motion(), warnings);
     let entry = entry(&fit, &runs, &settings, sources, &mut judged.warnings);
     let break_away = break_away(&loaded.beside, &law)?;
@@ -84,7 +91,7 @@ pub(in crate::identify) fn run(
     Ok(Outcome::new(result, found, Vec::new(), loaded.sources))
 }
 
-/// What is known beside the steps: mass and steady curve.
+/// What is known beside the steps: mass and steady curve, and what of them was not determined.
 fn settings(
     asked: Asked,
     sources: &[Source],
@@ -92,7 +99,7 @@ fn settings(
     runs: &[(Run, StepResponse)],
     warnings: &mut Vec<Warning>,
     observer: &mut dyn Observer,
-) -> Result<(StepSettings, Option<StaticMapEntry>), Error> {
+) -> Result<(StepSettings, Option<StaticMapEntry>, Vec<Quantity>), Error> {
     let Asked { options, axis, .. } = asked;
     let terms = axis.terms_for(&sources[0].log, options.asymmetric)?;
     let mass = match terms.mass {
@@ -116,7 +123,7 @@ fn settings(
         mass,
         curve: None,
         exponent: axis.stribeck_exponent,
-        given: [[0.0; 5]; 5],
+        given: [[0.0; 6]; 6],
     };
     if beside.model.is_none() && beside.statics.is_empty() {
         warnings.push(Warning::new(
@@ -125,7 +132,7 @@ fn settings(
              fitted, sigma2 as zero. sigma1 then stands for sigma1 + sigma2, and where the axis gets \
              near the Stribeck velocity all parameters are off by more than their intervals",
         ));
-        return Ok((settings, None));
+        return Ok((settings, None, Vec::new()));
     }
     let known = curve::known(asked, sources, beside, observer)?;
     warnings.extend(known.warnings);
@@ -133,51 +140,67 @@ fn settings(
     let back = runs.iter().all(|(_, step)| step.height < 0.0);
     let [pos, neg] = known.statics.sides;
     settings.exponent = known.statics.exponent;
-    settings.given = given(&known.statics, !back);
+    let shares = match (forth, back) {
+        (true, _) => [1.0, 0.0],
+        (_, true) => [0.0, 1.0],
+        // Steps both ways: what they have in common.
+        _ => [0.5, 0.5],
+    };
+    settings.given = given(&known.statics, shares);
     if matches!(terms.mass, Mass::Given(_)) {
         // The axis file's mass is exact.
-        settings.given[4] = [0.0; 5];
+        settings.given[4] = [0.0; 6];
         settings.given.iter_mut().for_each(|row| row[4] = 0.0);
     }
-    settings.curve = Some(match (forth, back) {
-        (true, _) => pos,
-        (_, true) => neg,
-        // Steps both ways: what they have in common.
-        _ => Direction {
-            coulomb: 0.5 * (pos.coulomb + neg.coulomb),
-            static_friction: 0.5 * (pos.static_friction + neg.static_friction),
-            stribeck_velocity: 0.5 * (pos.stribeck_velocity + neg.stribeck_velocity),
-            viscous: 0.5 * (pos.viscous + neg.viscous),
-        },
+    let mean = |of: fn(&Direction<f64>) -> f64| shares[0] * of(&pos) + shares[1] * of(&neg);
+    settings.curve = Some(Direction {
+        coulomb: mean(|side| side.coulomb),
+        static_friction: mean(|side| side.static_friction),
+        stribeck_velocity: mean(|side| side.stribeck_velocity),
+        viscous: mean(|side| side.viscous),
     });
-    Ok((settings, known.map))
+    let statics = known.statics.parameters.iter();
+    let open = statics.filter(|p| p.identified && !p.identifiable);
+    let given_mass = matches!(terms.mass, Mass::Given(_));
+    let undetermined = open
+        .map(|p| p.name.quantity)
+        .filter(|quantity| !(given_mass && *quantity == Quantity::Mass))
+        .collect();
+    Ok((settings, known.map, undetermined))
 }
 
-/// Covariance of the curve and the mass that are given, for steps in one direction.
-fn given(statics: &Statics, positive: bool) -> [[f64; 5]; 5] {
-    let side = match (statics.asymmetric, positive) {
-        (false, _) => Side::Both,
-        (true, true) => Side::Positive,
-        (true, false) => Side::Negative,
-    };
+/// Covariance of the curve, the mass and the exponent that are given: of the one direction in which the steps go, or of the mean
+/// of both.
+fn given(statics: &Statics, shares: [f64; 2]) -> [[f64; 6]; 6] {
     let covariance = &statics.covariance;
-    let at = [
+    // Of each what the parameters of the covariance contribute.
+    let parts = [
         Quantity::Coulomb,
         Quantity::Static,
         Quantity::StribeckVelocity,
         Quantity::Sigma2,
         Quantity::Mass,
+        Quantity::StribeckExponent,
     ]
-    .map(|quantity| {
-        let own = covariance.place(Name::new(quantity, side));
-        own.or_else(|| covariance.place(quantity.into()))
+    .map(|quantity| -> Vec<(usize, f64)> {
+        let both = covariance.place(quantity.into());
+        let sides = [Side::Positive, Side::Negative].into_iter().zip(shares);
+        let sides = sides.filter_map(|(side, share)| {
+            let place = covariance.place(Name::new(quantity, side))?;
+            (share > 0.0).then_some((place, share))
+        });
+        match both {
+            Some(place) => vec![(place, 1.0)],
+            None => sides.collect(),
+        }
     });
-    let mut out = [[0.0; 5]; 5];
-    for (i, row) in at.iter().enumerate() {
-        for (j, column) in at.iter().enumerate() {
-            if let (Some(a), Some(b)) = (row, column) {
-                out[i][j] = covariance.matrix[*a][*b];
-            }
+    let mut out = [[0.0; 6]; 6];
+    for (i, row) in parts.iter().enumerate() {
+        for (j, column) in parts.iter().enumerate() {
+            let pairs = row.iter().flat_map(|a| column.iter().map(move |b| (a, b)));
+            out[i][j] = pairs
+                .map(|((a, x), (b, y))| x * y * covariance.matrix[*a][*b])
+                .sum();
         }
     }
     out

@@ -69,7 +69,7 @@ pub(super) fn run(stage: &Stage, identified: &Named, watch: &Watch) -> Result<Pr
             mass: Some(mass),
             curve: Some(side),
             exponent: 2.0,
-            given: [[0.0; 5]; 5],
+            given: [[0.0; 6]; 6],
         },
         &mut Silent,
     )?;
