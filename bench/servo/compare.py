@@ -9,6 +9,10 @@ step a control step; no encoder steps, delay or lag. numba holds z exactly and t
 motion, of first order; stiction's step is implicit and of second order. Both compute the sine of the reference in the
 loop; with `-shared` in the name stiction reads it from samples, as the runs of a study do. Prints the least time of each
 in ns per control step, on one core, and with `study` as second argument what 1000 runs of a study take.
+
+With `accuracy` as second argument both take more and more plant steps in a control step of the first loop, and their tracking
+errors are compared with those that very many steps give, of each its own: ns per control step and the rms of the difference in
+parts of that of the tracking error, then the time to equal accuracy; the curve goes to `docs/servo-accuracy.svg`.
 """
 
 import datetime
@@ -24,9 +28,15 @@ import environment
 
 environment.enter()
 
+import matplotlib
 import numba
+import numpy
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt
 
 RATE, SECONDS, MASS = 10_000, 3, 10.0
+STEPS = RATE * SECONDS
 # sigma0, sigma1, sigma2, Fc, Fs, vs
 LAW = (1.2e5, 600.0, 60.0, 20.0, 30.0, 5e-3)
 
@@ -75,18 +85,107 @@ def loop(steps, h, mass, law, compensated):
     return math.sqrt(squares / steps)
 
 
+@numba.njit
+def tracked(errors, parts, h, mass, law):
+    """The loop with `parts` plant steps in each control step; the tracking error of each into `errors`, where there is room."""
+    x = v = z = integral = squares = 0.0
+    omega = 2.0 * math.pi
+    wide = 2.0 * math.pi * 30.0
+    short = h / parts
+    for k in range(STEPS):
+        t = k * h
+        s, c = math.sin(omega * t), math.cos(omega * t)
+        wanted, speed, acceleration = 0.02 * (1.0 - c), 0.02 * omega * s, 0.02 * omega * omega * c
+        error = wanted - x
+        squares += error * error
+        if len(errors) > 0:
+            errors[k] = error
+        slip = speed + 0.25 * wide * error - v
+        integral += 0.2 * wide * wide * mass * slip * h
+        force = wide * mass * slip + integral + mass * acceleration
+        force = min(max(force, -1000.0), 1000.0)
+        for _ in range(parts):
+            g = level(v, law)
+            friction = bristle_force(z, v, g, law)
+            z = moved(z, v, g, short, law)
+            v += short * (force - friction) / mass
+            x += short * v
+    return math.sqrt(squares / STEPS)
+
+
+def numba_accuracy(rounds):
+    """Plant steps, ns per control step, and the rms of what they get wrong of the tracking error in parts of it."""
+
+    def errors(parts):
+        found = numpy.zeros(STEPS)
+        tracked(found, parts, 1.0 / RATE, MASS, LAW)
+        return found
+
+    right, none, points = errors(1 << 14), numpy.zeros(0), []
+    for parts in [1 << i for i in range(10)]:
+        spent = math.inf
+        for _ in range(rounds):
+            start = time.perf_counter()
+            tracked(none, parts, 1.0 / RATE, MASS, LAW)
+            spent = min(spent, time.perf_counter() - start)
+        off = numpy.sqrt(numpy.mean((errors(parts) - right) ** 2) / numpy.mean(right**2))
+        points.append((parts, 1e9 * spent / STEPS, off))
+    return points
+
+
+def time_to(points, off):
+    """ns to this accuracy, between the points on a line in logarithms; infinite where none gets there."""
+    for (_, before, worse), (_, after, better) in zip(points, points[1:]):
+        if better <= off <= worse:
+            share = math.log(worse / off) / math.log(worse / better)
+            return before * (after / before) ** share
+    return points[0][1] if off >= points[0][2] else math.inf
+
+
+def accuracy(rounds):
+    command = [environment.example("loops"), str(rounds), "accuracy"]
+    lines = subprocess.check_output(command, text=True).splitlines()
+    ours = [(int(n), float(ns), float(off)) for n, ns, off in map(str.split, lines)]
+    numbas = numba_accuracy(rounds)
+    for name, points in [("stiction", ours), ("numba", numbas)]:
+        for parts, ns, off in points:
+            print(f"{name} {parts} {ns:.1f} {off:.2e}")
+    for _, ns, off in ours:
+        other = time_to(numbas, off)
+        last = numbas[-1]
+        words = f"{other:.0f} ns, {other / ns:.1f} times as long"
+        if math.isinf(other):
+            words = f"more than {last[1]:.0f} ns, in which it gets to {last[2]:.1e}"
+        print(f"accuracy {off:.1e}: stiction {ns:.1f} ns, numba {words}")
+    figure([("stiction, implicit, second order", "#0072B2", ours), ("numba, semi-implicit Euler", "#D55E00", numbas)])
+
+
+def figure(curves):
+    """Accuracy over time."""
+    plt.rcParams.update({"svg.hashsalt": "servo", "svg.fonttype": "none", "font.size": 10})
+    figure, axes = plt.subplots(figsize=(6.4, 3.4), layout="constrained")
+    for name, color, points in curves:
+        _, spent, off = zip(*points)
+        axes.loglog(spent, off, "o-", color=color, markersize=4, label=name)
+    axes.set(xlabel="ns per control step", ylabel="error of the tracking error,\nin parts of it")
+    axes.grid(True, which="both", color="#e0e0e0")
+    axes.legend(frameon=False)
+    figure.savefig(environment.ROOT / "docs/servo-accuracy.svg", metadata={"Date": None})
+
+
 def main():
     rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 10
+    if sys.argv[2:3] == ["accuracy"]:
+        return accuracy(rounds)
     program = environment.example("loops")
-    steps = RATE * SECONDS
     least = {}
     for turn in range(rounds):
         for name, compensated in [("numba-cascade", False), ("numba-compensated", True)]:
             loop(10, 1.0 / RATE, MASS, LAW, compensated)
             for _ in range(50):
                 start = time.perf_counter()
-                loop(steps, 1.0 / RATE, MASS, LAW, compensated)
-                spent = (time.perf_counter() - start) * 1e9 / steps
+                loop(STEPS, 1.0 / RATE, MASS, LAW, compensated)
+                spent = (time.perf_counter() - start) * 1e9 / STEPS
                 least[name] = min(least.get(name, math.inf), spent)
         study = sys.argv[2:3] if turn == 0 else []
         command = [program, "30", *study]

@@ -3,7 +3,9 @@
 //! Prints one line a loop, its name and ns per control step on one core: of each stretch of 1000 steps the least of all
 //! rounds, on average. The sine of the reference is computed in the loop; with `-shared` in the name it was sampled before,
 //! as for the runs of a study. `study-run` is the least whole run of a study, metrics included. With `loops ROUNDS study` also the
-//! seconds that 1000 such runs take on one thread and on two.
+//! seconds that 1000 such runs take on one thread and on two. `loops ROUNDS accuracy` prints, for more and more plant steps in
+//! a control step of the first loop, ns per control step and how far the tracking error is from that with very many, rms in
+//! parts of its own.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -19,7 +21,7 @@ use stiction_servo::metrics::{Crawl, Feed, Hunting, Tracking, standing_error};
 use stiction_servo::motion::Sine;
 use stiction_servo::path::Reference;
 use stiction_servo::plant::Plant;
-use stiction_servo::run::follow_sampled;
+use stiction_servo::run::{follow, follow_sampled};
 use stiction_servo::sampled::Sampled;
 use stiction_servo::trajectory::Lookahead;
 
@@ -27,10 +29,16 @@ use stiction_servo::trajectory::Lookahead;
 const STEPS: usize = 30_000;
 const STRETCH: usize = 1000;
 const RUNS: usize = 1000;
+/// Plant steps in a control step whose cost and accuracy are told, and those that count as exact.
+const PLANT_STEPS: [u32; 6] = [1, 2, 4, 8, 16, 32];
+const VERY_MANY: u32 = 512;
 
 fn main() -> Result<(), ParamError> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let rounds = arguments.first().and_then(|r| r.parse().ok()).unwrap_or(50);
+    if arguments.get(1).is_some_and(|what| what == "accuracy") {
+        return accuracy(rounds);
+    }
     let whole = whole()?;
     for (name, settings) in [
         ("cascade", &plain(false)?),
@@ -107,6 +115,37 @@ fn least<R: Iterator<Item = (Reference, f64)>>(
         }
     }
     Ok(1e9 * least.iter().sum::<f64>() / STEPS as f64)
+}
+
+/// What a plant step costs and how much of the tracking error it gets right.
+fn accuracy(rounds: usize) -> Result<(), ParamError> {
+    let sine = Sine::new(0.02, 1.0, STEPS as f64 / 1e4)?;
+    let settings = |substeps| -> Result<AxisSettings, ParamError> {
+        let plain = plain(false)?;
+        Ok(AxisSettings { substeps, ..plain })
+    };
+    let errors = |substeps| -> Result<Vec<f64>, ParamError> {
+        let mut axis = Axis::new(settings(substeps)?, Quick::new(1)?)?;
+        let samples = follow(&mut axis, &sine)?;
+        Ok(samples.iter().map(|sample| sample.error()).collect())
+    };
+    let rms = |values: &[f64]| {
+        let squares: f64 = values.iter().map(|x| x * x).sum();
+        (squares / values.len() as f64).sqrt()
+    };
+    let right = errors(VERY_MANY)?;
+    for substeps in PLANT_STEPS {
+        let found = errors(substeps)?;
+        let off: Vec<f64> = found.iter().zip(&right).map(|(a, b)| a - b).collect();
+        let settings = settings(substeps)?;
+        let computed = || {
+            let mut reference = Lookahead::new(&sine, settings.rate, 0.0);
+            (0..STEPS).map(move |_| reference.sample())
+        };
+        let spent = least(&settings, rounds, computed)?;
+        println!("{substeps} {spent:.1} {:.2e}", rms(&off) / rms(&right));
+    }
+    Ok(())
 }
 
 /// The motion of all runs of a study.
