@@ -1,13 +1,18 @@
 //! What CI has no time for: the tests marked `#[ignore = "soak: .."]`, most of them one of the ordinary tests with more
-//! seeds, and the packed crates built on their own.
+//! seeds, the crate with features without them, and the packed crates built on their own.
 
 use crate::shell::{self, Outcome};
 use crate::{package, setup, tools};
+
+/// The one crate with features, without them.
+const BARE: &str =
+    "nextest run --package stiction-log --no-default-features --tests --no-fail-fast";
 
 /// Runs it all; about half an hour on two cores.
 pub fn run() -> Outcome {
     setup()?;
     package::verified()?;
+    shell::run(tools::command(&tools::NEXTEST, BARE)?)?;
     let tests = "nextest run --workspace --no-fail-fast --run-ignored only";
     shell::run(tools::command(&tools::NEXTEST, tests)?)
 }

@@ -57,11 +57,16 @@ pub struct Thinning {
     past: State,
     now: f64,
     /// `A` to the power of `every`.
-    jump: Square,
+    jump: [[Weight; STATES]; STATES],
     /// What each sample of a block adds to the state after it, and to the one before it.
-    to_past: Vec<State>,
-    to_ahead: Vec<State>,
+    to_past: Vec<[Weight; STATES]>,
+    to_ahead: Vec<[Weight; STATES]>,
 }
+
+/// Most signals that run side by side.
+const SIDE_BY_SIDE: usize = 4;
+/// A weight as often as there can be signals, so that one load brings it to all of them.
+type Weight = [f64; SIDE_BY_SIDE];
 
 /// One pass of a filter.
 #[derive(Clone, Copy, Debug)]
@@ -145,9 +150,9 @@ impl Thinning {
             ahead,
             past,
             now: dot(cp, b) + d * d,
-            jump,
-            to_past,
-            to_ahead,
+            jump: jump.map(repeated),
+            to_past: to_past.into_iter().map(repeated).collect(),
+            to_ahead: to_ahead.into_iter().map(repeated).collect(),
         })
     }
 
@@ -197,7 +202,7 @@ impl Thinning {
             taps: &taps,
         };
         let mut out = Vec::with_capacity(signals.len());
-        for four in signals.chunks(4) {
+        for four in signals.chunks(SIDE_BY_SIDE) {
             match *four {
                 [one] => self.side_by_side([one], &places, instructions, &mut out),
                 [one, two] => self.side_by_side([one, two], &places, instructions, &mut out),
@@ -241,28 +246,30 @@ impl Thinning {
     /// points.
     fn taps(&self, reading: &Reading, points: usize) -> Taps {
         let Model { a, b, c, .. } = self.forward;
-        let mut taps = Taps {
-            past: [0.0; STATES],
-            ahead: [0.0; STATES],
-            inside: [0.0; POINTS],
-        };
+        let mut past = [0.0; STATES];
+        let mut ahead = [0.0; STATES];
+        let mut inside = [0.0; POINTS];
         for (at, &weight) in reading.weights[..points].iter().enumerate() {
             // Row vectors, back to the place and on to the last point.
             let mut row = self.past.map(|x| weight * x);
             for before in (0..at).rev() {
-                taps.inside[before] += dot(row, b);
+                inside[before] += dot(row, b);
                 row = transposed(&a, row);
             }
-            taps.past = add(taps.past, row);
+            past = add(past, row);
             let mut row = c.map(|x| weight * x);
-            for after in at + 1..points {
-                taps.inside[after] += dot(row, self.ahead);
+            for inside in &mut inside[at + 1..points] {
+                *inside += dot(row, self.ahead);
                 row = transposed(&a, row);
             }
-            taps.ahead = add(taps.ahead, row);
-            taps.inside[at] += weight * self.now;
+            ahead = add(ahead, row);
+            inside[at] += weight * self.now;
         }
-        taps
+        Taps {
+            past: repeated(past),
+            ahead: repeated(ahead),
+            inside: repeated(inside),
+        }
     }
 }
 
@@ -311,6 +318,10 @@ fn dot(a: State, b: State) -> f64 {
     (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
 }
 
+fn repeated<const N: usize>(weights: [f64; N]) -> [Weight; N] {
+    weights.map(|w| [w; SIDE_BY_SIDE])
+}
+
 fn add(a: State, b: State) -> State {
     from_fn(|i| a[i] + b[i])
 }
@@ -356,9 +367,9 @@ impl<'a, const L: usize> Rows<'a, L> {
 
 /// What a reading is made of.
 struct Taps {
-    past: State,
-    ahead: State,
-    inside: [f64; POINTS],
+    past: [Weight; STATES],
+    ahead: [Weight; STATES],
+    inside: [Weight; POINTS],
 }
 
 /// Where signals are read: at `count` places from the sample `first` on, by readings that see so many points each.
@@ -380,20 +391,31 @@ struct Pass<'a, const L: usize> {
 /// The states of `L` signals.
 type States<const L: usize> = [[f64; L]; STATES];
 
-/// `sum + w x` for each lane, the bits of which do not depend on the instruction set: each product is rounded once, in
+/// `sum + w x` for each signal, the bits of which do not depend on the instruction set: each product is rounded once, in
 /// the sum.
 #[inline(always)]
-fn fused<const L: usize>(sum: [f64; L], w: f64, x: [f64; L]) -> [f64; L] {
-    from_fn(|l| w.mul_add(x[l], sum[l]))
+fn fused<const L: usize>(sum: [f64; L], w: &Weight, x: [f64; L]) -> [f64; L] {
+    from_fn(|l| w[l].mul_add(x[l], sum[l]))
+}
+
+/// `sum + w x` for a state.
+#[inline(always)]
+fn along<const L: usize>(mut sum: States<L>, w: &[Weight; STATES], x: [f64; L]) -> States<L> {
+    for i in 0..STATES {
+        sum[i] = fused(sum[i], &w[i], x);
+    }
+    sum
 }
 
 /// `sum + M x`.
 #[inline(always)]
-fn onto<const L: usize>(mut sum: States<L>, m: &Square, x: States<L>) -> States<L> {
+fn onto<const L: usize>(
+    mut sum: States<L>,
+    m: &[[Weight; STATES]; STATES],
+    x: States<L>,
+) -> States<L> {
     for j in 0..STATES {
-        for i in 0..STATES {
-            sum[i] = fused(sum[i], m[j][i], x[j]);
-        }
+        sum = along(sum, &m[j], x[j]);
     }
     sum
 }
@@ -406,19 +428,28 @@ fn times<const L: usize>(w: &State, x: [f64; L]) -> States<L> {
 
 /// `sum + w . x`.
 #[inline(always)]
-fn weighed<const L: usize>(sum: [f64; L], w: &[f64], x: &[[f64; L]]) -> [f64; L] {
+fn weighed<const L: usize, const N: usize>(
+    sum: [f64; L],
+    w: &[Weight; N],
+    x: &[[f64; L]; N],
+) -> [f64; L] {
     let pairs = w.iter().zip(x);
-    pairs.fold(sum, |sum, (w, x)| fused(sum, *w, *x))
+    pairs.fold(sum, |sum, (w, x)| fused(sum, w, *x))
 }
 
 /// What a block of samples adds to a state.
 #[inline(always)]
-fn block<const L: usize>(weights: &[State], rows: &[[f64; L]]) -> States<L> {
+fn block<const L: usize>(weights: &[[Weight; STATES]], rows: &[[f64; L]]) -> States<L> {
+    let (fours, rest) = weights.as_chunks::<4>();
+    let (wide, tail) = rows.as_chunks::<4>();
     let mut sum = [[0.0; L]; STATES];
-    for (w, x) in weights.iter().zip(rows) {
-        for i in 0..STATES {
-            sum[i] = fused(sum[i], w[i], *x);
+    for (w, x) in fours.iter().zip(wide) {
+        for k in 0..4 {
+            sum = along(sum, &w[k], x[k]);
         }
+    }
+    for (w, x) in rest.iter().zip(tail) {
+        sum = along(sum, w, *x);
     }
     sum
 }
@@ -443,6 +474,7 @@ impl<const L: usize> Kernel for Pass<'_, L> {
         let Model { a, b, c, d } = filter.forward;
         let every = filter.every;
         let end = rows.len() - 1;
+        let a = a.map(repeated);
         let step = |state: States<L>, x: [f64; L]| onto(times(&b, x), &a, state);
         // Beyond each end the signal goes on turned about the end point, as in `zero_phase`.
         let turned = |end: usize, k: usize| from_fn(|l| 2.0 * rows[end][l] - rows[k][l]);
@@ -461,7 +493,13 @@ impl<const L: usize> Kernel for Pass<'_, L> {
             let now = &rows[at..at + points];
             for (taps, out) in taps.iter().zip(out.iter_mut()) {
                 let past = weighed([0.0; L], &taps.past, &state);
-                out[k] = weighed(past, &taps.inside[..points], now);
+                out[k] = match now.first_chunk::<POINTS>() {
+                    Some(six) => weighed(past, &taps.inside, six),
+                    None => now
+                        .iter()
+                        .zip(&taps.inside)
+                        .fold(past, |sum, (x, w)| fused(sum, w, *x)),
+                };
             }
             if k + 1 < count {
                 let new = block(&filter.to_past, &rows[at..at + every]);
@@ -480,7 +518,8 @@ impl<const L: usize> Kernel for Pass<'_, L> {
         }
 
         // The backward pass begins as if the last value of the forward one had been there for ever.
-        let held = onto([[0.0; L]; STATES], &filter.shared, state);
+        let shared = filter.shared.map(repeated);
+        let held = onto([[0.0; L]; STATES], &shared, state);
         let mut state: States<L> =
             from_fn(|i| from_fn(|l| filter.settled[i] * last[l] - held[i][l]));
         let back = |state: States<L>, x: [f64; L]| onto(times(&filter.ahead, x), &a, state);

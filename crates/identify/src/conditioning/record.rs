@@ -290,7 +290,7 @@ impl Record {
         for run in segment.keep.chunk_by(|a, b| a == b) {
             let end = at + run.len();
             if run[0] {
-                out.extend((at..end).map(|i| shift.at(full, i * self.decimate)));
+                shift.append(full, self.decimate, at..end, out);
             }
             at = end;
         }

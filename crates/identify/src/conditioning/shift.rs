@@ -1,6 +1,5 @@
 //! A channel read between its samples, as a delay between force and motion needs.
 
-use crate::separable::linear::dot;
 use stiction_signal::Reading;
 
 /// Points of the Lagrange interpolation (docs/identification.md).
@@ -60,6 +59,45 @@ impl Shift {
         Reading::between(self.weights)
     }
 
+    /// Two sums side by side, which is what every processor has.
+    #[inline(always)]
+    fn between(&self, six: &[f64; INTERPOLATION_POINTS]) -> f64 {
+        let w = &self.weights;
+        let sum = |i: usize| w[i] * six[i] + w[i + 2] * six[i + 2] + w[i + 4] * six[i + 4];
+        sum(0) + sum(1)
+    }
+
+    /// Appends the shifted channel at every `every`-th sample, those numbered `numbers`.
+    pub fn append(
+        &self,
+        full: &[f64],
+        every: usize,
+        numbers: std::ops::Range<usize>,
+        out: &mut Vec<f64>,
+    ) {
+        out.reserve(numbers.len());
+        let at = |i: usize| self.at(full, i * every);
+        // Where no end is in the way, nothing needs to be asked.
+        let points = INTERPOLATION_POINTS as isize;
+        let ends = [-self.first, full.len() as isize - points - self.first + 1];
+        let [begin, end] = ends
+            .map(|x| (x.max(0) as usize).div_ceil(every))
+            .map(|i| i.clamp(numbers.start, numbers.end));
+        let (begin, end) = match self.whole {
+            None => (begin, end.max(begin)),
+            Some(_) => (numbers.end, numbers.end),
+        };
+        out.extend((numbers.start..begin).map(at));
+        if let Some(first) = (begin * every).checked_add_signed(self.first)
+            && let Some(rest) = full.get(first..)
+        {
+            let windows = rest.windows(INTERPOLATION_POINTS).step_by(every);
+            let six = windows.take(end - begin).filter_map(<[f64]>::first_chunk);
+            out.extend(six.map(|six| self.between(six)));
+        }
+        out.extend((end..numbers.end).map(at));
+    }
+
     /// The shifted channel at sample `at`; beyond the ends the end values go on.
     #[inline(always)]
     pub fn at(&self, full: &[f64], at: usize) -> f64 {
@@ -72,7 +110,7 @@ impl Shift {
             .checked_add_signed(self.first)
             .and_then(|start| full.get(start..)?.first_chunk::<INTERPOLATION_POINTS>());
         if let Some(six) = inside {
-            return dot(six, &self.weights);
+            return self.between(six);
         }
         (0..INTERPOLATION_POINTS)
             .map(|i| self.weights[i] * read(self.first + i as isize))
@@ -136,6 +174,25 @@ mod tests {
                 let want = (f(t + 1e-5) - f(t - 1e-5)) / 2e-5 * -0.3;
                 assert!((value.at(&full, at) - f(t)).abs() < 1e-11);
                 assert!((slope.at(&full, at) - want).abs() < 1e-8);
+            }
+        }
+    }
+
+    /// Beyond an end and far from it, for all samples and for some.
+    #[test]
+    fn many_are_read_like_each() {
+        let full: Vec<f64> = (0..40).map(|i| libm::sin(0.7 * f64::from(i))).collect();
+        for samples in [-60.0, -3.2, -1.0, 0.0, 0.4, 2.0, 7.9, 60.0] {
+            for shift in [Shift::earlier(samples), Shift::slope(samples)] {
+                for every in [1, 3, 7] {
+                    let count = full.len().div_ceil(every);
+                    for numbers in [0..count, 1..count, 2..count - 1, 3..3] {
+                        let mut out = vec![5.0];
+                        shift.append(&full, every, numbers.clone(), &mut out);
+                        let each = numbers.map(|i| shift.at(&full, i * every));
+                        assert!(out[1..].iter().copied().eq(each), "{samples} {every}");
+                    }
+                }
             }
         }
     }
