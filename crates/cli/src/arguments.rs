@@ -381,6 +381,12 @@ pub struct Reproduce {
     /// Which publication.
     #[arg(value_enum)]
     pub publication: Publication,
+    /// The experiments of the paper on your own axis: its model, as stiction identify writes it.
+    #[arg(long, value_name = "MODEL.toml")]
+    pub model: Option<PathBuf>,
+    /// What else is known of that axis: mass, encoder step, force limit, name.
+    #[arg(long, value_name = "AXIS.toml", requires = "model")]
+    pub axis: Option<PathBuf>,
     /// Folder for reproduce.json and report.html.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,

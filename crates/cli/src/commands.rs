@@ -10,6 +10,7 @@ use crate::wording;
 use clap::ValueEnum;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use stiction::commands::reproduce::{Budget, OwnAxis, canudas_1995, zhang_2025, zhang_2025_on};
 use stiction::commands::{
     CompareOptions, Cost, Excitation, FileError, Files, Input, Outcome, Scheme, check_folder,
     check_folder_of, check_inputs, write_atomic,
@@ -505,14 +506,30 @@ fn reproduce(reproduce: &arguments::Reproduce, common: &Common) -> Result<Exit, 
         stiction::commands::reproduce_file::SCHEMA,
         reproduce.force,
     )?;
+    let inputs: Vec<PathBuf> = [&reproduce.model, &reproduce.axis]
+        .into_iter()
+        .flatten()
+        .cloned()
+        .collect();
+    check_inputs(dir, &inputs)?;
     let mut bar = Bar::new(common.json || common.quiet);
-    let outcome = match reproduce.publication {
-        arguments::Publication::Canudas1995 => {
-            stiction::commands::reproduce::canudas_1995(&mut bar)
+    let budget = Budget::default();
+    let outcome = match (reproduce.publication, &reproduce.model) {
+        (arguments::Publication::Canudas1995, None) => canudas_1995(&mut bar),
+        (arguments::Publication::Canudas1995, Some(_)) => {
+            return Err(Error::Usage {
+                found: "reproduce 1995 --model".into(),
+                allowed: "reproduce paper --model: the experiments of 1995 are those of one block"
+                    .into(),
+            });
         }
-        arguments::Publication::Zhang2025 => {
-            let budget = stiction::commands::reproduce::Budget::default();
-            stiction::commands::reproduce::zhang_2025(budget, &mut bar)
+        (arguments::Publication::Zhang2025, None) => zhang_2025(budget, &mut bar),
+        (arguments::Publication::Zhang2025, Some(model)) => {
+            let own = OwnAxis {
+                axis: reproduce.axis.clone(),
+                model: model.clone(),
+            };
+            zhang_2025_on(&own, budget, &mut bar)?
         }
     };
     bar.finish();

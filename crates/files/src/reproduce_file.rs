@@ -31,6 +31,9 @@ pub struct ReproduceFile {
     /// Every search of parameters with its seed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub searches: Vec<SearchEntry>,
+    /// Experiments that could not be run on this axis, and why.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub not_run: Vec<String>,
     /// What was assumed where the publication gives no number.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assumptions: Vec<String>,
@@ -137,6 +140,7 @@ impl ReproduceFile {
             claims: Vec::new(),
             runs: Vec::new(),
             searches: Vec::new(),
+            not_run: Vec::new(),
             assumptions: Vec::new(),
         }
     }

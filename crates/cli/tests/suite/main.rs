@@ -2,6 +2,7 @@
 
 mod cli;
 mod export;
+mod paper;
 mod procedures;
 mod searches;
 mod study;

@@ -225,8 +225,16 @@ impl Model {
         Ok(swept.taken.get().then_some(given))
     }
 
-    /// A value of a parameter that cannot be used, at its place in the file that it was read from.
-    pub(super) fn refuse_parameter(&self, name: &str, found: String, allowed: &str) -> Error {
+    /// A key whose value cannot be used, at its place in the file that it was read from.
+    pub fn refuse(&self, key: &str, found: String, allowed: &str) -> Error {
+        match &self.read {
+            Some(read) => read.refuse(key, found, allowed),
+            None => self.refuse_parameter(key, found, allowed),
+        }
+    }
+
+    /// The same of a parameter.
+    pub fn refuse_parameter(&self, name: &str, found: String, allowed: &str) -> Error {
         match &self.read {
             Some(read) => read.refuse_parameter(name, found, allowed),
             // The parameters of a known axis are always valid.

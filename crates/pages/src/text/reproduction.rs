@@ -40,6 +40,9 @@ pub fn reproduction(file: &ReproduceFile) -> String {
             "\nClaims are of another experiment; the assumptions are listed in the report.\n",
         );
     }
+    for experiment in &file.not_run {
+        out.push_str(&format!("\nnot run: {experiment}\n"));
+    }
     if file.status == "interrupted" {
         out.push_str("\nSTOPPED EARLY: what was done is kept\n");
     }

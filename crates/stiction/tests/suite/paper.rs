@@ -2,9 +2,9 @@
 //! stop keeps what is done.
 
 use crate::common::counted;
-use stiction::commands::reproduce::{Budget, zhang_2025};
+use stiction::commands::reproduce::{Budget, OwnAxis, zhang_2025, zhang_2025_on};
 use stiction::commands::reproduce_file::ReproduceFile;
-use stiction::{Control, Progress};
+use stiction::{Control, Progress, Silent};
 
 /// A fraction of the searching; least squares make up for it.
 const SMALL: Budget = Budget {
@@ -26,11 +26,12 @@ fn the_simulated_axis_is_found_and_compensated() {
     for check in &file.checks {
         assert!(check.within, "{check:?}");
     }
-    // Four static, two dynamic, six at once, five as measured, two from the step, three masses.
-    assert_eq!(file.checks.len(), 4 + 2 + 6 + 5 + 2 + 3);
+    // Four static, two dynamic, six at once, six as measured, two from the step, three masses.
+    assert_eq!(file.checks.len(), 4 + 2 + 6 + 6 + 2 + 3);
     // Static, dynamic, six with each method; as measured static, dynamic, six.
     assert_eq!(file.searches.len(), 2 + 3 + 3);
     assert!(!file.assumptions.is_empty());
+    assert!(file.not_run.is_empty(), "{:?}", file.not_run);
 
     let claim = |name: &str, compensation: &str| {
         let found = file
@@ -127,6 +128,87 @@ fn baselines(file: &ReproduceFile) {
         let runs = file.runs.iter().filter(|r| r.experiment == *experiment);
         assert_eq!(runs.count(), 10, "{experiment}");
     }
+}
+
+/// A rotary axis of a user, asymmetric and without viscous friction: what its model says is found, in its units, and what
+/// cannot be run on it is said.
+#[test]
+fn on_an_axis_of_the_user() {
+    let folder = tempfile::tempdir().unwrap();
+    let [model, axis] = ["model.toml", "axis.toml"].map(|name| folder.path().join(name));
+    let mut text = String::from(
+        "schema = \"stiction.model/1\"\nkind = \"rotary\"\nlaw = \"lugre\"\nasymmetric = true\nforce_unit = \"N*m\"\n\
+         trustworthy = true\n[source]\nversion = \"0\"\nmethod = \"separable\"\nseed = 0\n",
+    );
+    for (name, value, unit) in [
+        ("sigma0", 2750.0, "N*m/rad"),
+        ("sigma1", 45.2, "N*m*s/rad"),
+        ("coulomb_pos", 6.9, "N*m"),
+        ("coulomb_neg", 7.1, "N*m"),
+        ("static_pos", 8.5, "N*m"),
+        ("static_neg", 8.5, "N*m"),
+        ("stribeck_velocity_pos", 0.06, "rad/s"),
+        ("stribeck_velocity_neg", 0.06, "rad/s"),
+        ("sigma2_pos", 0.0, "N*m*s/rad"),
+        ("sigma2_neg", 0.0, "N*m*s/rad"),
+    ] {
+        text.push_str(&format!(
+            "[[parameter]]\nname = \"{name}\"\nsymbol = \"x\"\nvalue = {value:?}\nunit = \"{unit}\"\n\
+             identifiable = true\norigin = \"identified\"\n"
+        ));
+    }
+    std::fs::write(&model, text).unwrap();
+    let known = "name = \"wrist\"\nkind = \"rotary\"\nmass = \"0.045 kg m2\"\n[log]\nresolution = \"1e-6 rad\"\n";
+    std::fs::write(&axis, known).unwrap();
+    let own = OwnAxis {
+        axis: Some(axis),
+        model,
+    };
+    let outcome = zhang_2025_on(&own, SMALL, &mut Silent).unwrap();
+    let file = &outcome.file;
+    assert_eq!(file.status, "complete");
+    let checked = |experiment: &str| {
+        let checks = file
+            .checks
+            .iter()
+            .filter(move |c| c.experiment == experiment);
+        checks.map(|c| (c.name.as_str(), c.unit.as_str(), c.reference, c.within))
+    };
+    let statics: Vec<_> = checked("static").collect();
+    assert_eq!(
+        statics,
+        [
+            ("coulomb", "N*m", 7.0, true),
+            ("static", "N*m", 8.5, true),
+            ("stribeck_velocity", "rad/s", 0.06, true),
+        ]
+    );
+    assert!(
+        checked("dynamic").all(|(.., within)| within),
+        "{:?}",
+        file.checks
+    );
+    assert_eq!(file.not_run.len(), 1, "{:?}", file.not_run);
+    assert!(file.not_run[0].starts_with("A corner of two axes"));
+    let said = file.assumptions.join("\n");
+    assert!(said.contains("differs between the directions"), "{said}");
+    let html = stiction::bundle::reproduction(&outcome);
+    let (_, html) = html
+        .files()
+        .iter()
+        .find(|(n, _)| *n == "report.html")
+        .unwrap();
+    let html = String::from_utf8(html.clone()).unwrap();
+    for words in [
+        "wrist of 0.045",
+        "Not run on this axis",
+        "Not checked, since this axis has none: σ₂",
+        "N·m",
+    ] {
+        assert!(html.contains(words), "{words}");
+    }
+    let text = stiction::commands::text::reproduction(file);
+    assert!(text.contains("not run: A corner of two axes"), "{text}");
 }
 
 #[test]

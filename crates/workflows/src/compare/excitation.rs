@@ -9,7 +9,7 @@ pub(super) const DURATION: f64 = 3.0;
 /// How the axis moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Excitation {
-    /// One sine, as Zhang et al. 2025.
+    /// One sine.
     #[default]
     Sine,
     /// Three sines together.

@@ -5,6 +5,7 @@ use super::corner::Cornered;
 use super::results::Paper;
 use super::stage::Control;
 use super::tracking::Tracked;
+use super::units::Units;
 use stiction_files::reproduce_file::{ClaimEntry, MetricEntry, RunEntry};
 use stiction_servo::metrics::Feed;
 
@@ -16,24 +17,40 @@ const CORNER: &str = "up to 25.1 % at corners";
 const MINUTE: f64 = 60.0;
 
 /// Name and unit of a metric, the claim that is like it, and its value.
-type Metric<R> = (&'static str, &'static str, &'static str, fn(&R) -> f64);
+type Metric<R> = (
+    &'static str,
+    fn(&Units) -> &'static str,
+    &'static str,
+    fn(&R) -> f64,
+);
 
 const SINE: [Metric<Tracked>; 4] = [
-    ("largest error at reversals", "m", "", |t| {
-        t.position.reversal_peak
-    }),
-    ("rms position error", "m", "", |t| t.position.rms),
-    ("largest speed error", "m/s", "", |t| peak(t.feed)),
-    ("rms speed error", "m/s", "", |t| rms(t.feed)),
+    (
+        "largest error at reversals",
+        |u| u.length,
+        "",
+        |t| t.position.reversal_peak,
+    ),
+    ("rms position error", |u| u.length, "", |t| t.position.rms),
+    ("largest speed error", |u| u.speed, "", |t| peak(t.feed)),
+    ("rms speed error", |u| u.speed, "", |t| rms(t.feed)),
 ];
 
 const CORNERED: [Metric<Cornered>; 4] = [
-    ("largest contour error", "m", CORNER, |c| c.contour.peak),
-    ("rms contour error", "m", "", |c| c.contour.rms),
-    ("largest feed error", "m/min", FEED, |c| {
-        MINUTE * peak(c.feed)
-    }),
-    ("rms feed error", "m/min", "", |c| MINUTE * rms(c.feed)),
+    (
+        "largest contour error",
+        |u| u.length,
+        CORNER,
+        |c| c.contour.peak,
+    ),
+    ("rms contour error", |u| u.length, "", |c| c.contour.rms),
+    (
+        "largest feed error",
+        |_| "m/min",
+        FEED,
+        |c| MINUTE * peak(c.feed),
+    ),
+    ("rms feed error", |_| "m/min", "", |c| MINUTE * rms(c.feed)),
 ];
 
 fn peak(feed: Option<Feed>) -> f64 {
@@ -85,8 +102,10 @@ impl Run for Cornered {
 impl Paper {
     /// The metrics of every run.
     pub(super) fn runs(&self) -> Vec<RunEntry> {
-        let sines = self.tracked.iter().map(|run| entry(run, &SINE));
-        let corners = self.cornered.iter().map(|run| entry(run, &CORNERED));
+        let units = self.stage.units();
+        let sines = self.tracked.iter().map(|run| entry(run, &SINE, &units));
+        let corners = self.cornered.iter();
+        let corners = corners.map(|run| entry(run, &CORNERED, &units));
         sines.chain(corners).collect()
     }
 
@@ -95,7 +114,8 @@ impl Paper {
     pub(super) fn claims(&self) -> Vec<ClaimEntry> {
         let fuzzy = |run: &dyn Run| run.control() == Control::Fuzzy;
         let sines: Vec<&Tracked> = self.tracked.iter().filter(|r| fuzzy(*r)).collect();
-        let mut claims = beside(&sines, &SINE);
+        let units = self.stage.units();
+        let mut claims = beside(&sines, &SINE, &units);
         for coupled in [false, true] {
             let corners = self.cornered.iter();
             let corners: Vec<&Cornered> = corners
@@ -104,13 +124,13 @@ impl Paper {
             let words = |(name, unit, published, of): Metric<Cornered>| {
                 (name, unit, if coupled { published } else { "" }, of)
             };
-            claims.extend(beside(&corners, &CORNERED.map(words)));
+            claims.extend(beside(&corners, &CORNERED.map(words), &units));
         }
         claims
     }
 }
 
-fn entry<R: Run>(run: &R, metrics: &[Metric<R>]) -> RunEntry {
+fn entry<R: Run>(run: &R, metrics: &[Metric<R>], units: &Units) -> RunEntry {
     RunEntry {
         experiment: run.experiment().into(),
         controller: run.control().name().into(),
@@ -119,7 +139,7 @@ fn entry<R: Run>(run: &R, metrics: &[Metric<R>]) -> RunEntry {
             .iter()
             .map(|(name, unit, _, of)| MetricEntry {
                 name: (*name).into(),
-                unit: (*unit).into(),
+                unit: unit(units).into(),
                 value: of(run),
             })
             .collect(),
@@ -127,7 +147,7 @@ fn entry<R: Run>(run: &R, metrics: &[Metric<R>]) -> RunEntry {
 }
 
 /// Each metric of the runs with LuGre beside that of the run without compensation.
-fn beside<R: Run>(runs: &[&R], metrics: &[Metric<R>]) -> Vec<ClaimEntry> {
+fn beside<R: Run>(runs: &[&R], metrics: &[Metric<R>], units: &Units) -> Vec<ClaimEntry> {
     let is = |run: &R, of| run.compensation() == of;
     let Some(bare) = runs.iter().find(|r| is(r, Compensation::Nothing)) else {
         return Vec::new();
@@ -139,7 +159,7 @@ fn beside<R: Run>(runs: &[&R], metrics: &[Metric<R>]) -> Vec<ClaimEntry> {
             let run = runs.iter().find(|r| is(r, fed));
             claims.extend(run.map(|run| ClaimEntry {
                 name: format!("{name}, {}", run.experiment()),
-                unit: (*unit).into(),
+                unit: unit(units).into(),
                 controller: run.control().name().into(),
                 compensation: fed.name().into(),
                 without,

@@ -13,12 +13,12 @@ use stiction_servo::pid::Pid;
 use stiction_servo::speeds::{SpeedRun, Speeds};
 
 /// Constant reference velocity, m/s: a third of the Stribeck velocity of our stage.
-const VELOCITY: f64 = 1e-3;
+pub(super) const VELOCITY: f64 = 1e-3;
 /// Time at it, and to reach and leave it, s: 3 s together, as published.
 const HOLD: f64 = 2.9;
 const RAMP: f64 = 0.05;
 /// Bandwidths of the PIDs without their integral, which are springs with dampers, Hz: their stiffness grows as the square.
-const SPRINGS: [f64; 7] = [2.0, 4.0, 8.0, 15.0, 30.0, 60.0, 120.0];
+pub(super) const SPRINGS: [f64; 7] = [8.0, 12.0, 15.0, 20.0, 30.0, 60.0, 120.0];
 
 /// What pulls the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -15,9 +15,9 @@ use stiction_identify::{
 use stiction_servo::motion::Sine;
 
 /// Amplitude of the motion, m: through presliding six times, up to twice the Stribeck velocity.
-const AMPLITUDE: f64 = 0.5e-3;
+pub(super) const AMPLITUDE: f64 = 0.5e-3;
 /// Hz.
-const FREQUENCY: f64 = 2.0;
+pub(super) const FREQUENCY: f64 = 2.0;
 /// Whole cycles.
 const CYCLES: f64 = 3.0;
 /// Every n-th sample is fitted, n: 5 kHz of 10 kHz.
@@ -86,14 +86,19 @@ pub(super) fn sine(stage: &Stage) -> Result<Sine, ParamError> {
     Sine::new(stage.stroke(AMPLITUDE), FREQUENCY, CYCLES)
 }
 
-/// The cost of all six parameters on a record.
-pub(super) fn cost(stage: &Stage, record: &Record, mass: Mass) -> Result<SixParameters, Fault> {
-    let terms = Terms {
+/// The law alone, beside a mass.
+pub(super) fn terms(mass: Mass) -> Terms {
+    Terms {
         mass,
         offset: false,
         delay: Delay::NONE,
         ..Terms::default()
-    };
+    }
+}
+
+/// The cost of all six parameters on a record.
+pub(super) fn cost(stage: &Stage, record: &Record, mass: Mass) -> Result<SixParameters, Fault> {
+    let terms = terms(mass);
     let law = Law::new(LawKind::LuGre);
     let [low, high] = search_box(stage);
     let bounds = bounds(&low, &high)?;

@@ -14,7 +14,7 @@ use stiction_servo::trajectory::{Lookahead, Trajectory};
 /// Masses after the change over that before, dimensionless.
 pub(super) const HEAVIER: [f64; 3] = [1.25, 1.5, 2.0];
 /// When the change comes, s.
-const CHANGE_AT: f64 = 1.0;
+pub(super) const CHANGE_AT: f64 = 1.0;
 /// m, Hz, and cycles of the motion on our stage: 3 s.
 const SINE: (f64, f64, f64) = (15e-3, 1.5, 4.5);
 /// Mass, kg, and Coulomb friction, N, of our stage, for which the stroke is chosen: there inertia is half of friction.

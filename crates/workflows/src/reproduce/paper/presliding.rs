@@ -14,11 +14,13 @@ use stiction_servo::integrator::{Integrator, Ode4};
 use stiction_servo::plant::{Load, Motion};
 
 /// Height of the step over the static level, dimensionless: 20 mV on our stage.
-const HEIGHT: f64 = 0.192;
+pub(super) const HEIGHT: f64 = 0.192;
 /// When the step comes, s.
 const STEP_AT: f64 = 0.01;
-/// When the record ends, s.
-const RECORD_END: f64 = 0.1;
+/// Least length of the record after it, s, and in parts of sqrt(M/sigma0), dimensionless: some nine periods of the swing on
+/// the bristles.
+const LEAST_RECORD: f64 = 0.09;
+const SWINGS: f64 = 59.0;
 
 /// The response, and the parameters that two methods find from it.
 #[derive(Clone, Debug)]
@@ -45,7 +47,9 @@ pub(super) fn run(stage: &Stage, identified: &Named, watch: &Watch) -> Result<Pr
     let mut ode4 = Ode4::new(stage.steps)?;
     let mut log = Samples::default();
     let (mut motion, mut position) = (Motion::default(), Vec::new());
-    for k in 0..=(RECORD_END * RATE) as usize {
+    let swing = libm::sqrt(stage.truth.mass / stage.truth.law.stiffness());
+    let end = STEP_AT + LEAST_RECORD.max(SWINGS * swing);
+    for k in 0..=(end * RATE).round() as usize {
         let time = k as f64 / RATE;
         let force = if time < STEP_AT { 0.0 } else { height };
         log.time.push(time);

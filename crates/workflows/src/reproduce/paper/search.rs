@@ -53,7 +53,12 @@ const ENDS: [[f64; 6]; 2] = [
 /// The lower and the upper ends of the box of an axis, SI: in the same ratios to its parameters as on our stage.
 pub(super) fn search_box(stage: &Stage) -> [[f64; 6]; 2] {
     let truth = stage.genome();
-    ENDS.map(|ends| std::array::from_fn(|i| ends[i] * (truth[i] / OURS[i])))
+    let part = |i: usize| truth[i] / OURS[i];
+    let [force, speed] = [part(3), part(5)];
+    // Where the axis has none of a parameter, by what it would be on one like our stage.
+    let usual = [part(0), force / speed, force / speed, force, force, speed];
+    let scale = |i: usize| if truth[i] > 0.0 { part(i) } else { usual[i] };
+    ENDS.map(|ends| std::array::from_fn(|i| ends[i] * scale(i)))
 }
 
 /// The box of the logarithms.

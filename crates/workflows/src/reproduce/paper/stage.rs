@@ -1,5 +1,7 @@
 //! The axis of the experiments, with numbers of our own where the paper gives none.
 
+use super::units::Units;
+use super::{dynamics, statics, tracking};
 use stiction_friction::ParamError;
 use stiction_servo::axis::{AxisSettings, Sample};
 use stiction_servo::controller::Controller;
@@ -30,6 +32,19 @@ const PRESLIDING: f64 = 9e-6;
 /// for the shortest one.
 const LEAST_STROKE: f64 = 0.2;
 
+/// Rise of the static level over the Coulomb level, as a part of that, below which there is no Stribeck curve, dimensionless.
+const LEAST_RISE: f64 = 1e-3;
+/// Speed of the axis over that of the reference for which ode4 has to be stable, dimensionless.
+const OVERSHOOT: f64 = 1.1;
+
+/// What is assumed of our stage.
+const OURS: [&str; 2] = [
+    "Friction of the stage: σ₀ 2·10⁶ N/m, σ₁ 1500 N·s/m (constant), σ₂ 30 N·s/m, Fc 12 N, Fs 18 N, vs 3 mm/s. The \
+     paper's table is an image that no text carries.",
+    "172.8 N/V: 96 N/A are published, 1.8 A/V follow if 10 V are the 18 A of the drive's peak. A thermal time of 10 s for \
+     the rated 221 N.",
+];
+
 /// A controller of the experiments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Control {
@@ -55,6 +70,8 @@ impl Control {
 /// The axes of the experiments.
 #[derive(Clone, Debug)]
 pub struct Stage {
+    /// Name of an axis of the user, where it has one.
+    pub name: Option<String>,
     /// Mass and friction of the axis that is identified: the truth.
     pub truth: KnownAxis,
     /// The other axis of the corner, if there is one.
@@ -63,12 +80,15 @@ pub struct Stage {
     pub(super) encoder: Encoder,
     /// Steps of ode4 in a control period.
     pub(super) steps: u32,
+    /// What is assumed of this axis, in words.
+    pub(super) notes: Vec<String>,
 }
 
 impl Stage {
     /// The stage of this project.
     pub(super) fn ours() -> Result<Self, ParamError> {
         Ok(Stage {
+            name: None,
             truth: axis("motor")?,
             // A heavier slide carries the stage.
             second: Some(axis("machine")?),
@@ -78,7 +98,42 @@ impl Stage {
             },
             encoder: Encoder::new(ENCODER)?,
             steps: 1,
+            notes: OURS.map(String::from).into(),
         })
+    }
+
+    /// Units of the axis as they are typed.
+    pub fn units(&self) -> Units {
+        Units::of(self.truth.kind)
+    }
+
+    /// Whether it is an axis of the user.
+    pub fn is_own(&self) -> bool {
+        self.second.is_none()
+    }
+
+    /// Parameters that the experiments cannot find, since the axis has none.
+    pub fn without(&self) -> Vec<&'static str> {
+        let [_, s1, s2, coulomb, rise, _] = self.genome();
+        let absent = [
+            ("sigma1", s1 <= 0.0),
+            ("sigma2", s2 <= 0.0),
+            // Without a difference between the levels there is nothing to fall.
+            ("stribeck_velocity", rise <= LEAST_RISE * coulomb),
+        ];
+        let absent = absent.into_iter().filter(|(_, is)| *is);
+        absent.map(|(name, _)| name).collect()
+    }
+
+    /// The fastest speed of any experiment, with some overshoot, m/s (rad/s).
+    pub(super) fn fastest(&self) -> f64 {
+        let sine = |amplitude: f64, frequency: f64| {
+            2.0 * std::f64::consts::PI * frequency * self.stroke(amplitude)
+        };
+        let constant = self.speed(1e-3 * statics::SPEEDS[statics::SPEEDS.len() - 1]);
+        let tracked = sine(tracking::AMPLITUDE, tracking::FREQUENCY);
+        let dynamic = sine(dynamics::AMPLITUDE, dynamics::FREQUENCY);
+        OVERSHOOT * constant.max(tracked).max(dynamic)
     }
 
     /// `[sigma0, sigma1, sigma2, Fc, Fs - Fc, vs]` of the axis, SI.

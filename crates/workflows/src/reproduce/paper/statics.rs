@@ -17,8 +17,11 @@ pub(super) const SPEEDS: [f64; 16] = [
 
 /// Time to reach a velocity, s.
 const RAMP: f64 = 0.1;
-/// Time to settle there, s.
-const SETTLE: f64 = 0.3;
+/// Least time to settle there, s.
+pub(super) const SETTLE: f64 = 0.3;
+/// Least way to settle in, in deflections at break-away, dimensionless, and the longest time for it, s.
+const DEFLECTIONS: f64 = 6.5;
+const LONGEST_SETTLE: f64 = 30.0;
 /// Time over which the force is averaged, s.
 pub(super) const MEAN: f64 = 0.3;
 
@@ -74,14 +77,21 @@ fn map(stage: &Stage, watch: &Watch) -> Result<(Vec<f64>, Vec<f64>), Fault> {
 
 /// Mean control force, N, at a constant velocity, m/s.
 fn at(stage: &Stage, velocity: f64) -> Result<f64, ParamError> {
+    let settle = settle(stage, velocity);
     let run = SpeedRun {
         velocity,
-        hold: SETTLE + MEAN,
+        hold: settle + MEAN,
         ramp: RAMP,
     };
     let samples = stage.along(&stage.settings(Control::Fuzzy)?, &Speeds::new(vec![run])?)?;
-    let settled = RAMP + SETTLE..RAMP + SETTLE + MEAN;
+    let settled = RAMP + settle..RAMP + settle + MEAN;
     let forces = samples.iter().filter(|s| settled.contains(&s.time));
     let (sum, n) = forces.fold((0.0, 0.0), |(sum, n), s| (sum + s.command, n + 1.0));
     Ok(sum / n)
+}
+
+/// Time to settle at a velocity, m/s (rad/s), in s: until the axis has moved by some deflections at break-away.
+fn settle(stage: &Stage, velocity: f64) -> f64 {
+    let time = DEFLECTIONS * stage.truth.law.bound() / velocity.abs();
+    time.clamp(SETTLE, LONGEST_SETTLE)
 }

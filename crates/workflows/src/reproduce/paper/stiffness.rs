@@ -15,7 +15,7 @@ use stiction_servo::run::run_with;
 use stiction_servo::trajectory::Trajectory;
 
 /// Stiffnesses in parts of that of the axis, dimensionless.
-const PARTS: [f64; 7] = [0.03, 0.1, 0.3, 1.0, 1.5, 3.0, 10.0];
+pub(super) const PARTS: [f64; 7] = [0.03, 0.1, 0.3, 1.0, 1.5, 3.0, 10.0];
 
 /// Part of the fastest reference up to which ode4 is checked, dimensionless: the axis overshoots.
 const OVERSHOOT: f64 = 1.1;

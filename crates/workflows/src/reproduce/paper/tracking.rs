@@ -11,13 +11,13 @@ use stiction_servo::metrics::{Feed, Tracking, reversals};
 use stiction_servo::motion::Sine;
 
 /// m: 3.8 m/min at the most.
-const AMPLITUDE: f64 = 20e-3;
+pub(super) const AMPLITUDE: f64 = 20e-3;
 /// Hz.
-const FREQUENCY: f64 = 0.5;
+pub(super) const FREQUENCY: f64 = 0.5;
 /// Cycles: 3 s, as published.
 const CYCLES: f64 = 1.5;
 /// What counts begins in the middle of the first stroke, s: two reversals.
-const COUNTS_FROM: f64 = 0.5;
+pub(super) const COUNTS_FROM: f64 = 0.5;
 
 /// One run: the part that counts.
 #[derive(Clone, Debug)]

@@ -1,5 +1,6 @@
 //! What was identified: map, static and dynamic parameters, searches, step response.
 
+use super::simulated::axis;
 use super::{drawings, measured, searches};
 use crate::report::reproduction::checks::numbers;
 use stiction_files::reproduce_file::ReproduceFile;
@@ -8,7 +9,7 @@ use stiction_friction::LuGre;
 use stiction_log::Motion;
 use stiction_number::Percent;
 use stiction_report::{Axis, Color, Dash, Document, Figure, Layer, Panel, number};
-use stiction_workflows::reproduce::{Paper, Presliding, Statics};
+use stiction_workflows::reproduce::{Paper, Presliding, Statics, Units};
 
 pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Paper) -> Document {
     let Some(statics) = &paper.statics else {
@@ -19,7 +20,7 @@ pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Pap
         .heading(2, "Static parameters")
         .block(numbers(file, "static"))
         .block(map(paper, statics))
-        .block(stribeck(&paper.stage.truth.law));
+        .block(stribeck(&paper.stage.truth.law, paper.stage.units()));
     let Some(dynamics) = &paper.dynamics else {
         return document;
     };
@@ -33,7 +34,7 @@ pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Pap
             .heading(2, "Presliding")
             .block(numbers(file, "step"))
             .paragraph(inversion(paper, step))
-            .block(response(step)),
+            .block(response(step, paper.stage.units())),
         None => document,
     }
 }
@@ -50,11 +51,14 @@ fn speeds(low: f64, high: f64) -> Vec<f64> {
 }
 
 fn map(paper: &Paper, statics: &Statics) -> Figure {
+    let units = paper.stage.units();
+    let top = statics.speed.iter().copied().fold(0.0, f64::max);
+    let slow = paper.stage.truth.law.curve().positive().stribeck_velocity;
     let panel = |title: &str, reach: f64| {
         let v = speeds(-reach, reach);
         let points = statics.speed.iter().zip(&statics.force);
         let shown: (Vec<f64>, Vec<f64>) = points.filter(|(v, _)| v.abs() <= reach).unzip();
-        let mut panel = Panel::new(Axis::new("Velocity", "m/s"), Axis::new("Friction", "N"))
+        let mut panel = Panel::new(axis("Velocity", units.speed), axis("Friction", units.force))
             .title(title)
             .layer(
                 Layer::line(v.clone(), steady(&paper.stage.truth.law, &v))
@@ -74,19 +78,19 @@ fn map(paper: &Paper, statics: &Statics) -> Figure {
         )
     };
     Figure::new("Friction over velocity (FIG. 12)")
-        .panel(panel("", 0.1))
-        .panel(panel("Low speeds", 0.0105))
+        .panel(panel("", top))
+        .panel(panel("Low speeds", 3.5 * slow))
         .caption("Mean control force of each run at constant velocity.")
 }
 
-fn stribeck(law: &LuGre<f64>) -> Figure {
+fn stribeck(law: &LuGre<f64>, units: Units) -> Figure {
     let side = law.curve().positive();
-    let v = speeds(0.0, 0.03);
+    let v = speeds(0.0, 10.0 * side.stribeck_velocity);
     let viscous: Vec<f64> = v.iter().map(|v| side.viscous * v).collect();
     let line = |y: Vec<f64>| Layer::line(v.clone(), y);
     let panel = Panel::new(
-        Axis::new("Velocity", "m/s"),
-        Axis::new("Friction", "N").range(0.0, 20.0),
+        axis("Velocity", units.speed),
+        axis("Friction", units.force).range(0.0, 1.1 * side.static_friction),
     )
     .layer(line(steady(law, &v)).color(Color::Blue).label("Whole"))
     .layer(line(viscous).color(Color::Orange).label("Viscous"))
@@ -105,6 +109,7 @@ fn stribeck(law: &LuGre<f64>) -> Figure {
 }
 
 fn inversion(paper: &Paper, step: &Presliding) -> String {
+    let units = paper.stage.units();
     let off = |found: f64, name: &str| {
         let true_value = paper.true_value(name);
         Percent::error(100.0 * (found / true_value - 1.0)).signed(1)
@@ -114,30 +119,32 @@ fn inversion(paper: &Paper, step: &Presliding) -> String {
     });
     let damping = match step.inverted.sigma1 {
         Some(s1) => format!(
-            " and {} {} N·s/m ({})",
+            " and {} {} {} ({})",
             symbols::meaning("sigma1", Motion::Linear).to_lowercase(),
             number::sig(s1, 4),
+            number::unit(units.damping),
             off(s1, "sigma1")
         ),
         None => String::new(),
     };
     format!(
-        "A step of {} N settles at {} µm{overshoot}. The paper takes the axis for a second-order system, which \
-         gives {} {} N/m ({}){damping}: the bristles slip long before break-away, which that leaves out. The \
+        "A step of {} settles at {}{overshoot}. The paper takes the axis for a second-order system, which \
+         gives {} {} {} ({}){damping}: the bristles slip long before break-away, which that leaves out. The \
          numbers above are of a simulation of mass and law fitted to the response.",
-        number::sig(step.height, 3),
-        number::sig(1e6 * step.settled, 4),
+        number::quantity(step.height, units.force),
+        number::quantity(step.settled, units.length),
         symbols::meaning("sigma0", Motion::Linear).to_lowercase(),
         number::sig(step.inverted.sigma0, 4),
+        number::unit(units.stiffness),
         off(step.inverted.sigma0, "sigma0"),
     )
 }
 
-fn response(step: &Presliding) -> Figure {
+fn response(step: &Presliding, units: Units) -> Figure {
     let time: Vec<f64> = step.series.time.iter().map(|t| t - step.onset).collect();
     let panel = Panel::new(
         Axis::new("Time after the step", "s"),
-        Axis::new("Displacement", "m"),
+        axis("Displacement", units.length),
     )
     .layer(
         Layer::line(time.clone(), step.series.measured.clone())

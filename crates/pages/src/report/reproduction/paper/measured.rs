@@ -16,11 +16,11 @@ pub(super) fn sections(document: Document, file: &ReproduceFile, paper: &Paper) 
         .paragraph(
             "The simulation has velocity and acceleration exactly, a drive has not. The same steps from positions of the \
              encoder, with noise of half a step before it, and a force with noise of 1 % of the static level: velocity and \
-             acceleration follow from the positions, and everything passes the same low-pass filters. One draw of the noise \
+             acceleration follow from the positions, and everything passes the same low-pass filters, whose cut-offs are \
+             chosen from the record as for the log of any drive. One draw of the noise \
              for each seed; least squares after each search. The constant velocities show the static parameters as well as \
-             before, and the stiffness to a percent. The micro-damping acts for some milliseconds after each reversal, \
-             over a few hundred encoder steps, and comes out too small; what six at once know of σ₂ is little in any \
-             case, since the motion is slow.",
+             before, and the motion shows stiffness and micro-damping to a few percent. What six at once know of σ₂ is little, \
+             since the motion is slow.",
         )
         .block(numbers(file, "measured"))
         .block(table(paper))
@@ -44,7 +44,7 @@ fn table(paper: &Paper) -> Table {
     let six = paper.worst(six.map(|s| &s.found));
     PARAMETERS
         .iter()
-        .fold(Table::new(columns), |table, (name, _)| {
+        .fold(Table::new(columns), |table, name| {
             let truth = paper.true_value(name);
             let off = |found: &[(_, f64)]| {
                 let value = found.iter().find(|(n, _)| n == name);

@@ -1,9 +1,9 @@
 //! Control force, inertia and friction beside each other: true and identified.
 
-use super::simulated::{color, column, label, over_time};
-use stiction_report::{Axis, Color, Dash, Figure, Layer, Panel};
+use super::simulated::{axis, color, column, label, over_time};
+use stiction_report::{Color, Dash, Figure, Layer, Panel};
 use stiction_servo::axis::Sample;
-use stiction_workflows::reproduce::Tracked;
+use stiction_workflows::reproduce::{Tracked, Units};
 
 /// Deflections at break-away that a reversal is shown for.
 const SHOWN: f64 = 10.0;
@@ -66,17 +66,18 @@ impl Parts {
 }
 
 /// The parts over time, and the control force of every run that is drawn.
-pub(super) fn over_time_of(runs: &[&Tracked], mass: f64) -> Vec<Figure> {
+pub(super) fn over_time_of(runs: &[&Tracked], mass: f64, units: Units) -> Vec<Figure> {
     let Some(without) = runs.first() else {
         return Vec::new();
     };
     let time = column(&without.samples, |s| s.time);
-    let panels = Parts::of(without, mass).panels(|name| over_time(name, "N").height(HEIGHT), &time);
+    let panels =
+        Parts::of(without, mass).panels(|name| over_time(name, units.force).height(HEIGHT), &time);
     let parts = Figure::new("Control force and its parts without compensation (FIG. 21)");
     let parts = panels.into_iter().fold(parts, Figure::panel);
     let all = runs
         .iter()
-        .fold(over_time("Control force", "N"), |panel, run| {
+        .fold(over_time("Control force", units.force), |panel, run| {
             let of = |s: &Sample| s.command;
             let line = Layer::line(column(&run.samples, |s| s.time), column(&run.samples, of));
             panel.layer(
@@ -93,19 +94,24 @@ pub(super) fn over_time_of(runs: &[&Tracked], mass: f64) -> Vec<Figure> {
 }
 
 /// The parts over the displacement, and friction where the motion turns back; `presliding` is the deflection at break-away.
-pub(super) fn over_displacement(runs: &[&Tracked], mass: f64, presliding: f64) -> Vec<Figure> {
+pub(super) fn over_displacement(
+    runs: &[&Tracked],
+    mass: f64,
+    presliding: f64,
+    units: Units,
+) -> Vec<Figure> {
     let Some(without) = runs.first() else {
         return Vec::new();
     };
-    let over = |name: &str| Panel::new(Axis::new("Position", "m"), Axis::new(name, "N"));
+    let over = |name: &str| Panel::new(axis("Position", units.length), axis(name, units.force));
     let position = column(&without.samples, |s| s.position);
     let panels = Parts::of(without, mass).panels(|name| over(name).height(HEIGHT), &position);
     let parts = Figure::new("Control force and its parts over displacement (FIG. 22)");
     let parts = panels.into_iter().fold(parts, Figure::panel).shared_x();
     let turn = position.iter().copied().fold(f64::MIN, f64::max);
     let reversal = Panel::new(
-        Axis::new("Position less the largest", "m").range(-SHOWN * presliding, presliding),
-        Axis::new("Friction", "N"),
+        axis("Position less the largest", units.length).range(-SHOWN * presliding, presliding),
+        axis("Friction", units.force),
     );
     let line = |y: &[f64]| Layer::line(column(&without.samples, |s| s.position - turn), y);
     let [of_axis, of_law] = &without.friction;

@@ -212,7 +212,8 @@ fn values(paper: &Paper, statics: &Statics, dynamics: &Dynamics) -> Table {
     let found = paper.worst(dynamics.annealing().map(|s| &s.found));
     let table = Table::new(columns)
         .caption("What the annealing search found by itself, and after least squares.");
-    PARAMETERS.iter().fold(table, |table, (name, unit)| {
+    let units = paper.stage.units();
+    PARAMETERS.iter().fold(table, |table, name| {
         let two = match *name {
             "sigma0" | "sigma1" => &dynamics.two,
             _ => &statics.search,
@@ -232,7 +233,7 @@ fn values(paper: &Paper, statics: &Statics, dynamics: &Dynamics) -> Table {
             cell(&two.found),
             cell(&own),
             cell(&found),
-            unit.replace('*', " "),
+            number::unit(units.of_parameter(name)),
         ])
     })
 }

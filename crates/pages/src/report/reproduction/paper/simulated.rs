@@ -5,34 +5,37 @@ use crate::report::reproduction::checks::numbers;
 use stiction_files::reproduce_file::ReproduceFile;
 use stiction_report::{Axis, Color, Dash, Document, Figure, Layer, Panel, number};
 use stiction_servo::axis::Sample;
-use stiction_workflows::reproduce::{Compensation, LoadFound, Paper, Tracked};
+use stiction_workflows::reproduce::{Compensation, LoadFound, Paper, Tracked, Units};
 
 pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Paper) -> Document {
+    let truth = &paper.stage.truth;
+    let units = paper.stage.units();
     let drawn: Vec<&Tracked> = paper.tracked.iter().filter(|t| t.is_drawn()).collect();
     if let [without, ..] = drawn[..] {
         document = document
             .heading(2, "A sine without compensation")
-            .block(sine(without))
-            .block(friction(without))
+            .block(sine(without, units))
+            .block(friction(without, units))
             .heading(2, "Compensation")
             .paragraph(
                 "The law identified in the static and then the dynamic test, with least squares, is fed by the \
                  reference velocity, which is a feedforward, and by the measured velocity, as the paper draws it, \
                  which is a positive feedback of friction and is let through to 90 %. The measured velocity is the \
-                 difference of two readings of an encoder of 50 nm over a period of 0.1 ms, not the true one. Both \
+                 difference of two readings of the encoder over a period of 0.1 ms, not the true one. Both \
                  work beside the same fuzzy PID.",
             )
             .block(drawings::control())
-            .block(compensation(&drawn))
-            .block(speed(&drawn))
-            .block(position(&drawn));
-        let truth = &paper.stage.truth;
+            .block(compensation(&drawn, units))
+            .block(speed(&drawn, truth.law.curve().positive().stribeck_velocity, units))
+            .block(position(&drawn, units));
         let mass = truth.mass;
-        let over_time = parts::over_time_of(&drawn, mass);
-        let figures =
-            over_time
-                .into_iter()
-                .chain(parts::over_displacement(&drawn, mass, truth.law.bound()));
+        let over_time = parts::over_time_of(&drawn, mass, units);
+        let figures = over_time.into_iter().chain(parts::over_displacement(
+            &drawn,
+            mass,
+            truth.law.bound(),
+            units,
+        ));
         document = figures.fold(document, Document::block);
     }
     document = corners::sections(document, paper);
@@ -43,7 +46,7 @@ pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Pap
     document
         .heading(2, "A change of load")
         .block(numbers(file, "load"))
-        .block(mass(&paper.loads))
+        .block(mass(&paper.loads, units))
 }
 
 pub(super) fn color(of: Compensation) -> Color {
@@ -77,21 +80,26 @@ fn each(panel: Panel, runs: &[&Tracked], of: impl Fn(&Sample) -> f64) -> Panel {
 }
 
 pub(super) fn over_time(name: &str, unit: &str) -> Panel {
-    Panel::new(Axis::new("Time", "s"), Axis::new(name, unit))
+    Panel::new(Axis::new("Time", "s"), axis(name, unit))
+}
+
+/// An axis with its unit as it is typed.
+pub(super) fn axis(name: &str, unit: &str) -> Axis {
+    Axis::new(name, number::unit(unit))
 }
 
 fn velocity_error(sample: &Sample) -> f64 {
     sample.reference.velocity - sample.velocity
 }
 
-fn sine(run: &Tracked) -> Figure {
+fn sine(run: &Tracked, units: Units) -> Figure {
     let time = column(&run.samples, |s| s.time);
     let line = |of: fn(&Sample) -> f64, color| {
         Layer::line(time.clone(), column(&run.samples, of)).color(color)
     };
     Figure::new("A tracked sine (FIG. 13)")
         .panel(
-            over_time("Position", "m")
+            over_time("Position", units.length)
                 .height(130.0)
                 .layer(line(|s| s.reference.position, Color::Grey).label("Reference"))
                 .layer(
@@ -101,12 +109,12 @@ fn sine(run: &Tracked) -> Figure {
                 ),
         )
         .panel(
-            over_time("Velocity", "m/s")
+            over_time("Velocity", units.speed)
                 .height(130.0)
                 .layer(line(|s| s.velocity, Color::Blue)),
         )
         .panel(
-            over_time("Position error", "m")
+            over_time("Position error", units.length)
                 .height(130.0)
                 .layer(line(Sample::error, Color::Vermilion)),
         )
@@ -114,7 +122,7 @@ fn sine(run: &Tracked) -> Figure {
         .caption("Friction reverses with the velocity, and the error with it.")
 }
 
-fn friction(run: &Tracked) -> Figure {
+fn friction(run: &Tracked, units: Units) -> Figure {
     let [true_force, found] = &run.friction;
     let time = column(&run.samples, |s| s.time);
     let velocity = column(&run.samples, |s| s.velocity);
@@ -133,15 +141,18 @@ fn friction(run: &Tracked) -> Figure {
                     .label("Identified"),
             )
     };
-    let over_velocity = Panel::new(Axis::new("Velocity", "m/s"), Axis::new("Friction", "N"));
+    let over_velocity = Panel::new(axis("Velocity", units.speed), axis("Friction", units.force));
     Figure::new("Friction over time and velocity, true and identified (FIG. 17)")
-        .panel(pair(over_time("Friction", "N").height(180.0), &time))
+        .panel(pair(
+            over_time("Friction", units.force).height(180.0),
+            &time,
+        ))
         .panel(pair(over_velocity, &velocity))
         .caption("Both laws along the same motion.")
 }
 
-fn compensation(runs: &[&Tracked]) -> Figure {
-    let mut force = over_time("Compensating force", "N").height(160.0);
+fn compensation(runs: &[&Tracked], units: Units) -> Figure {
+    let mut force = over_time("Compensating force", units.force).height(160.0);
     if let [without, with @ ..] = runs {
         let line = Layer::line(
             column(&without.samples, |s| s.time),
@@ -158,7 +169,11 @@ fn compensation(runs: &[&Tracked]) -> Figure {
     }
     Figure::new("Compensation and what it leaves (FIG. 15, on the sine)")
         .panel(force)
-        .panel(each(over_time("Position error", "m"), runs, Sample::error))
+        .panel(each(
+            over_time("Position error", units.length),
+            runs,
+            Sample::error,
+        ))
         .shared_x()
 }
 
@@ -167,11 +182,12 @@ fn about_reversal(run: &Tracked) -> std::ops::Range<f64> {
     run.reversal - 0.05..run.reversal + 0.15
 }
 
-fn speed(runs: &[&Tracked]) -> Figure {
+/// `slow` is the Stribeck velocity.
+fn speed(runs: &[&Tracked], slow: f64, units: Units) -> Figure {
     let window = runs.first().map_or(0.0..1.0, |r| about_reversal(r));
     let mut reversal = Panel::new(
         Axis::new("Time", "s").range(window.start, window.end),
-        Axis::new("Velocity", "m/s").range(-0.01, 0.03),
+        axis("Velocity", units.speed).range(-3.0 * slow, 10.0 * slow),
     )
     .title("About the reversal");
     if let Some(first) = runs.first() {
@@ -187,27 +203,31 @@ fn speed(runs: &[&Tracked]) -> Figure {
     }
     Figure::new("Velocity (FIG. 19)")
         .panel(each(
-            over_time("Velocity error", "m/s"),
+            over_time("Velocity error", units.speed),
             runs,
             velocity_error,
         ))
         .panel(each(reversal, runs, |s| s.velocity))
 }
 
-fn position(runs: &[&Tracked]) -> Figure {
+fn position(runs: &[&Tracked], units: Units) -> Figure {
     let window = runs.first().map_or(0.0..1.0, |r| about_reversal(r));
     let reversal = Panel::new(
         Axis::new("Time", "s").range(window.start, window.end),
-        Axis::new("Position error", "m"),
+        axis("Position error", units.length),
     )
     .title("About the reversal");
     Figure::new("Position (FIG. 20)")
-        .panel(each(over_time("Position error", "m"), runs, Sample::error))
+        .panel(each(
+            over_time("Position error", units.length),
+            runs,
+            Sample::error,
+        ))
         .panel(each(reversal, runs, Sample::error))
 }
 
-fn mass(loads: &[LoadFound]) -> Figure {
-    let mut masses = over_time("Mass", "kg");
+fn mass(loads: &[LoadFound], units: Units) -> Figure {
+    let mut masses = over_time("Mass", units.mass);
     let mut level = over_time("Level of friction", "").height(110.0);
     for (i, (load, color)) in loads.iter().zip(Color::CYCLE).enumerate() {
         let [true_mass, found] = &load.mass;
@@ -215,11 +235,11 @@ fn mass(loads: &[LoadFound]) -> Figure {
         let truth = line(true_mass).color(Color::Grey);
         masses = masses
             .layer(if i == 0 { truth.label("True") } else { truth })
-            .layer(
-                line(found)
-                    .color(color)
-                    .label(format!("Found, {} kg", number::sig(load.heavier, 3))),
-            );
+            .layer(line(found).color(color).label(format!(
+                "Found, {} {}",
+                number::sig(load.heavier, 3),
+                number::unit(units.mass)
+            )));
         level = level.layer(line(&load.level).color(color));
     }
     Figure::new("Load estimation: mass and friction level (FIG. 14)")

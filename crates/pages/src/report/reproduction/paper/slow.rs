@@ -1,9 +1,9 @@
 //! Crawling at low speed, and the sine over the stiffness of the bristles.
 
-use super::simulated::over_time;
+use super::simulated::{axis, over_time};
 use stiction_number::{Percent, quantity};
-use stiction_report::{Align, Axis, Color, Document, Figure, Layer, Panel, Table, number};
-use stiction_workflows::reproduce::{Compensation, Crawled, Paper, Pull, Stiffness};
+use stiction_report::{Align, Color, Document, Figure, Layer, Panel, Table, number};
+use stiction_workflows::reproduce::{Compensation, Crawled, Paper, Pull, Stiffness, Units};
 
 /// Colours from soft to stiff.
 const COLORS: [Color; 4] = [Color::Vermilion, Color::Orange, Color::Green, Color::Blue];
@@ -12,6 +12,7 @@ const COLORS: [Color; 4] = [Color::Vermilion, Color::Orange, Color::Green, Color
 const SHOWN: f64 = 20.0;
 
 pub(super) fn sections(mut document: Document, paper: &Paper) -> Document {
+    let units = paper.stage.units();
     if !paper.crawled.is_empty() {
         document = document
             .heading(2, "Crawling at low speed")
@@ -21,8 +22,8 @@ pub(super) fn sections(mut document: Document, paper: &Paper) -> Document {
                  a stiff one does not. The force of the law at the reference velocity takes the load off the spring; it does \
                  not take away that friction falls.",
             )
-            .block(crawl(&paper.crawled))
-            .block(evenness(&paper.crawled));
+            .block(crawl(&paper.crawled, units))
+            .block(evenness(&paper.crawled, units));
     }
     if !paper.stiffnesses.is_empty() {
         document = document
@@ -32,30 +33,32 @@ pub(super) fn sections(mut document: Document, paper: &Paper) -> Document {
                  compensation keeps the law that was identified at the stiffness of the axis. With the published step of \
                  0.1 ms ode4 is stable only to some stiffness, which depends on the speed; beyond it nothing was run.",
             )
-            .block(stiffness(&paper.stiffnesses))
-            .block(loops(&paper.stiffnesses, paper.stage.truth.law.bound()));
+            .block(stiffness(&paper.stiffnesses, units))
+            .block(loops(&paper.stiffnesses, paper.stage.truth.law.bound(), units));
     }
     document
 }
 
 /// What pulls, for tables and legends.
-fn pulled(run: &Crawled) -> String {
+fn pulled(run: &Crawled, units: Units) -> String {
     match run.pull {
-        Pull::Spring(stiffness) => format!("Spring, {}N/m", thousands(stiffness)),
+        Pull::Spring(stiffness) => format!("Spring, {}", stiff(stiffness, units)),
         Pull::Control(control) => format!("{}, 60 Hz", control.name()),
     }
 }
 
-/// With a prefix: `29.4 k`.
-fn thousands(x: f64) -> String {
-    match x {
-        x if x < 1e3 => format!("{} ", number::sig(x, 3)),
-        x if x < 1e6 => format!("{} k", number::sig(1e-3 * x, 3)),
-        _ => format!("{} M", number::sig(1e-6 * x, 3)),
-    }
+/// A stiffness with a prefix: `29.4 kN/m`.
+fn stiff(x: f64, units: Units) -> String {
+    let (factor, prefix) = match x {
+        x if x < 1e3 => (1.0, ""),
+        x if x < 1e6 => (1e-3, "k"),
+        _ => (1e-6, "M"),
+    };
+    let unit = number::unit(units.stiffness);
+    format!("{} {prefix}{unit}", number::sig(factor * x, 3))
 }
 
-fn crawl(runs: &[Crawled]) -> Figure {
+fn crawl(runs: &[Crawled], units: Units) -> Figure {
     let bare = |c: &&Crawled| c.compensation == Compensation::Nothing;
     let springs: Vec<&Crawled> = runs.iter().filter(bare).collect();
     // The softest, the last that rests, the first that does not, and the fuzzy PID.
@@ -67,8 +70,8 @@ fn crawl(runs: &[Crawled]) -> Figure {
     shown.push(last);
     shown.sort_unstable();
     shown.dedup();
-    let mut position = over_time("Position", "m").height(200.0);
-    let mut velocity = over_time("Velocity", "m/s").height(200.0);
+    let mut position = over_time("Position", units.length).height(200.0);
+    let mut velocity = over_time("Velocity", units.speed).height(200.0);
     if let Some(first) = springs.first() {
         let reference = Layer::line(first.time.clone(), first.position[0].clone());
         position = position.layer(reference.color(Color::Grey).label("Reference"));
@@ -76,7 +79,7 @@ fn crawl(runs: &[Crawled]) -> Figure {
     for (i, color) in shown.into_iter().zip(COLORS) {
         let run = springs[i];
         let line = |y: &[f64]| Layer::line(run.time.clone(), y).color(color);
-        position = position.layer(line(&run.position[1]).label(pulled(run)));
+        position = position.layer(line(&run.position[1]).label(pulled(run, units)));
         velocity = velocity.layer(line(&run.velocity));
     }
     Figure::new("Low speed: stick and slip on a soft spring")
@@ -86,7 +89,7 @@ fn crawl(runs: &[Crawled]) -> Figure {
         .caption("Without compensation.")
 }
 
-fn evenness(runs: &[Crawled]) -> Table {
+fn evenness(runs: &[Crawled], units: Units) -> Table {
     let columns = [
         ("Pulled by", Align::Left),
         ("At rest, without", Align::Right),
@@ -102,7 +105,7 @@ fn evenness(runs: &[Crawled]) -> Table {
     runs.chunks(2).fold(table, |table, pair| {
         let [without, with] = pair else { return table };
         table.row([
-            pulled(without),
+            pulled(without, units),
             percent(without.crawl.rest_share),
             percent(with.crawl.rest_share),
             percent(without.crawl.ripple),
@@ -111,7 +114,7 @@ fn evenness(runs: &[Crawled]) -> Table {
     })
 }
 
-fn stiffness(runs: &[Stiffness]) -> Table {
+fn stiffness(runs: &[Stiffness], units: Units) -> Table {
     let columns = [
         ("σ₀", Align::Right),
         ("ode4 at 0.1 ms", Align::Left),
@@ -121,11 +124,11 @@ fn stiffness(runs: &[Stiffness]) -> Table {
     runs.iter().fold(Table::new(columns), |table, run| {
         let [without, with] = run.reversal_peak;
         let error = |x: f64| match run.unstable {
-            None => quantity(x, "m"),
+            None => quantity(x, units.length),
             Some(_) => "–".into(),
         };
         table.row([
-            format!("{}N/m", thousands(run.sigma0)),
+            stiff(run.sigma0, units),
             match run.unstable {
                 None => "stable".into(),
                 Some(step) => format!("unstable: at most {}", quantity(step, "s")),
@@ -137,10 +140,11 @@ fn stiffness(runs: &[Stiffness]) -> Table {
 }
 
 /// About the first reversal; `presliding` is the deflection at break-away of the axis.
-fn loops(runs: &[Stiffness], presliding: f64) -> Figure {
+fn loops(runs: &[Stiffness], presliding: f64, units: Units) -> Figure {
     let panel = Panel::new(
-        Axis::new("Position less that of the reversal", "m").range(-SHOWN * presliding, presliding),
-        Axis::new("Friction", "N"),
+        axis("Position less that of the reversal", units.length)
+            .range(-SHOWN * presliding, presliding),
+        axis("Friction", units.force),
     );
     let stable = runs.iter().filter(|r| r.unstable.is_none());
     let panel = stable.zip(COLORS).fold(panel, |panel, (run, color)| {
@@ -148,7 +152,7 @@ fn loops(runs: &[Stiffness], presliding: f64) -> Figure {
         let turn = position.iter().copied().fold(f64::MIN, f64::max);
         let x: Vec<f64> = position.iter().map(|p| p - turn).collect();
         let line = Layer::line(x, friction.clone()).color(color);
-        panel.layer(line.label(format!("{}N/m", thousands(run.sigma0))))
+        panel.layer(line.label(stiff(run.sigma0, units)))
     });
     Figure::new("Friction over displacement at a reversal, by the stiffness of the bristles")
         .panel(panel)

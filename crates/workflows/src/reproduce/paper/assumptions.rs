@@ -1,0 +1,122 @@
+//! What is assumed where the paper gives no number, each with what is known.
+
+use super::stage::Stage;
+use super::{crawl, dynamics, load, presliding, search, statics, stiffness, tracking};
+use stiction_number::{Percent, quantity, short, unit};
+
+/// What holds on any axis.
+const ANYWHERE: [&str; 5] = [
+    "Neither damper B nor spring K beside the friction, no disturbance force, no delay, no current loop of its own.",
+    "PID and fuzzy PID: gains for a bandwidth of 60 Hz (45 Hz on a second axis), velocity and acceleration fed forward; \
+     the fuzzy one with scales from the friction and gains within 30 % of those of the PID. Its tables of 49 rules have \
+     the usual form. The paper gives neither gains nor tables.",
+    "Baselines: Coulomb and viscous friction, and the steady curve, of the same identified law, both driven by the \
+     reference velocity. The paper does not say what its controllers were compared with.",
+    "Genetic searches: 50 individuals, 5 rounds of 100 generations (500 in one round for the others), crossover .6 to \
+     .9, mutation .01 to .10, temperature 7, falling by .96 a generation. The steps are the paper's, the settings ours. \
+     As measured: 2 rounds of 20 generations.",
+    "Noise of half an encoder step on the position and of 1 % of the static level on the force, where a drive's record is \
+     identified. The paper does not say what its identification was given.",
+];
+
+/// Every assumption about an axis.
+pub(super) fn of(stage: &Stage) -> Vec<String> {
+    let units = stage.units();
+    let (length, speed) = (
+        |x: f64| quantity(x, units.length),
+        |x: f64| quantity(x, units.speed),
+    );
+    let mut all: Vec<String> = stage.notes.clone();
+    all.extend(ANYWHERE.map(String::from));
+    let [low, high] = search::search_box(stage);
+    let between =
+        |i: usize, typed: &str| format!("{} to {} {}", short(low[i]), short(high[i]), unit(typed));
+    let boxes = format!(
+        "Boxes of the searches, in logarithms: σ₀ {}, σ₁ {}, σ₂ {}, Fc {}, Fs − Fc {}, vs {}.",
+        between(0, units.stiffness),
+        between(1, units.damping),
+        between(2, units.damping),
+        between(3, units.force),
+        between(4, units.force),
+        between(5, units.speed),
+    );
+    let [slowest, fastest] = [
+        statics::SPEEDS[0],
+        statics::SPEEDS[statics::SPEEDS.len() - 1],
+    ];
+    let resolution = match stage.encoder.resolution() {
+        0.0 => "exact, since no step is known".into(),
+        step => format!("in steps of {}", length(step)),
+    };
+    let masses = load::HEAVIER.map(|part| short(part * stage.truth.mass));
+    all.extend([
+        boxes,
+        format!("Positions are measured {resolution}; a velocity that is measured is the difference of two of them over 0.1 ms."),
+        format!(
+            "Constant velocities: {} from {} to {} in both directions, at least {} s to settle and {} s to average.",
+            statics::SPEEDS.len(),
+            speed(stage.speed(1e-3 * slowest)),
+            speed(stage.speed(1e-3 * fastest)),
+            statics::SETTLE,
+            statics::MEAN,
+        ),
+        format!(
+            "Dynamic test: a sine of ±{} at {} Hz, three cycles, with velocity and acceleration as the simulation has them.",
+            length(stage.stroke(dynamics::AMPLITUDE)),
+            dynamics::FREQUENCY,
+        ),
+        format!(
+            "Step below break-away: {} of the static level.",
+            Percent::error(100.0 * presliding::HEIGHT).digits(3)
+        ),
+        format!(
+            "Tracked sine: ±{} at {} Hz for the published 3 s; what comes after {} s counts.",
+            length(stage.stroke(tracking::AMPLITUDE)),
+            tracking::FREQUENCY,
+            tracking::COUNTS_FROM,
+        ),
+        format!(
+            "Change of load: from {} to {} and {} {} after {} s of a sine that lasts 3 s.",
+            short(stage.truth.mass),
+            masses[..masses.len() - 1].join(", "),
+            masses[masses.len() - 1],
+            unit(units.mass),
+            load::CHANGE_AT,
+        ),
+        format!(
+            "Low speed: {} for 3 s, on springs with dampers (the PID without its integral, for bandwidths of {} to {} Hz), \
+             and under the controllers. The paper does not say what pulls its axis.",
+            speed(stage.speed(crawl::VELOCITY)),
+            crawl::SPRINGS[0],
+            crawl::SPRINGS[crawl::SPRINGS.len() - 1],
+        ),
+        format!(
+            "Stiffness of the bristles: {} to {} times that of the axis.",
+            stiffness::PARTS[0],
+            stiffness::PARTS[stiffness::PARTS.len() - 1],
+        ),
+    ]);
+    if stage.steps > 1 {
+        all.push(format!(
+            "{} steps of ode4 in each 0.1 ms instead of the published one, which is unstable with these bristles.",
+            stage.steps
+        ));
+    }
+    if stage.second.is_some() {
+        all.extend(corners());
+    }
+    all
+}
+
+/// What is assumed of the corner.
+fn corners() -> [String; 3] {
+    [
+        "Corner: 20 mm by 20 mm at 3 m/min, with a stop at the corner, 0.2 s to either side of which count; the second axis is \
+         a slide of 10 kg, σ₀ 1.2·10⁵ N/m, Fc 20 N, Fs 30 N, whose parameters are known to its compensation.",
+        "Cross coupling: a PD on the deviation from the contour above both axes (Koren 1980), tuned for the slower axis. \
+         The paper names cross coupling and does not say how it is made.",
+        "Feed error: the velocity of both axes along the contour less that of the reference; contour error: the deviation \
+         across it. The paper defines neither of its two metrics.",
+    ]
+    .map(String::from)
+}
