@@ -22,3 +22,5 @@ pub use contour_trace::ContourTrace;
 pub use outcome::StudyOutcome;
 pub use run::simulate;
 pub use trace::{Course, Trace};
+
+pub(crate) use compensation::without_stribeck;

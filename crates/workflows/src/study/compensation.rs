@@ -80,7 +80,7 @@ fn from_law(
 }
 
 /// The law with Coulomb friction for static friction.
-fn without_stribeck(law: &LuGre<f64>) -> Result<LuGre<f64>, ParamError> {
+pub(crate) fn without_stribeck(law: &LuGre<f64>) -> Result<LuGre<f64>, ParamError> {
     let curve = law.curve();
     let [positive, negative] = [curve.positive(), curve.negative()].map(|side| Direction {
         static_friction: side.coulomb,

@@ -10,8 +10,9 @@ const ANYWHERE: [&str; 5] = [
     "PID and fuzzy PID: gains for a bandwidth of 60 Hz (45 Hz on a second axis), velocity and acceleration fed forward; \
      the fuzzy one with scales from the friction and gains within 30 % of those of the PID. Its tables of 49 rules have \
      the usual form. The paper gives neither gains nor tables.",
-    "Baselines: Coulomb and viscous friction, and the steady curve, of the same identified law, both driven by the \
-     reference velocity. The paper does not say what its controllers were compared with.",
+    "Baselines: Coulomb and viscous friction, the steady curve, and a simplified law, of the same identified law, driven by \
+     the reference velocity. The paper compares with a simplified law and does not say what is left out; here it is the \
+     Stribeck effect.",
     "Genetic searches: 50 individuals, 5 rounds of 100 generations (500 in one round for the others), crossover .6 to \
      .9, mutation .01 to .10, temperature 7, falling by .96 a generation. The steps are the paper's, the settings ours. \
      As measured: 2 rounds of 20 generations.",

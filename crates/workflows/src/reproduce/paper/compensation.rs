@@ -1,5 +1,6 @@
 //! What compensates friction in the experiments: nothing, less than the law, and the law.
 
+use crate::study::without_stribeck;
 use stiction_friction::compensator::{Compensator, Friction, Settings, Source};
 use stiction_friction::{CoulombViscous, LuGre, ParamError};
 use stiction_servo::axis::AxisSettings;
@@ -18,6 +19,8 @@ pub enum Compensation {
     Coulomb,
     /// The steady curve.
     Stribeck,
+    /// LuGre without the Stribeck effect.
+    Simplified,
     /// LuGre, driven by the reference velocity: a feedforward.
     Reference,
     /// LuGre, driven by the measured velocity, as the paper draws it.
@@ -26,10 +29,11 @@ pub enum Compensation {
 
 impl Compensation {
     /// All of them, none first.
-    pub const ALL: [Compensation; 5] = [
+    pub const ALL: [Compensation; 6] = [
         Compensation::Nothing,
         Compensation::Coulomb,
         Compensation::Stribeck,
+        Compensation::Simplified,
         Compensation::Reference,
         Compensation::Measured,
     ];
@@ -40,6 +44,7 @@ impl Compensation {
             Compensation::Nothing => "none",
             Compensation::Coulomb => "Coulomb",
             Compensation::Stribeck => "Stribeck",
+            Compensation::Simplified => "simplified",
             Compensation::Reference => "LuGre, reference velocity",
             Compensation::Measured => "LuGre, measured velocity",
         }
@@ -47,7 +52,10 @@ impl Compensation {
 
     /// Whether it is that of the paper or what that is compared with in its pictures.
     pub fn is_drawn(self) -> bool {
-        !matches!(self, Compensation::Coulomb | Compensation::Stribeck)
+        matches!(
+            self,
+            Compensation::Nothing | Compensation::Reference | Compensation::Measured
+        )
     }
 
     /// An axis with that compensation by an identified law.
@@ -66,6 +74,7 @@ impl Compensation {
                 Friction::Coulomb(CoulombViscous::new(levels, viscous, curve.offset())?)
             }
             Compensation::Stribeck => Friction::Stribeck(*curve),
+            Compensation::Simplified => Friction::LuGre(without_stribeck(law)?),
             Compensation::Reference | Compensation::Measured => Friction::LuGre(*law),
         };
         let period = 1.0 / settings.rate;

@@ -60,7 +60,7 @@ impl Stage {
         let Some(mass) = mass.filter(|m| *m > 0.0) else {
             let found = match mass {
                 Some(mass) => mass.to_string(),
-                None => "none".into(),
+                None => "no mass".into(),
             };
             let allowed = "a mass above 0: in the model, or as mass in the axis file";
             return Err(model.refuse_parameter("mass", found, allowed).into());

@@ -12,8 +12,8 @@ pub(super) fn sections(mut document: Document, file: &ReproduceFile) -> Document
             .heading(2, "Baselines")
             .paragraph(
                 "Every run, with how much less a metric is than under the same controller without compensation. The PID has \
-                 the gains that the fuzzy rules change by up to 30 %. Coulomb and Stribeck are parts of the same \
-                 identified law, driven by the reference velocity.",
+                 the gains that the fuzzy rules change by up to 30 %. Coulomb, Stribeck and the simplified law (bristles \
+                 without the Stribeck effect) are parts of the same identified law, driven by the reference velocity.",
             );
     }
     for experiment in experiments {
