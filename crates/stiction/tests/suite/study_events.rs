@@ -64,6 +64,16 @@ fn a_load_that_is_taken_up_is_found() {
             assert!((level / 1.3 - 1.0).abs() < 0.02, "{time}: {level}");
         }
     }
+    let metric = |name: &str| {
+        let row = row(&after.file, "estimate", "exact");
+        let metric = row.metric(name).unwrap();
+        (metric.mean, metric.unit.clone(), metric.reduction_percent)
+    };
+    let (mass, unit, reduction) = metric("found_mass");
+    assert!((mass / 6.9 - 1.0).abs() < 0.02 && unit == "kg" && reduction.is_none());
+    assert!((metric("found_friction").0 / 1.3 - 1.0).abs() < 0.02);
+    let without = row(&after.file, "as it was", "exact");
+    assert!(without.metric("found_mass").is_none());
     let changes = load
         .mass
         .windows(2)

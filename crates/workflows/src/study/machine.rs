@@ -39,7 +39,9 @@ pub(super) fn largest_force(machine: &Machine, controller: &Controller) -> f64 {
 pub(super) fn unit(machine: &Machine, metric: &str) -> String {
     match (metric, machine.motion) {
         ("stick_time" | "hunting_period", _) => "s",
-        ("velocity_ripple" | "rest_share" | "feed_error_share", _) => "1",
+        ("velocity_ripple" | "rest_share" | "feed_error_share" | "found_friction", _) => "1",
+        ("found_mass", Motion::Linear) => "kg",
+        ("found_mass", Motion::Rotary) => "kg*m^2",
         ("feed_error_rms" | "feed_error_peak", motion) => symbols::speed_unit(motion),
         (name, _) if name.starts_with("saturation") => "1",
         (name, Motion::Linear) if name.starts_with("command_change") => "N",

@@ -1,11 +1,12 @@
 //! What is measured of a run; what it means is in `docs/study.md`.
 
+use super::changing::LoadCourse;
 use stiction_files::study::{Job, Study};
 use stiction_servo::axis::Sample;
 use stiction_servo::metrics::{Crawl, Feed, Hunting, Tracking, share_at_limit, standing_error};
 
 /// Of a path, in the order in which a run gives them.
-const PATH: [&str; 14] = [
+const PATH: [&str; 16] = [
     "rms_error",
     "peak_error",
     "reversal_peak",
@@ -20,6 +21,8 @@ const PATH: [&str; 14] = [
     "standing_error",
     "hunting_amplitude",
     "hunting_period",
+    "found_mass",
+    "found_friction",
 ];
 
 /// Of a contour, in the same order.
@@ -39,7 +42,7 @@ const CONTOUR: [&str; 12] = [
 ];
 
 /// Those that not every motion has: NaN where they mean nothing.
-const NOT_ALWAYS: [&str; 9] = [
+const NOT_ALWAYS: [&str; 11] = [
     "velocity_ripple",
     "rest_share",
     "feed_error_rms",
@@ -48,6 +51,8 @@ const NOT_ALWAYS: [&str; 9] = [
     "standing_error",
     "hunting_amplitude",
     "hunting_period",
+    "found_mass",
+    "found_friction",
     "circular_deviation",
 ];
 
@@ -69,8 +74,12 @@ pub(super) fn feed(feed: Option<Feed>) -> [f64; 3] {
     feed.map_or([f64::NAN; 3], |f| [f.rms, f.peak, f.share])
 }
 
-/// All metrics of a path.
-pub(super) fn of_path(samples: &[Sample], largest_force: f64) -> Vec<f64> {
+/// All metrics of a path; `load` is what was found of the load, where it was looked for.
+pub(super) fn of_path(
+    samples: &[Sample],
+    largest_force: f64,
+    load: Option<&LoadCourse>,
+) -> Vec<f64> {
     let tracking = Tracking::of(samples);
     let crawl = Crawl::of(samples);
     let hunting = Hunting::of(samples);
@@ -90,5 +99,10 @@ pub(super) fn of_path(samples: &[Sample], largest_force: f64) -> Vec<f64> {
         hunting.map_or(f64::NAN, |h| h.amplitude),
         hunting.and_then(|h| h.period).unwrap_or(f64::NAN),
     ]);
+    let last = |of: fn(&LoadCourse) -> &Vec<f64>| {
+        let found = load.and_then(|load| of(load).last());
+        found.copied().unwrap_or(f64::NAN)
+    };
+    metrics.extend([last(|l| &l.found_mass), last(|l| &l.found_level)]);
     metrics
 }

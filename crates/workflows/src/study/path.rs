@@ -98,7 +98,11 @@ pub(super) fn on_path(
     let compensator = axis.feedforward().compensator();
     Ok(Some(Done {
         job,
-        metrics: of_path(counted, largest_force(&study.machine, &controller)),
+        metrics: of_path(
+            counted,
+            largest_force(&study.machine, &controller),
+            load.as_ref(),
+        ),
         switched_off: compensator.is_some_and(|c| c.state().watch.tripped),
         trace: exact.then(|| Trace {
             load,
