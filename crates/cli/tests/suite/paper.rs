@@ -98,7 +98,7 @@ fn every_command_of_the_page() {
 
 /// The same with the experiments on that axis, which take a while: for the soak.
 #[test]
-#[ignore = "half a minute"]
+#[ignore = "soak: half a minute, a quick part is above"]
 fn every_command_of_the_page_and_the_experiments() {
     let dir = tempfile::tempdir().unwrap();
     follow(dir.path(), "nothing");

@@ -41,7 +41,7 @@ pub(super) fn report(file: &ReproduceFile, paper: &Paper) -> Document {
     }
     document = document.paragraph(format!(
         "The numbers that are checked are those of the simulated axis: the experiments have to find them to \
-         1 %, the mass of a changed load to 2 %. {} What was assumed is listed at the end. Everything is simulated \
+         1 %, the mass of a changed load to 2 %, σ₀ and σ₁ from an encoder to 5 %. {} What was assumed is listed at the end. Everything is simulated \
          with ode4 at 0.1 ms, as there. FIG. n names the figure of the paper that a picture stands for; the drawings stand \
          for its schematics (FIG. 2, 3, 8, 11, 18).",
         match paper.stage.is_own() {

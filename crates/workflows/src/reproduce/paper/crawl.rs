@@ -14,7 +14,7 @@ use stiction_servo::speeds::{SpeedRun, Speeds};
 
 /// Constant reference velocity, m/s: a third of the Stribeck velocity of our stage.
 pub(super) const VELOCITY: f64 = 1e-3;
-/// Time at it, and to reach and leave it, s: 3 s together, as published.
+/// Time at it, and to reach and leave it, s: 3 s together, as long as the paper simulates.
 const HOLD: f64 = 2.9;
 const RAMP: f64 = 0.05;
 /// Bandwidths of the PIDs without their integral, which are springs with dampers, Hz: their stiffness grows as the square.

@@ -103,8 +103,9 @@ impl Stage {
             |steps: &u32| Ode4::check(&plant, 1.0 / RATE / f64::from(*steps), fastest).is_ok();
         let mut tried = (0..).map(|k| 1 << k).take_while(|n| *n <= MOST_STEPS);
         let Some(steps) = tried.find(stable) else {
-            let found = stiction_number::four_digits(law.stiffness());
-            let allowed = "softer bristles: ode4 with 64 steps in 0.1 ms is unstable";
+            let sigma0 = stiction_number::short(law.stiffness());
+            let found = format!("{sigma0} {}", stage.units().stiffness);
+            let allowed = "a law with which ode4 is stable in 64 steps of each 0.1 ms: softer bristles or a lower vs";
             return Err(model.refuse_parameter("sigma0", found, allowed).into());
         };
         stage.steps = steps;

@@ -14,7 +14,7 @@ use stiction_servo::motion::Sine;
 pub(super) const AMPLITUDE: f64 = 20e-3;
 /// Hz.
 pub(super) const FREQUENCY: f64 = 0.5;
-/// Cycles: 3 s, as published.
+/// Cycles: 3 s, as long as the paper simulates.
 const CYCLES: f64 = 1.5;
 /// What counts begins in the middle of the first stroke, s: two reversals.
 pub(super) const COUNTS_FROM: f64 = 0.5;

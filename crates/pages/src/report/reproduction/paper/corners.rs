@@ -9,7 +9,7 @@ use stiction_workflows::reproduce::{Cornered, Paper};
 const PICTURE_HEIGHT: f64 = 320.0;
 
 /// How far beyond the corner its picture reaches, m.
-const ABOUT_CORNER: f64 = 12e-6;
+const ABOUT_CORNER: f64 = 4e-6;
 
 /// Metres a second in metres a minute.
 const MINUTE: f64 = 60.0;
@@ -29,7 +29,8 @@ pub(super) fn sections(document: Document, paper: &Paper) -> Document {
         .paragraph(
             "Along x, then along y at 3 m/min, with a stop at the corner. Cross coupling adds to the velocity of both axes \
              what the deviation from the contour asks for. What counts is 0.2 s to either side of the corner, without \
-             the start and the stop at the end.",
+             the start and the stop at the end. Coulomb and Stribeck leave more there than no compensation does (below): \
+             their force goes as the reference stops, while friction still holds the axis.",
         )
         .block(Block::Columns(vec![
             corner(&apart, "The corner, each axis by itself (FIG. 14, 15)").into(),
