@@ -67,6 +67,7 @@ codes! {
     Quantisation = "quantisation": "the position is quantised",
     CoarsePosition = "coarse-position": "the whole travel is only a few encoder steps",
     VelocityMismatch = "velocity-mismatch": "the velocity is not the derivative of the position",
+    AccelerationMismatch = "acceleration-mismatch": "the acceleration is not that of the position",
     NoMotion = "no-motion": "the axis does not move",
     NoiseOnly = "noise-only": "motion cannot be distinguished from noise",
     OneDirection = "one-direction": "the axis moves in one direction only",

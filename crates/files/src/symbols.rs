@@ -36,6 +36,14 @@ pub fn speed_unit(motion: Motion) -> &'static str {
     }
 }
 
+/// SI unit of an acceleration.
+pub fn acceleration_unit(motion: Motion) -> &'static str {
+    match motion {
+        Motion::Linear => "m/s^2",
+        Motion::Rotary => "rad/s^2",
+    }
+}
+
 /// Symbol of a parameter by its name in files, in Unicode.
 pub fn symbol(name: &str) -> String {
     name.parse()

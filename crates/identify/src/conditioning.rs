@@ -5,6 +5,7 @@
 //! alike, so it cannot bias the fit (identification of robots: Gautier 1997,
 //! doi 10.1109/ROBOT.1997.606767). Both are zero-phase, so nothing is delayed.
 
+pub(crate) mod accelerometer;
 pub(crate) mod blocks;
 pub(crate) mod channels;
 pub(crate) mod grid;
@@ -293,6 +294,7 @@ pub(crate) fn check(number: usize, log: &Samples) -> Result<(), Error> {
         ("velocity", log.velocity.as_ref()),
         ("force", Some(&log.force)),
         ("load", log.load.as_ref()),
+        ("acceleration", log.acceleration.as_ref()),
         ("temperature", log.temperature.as_ref()),
     ];
     if log.position.is_none() && log.velocity.is_none() {
@@ -499,6 +501,10 @@ impl Filters {
                 },
                 load: samples.load.as_ref().map_or_else(Vec::new, on_grid),
                 temperature: samples.temperature.as_ref().map_or_else(Vec::new, on_grid),
+                acceleration: match &samples.acceleration {
+                    Some(measured) => smooth(on_grid(measured), &self.source)?,
+                    None => Vec::new(),
+                },
             },
             position,
         })

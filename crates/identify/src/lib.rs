@@ -76,6 +76,7 @@ mod tune;
 mod watch;
 
 pub use choice::{NEVER_EQUAL_RATIO, Standing, choose};
+pub use conditioning::accelerometer::Accelerometer;
 pub use conditioning::channels::Channels;
 pub use conditioning::losses::Losses;
 pub use conditioning::record::{Record, Samples, Segment};

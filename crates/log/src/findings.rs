@@ -27,6 +27,7 @@
 //! resampling: they cost less than a split. A position that rests while the force builds up is
 //! friction, not a fault, so a stuck encoder is only reported with evidence of motion from another signal.
 
+mod acceleration;
 mod clock;
 mod encoder;
 mod finding;
@@ -55,6 +56,7 @@ pub(crate) fn inspect(log: &mut Log, mapping: &Mapping) {
     force::saturation(log, mapping);
     force::sign(log);
     velocity::consistency(log);
+    acceleration::consistency(log);
     motion::kind_of_motion(log);
     motion::constant_columns(log);
     rest::rests(log, mapping);

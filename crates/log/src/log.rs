@@ -14,7 +14,8 @@
 //!    become missing cells; a position that wraps is unwrapped;
 //! 7. missing cells of position, velocity and force: up to 5 in a row are interpolated
 //!    linearly in time and excluded; longer runs are dropped with their rows and leave a gap. In
-//!    reference, temperature and load every missing cell is interpolated or held: they vary slowly;
+//!    reference, temperature and load every missing cell is interpolated or held: they vary slowly; so it is in an
+//!    acceleration, which no fit has to rely on;
 //! 8. the log is inspected (see [`Finding`]).
 //!
 //! No sample is resampled, filtered or moved in time.
@@ -63,6 +64,8 @@ pub struct Log {
     pub position: Option<Vec<f64>>,
     /// Velocity as recorded, m/s or rad/s.
     pub velocity: Option<Vec<f64>>,
+    /// Acceleration as recorded, m/s^2 or rad/s^2.
+    pub acceleration: Option<Vec<f64>>,
     /// Force in `force_unit`, positive where it drives towards positive position.
     pub force: Option<Vec<f64>>,
     /// SI unit of the force: `N`, `N*m`, `A`, `V`, or `1` for a fraction of the rated force.
@@ -157,6 +160,7 @@ impl Log {
             time,
             position: columns.take(Role::Position),
             velocity: columns.take(Role::Velocity),
+            acceleration: columns.take(Role::Acceleration),
             force: columns.take(Role::Force),
             force_unit: unit(Role::Force),
             reference: columns.take(Role::Reference),

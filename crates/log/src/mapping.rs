@@ -87,6 +87,8 @@ pub struct Mapping {
     pub position: Option<Channel>,
     /// Velocity column.
     pub velocity: Option<Channel>,
+    /// Column of a measured acceleration.
+    pub acceleration: Option<Channel>,
     /// Column of force, torque, or the current or voltage proportional to it.
     pub force: Option<Channel>,
     /// Column of the reference (commanded) position.
@@ -114,6 +116,7 @@ impl Mapping {
             Role::Time => self.time.as_ref(),
             Role::Position => self.position.as_ref(),
             Role::Velocity => self.velocity.as_ref(),
+            Role::Acceleration => self.acceleration.as_ref(),
             Role::Force => self.force.as_ref(),
             Role::Reference => self.reference.as_ref(),
             Role::Temperature => self.temperature.as_ref(),
@@ -126,6 +129,7 @@ impl Mapping {
             Role::Time => &mut self.time,
             Role::Position => &mut self.position,
             Role::Velocity => &mut self.velocity,
+            Role::Acceleration => &mut self.acceleration,
             Role::Force => &mut self.force,
             Role::Reference => &mut self.reference,
             Role::Temperature => &mut self.temperature,

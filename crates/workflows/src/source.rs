@@ -196,6 +196,7 @@ impl Source {
         let others = [
             &mut samples.position,
             &mut samples.velocity,
+            &mut samples.acceleration,
             &mut samples.load,
             &mut samples.temperature,
         ];
@@ -242,6 +243,7 @@ impl Source {
             time: self.log.time.clone(),
             position: self.log.position.clone(),
             velocity: self.log.velocity.clone(),
+            acceleration: self.log.acceleration.clone(),
             force,
             load: self.log.load.clone(),
             temperature: self.log.temperature.clone(),

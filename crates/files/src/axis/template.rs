@@ -140,6 +140,7 @@ pub fn template(
                     Role::Time => "s".to_string(),
                     Role::Position | Role::Reference => length.to_string(),
                     Role::Velocity => format!("{length}/s"),
+                    Role::Acceleration => format!("{length}/s^2"),
                     Role::Force => format!("A\", scale = \"{}", words.scale),
                     Role::Temperature => "degC".to_string(),
                     Role::Load => "N".to_string(),

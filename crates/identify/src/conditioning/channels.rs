@@ -1,4 +1,4 @@
-//! Channels that friction may depend on beside the velocity.
+//! Channels that friction may depend on beside the velocity, and a measured acceleration.
 
 /// At the full rate of a segment, unfiltered, since the column that a law makes of them passes the
 /// common filter as a whole; empty where the log has no such channel.
@@ -10,6 +10,8 @@ pub struct Channels {
     pub load: Vec<f64>,
     /// Temperature, K.
     pub temperature: Vec<f64>,
+    /// Acceleration as it was measured (source filter passed), m/s^2 or rad/s^2.
+    pub acceleration: Vec<f64>,
 }
 
 impl Channels {
@@ -20,6 +22,7 @@ impl Channels {
             position: pick(&self.position),
             load: pick(&self.load),
             temperature: pick(&self.temperature),
+            acceleration: pick(&self.acceleration),
         }
     }
 }

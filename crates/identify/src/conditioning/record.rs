@@ -16,6 +16,8 @@ pub struct Samples {
     pub position: Option<Vec<f64>>,
     /// Velocity, m/s or rad/s.
     pub velocity: Option<Vec<f64>>,
+    /// Measured acceleration, m/s^2 or rad/s^2.
+    pub acceleration: Option<Vec<f64>>,
     /// Force (torque, current, voltage) that drives the axis.
     pub force: Vec<f64>,
     /// Normal load, in any unit.

@@ -1,5 +1,6 @@
 //! The integration tests of `stiction-identify` in one program, which is linked once: a new file is a module here.
 
+mod accelerometer;
 mod break_away;
 mod candidates;
 mod commissioning;

@@ -29,6 +29,14 @@ impl Motion {
         }
     }
 
+    /// Dimension of accelerations.
+    pub fn acceleration(self) -> Dimension {
+        match self {
+            Motion::Linear => Dimension::LINEAR_ACCELERATION,
+            Motion::Rotary => Dimension::ANGULAR_ACCELERATION,
+        }
+    }
+
     /// Dimension of forces: force or torque.
     pub fn force(self) -> Dimension {
         match self {
@@ -56,6 +64,8 @@ pub enum Role {
     Position,
     /// Measured velocity.
     Velocity,
+    /// Measured acceleration.
+    Acceleration,
     /// Force or torque that drives the axis, or the current or voltage it is proportional to.
     Force,
     /// Reference (commanded) position.
@@ -68,10 +78,11 @@ pub enum Role {
 
 impl Role {
     /// Every role, in the order of a log.
-    pub const ALL: [Role; 7] = [
+    pub const ALL: [Role; 8] = [
         Role::Time,
         Role::Position,
         Role::Velocity,
+        Role::Acceleration,
         Role::Force,
         Role::Reference,
         Role::Temperature,
@@ -84,6 +95,7 @@ impl Role {
             Role::Time => "time",
             Role::Position => "position",
             Role::Velocity => "velocity",
+            Role::Acceleration => "acceleration",
             Role::Force => "force",
             Role::Reference => "reference",
             Role::Temperature => "temperature",

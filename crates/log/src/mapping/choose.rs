@@ -1,7 +1,7 @@
 //! Columns for what a mapping leaves open, by name and by unit.
 
-use super::channel::{Channel, Role, Selector};
-use super::convert::is_force;
+use super::channel::{Channel, Motion, Role, Selector};
+use super::convert::{is_force, of_role};
 use super::names::{self, Hint};
 use super::select::{distinct, select};
 use super::{Detected, Mapping, describe};
@@ -82,7 +82,12 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
         }
     }
     if none_named {
-        for role in [Role::Reference, Role::Temperature, Role::Load] {
+        for role in [
+            Role::Acceleration,
+            Role::Reference,
+            Role::Temperature,
+            Role::Load,
+        ] {
             match scan.pick(role) {
                 Ok(Some(column)) => *out.mapping.slot(role) = Some(scan.take(column)),
                 Ok(None) => {}
@@ -215,7 +220,8 @@ impl<'a> Scan<'a> {
             }
         }
         // A commanded velocity is no measurement of motion; a commanded force is what drives it.
-        if role == Role::Velocity && fits.iter().all(|(_, h)| h.commanded) {
+        let is_motion = matches!(role, Role::Velocity | Role::Acceleration);
+        if is_motion && fits.iter().all(|(_, h)| h.commanded) {
             return Ok(None);
         }
         self.only(
@@ -272,7 +278,7 @@ impl<'a> Scan<'a> {
     fn unit_allows(&self, column: usize, role: Role) -> bool {
         self.units[column]
             .as_ref()
-            .is_none_or(|unit| allows(role, unit.dimension()))
+            .is_none_or(|unit| allows(role, of_role(unit, role).dimension()))
     }
 
     /// Refuses a rate that time stamps in a written unit contradict. Their mean step counts as much
@@ -334,6 +340,9 @@ fn allows(role: Role, dimension: Dimension) -> bool {
         Role::Position | Role::Reference => {
             [Dimension::LENGTH, Dimension::ANGLE, Dimension::COUNTS].contains(&dimension)
         }
+        Role::Acceleration => [Motion::Linear, Motion::Rotary]
+            .iter()
+            .any(|motion| dimension == motion.acceleration()),
         Role::Velocity => [Dimension::LENGTH, Dimension::ANGLE, Dimension::COUNTS]
             .into_iter()
             .any(per_second),

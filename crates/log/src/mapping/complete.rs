@@ -193,6 +193,7 @@ fn assume_units(
             Role::Time => seconds(table, part)?,
             Role::Position => Unit::si(kind.position()),
             Role::Velocity => Unit::si(kind.velocity()),
+            Role::Acceleration => Unit::si(kind.acceleration()),
             Role::Force if names::says_current(name) => Unit::si(Dimension::CURRENT),
             Role::Force => Unit::si(kind.force()),
             Role::Reference => position

@@ -32,6 +32,7 @@ impl Source {
         channel: &Channel,
         role: Role,
     ) -> Result<Self, Error> {
+        let unit = &of_role(unit, role);
         let sign = if channel.invert { -1.0 } else { 1.0 };
         let unit_dimension = unit.dimension();
         let (scale, dimension) = match &channel.scale {
@@ -103,6 +104,7 @@ impl Source {
             Role::Time => self.dimension == Dimension::TIME,
             Role::Position | Role::Reference => self.dimension == motion.position(),
             Role::Velocity => self.dimension == motion.velocity(),
+            Role::Acceleration => self.dimension == motion.acceleration(),
             Role::Force => is_force(self.dimension),
             Role::Temperature => self.dimension == Dimension::TEMPERATURE,
             Role::Load => true,
@@ -113,6 +115,7 @@ impl Source {
         let wanted = match role {
             Role::Position | Role::Reference => motion.position(),
             Role::Velocity => motion.velocity(),
+            Role::Acceleration => motion.acceleration(),
             Role::Force => motion.force(),
             Role::Temperature => Dimension::TEMPERATURE,
             Role::Time | Role::Load => Dimension::TIME,
@@ -135,7 +138,9 @@ impl Source {
             }
         };
         let kind = match role {
-            Role::Position | Role::Reference | Role::Velocity => format!("a {motion} axis needs"),
+            Role::Position | Role::Reference | Role::Velocity | Role::Acceleration => {
+                format!("a {motion} axis needs")
+            }
             _ => "it has to be".to_string(),
         };
         let also = if role == Role::Force {
@@ -158,6 +163,14 @@ impl Source {
             .in_column(describe::place(table, self.column))
             .of_setting(key))
     }
+}
+
+/// The unit that is meant in a role: `g` is a gram, but no acceleration is measured in grams; there it is the standard
+/// acceleration of gravity, `gn`.
+pub(super) fn of_role(unit: &Unit, role: Role) -> Unit {
+    let gravity = || Unit::parse("gn").ok();
+    let meant = (role == Role::Acceleration && unit.text() == "g").then(gravity);
+    meant.flatten().unwrap_or_else(|| unit.clone())
 }
 
 /// Whether a friction identification can take this as a force.

@@ -11,6 +11,7 @@ pub(super) fn of(role: Role, dimension: Dimension) -> Option<Motion> {
         .find(|m| match role {
             Role::Position | Role::Reference => dimension == m.position(),
             Role::Velocity => dimension == m.velocity(),
+            Role::Acceleration => dimension == m.acceleration(),
             Role::Force => dimension == m.force(),
             _ => false,
         })

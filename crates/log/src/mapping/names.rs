@@ -43,6 +43,7 @@ const VELOCITY: &[&str] = &[
     "dx",
     "dtheta",
 ];
+const ACCELERATION: &[&str] = &["acceleration", "accel", "acc", "ddq", "qddot", "xddot"];
 const FORCE: &[&str] = &[
     "force", "torque", "trq", "tau", "moment", "current", "cur", "curr", "friction", "f", "iq",
 ];
@@ -98,9 +99,6 @@ const PASSED_OVER: &[&str] = &[
     "state",
     "id",
     "index",
-    "acc",
-    "accel",
-    "acceleration",
     "jerk",
     "gain",
     "offset",
@@ -131,6 +129,8 @@ pub(super) fn hint(name: &str) -> Option<Hint> {
             Some(Role::Position)
         } else if among(VELOCITY) {
             Some(Role::Velocity)
+        } else if among(ACCELERATION) {
+            Some(Role::Acceleration)
         } else if among(FORCE) {
             Some(Role::Force)
         } else if among(TEMPERATURE) {

@@ -36,6 +36,10 @@ impl Dimension {
     pub const LINEAR_VELOCITY: Self = of([1, 0, -1, 0, 0, 0, 0]);
     /// Angular velocity, rad/s.
     pub const ANGULAR_VELOCITY: Self = of([0, 0, -1, 0, 0, 1, 0]);
+    /// Acceleration, m/s^2.
+    pub const LINEAR_ACCELERATION: Self = of([1, 0, -2, 0, 0, 0, 0]);
+    /// Angular acceleration, rad/s^2.
+    pub const ANGULAR_ACCELERATION: Self = of([0, 0, -2, 0, 0, 1, 0]);
     /// Mass, kg.
     pub const MASS: Self = of([0, 1, 0, 0, 0, 0, 0]);
     /// Moment of inertia, kg m^2.
@@ -164,9 +168,9 @@ const NAMED: &[(Dimension, &str, &str)] = &[
         "N*m*s/rad",
         "rotary viscous friction",
     ),
-    (of([1, 0, -2, 0, 0, 0, 0]), "m/s^2", "acceleration"),
+    (Dimension::LINEAR_ACCELERATION, "m/s^2", "acceleration"),
     (
-        of([0, 0, -2, 0, 0, 1, 0]),
+        Dimension::ANGULAR_ACCELERATION,
         "rad/s^2",
         "angular acceleration",
     ),

@@ -85,6 +85,11 @@ const SYMBOLS: &[(&str, &str, Size)] = &[
         plain(0.278_013_850_953_781_2, 0, Dimension::FORCE),
     ),
     ("kgf", "", plain(980_665.0, -5, Dimension::FORCE)),
+    (
+        "gn",
+        "m",
+        plain(980_665.0, -5, Dimension::LINEAR_ACCELERATION),
+    ),
     ("\u{b0}", "", DEGREE),
     ("\u{ba}", "", DEGREE),
     ("arcmin", "", plain(PI / 10_800.0, 0, Dimension::ANGLE)),

@@ -442,6 +442,36 @@ fn a_frozen_encoder_is_told_from_rest() {
     assert!(!codes(&log).contains(&"stuck-encoder"), "{}", told(&log));
 }
 
+/// An accelerometer beside the encoder, in g, on a mount that is not level; and one that shows something else.
+#[test]
+fn acceleration_that_is_not_that_of_the_position() {
+    let with = |name: &str, unit: &str, factor: f64| {
+        let mut table = axis(4000).table();
+        let x = table.columns[1].values.clone();
+        let bend = |i: usize| match i {
+            0 | 3999 => 0.0,
+            _ => (x[i + 1] - 2.0 * x[i] + x[i - 1]) * 1e6,
+        };
+        let values = (0..4000)
+            .map(|i| factor * (bend(i) / 9.80665 + 0.02))
+            .collect();
+        table
+            .columns
+            .push(column(&format!("{name} [{unit}]"), values));
+        read(&table)
+    };
+    let right = with("Accel Z", "g", 1.0);
+    assert_eq!(warnings(&right), [""; 0], "{}", told(&right));
+    let found = right.acceleration.as_ref().unwrap();
+    assert!((found[0] - 0.02 * 9.80665).abs() < 1e-12);
+    // A command says nothing of the motion.
+    assert!(with("acceleration_cmd", "g", 1.0).acceleration.is_none());
+    let lines = [("m/s^2", 1.0), ("g", -1.0), ("g", 1.3)].map(|(unit, factor)| {
+        message(&with("acceleration", unit, factor), "acceleration-mismatch").to_string()
+    });
+    insta::assert_snapshot!(lines.join("\n"));
+}
+
 #[test]
 fn velocity_that_is_not_the_derivative() {
     let told_by = |factor: f64| {

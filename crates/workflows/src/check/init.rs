@@ -190,6 +190,7 @@ fn names(role: Role) -> &'static [&'static str] {
         Role::Time => &["time"],
         Role::Position => &["position"],
         Role::Velocity => &["velocity"],
+        Role::Acceleration => &["acceleration"],
         Role::Force => &["force", "torque", "current"],
         Role::Reference => &["reference"],
         Role::Temperature => &["temperature"],

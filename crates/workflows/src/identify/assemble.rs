@@ -2,6 +2,7 @@
 
 use super::compensation;
 use super::load::Asked;
+use super::method::Method;
 use super::trust::Judged;
 use crate::entries;
 use crate::source::Source;
@@ -198,6 +199,19 @@ pub(super) fn delay_note(estimate: &FittedLaw) -> Option<String> {
         "delay between force and motion: not fitted with a Maxwell-slip law; give it, such as the \
          one that lugre finds"
             .into()
+    })
+}
+
+/// A note that a measured acceleration is not used by the method.
+pub(super) fn acceleration_note(asked: Asked, sources: &[Source]) -> Option<String> {
+    let has_one = sources.iter().any(|s| s.log.acceleration.is_some());
+    let takes_it = asked.options.procedures.method == Method::StaticThenDynamic;
+    (has_one && !takes_it).then(|| {
+        format!(
+            "the measured acceleration is compared with the position and not used: the method {} takes it, where it is \
+             better than the derivative of the position",
+            Method::StaticThenDynamic.name()
+        )
     })
 }
 

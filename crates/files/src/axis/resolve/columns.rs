@@ -13,6 +13,7 @@ pub(super) fn columns(root: &Table<'_>, mapping: &mut Mapping) -> Result<(), Err
     mapping.time = channel("time")?;
     mapping.position = channel("position")?;
     mapping.velocity = channel("velocity")?;
+    mapping.acceleration = channel("acceleration")?;
     mapping.reference = channel("reference")?;
     mapping.temperature = channel("temperature")?;
     mapping.load = channel("load")?;

@@ -17,7 +17,7 @@ use stiction_files::symbols;
 use stiction_identify as engine;
 use stiction_identify::procedure::dynamic_near;
 use stiction_identify::{
-    Delay, Estimate, FittedLaw, Law, LawKind, Observer, Record, Settings, Terms,
+    Accelerometer, Delay, Estimate, FittedLaw, Law, LawKind, Observer, Record, Settings, Terms,
 };
 use stiction_log::Motion;
 use stiction_parameters::{Name, Quantity};
@@ -50,6 +50,7 @@ pub(in crate::identify) struct TwoSteps {
     map: Option<StaticMapEntry>,
     searched: Option<SearchedEntry>,
     pub warnings: Vec<Warning>,
+    accelerometer: Option<Accelerometer>,
 }
 
 /// Fits in two steps, and all at once.
@@ -71,15 +72,10 @@ pub(in crate::identify) fn two_step(
         ..Law::new(LawKind::LuGre)
     };
     let low_speed = parts.low_speed;
-    let (joint, _) = engine::fit_law(
-        parts.record,
-        law,
-        terms,
-        low_speed,
-        parts.settings,
-        observer,
-    )
-    .map_err(fail)?;
+    let measured = parts.record.with_accelerometer();
+    let record = measured.as_ref().map_or(parts.record, |(record, _)| record);
+    let (joint, _) =
+        engine::fit_law(record, law, terms, low_speed, parts.settings, observer).map_err(fail)?;
     // The delay belongs to the log, not to friction: both see the same.
     let delay = match (joint.terms.delay, joint.value("delay")) {
         (Delay::Fitted, Some(time)) => Delay::Given(time),
@@ -89,7 +85,7 @@ pub(in crate::identify) fn two_step(
         delay,
         ..terms.clone()
     };
-    let (record, sources) = (parts.record, parts.sources);
+    let sources = parts.sources;
     let step = searched::dynamic(parts.asked, sources, record, statics, &terms, observer)?;
     let near = step.as_ref().map(|step| step.near[0]);
     let mut estimate =
@@ -116,8 +112,28 @@ pub(in crate::identify) fn two_step(
         map: known.map,
         searched: step.map(|step| step.entry),
         warnings,
+        accelerometer: measured.map(|(_, found)| found),
     };
     Ok((estimate, beside))
+}
+
+/// What became of a measured acceleration, in words.
+fn worth(found: &Accelerometer, motion: Motion) -> String {
+    let four = stiction_number::four_digits;
+    let unit = symbols::acceleration_unit(motion);
+    let choice = match found.taken {
+        true => "as measured, with gain, lag and offset taken out",
+        false => "the derivative of the position, since the measured one is not better",
+    };
+    format!(
+        "acceleration: {choice}; the measured one has {} {unit} rms of noise after the filters, the derivative {}; it shows {} \
+         times the acceleration, {} ms late, and {} {unit} without any (a gain within 5 % of 1 is taken)",
+        four(found.noise),
+        four(found.derivative_noise),
+        four(found.gain),
+        four(1e3 * found.lag),
+        four(found.offset),
+    )
 }
 
 impl TwoSteps {
@@ -144,6 +160,9 @@ impl TwoSteps {
                 })
             })
             .collect();
+        if let Some(found) = &self.accelerometer {
+            result.axis.conditioning.push(worth(found, motion));
+        }
         let explanation = self.explanation(law, &parameters, unit);
         result.static_then_dynamic = Some(TwoStepEntry {
             statics: self.from.into(),

@@ -1,0 +1,99 @@
+//! Whether acceleration and position describe the same motion.
+
+use super::finding::{Finding, Severity};
+use crate::log::Log;
+use stiction_codes::Code;
+use stiction_number::short;
+
+/// Samples on each side over which both are compared: long enough that noise and delay matter little.
+const REACH: usize = 32;
+/// Deviation of their ratio from 1 that is put down to the sensors.
+const MAX_RATIO_DEVIATION: f64 = 0.05;
+/// Least correlation of the same motion.
+const MIN_CORRELATION: f64 = 0.7;
+/// Least rms of what the position shows of acceleration, in encoder steps.
+const MIN_STEPS: f64 = 10.0;
+/// Fewest comparisons.
+const FEWEST: usize = 10;
+
+/// Ratios that have a usual cause: that of the position over the acceleration of the log.
+const CAUSES: &[(f64, &str)] = &[
+    (1000.0, "position in mm taken as m"),
+    (1e-3, "acceleration in mm/s^2 taken as m/s^2"),
+    (9.806_65, "acceleration in g taken as m/s^2"),
+    (0.101_971_621, "acceleration in m/s^2 taken as g"),
+    (57.295_779_513, "position in degrees taken as rad"),
+    (0.017_453_292_5, "acceleration in deg/s^2 taken as rad/s^2"),
+];
+
+/// A difference of positions is a weighted mean of the acceleration between them, exactly:
+///
+/// ```text
+/// x(t + T) - 2 x(t) + x(t - T) = integral of (T - |s|) a(t + s) over s from -T to T
+/// ```
+pub(super) fn consistency(log: &mut Log) {
+    let (Some(position), Some(acceleration)) = (&log.position, &log.acceleration) else {
+        return;
+    };
+    let step = 1.0 / log.rate_hz;
+    let whole = |from: usize, to: usize| {
+        (from..to).all(|i| !log.gap_after(i) && !log.starts_segment(i + 1))
+    };
+    let mut pairs = Vec::new();
+    let mut at = REACH;
+    while at + REACH < position.len() {
+        if whole(at - REACH, at + REACH) {
+            let bend = position[at + REACH] - 2.0 * position[at] + position[at - REACH];
+            let weighed = (0..=2 * REACH).map(|i| {
+                let weight = REACH - i.abs_diff(REACH);
+                weight as f64 * acceleration[at - REACH + i]
+            });
+            pairs.push((bend, weighed.sum::<f64>() * step * step));
+        }
+        at += REACH;
+    }
+    let count = pairs.len() as f64;
+    // A constant is a mount that is not level, or gravity.
+    let mean = |of: fn(&(f64, f64)) -> f64| pairs.iter().map(of).sum::<f64>() / count.max(1.0);
+    let (x0, a0) = (mean(|p| p.0), mean(|p| p.1));
+    let (mut xx, mut aa, mut xa) = (0.0, 0.0, 0.0);
+    for (x, a) in &pairs {
+        xx += (x - x0) * (x - x0);
+        aa += (a - a0) * (a - a0);
+        xa += (x - x0) * (a - a0);
+    }
+    let rms = (xx / count.max(1.0)).sqrt();
+    if pairs.len() < FEWEST || aa == 0.0 || rms <= MIN_STEPS * log.quantum.unwrap_or(0.0) {
+        return;
+    }
+    let correlation = xa / (xx * aa).sqrt();
+    let ratio = (xx / aa).sqrt().copysign(correlation);
+    let message = if correlation.abs() < MIN_CORRELATION {
+        format!(
+            "the acceleration is not that of the position: over {} samples their correlation is {}",
+            2 * REACH,
+            short(correlation)
+        )
+    } else if (ratio - 1.0).abs() > MAX_RATIO_DEVIATION {
+        let near =
+            |(value, _): &&(f64, &str)| (ratio.abs() / value - 1.0).abs() < MAX_RATIO_DEVIATION;
+        let cause = CAUSES.iter().find(near).map(|(_, cause)| *cause);
+        let inverted = (ratio < 0.0).then_some("one of them has the wrong sign");
+        let why: Vec<&str> = [cause, inverted].into_iter().flatten().collect();
+        let why = match why.is_empty() {
+            true => "a unit, a gear or a lead between them".to_string(),
+            false => why.join("; "),
+        };
+        format!(
+            "the acceleration of the position is {} times the one of the log: {why}?",
+            short(ratio)
+        )
+    } else {
+        return;
+    };
+    log.findings.push(Finding::new(
+        Code::AccelerationMismatch,
+        Severity::Warning,
+        message,
+    ));
+}
