@@ -1,7 +1,7 @@
 //! The forces on the axis of a study beside friction, against closed forms: friction is a millionth of them, and the
 //! controller a stiffness and a damper.
 
-use crate::study::{AXIS, CASCADE, Desk, SHORT, row, together};
+use crate::study::{AXIS, CASCADE, Desk, SHORT, WHOLE, row, together};
 use std::f64::consts::TAU;
 use stiction::commands::study::result::StudyFile;
 
@@ -144,6 +144,20 @@ fn a_command_in_volts() {
     let entry = volts.axis.voltage.unwrap();
     assert_eq!((entry.force_constant, entry.back_emf), (96.0, 0.0));
     close(entry.limit.unwrap(), 10.0, 1e-12);
+}
+
+/// A motor whose current lags by more than a compensator can look ahead is compensated as well as that goes.
+#[test]
+fn a_slow_current_is_compensated_late() {
+    let slow = "voltage = { force_constant = \"96 N/A\", resistance = \"2 ohm\", inductance = \"10 mH\", limit = \"48 V\" }";
+    let axis = AXIS
+        .replace("current_loop = \"1 kHz\"", slow)
+        .replace("peak_force   = \"1248 N\"", "");
+    let gentle = CASCADE.replace("60 Hz", "8 Hz");
+    let file = Desk::new().run(&together(&[&axis, SHORT, &gentle, WHOLE]));
+    assert!(file.warnings.is_empty(), "{:?}", file.warnings);
+    assert_eq!(file.results.len(), 2);
+    close(file.axis.current_lag_s, 5e-3, 1e-12);
 }
 
 #[test]

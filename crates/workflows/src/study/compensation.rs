@@ -7,6 +7,7 @@ use stiction_friction::compensator::{
 use stiction_friction::{CoulombViscous, Direction, LuGre, ParamError, Stribeck};
 use stiction_servo::controller::Controller;
 use stiction_servo::feedforward::Feedforward;
+use stiction_servo::trajectory::MAX_PREVIEW;
 
 /// The controller with its mass feedforward scaled from the true mass to the mass that is believed.
 pub(super) fn believing(controller: Controller, machine: &Machine, belief: Belief) -> Controller {
@@ -69,7 +70,7 @@ fn from_law(
         ..Settings::new(period, limit)
     };
     let preview = model.preview.unwrap_or(match model.source {
-        Source::Reference => machine.drive.preview(period),
+        Source::Reference => machine.drive.preview(period).min(MAX_PREVIEW),
         _ => 0.0,
     });
     let compensator = Compensator::new(friction, model.source, settings)?;
