@@ -1,6 +1,5 @@
 //! Errors of the feed rate.
 
-use super::root_mean;
 use crate::axis::Sample;
 use crate::two_axes::PlaneSample;
 
@@ -18,39 +17,36 @@ pub struct Feed {
 impl Feed {
     /// Of one axis; `None` where the reference does not move.
     pub fn of(samples: &[Sample]) -> Option<Self> {
-        Feed::from(|| {
-            samples
-                .iter()
-                .map(|s| ([s.reference.velocity, 0.0], [s.velocity, 0.0]))
-        })
+        let feeds = samples.iter().map(|s| {
+            let wanted = s.reference.velocity;
+            (wanted.abs(), s.velocity * wanted.signum())
+        });
+        Feed::from(feeds)
     }
 
     /// Of two axes, along the contour.
     pub fn along(samples: &[PlaneSample]) -> Option<Self> {
-        Feed::from(|| {
-            samples.iter().map(|s| {
-                (
-                    s.axes.map(|axis| axis.reference.velocity),
-                    s.axes.map(|axis| axis.velocity),
-                )
-            })
-        })
+        let feeds = samples.iter().map(|s| {
+            let [x, y] = s.axes.map(|axis| axis.reference.velocity);
+            let feed = libm::hypot(x, y);
+            let [u, v] = s.axes.map(|axis| axis.velocity);
+            (feed, u * (x / feed) + v * (y / feed))
+        });
+        Feed::from(feeds)
     }
 
-    /// From the velocities of reference and axis.
-    fn from<I: Iterator<Item = ([f64; 2], [f64; 2])>>(velocities: impl Fn() -> I) -> Option<Self> {
-        // Velocity of the reference along the motion, and the error.
-        let feeds = || {
-            velocities().filter_map(|(wanted, is)| {
-                let feed = libm::hypot(wanted[0], wanted[1]);
-                let along = is[0] * (wanted[0] / feed) + is[1] * (wanted[1] / feed);
-                (feed > 0.0).then_some((feed, along - feed))
-            })
-        };
-        let fastest = feeds().map(|(feed, _)| feed).reduce(f64::max)?;
-        let peak = feeds().fold(0.0_f64, |m, (_, error)| m.max(error.abs()));
-        Some(Feed {
-            rms: root_mean(feeds().map(|(_, error)| error * error)),
+    /// From the feed of the reference and the velocity along the motion.
+    fn from(feeds: impl Iterator<Item = (f64, f64)>) -> Option<Self> {
+        let (mut squares, mut count, mut peak, mut fastest) = (0.0, 0.0, 0.0_f64, 0.0_f64);
+        for (feed, along) in feeds.filter(|(feed, _)| *feed > 0.0) {
+            let error = along - feed;
+            squares += error * error;
+            count += 1.0;
+            peak = peak.max(error.abs());
+            fastest = fastest.max(feed);
+        }
+        (fastest > 0.0).then(|| Feed {
+            rms: libm::sqrt(squares / count),
             peak,
             share: peak / fastest,
         })
