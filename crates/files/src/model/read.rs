@@ -102,7 +102,9 @@ impl ReadModel {
             sha256: sha256_of(text),
             places,
         };
-        if let Some(missing) = read.missing().filter(|_| by_hand && faults.knows_the_law()) {
+        let named = read.model.parameter.iter().all(|p| !p.name.is_empty());
+        let whole = named && faults.knows_the_law();
+        if let Some(missing) = read.missing().filter(|_| by_hand && whole) {
             let allowed = format!(
                 "a [[parameter]] for each that the law {} has",
                 read.model.law
@@ -179,10 +181,10 @@ impl Faults {
         .ok()
     }
 
-    /// Whether law and names of the parameters are known.
+    /// Whether the law could be read, and a list of parameters.
     fn knows_the_law(&self) -> bool {
-        let of = |key: &String| key == "law" || key.starts_with("parameter");
-        !self.unread.iter().any(of)
+        let unread = ["law", "parameter"];
+        !self.unread.iter().any(|key| unread.contains(&key.as_str()))
     }
 }
 
