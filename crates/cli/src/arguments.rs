@@ -232,6 +232,9 @@ pub struct Searching {
     /// one of ga to lm [default: least squares alone].
     #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(stiction::Method::SEARCHES))]
     pub search: Option<String>,
+    /// Leave out the least squares after a search: the parameters are what it found by itself, without intervals.
+    #[arg(long)]
+    pub no_finish: bool,
     /// What a search evaluates [default: six for ga, adaptive-ga and annealing-ga on the symmetric
     /// LuGre law, else separable].
     #[arg(long, value_enum, value_name = "COST")]

@@ -387,6 +387,7 @@ fn searching(typed: &arguments::Searching) -> Searching {
     let name = |search: &String| names.into_iter().find(|name| name == search);
     Searching {
         search: typed.search.as_ref().and_then(name),
+        no_finish: typed.no_finish,
         cost: typed.cost.map(|cost| match cost {
             arguments::Cost::Six => CostKind::Six,
             arguments::Cost::Separable => CostKind::Separable,

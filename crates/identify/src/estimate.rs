@@ -8,6 +8,7 @@ pub(crate) mod fitted;
 pub(crate) mod intervals;
 mod optimal;
 mod profile;
+pub(crate) mod searched;
 pub(crate) mod series;
 pub(crate) mod sliding;
 pub(crate) mod uncertainty;

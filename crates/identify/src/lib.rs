@@ -85,6 +85,7 @@ pub use crossval::{LawScore, cross_validate};
 pub use error::Error;
 pub use estimate::fitted::FittedLaw;
 pub use estimate::intervals::intervals;
+pub use estimate::searched::NO_INTERVAL;
 pub use estimate::series::Series;
 pub use estimate::{Estimate, estimate, predict};
 pub use fit::{Fit, low_speed_bound};

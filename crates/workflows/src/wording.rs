@@ -31,6 +31,8 @@ pub enum Setting {
     BreakAway,
     /// The search that finds the parameters of each step.
     Search,
+    /// Whether the least squares after a search are left out.
+    NoFinish,
     /// What a search evaluates.
     Cost,
     /// Most evaluations.
@@ -63,7 +65,7 @@ pub enum Setting {
 
 impl Setting {
     /// Every option.
-    pub const ALL: [Setting; 23] = [
+    pub const ALL: [Setting; 24] = [
         Setting::Law,
         Setting::Asymmetric,
         Setting::Method,
@@ -73,6 +75,7 @@ impl Setting {
         Setting::Model,
         Setting::BreakAway,
         Setting::Search,
+        Setting::NoFinish,
         Setting::Cost,
         Setting::Evaluations,
         Setting::Target,
@@ -101,6 +104,7 @@ impl Setting {
             Setting::Model => "model",
             Setting::BreakAway => "break_away",
             Setting::Search => "search",
+            Setting::NoFinish => "no_finish",
             Setting::Cost => "cost",
             Setting::Evaluations => "evaluations",
             Setting::Target => "target",

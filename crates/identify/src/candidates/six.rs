@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::law::terms::Terms;
 use crate::law::{Law, LawKind};
 use stiction_lanes::{Candidate, InstructionSet, Trial, costs};
+use stiction_parameters::{Name, Quantity};
 use stiction_search::{Bounds, CostsOnly, Derivatives, Fidelity, Points, Problem};
 
 /// The cost of Zhang et al. 2025, eqs. (13)-(15) and (35)-(38): mean square of measured minus model
@@ -119,6 +120,16 @@ impl SixParameters {
     /// The nonlinear unknowns of the separable method at a point: `ln kappa`, `ln(Fs/Fc - 1)`, `ln vs`.
     pub fn nonlinear(point: &[f64]) -> Vec<f64> {
         vec![point[0] - point[3], point[4] - point[3], point[5]]
+    }
+
+    /// The coefficients of the separable method that a point gives: sigma1, sigma2, Fc, SI.
+    pub fn held(point: &[f64]) -> [(Name, f64); 3] {
+        let [_, s1, s2, fc, ..] = physical(point);
+        [
+            (Quantity::Sigma1.into(), s1),
+            (Quantity::Sigma2.into(), s2),
+            (Quantity::Coulomb.into(), fc),
+        ]
     }
 
     fn sampled(&self, fidelity: Fidelity) -> &Sampled {

@@ -19,6 +19,8 @@ use stiction_signal::{Sos, gradient, gradient_sixth_order};
 const MOST_LAG: i32 = 20;
 /// Deviation of the gain from 1 that is put down to the sensor.
 const MOST_GAIN_ERROR: f64 = 0.05;
+/// Gains of a sensor that shows the motion at all, whatever its unit is taken for.
+const SAME_MOTION: std::ops::Range<f64> = 0.1..10.0;
 /// Samples of the impulse whose energy is the gain of white noise, in settling times of the filters.
 const IMPULSE_SETTLINGS: usize = 4;
 
@@ -51,7 +53,7 @@ struct Compared {
 impl Record {
     /// The record with the measured acceleration in the place of the derivative, where that is the better one, and what both
     /// are worth. `None` where there is none to compare: no such channel in one of the logs, or a motion that was logged as a
-    /// velocity.
+    /// velocity; and of one that does not show the motion at all.
     pub fn with_accelerometer(&self) -> Option<(Self, Accelerometer)> {
         let again = self.conditioning.as_ref()?;
         let n = self.kept();
@@ -88,6 +90,9 @@ impl Record {
         };
         let lag = f64::from(best) + part;
         let found = compared(lag).unwrap_or(at);
+        if !SAME_MOTION.contains(&found.gain) {
+            return None;
+        }
         let noise = (found.apart - derivative_noise * derivative_noise)
             .max(0.0)
             .sqrt();

@@ -118,6 +118,14 @@ pub(crate) fn runs(
         }
         let step = median_step(&samples.time);
         let periods = controller.map_or(Ok(1), |c| c.periods(step))?;
+        let least = FEWEST_SAMPLES as f64 * step;
+        if let Some(found) = segment.filter(|s| *s < least) {
+            return Err(Error::Setting {
+                name: "segment",
+                found,
+                allowed: "a time of at least ten samples, s",
+            });
+        }
         for range in stretches(samples, step) {
             let Some(grid) = Grid::new(&samples.time[range.clone()], step) else {
                 continue;

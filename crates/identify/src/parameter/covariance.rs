@@ -22,6 +22,23 @@ impl Covariance {
         }
     }
 
+    /// The same without parameters of which anything is not a finite number.
+    #[must_use]
+    pub fn finite(&self) -> Self {
+        let mut kept: Vec<usize> = (0..self.names.len())
+            .filter(|&i| self.matrix[i][i].is_finite())
+            .collect();
+        let all = kept.clone();
+        kept.retain(|&i| all.iter().all(|&j| self.matrix[i][j].is_finite()));
+        Self {
+            names: kept.iter().map(|&i| self.names[i]).collect(),
+            matrix: kept
+                .iter()
+                .map(|&i| kept.iter().map(|&j| self.matrix[i][j]).collect())
+                .collect(),
+        }
+    }
+
     /// The same with rows and columns in the order of tables.
     pub(crate) fn in_order(&self) -> Self {
         let mut order: Vec<usize> = (0..self.names.len()).collect();

@@ -29,7 +29,15 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
     for role in Role::ALL {
         if let Some(channel) = given.channel(role) {
             let of_role = |e: Error| e.of_setting(role.key("column"));
-            let column = select(table, &channel.column, role).map_err(of_role)?;
+            let selected = select(table, &channel.column, role);
+            // One axis file serves all logs of an axis, and not every one of them was recorded with this sensor.
+            if role == Role::Acceleration && selected.is_err() {
+                out.mapping.acceleration = None;
+                out.phrases
+                    .push("acceleration = none: no such column in this recording".to_string());
+                continue;
+            }
+            let column = selected.map_err(of_role)?;
             if scan.used[column] {
                 let found = format!(
                     "{} has another role already",

@@ -479,6 +479,69 @@ fn both_steps_by_a_search() {
     }
 }
 
+/// Without least squares the parameters are those of the search, to the digit, with the error that the search saw, and none
+/// has an interval.
+#[test]
+fn a_search_alone() {
+    let bench = Bench::new();
+    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap();
+    let (speeds, motion) = (&logs[0], &logs[1]);
+    let in_steps = Procedures {
+        statics: vec![speeds.clone()],
+        ..method(Method::StaticThenDynamic)
+    };
+    for (procedures, search, cost) in [
+        (in_steps, Some("ga"), "dynamic"),
+        (method(Method::from_name("ga").unwrap()), None, "six"),
+        (method(Method::from_name("de").unwrap()), None, "separable"),
+    ] {
+        let mut asked = with(&[motion], procedures);
+        if cost != "separable" {
+            asked.files.axis = Some(bench.write("axis.toml", SEARCH));
+        }
+        asked.searching.search = search;
+        asked.searching.no_finish = true;
+        asked.searching.evaluations = Some(600);
+        let outcome = run(&asked).unwrap();
+        let result = &outcome.result;
+        let searched = result.searched.as_ref().unwrap();
+        assert_eq!(searched.cost, cost);
+        let own = searched.own.as_ref().unwrap();
+        for found in &own.parameters {
+            let given = result.parameters.iter().find(|p| p.name == found.name);
+            let given = given.unwrap_or_else(|| panic!("{cost}: {}", found.name));
+            let off = (given.value / found.value - 1.0).abs();
+            assert!(
+                off < 1e-9,
+                "{cost} {}: {} {}",
+                found.name,
+                given.value,
+                found.value
+            );
+        }
+        for p in result
+            .parameters
+            .iter()
+            .filter(|p| p.origin == "identified")
+        {
+            assert!(
+                p.std.is_none() && p.ci95.is_none() && !p.identifiable,
+                "{p:?}"
+            );
+        }
+        let seen = 100.0 * own.cost.sqrt();
+        let stated = result.fit.relative_error_percent;
+        assert!(
+            (stated / seen - 1.0).abs() < 1e-3,
+            "{cost}: {stated} {seen}"
+        );
+    }
+    let mut asked = with(&[motion], Procedures::default());
+    asked.searching.no_finish = true;
+    let refused = run(&asked).unwrap_err().to_string();
+    assert!(refused.contains("no_finish"), "{refused}");
+}
+
 /// A box that keeps the search from the curve: least squares find it, and the box is named.
 #[test]
 fn a_box_off_the_truth_does_not_decide() {

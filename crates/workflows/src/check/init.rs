@@ -80,6 +80,8 @@ fn found(log: &Log) -> Found {
 /// A length or angle as an axis file has it, to the last bit.
 fn length(log: &Log, value: f64) -> String {
     let unit = log.motion.position().si_text();
+    // A step found in data is known to no more digits, and the last ones of a double are not for people.
+    let value: f64 = format!("{value:.8e}").parse().unwrap_or(value);
     match (1e-3..1e6).contains(&value) {
         true => format!("{value} {unit}"),
         false => format!("{value:e} {unit}"),

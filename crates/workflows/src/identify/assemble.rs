@@ -69,6 +69,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
             })
         })
         .collect();
+    let covariance = estimate.covariance.finite();
     ResultFile {
         schema: SCHEMA.into(),
         version: env!("CARGO_PKG_VERSION").into(),
@@ -98,13 +99,8 @@ pub(super) fn result(parts: Parts) -> ResultFile {
             .map(|p| parameter(p, motion, force_unit, &first.load_unit))
             .collect(),
         covariance: CovarianceEntry {
-            names: estimate
-                .covariance
-                .names
-                .iter()
-                .map(Name::to_string)
-                .collect(),
-            matrix: estimate.covariance.matrix.clone(),
+            names: covariance.names.iter().map(Name::to_string).collect(),
+            matrix: covariance.matrix,
         },
         fit: fit_entry(&estimate.fit),
         low_speed: estimate.low_speed.as_ref().map(low_entry),

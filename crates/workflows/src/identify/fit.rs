@@ -135,13 +135,17 @@ fn by_search(
         },
         observer,
     )?;
-    let choice = choice::fitted_already(
-        (found.estimate, found.optimum),
-        &ladder(conditioned),
-        options.compare_laws,
-        &settings,
-        observer,
-    );
+    let choice = match options.searching.no_finish {
+        // Nothing that least squares have to give: neither intervals nor a comparison of laws.
+        true => Choice::alone(found.estimate),
+        false => choice::fitted_already(
+            (found.estimate, found.optimum),
+            &ladder(conditioned),
+            options.compare_laws,
+            &settings,
+            observer,
+        ),
+    };
     Ok(Fitted {
         searched: Some(found.entry),
         not_kept: found.lost,

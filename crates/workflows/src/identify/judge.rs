@@ -23,14 +23,17 @@ pub(super) fn judge(
 ) -> Judged {
     let law = &fitted.choice.estimate;
     let mut warnings = log_warnings(&loaded.sources);
-    if asked.axis.terms.delay == Delay::Fitted && law.terms.delay == Delay::NONE {
+    // A search by itself looks for no delay and compares no laws.
+    let finishes = !asked.options.searching.no_finish;
+    let asks_delay = asked.axis.terms.delay == Delay::Fitted && finishes;
+    if asks_delay && law.terms.delay == Delay::NONE {
         warnings.push(Warning::new(Code::DelayOutOfRange, DELAY_OUT_OF_RANGE));
     }
     if let Some(error) = &fitted.not_kept {
         let text = format!("the state of the search could not be kept: {error}");
         warnings.push(Warning::new(Code::BadCheckpoint, text));
     }
-    let compares = asked.options.compare_laws && fitted.two_steps.is_none();
+    let compares = asked.options.compare_laws && fitted.two_steps.is_none() && finishes;
     if compares && fitted.choice.laws.is_empty() && law.status != Status::Interrupted {
         let text = "the comparison of laws was interrupted and is left out; the fit is complete";
         warnings.push(Warning::new(Code::Interrupted, text));

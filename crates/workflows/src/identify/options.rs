@@ -101,6 +101,8 @@ pub struct Searching {
     /// For the methods `static` and `static-then-dynamic`: the search that finds the parameters of each step, before
     /// least squares; `None` takes least squares alone. One of [`stiction_search::Method::NAMES`].
     pub search: Option<&'static str>,
+    /// Whether the least squares after it are left out: parameters are what the search found, without intervals.
+    pub no_finish: bool,
     /// What it evaluates; `None` takes six for the genetic algorithms of the publication where the law
     /// allows it, separable for all else.
     pub cost: Option<CostKind>,

@@ -46,6 +46,8 @@ pub(super) fn check(options: &Options) -> Result<(), Error> {
         }
         return Err(Error::usage(
             [
+                Setting::NoFinish.into(),
+                ", ".into(),
                 Setting::Cost.into(),
                 ", ".into(),
                 Setting::Evaluations.into(),

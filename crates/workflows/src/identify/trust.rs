@@ -9,9 +9,9 @@ use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::result::{Compensation, LawEntry, Next, Trust};
 use stiction_files::symbols;
-use stiction_identify::Parameter;
 use stiction_identify::procedure::StepFit;
 use stiction_identify::{Fit, FittedLaw, LawKind, Series, SimulationFit, Status, Unseen};
+use stiction_identify::{NO_INTERVAL, Parameter};
 use stiction_log::Motion;
 use stiction_number::{Percent, short};
 use stiction_parameters::Quantity;
@@ -65,6 +65,7 @@ impl Judged {
     /// The result is trustworthy if there is no reason against it. The next step is that of the first reason.
     fn new(
         law: &FittedLaw,
+        motion: Shown,
         compensation: Option<Compensation>,
         Reasons(reasons): Reasons,
         warnings: Vec<Warning>,
@@ -74,7 +75,7 @@ impl Judged {
             // A law that explains less than half has no constants of the machine, whatever its curvature says.
             let holds = law.status == Status::Converged
                 && law.fit.r2 >= LEAST_R2
-                && !law.stays_in_presliding();
+                && (!law.stays_in_presliding() || motion == Shown::Presliding);
             let known = |p: &Parameter| p.identifiable && holds;
             identified
                 .filter(|p| known(p) == determined)
@@ -95,6 +96,15 @@ impl Judged {
         };
         Judged { trust, warnings }
     }
+}
+
+/// What kind of motion a result has to have come from.
+#[derive(Clone, Copy, PartialEq)]
+enum Shown {
+    /// Sliding, without which the level of the friction is open.
+    Sliding,
+    /// Force steps below break-away, for stiffness and micro-damping.
+    Presliding,
 }
 
 /// Reasons against a result, each with what leads on from it.
@@ -154,7 +164,13 @@ impl Evidence<'_> {
 pub(super) fn of_force(evidence: &Evidence, mut warnings: Vec<Warning>) -> Judged {
     let mut reasons = Reasons::default();
     let compensation = record(evidence, &mut warnings, &mut reasons);
-    Judged::new(evidence.law, compensation, reasons, warnings)
+    Judged::new(
+        evidence.law,
+        Shown::Sliding,
+        compensation,
+        reasons,
+        warnings,
+    )
 }
 
 /// The same with static parameters found first.
@@ -169,7 +185,13 @@ pub(super) fn of_two_steps(evidence: &Evidence, mut warnings: Vec<Warning>) -> J
         let text = "sigma0 is not determined, and it is what the second step is for";
         reasons.push(text, Next::Check);
     }
-    Judged::new(evidence.law, compensation, reasons, warnings)
+    Judged::new(
+        evidence.law,
+        Shown::Sliding,
+        compensation,
+        reasons,
+        warnings,
+    )
 }
 
 /// A law that was fitted to the position of a simulated axis.
@@ -187,12 +209,18 @@ pub(super) fn of_position(
                     its intervals do not say so. Take maxwell-slip, or the fit of the force";
         reasons.push(text, Next::Check);
     }
+    let mut fitted = evidence.law.parameters.iter().filter(|p| p.identified);
+    if fitted.all(|p| !p.identifiable) {
+        let text = "the position says nothing certain of any parameter; what follows the reference through a stiff controller \
+                    hardly shows the axis";
+        reasons.push(text, Next::Check);
+    }
     for (name, one) in unseen {
         if let Some(text) = position_fails(found, name, one) {
             reasons.push(text, Next::Check);
         }
     }
-    Judged::new(evidence.law, None, reasons, warnings)
+    Judged::new(evidence.law, Shown::Sliding, None, reasons, warnings)
 }
 
 /// A steady curve through points of constant velocity, of which some lie off it.
@@ -224,7 +252,7 @@ pub(super) fn of_static_map(
         warnings.push(Warning::new(Code::PoorFit, text));
         reasons.push(text, Next::Check);
     }
-    Judged::new(law, None, reasons, warnings)
+    Judged::new(law, Shown::Sliding, None, reasons, warnings)
 }
 
 /// Stiffness and micro-damping from force steps.
@@ -255,7 +283,7 @@ pub(super) fn of_steps(
             reasons.push(text, Next::Check);
         }
     }
-    Judged::new(law, None, reasons, warnings)
+    Judged::new(law, Shown::Presliding, None, reasons, warnings)
 }
 
 /// What can be said of a law that was fitted to the force of whole records.
@@ -367,6 +395,11 @@ fn saturation(sources: &[Source], reasons: &mut Reasons) {
 /// Names each parameter that the data do not determine, what it is confused with, and the cure.
 fn unidentifiable(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warning>) {
     let unknown = || estimate.parameters.iter().filter(|p| !p.identifiable);
+    if unknown().any(|p| p.reason == NO_INTERVAL) {
+        let text = "no parameter has an interval: least squares after the search were left out";
+        warnings.push(Warning::new(Code::NotIdentifiable, text));
+        return;
+    }
     let of_an_element = |p: &&Parameter| p.name.quantity.is_of_an_element();
     let elements: Vec<String> = unknown()
         .filter(of_an_element)

@@ -66,6 +66,9 @@ fn entry(name: String, unit: String, mut values: Vec<f64>, family: &str) -> Metr
     }
 }
 
+/// Largest change that is stated, %: beyond, what it is compared with is next to nothing.
+const MOST_PERCENT: f64 = 1e6;
+
 /// By how much the metrics of a row are below those without compensation.
 fn compare(row: &mut ResultRow, without: &ResultRow) {
     // A period is neither good nor bad.
@@ -77,7 +80,10 @@ fn compare(row: &mut ResultRow, without: &ResultRow) {
         let Some(other) = without.metric(&metric.name).filter(|m| m.mean > 0.0) else {
             continue;
         };
-        let reduction = |x: f64| Some(100.0 * (1.0 - x / other.mean));
+        let reduction = |x: f64| {
+            let percent = 100.0 * (1.0 - x / other.mean);
+            (percent.abs() <= MOST_PERCENT).then_some(percent)
+        };
         metric.reduction_percent = reduction(metric.mean);
         metric.worst_reduction_percent = reduction(metric.largest);
     }

@@ -69,11 +69,17 @@ pub(super) fn map(
         Some(step) => {
             let near = static_map_near(&found.points, &settings, &step.near);
             let near = near.map_err(|e| refused(sources, e))?;
-            match everywhere.loss < near.loss * (1.0 - SAME_LOSS_WITHIN) {
+            match !asked.options.searching.no_finish
+                && everywhere.loss < near.loss * (1.0 - SAME_LOSS_WITHIN)
+            {
                 true => (everywhere, true),
                 false => (near, false),
             }
         }
+    };
+    let map = match &searched {
+        Some(step) if asked.options.searching.no_finish => map.as_searched(&step.values),
+        _ => map,
     };
     let mut warnings = warnings(&map, &found, sources, motion);
     if elsewhere {

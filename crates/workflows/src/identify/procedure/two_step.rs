@@ -51,6 +51,7 @@ pub(in crate::identify) struct TwoSteps {
     searched: Option<SearchedEntry>,
     pub warnings: Vec<Warning>,
     accelerometer: Option<Accelerometer>,
+    has_acceleration: bool,
 }
 
 /// Fits in two steps, and all at once.
@@ -91,7 +92,23 @@ pub(in crate::identify) fn two_step(
     let mut estimate =
         dynamic_near(near, record, statics, &terms, low_speed, observer).map_err(fail)?;
     let mut warnings = known.warnings;
-    if near.is_some() {
+    if let Some(step) = step.as_ref().filter(|_| options.searching.no_finish) {
+        let of = |quantity: Quantity| {
+            let found = step.values.iter().find(|(name, _)| *name == quantity);
+            found.map_or(0.0, |(_, value)| *value)
+        };
+        let coulomb = of(Quantity::Coulomb);
+        let unknowns = [
+            libm::log(of(Quantity::Sigma0) / coulomb),
+            libm::log(of(Quantity::Static) / coulomb - 1.0),
+            libm::log(of(Quantity::StribeckVelocity)),
+        ];
+        let held = [Quantity::Sigma1, Quantity::Sigma2, Quantity::Coulomb];
+        let held = held.map(|quantity| (quantity.into(), of(quantity)));
+        estimate = estimate
+            .as_searched(record, &unknowns, &held)
+            .map_err(fail)?;
+    } else if near.is_some() {
         let everywhere =
             dynamic_near(None, record, statics, &terms, low_speed, observer).map_err(fail)?;
         if everywhere.fit.rmse < estimate.fit.rmse * (1.0 - SAME_ERROR_WITHIN) {
@@ -113,6 +130,7 @@ pub(in crate::identify) fn two_step(
         searched: step.map(|step| step.entry),
         warnings,
         accelerometer: measured.map(|(_, found)| found),
+        has_acceleration: sources.iter().any(|s| s.log.acceleration.is_some()),
     };
     Ok((estimate, beside))
 }
@@ -160,8 +178,14 @@ impl TwoSteps {
                 })
             })
             .collect();
-        if let Some(found) = &self.accelerometer {
-            result.axis.conditioning.push(worth(found, motion));
+        match &self.accelerometer {
+            Some(found) => result.axis.conditioning.push(worth(found, motion)),
+            None if self.has_acceleration => result.axis.conditioning.push(
+                "acceleration: the derivative; a measured one is compared where every log has it and a position, and shows the \
+                 motion at all"
+                    .into(),
+            ),
+            None => {}
         }
         let explanation = self.explanation(law, &parameters, unit);
         result.static_then_dynamic = Some(TwoStepEntry {

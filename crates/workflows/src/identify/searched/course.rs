@@ -50,7 +50,7 @@ impl Course {
         Ok(Course {
             plan: Plan {
                 method,
-                finish: (!descends).then(Finish::default),
+                finish: (!descends && !given.no_finish).then(Finish::default),
             },
             seed: options.seed,
             evaluations: given.evaluations.unwrap_or(USUAL_EVALUATIONS),

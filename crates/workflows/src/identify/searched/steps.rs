@@ -11,16 +11,18 @@ use crate::source::Source;
 use libm::exp;
 use stiction_files::result::SearchedEntry;
 use stiction_identify::candidates::{
-    Curve, Dynamic, Scheme, SixParameters, box_of_curve, box_of_six,
+    Candidates, Curve, Dynamic, Scheme, SixParameters, box_of_curve, box_of_six,
 };
 use stiction_identify::procedure::{Exponent, StaticPoint, StaticSettings, Statics};
-use stiction_identify::{Law, LawKind, Observer, Record, Terms};
+use stiction_identify::{Law, LawKind, Name, Observer, Record, Terms};
 
 /// What a search of one step found.
 pub(in crate::identify) struct Step {
     pub entry: SearchedEntry,
     /// Where least squares begin: Stribeck velocities, m/s or rad/s; or `ln(sigma0/Fc)`.
     pub near: Vec<f64>,
+    /// What the search found, by name, SI; where least squares are left out, the answer.
+    pub values: Vec<(Name, f64)>,
     pub interrupted: bool,
 }
 
@@ -77,6 +79,7 @@ pub(in crate::identify) fn curve(
     let near = found.point.chunks(ranges::CURVE.len());
     Ok(Some(Step {
         near: near.map(|genes| exp(genes[3])).collect(),
+        values: problem.parameters(&found.point),
         interrupted: found.ended == Ended::Interrupted,
         entry: found.entry,
     }))
@@ -114,6 +117,7 @@ pub(in crate::identify) fn dynamic(
     let coulomb = libm::log(statics.sides[0].coulomb);
     Ok(Some(Step {
         near: vec![found.point[0] - coulomb],
+        values: problem.parameters(&found.point),
         interrupted: found.ended == Ended::Interrupted,
         entry: found.entry,
     }))

@@ -52,7 +52,7 @@ pub(in crate::identify) fn search(task: Task, observer: &mut dyn Observer) -> Re
         Some(cost) => cost == CostKind::Six,
         None => task.paper() && task.six_allowed(),
     };
-    let (searched, start) = if six {
+    let (searched, start, held) = if six {
         let bounds = box_of_six(task.record).map_err(refused)?;
         let bounds = ranges::given(task.axis, task.inputs, bounds, ranges::SIX)?;
         let problem = SixParameters::new(task.record, task.law, task.terms, bounds, Scheme::Explin)
@@ -60,7 +60,8 @@ pub(in crate::identify) fn search(task: Task, observer: &mut dyn Observer) -> Re
         let names = ranges::names(ranges::SIX);
         let searched = task.run(&problem, CostKind::Six, names, observer)?;
         let start = SixParameters::nonlinear(&searched.point);
-        (searched, start)
+        let held = SixParameters::held(&searched.point).to_vec();
+        (searched, start, held)
     } else {
         ranges::refuse_beside_separable(task.axis)?;
         let bounds = SearchBox::from_record(task.record, &task.law).map_err(refused)?;
@@ -70,7 +71,7 @@ pub(in crate::identify) fn search(task: Task, observer: &mut dyn Observer) -> Re
         let names = task.law.unknowns();
         let searched = task.run(&problem, CostKind::Separable, names, observer)?;
         let start = searched.point.clone();
-        (searched, start)
+        (searched, start, Vec::new())
     };
     let (mut estimate, mut optimum) = engine::fit_law_from(
         &start,
@@ -82,6 +83,11 @@ pub(in crate::identify) fn search(task: Task, observer: &mut dyn Observer) -> Re
         observer,
     )
     .map_err(refused)?;
+    if task.options.searching.no_finish {
+        estimate = estimate
+            .as_searched(task.record, &start, &held)
+            .map_err(refused)?;
+    }
     let spent = &searched.entry.evaluations;
     estimate.count(&engine::Counts {
         costs: spent.costs,

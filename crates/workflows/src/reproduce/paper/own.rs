@@ -2,6 +2,7 @@
 
 use super::stage::{RATE, Stage};
 use crate::error::Error;
+use std::f64::consts::TAU;
 use std::path::PathBuf;
 use stiction_files::Axis;
 use stiction_files::study::Model;
@@ -26,6 +27,8 @@ pub struct OwnAxis {
 
 /// Force limit over the static level where the axis file has none, dimensionless: as on our stage, about.
 const LIMIT: f64 = 60.0;
+/// Longest period of the mass on its bristles, s: presliding, and every motion that is chosen for it, lasts some of them.
+const LONGEST_PERIOD: f64 = 1.0;
 /// Most steps of ode4 in a control period.
 const MOST_STEPS: u32 = 64;
 
@@ -72,6 +75,15 @@ impl Stage {
             let allowed = "above 0: the experiments need an axis that slides";
             model.refuse_parameter("coulomb", "0".into(), allowed)
         })?;
+        let period = TAU * (mass / law.stiffness()).sqrt();
+        if period > LONGEST_PERIOD {
+            let found = stiction_number::short(mass);
+            let allowed = format!(
+                "a mass that swings on its bristles (sigma0) in at most {LONGEST_PERIOD} s, here in {} s",
+                stiction_number::short(period)
+            );
+            return Err(model.refuse_parameter("mass", found, &allowed).into());
+        }
         let peak = axis.mapping.force_limit;
         let peak = peak.unwrap_or(LIMIT * law.curve().largest_static_level());
         let resolution = axis.mapping.resolution.unwrap_or(0.0);
