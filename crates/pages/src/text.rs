@@ -196,6 +196,22 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
             next::simulate(study, dir)
         );
     }
+    let force = result.axis.force_unit.as_str();
+    if result.trust.next == Next::Export && study.is_none() && !["N", "N*m"].contains(&force) {
+        let wanted = match result.axis.kind.as_str() {
+            "rotary" => "N m",
+            _ => "N",
+        };
+        let per = match force {
+            "1" => "%".to_string(),
+            _ => unit(force).to_string(),
+        };
+        let _ = writeln!(
+            out,
+            "no study to simulate, since the force is in {per}: with a scale of its column, such as \"2.5 {wanted}/{per}\" in \
+             the axis file, identify writes one"
+        );
+    }
     let _ = writeln!(
         out,
         "next: {}\n  {}",

@@ -30,6 +30,7 @@ pub fn reproduction(file: &ReproduceFile) -> String {
     let mut out = table(&rows, &[false, false, true, true, false, true, false]);
     let off = file.checks.iter().filter(|c| !c.within).count();
     out.push_str(&match off {
+        0 if file.checks.is_empty() => "\nnothing could be checked\n".to_string(),
         0 => format!("\nall {} within\n", file.checks.len()),
         n => format!("\n{n} of {} OFF\n", file.checks.len()),
     });

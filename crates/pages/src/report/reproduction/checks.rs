@@ -10,6 +10,7 @@ pub(super) fn verdict(file: &ReproduceFile) -> Callout {
     let off = file.checks.iter().filter(|c| !c.within).count();
     let all = file.checks.len();
     let (severity, text) = match off {
+        0 if all == 0 => (Severity::Error, "Nothing could be checked.".to_string()),
         0 => (
             Severity::Good,
             format!("All {all} numbers are within their tolerance."),

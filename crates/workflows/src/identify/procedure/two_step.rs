@@ -178,16 +178,16 @@ impl TwoSteps {
                 })
             })
             .collect();
-        match &self.accelerometer {
-            Some(found) => result.axis.conditioning.push(worth(found, motion)),
-            None if self.has_acceleration => result.axis.conditioning.push(
+        let acceleration = match &self.accelerometer {
+            Some(found) => Some(worth(found, motion)),
+            None => self.has_acceleration.then(|| {
                 "acceleration: the derivative; a measured one is compared where every log has it and a position, and shows the \
                  motion at all"
-                    .into(),
-            ),
-            None => {}
-        }
-        let explanation = self.explanation(law, &parameters, unit);
+                    .to_string()
+            }),
+        };
+        let mut explanation: Vec<String> = acceleration.into_iter().collect();
+        explanation.extend(self.explanation(law, &parameters, unit));
         result.static_then_dynamic = Some(TwoStepEntry {
             statics: self.from.into(),
             rmse: law.fit.rmse,
