@@ -66,6 +66,28 @@ impl Estimate {
         self
     }
 
+    /// Flags parameters that a law which holds less has elsewhere, by more than half of their interval: they depend on what is
+    /// held. `before` is this estimate as its search left it, as `freer` is: the corrections of both would be the same.
+    pub fn doubt_beside(&mut self, before: &FittedLaw, freer: &FittedLaw) {
+        for parameter in &mut self.fitted.parameters {
+            let Some((low, high)) = parameter.ci95.filter(|_| parameter.identifiable) else {
+                continue;
+            };
+            let (Some(mine), Some(other)) =
+                (before.value(parameter.name), freer.value(parameter.name))
+            else {
+                continue;
+            };
+            if (other - mine).abs() > 0.5 * (high - low) {
+                parameter.identifiable = false;
+                parameter.reason = format!(
+                    "depends on what the law holds fixed: {} with nothing held",
+                    stiction_number::four_digits(parameter.value + other - mine)
+                );
+            }
+        }
+    }
+
     /// Adds evaluations that led to it.
     pub fn count(&mut self, more: &Counts) {
         self.fitted.counts.add(more);

@@ -181,3 +181,29 @@ fn each_motion_tells_its_own_parameters() {
         }
     }
 }
+
+/// A parameter that a law which holds less has elsewhere is not a constant, and the others stay what they were.
+#[test]
+fn what_depends_on_the_law_is_flagged() {
+    let law = Law::new(LawKind::Stribeck);
+    let of = |viscous: f64| {
+        let side = [10.0, 15.0, viscous, 0.1];
+        fit(&static_map(side, side, 0.1, 3), law, &friction_only())
+    };
+    let mine = of(4.0);
+    let flagged = |freer: &Estimate| {
+        let mut out = mine.clone();
+        out.doubt_beside(&mine, freer);
+        let lost = out.parameters.iter().zip(&mine.parameters);
+        lost.filter(|(a, b)| b.identifiable && !a.identifiable)
+            .map(|(a, _)| a.reason.clone())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(flagged(&mine), [""; 0]);
+    let lost = flagged(&of(4.4));
+    assert_eq!(lost.len(), 1, "{lost:?}");
+    assert!(
+        lost[0].starts_with("depends on what the law holds fixed: 4.4"),
+        "{lost:?}"
+    );
+}

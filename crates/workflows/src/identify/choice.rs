@@ -139,6 +139,8 @@ pub(super) fn auto(
     let held_out = laws.iter().all(|law| law.held_out_error_percent.is_some());
     // Too few samples may be left to hold some out.
     let by = if held_out { "cross-validation" } else { "bic" };
+    let before = rungs[at].estimate.clone();
+    let freer = freer(&rungs, &before.law).map(|rung| rung.estimate.clone());
     let rung = rungs.swap_remove(at);
     let held_out_rmse = rung.cross_validated_rmse(ladder);
     let held_back = unfit::unseen_force(&rung.estimate);
@@ -147,6 +149,9 @@ pub(super) fn auto(
         estimate, optimum, ..
     } = rung;
     let mut estimate = stated(ladder, &optimum, estimate, observer);
+    if let Some(freer) = &freer {
+        estimate.doubt_beside(&before, freer);
+    }
     if stopped {
         // Not all laws were tried, so even a converged one is only the best so far.
         estimate = estimate.interrupted();
@@ -159,6 +164,19 @@ pub(super) fn auto(
         held_out_rmse,
         without,
     })
+}
+
+/// The same law with nothing held, where this one holds something.
+fn freer<'r>(rungs: &'r [Rung], law: &Law) -> Option<&'r Rung> {
+    let same = |rung: &&Rung| {
+        let other = rung.estimate.law;
+        other.kind == law.kind
+            && other.asymmetric == law.asymmetric
+            && !other.flat
+            && !other.undamped
+    };
+    let holds = law.flat || law.undamped;
+    holds.then(|| rungs.iter().find(same)).flatten()
 }
 
 /// What the symmetric laws suggest: LuGre with what it leaves open held at nothing, and the families that hold best with

@@ -10,6 +10,9 @@ use stiction_log::{Column, Dimension, Kind, Limits, ReadOptions, Unit, read_tabl
 /// Largest file, bytes.
 const MOST_BYTES: u64 = 256 << 20;
 
+/// Shortest time from one row to the next, s: a thousandth of the shortest control period.
+const SHORTEST_STEP: f64 = 1e-9;
+
 /// What the columns of a file are to be.
 pub(super) struct Columns {
     /// A header for example.
@@ -122,14 +125,16 @@ pub(super) fn points<const AXES: usize>(
             "at least two",
         ));
     }
-    if let Some(row) = times.windows(2).position(|pair| pair[1] <= pair[0]) {
+    let rises = |pair: &[f64]| pair[1] - pair[0] >= SHORTEST_STEP;
+    if let Some(row) = times.windows(2).position(|pair| !rises(pair)) {
         let place = format!(
             "data row {}, column {}: ",
             row + 2,
             named(&read.columns[0], 0)
         );
         let found = format!("{} s", times[row + 1]);
-        return Err(refuse(place, found, "later than the row before"));
+        let allowed = "later than the row before, by 1 ns at least";
+        return Err(refuse(place, found, allowed));
     }
     let mut axes = [const { Vec::new() }; AXES];
     for (i, axis) in axes.iter_mut().enumerate() {
