@@ -20,6 +20,7 @@ mod moments;
 mod parameter;
 mod profile;
 mod robust;
+mod searched;
 mod settle;
 mod static_map;
 mod statics;

@@ -2,22 +2,21 @@
 
 use crate::conditioning::record::Record;
 use crate::estimate::{Estimate, estimate};
-use crate::law::terms::{Delay, Terms};
+use crate::law::terms::Delay;
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
-use crate::procedure::StaticMap;
 use crate::separable::linear;
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
 use crate::separable::search_box::SearchBox;
 use crate::separable::secant::Secant;
-use stiction_parameters::{Name, Quantity, Side};
+use stiction_parameters::Name;
 use stiction_search::Status;
 
 /// Why a parameter that a search found by itself has no interval.
 pub const NO_INTERVAL: &str = "as the search found it: without least squares it has no interval";
 
-fn without_interval(parameter: &mut Parameter) {
+pub(crate) fn without_interval(parameter: &mut Parameter) {
     if !parameter.identified {
         return;
     }
@@ -27,13 +26,6 @@ fn without_interval(parameter: &mut Parameter) {
         reason: NO_INTERVAL.into(),
         ..Parameter::given(parameter.name, parameter.value)
     };
-}
-
-fn nothing() -> Covariance {
-    Covariance {
-        names: Vec::new(),
-        matrix: Vec::new(),
-    }
 }
 
 impl Estimate {
@@ -49,21 +41,18 @@ impl Estimate {
         named: &[(Name, f64)],
     ) -> Result<Self, crate::Error> {
         let bounds = SearchBox::from_record(record, &self.law)?;
-        let terms = &match self.terms.delay {
-            Delay::Fitted => Terms {
-                delay: Delay::NONE,
-                ..self.terms.clone()
-            },
-            Delay::Given(_) => self.terms.clone(),
-        };
+        let mut terms = self.terms.clone();
+        if terms.delay == Delay::Fitted {
+            terms.delay = Delay::NONE;
+        }
+        let terms = &terms;
         let objective = Objective::new(record, self.law, terms);
-        let p = unknowns.to_vec();
-        let columns = objective.columns_at(&p);
+        let columns = objective.columns_at(unknowns);
         let value = |name: Name| named.iter().find(|(n, _)| *n == name).map(|(_, x)| *x);
         let given: Vec<Option<f64>> = (objective.linear().iter())
             .map(|term| value(term.name))
             .collect();
-        let mut target = objective.target_at(&p).into_owned();
+        let mut target = objective.target_at(unknowns).into_owned();
         for (column, c) in columns.iter().zip(&given) {
             for (t, x) in target.iter_mut().zip(column.iter()) {
                 *t -= c.unwrap_or(0.0) * x;
@@ -77,14 +66,14 @@ impl Estimate {
         for (&i, x) in free.iter().zip(&solved.coefficients) {
             c[i] = *x;
         }
-        let mut evaluation = objective.evaluate(&p, false);
+        let mut evaluation = objective.evaluate(unknowns, false);
         evaluation.cost = solved.cost;
         evaluation.solution.residual = solved.residual;
         evaluation.solution.coefficients = c;
         let optimum = Optimum {
             law: self.law,
             elements: Vec::new(),
-            p,
+            p: unknowns.to_vec(),
             bounds,
             status: Status::Converged,
             counts: self.counts,
@@ -96,53 +85,7 @@ impl Estimate {
         };
         let mut out = estimate(record, self.law, terms, &optimum, self.low_speed_bound);
         out.fitted.parameters.iter_mut().for_each(without_interval);
-        out.fitted.covariance = nothing();
+        out.fitted.covariance = Covariance::default();
         Ok(out)
-    }
-}
-
-impl StaticMap {
-    /// The map with the curve that a search found; a constant force is the mean of what the curve leaves.
-    #[must_use]
-    pub fn as_searched(&self, values: &[(Name, f64)]) -> Self {
-        let mut out = self.clone();
-        for parameter in &mut out.parameters {
-            if let Some((_, value)) = values.iter().find(|(name, _)| *name == parameter.name) {
-                parameter.value = *value;
-            }
-            without_interval(parameter);
-        }
-        let curve = |v: f64| {
-            let of = |quantity| {
-                let side = match self.settings.asymmetric {
-                    true if v < 0.0 => Side::Negative,
-                    _ => Side::Positive,
-                };
-                let side = if self.settings.asymmetric {
-                    side
-                } else {
-                    Side::Both
-                };
-                out.value(Name::new(quantity, side)).unwrap_or(0.0)
-            };
-            let (coulomb, fixed) = (of(Quantity::Coulomb), of(Quantity::Static));
-            let ratio = v.abs() / of(Quantity::StribeckVelocity);
-            let fall = libm::exp(-libm::pow(ratio, out.exponent()));
-            v.signum() * (coulomb + (fixed - coulomb) * fall) + of(Quantity::Sigma2) * v
-        };
-        let left = self.points.iter().map(|p| p.force - curve(p.velocity));
-        let offset = match self.settings.offset {
-            true => left.sum::<f64>() / self.points.len().max(1) as f64,
-            false => 0.0,
-        };
-        let model = self.points.iter().map(|p| curve(p.velocity) + offset);
-        out.model = model.collect();
-        for parameter in &mut out.parameters {
-            if parameter.name == Quantity::Offset {
-                parameter.value = offset;
-            }
-        }
-        out.covariance = nothing();
-        out
     }
 }

@@ -1,8 +1,8 @@
 //! An axis with bristles along a run: what its state and the derivatives of its state are.
 
 use crate::output_error::plant::{Axis, State, slot};
-use crate::output_error::simulate::{Initial, MOST, Plant};
-use crate::output_error::unknowns::{Layout, Unknown};
+use crate::output_error::simulate::{Initial, Plant};
+use crate::output_error::unknowns::{Layout, MOST, Unknown};
 use stiction_parameters::Side;
 
 /// An axis, and where the derivatives of its steps stand.

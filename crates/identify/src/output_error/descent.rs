@@ -4,7 +4,8 @@
 //! more than one long one.
 
 use crate::output_error::problem::{Equations, Point, Problem};
-use crate::output_error::simulate::{Initial, LOCALS};
+use crate::output_error::simulate::Initial;
+use crate::output_error::unknowns::LOCALS;
 use crate::separable::search_box::SearchBox;
 use crate::watch::Watch;
 use stiction_search::descent::{self, LeastSquares, Settings, Sums};

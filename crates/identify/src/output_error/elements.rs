@@ -16,8 +16,8 @@
 //! with a Stribeck curve the step itself jumps a little where an axis whose elements slip comes to rest.
 
 use crate::output_error::plant::{Axis, Curve, State};
-use crate::output_error::simulate::{Initial, MOST, Plant};
-use crate::output_error::unknowns::{Layout, Unknown};
+use crate::output_error::simulate::{Initial, Plant};
+use crate::output_error::unknowns::{Layout, MOST, Unknown};
 use libm::{exp, expm1, fabs, pow};
 
 /// Most elements of a law.

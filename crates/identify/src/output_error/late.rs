@@ -1,7 +1,7 @@
 //! The force of a known controller that acts a while after the controller asked for it.
 
 use crate::output_error::drawn::{Place, places};
-use crate::output_error::simulate::MOST;
+use crate::output_error::unknowns::MOST;
 
 /// The forces asked for lately, each held for a control period, as they act on the axis a dead time later. What was asked
 /// for before the first instant is not known; it is taken to be what was asked for then.

@@ -2,10 +2,8 @@
 
 use crate::output_error::plant::Axis;
 use crate::output_error::run::{self, Run};
-use crate::output_error::simulate::{
-    Drive, Initial, LOCALS, MOST, periods, simulate, simulate_with_slopes,
-};
-use crate::output_error::unknowns::Layout;
+use crate::output_error::simulate::{Drive, Initial, periods, simulate, simulate_with_slopes};
+use crate::output_error::unknowns::{LOCALS, Layout, MOST};
 use crate::watch::Watch;
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 use stiction_search::Derivatives;

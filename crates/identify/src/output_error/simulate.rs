@@ -7,14 +7,7 @@ use crate::output_error::elements::Slipping;
 use crate::output_error::late::Late;
 use crate::output_error::plant::{Axis, State};
 use crate::output_error::run::{Hold, Run};
-use crate::output_error::unknowns::{Layout, Unknown};
-
-/// Unknowns of each run: position, velocity, bristle deflection over `Fc/s0`, and with a PI controller
-/// its integral.
-pub(crate) const LOCALS: usize = 4;
-/// Most unknowns in all: two of each of ten elements, ten more of an asymmetric law with them, gravity and cogging, those of a
-/// run.
-pub(crate) const MOST: usize = 44;
+use crate::output_error::unknowns::{LOCALS, Layout, MOST, Unknown};
 
 /// Where a run starts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

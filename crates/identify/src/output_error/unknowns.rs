@@ -9,6 +9,13 @@ use crate::output_error::plant::{Axis, Wave};
 use std::f64::consts::TAU;
 use stiction_parameters::{Name, Quantity, Side, Wave as Part};
 
+/// Unknowns of each run: position, velocity, bristle deflection over `Fc/s0`, and with a PI controller
+/// its integral.
+pub(crate) const LOCALS: usize = 4;
+/// Most unknowns in all: two of each of ten elements, ten more of an asymmetric law with them, gravity and cogging, those of a
+/// run.
+pub(crate) const MOST: usize = 44;
+
 /// One unknown that all runs share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Unknown {

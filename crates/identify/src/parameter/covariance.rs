@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use stiction_parameters::Name;
 
 /// Covariance of named parameters.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Covariance {
     /// Names, in the order of rows and columns.
     pub names: Vec<Name>,

@@ -139,8 +139,8 @@ pub(super) fn auto(
     let held_out = laws.iter().all(|law| law.held_out_error_percent.is_some());
     // Too few samples may be left to hold some out.
     let by = if held_out { "cross-validation" } else { "bic" };
-    let before = rungs[at].estimate.clone();
-    let freer = freer(&rungs, &before.law).map(|rung| rung.estimate.clone());
+    let freer = freer(&rungs, &rungs[at].estimate.law);
+    let freer = freer.map(|freer| (rungs[at].estimate.clone(), freer.estimate.clone()));
     let rung = rungs.swap_remove(at);
     let held_out_rmse = rung.cross_validated_rmse(ladder);
     let held_back = unfit::unseen_force(&rung.estimate);
@@ -149,8 +149,8 @@ pub(super) fn auto(
         estimate, optimum, ..
     } = rung;
     let mut estimate = stated(ladder, &optimum, estimate, observer);
-    if let Some(freer) = &freer {
-        estimate.doubt_beside(&before, freer);
+    if let Some((before, freer)) = &freer {
+        estimate.doubt_beside(before, freer);
     }
     if stopped {
         // Not all laws were tried, so even a converged one is only the best so far.
