@@ -33,6 +33,7 @@ mod encoder;
 mod finding;
 mod force;
 mod motion;
+mod ratio;
 pub(crate) mod rest;
 mod stray;
 mod stuck;

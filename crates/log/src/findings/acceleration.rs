@@ -1,16 +1,12 @@
 //! Whether acceleration and position describe the same motion.
 
 use super::finding::{Finding, Severity};
+use super::ratio::{Sums, Words, fault};
 use crate::log::Log;
 use stiction_codes::Code;
-use stiction_number::short;
 
 /// Samples on each side over which both are compared: long enough that noise and delay matter little.
 const REACH: usize = 32;
-/// Deviation of their ratio from 1 that is put down to the sensors.
-const MAX_RATIO_DEVIATION: f64 = 0.05;
-/// Least correlation of the same motion.
-const MIN_CORRELATION: f64 = 0.7;
 /// Least rms of what the position shows of acceleration, in encoder steps.
 const MIN_STEPS: f64 = 10.0;
 /// Fewest comparisons.
@@ -66,34 +62,19 @@ pub(super) fn consistency(log: &mut Log) {
     if pairs.len() < FEWEST || aa == 0.0 || rms <= MIN_STEPS * log.quantum.unwrap_or(0.0) {
         return;
     }
-    let correlation = xa / (xx * aa).sqrt();
-    let ratio = (xx / aa).sqrt().copysign(correlation);
-    let message = if correlation.abs() < MIN_CORRELATION {
-        format!(
-            "the acceleration is not that of the position: over {} samples their correlation is {}",
-            2 * REACH,
-            short(correlation)
-        )
-    } else if (ratio - 1.0).abs() > MAX_RATIO_DEVIATION {
-        let near =
-            |(value, _): &&(f64, &str)| (ratio.abs() / value - 1.0).abs() < MAX_RATIO_DEVIATION;
-        let cause = CAUSES.iter().find(near).map(|(_, cause)| *cause);
-        let inverted = (ratio < 0.0).then_some("one of them has the wrong sign");
-        let why: Vec<&str> = [cause, inverted].into_iter().flatten().collect();
-        let why = match why.is_empty() {
-            true => "a unit, a gear or a lead between them".to_string(),
-            false => why.join("; "),
-        };
-        format!(
-            "the acceleration of the position is {} times the one of the log: {why}?",
-            short(ratio)
-        )
-    } else {
-        return;
+    let sums = Sums {
+        position: xx,
+        other: aa,
+        both: xa,
     };
-    log.findings.push(Finding::new(
-        Code::AccelerationMismatch,
-        Severity::Warning,
-        message,
-    ));
+    let words = Words {
+        apart: "the acceleration is not that of the position",
+        samples: 2 * REACH,
+        ratio_of: ["the acceleration of the position", "the one of the log"],
+        causes: CAUSES,
+    };
+    if let Some(message) = fault(&sums, &words) {
+        let finding = Finding::new(Code::AccelerationMismatch, Severity::Warning, message);
+        log.findings.push(finding);
+    }
 }

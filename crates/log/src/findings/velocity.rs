@@ -1,16 +1,12 @@
 //! Whether velocity and position describe the same motion.
 
 use super::finding::{Finding, Severity};
+use super::ratio::{Sums, Words, fault};
 use crate::log::Log;
 use stiction_codes::Code;
-use stiction_number::short;
 
 /// Window over which the travel of both is compared, in samples: long enough that noise and delay matter little.
 const WINDOW_SAMPLES: usize = 32;
-/// Deviation of their ratio from 1 that is put down to the sensors.
-const MAX_RATIO_DEVIATION: f64 = 0.05;
-/// Least correlation of the same motion.
-const MIN_CORRELATION: f64 = 0.7;
 /// Least rms travel within a window, in encoder steps.
 const MIN_WINDOW_STEPS: f64 = 5.0;
 
@@ -56,39 +52,19 @@ pub(super) fn consistency(log: &mut Log) {
     if windows < 3 || xx == 0.0 || vv == 0.0 || rms <= MIN_WINDOW_STEPS * step {
         return;
     }
-    let correlation = xv / (xx * vv).sqrt();
-    let ratio = (xx / vv).sqrt().copysign(correlation);
-    let message = if correlation.abs() < MIN_CORRELATION {
-        format!(
-            "velocity is not the derivative of the position: over {WINDOW_SAMPLES} samples their correlation \
-             is {}",
-            short(correlation)
-        )
-    } else if (ratio - 1.0).abs() > MAX_RATIO_DEVIATION {
-        let near =
-            |(value, _): &&(f64, &str)| (ratio.abs() / value - 1.0).abs() < MAX_RATIO_DEVIATION;
-        let cause = CAUSES.iter().find(near).map(|(_, cause)| *cause);
-        let inverted = (ratio < 0.0).then_some("one of them has the wrong sign");
-        let why = [cause, inverted]
-            .into_iter()
-            .flatten()
-            .collect::<Vec<_>>()
-            .join("; ");
-        let why = if why.is_empty() {
-            "a unit, a gear or a lead between them"
-        } else {
-            &why
-        };
-        format!(
-            "the derivative of the position is {} times the velocity: {why}?",
-            short(ratio)
-        )
-    } else {
-        return;
+    let sums = Sums {
+        position: xx,
+        other: vv,
+        both: xv,
     };
-    log.findings.push(Finding::new(
-        Code::VelocityMismatch,
-        Severity::Warning,
-        message,
-    ));
+    let words = Words {
+        apart: "velocity is not the derivative of the position",
+        samples: WINDOW_SAMPLES,
+        ratio_of: ["the derivative of the position", "the velocity"],
+        causes: CAUSES,
+    };
+    if let Some(message) = fault(&sums, &words) {
+        let finding = Finding::new(Code::VelocityMismatch, Severity::Warning, message);
+        log.findings.push(finding);
+    }
 }
