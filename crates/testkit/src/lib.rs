@@ -1,5 +1,5 @@
-//! For tests only: where measured recordings are, what must hold on them, an interpreter of Structured Text, and the
-//! plain midpoint step.
+//! For tests only: where measured recordings are, what must hold on them, an interpreter of Structured Text, the plain midpoint
+//! step, and simulated logs of worlds that an identification does, or does not, assume ([`worlds`]).
 //!
 //! Start with [`recordings`] for a test on measured data, and with [`st::Library`] for one that runs Structured Text:
 //!
@@ -19,6 +19,7 @@ mod cases;
 mod mean_of_ends;
 mod pages;
 pub mod st;
+pub mod worlds;
 
 pub use cases::{CASES, Case, DEFAULT_RUNS, DefaultRun, Limit, Metric};
 pub use mean_of_ends::MeanOfEnds;

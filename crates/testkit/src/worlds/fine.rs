@@ -1,0 +1,190 @@
+//! The axis in continuous time, by a fine step.
+
+use super::{Machine, World};
+use std::f64::consts::TAU;
+
+/// Longest step, s.
+const LONGEST: f64 = 1e-5;
+/// Part of the mass that is the motor's where there are two.
+const MOTOR: f64 = 0.5;
+/// Resonance of motor and load, in bandwidths of the speed loop, and its damping ratio; with the encoder on the load a loop
+/// of that bandwidth bears a higher one only; behind a gap.
+const RESONANCE: (f64, f64) = (2.0, 0.03);
+const RESONANCE_OF_LOAD: (f64, f64) = (5.0, 0.1);
+const RESONANCE_OF_GAP: (f64, f64) = (4.0, 0.03);
+/// Periods of the cogging in the distance that the top speed covers in a second.
+const PITCHES: f64 = 13.0;
+/// Share of each Maxwell-slip element in force and in stiffness.
+const ELEMENT_FORCE: [f64; 4] = [0.1, 0.2, 0.3, 0.4];
+const ELEMENT_STIFFNESS: [f64; 4] = [0.4, 0.3, 0.2, 0.1];
+/// How fast a slipping element attains its level: rate C over Fc, 1/s.
+const ATTRACTION: f64 = 50.0;
+
+/// Motor position and velocity, load position and velocity, bristle deflection or element forces.
+type State = [f64; 8];
+
+/// An axis that moves.
+pub(super) struct Fine {
+    machine: Machine,
+    world: World,
+    state: State,
+    /// Whether each Maxwell-slip element slips.
+    slips: [bool; 4],
+    /// Stroke to one side, to which the dependence on position refers, and the duration of the log.
+    reach: f64,
+    duration: f64,
+    time: f64,
+}
+
+impl Fine {
+    pub fn new(machine: Machine, world: World, reach: f64, duration: f64) -> Self {
+        Fine {
+            machine,
+            world,
+            state: [0.0; 8],
+            slips: [false; 4],
+            reach,
+            duration,
+            time: 0.0,
+        }
+    }
+
+    /// Where the encoder is, m.
+    pub fn position(&self) -> f64 {
+        match self.world {
+            World::ResonanceAtLoad => self.state[2],
+            _ => self.state[0],
+        }
+    }
+
+    /// Velocity there, m/s.
+    pub fn velocity(&self) -> f64 {
+        match self.world {
+            World::ResonanceAtLoad => self.state[3],
+            _ => self.state[1],
+        }
+    }
+
+    /// Advances by `duration` (s) under a constant force (N).
+    pub fn advance(&mut self, force: f64, duration: f64) {
+        let steps = (duration / LONGEST).ceil().max(1.0);
+        let h = duration / steps;
+        for _ in 0..steps as usize {
+            self.step(force, h);
+        }
+    }
+
+    fn step(&mut self, force: f64, h: f64) {
+        let at = |s: &State, k: &State, h: f64| std::array::from_fn(|i| s[i] + h * k[i]);
+        let s = self.state;
+        let k1 = self.rate(&s, force);
+        let k2 = self.rate(&at(&s, &k1, 0.5 * h), force);
+        let k3 = self.rate(&at(&s, &k2, 0.5 * h), force);
+        let k4 = self.rate(&at(&s, &k3, h), force);
+        self.state =
+            std::array::from_fn(|i| s[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
+        self.time += h;
+        if self.world == World::MaxwellSlip {
+            self.settle(s[1]);
+        }
+    }
+
+    /// Which elements slip after a step, `before` being the velocity at its beginning: one that reaches its level slips,
+    /// until the motion turns back.
+    fn settle(&mut self, before: f64) {
+        let v = self.state[1];
+        let level = self.machine.level(v.abs(), 2.0);
+        let elements = self.state[4..].iter_mut().zip(&mut self.slips);
+        for ((force, slips), share) in elements.zip(ELEMENT_FORCE) {
+            *slips &= before * v > 0.0;
+            let most = share * level;
+            if !*slips && force.abs() >= most {
+                *slips = true;
+                *force = most.copysign(*force);
+            }
+        }
+    }
+
+    fn rate(&self, s: &State, force: f64) -> State {
+        let m = &self.machine;
+        let [x, v, xl, vl, ..] = *s;
+        let mut out = [0.0; 8];
+        let friction = self.friction(s, &mut out);
+        let outside = match self.world {
+            World::Cogging => 0.2 * m.coulomb * (TAU * PITCHES * x / m.top_speed).sin(),
+            _ => 0.0,
+        };
+        let (mass, coupling) = match self.world {
+            World::Backlash => {
+                let k = self.spring(RESONANCE_OF_GAP);
+                let half = 0.25 * m.static_friction / m.sigma0;
+                let apart = x - xl;
+                let squeezed = apart - apart.clamp(-half, half);
+                let damped = if squeezed == 0.0 { 0.0 } else { v - vl };
+                (MOTOR * m.mass, k.0 * squeezed + k.1 * damped)
+            }
+            World::ResonanceAtMotor | World::ResonanceAtLoad => {
+                let k = self.spring(match self.world {
+                    World::ResonanceAtLoad => RESONANCE_OF_LOAD,
+                    _ => RESONANCE,
+                });
+                (MOTOR * m.mass, k.0 * (x - xl) + k.1 * (v - vl))
+            }
+            _ => (m.mass, 0.0),
+        };
+        out[0] = v;
+        out[1] = (force - friction - outside - coupling) / mass;
+        if mass < m.mass {
+            // A load in a gap has some friction of its own, or it would float for ever.
+            let own = match self.world {
+                World::Backlash => 0.1 * m.sigma2 * vl,
+                _ => 0.0,
+            };
+            out[2] = vl;
+            out[3] = (coupling - own) / (m.mass - mass);
+        }
+        out
+    }
+
+    /// Friction at the motor, N, and the rates of its states.
+    fn friction(&self, s: &State, out: &mut State) -> f64 {
+        let m = &self.machine;
+        let (x, v) = (s[0], s[1]);
+        if self.world == World::MaxwellSlip {
+            let level = m.level(v.abs(), 2.0);
+            let mut sum = m.sigma2 * v;
+            for i in 0..4 {
+                sum += s[4 + i];
+                out[4 + i] = if self.slips[i] {
+                    let attained = s[4 + i] / level;
+                    ATTRACTION * m.coulomb * (ELEMENT_FORCE[i] * v.signum() - attained)
+                } else {
+                    ELEMENT_STIFFNESS[i] * m.sigma0 * v
+                };
+            }
+            return sum;
+        }
+        let exponent = if self.world == World::Exponent {
+            1.0
+        } else {
+            2.0
+        };
+        let changed = match self.world {
+            World::Position => 1.0 + 0.15 * x / self.reach,
+            World::WarmUp => 1.0 - 0.2 * self.time / self.duration,
+            _ => 1.0,
+        };
+        let z = s[4];
+        let rate = v - m.sigma0 * v.abs() * z / (changed * m.level(v.abs(), exponent));
+        out[4] = rate;
+        m.sigma0 * z + m.sigma1 * rate + m.sigma2 * v
+    }
+
+    /// Stiffness and damping between motor and load for a resonance in bandwidths of the speed loop, and its damping ratio.
+    fn spring(&self, (bandwidths, damping): (f64, f64)) -> (f64, f64) {
+        let m = &self.machine;
+        let reduced = MOTOR * (1.0 - MOTOR) * m.mass;
+        let omega = TAU * bandwidths * m.bandwidth;
+        (reduced * omega * omega, 2.0 * damping * reduced * omega)
+    }
+}

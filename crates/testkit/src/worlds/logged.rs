@@ -1,0 +1,193 @@
+//! The axis under its controller, and what is logged of it.
+
+use super::fine::Fine;
+use super::random::Random;
+use super::{Machine, Motion, World};
+use std::f64::consts::TAU;
+
+/// Part of the fine instants of a sample that jitter moves it by, at most.
+const JITTER: f64 = 0.2;
+/// One row in this many is missing.
+const DROPPED: f64 = 200.0;
+
+/// A log, SI units.
+#[derive(Clone, Debug)]
+pub struct Recording {
+    /// Time stamps, s.
+    pub time: Vec<f64>,
+    /// Positions as the encoder counts them, m (rad).
+    pub position: Option<Vec<f64>>,
+    /// Velocity, where the log has that instead, m/s (rad/s).
+    pub velocity: Option<Vec<f64>>,
+    /// Force, positive towards positive positions, N (N m).
+    pub force: Vec<f64>,
+}
+
+impl Recording {
+    /// As a file that a drive might write.
+    pub fn to_csv(&self, kind: &str) -> String {
+        let rotary = kind == "rotary";
+        let (length, force) = if rotary { ("rad", "N*m") } else { ("m", "N") };
+        let (name, motion) = match (&self.position, &self.velocity) {
+            (Some(x), _) => (format!("position [{length}]"), x),
+            (None, Some(v)) => (format!("velocity [{length}/s]"), v),
+            (None, None) => unreachable!("a recording has one of the two"),
+        };
+        let mut text = format!("time [s],{name},force [{force}]\n");
+        for ((t, x), u) in self.time.iter().zip(motion).zip(&self.force) {
+            text.push_str(&format!("{t:.7},{x:e},{u:.6}\n"));
+        }
+        text
+    }
+}
+
+/// Simulates a machine along a motion in a world. The seed sets the noise and the phase of the encoder counts.
+pub fn record(machine: &Machine, motion: Motion, world: World, seed: u64) -> Recording {
+    let path = motion.of(machine);
+    let h = 1.0 / machine.rate;
+    let n = path.len();
+    let reach = path.iter().fold(0.0_f64, |m, p| m.max(p.position.abs()));
+    let mut random = Random::new(seed ^ 0x6c6f_6773);
+    let mut axis = Fine::new(*machine, world, reach, n as f64 * h);
+    let mut cascade = Cascade::new(machine);
+    let phase = random.uniform();
+    let counted = |x: f64| ((x / machine.count + phase).floor() - phase + 0.5) * machine.count;
+
+    let (mut time, mut position, mut force) = (Vec::new(), Vec::new(), Vec::new());
+    let mut velocity = Vec::new();
+    let (mut lagged, mut hidden) = (0.0, 0.0);
+    for (k, point) in path.iter().enumerate() {
+        let read = counted(axis.position());
+        let command = cascade.force(point.position, point.velocity, point.acceleration, read);
+        time.push(k as f64 * h);
+        position.push(read);
+        force.push(command);
+        lagged += (1.0 - (-0.25_f64).exp()) * (axis.velocity() - lagged);
+        velocity.push(lagged);
+        // A random force of a memory of 5 ms, of constant power.
+        let memory = (-h / 5e-3).exp();
+        hidden = memory * hidden + (1.0 - memory * memory).sqrt() * random.normal();
+        let unseen = match world {
+            World::HiddenForce => 0.1 * machine.coulomb * hidden,
+            _ => 0.0,
+        };
+        axis.advance(command + unseen, h);
+    }
+    for u in &mut force {
+        *u += machine.noise * random.normal();
+    }
+    let mut log = Recording {
+        time,
+        position: Some(position),
+        velocity: None,
+        force,
+    };
+    spoil(&mut log, velocity, machine, world, &mut random);
+    log
+}
+
+/// What the logging makes of it.
+fn spoil(
+    log: &mut Recording,
+    velocity: Vec<f64>,
+    machine: &Machine,
+    world: World,
+    random: &mut Random,
+) {
+    let n = log.time.len();
+    match world {
+        World::Late(samples) => {
+            log.force = (0..n)
+                .map(|k| log.force[k.saturating_sub(samples)])
+                .collect();
+        }
+        World::Held => {
+            let x = log.position.take();
+            log.position = x.map(|x| (0..n).map(|k| x[k - k % 8]).collect());
+        }
+        World::LaggedVelocity => {
+            // Resolved to a hundred-thousandth of the top speed, as drives give it.
+            let step = 1e-5 * machine.top_speed;
+            log.position = None;
+            log.velocity = Some(velocity.iter().map(|v| (v / step).round() * step).collect());
+        }
+        World::Saturation => {
+            let most = 0.9 * machine.static_friction;
+            log.force.iter_mut().for_each(|u| *u = u.clamp(-most, most));
+        }
+        World::CoarseForce => {
+            let step = 0.2 * machine.coulomb;
+            log.force
+                .iter_mut()
+                .for_each(|u| *u = (*u / step).round() * step);
+        }
+        World::Dropped => dropped(log, machine, random),
+        _ => {}
+    }
+}
+
+/// Leaves rows out, and moves the instants of the others beside their stamps.
+fn dropped(log: &mut Recording, machine: &Machine, random: &mut Random) {
+    let n = log.time.len();
+    let kept: Vec<usize> = (0..n)
+        .filter(|_| random.uniform() * DROPPED > 1.0)
+        .collect();
+    let pick = |values: &[f64]| kept.iter().map(|&k| values[k]).collect::<Vec<f64>>();
+    let h = 1.0 / machine.rate;
+    log.position = log.position.take().map(|x| {
+        let moved = |k: usize, beside: f64| {
+            let to = if beside < 0.0 {
+                k.saturating_sub(1)
+            } else {
+                (k + 1).min(n - 1)
+            };
+            let between = x[k] + beside.abs() * (x[to] - x[k]);
+            (between / machine.count).round() * machine.count
+        };
+        kept.iter()
+            .map(|&k| moved(k, JITTER * (2.0 * random.uniform() - 1.0)))
+            .collect()
+    });
+    log.force = pick(&log.force);
+    log.time = kept.iter().map(|&k| k as f64 * h).collect();
+}
+
+/// Position loop, speed loop with an integrator, feedforward of speed and acceleration; the speed from differences of
+/// counts behind a filter of first order.
+struct Cascade {
+    h: f64,
+    mass: f64,
+    position_gain: f64,
+    speed_gain: f64,
+    integral_gain: f64,
+    filter: f64,
+    integral: f64,
+    speed: f64,
+    before: Option<f64>,
+}
+
+impl Cascade {
+    fn new(machine: &Machine) -> Self {
+        let omega = TAU * machine.bandwidth;
+        let h = 1.0 / machine.rate;
+        Cascade {
+            h,
+            mass: machine.mass,
+            position_gain: 0.25 * omega,
+            speed_gain: machine.mass * omega,
+            integral_gain: machine.mass * omega * 0.25 * omega,
+            filter: 1.0 - (-h * 5.0 * omega).exp(),
+            integral: 0.0,
+            speed: 0.0,
+            before: None,
+        }
+    }
+
+    fn force(&mut self, x: f64, v: f64, a: f64, read: f64) -> f64 {
+        let difference = (read - self.before.replace(read).unwrap_or(read)) / self.h;
+        self.speed += self.filter * (difference - self.speed);
+        let error = self.position_gain * (x - read) + v - self.speed;
+        self.integral += self.h * self.integral_gain * error;
+        self.speed_gain * error + self.integral + self.mass * a
+    }
+}

@@ -1,0 +1,3 @@
+//! Tests of the kit that tests the rest.
+
+mod worlds;
