@@ -21,11 +21,12 @@ pub struct Sweep<T> {
     velocity: T,
     /// Distance travelled, m (rad).
     path: T,
-    /// Steady deflection at the velocity, with its derivative with respect to velocity.
-    steady: (T, T),
-    /// `exp(-a) - 1`, minus the fraction of the approach to the steady deflection, and the derivative of a.
+    /// Steady deflection at the velocity.
+    steady: T,
+    /// `exp(-a) - 1`, minus the fraction of the approach to the steady deflection.
     decay: T,
-    a_slope: T,
+    /// Derivative of the change of the deflection with respect to velocity: per distance from the steady deflection, and at it.
+    change_slope: [T; 2],
     /// Force per deflection; force per change of the deflection over the step, with its derivative; the latter
     /// without the correction.
     stiffness: T,
@@ -36,6 +37,8 @@ pub struct Sweep<T> {
     /// Correction of the force for half the change of velocity, linear in the deflection; and its bound, N (N m).
     bend: [T; 2],
     most: T,
+    /// Force without the correction, linear in the deflection.
+    plain: [T; 2],
 }
 
 /// Steps of one length at held velocities: everything that does not depend on the velocity is computed once.
@@ -126,7 +129,8 @@ impl<T: Real> Sweeps<T> {
         let (s1, s1_slope) = micro_damping_and_slope(law, v, g, g_slope);
         let viscous = side.viscous;
         let decay = (-a).expm1();
-        let steady = (sign * g * self.compliance, sign * g_slope * self.compliance);
+        let steady = sign * g * self.compliance;
+        let steady_slope = sign * g_slope * self.compliance;
 
         // Both parts of the correction with one division; a is limited against overflow, and at 1e6 both parts have
         // vanished.
@@ -142,21 +146,27 @@ impl<T: Real> Sweeps<T> {
         let q = (sign * law.stiffness() * per_level) * (T::ONE - (g_slope * v) * per_level);
         let bent = gain * q;
         let half_decay = half * decay;
+        let bend = [
+            gain + bent * (half_decay * steady),
+            -(bent + bent * half_decay),
+        ];
+        let by_change = (by_rate + self.relaxed * relaxes, s1_slope * self.per_time);
+        let by_off = decay * by_change.0;
+        let change_slope = [-a_slope - a_slope * decay, -(steady_slope * decay)];
+        let rest = (viscous * v + curve.offset(), viscous);
         Sweep {
             velocity: v,
             path: v * self.h,
             steady,
             decay,
-            a_slope,
+            change_slope,
             stiffness: law.stiffness(),
-            by_change: (by_rate + self.relaxed * relaxes, s1_slope * self.per_time),
+            by_change,
             by_rate,
-            rest: (viscous * v + curve.offset(), viscous),
-            bend: [
-                gain + bent * (half_decay * steady.0),
-                -(bent + bent * half_decay),
-            ],
+            rest,
+            bend,
             most: T::from_f64(0.25) * g,
+            plain: [rest.0 - steady * by_off, law.stiffness() + by_off],
         }
     }
 }
@@ -171,20 +181,19 @@ impl<T: Real> Sweep<T> {
     /// Change of the deflection `z` over the step, m (rad), and its derivative with respect to the velocity, s.
     #[inline]
     pub fn change(&self, z: T) -> (T, T) {
-        let off = z - self.steady.0;
-        let by_decay = -(off * self.a_slope);
-        (
-            off * self.decay,
-            (by_decay - self.steady.1) * self.decay + by_decay,
-        )
+        let off = z - self.steady;
+        let slope = off * self.change_slope[0] + self.change_slope[1];
+        (off * self.decay, slope)
     }
 
-    /// The force of [`mean_force`](Self::mean_force) where its correction is within bounds: accurate enough to predict a velocity.
+    /// The force of [`mean_force`](Self::mean_force) at `z` where its correction is within bounds, and what it falls by per
+    /// velocity `start` below the mean: accurate enough to predict a velocity.
     #[inline]
-    pub fn likely_force(&self, z: T, start: T) -> T {
-        let change = self.change(z).0;
-        let bends = (self.velocity - start) * (self.bend[0] + self.bend[1] * z);
-        (self.stiffness * z + self.rest.0) + change * self.by_change.0 - bends
+    pub fn likely_force(&self, z: T) -> (T, T) {
+        (
+            self.plain[0] + self.plain[1] * z,
+            self.bend[0] + self.bend[1] * z,
+        )
     }
 
     /// Mean force over the step from the deflection `z` and the velocity `start` (m/s, rad/s), and its derivative with

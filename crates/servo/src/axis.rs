@@ -192,7 +192,7 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
 
     /// Measures, controls, and moves the axis by one control period. `ahead` is the reference velocity, m/s (rad/s), at the
     /// instant for which friction is to be compensated.
-    #[inline]
+    #[inline(always)]
     pub fn step(&mut self, reference: Reference, ahead: f64, correction: Correction) -> Sample {
         let period = self.period;
         let measured = self.measure();

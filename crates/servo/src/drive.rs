@@ -8,6 +8,9 @@ use stiction_friction::ParamError;
 /// Longest delay, in control periods.
 const MAX_DELAY_PERIODS: usize = 32;
 
+/// Commands that are kept: at least two more than the longest delay, and a power of two, so that an index is a mask.
+const KEPT_COMMANDS: usize = (MAX_DELAY_PERIODS + 2).next_power_of_two();
+
 /// Most substeps of a control period: a few numbers are kept for each.
 const MAX_SUBSTEPS: u32 = 100_000;
 
@@ -130,8 +133,8 @@ pub struct RunningDrive {
     drive: Drive,
     /// Volts of command for a force, V/N.
     per_force: f64,
-    /// The last commands, A, the newest at `newest`.
-    commands: [f64; MAX_DELAY_PERIODS + 2],
+    /// The last commands, A, the newest at `newest`, both counted modulo the length.
+    commands: [f64; KEPT_COMMANDS],
     newest: usize,
     /// A
     current: f64,
@@ -183,7 +186,7 @@ impl RunningDrive {
         Ok(RunningDrive {
             drive,
             per_force: 1.0 / drive.gain(),
-            commands: [0.0; MAX_DELAY_PERIODS + 2],
+            commands: [0.0; KEPT_COMMANDS],
             newest: 0,
             current: 0.0,
             heat: 0.0,
@@ -204,10 +207,7 @@ impl RunningDrive {
     pub fn command(&mut self, force: f64) {
         let volts = force * self.per_force;
         let current = self.drive.amplifier_gain * volts;
-        self.newest += 1;
-        if self.newest == self.commands.len() {
-            self.newest = 0;
-        }
+        self.newest = (self.newest + 1) % KEPT_COMMANDS;
         self.commands[self.newest] =
             current.clamp(-self.drive.peak_current, self.drive.peak_current);
         let hot = self.heat > self.drive.rated_current * self.drive.rated_current;
@@ -265,11 +265,7 @@ impl RunningDrive {
         }
         let stretch = &self.stretches[0];
         let latest = stretch.ends.as_ref().unwrap_or(&stretch.begins).late;
-        let coming = match self.newest + 1 {
-            end if end == self.commands.len() => 0,
-            coming => coming,
-        };
-        (latest > 0).then(|| self.after(stretch, coming))
+        (latest > 0).then(|| self.after(stretch, self.newest + 1))
     }
 
     /// Mean force, N (N m), and last current, A, over a substep from now on, where `newest` is the index of the newest command.
@@ -292,11 +288,7 @@ impl RunningDrive {
     /// Mean current and the last one, A, while the loop follows a command from `current` on.
     #[inline]
     fn follow(&self, following: &Following, newest: usize, current: f64) -> (f64, f64) {
-        let at = match newest.checked_sub(following.late) {
-            Some(at) => at,
-            None => newest + self.commands.len() - following.late,
-        };
-        let wanted = self.commands[at];
+        let wanted = self.commands[newest.wrapping_sub(following.late) % KEPT_COMMANDS];
         let off = current - wanted;
         (wanted + off * following.mean, wanted + off * following.left)
     }

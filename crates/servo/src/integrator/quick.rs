@@ -1,7 +1,7 @@
 //! MID for LuGre with a good initial guess: one evaluation of the law in most steps.
 
 use super::advance::{Integrator, at_least_one};
-use crate::plant::{Load, Motion, Plant};
+use crate::plant::{Load, Motion, Plant, Step};
 use stiction_friction::{LuGre, ParamError, Sweep, Sweeps};
 
 /// The step of [`Plant::step`], solved from an initial guess: the velocity changes as in the step before, and by the change
@@ -105,33 +105,41 @@ impl Course {
         if !self.is_ready {
             let jump = (load.force - self.force) / balance.inertia;
             let guess = from.velocity + (self.rise + jump);
-            evaluate(&mut self.laws[at], law, guess);
+            evaluate(&mut self.laws[at & 1], law, guess);
         }
         self.force = load.force;
         for _ in 0..MAX_EVALUATIONS {
-            let sweep = &self.laws[at];
+            let sweep = &self.laws[at & 1];
             let w = sweep.velocity();
             // First whatever does not need the law.
             let (left, slope) = balance.without_friction(w);
             let (friction, friction_slope) = sweep.mean_force(from.deflection, from.velocity);
             let slope = slope + friction_slope;
-            let moves = (left - friction) / slope;
+            let yields = 1.0 / slope;
+            let moves = (left - friction) * yields;
             if moves.abs() <= small(slow, w) {
                 let w = w + moves;
                 let bound = plant.law().bound();
                 let change = sweep.change(from.deflection);
                 let deflection = from.deflection + (change.0 + change.1 * moves);
                 self.look_ahead(law, &balance, w, slow);
-                self.yields = 1.0 / slope;
+                self.yields = yields;
                 return Motion {
                     position: from.position + h * w,
                     velocity: 2.0 * w - from.velocity,
                     deflection: deflection.clamp(-bound, bound),
                 };
             }
-            evaluate(&mut self.laws[at], law, w + moves);
+            evaluate(&mut self.laws[at & 1], law, w + moves);
         }
-        let step = plant.step(from, h, load);
+        let step = by_parts(
+            plant,
+            from.position,
+            from.velocity,
+            from.deflection,
+            h,
+            load,
+        );
         self.look_ahead(law, &balance, step.mean_velocity, slow);
         self.yields = 0.0;
         step.motion
@@ -142,7 +150,7 @@ impl Course {
     fn look_ahead(&mut self, law: &Sweeps<f64>, balance: &Balance, w: f64, slow: f64) {
         // Extrapolated two steps along the parabola.
         let along = self.last + 5.0 * self.gained[0] - 3.0 * self.gained[1];
-        let before = &mut self.laws[1 - self.at];
+        let before = &mut self.laws[(self.at & 1) ^ 1];
         let foreseen = match self.next.take() {
             Some(next) if self.yields > 0.0 => Some(balance.two_steps(before, self.yields, next)),
             _ if self.smooth >= RIGHT_PREDICTIONS => Some(along),
@@ -153,13 +161,10 @@ impl Course {
             *before = law.at(velocity);
         }
         // The law of this step is that of the step before from now on.
-        self.at = 1 - self.at;
+        self.at ^= 1;
         let right = (w - self.foreseen).abs() <= small(slow, w);
-        self.smooth = if right {
-            (self.smooth + 1).min(RIGHT_PREDICTIONS)
-        } else {
-            0
-        };
+        // Without a branch, which nothing predicts.
+        self.smooth = (self.smooth + 1).min(RIGHT_PREDICTIONS) * u32::from(right);
         self.foreseen = along;
         self.gained = [w - self.last, self.gained[0]];
         self.last = w;
@@ -168,36 +173,36 @@ impl Course {
 }
 
 /// The forces of one step except friction.
-struct Balance<'a> {
-    plant: &'a Plant,
+struct Balance {
     from: Motion,
     h: f64,
+    /// Force at the position where the step begins, N (N m), and how fast it falls with that position, N/m (N m/rad).
     force: f64,
     stiffness: f64,
-    /// 2 M/h
+    /// 2 M/h, and what else resists the mean velocity: damper and spring, N s/m (N m s/rad).
     inertia: f64,
+    resists: f64,
 }
 
-impl<'a> Balance<'a> {
+impl Balance {
     #[inline(always)]
-    fn new(plant: &'a Plant, from: Motion, h: f64, load: Load) -> Self {
+    fn new(plant: &Plant, from: Motion, h: f64, load: Load) -> Self {
+        let stiffness = load.stiffness + plant.stiffness();
         Balance {
-            plant,
             from,
             h,
-            force: load.force,
-            stiffness: load.stiffness + plant.stiffness(),
+            force: load.force - stiffness * from.position,
+            stiffness,
             inertia: 2.0 * plant.mass() / h,
+            resists: plant.viscous() + 0.5 * h * stiffness,
         }
     }
 
     /// The force left for friction at the mean velocity `w`, N (N m), and how fast it falls with w.
     #[inline(always)]
     fn without_friction(&self, w: f64) -> (f64, f64) {
-        let viscous = self.plant.viscous();
-        let drive = self.force - self.stiffness * (self.from.position + 0.5 * self.h * w);
-        let left = drive - self.inertia * (w - self.from.velocity) - viscous * w;
-        (left, self.inertia + viscous + 0.5 * self.h * self.stiffness)
+        let left = self.force - self.inertia * (w - self.from.velocity) - self.resists * w;
+        (left, self.inertia + self.resists)
     }
 
     /// The mean velocity of the step after this one, under the force `next`, by one Newton step in each with the law of
@@ -205,21 +210,22 @@ impl<'a> Balance<'a> {
     #[inline(always)]
     fn two_steps(&self, law: &Sweep<f64>, yields: f64, next: f64) -> f64 {
         let w = law.velocity();
-        let z = self.from.deflection;
-        let moves = (self.without_friction(w).0 - law.likely_force(z, self.from.velocity)) * yields;
-        let mean = w + moves;
+        let Motion {
+            position,
+            velocity,
+            deflection: z,
+        } = self.from;
+        let resists = self.resists * w;
+        let (friction, by_rise) = law.likely_force(z);
+        // Little of this changes with the deflection within a step: it is the same for both.
+        let inertia = self.inertia - by_rise;
+        let late = w - velocity;
+        let first = ((self.force - resists - friction) - late * inertia) * yields;
         let change = law.change(z);
-        let from = Motion {
-            position: self.from.position + self.h * mean,
-            velocity: 2.0 * mean - self.from.velocity,
-            deflection: z + (change.0 + change.1 * moves),
-        };
-        let then = Balance {
-            from,
-            force: next,
-            ..*self
-        };
-        w + (then.without_friction(w).0 - law.likely_force(from.deflection, from.velocity)) * yields
+        let force = next - self.stiffness * (position + self.h * (w + first));
+        let z = (z + change.0) + change.1 * first;
+        let late = -late - (first + first);
+        w + ((force - resists - law.likely_force(z).0) - late * inertia) * yields
     }
 }
 
@@ -228,6 +234,26 @@ impl<'a> Balance<'a> {
 fn small(slow: f64, w: f64) -> f64 {
     let speed = w.abs();
     NEGLIGIBLE_STEP * if speed > slow { speed } else { slow }
+}
+
+/// The safeguarded solution. The motion comes in parts: were it copied to memory here, the step would load it as a whole
+/// everywhere, which the processor delays when the step before has just stored its parts.
+#[cold]
+#[inline(never)]
+fn by_parts(
+    plant: &Plant,
+    position: f64,
+    velocity: f64,
+    deflection: f64,
+    h: f64,
+    load: Load,
+) -> Step {
+    let from = Motion {
+        position,
+        velocity,
+        deflection,
+    };
+    plant.step(from, h, load)
 }
 
 /// A function of its own, so that its code exists once.
