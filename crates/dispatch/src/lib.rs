@@ -42,7 +42,11 @@ enum Set {
 impl InstructionSet {
     /// The widest that the processor has.
     pub fn best() -> Self {
-        Self::all()[0]
+        #[cfg(target_arch = "x86_64")]
+        if has_avx2() {
+            return Self(if has_avx512() { Set::Avx512 } else { Set::Avx2 });
+        }
+        Self(Set::Baseline)
     }
 
     /// All that the processor has, the widest first; the last is the target's baseline.
@@ -52,15 +56,10 @@ impl InstructionSet {
         let mut sets = Vec::new();
         #[cfg(target_arch = "x86_64")]
         {
-            let avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
-            if avx2
-                && is_x86_feature_detected!("avx512f")
-                && is_x86_feature_detected!("avx512dq")
-                && is_x86_feature_detected!("avx512vl")
-            {
+            if has_avx2() && has_avx512() {
                 sets.push(Self(Set::Avx512));
             }
-            if avx2 {
+            if has_avx2() {
                 sets.push(Self(Set::Avx2));
             }
         }
@@ -92,6 +91,19 @@ impl InstructionSet {
             Set::Baseline => kernel.run(),
         }
     }
+}
+
+#[cfg(target_arch = "x86_64")]
+fn has_avx2() -> bool {
+    is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")
+}
+
+/// What [`avx512`] needs beyond that.
+#[cfg(target_arch = "x86_64")]
+fn has_avx512() -> bool {
+    is_x86_feature_detected!("avx512f")
+        && is_x86_feature_detected!("avx512dq")
+        && is_x86_feature_detected!("avx512vl")
 }
 
 impl fmt::Display for InstructionSet {

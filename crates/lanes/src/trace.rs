@@ -166,24 +166,22 @@ impl Sink for Writing<'_> {
 pub(crate) fn append(track: &Track, at: usize, column: &[f64; BLOCK], out: &mut Vec<f64>) {
     let sign: &[i8; BLOCK] = chunk(&track.sign, at);
     let marks: &[u8; BLOCK] = chunk(&track.marks, at);
-    let mut values = [0.0; BLOCK];
-    for t in 0..BLOCK {
-        values[t] = f64::from(sign[t]) * column[t];
-    }
     let mut all = SAMPLE;
     for t in 0..BLOCK {
         all &= marks[t];
     }
     if all != 0 {
-        out.extend_from_slice(&values);
+        // Straight into the column: an array in between would be cleared, filled and copied.
+        out.extend(sign.iter().zip(column).map(|(s, x)| f64::from(*s) * x));
         return;
     }
+    let mut samples = [0.0; BLOCK];
     let mut count = 0;
     for t in 0..BLOCK {
-        values[count] = values[t];
+        samples[count] = f64::from(sign[t]) * column[t];
         count += usize::from(marks[t] & SAMPLE != 0);
     }
-    out.extend_from_slice(&values[..count]);
+    out.extend_from_slice(&samples[..count]);
 }
 
 struct Plain<'a, const POWER: bool>(&'a Track, Curve);

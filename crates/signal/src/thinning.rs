@@ -10,17 +10,25 @@
 //! time, is the sum of a part of the forward state and of a state of the samples to come alone:
 //! `t(n) = P s(n + 1) + u(n)`, `u(n - 1) = A u(n) + E x(n)`, with `P = A P A + B C`, `E = A P B + B d`.
 //! Hence `y(n) = (C P A + d C) s(n) + (C P B + d^2) x(n) + C u(n)`.
+//!
+//! Four places are read at once: what is read there is a weighted sum of the samples around them, of the state before
+//! these and of the state after them. Samples stand in the lanes of a vector, so one signal fills them.
 
 use crate::cascade::Cascade;
 use crate::sos::{Section, Sos};
 use std::array::from_fn;
+use std::cmp::Ordering;
 use stiction_dispatch::{InstructionSet, Kernel};
 
 /// States of a filter of order 4.
 const STATES: usize = 4;
 /// Samples around each place that an output may be interpolated from.
 pub(crate) const POINTS: usize = 6;
-/// Doublings of the number of terms of a sum of powers of a stable matrix, at most: 2^40 terms.
+/// Places that are read at once, and samples of one vector.
+const LANES: usize = 4;
+/// Tiles by which the samples of readings at four places may go beyond those from there to the next four places.
+const WIDER: usize = 2;
+/// Most doublings of the number of terms of a sum of powers of a stable matrix: 2^40 terms.
 const MOST_DOUBLINGS: usize = 40;
 /// Size of a power of the matrix, relative to one, that adds nothing any more.
 const NO_MORE: f64 = 1e-30;
@@ -28,6 +36,9 @@ const NO_MORE: f64 = 1e-30;
 type State = [f64; STATES];
 /// Column by column.
 type Square = [State; STATES];
+type Lanes = [f64; LANES];
+/// For each of four samples its weights in four sums.
+type Tile = [Lanes; LANES];
 
 /// A zero-phase filter of order 4 or less together with the number of samples from one that is read to
 /// the next.
@@ -56,17 +67,16 @@ pub struct Thinning {
     /// `C P A + d C`, `C P B + d^2`.
     past: State,
     now: f64,
-    /// `A` to the power of `every`.
-    jump: [[Weight; STATES]; STATES],
-    /// What each sample of a block adds to the state after it, and to the one before it.
-    to_past: Vec<[Weight; STATES]>,
-    to_ahead: Vec<[Weight; STATES]>,
+    /// `A` to the power of the samples from one place to the next, and of those of four places.
+    step: Square,
+    jump: Square,
+    /// What each sample of four places adds to the state after them, and to the one before them.
+    to_past: Vec<Tile>,
+    to_ahead: Vec<Tile>,
+    /// Weight in an output of the samples before it and after it, the nearest first.
+    before: Vec<f64>,
+    after: Vec<f64>,
 }
-
-/// Most signals that run side by side.
-const SIDE_BY_SIDE: usize = 4;
-/// A weight as often as there can be signals, so that one load brings it to all of them.
-type Weight = [f64; SIDE_BY_SIDE];
 
 /// One pass of a filter.
 #[derive(Clone, Copy, Debug)]
@@ -124,16 +134,16 @@ impl Thinning {
         // Row vectors are multiplied from the left.
         let cp = transposed(&shared, c);
         let past = add(transposed(&a, cp), c.map(|c| d * c));
-        let mut to_past = vec![b];
-        let mut to_ahead = vec![ahead];
-        let mut jump = a;
-        for i in 1..every {
-            to_past.push(transform(&a, to_past[i - 1]));
-            to_ahead.push(transform(&a, to_ahead[i - 1]));
-            jump = product(&a, &jump);
-        }
-        // The first sample of a block goes through the most steps.
-        to_past.reverse();
+        let step = (1..every).fold(a, |step, _| product(&a, &step));
+        let jump = (1..LANES).fold(step, |jump, _| product(&step, &jump));
+        // As far as from the first of four places to the last point of the last one.
+        let reach = LANES * every + POINTS;
+        let follow = |from: State| -> Vec<State> {
+            let states = std::iter::successors(Some(from), |x| Some(transform(&a, *x)));
+            states.take(reach).collect()
+        };
+        let (to_past, to_ahead) = (follow(b), follow(ahead));
+        let block = ..LANES * every;
         let mut settled = [0.0; STATES];
         for (to, from) in settled
             .iter_mut()
@@ -150,9 +160,13 @@ impl Thinning {
             ahead,
             past,
             now: dot(cp, b) + d * d,
-            jump: jump.map(repeated),
-            to_past: to_past.into_iter().map(repeated).collect(),
-            to_ahead: to_ahead.into_iter().map(repeated).collect(),
+            step,
+            jump,
+            before: to_past.iter().map(|x| dot(past, *x)).collect(),
+            after: to_ahead.iter().map(|x| dot(c, *x)).collect(),
+            // The first sample goes through the most steps.
+            to_past: tiles(to_past[block].iter().rev(), every + WIDER),
+            to_ahead: tiles(to_ahead[block].iter(), every),
         })
     }
 
@@ -163,8 +177,7 @@ impl Thinning {
 
     /// For each of some signals of one length, and for each reading, its values at `count` places, the first at the
     /// sample `first`. As [`Sos::zero_phase`] would give them, up to rounding; a signal that is not finite gives values
-    /// that are not. Signals that are read together give the same bits as each alone, at a third of the time: four run
-    /// side by side.
+    /// that are not.
     ///
     /// `None` where a place, with the points that a reading takes after it, lies outside the signals, or they are too
     /// short to be filtered or differ in length.
@@ -194,81 +207,98 @@ impl Thinning {
         if differ || end > length || length <= self.padding {
             return None;
         }
-        let taps: Vec<Taps> = readings.iter().map(|r| self.taps(r, points)).collect();
+        let block = LANES * self.every;
+        let width = block.max(block - self.every + points);
+        let span = width.next_multiple_of(LANES);
+        let fours = match length.checked_sub(first + span) {
+            Some(left) => (left / block + 1).min(count / LANES),
+            None => 0,
+        };
+        let together = |r| (fours > 0).then(|| self.together(r, points, width));
         let places = Places {
             first,
             count,
             points,
-            taps: &taps,
+            fours,
+            width,
+            taps: readings.iter().map(|r| self.taps(r, points)).collect(),
+            together: readings.iter().filter_map(together).collect(),
         };
-        let mut out = Vec::with_capacity(signals.len());
-        for four in signals.chunks(SIDE_BY_SIDE) {
-            match *four {
-                [one] => self.side_by_side([one], &places, instructions, &mut out),
-                [one, two] => self.side_by_side([one, two], &places, instructions, &mut out),
-                // A lane that nobody asks for costs nothing.
-                [one, two, three] => {
-                    self.side_by_side([one, two, three, one], &places, instructions, &mut out);
-                    out.pop();
-                }
-                [one, two, three, four] => {
-                    self.side_by_side([one, two, three, four], &places, instructions, &mut out);
-                }
-                _ => {}
-            }
-        }
-        Some(out)
-    }
-
-    /// Appends what is read of each of `L` signals.
-    fn side_by_side<const L: usize>(
-        &self,
-        signals: [&[f64]; L],
-        places: &Places,
-        instructions: InstructionSet,
-        out: &mut Vec<Vec<Vec<f64>>>,
-    ) {
-        let rows = Rows::of(signals);
-        let mut read = vec![vec![[0.0; L]; places.count]; places.taps.len()];
-        instructions.run(Pass {
-            filter: self,
-            rows: rows.all(),
-            places,
-            out: &mut read,
-        });
-        out.extend((0..L).map(|l| {
-            let of = |values: &Vec<[f64; L]>| values.iter().map(|row| row[l]).collect();
-            read.iter().map(of).collect()
-        }));
+        let read = |signal: &&[f64]| {
+            instructions.run(Pass {
+                filter: self,
+                signal,
+                places: &places,
+            })
+        };
+        Some(signals.iter().map(read).collect())
     }
 
     /// What a reading takes of the state before its place, of the state after its last point, and of the
     /// points.
     fn taps(&self, reading: &Reading, points: usize) -> Taps {
-        let Model { a, b, c, .. } = self.forward;
-        let mut past = [0.0; STATES];
-        let mut ahead = [0.0; STATES];
-        let mut inside = [0.0; POINTS];
+        let mut taps = Taps {
+            past: [0.0; STATES],
+            ahead: [0.0; STATES],
+            inside: [0.0; POINTS],
+        };
+        let Model { a, c, .. } = self.forward;
         for (at, &weight) in reading.weights[..points].iter().enumerate() {
-            // Row vectors, back to the place and on to the last point.
-            let mut row = self.past.map(|x| weight * x);
-            for before in (0..at).rev() {
-                inside[before] += dot(row, b);
-                row = transposed(&a, row);
+            let (mut past, mut ahead) = (self.past, c);
+            for _ in 0..at {
+                past = transposed(&a, past);
             }
-            past = add(past, row);
-            let mut row = c.map(|x| weight * x);
-            for inside in &mut inside[at + 1..points] {
-                *inside += dot(row, self.ahead);
-                row = transposed(&a, row);
+            for _ in at + 1..points {
+                ahead = transposed(&a, ahead);
             }
-            ahead = add(ahead, row);
-            inside[at] += weight * self.now;
+            taps.past = add(taps.past, past.map(|x| weight * x));
+            taps.ahead = add(taps.ahead, ahead.map(|x| weight * x));
+            for (t, inside) in taps.inside[..points].iter_mut().enumerate() {
+                *inside += weight * self.response(t, at);
+            }
         }
-        Taps {
-            past: repeated(past),
-            ahead: repeated(ahead),
-            inside: repeated(inside),
+        taps
+    }
+
+    /// The same at four places, in a span of `width` samples from the first place on.
+    fn together(&self, reading: &Reading, points: usize, width: usize) -> Together {
+        let Taps { past, ahead, .. } = self.taps(reading, points);
+        let places: [usize; LANES] = from_fn(|j| j * self.every);
+        let mut pasts = [past; LANES];
+        for j in 1..LANES {
+            pasts[j] = transposed(&self.step, pasts[j - 1]);
+        }
+        // From the last point of the last place to the end of the span.
+        let beyond = width - (places[LANES - 1] + points);
+        let last = (0..beyond).fold(ahead, |row, _| transposed(&self.forward.a, row));
+        let mut aheads = [last; LANES];
+        for j in (1..LANES).rev() {
+            aheads[j - 1] = transposed(&self.step, aheads[j]);
+        }
+        let weight = |t: usize, place: usize| -> f64 {
+            let points = reading.weights[..points].iter().enumerate();
+            let parts = points.map(|(i, w)| w * self.response(t, place + i));
+            parts.sum()
+        };
+        let tile = |tile: usize| -> Tile {
+            from_fn(|l| match LANES * tile + l {
+                t if t < width => places.map(|place| weight(t, place)),
+                _ => [0.0; LANES],
+            })
+        };
+        Together {
+            past: from_fn(|i| pasts.map(|row| row[i])),
+            ahead: from_fn(|i| aheads.map(|row| row[i])),
+            inside: (0..width.div_ceil(LANES)).map(tile).collect(),
+        }
+    }
+
+    /// Weight of one sample in the output at another, where nothing is known of the states between them.
+    fn response(&self, sample: usize, output: usize) -> f64 {
+        match sample.cmp(&output) {
+            Ordering::Less => self.before[output - sample - 1],
+            Ordering::Equal => self.now,
+            Ordering::Greater => self.after[sample - output - 1],
         }
     }
 }
@@ -318,8 +348,12 @@ fn dot(a: State, b: State) -> f64 {
     (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
 }
 
-fn repeated<const N: usize>(weights: [f64; N]) -> [Weight; N] {
-    weights.map(|w| [w; SIDE_BY_SIDE])
+/// The states that samples lead to, four samples at a time, and samples that lead to none up to a number of tiles.
+fn tiles<'a>(states: impl Iterator<Item = &'a State>, count: usize) -> Vec<Tile> {
+    let states: Vec<State> = states.copied().collect();
+    let mut tiles = states.as_chunks::<LANES>().0.to_vec();
+    tiles.resize(count, Tile::default());
+    tiles
 }
 
 fn add(a: State, b: State) -> State {
@@ -340,80 +374,51 @@ fn product(a: &Square, b: &Square) -> Square {
     from_fn(|j| transform(a, b[j]))
 }
 
-/// Samples of `L` signals, those of one instant beside each other.
-enum Rows<'a, const L: usize> {
-    AsTheyStand(&'a [[f64; L]]),
-    Interleaved(Vec<[f64; L]>),
-}
-
-impl<'a, const L: usize> Rows<'a, L> {
-    /// Of signals of one length.
-    fn of(signals: [&'a [f64]; L]) -> Self {
-        let length = signals.first().map_or(0, |signal| signal.len());
-        let signals = signals.map(|signal| &signal[..length]);
-        match L {
-            1 => Rows::AsTheyStand(signals[0].as_chunks::<L>().0),
-            _ => Rows::Interleaved((0..length).map(|k| from_fn(|l| signals[l][k])).collect()),
-        }
-    }
-
-    fn all(&self) -> &[[f64; L]] {
-        match self {
-            Rows::AsTheyStand(rows) => rows,
-            Rows::Interleaved(rows) => rows,
-        }
-    }
-}
-
 /// What a reading is made of.
 struct Taps {
-    past: [Weight; STATES],
-    ahead: [Weight; STATES],
-    inside: [Weight; POINTS],
+    past: State,
+    ahead: State,
+    inside: [f64; POINTS],
+}
+
+/// What a reading at four places is made of: of each state and of four samples at a time, the weight in each.
+struct Together {
+    past: [Lanes; STATES],
+    ahead: [Lanes; STATES],
+    inside: Vec<Tile>,
 }
 
 /// Where signals are read: at `count` places from the sample `first` on, by readings that see so many points each.
-struct Places<'a> {
+struct Places {
     first: usize,
     count: usize,
     points: usize,
-    taps: &'a [Taps],
+    /// How many times four places are read at once, of `width` samples each; the places left over are read alone.
+    fours: usize,
+    width: usize,
+    taps: Vec<Taps>,
+    together: Vec<Together>,
 }
 
-/// Both directions over signals side by side; `out` has for each reading a row for each place.
-struct Pass<'a, const L: usize> {
+/// Both directions over a signal; the values of each reading.
+struct Pass<'a> {
     filter: &'a Thinning,
-    rows: &'a [[f64; L]],
-    places: &'a Places<'a>,
-    out: &'a mut [Vec<[f64; L]>],
+    signal: &'a [f64],
+    places: &'a Places,
 }
 
-/// The states of `L` signals.
-type States<const L: usize> = [[f64; L]; STATES];
-
-/// `sum + w x` for each signal, the bits of which do not depend on the instruction set: each product is rounded once, in
-/// the sum.
+/// `sum + w x`, the bits of which do not depend on the instruction set: each product is rounded once, in the sum.
 #[inline(always)]
-fn fused<const L: usize>(sum: [f64; L], w: &Weight, x: [f64; L]) -> [f64; L] {
-    from_fn(|l| w[l].mul_add(x[l], sum[l]))
-}
-
-/// `sum + w x` for a state.
-#[inline(always)]
-fn along<const L: usize>(mut sum: States<L>, w: &[Weight; STATES], x: [f64; L]) -> States<L> {
-    for i in 0..STATES {
-        sum[i] = fused(sum[i], &w[i], x);
+fn along(mut sum: Lanes, w: &Lanes, x: f64) -> Lanes {
+    for l in 0..LANES {
+        sum[l] = w[l].mul_add(x, sum[l]);
     }
     sum
 }
 
 /// `sum + M x`.
 #[inline(always)]
-fn onto<const L: usize>(
-    mut sum: States<L>,
-    m: &[[Weight; STATES]; STATES],
-    x: States<L>,
-) -> States<L> {
+fn onto(mut sum: Lanes, m: &[Lanes; STATES], x: State) -> Lanes {
     for j in 0..STATES {
         sum = along(sum, &m[j], x[j]);
     }
@@ -422,123 +427,173 @@ fn onto<const L: usize>(
 
 /// `w x`.
 #[inline(always)]
-fn times<const L: usize>(w: &State, x: [f64; L]) -> States<L> {
-    from_fn(|i| x.map(|x| w[i] * x))
+fn times(w: &State, x: f64) -> State {
+    along([0.0; STATES], w, x)
 }
 
 /// `sum + w . x`.
 #[inline(always)]
-fn weighed<const L: usize, const N: usize>(
-    sum: [f64; L],
-    w: &[Weight; N],
-    x: &[[f64; L]; N],
-) -> [f64; L] {
-    let pairs = w.iter().zip(x);
-    pairs.fold(sum, |sum, (w, x)| fused(sum, w, *x))
-}
-
-/// What a block of samples adds to a state.
-#[inline(always)]
-fn block<const L: usize>(weights: &[[Weight; STATES]], rows: &[[f64; L]]) -> States<L> {
-    let (fours, rest) = weights.as_chunks::<4>();
-    let (wide, tail) = rows.as_chunks::<4>();
-    let mut sum = [[0.0; L]; STATES];
-    for (w, x) in fours.iter().zip(wide) {
-        for k in 0..4 {
-            sum = along(sum, &w[k], x[k]);
-        }
-    }
-    for (w, x) in rest.iter().zip(tail) {
-        sum = along(sum, w, *x);
+fn weighed<const N: usize>(mut sum: f64, w: &[f64; N], x: &[f64; N]) -> f64 {
+    for n in 0..N {
+        sum = w[n].mul_add(x[n], sum);
     }
     sum
 }
 
-impl<const L: usize> Kernel for Pass<'_, L> {
-    type Output = ();
+/// Weighted sums of samples, four for each of some weights: as many as stay in registers, each in two parts.
+#[inline(always)]
+fn sums<const N: usize>(weights: [&[Tile]; N], samples: &[f64]) -> [Lanes; N] {
+    let mut parts = [[[0.0; LANES]; 2]; N];
+    let tiles = weights[0].len();
+    let samples = &samples.as_chunks::<LANES>().0[..tiles];
+    let mut all = [weights[0]; N];
+    for n in 1..N {
+        all[n] = &weights[n][..tiles];
+    }
+    for i in 0..tiles {
+        for l in 0..LANES {
+            for n in 0..N {
+                parts[n][l % 2] = along(parts[n][l % 2], &all[n][i][l], samples[i][l]);
+            }
+        }
+    }
+    let mut out = [[0.0; LANES]; N];
+    for n in 0..N {
+        for j in 0..LANES {
+            out[n][j] = parts[n][0][j] + parts[n][1][j];
+        }
+    }
+    out
+}
+
+/// The same for any number of weights.
+#[inline(always)]
+fn all_sums(weights: &[&[Tile]], samples: &[f64], out: &mut [Lanes]) {
+    let (threes, rest) = weights.as_chunks::<3>();
+    let (outs, out) = out.as_chunks_mut::<3>();
+    for (three, out) in threes.iter().zip(outs) {
+        *out = sums(*three, samples);
+    }
+    match (rest, out) {
+        ([a, b], [x, y]) => [*x, *y] = sums([*a, *b], samples),
+        ([a], [x]) => [*x] = sums([*a], samples),
+        _ => {}
+    }
+}
+
+impl Kernel for Pass<'_> {
+    type Output = Vec<Vec<f64>>;
 
     #[inline(always)]
-    fn run(self) {
+    fn run(self) -> Vec<Vec<f64>> {
         let Pass {
             filter,
-            rows,
+            signal,
             places,
-            out,
         } = self;
         let Places {
             first,
             count,
             points,
-            taps,
+            fours,
+            width,
+            ..
         } = *places;
         let Model { a, b, c, d } = filter.forward;
-        let every = filter.every;
-        let end = rows.len() - 1;
-        let a = a.map(repeated);
-        let step = |state: States<L>, x: [f64; L]| onto(times(&b, x), &a, state);
+        let end = signal.len() - 1;
+        let step = |state: State, x: f64| onto(times(&b, x), &a, state);
         // Beyond each end the signal goes on turned about the end point, as in `zero_phase`.
-        let turned = |end: usize, k: usize| from_fn(|l| 2.0 * rows[end][l] - rows[k][l]);
-        let before = |k: usize| turned(0, k);
-        let beyond = |k: usize| turned(end, end - k);
+        let before = |k: usize| 2.0 * signal[0] - signal[k];
+        let beyond = |k: usize| 2.0 * signal[end] - signal[end - k];
 
         let mut state = times(&filter.settled, before(filter.padding));
         for k in (1..=filter.padding).rev() {
             state = step(state, before(k));
         }
-        for x in &rows[..first] {
+        for x in &signal[..first] {
             state = step(state, *x);
         }
+        let mut out = Vec::with_capacity(places.taps.len());
+        for _ in &places.taps {
+            out.push(Vec::with_capacity(count));
+        }
+        let mut added = Vec::with_capacity(fours);
+        let stride = LANES * filter.every;
         let mut at = first;
-        for k in 0..count {
-            let now = &rows[at..at + points];
-            for (taps, out) in taps.iter().zip(out.iter_mut()) {
-                let past = weighed([0.0; L], &taps.past, &state);
-                out[k] = match now.first_chunk::<POINTS>() {
-                    Some(six) => weighed(past, &taps.inside, six),
-                    None => now
-                        .iter()
-                        .zip(&taps.inside)
-                        .fold(past, |sum, (x, w)| fused(sum, w, *x)),
-                };
-            }
-            if k + 1 < count {
-                let new = block(&filter.to_past, &rows[at..at + every]);
-                state = onto(new, &filter.jump, state);
-                at += every;
-            }
+        let mut weights = Vec::with_capacity(1 + places.together.len());
+        weights.push(&filter.to_past[..width.div_ceil(LANES)]);
+        for four in &places.together {
+            weights.push(&four.inside[..]);
         }
-        for x in &rows[at..] {
-            state = step(state, *x);
+        let mut found = vec![[0.0; LANES]; weights.len()];
+        for _ in 0..fours {
+            let samples = &signal[at..];
+            all_sums(&weights, samples, &mut found);
+            for (r, four) in places.together.iter().enumerate() {
+                out[r].extend_from_slice(&onto(found[1 + r], &four.past, state));
+            }
+            let [ahead] = sums([&filter.to_ahead[..]], &samples[width - stride..]);
+            added.push(ahead);
+            state = onto(found[0], &filter.jump, state);
+            at += stride;
         }
-        let mut last = [0.0; L];
+        // The places left over, sample by sample.
+        let mut place = at;
+        for n in at..=end {
+            if n == place && out[0].len() < count {
+                for (taps, out) in places.taps.iter().zip(&mut out) {
+                    let mut value = weighed(0.0, &taps.past, &state);
+                    for (x, w) in signal[n..n + points].iter().zip(&taps.inside) {
+                        value = w.mul_add(*x, value);
+                    }
+                    out.push(value);
+                }
+                place += filter.every;
+            }
+            state = step(state, signal[n]);
+        }
+        let mut last = 0.0;
         for k in 1..=filter.padding {
             let x = beyond(k);
-            last = from_fn(|l| d * x[l] + dot(c, state.map(|s| s[l])));
+            last = d * x + dot(c, state);
             state = step(state, x);
         }
 
         // The backward pass begins as if the last value of the forward one had been there for ever.
-        let shared = filter.shared.map(repeated);
-        let held = onto([[0.0; L]; STATES], &shared, state);
-        let mut state: States<L> =
-            from_fn(|i| from_fn(|l| filter.settled[i] * last[l] - held[i][l]));
-        let back = |state: States<L>, x: [f64; L]| onto(times(&filter.ahead, x), &a, state);
+        let held = onto([0.0; STATES], &filter.shared, state);
+        let mut state = times(&filter.settled, last);
+        for i in 0..STATES {
+            state[i] -= held[i];
+        }
+        let back = |state: State, x: f64| onto(times(&filter.ahead, x), &a, state);
         for k in (1..=filter.padding).rev() {
             state = back(state, beyond(k));
         }
-        for x in rows[at + points..].iter().rev() {
-            state = back(state, *x);
-        }
-        for k in (0..count).rev() {
-            for (taps, out) in taps.iter().zip(out.iter_mut()) {
-                out[k] = weighed(out[k], &taps.ahead, &state);
+        let mut k = count;
+        let mut place = first + count * filter.every;
+        let least = match fours {
+            0 => first,
+            _ => at - stride + width,
+        };
+        for n in (least..=end).rev() {
+            if k > LANES * fours && n + 1 + filter.every == place + points {
+                k -= 1;
+                place -= filter.every;
+                for (taps, out) in places.taps.iter().zip(&mut out) {
+                    out[k] = weighed(out[k], &taps.ahead, &state);
+                }
             }
-            if k > 0 {
-                at -= every;
-                let new = block(&filter.to_ahead, &rows[at + points..at + points + every]);
-                state = onto(new, &filter.jump, state);
-            }
+            state = back(state, signal[n]);
         }
+        for (k, added) in added.iter().enumerate().rev() {
+            for (four, out) in places.together.iter().zip(&mut out) {
+                if let Some(four_read) = out[LANES * k..].first_chunk_mut::<LANES>() {
+                    *four_read = onto(*four_read, &four.ahead, state);
+                }
+            }
+            state = onto(*added, &filter.jump, state);
+        }
+        out
     }
 }
 

@@ -103,12 +103,6 @@ impl Segment {
         shifts: &[Shift],
         thinning: &Thinning,
     ) -> Option<Vec<Vec<Vec<f64>>>> {
-        let mut out = vec![vec![Vec::new(); shifts.len()]; full.len()];
-        let Some(first) = self.keep.iter().position(|&k| k) else {
-            return Some(out);
-        };
-        let last = self.keep.iter().rposition(|&k| k)?;
-        let kept = &self.keep[first..=last];
         let mut readings = shifts.iter().map(Shift::reading);
         let (offset, _) = readings.clone().min_by_key(|(offset, _)| *offset)?;
         // Shifts by a whole number of samples beside others are read among their points.
@@ -116,9 +110,36 @@ impl Segment {
             true => shifts.iter().map(|shift| shift.reading().1).collect(),
             false => shifts.iter().map(|shift| shift.among()).collect(),
         };
+        self.read_from(full, offset, &readings, thinning)
+    }
+
+    /// The same at each of six samples, the first of them relative to the kept ones.
+    pub(crate) fn points(
+        &self,
+        full: &[&[f64]],
+        first: isize,
+        thinning: &Thinning,
+    ) -> Option<Vec<Vec<Vec<f64>>>> {
+        self.read_from(full, first, &Shift::points(), thinning)
+    }
+
+    /// Readings from an offset to the kept samples on.
+    fn read_from(
+        &self,
+        full: &[&[f64]],
+        offset: isize,
+        readings: &[Reading],
+        thinning: &Thinning,
+    ) -> Option<Vec<Vec<Vec<f64>>>> {
+        let mut out = vec![vec![Vec::new(); readings.len()]; full.len()];
+        let Some(first) = self.keep.iter().position(|&k| k) else {
+            return Some(out);
+        };
+        let last = self.keep.iter().rposition(|&k| k)?;
+        let kept = &self.keep[first..=last];
         let at = (first * thinning.every()).checked_add_signed(offset)?;
         let there: Vec<&[f64]> = full.iter().copied().filter(|x| !x.is_empty()).collect();
-        let read = thinning.read(&there, at, kept.len(), &readings)?;
+        let read = thinning.read(&there, at, kept.len(), readings)?;
         let places = out.iter_mut().zip(full).filter(|(_, x)| !x.is_empty());
         for ((out, _), read) in places.zip(read) {
             *out = read;

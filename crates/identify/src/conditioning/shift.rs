@@ -1,9 +1,11 @@
 //! A channel read between its samples, as a delay between force and motion needs.
 
+use std::array::from_fn;
+use std::sync::Arc;
 use stiction_signal::Reading;
 
 /// Points of the Lagrange interpolation (docs/identification.md).
-const INTERPOLATION_POINTS: usize = 6;
+pub(crate) const INTERPOLATION_POINTS: usize = 6;
 
 /// A shift by a fraction of a sample: reads a channel `samples` earlier.
 ///
@@ -57,6 +59,30 @@ impl Shift {
     /// What is read from `first` on, also where one sample is read alone.
     pub fn among(&self) -> Reading {
         Reading::between(self.weights)
+    }
+
+    /// The first of the six samples that are read, relative to the one asked for.
+    pub fn first(&self) -> isize {
+        self.first
+    }
+
+    /// What is read at each of the six samples alone.
+    pub fn points() -> [Reading; INTERPOLATION_POINTS] {
+        from_fn(|i| Reading::between(from_fn(|j| f64::from(u8::from(i == j)))))
+    }
+
+    /// The shifted channel at many samples, from its values at each of the six around them.
+    pub fn of(&self, six: &[Arc<Vec<f64>>; INTERPOLATION_POINTS]) -> Arc<Vec<f64>> {
+        let whole = self
+            .whole
+            .and_then(|whole| six.get(usize::try_from(whole - self.first).ok()?));
+        if let Some(only) = whole {
+            return Arc::clone(only);
+        }
+        let count = six.iter().map(|x| x.len()).min().unwrap_or(0);
+        let six = six.each_ref().map(|x| &x[..count]);
+        let at = |k: usize| self.between(&six.map(|x| x[k]));
+        Arc::new((0..count).map(at).collect())
     }
 
     /// Two sums side by side, which is what every processor has.
@@ -132,7 +158,7 @@ fn split(samples: f64) -> (isize, f64) {
 
 /// Lagrange weights of the samples at -2..=3 for a point at `t`, 0 <= t < 1.
 fn weights(t: f64) -> [f64; INTERPOLATION_POINTS] {
-    std::array::from_fn(|i| {
+    from_fn(|i| {
         let node = i as f64 - 2.0;
         others(node).map(|x| (t - x) / (node - x)).product()
     })
@@ -140,7 +166,7 @@ fn weights(t: f64) -> [f64; INTERPOLATION_POINTS] {
 
 /// Derivatives of [`weights`] with respect to `t`.
 fn slopes(t: f64) -> [f64; INTERPOLATION_POINTS] {
-    std::array::from_fn(|i| {
+    from_fn(|i| {
         let node = i as f64 - 2.0;
         others(node)
             .map(|left| {

@@ -45,9 +45,9 @@ pub(super) fn missing(
             let found = fit_with(
                 objective,
                 optimum,
-                Held::Nonlinear(i),
-                low,
+                (Held::Nonlinear(i), low),
                 &optimum.p,
+                CHANCE_RISE * rise,
                 watch,
             );
             found.evaluation.cost - optimum.evaluation.cost < CHANCE_RISE * rise

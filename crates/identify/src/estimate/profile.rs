@@ -7,10 +7,11 @@
 //! squared times the quantile.
 
 use crate::parameter::WIDEST_INTERVAL;
-use crate::separable::descent::{Descent, descend};
+use crate::separable::descent::{Descent, descend_as, settings};
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
 use crate::watch::Watch;
+use stiction_search::descent::Settings;
 
 /// Trial values to each side, at most.
 const MOST_TRIALS: usize = 6;
@@ -19,6 +20,11 @@ const DESCENT_STEPS: usize = 6;
 /// Allowed relative error of the square root of the rise at an end: the end is then accurate to 2 % of
 /// the width.
 const RISE_TOLERANCE: f64 = 0.02;
+/// Predicted gain, as a part of the rise that is looked for, that no longer matters: it moves the square root of the rise by
+/// a twentieth of its tolerance.
+const NO_GAIN: f64 = 0.1 * RISE_TOLERANCE;
+/// Step of a logarithm up to which such a gain is believed without a trial.
+const TRUSTED_STEP: f64 = 0.1;
 
 /// What is held at a value while all else is fitted.
 #[derive(Clone, Copy, Debug)]
@@ -100,9 +106,9 @@ impl Profile<'_> {
             let found = fit_with(
                 self.objective,
                 self.optimum,
-                self.held,
-                value,
+                (self.held, value),
                 &start,
+                self.quantile * self.quantile * self.rise,
                 watch,
             );
             if watch.stopped {
@@ -141,24 +147,37 @@ impl Profile<'_> {
     }
 }
 
-/// All others fitted with one held at a value.
+/// All others fitted with one held at a value, from the end of another such fit: as closely as the rise of the cost that
+/// is looked for asks for.
 pub(super) fn fit_with(
     objective: &Objective,
     optimum: &Optimum,
-    held: Held,
-    value: f64,
+    (held, value): (Held, f64),
     start: &[f64],
+    rise: f64,
     watch: &mut Watch,
 ) -> Descent {
     let bounds = &optimum.bounds;
+    let no_gain = NO_GAIN * rise / optimum.evaluation.cost;
+    let usual = settings(objective.energy(), DESCENT_STEPS);
+    let settings = match no_gain.is_finite() {
+        true => Settings {
+            trusted_gain: no_gain,
+            trusted_step: TRUSTED_STEP,
+            ..usual
+        },
+        false => usual,
+    };
+    // The curvature that the fit of all has learnt is that of its neighbours.
+    let secant = optimum.secant.clone();
     match held {
         Held::Nonlinear(i) => {
             let bounds = bounds.holding(i, value);
-            descend(objective, &bounds, start, DESCENT_STEPS, watch)
+            descend_as(objective, &bounds, start, &settings, secant, watch)
         }
         Held::Linear(j) => {
             let objective = objective.holding(j, value);
-            descend(&objective, bounds, start, DESCENT_STEPS, watch)
+            descend_as(&objective, bounds, start, &settings, secant, watch)
         }
     }
 }

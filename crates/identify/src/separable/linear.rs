@@ -2,6 +2,7 @@
 
 use super::nonnegative;
 use nalgebra::{DMatrix, DVector};
+use stiction_dispatch::{InstructionSet, Kernel};
 
 /// Columns whose part outside the span of those before is below this (relative, squared) cannot be
 /// told apart from them and are left out.
@@ -9,15 +10,50 @@ const DEPENDENT_REMAINDER: f64 = 1e-13;
 /// Largest number of bounded columns for which every subset is tried.
 const MOST_TRIED: usize = 6;
 
-/// Sum of products in a fixed order: four partial sums for speed, the same bits everywhere.
-#[inline]
+/// Sum of products in a fixed order: the same bits everywhere.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sum = Dot::default();
-    sum.add(a, b);
-    sum.sum()
+    InstructionSet::best().run(Product(a, b))
 }
 
-/// A sum of products that comes in parts, of which all but the last are multiples of four long.
+struct Product<'a>(&'a [f64], &'a [f64]);
+
+impl Kernel for Product<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        products(self.0, [self.1])[0]
+    }
+}
+
+/// Products of one column with some others.
+#[inline(always)]
+fn products<const N: usize>(a: &[f64], others: [&[f64]; N]) -> [f64; N] {
+    let mut sums = [Dot::default(); N];
+    add(&mut sums, a, others);
+    let mut out = [0.0; N];
+    for n in 0..N {
+        out[n] = sums[n].sum();
+    }
+    out
+}
+
+/// Appends the products of one column with each of many: as many at a time as stay in registers.
+#[inline(always)]
+fn append_products(a: &[f64], others: &[&[f64]], out: &mut Vec<f64>) {
+    let (fours, rest) = others.as_chunks::<4>();
+    for four in fours {
+        out.extend(products(a, *four));
+    }
+    match *rest {
+        [x] => out.extend(products(a, [x])),
+        [x, y] => out.extend(products(a, [x, y])),
+        [x, y, z] => out.extend(products(a, [x, y, z])),
+        _ => {}
+    }
+}
+
+/// A sum of products that comes in parts, of which all but the last are multiples of four long: four partial sums for speed.
 #[derive(Clone, Copy, Default)]
 struct Dot {
     sums: [f64; 4],
@@ -25,24 +61,57 @@ struct Dot {
 }
 
 impl Dot {
-    #[inline]
-    fn add(&mut self, a: &[f64], b: &[f64]) {
-        let mut sums = self.sums;
-        let (wide_a, rest_a) = a.as_chunks::<4>();
-        let (wide_b, rest_b) = b.as_chunks::<4>();
-        for (x, y) in wide_a.iter().zip(wide_b) {
-            for lane in 0..4 {
-                sums[lane] += x[lane] * y[lane];
-            }
-        }
-        self.sums = sums;
-        self.tail = rest_a.iter().zip(rest_b).map(|(x, y)| x * y).sum();
-    }
-
-    #[inline]
+    #[inline(always)]
     fn sum(self) -> f64 {
         let [a, b, c, d] = self.sums;
         (a + b) + (c + d) + self.tail
+    }
+}
+
+/// Adds the next part of the products of one column with some others.
+#[inline(always)]
+fn add<const N: usize>(to: &mut [Dot; N], a: &[f64], others: [&[f64]; N]) {
+    let mut count = a.len();
+    for n in 0..N {
+        count = count.min(others[n].len());
+    }
+    let (wide, rest) = a[..count].as_chunks::<4>();
+    let mut wide_others = [wide; N];
+    let mut rest_others = [rest; N];
+    let mut sums = [[0.0; 4]; N];
+    for n in 0..N {
+        (wide_others[n], rest_others[n]) = others[n][..count].as_chunks::<4>();
+        sums[n] = to[n].sums;
+    }
+    for i in 0..wide.len() {
+        let x = wide[i];
+        for n in 0..N {
+            let y = wide_others[n][i];
+            for lane in 0..4 {
+                sums[n][lane] += x[lane] * y[lane];
+            }
+        }
+    }
+    for n in 0..N {
+        to[n].sums = sums[n];
+        to[n].tail = rest.iter().zip(rest_others[n]).map(|(x, y)| x * y).sum();
+    }
+}
+
+/// Takes some columns, each times its coefficient, from the samples from `start` on.
+#[inline(always)]
+fn take<const N: usize>(columns: [&[f64]; N], c: [f64; N], start: usize, from: &mut [f64]) {
+    let count = from.len();
+    let mut parts: [&[f64]; N] = [&[]; N];
+    for n in 0..N {
+        parts[n] = &columns[n][start..start + count];
+    }
+    for (i, x) in from.iter_mut().enumerate() {
+        let mut left = *x;
+        for n in 0..N {
+            left -= c[n] * parts[n][i];
+        }
+        *x = left;
     }
 }
 
@@ -120,19 +189,43 @@ impl Factor {
     }
 
     /// Takes `Phi c` of the active columns from the samples from `start` on.
+    #[inline(always)]
     fn subtract(&self, columns: &[&[f64]], c: &[f64], start: usize, from: &mut [f64]) {
-        for (x, &j) in c.iter().zip(&self.columns) {
-            for (r, phi) in from.iter_mut().zip(&columns[j][start..]) {
-                *r -= x * phi;
+        let (places, rest) = self.columns.as_chunks::<4>();
+        let (fours, tail) = c.as_chunks::<4>();
+        for ([i, j, k, l], c) in places.iter().zip(fours) {
+            let four = [columns[*i], columns[*j], columns[*k], columns[*l]];
+            take(four, *c, start, from);
+        }
+        match (rest, tail) {
+            ([i], [a]) => take([columns[*i]], [*a], start, from),
+            ([i, j], [a, b]) => take([columns[*i], columns[*j]], [*a, *b], start, from),
+            ([i, j, k], [a, b, c]) => {
+                let three = [columns[*i], columns[*j], columns[*k]];
+                take(three, [*a, *b, *c], start, from);
             }
+            _ => {}
         }
     }
 
     /// The same from all samples.
+    #[inline(always)]
     fn subtract_all(&self, columns: &[&[f64]], c: &[f64], from: &mut [f64]) {
         for (start, part) in (0..).step_by(CHUNK).zip(from.chunks_mut(CHUNK)) {
             self.subtract(columns, c, start, part);
         }
+    }
+
+    /// The products of the active columns with another.
+    #[inline(always)]
+    fn products(&self, columns: &[&[f64]], other: &[f64]) -> Vec<f64> {
+        let mut out = Vec::with_capacity(self.columns.len());
+        let mut taken = Vec::with_capacity(self.columns.len());
+        for &j in &self.columns {
+            taken.push(columns[j]);
+        }
+        append_products(other, &taken, &mut out);
+        out
     }
 
     /// Indices of the active columns.
@@ -188,31 +281,50 @@ impl Solution {
     /// `J^T J` of the reduced problem (Kaufman) for the derivatives of the model: the products of their parts that
     /// the active columns cannot express.
     pub fn curvature(&self, columns: &[&[f64]], slopes: &[Vec<f64>]) -> DMatrix<f64> {
-        let inside: Vec<Vec<f64>> = slopes
-            .iter()
-            .map(|d| {
-                let taken = self.factor.columns.iter();
-                self.factor
-                    .solve(&taken.map(|&j| dot(columns[j], d)).collect::<Vec<f64>>())
-            })
-            .collect();
-        let k = slopes.len();
-        let mut sums = vec![Dot::default(); k * k];
+        InstructionSet::best().run(Curvature {
+            solution: self,
+            columns,
+            slopes,
+        })
+    }
+}
+
+struct Curvature<'a> {
+    solution: &'a Solution,
+    columns: &'a [&'a [f64]],
+    slopes: &'a [Vec<f64>],
+}
+
+impl Kernel for Curvature<'_> {
+    type Output = DMatrix<f64>;
+
+    #[inline(always)]
+    fn run(self) -> DMatrix<f64> {
+        let Solution {
+            factor, residual, ..
+        } = self.solution;
+        let k = self.slopes.len();
+        let mut inside = Vec::with_capacity(k);
+        for d in self.slopes {
+            inside.push(factor.solve(&factor.products(self.columns, d)));
+        }
+        let mut sums = vec![[Dot::default()]; k * k];
         let mut outside = vec![[0.0; CHUNK]; k];
-        for start in (0..self.residual.len()).step_by(CHUNK) {
-            let end = self.residual.len().min(start + CHUNK);
-            for ((outside, d), c) in outside.iter_mut().zip(slopes).zip(&inside) {
-                let part = &mut outside[..end - start];
-                part.copy_from_slice(&d[start..end]);
-                self.factor.subtract(columns, c, start, part);
+        for start in (0..residual.len()).step_by(CHUNK) {
+            let end = residual.len().min(start + CHUNK);
+            for i in 0..k {
+                let part = &mut outside[i][..end - start];
+                part.copy_from_slice(&self.slopes[i][start..end]);
+                factor.subtract(self.columns, &inside[i], start, part);
             }
             for i in 0..k {
                 for j in 0..=i {
-                    sums[i * k + j].add(&outside[i][..end - start], &outside[j][..end - start]);
+                    let other = &outside[j][..end - start];
+                    add(&mut sums[i * k + j], &outside[i][..end - start], [other]);
                 }
             }
         }
-        DMatrix::from_fn(k, k, |i, j| sums[i.max(j) * k + i.min(j)].sum())
+        DMatrix::from_fn(k, k, |i, j| sums[i.max(j) * k + i.min(j)][0].sum())
     }
 }
 
@@ -291,52 +403,76 @@ impl Normal {
 /// The normal equations are solved on scaled columns and refined once with the true residual, which
 /// brings the accuracy of an orthogonal factorisation.
 pub(crate) fn solve(columns: &[&[f64]], bounded: &[bool], u: &[f64]) -> Solution {
-    let m = columns.len();
-    let mut gram = DMatrix::zeros(m, m);
-    for i in 0..m {
-        for j in 0..=i {
-            let x = dot(columns[i], columns[j]);
-            gram[(i, j)] = x;
-            gram[(j, i)] = x;
-        }
-    }
-    let normal = Normal {
-        gram,
-        rhs: columns.iter().map(|column| dot(column, u)).collect(),
-        energy: dot(u, u),
-    };
-    let (factor, mut c, dropped) = normal.solve(bounded);
-    let mut r = u.to_vec();
-    factor.subtract_all(columns, &c, &mut r);
-    let correction: Vec<f64> = factor
-        .columns
-        .iter()
-        .map(|&j| dot(columns[j], &r))
-        .collect();
-    for (x, d) in c.iter_mut().zip(factor.solve(&correction)) {
-        *x += d;
-    }
-    r.copy_from_slice(u);
-    factor.subtract_all(columns, &c, &mut r);
+    InstructionSet::best().run(Inner {
+        columns,
+        bounded,
+        u,
+    })
+}
 
-    let mut coefficients = vec![0.0; m];
-    let mut active = vec![false; m];
-    for (&j, &x) in factor.columns.iter().zip(&c) {
-        coefficients[j] = x;
-        active[j] = true;
-    }
-    let mut dependent = vec![false; m];
-    for j in dropped {
-        dependent[j] = true;
-    }
-    let cost = dot(&r, &r);
-    Solution {
-        coefficients,
-        active,
-        dependent,
-        residual: r,
-        cost,
-        factor,
+struct Inner<'a> {
+    columns: &'a [&'a [f64]],
+    bounded: &'a [bool],
+    u: &'a [f64],
+}
+
+impl Kernel for Inner<'_> {
+    type Output = Solution;
+
+    #[inline(always)]
+    fn run(self) -> Solution {
+        let Inner {
+            columns,
+            bounded,
+            u,
+        } = self;
+        let m = columns.len();
+        let mut gram = DMatrix::zeros(m, m);
+        let mut row = Vec::with_capacity(m);
+        for i in 0..m {
+            row.clear();
+            append_products(columns[i], &columns[..=i], &mut row);
+            for (j, &x) in row.iter().enumerate() {
+                gram[(i, j)] = x;
+                gram[(j, i)] = x;
+            }
+        }
+        let mut rhs = Vec::with_capacity(m);
+        append_products(u, columns, &mut rhs);
+        let normal = Normal {
+            gram,
+            rhs,
+            energy: products(u, [u])[0],
+        };
+        let (factor, mut c, dropped) = normal.solve(bounded);
+        let mut r = u.to_vec();
+        factor.subtract_all(columns, &c, &mut r);
+        let correction = factor.products(columns, &r);
+        for (x, d) in c.iter_mut().zip(factor.solve(&correction)) {
+            *x += d;
+        }
+        r.copy_from_slice(u);
+        factor.subtract_all(columns, &c, &mut r);
+
+        let mut coefficients = vec![0.0; m];
+        let mut active = vec![false; m];
+        for (&j, &x) in factor.columns.iter().zip(&c) {
+            coefficients[j] = x;
+            active[j] = true;
+        }
+        let mut dependent = vec![false; m];
+        for j in dropped {
+            dependent[j] = true;
+        }
+        let cost = products(&r, [&r])[0];
+        Solution {
+            coefficients,
+            active,
+            dependent,
+            residual: r,
+            cost,
+            factor,
+        }
     }
 }
 

@@ -10,6 +10,7 @@ use crate::law::terms::{ColumnKind, Delay, LinearTerm, Mass, Side, Terms};
 use crate::separable::fixed::{Column, Fixed, fixed_columns};
 use crate::separable::in_lanes::InLanes;
 use crate::separable::linear::{self, Solution, dot};
+use crate::separable::moving::Moving;
 use crate::separable::recursion::{Trace, trace};
 use nalgebra::{DMatrix, DVector};
 use std::borrow::Cow;
@@ -28,6 +29,8 @@ pub struct Objective<'a> {
     nonnegative: Vec<bool>,
     /// Columns that no parameter of the law changes; `None` for those that one does.
     fixed: Vec<Option<Fixed>>,
+    /// Those of them that the delay moves.
+    moving: Moving,
     /// Levels that change with another channel: which linear unknown, and the factor at the full
     /// rate of each segment.
     varying: Vec<Varying>,
@@ -107,12 +110,21 @@ impl<'a> Objective<'a> {
             Delay::Fitted if law.kind.has_elements() => Delay::NONE,
             delay => delay,
         };
-        let moves = delay != Delay::NONE;
+        let lengths = record.segments.iter().map(|s| s.velocity.len());
+        let thinning = thinning(
+            record.common.as_ref(),
+            record.decimate,
+            lengths.max().unwrap_or(0),
+        );
+        let known = match delay {
+            Delay::Fitted => None,
+            Delay::Given(time) => Some(given(time, record)),
+        };
         let mut kinds: Vec<ColumnKind> = linear.iter().map(|term| term.column).collect();
         if let Mass::Given(_) = terms.mass {
             kinds.push(ColumnKind::Acceleration);
         }
-        let mut fixed = fixed_columns(record, &kinds, moves);
+        let (mut fixed, moving) = fixed_columns(record, &kinds, known, thinning.as_ref());
         let inertia = match terms.mass {
             Mass::Given(mass) => fixed.pop().flatten().map(|a| (mass, a)),
             Mass::Fitted | Mass::Absent => None,
@@ -132,8 +144,6 @@ impl<'a> Objective<'a> {
         let force = record.whole(|s| &s.force);
         let energy = dot(&force, &force);
         let nonnegative = linear.iter().map(|term| term.is_never_negative()).collect();
-        let lengths = record.segments.iter().map(|s| s.velocity.len());
-        let longest = lengths.max().unwrap_or(0);
         Self {
             record,
             law,
@@ -141,12 +151,13 @@ impl<'a> Objective<'a> {
             linear,
             nonnegative,
             fixed,
+            moving,
             varying,
             force,
             inertia,
             energy,
             held: None,
-            thinning: thinning(record.common.as_ref(), record.decimate, longest),
+            thinning,
             lanes: OnceLock::new(),
         }
     }
@@ -332,8 +343,7 @@ impl<'a> Objective<'a> {
         match (self.delay, p.last()) {
             (Delay::Fitted, Some(&samples)) => Shift::earlier(samples),
             (Delay::Fitted, None) => Shift::NONE,
-            (Delay::Given(0.0), _) => Shift::NONE,
-            (Delay::Given(time), _) => Shift::earlier(time / self.record.step()),
+            (Delay::Given(time), _) => given(time, self.record),
         }
     }
 
@@ -347,13 +357,9 @@ impl<'a> Objective<'a> {
     fn at(&self, column: &Fixed, shift: Shift) -> Column {
         match column {
             Fixed::Thin(thin) => Arc::clone(thin),
-            Fixed::Full(full) => {
-                let mut out = Vec::with_capacity(self.force.len());
-                for (segment, full) in self.record.segments.iter().zip(full) {
-                    self.record.thin(segment, full, shift, &mut out);
-                }
-                Arc::new(out)
-            }
+            Fixed::Moving(i) => self
+                .moving
+                .at(*i, self.record, shift, self.thinning.as_ref()),
         }
     }
 
@@ -438,6 +444,10 @@ impl<'a> Objective<'a> {
             .iter()
             .zip(&self.fixed)
             .map(|(term, fixed)| match (fixed, term.column) {
+                // The derivative of a constant.
+                (Some(_), ColumnKind::One) if moved == Moved::Slope => {
+                    Arc::new(vec![0.0; self.force.len()])
+                }
                 (Some(column), _) => self.at(column, shift),
                 (None, ColumnKind::Rate) => own(runs, 1),
                 (None, ColumnKind::Element(k)) => own(runs, 2 + k),
@@ -577,7 +587,7 @@ struct Run {
 }
 
 /// Which of the shifts that the columns of a run were read at.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Moved {
     /// By the delay.
     Value,
@@ -599,6 +609,14 @@ impl Run {
             1 => std::mem::take(&mut self.trace.rate),
             _ => self.trace.own().nth(column).cloned().unwrap_or_default(),
         }
+    }
+}
+
+/// By how much earlier the motion is for a delay that is given, s.
+fn given(time: f64, record: &Record) -> Shift {
+    match time == 0.0 {
+        true => Shift::NONE,
+        false => Shift::earlier(time / record.step()),
     }
 }
 
