@@ -72,8 +72,8 @@ impl Dot {
 #[inline(always)]
 fn add<const N: usize>(to: &mut [Dot; N], a: &[f64], others: [&[f64]; N]) {
     let mut count = a.len();
-    for n in 0..N {
-        count = count.min(others[n].len());
+    for other in &others {
+        count = count.min(other.len());
     }
     let (wide, rest) = a[..count].as_chunks::<4>();
     let mut wide_others = [wide; N];
