@@ -110,7 +110,7 @@ codes! {
     NoOvershoot = "no-overshoot": "a step response without overshoot cannot be inverted",
     StaticsAssumed = "statics-assumed": "the steady curve is not known and was simplified",
     NoBreakAway = "no-break-away": "the force does not ramp up to break-away",
-    NotSimulated = "not-simulated": "a log cannot be simulated: position, reference or mass is missing",
+    NotSimulated = "not-simulated": "a log cannot be simulated: position, reference or mass is missing, or the controller given is not stable",
     BadRecord = "bad-record": "the channels of a log do not fit together",
     BadConfig = "bad-config": "an axis, study or model file was refused",
     BadCheckpoint = "bad-checkpoint": "a checkpoint is damaged or belongs to another search",

@@ -129,6 +129,22 @@ pub enum Error {
         /// Why.
         source: SignalError,
     },
+    /// A controller under which the simulated axis leaves its path and does not come back.
+    #[error(
+        "log {log}: under the controller given, with position_gain {} 1/s and speed_gain {}, the simulated axis leaves its \
+         path at {} s and does not come back, whatever its friction; give the gains of the drive, its control rate and \
+         its force limit", full(*position_gain), full(*speed_gain), short(*time)
+    )]
+    Diverged {
+        /// Which log, counted from 1.
+        log: usize,
+        /// When the axis leaves the path, s.
+        time: f64,
+        /// Position gain, 1/s.
+        position_gain: f64,
+        /// Speed gain, N s/m (N m s/rad).
+        speed_gain: f64,
+    },
     /// A recording that cannot be simulated.
     #[error("log {log}: {found}; simulating the axis needs {allowed}")]
     NotSimulated {

@@ -142,6 +142,16 @@ pub fn output_error(
     let layout = Layout::new(&law, &terms);
     let search = ladder.search(&runs, &layout);
     let mut fit = outcome::describe(&search, found, law, &terms, watch.counts);
+    if let Some(controller) = &simulation.controller
+        && let Some((log, time)) = fit.signals.diverged()
+    {
+        return Err(Error::Diverged {
+            log,
+            time,
+            position_gain: controller.position_gain,
+            speed_gain: controller.speed_gain,
+        });
+    }
     fit.judge_horizons(recordings, &mut watch);
     Ok(fit)
 }

@@ -79,7 +79,7 @@ impl Error {
                 Fit::NoStep { .. } => Code::NoStep,
                 Fit::NoBreakAway { .. } => Code::NoBreakAway,
                 Fit::Setting { .. } | Fit::Filter { .. } => Code::BadSetting,
-                Fit::NotSimulated { .. } => Code::NotSimulated,
+                Fit::NotSimulated { .. } | Fit::Diverged { .. } => Code::NotSimulated,
                 Fit::NoMotionChannel { .. }
                 | Fit::MissingChannel { .. }
                 | Fit::Length { .. }

@@ -5,6 +5,7 @@ mod compensation;
 mod contour;
 mod contour_trace;
 mod course;
+mod diverged;
 mod done;
 pub mod doubt;
 mod learnt;

@@ -79,6 +79,21 @@ impl Signals {
         both(&self.position, measured) || both(&self.simulated, simulated)
     }
 
+    /// Log, counted from 1, and time, s, at which the simulated position is further from the measured one than this ever
+    /// goes, where it ends far beyond.
+    pub(crate) fn diverged(&self) -> Option<(usize, f64)> {
+        let ends = [f64::INFINITY, f64::NEG_INFINITY];
+        let reach = |[low, high]: [f64; 2], x: &f64| [low.min(*x), high.max(*x)];
+        let [low, high] = self.position.iter().fold(ends, reach);
+        let off = less(&self.position, &self.simulated);
+        let within = |x: f64, parts: f64| x.abs() <= parts * (high - low);
+        if off.iter().all(|&x| within(x, DIVERGED_ERROR)) {
+            return None;
+        }
+        let left = off.iter().position(|&x| !within(x, 1.0))?;
+        Some((self.log[left] + 1, self.time[left]))
+    }
+
     /// Measured positions without gaps, each of one log.
     fn stretches(&self) -> impl Iterator<Item = &[f64]> {
         self.bounds().map(|range| &self.position[range])
@@ -98,6 +113,8 @@ impl Signals {
 
 /// Most products of an autocorrelation after an interruption.
 const MOST_PRODUCTS_AT_ONCE: usize = 50_000_000;
+/// Error of a simulated position over the range of the measured one, dimensionless, from which on it has diverged.
+const DIVERGED_ERROR: f64 = 1000.0;
 /// Movements of the simulated position longer than this many rms residuals count as motion.
 const CLEAR_OF_RESIDUAL: f64 = 2.0;
 

@@ -570,6 +570,28 @@ fn figures_that_are_no_numbers() {
     insta::assert_snapshot!(file.warnings[0].message);
 }
 
+/// A loop that is not stable is named with its gains and the time at which the axis left the path; it has no figures, and the
+/// other controllers have theirs.
+#[test]
+fn runs_that_diverge() {
+    let desk = Desk::new();
+    let wild = "
+[[controller]]
+kind          = \"cascade\"
+name          = \"wild\"
+position_gain = \"1e15 1/s\"
+speed_gain    = \"1e15 N s/m\"
+integral_gain = \"0 N/m\"
+force_limit   = \"1e15 N\"
+";
+    let axis = AXIS.replace("peak_force   = \"1248 N\"\n", "");
+    let file = desk.run(&together(&[&axis, SHORT, CASCADE, wild, WHOLE]));
+    assert_eq!(file.results.len(), 2, "{:?}", file.results);
+    assert!(file.results.iter().all(|row| row.controller != "wild"));
+    assert_eq!(codes(&file), ["not-run"]);
+    insta::assert_snapshot!(file.warnings[0].message);
+}
+
 /// Between the passes of learning the work can be stopped; what was not finished is not kept.
 #[test]
 fn learning_stops_between_passes() {

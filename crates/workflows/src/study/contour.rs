@@ -3,6 +3,7 @@
 use super::compensation::{believing, feedforward};
 use super::contour_trace::ContourTrace;
 use super::course;
+use super::diverged::{Fault, stayed};
 use super::done::Done;
 use super::learnt::Learnt;
 use super::machine::{self, largest_force};
@@ -42,7 +43,7 @@ fn along(
     plan: &Plan,
     job: Job,
     before: &Learnt,
-) -> Result<Ran, ParamError> {
+) -> Result<Ran, Fault> {
     let contour = plan.contour;
     let machines = [&study.machine, &second.machine];
     // Without compensation.
@@ -73,6 +74,7 @@ fn along(
         )?;
     }
     let (axes, samples) = follow(with)?;
+    stayed(samples.iter().map(|s| s.axes.each_ref()))?;
     let sides = sides(&samples);
     let from = samples.partition_point(|s| s.axes[0].time < contour.skip);
     let counted = &samples[from..];
@@ -137,7 +139,7 @@ pub(super) fn on_contour(
     job: Job,
     contour: &ContourPlan,
     before: &Learnt,
-) -> Result<Done, ParamError> {
+) -> Result<Done, Fault> {
     let missing = ParamError::new("axes", 1.0, "two, for a contour");
     let second = study.second.as_ref().ok_or(missing)?;
     let family = &study.families[job.family];

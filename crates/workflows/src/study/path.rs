@@ -3,6 +3,7 @@
 use super::changing::Changing;
 use super::compensation::{believing, feedforward};
 use super::course;
+use super::diverged::{Fault, stayed};
 use super::done::Done;
 use super::learnt::Learnt;
 use super::machine::{largest_force, settings};
@@ -40,7 +41,7 @@ pub(super) fn on_path(
     sampled: Option<&Sampled>,
     before: &Learnt,
     go_on: &dyn Fn() -> bool,
-) -> Result<Option<Done>, ParamError> {
+) -> Result<Option<Done>, Fault> {
     let path = &study.paths[job.path];
     let follow = |axis: &mut Axis<_, _>| match sampled {
         Some(sampled) => follow_sampled(axis, sampled),
@@ -92,6 +93,7 @@ pub(super) fn on_path(
             samples = follow(&mut axis)?;
         }
     }
+    stayed(samples.iter().map(|s| [s]))?;
     let exact = family.kind == "exact" && study.keeps_courses;
     let from = samples.partition_point(|s| s.time < path.skip);
     let counted = &samples[from.min(samples.len())..];

@@ -1,5 +1,6 @@
 //! The grid of a study, run in parallel, and what is kept of each run.
 
+use super::diverged::{Fault, gains};
 use super::done::Done;
 use super::learnt::Learnt;
 use super::metrics::{may_be_absent, metrics};
@@ -30,7 +31,7 @@ pub fn simulate(study: &Study, observer: &mut dyn Observer) -> StudyOutcome {
         .collect();
     let watch = Shared::new(observer, jobs.len());
     let mut warnings = study.warnings.clone();
-    let done: Vec<Option<Result<Done, ParamError>>> = jobs
+    let done: Vec<Option<Result<Done, Fault>>> = jobs
         .par_iter()
         .map(|&(i, job)| {
             if watch.is_stopped() {
@@ -55,11 +56,20 @@ pub fn simulate(study: &Study, observer: &mut dyn Observer) -> StudyOutcome {
     // The same fault in every member of a cell, and with every value of a sweep, is said once.
     failed.dedup_by_key(|(i, job, _)| (*i, job.cell()));
     let mut said: Vec<Job> = Vec::new();
-    for (i, job, e) in &failed {
-        if *i == 0 || !said.contains(job) {
-            said.push(*job);
-            warnings.push(not_run(study, grids[*i].study, *job, e));
-        }
+    failed.retain(|(i, job, _)| {
+        let new = *i == 0 || !said.contains(job);
+        said.push(*job);
+        new
+    });
+    let together = |a: &Failed, b: &Failed| {
+        let of = |(i, job, e): &Failed| {
+            let diverged = matches!(e, Fault::Diverged(_));
+            diverged.then_some((*i, job.path, job.controller))
+        };
+        of(a).is_some() && of(a) == of(b)
+    };
+    for runs in failed.chunk_by(together) {
+        warnings.push(not_run(study, &grids, runs));
     }
     let sweeps = sweeps::entries(study, &kept[1..]);
     let kept = kept.swap_remove(0);
@@ -114,7 +124,7 @@ impl<'a> Grid<'a> {
     }
 
     /// One run, whose metrics must be finite numbers; `None` where the work was stopped.
-    fn run(&self, job: Job, go_on: &dyn Fn() -> bool) -> Result<Option<Done>, ParamError> {
+    fn run(&self, job: Job, go_on: &dyn Fn() -> bool) -> Result<Option<Done>, Fault> {
         let study = self.study;
         let done = match study.contours.get(job.path.wrapping_sub(study.paths.len())) {
             Some(contour) => Some(contour::on_contour(study, job, contour, &self.learnt)?),
@@ -131,7 +141,7 @@ impl<'a> Grid<'a> {
             if !(value.is_finite() || absent) {
                 let allowed =
                     "a finite number: a smaller motion, slower, with smaller gains and forces";
-                return Err(ParamError::new(name, value, allowed));
+                return Err(ParamError::new(name, value, allowed).into());
             }
         }
         Ok(done)
@@ -153,8 +163,14 @@ fn headers(study: &Study) -> [String; 2] {
     ]
 }
 
-/// A run of a grid of the study that could not be made.
-fn not_run(study: &Study, grid: &Study, job: Job, e: &ParamError) -> Warning {
+/// A run that gave nothing: its grid, its place in that, and why.
+type Failed = (usize, Job, Fault);
+
+/// What is said of a run of a grid of the study that could not be made, or of those along a path under one controller that
+/// diverged.
+fn not_run(study: &Study, grids: &[Grid], runs: &[Failed]) -> Warning {
+    let (i, job, fault) = runs[0];
+    let grid = grids[i].study;
     let [path, controller, compensator] = study.names(job);
     let points = study.sweeps.iter().flat_map(|sweep| {
         let points = sweep.points.iter();
@@ -167,13 +183,28 @@ fn not_run(study: &Study, grid: &Study, job: Job, e: &ParamError) -> Warning {
         let value = quantity(point.value, &sweep.unit);
         format!(" with {} = {value}", sweep.key)
     });
-    Warning::new(
-        Code::NotRun,
-        format!(
+    let text = match fault {
+        Fault::Refused(e) => format!(
             "{path}, {controller}, {compensator}{with} was not run: {} = {}; allowed: {}",
             e.name,
             short(e.value),
             e.allowed
         ),
-    )
+        Fault::Diverged(time) => {
+            let mut schemes: Vec<_> = runs
+                .iter()
+                .map(|(_, job, _)| study.names(*job)[2])
+                .collect();
+            schemes.dedup();
+            format!(
+                "{path}, {controller} ({}){with} diverged: the axis left its path at {} s and did not come back, with {}; such a \
+                 run has no figures. Allowed: smaller gains, or a bandwidth instead of them; a force limit that the drive \
+                 can give",
+                schemes.join(", "),
+                short(time),
+                gains(&grid.controllers[job.controller].value)
+            )
+        }
+    };
+    Warning::new(Code::NotRun, text)
 }

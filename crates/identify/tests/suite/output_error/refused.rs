@@ -137,3 +137,29 @@ fn hostile_numbers_are_survived() {
     );
     assert!(matches!(none, Err(Error::TooFewSamples { .. })));
 }
+
+/// Gains that are not those of the drive: no axis follows under them, and that is said instead of numbers.
+#[test]
+fn a_controller_that_is_not_stable_is_refused() {
+    let wild = Controller {
+        position_gain: 1e15,
+        force_limit: f64::INFINITY,
+        ..controller(&CASCADE)
+    };
+    let simulation = Simulation {
+        controller: Some(wild),
+        ..Simulation::default()
+    };
+    let log = closed(&CASCADE, 0.5, 0.0, 0.0, 1);
+    let law = Law::new(LawKind::LuGre);
+    let refused = output_error(&[log], law, &Terms::default(), &simulation, &mut Silent);
+    let e = refused.unwrap_err();
+    let Error::Diverged { log, time, .. } = e else {
+        panic!("{e}");
+    };
+    assert!(log == 1 && (0.0..0.1).contains(&time), "{e}");
+    assert!(
+        e.to_string().contains("position_gain 1000000000000000 1/s"),
+        "{e}"
+    );
+}
