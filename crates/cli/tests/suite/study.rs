@@ -151,6 +151,21 @@ fn a_model_by_hand_is_simulated_and_exported() {
     let (code, out, err) = run(at, &export);
     assert_eq!((code, err.as_str()), (0, ""), "{out}");
 
+    // Numbers that no study takes are said before one is written.
+    let huge = BY_HAND.replace("value = 4.6", "value = 1e99");
+    std::fs::write(at.join("huge.toml"), huge).unwrap();
+    let args = [
+        "simulate",
+        "--init",
+        "huge_study.toml",
+        "--model",
+        "huge.toml",
+    ];
+    let (code, _, err) = run(at, &args);
+    assert_eq!((code, at.join("huge_study.toml").exists()), (2, false));
+    let said = "huge.toml: line 10, column 30, parameter[7].value: mass = 1.000e99; in a study from -1e15 to 1e15";
+    assert!(err.contains(said), "{err}");
+
     // A study elsewhere finds the model; without a mass it has to be filled in.
     let weightless = BY_HAND.replace("    { name = \"mass\", value = 4.6, unit = \"kg\" },\n", "");
     std::fs::write(at.join("light.toml"), weightless).unwrap();

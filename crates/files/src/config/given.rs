@@ -12,7 +12,7 @@ use toml::de::{DeTable, DeValue};
 
 /// Largest value with a unit, in SI, and the inverse of the smallest above 0. No machine comes near; products of twenty of them
 /// stay finite (below 1e308).
-const LARGEST_SI: f64 = 1e15;
+pub(crate) const LARGEST_SI: f64 = 1e15;
 /// Longest piece of the file that is quoted, characters.
 const QUOTED: usize = 60;
 
@@ -216,6 +216,18 @@ impl<'a> Given<'a> {
             }
         }
         Err(self.refuse(found, &allowed.join("; or ")))
+    }
+
+    /// The same of either sign.
+    pub fn signed(&self, dimension: Dimension) -> Result<f64, Error> {
+        let (x, _) = self.value(&[dimension])?;
+        if x.abs() <= LARGEST_SI {
+            return Ok(x);
+        }
+        let unit = dimension.si_text();
+        let unit = if unit == "1" { "" } else { &unit };
+        let allowed = format!("from -{LARGEST_SI:e} to {LARGEST_SI:e} {unit}");
+        Err(self.refused(allowed.trim_end()))
     }
 
     /// The same above 0.

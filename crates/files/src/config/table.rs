@@ -21,6 +21,9 @@ const ALIASES: [(&str, &str); 7] = [
     ("half_height", "height"),
 ];
 
+/// Most characters of a name: what a title and a terminal can show.
+const LONGEST_LINE: usize = 200;
+
 /// A table.
 pub(crate) struct Table<'a> {
     source: Source<'a>,
@@ -59,7 +62,8 @@ impl<'a> Table<'a> {
         self.find(key)
     }
 
-    fn find(&self, key: &str) -> Option<Given<'a>> {
+    /// The value of a key, also of one that nobody asks for.
+    pub fn find(&self, key: &str) -> Option<Given<'a>> {
         let mut entries = self.entries.iter();
         let found = entries.find(|(name, _)| name.get_ref() == key);
         let swept = self.source.swept;
@@ -115,12 +119,18 @@ impl<'a> Table<'a> {
         self.get(key).map(|given| given.text()).transpose()
     }
 
-    /// Text on one line, which tables and terminals can show.
+    /// Text on one line, which titles, tables and terminals can show.
     pub fn line(&self, key: &'static str) -> Result<Option<&'a str>, Error> {
         let text = self.text(key)?;
-        match text.filter(|text| text.trim().contains(char::is_control)) {
-            Some(_) => Err(self.refused(key, "text on one line, without control characters")),
-            None => Ok(text),
+        match text {
+            Some(text) if text.contains(char::is_control) => {
+                Err(self.refused(key, "text on one line, without control characters"))
+            }
+            Some(text) if text.chars().count() > LONGEST_LINE => {
+                let found = format!("{} characters", text.chars().count());
+                Err(self.refuse(key, found, &format!("at most {LONGEST_LINE} characters")))
+            }
+            text => Ok(text),
         }
     }
 
@@ -129,10 +139,10 @@ impl<'a> Table<'a> {
         self.get(key).map(|given| given.choice(words)).transpose()
     }
 
-    /// A value with its unit, in SI.
+    /// A value of either sign with its unit, in SI.
     pub fn value(&self, key: &'static str, dimension: Dimension) -> Result<Option<f64>, Error> {
-        let value = self.get(key).map(|given| given.value(&[dimension]));
-        Ok(value.transpose()?.map(|(x, _)| x))
+        let value = self.get(key).map(|given| given.signed(dimension));
+        value.transpose()
     }
 
     /// A value above 0 with its unit, in SI.

@@ -193,9 +193,10 @@ fn parameter(
         let found = format!("{name}: ci95 = [{low:?}, {high:?}]");
         all.push((key("ci95"), found, "the lower end, then the upper".into()));
     }
-    if let Some(std) = p.std.filter(|std| std.is_nan() || *std < 0.0) {
+    if let Some(std) = p.std.filter(|std| !(*std >= 0.0 && std.is_finite())) {
         let found = format!("{name}: std = {std:?}");
-        all.push((key("std"), found, "0 or above".into()));
+        let allowed = "a finite number of 0 or above; leave it out where it is not known";
+        all.push((key("std"), found, allowed.into()));
     }
     if let Some((found, allowed)) = stranger(name) {
         all.push((key("name"), found, allowed));

@@ -200,7 +200,7 @@ fn model(root: &Table<'_>, faults: &mut Faults) -> Result<ModelFile, Error> {
     });
     // Another schema has other keys.
     schema?;
-    let name = faults.take("name", root.text("name")).flatten();
+    let name = faults.take("name", root.line("name")).flatten();
     let law = text(root, "law", "a law such as \"lugre\"");
     let law = faults.take("law", law);
     let kind = faults.take("kind", root.text("kind")).flatten();

@@ -1,9 +1,9 @@
 //! The friction of the simulated axis: from a model file, or of a known axis.
 
 use super::resolve::Dimensions;
-use crate::config::{Given, Swept};
+use crate::config::{Given, LARGEST_SI, Swept};
 use crate::error::{Error, Warning};
-use crate::model::{BY_HAND, ReadModel};
+use crate::model::{BY_HAND, ModelParameter, ReadModel};
 use crate::result::CovarianceEntry;
 use crate::symbols;
 use std::path::Path;
@@ -127,6 +127,13 @@ impl Model {
             let allowed = "a study needs every parameter of the law";
             return Err(read.refuse("parameter", format!("no {missing}"), allowed));
         }
+        let simulated = |name: &str| name.parse().is_ok_and(|n: Name| is_simulated(n.quantity));
+        let beyond = |p: &&ModelParameter| simulated(&p.name) && p.value.abs() > LARGEST_SI;
+        if let Some(p) = model.parameter.iter().find(beyond) {
+            let found = format!("{} = {}", p.name, stiction_number::four_digits(p.value));
+            let allowed = format!("in a study from -{LARGEST_SI:e} to {LARGEST_SI:e}");
+            return Err(read.refuse_parameter(&p.name, found, &allowed));
+        }
         let mut warnings = Vec::new();
         if !model.trustworthy {
             warnings.push(Warning::new(
@@ -134,7 +141,7 @@ impl Model {
                 "the identification flagged this model as not trustworthy: see its report",
             ));
         }
-        let listed = |test: &dyn Fn(&crate::model::ModelParameter) -> bool| {
+        let listed = |test: &dyn Fn(&ModelParameter) -> bool| {
             let names = model.parameter.iter().filter(|p| test(p));
             names
                 .map(|p| p.name.as_str())
@@ -148,7 +155,6 @@ impl Model {
                 format!("the log did not determine {unknown}: what depends on it is a guess"),
             ));
         }
-        let simulated = |name: &str| name.parse().is_ok_and(|n: Name| is_simulated(n.quantity));
         let left_out = listed(&|p| !simulated(&p.name));
         if !left_out.is_empty() {
             warnings.push(Warning::new(

@@ -205,10 +205,21 @@ fn what_is_refused_of_an_edited_model() {
             &model,
         );
     }
+    // It stands in titles and in the comments of programs.
+    for name in [
+        "an axis\nof two lines",
+        "\u{1b}[2J",
+        &"long ".repeat(100_000),
+    ] {
+        let mut model = good.clone();
+        model.name = Some(name.into());
+        refused(&format!("name {:?}", &name[..name.len().min(20)]), &model);
+    }
     for (ends, std) in [
         ([f64::NAN, 1.0], 1.0),
         ([2.0, 1.0], 1.0),
         ([0.0, f64::INFINITY], -1.0),
+        ([0.0, f64::INFINITY], f64::INFINITY),
     ] {
         let mut model = good.clone();
         (model.parameter[0].ci95, model.parameter[0].std) = (Some(ends), Some(std));

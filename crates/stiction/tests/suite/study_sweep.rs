@@ -174,6 +174,8 @@ fn what_is_refused_of_sweeps() {
         "key = \"path.velocity\"\nvalues = [\"1 mm/s\", \"2 mm/s\"]".into(),
         "key = \"path.frequency\"\nvalues = [\"1 Hz\", \"1 kHz\"]".into(),
         "key = \"path.kind\"\nvalues = [1, 2]".into(),
+        "key = \"controller.kind\"\nvalues = [\"cascade\", \"pid\"]".into(),
+        "key = \"axis.model\"\nvalues = [\"a.toml\", \"b.toml\"]".into(),
         "key = \"compensator.gain\"\nvalues = [0.5, 1.5]".into(),
         "key = \"axis.mass\"\nvalues = [\"1 kg\", \"2 kg\"]\nsteps = 5".into(),
     ] {

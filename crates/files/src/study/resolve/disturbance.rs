@@ -7,13 +7,16 @@ use crate::error::{Error, Warning};
 use std::f64::consts::PI;
 use std::path::Path;
 use stiction_log::Dimension;
+use stiction_number::shortest;
 use stiction_servo::disturbance::{Disturbance, Recorded};
 
-/// The disturbance of an axis, as a force in the positive direction, and what is said of its file.
+/// The disturbance of an axis whose plant is stepped at `rate`, Hz, as a force in the positive direction, and what is said of
+/// its file.
 pub(super) fn disturbance(
     axis: &Table<'_>,
     folder: &Path,
     is: &Dimensions,
+    rate: f64,
 ) -> Result<(Option<Disturbance>, Option<Warning>), Error> {
     let Some(table) = axis.table("disturbance")? else {
         return Ok((None, None));
@@ -31,6 +34,12 @@ pub(super) fn disturbance(
         "sine" => {
             let amplitude = table.positive("amplitude", is.force)?;
             let frequency = table.positive("frequency", Dimension::FREQUENCY)?;
+            if frequency.is_some_and(|f| f >= 0.5 * rate) {
+                let half = shortest(0.5 * rate);
+                let allowed =
+                    format!("below half the rate at which the axis is stepped, {half} Hz");
+                return Err(table.refused("frequency", &allowed));
+            }
             let phase = table.value("phase", Dimension::ANGLE)?;
             Disturbance::Sine {
                 amplitude: -table.required("amplitude", amplitude, "a force such as \"5 N\"")?,

@@ -110,7 +110,7 @@ pub(super) fn machine(
         .and_then(|plant| plant.with_stiffness(spring));
     let (substeps, warning) = plant_steps((law.stiffness() + spring) / mass, rate);
     model.warnings.extend(warning);
-    let (disturbance, said) = disturbance(table, folder, &is)?;
+    let (disturbance, said) = disturbance(table, folder, &is, rate * f64::from(substeps))?;
     model.warnings.extend(said);
     let encoder = table.not_negative("encoder", is.length)?.unwrap_or(0.0);
     let machine = Machine {

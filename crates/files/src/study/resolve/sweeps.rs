@@ -4,7 +4,7 @@ use crate::config::{Given, Source, Swept, Table};
 use crate::error::Error;
 use crate::study::plan::{Sweep, SweepPoint};
 use std::cell::Cell;
-use stiction_log::Dimension;
+use stiction_log::{Dimension, Kind, Value};
 use toml::de::DeTable;
 
 /// Most sweeps, and most values of one: each is a study in memory, with its paths.
@@ -35,13 +35,22 @@ pub(super) fn asked<'a>(root: &Table<'a>) -> Result<Vec<Asked<'a>>, Error> {
     for table in root.tables("sweep", MOST_SWEEPS)? {
         let key = table.required("key", table.get("key"), "one such as \"law.sigma0\"")?;
         let name = key.text()?;
-        let known = |(first, rest): (&str, &str)| TABLES.contains(&first) && !rest.is_empty();
-        if !name.split_once('.').is_some_and(known) {
+        let known = |(first, rest): &(&str, &str)| TABLES.contains(first) && !rest.is_empty();
+        let Some((first, rest)) = name.split_once('.').filter(known) else {
             let allowed = format!(
                 "a key with its table, {}, such as \"law.sigma0\" or \"path.amplitude\"",
                 TABLES.join(", ")
             );
             return Err(key.refused(&allowed));
+        };
+        if is_text(root, first, rest) {
+            let allowed = format!(
+                "a key whose value is a number or has a unit, of {}: such as law.sigma0, axis.mass, path.amplitude, \
+                 controller.bandwidth or compensator.gain; for other texts give a study each, or a [[path]], [[controller]] or \
+                 [[compensator]] each",
+                TABLES.join(", ")
+            );
+            return Err(key.refuse(format!("{name:?} is a text"), &allowed));
         }
         if all.iter().any(|other| other.name == name) {
             return Err(key.refuse(format!("{name:?} twice"), "each key once"));
@@ -53,7 +62,7 @@ pub(super) fn asked<'a>(root: &Table<'a>) -> Result<Vec<Asked<'a>>, Error> {
             let found = format!("{} values", values.len());
             return Err(list.refuse(found, &format!("2 to {MOST_VALUES}")));
         }
-        let (values, dimension) = ascending(values)?;
+        let (values, dimension) = ascending(name, values)?;
         table.end()?;
         all.push(Asked {
             key,
@@ -65,14 +74,41 @@ pub(super) fn asked<'a>(root: &Table<'a>) -> Result<Vec<Asked<'a>>, Error> {
     Ok(all)
 }
 
-/// The values in SI, each larger than the one before, and what they measure.
-fn ascending<'a>(values: Vec<Given<'a>>) -> Result<(Vec<(f64, Given<'a>)>, Dimension), Error> {
+/// Whether the file has text for a key of a table, or of an entry of a list, that is neither a value with its unit nor the
+/// word for having none.
+fn is_text(root: &Table<'_>, first: &str, rest: &str) -> bool {
+    let Some(given) = root.find(first) else {
+        return false;
+    };
+    let tables = match given.as_list() {
+        Some(list) => list.iter().filter_map(Given::as_table).collect(),
+        None => Vec::from_iter(given.as_table()),
+    };
+    let text = |given: Given<'_>| {
+        let text = given.as_text();
+        text.is_some_and(|text| text != "none" && Value::parse(text).is_err())
+    };
+    tables.iter().filter_map(|table| table.find(rest)).any(text)
+}
+
+/// The values of a key in SI, each larger than the one before, and what they measure.
+fn ascending<'a>(
+    name: &str,
+    values: Vec<Given<'a>>,
+) -> Result<(Vec<(f64, Given<'a>)>, Dimension), Error> {
     let mut known: Vec<(f64, Given<'a>)> = Vec::new();
     let mut dimension = Dimension::ONE;
     for (i, given) in values.into_iter().enumerate() {
         let (x, of) = match given.as_number().filter(|x| x.is_finite()) {
             Some(x) => (x, Dimension::ONE),
             None => {
+                let text = given.as_text();
+                if text.is_some_and(|text| Value::parse(text).is_err_and(|e| e.kind == Kind::Value))
+                {
+                    let found = format!("{} for {name}", given.shown());
+                    let allowed = "a number, or a value with its unit such as \"1e6 N/m\"; a text cannot be swept";
+                    return Err(given.refuse(found, allowed));
+                }
                 let value = given.quantity("\"1e6 N/m\", or a number")?;
                 (value.si(), value.unit.dimension())
             }
