@@ -59,6 +59,14 @@ fn whole(text: &str) -> Result<u64, String> {
     number.map_err(|_| format!("a whole number from 0 to {} is allowed", u64::MAX))
 }
 
+/// A time in seconds.
+fn seconds(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse();
+    number.map_err(|_| {
+        "a number of seconds is allowed, without a unit, such as 0.001 for 1 ms".into()
+    })
+}
+
 /// The names of all commands.
 pub const COMMANDS: [&str; 9] = [
     "demo",
@@ -427,7 +435,8 @@ pub struct Export {
         long,
         value_name = "S",
         default_value_t = 1e-3,
-        allow_negative_numbers = true
+        allow_negative_numbers = true,
+        value_parser = seconds
     )]
     pub cycle_time: f64,
     /// Largest force, in the unit of the model's force [default: twice static friction and offset].
