@@ -4,8 +4,9 @@ use super::MOST_ENTRIES;
 use super::dimensions::Dimensions;
 use super::machine::plant_steps;
 use crate::config::Table;
-use crate::error::Error;
+use crate::error::{Error, Warning};
 use crate::study::plan::{Event, Study};
+use stiction_codes::Code;
 use stiction_log::Dimension;
 use stiction_number::four_digits as short;
 
@@ -35,6 +36,19 @@ pub(super) fn events(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
         if time >= longest {
             let allowed = format!("before the end of the longest path, {} s", short(longest));
             return Err(table.refused("time", &allowed));
+        }
+        let over = study
+            .paths
+            .iter()
+            .filter(|p| p.trajectory.duration() < time);
+        let over: Vec<&str> = over.map(|p| p.name.as_str()).collect();
+        if !over.is_empty() {
+            let message = format!(
+                "the event at {} s comes after the end of {}: nothing changes there",
+                short(time),
+                over.join(", ")
+            );
+            study.warnings.push(Warning::new(Code::LateEvent, message));
         }
         let event = Event {
             time,
