@@ -20,7 +20,7 @@ mod usual;
 use super::belief::{Belief, Family, Undrawn};
 use super::plan::{Machine, Named, Study};
 use crate::config::{Source, Table};
-use crate::error::Error;
+use crate::error::{Error, Warning};
 pub(super) use dimensions::Dimensions;
 use entry::{few, once, seen};
 use inputs::input;
@@ -164,10 +164,16 @@ fn study(root: &Table<'_>, file: &Path) -> Result<Study, Error> {
     }
     families(root, &mut study)?;
     events::events(root, &mut study)?;
-    study.warnings.append(&mut study.machine.model.warnings);
+    let mut of_axes = std::mem::take(&mut study.machine.model.warnings);
     if let Some(second) = &mut study.second {
-        study.warnings.append(&mut second.machine.model.warnings);
+        let of = |axis: &'static str| {
+            move |w: Warning| Warning::new(w.code, format!("{axis}: {}", w.message))
+        };
+        of_axes = of_axes.into_iter().map(of("first axis")).collect();
+        let others = std::mem::take(&mut second.machine.model.warnings);
+        of_axes.extend(others.into_iter().map(of("second axis")));
     }
+    study.warnings.extend(of_axes);
     Ok(study)
 }
 

@@ -110,7 +110,8 @@ const MEANING: [&str; 9] = [
      compensation makes the error larger. A row with one run has none.",
     "Feed error: the largest difference of the velocity along the motion from that of the reference, and its part of the \
      fastest reference. Ripple and at rest: where the reference goes at constant velocity, the rms deviation of the \
-     velocity from its mean, in parts of that of the reference, and the share of the time below a tenth of it.",
+     velocity from its mean, in parts of that of the reference, and the share of the time below a tenth of it. It jumps \
+     where that would be over 1000 %.",
     "Standing error: the mean error in the second half of a rest after a move. Hunting: half the way between the outermost \
      positions of a limit cycle in a rest of 1 s or more, and the length of a cycle.",
     "Δu: rms change of the commanded force from sample to sample. Still: longest standstill about a \
@@ -211,18 +212,23 @@ fn best(rows: &[ResultRow]) -> Option<KeyFigure> {
 }
 
 fn table(rows: &[ResultRow]) -> Table {
-    let mut table = Table::new([
-        ("Compensator", Align::Left),
-        ("Parameters", Align::Left),
-        ("Rms", Align::Right),
-        ("Largest", Align::Right),
-        ("At reversals", Align::Right),
-        ("Reduction", Align::Right),
-        ("Worst", Align::Right),
-        ("Δu", Align::Right),
-        ("Still", Align::Right),
-    ])
-    .caption(
+    // Without reversals there is neither an error nor a standstill about one; one run is its own worst.
+    let turns = |row: &ResultRow| row.metric("reversal_peak").is_some_and(|m| m.largest > 0.0);
+    let any_turns = rows.iter().any(turns);
+    let several = rows.iter().any(|row| row.runs > 1);
+    let columns = [
+        (true, "Compensator", Align::Left),
+        (true, "Parameters", Align::Left),
+        (true, "Rms", Align::Right),
+        (true, "Largest", Align::Right),
+        (any_turns, "At reversals", Align::Right),
+        (true, "Reduction", Align::Right),
+        (several, "Worst", Align::Right),
+        (true, "Δu", Align::Right),
+        (any_turns, "Still", Align::Right),
+    ];
+    let shown = columns.iter().filter(|(shown, ..)| *shown);
+    let mut table = Table::new(shown.map(|(_, name, align)| (*name, *align))).caption(
         "Tracking error, means over the runs of a row. Reduction and worst: of the largest error, against the row without \
          compensation. All columns are explained under \u{201c}What the numbers mean\u{201d}.",
     );
@@ -231,9 +237,13 @@ fn table(rows: &[ResultRow]) -> Table {
             let metric = row.metric(name);
             Text::from(metric.map_or("–".into(), |m| quantity(m.mean, &m.unit)))
         };
-        // Without reversals there is neither an error nor a standstill about one.
-        let turns = row.metric("reversal_peak").is_some_and(|m| m.largest > 0.0);
-        let about_turns = |name: &str| if turns { value(name) } else { "–".into() };
+        let about_turns = |name: &str| {
+            if turns(row) {
+                value(name)
+            } else {
+                "–".into()
+            }
+        };
         let percent = |x: Option<f64>| Text::from(x.map_or("–".into(), less));
         let judged = judged(row).filter(|_| row.compensator != "none");
         let worst = judged.and_then(|m| m.worst_reduction_percent);
@@ -248,6 +258,11 @@ fn table(rows: &[ResultRow]) -> Table {
             value("command_change"),
             about_turns("stick_time"),
         ];
+        let shown = cells.into_iter().zip(&columns);
+        let cells: Vec<Text> = shown
+            .filter(|(_, (shown, ..))| *shown)
+            .map(|(cell, _)| cell)
+            .collect();
         table = if worst < Some(0.0) && judged.is_some() {
             table.marked(Severity::Warning, cells)
         } else {
@@ -263,9 +278,10 @@ fn in_time(outcome: &StudyOutcome, rows: &[ResultRow]) -> Vec<Figure> {
     let traces: Vec<&Trace> = rows.iter().filter_map(|r| outcome.trace(r)).collect();
     let motion = motion(&outcome.file.axis);
     let counted = traces.first().and_then(|t| t.whole.time.first()).copied();
+    let last = traces.first().and_then(|t| t.whole.time.last()).copied();
     let events = outcome.file.events.iter().map(|e| e.time_s);
     let events: Vec<f64> = events
-        .filter(|t| counted.is_some_and(|from| *t >= from))
+        .filter(|t| counted.is_some_and(|from| *t >= from) && last.is_some_and(|to| *t <= to))
         .collect();
     let caption = format!(
         "The part of the run that counts, with the parameters of the axis itself.{}",

@@ -52,14 +52,10 @@ pub fn study(outcome: &StudyOutcome) -> String {
             "",
         ];
         let mut lines = vec![header.map(String::from).to_vec()];
-        if rows[0].metric("contour_peak").is_some() {
-            lines[0][4] = String::new();
-        }
         lines.extend(rows.iter().map(line));
-        out.push_str(&table(
-            &lines,
-            &[false, false, true, true, true, true, true, false],
-        ));
+        let right = [false, false, true, true, true, true, true, false];
+        let (lines, right) = filled(&lines, &right);
+        out.push_str(&table(&lines, &right));
         out.push_str(&speeds(rows));
     }
     for sweep in &file.sweeps {
@@ -76,7 +72,11 @@ pub fn study(outcome: &StudyOutcome) -> String {
         }
     }
     if !file.results.is_empty() {
-        out.push_str(LEGEND);
+        let several = file.results.iter().any(|row| row.runs > 1);
+        let worst = |line: &&str| several || !line.starts_with("worst:");
+        for line in LEGEND.lines().filter(worst) {
+            let _ = writeln!(out, "{line}");
+        }
     }
     for warning in &file.warnings {
         let _ = writeln!(out, "\nwarning [{}] {}", warning.code, warning.message);
@@ -110,9 +110,21 @@ rms, largest, at reversals: tracking error (on a contour: the distance to it), m
 less: by how much the largest error is below that without compensation, on the same path and controller
 worst: the same with the largest error of all runs of a row; negative where compensation makes it larger
 feed error: largest difference of the velocity along the motion from that of the reference; of the feed: in parts of the fastest
+jumps: over ten times the velocity of the reference
 ripple, at rest: at constant velocity, its rms deviation and the share of the time below a tenth of it
 standing error, hunting, period: mean error, half width and length of a limit cycle while the reference stands still
 ";
+
+/// The columns of a table in which a row below the header has something.
+fn filled(lines: &[Vec<String>], right: &[bool]) -> (Vec<Vec<String>>, Vec<bool>) {
+    let full = |c: &usize| lines[1..].iter().any(|line| !line[*c].is_empty());
+    let kept: Vec<usize> = (0..right.len()).filter(full).collect();
+    let of = |line: &Vec<String>| kept.iter().map(|&c| line[c].clone()).collect();
+    (
+        lines.iter().map(of).collect(),
+        kept.iter().map(|&c| right[c]).collect(),
+    )
+}
 
 fn line(row: &ResultRow) -> Vec<String> {
     let contour = row.metric("contour_peak").is_some();

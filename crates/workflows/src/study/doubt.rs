@@ -43,18 +43,24 @@ fn worst<'r>(
 }
 
 fn at_limit(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
-    let (row, share) = worst(rows, "saturation", &|_| 1.0)?;
-    (share > WARNED_SHARE_AT_LIMIT).then(|| {
+    let row = rows.first()?;
+    let same = |a: &ResultRow, b: &ResultRow| a.scheme() == b.scheme();
+    let schemes = rows.chunk_by(same).filter_map(|rows| {
+        let (row, share) = worst(rows, "saturation", &|_| 1.0)?;
+        let percent = Percent::error(100.0 * share).decimals(0);
+        (share > WARNED_SHARE_AT_LIMIT).then(|| format!("{} ({percent})", row.scheme()))
+    });
+    let schemes: Vec<String> = schemes.collect();
+    (!schemes.is_empty()).then(|| {
         Warning::new(
             Code::AtForceLimit,
             format!(
-                "{}, {}: with {} the command is at its limit of {} in {:.0} % of the samples: the result then shows \
-                 the limit, not the controller or the compensation",
+                "{}, {}: the command is at its limit of {} in part of the samples with {}: the result then shows the \
+                 limit, not the controller or the compensation",
                 row.path,
                 row.controller,
-                row.scheme(),
                 limits(study, &row.controller),
-                100.0 * share
+                schemes.join(", ")
             ),
         )
     })

@@ -35,8 +35,12 @@ pub(super) fn table(rows: &[ResultRow]) -> Table {
         ("x at reversals", Align::Right),
         ("y at reversals", Align::Right),
         ("Reduction", Align::Right),
-        ("Worst", Align::Right),
     ]);
+    // One run is its own worst.
+    let several = rows.iter().any(|row| row.runs > 1);
+    if several {
+        columns.push(("Worst", Align::Right));
+    }
     let mut table = Table::new(columns).caption(
         "Deviation from the contour and tracking errors of both axes, means over the runs of a row. Reduction and worst: of \
          the largest deviation, against the row without compensation. All columns are explained under \u{201c}What the \
@@ -65,8 +69,10 @@ pub(super) fn table(rows: &[ResultRow]) -> Table {
             value("reversal_peak_x"),
             value("reversal_peak_y"),
             less(judged.and_then(|m| m.reduction_percent)),
-            less(worst.filter(|_| row.runs > 1)),
         ]);
+        if several {
+            cells.push(less(worst.filter(|_| row.runs > 1)));
+        }
         table = if worst < Some(0.0) && judged.is_some() {
             table.marked(Severity::Warning, cells)
         } else {

@@ -37,9 +37,25 @@ fn value(metric: &MetricEntry) -> String {
     match metric.unit.as_str() {
         "m/s" => format!("{} mm/min", number::sig(60e3 * mean, 3)),
         "rad/s" => format!("{} °/min", number::sig(60.0 * mean.to_degrees(), 3)),
-        "1" => Percent::error(100.0 * mean).digits(3),
+        "1" => share(100.0 * mean),
         _ if metric.name == "hunting_amplitude" && mean == 0.0 => "none".into(),
         unit => quantity(mean, unit),
+    }
+}
+
+/// Least share of a speed or of a time that is stated, %: the simulation resolves no less.
+const LEAST_PERCENT: f64 = 0.01;
+
+/// A share in percent. Velocities that err by more than ten times the feed are those of an axis that jumps, and no share of
+/// it.
+fn share(percent: f64) -> String {
+    let shown = Percent::error(percent);
+    if percent > 0.0 && percent < LEAST_PERCENT {
+        format!("< {LEAST_PERCENT} %")
+    } else if shown.is_bounded() {
+        shown.digits(3)
+    } else {
+        "jumps".into()
     }
 }
 
@@ -62,4 +78,18 @@ pub(super) fn table(rows: &[ResultRow]) -> Option<Table> {
         let names = [row.scheme(), believed(row)];
         table.row(names.into_iter().chain(cells).map(Text::from))
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::share;
+
+    #[test]
+    fn shares_that_a_reader_can_use() {
+        assert_eq!(share(0.0), "0 %");
+        assert_eq!(share(1.3e-6), "< 0.01 %");
+        assert_eq!(share(0.0123), "0.0123 %");
+        assert_eq!(share(105.0), "105 %");
+        assert_eq!(share(3e6), "jumps");
+    }
 }
