@@ -333,10 +333,44 @@ impl<'a> Scan<'a> {
             "no column was recognised as position or velocity; {}",
             describe::columns(self.table)
         );
-        let allowed = "say which in axis.toml under [columns], by name or by number counted from 1, \
-                       as in: position = { column = 1, unit = \"rad\" } and force = { column = 2, \
-                       unit = \"N*m\" }";
+        let parts = Unit::parse("%").map(|unit| unit.dimension());
+        let in_parts = |c: &usize| {
+            let unit = self.units[*c].as_ref();
+            unit.is_some_and(|unit| Ok(unit.dimension()) == parts)
+                && self.is_hinted(*c, Role::Position)
+        };
+        if let Some(column) = (0..self.units.len()).find(in_parts) {
+            let unit = self.table.columns[column].unit.as_deref().unwrap_or("%");
+            let found = format!(
+                "{found}; {} has the name of a position, but is in {unit}, a part of something",
+                describe::column(self.table, column)
+            );
+            let rest = format!("unit = \"{unit}\", scale = \"2 mm/{unit}\"");
+            let allowed = format!(
+                "say in axis.toml under [columns] how far 1 {unit} is, as in: {}",
+                describe::line_with(self.table, column, Role::Position, &rest)
+            );
+            return Error::new(Kind::Missing, found, allowed);
+        }
+        // A column that may be a position: none that is something else by its name or its unit.
+        let open = |c: &usize| {
+            let named = self.hints[*c].is_some_and(|hint| hint.role != Role::Position);
+            !self.used[*c] && !named && self.unit_allows(*c, Role::Position)
+        };
+        let example = match (0..self.units.len()).find(open) {
+            Some(column) => {
+                describe::line_with(self.table, column, Role::Position, "unit = \"mm\"")
+            }
+            None => "position = { column = NUMBER, unit = \"mm\" }".into(),
+        };
+        let allowed = format!(
+            "say which in axis.toml under [columns], by name or by number counted from 1, as in: {example}"
+        );
         Error::new(Kind::Missing, found, allowed)
+    }
+
+    fn is_hinted(&self, column: usize, role: Role) -> bool {
+        self.hints[column].is_some_and(|hint| hint.role == role)
     }
 }
 

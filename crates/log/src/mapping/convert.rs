@@ -143,10 +143,10 @@ impl Source {
             }
             _ => "it has to be".to_string(),
         };
-        let also = if role == Role::Force {
-            ", A, V or %"
-        } else {
-            ""
+        let also = match (role, motion) {
+            (Role::Force, _) => ", A, V or %",
+            (Role::Acceleration, Motion::Linear) => ", or g and mg of standard gravity",
+            _ => "",
         };
         let allowed = format!(
             "{kind} {} ({text}{also}); give the unit, or a scale such as \"2.5 {text}/{under}\"",
@@ -166,11 +166,14 @@ impl Source {
 }
 
 /// The unit that is meant in a role: `g` is a gram, but no acceleration is measured in grams; there it is the standard
-/// acceleration of gravity, `gn`.
+/// acceleration of gravity, `gn`, and `mg` a thousandth of it.
 pub(super) fn of_role(unit: &Unit, role: Role) -> Unit {
-    let gravity = || Unit::parse("gn").ok();
-    let meant = (role == Role::Acceleration && unit.text() == "g").then(gravity);
-    meant.flatten().unwrap_or_else(|| unit.clone())
+    let meant = match (role, unit.text()) {
+        (Role::Acceleration, "g") => Unit::parse("gn").ok(),
+        (Role::Acceleration, "mg") => Unit::parse("mgn").ok(),
+        _ => None,
+    };
+    meant.unwrap_or_else(|| unit.clone())
 }
 
 /// Whether a friction identification can take this as a force.

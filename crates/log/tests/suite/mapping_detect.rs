@@ -107,6 +107,8 @@ fn what_is_refused_with_the_choices() {
             "fActTorque [Nm]",
         ],
         &["t [s]", "force [N]"],
+        &["t [s]", "force [N]", "way"],
+        &["t [s]", "position [%]", "force [N]"],
         &["position [m]", "force [N]"],
         &[],
     ]));

@@ -464,6 +464,10 @@ fn acceleration_that_is_not_that_of_the_position() {
     assert_eq!(warnings(&right), [""; 0], "{}", told(&right));
     let found = right.acceleration.as_ref().unwrap();
     assert!((found[0] - 0.02 * 9.80665).abs() < 1e-12);
+    // Thousandths of it are no milligrams.
+    let thousandths = with("Accel Z", "mg", 1000.0);
+    let found = thousandths.acceleration.as_ref().unwrap();
+    assert!((found[0] - 0.02 * 9.80665).abs() < 1e-12);
     // A command says nothing of the motion.
     assert!(with("acceleration_cmd", "g", 1.0).acceleration.is_none());
     let lines = [("m/s^2", 1.0), ("g", -1.0), ("g", 1.3)].map(|(unit, factor)| {
