@@ -22,7 +22,7 @@ use stiction_workflows::study::doubt::CODES;
 use stiction_workflows::study::{Course, Trace};
 
 /// Most sections with figures: the rows of the others are in their tables only.
-const MOST_SECTIONS_WITH_FIGURES: usize = 12;
+const MOST_SECTIONS_WITH_FIGURES: usize = 16;
 
 /// The report of a study.
 pub fn study(outcome: &StudyOutcome) -> Document {
@@ -54,13 +54,19 @@ pub fn study(outcome: &StudyOutcome) -> Document {
         .results
         .chunk_by(|a, b| (&a.path, &a.controller) == (&b.path, &b.controller))
         .collect();
+    let figured = figured(&cells);
     document = document.block(Block::KeyFigures(
-        cells
-            .iter()
-            .take(MOST_SECTIONS_WITH_FIGURES)
-            .filter_map(|c| best(c))
-            .collect(),
+        figured.iter().filter_map(|i| best(cells[*i])).collect(),
     ));
+    if figured.len() < cells.len() {
+        let text = format!(
+            "{} of {} motions and controllers have figures: every motion under one controller before any under a second. The \
+             tables have all.",
+            figured.len(),
+            cells.len()
+        );
+        document = document.paragraph(text);
+    }
     for (i, rows) in cells.iter().enumerate() {
         document = document
             .heading(2, format!("{}, {}", rows[0].path, rows[0].controller))
@@ -71,11 +77,11 @@ pub fn study(outcome: &StudyOutcome) -> Document {
         document = rates::table(rows)
             .into_iter()
             .fold(document, |d, t| d.block(t));
-        if i < MOST_SECTIONS_WITH_FIGURES && contour::is_contour(rows) {
+        if figured.contains(&i) && contour::is_contour(rows) {
             let figures = contour::figures(outcome, rows);
             document = figures.into_iter().fold(document, |d, f| d.block(f));
             document = wrong(rows).into_iter().fold(document, |d, f| d.block(f));
-        } else if i < MOST_SECTIONS_WITH_FIGURES {
+        } else if figured.contains(&i) {
             let figures = in_time(outcome, rows).into_iter().chain(wrong(rows));
             document = figures.fold(document, |d, f| d.block(f));
             if let Some((figure, table)) = load::blocks(outcome, rows) {
@@ -96,6 +102,20 @@ pub fn study(outcome: &StudyOutcome) -> Document {
     document
         .heading(2, "What the numbers mean")
         .block(Block::List(MEANING.map(Text::from).to_vec()))
+}
+
+/// The sections that have figures, in order: every path and contour under its first controller, then under the second, as far as
+/// they go.
+fn figured(cells: &[&[ResultRow]]) -> Vec<usize> {
+    let rank = |i: usize| {
+        let before = cells[..i].iter();
+        before.filter(|c| c[0].path == cells[i][0].path).count()
+    };
+    let mut order: Vec<usize> = (0..cells.len()).collect();
+    order.sort_by_key(|&i| rank(i));
+    order.truncate(MOST_SECTIONS_WITH_FIGURES);
+    order.sort_unstable();
+    order
 }
 
 const MEANING: [&str; 9] = [
