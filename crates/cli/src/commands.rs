@@ -11,6 +11,7 @@ use clap::ValueEnum;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use stiction::commands::reproduce::{Budget, OwnAxis, canudas_1995, zhang_2025, zhang_2025_on};
+use stiction::commands::shell::quoted;
 use stiction::commands::{
     CompareOptions, Cost, Excitation, FileError, Files, Input, Outcome, Scheme, check_folder,
     check_folder_of, check_inputs, write_atomic,
@@ -69,8 +70,8 @@ fn next(error: &Error, command: &Command) -> Option<String> {
         && matches!(error.code(), Code::NoMotion | Code::NoForce)
     {
         let axis = identify.axis.iter();
-        let axis = axis.map(|file| format!(" --axis {}", quoted(file)));
-        let log = quoted(identify.logs.first()?);
+        let axis = axis.map(|file| format!(" --axis {}", typed(file)));
+        let log = typed(identify.logs.first()?);
         return Some(format!(
             "next: stiction check {log}{} shows what was read as position and force",
             axis.collect::<String>()
@@ -88,7 +89,7 @@ fn next(error: &Error, command: &Command) -> Option<String> {
     let log = logs.first().filter(|_| unclear && axis.is_none())?;
     Some(format!(
         "next, for an axis file with the columns that are clear filled in: stiction check {} --init {}",
-        quoted(log),
+        typed(log),
         stiction::commands::text::axis_file(&log.display().to_string())
     ))
 }
@@ -103,7 +104,7 @@ fn more_samples(error: &Error, identify: &arguments::Identify) -> Option<String>
         return simulated(identify);
     };
     if let Some(axis) = &identify.axis {
-        let file = quoted(axis);
+        let file = typed(axis);
         let taken = (losses.logged - losses.short) / losses.decimate.max(1);
         if losses.slow > 0 && taken >= needed {
             return Some(format!(
@@ -121,10 +122,10 @@ fn more_samples(error: &Error, identify: &arguments::Identify) -> Option<String>
     simulated(identify).filter(|_| is_long).or_else(|| {
         let mut next = String::from("next: stiction check");
         for log in &identify.logs {
-            next.push_str(&format!(" {}", quoted(log)));
+            next.push_str(&format!(" {}", typed(log)));
         }
         if let Some(axis) = &identify.axis {
-            next.push_str(&format!(" --axis {}", quoted(axis)));
+            next.push_str(&format!(" --axis {}", typed(axis)));
         }
         next.push_str(" says what the log shows, and what motion to record instead");
         Some(next)
@@ -155,12 +156,12 @@ fn simulated(identify: &arguments::Identify) -> Option<String> {
     let mut out = String::from("next: stiction identify");
     let files = |out: &mut String, paths: &[PathBuf]| {
         for path in paths {
-            out.push_str(&format!(" {}", quoted(path)));
+            out.push_str(&format!(" {}", typed(path)));
         }
     };
     files(&mut out, &identify.logs);
     if let Some(axis) = &identify.axis {
-        out.push_str(&format!(" --axis {}", quoted(axis)));
+        out.push_str(&format!(" --axis {}", typed(axis)));
     }
     out.push_str(law);
     if identify.asymmetric {
@@ -179,18 +180,13 @@ fn simulated(identify: &arguments::Identify) -> Option<String> {
     if let Some(part) = identify.split {
         out.push_str(&format!(" --split {part}"));
     }
-    out.push_str(&format!(" --out {}", quoted(&identify.out)));
+    out.push_str(&format!(" --out {}", typed(&identify.out)));
     Some(out)
 }
 
-/// A path as it is typed: in quotes where it has more than letters, digits and what is usual between them.
-fn quoted(path: &Path) -> String {
-    let text = path.display().to_string();
-    let plain = |c: char| c.is_alphanumeric() || "./_-+:\\".contains(c);
-    match text.chars().all(plain) {
-        true => text,
-        false => format!("\"{text}\""),
-    }
+/// A path as it is typed.
+fn typed(path: &Path) -> String {
+    quoted(&path.display().to_string())
 }
 
 /// Prints a text that is asked for itself.

@@ -29,6 +29,7 @@ pub mod model;
 mod output;
 pub mod reproduce_file;
 pub mod result;
+pub mod shell;
 pub mod study;
 pub mod symbols;
 

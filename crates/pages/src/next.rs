@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use stiction_files::result::{Next, ResultFile};
+use stiction_files::shell::{plain, quoted};
 
 /// What the commands are for.
 pub(crate) fn why(next: Next) -> &'static str {
@@ -89,33 +90,5 @@ pub(crate) fn argument(text: &str) -> String {
         // An option stays one.
         Some(_) if text.chars().all(plain) => text.to_string(),
         _ => quoted(text),
-    }
-}
-
-fn plain(c: char) -> bool {
-    c.is_alphanumeric() || "/._-+=:,@%".contains(c)
-}
-
-/// A path as a shell takes it: in quotes where it holds anything but letters, digits and plain signs.
-pub(crate) fn quoted(path: &str) -> String {
-    // What begins with a dash would be taken for an option.
-    let folder = if path.starts_with('-') { "./" } else { "" };
-    match !path.is_empty() && path.chars().all(plain) {
-        true => format!("{folder}{path}"),
-        false => format!("'{folder}{}'", path.replace('\'', "'\\''")),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::quoted;
-
-    #[test]
-    fn a_path_is_quoted_where_a_shell_would_split_it() {
-        assert_eq!(quoted("logs/a-1.csv"), "logs/a-1.csv");
-        assert_eq!(quoted("my log.csv"), "'my log.csv'");
-        assert_eq!(quoted("-a.csv"), "./-a.csv");
-        assert_eq!(quoted("it's"), "'it'\\''s'");
-        assert_eq!(quoted(""), "''");
     }
 }

@@ -4,7 +4,7 @@
 /// Forms of files, and how they are written.
 pub use stiction_files::{
     Bundle, Error as FileError, Remedy, axis, check_folder, check_folder_of, check_inputs,
-    compare_file, reproduce_file, study, write_atomic,
+    compare_file, reproduce_file, shell, study, write_atomic,
 };
 /// Integration steps of a simulated candidate.
 pub use stiction_identify::candidates::Scheme;

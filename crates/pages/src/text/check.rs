@@ -1,9 +1,10 @@
 //! The outcome of a check, and what an axis file was begun with.
 
 use super::table::table;
-use crate::next::{axis_file, quoted};
+use crate::next::axis_file;
 use std::fmt::Write;
 use std::path::Path;
+use stiction_files::shell::quoted;
 use stiction_files::symbols;
 use stiction_number::{counted, four_digits as short, unit};
 use stiction_workflows::check::{Check, Lead, LogCheck, Started};

@@ -1,12 +1,12 @@
 //! A study on the terminal.
 
 use super::table::table;
-use crate::next::quoted;
 use crate::report::study::rates::columns;
 use crate::report::study::rows::{judged, less};
 use crate::report::study::sweep::{groups, label, lines};
 use std::fmt::Write;
 use std::path::Path;
+use stiction_files::shell::quoted;
 use stiction_files::study::result::ResultRow;
 use stiction_files::study::{Started, results};
 use stiction_number::quantity;
