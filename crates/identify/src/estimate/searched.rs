@@ -2,7 +2,7 @@
 
 use crate::conditioning::record::Record;
 use crate::estimate::{Estimate, estimate};
-use crate::law::terms::Delay;
+use crate::law::terms::{Delay, Terms};
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
 use crate::separable::linear;
@@ -11,7 +11,7 @@ use crate::separable::optimum::Optimum;
 use crate::separable::search_box::SearchBox;
 use crate::separable::secant::Secant;
 use stiction_parameters::Name;
-use stiction_search::Status;
+use stiction_search::{Counts, Status};
 
 /// Why a parameter that a search found by itself has no interval.
 pub const NO_INTERVAL: &str = "as the search found it: without least squares it has no interval";
@@ -29,6 +29,15 @@ pub(crate) fn without_interval(parameter: &mut Parameter) {
 }
 
 impl Estimate {
+    /// The same law beside other linear terms, for [`as_searched`](Self::as_searched), which gives it numbers.
+    #[must_use]
+    pub fn beside(mut self, terms: Terms) -> Self {
+        self.fitted.terms = terms;
+        self.fitted.counts = Counts::default();
+        self.fitted.iterations = 0;
+        self
+    }
+
     /// The same law on the same record with these nonlinear unknowns, in the order of the law, and these coefficients;
     /// coefficients that are not named are solved for. A delay that is to be fitted is left out, as searches leave it out.
     ///

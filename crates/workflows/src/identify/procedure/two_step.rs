@@ -89,9 +89,8 @@ pub(in crate::identify) fn two_step(
     let sources = parts.sources;
     let step = searched::dynamic(parts.asked, sources, record, statics, &terms, observer)?;
     let near = step.as_ref().map(|step| step.near[0]);
-    let mut estimate =
-        dynamic_near(near, record, statics, &terms, low_speed, observer).map_err(fail)?;
     let mut warnings = known.warnings;
+    let mut estimate;
     if let Some(step) = step.as_ref().filter(|_| options.searching.no_finish) {
         let of = |quantity: Quantity| {
             let found = step.values.iter().find(|(name, _)| *name == quantity);
@@ -105,13 +104,23 @@ pub(in crate::identify) fn two_step(
         ];
         let held = [Quantity::Sigma1, Quantity::Sigma2, Quantity::Coulomb];
         let held = held.map(|quantity| (quantity.into(), of(quantity)));
-        estimate = estimate
+        // The law and its terms, with the numbers of the search alone.
+        let of_the_law = joint.clone().beside(terms);
+        estimate = of_the_law
             .as_searched(record, &unknowns, &held)
             .map_err(fail)?;
-    } else if near.is_some() {
-        let everywhere =
-            dynamic_near(None, record, statics, &terms, low_speed, observer).map_err(fail)?;
-        if everywhere.fit.rmse < estimate.fit.rmse * (1.0 - SAME_ERROR_WITHIN) {
+    } else {
+        let dynamic = |near, observer: &mut dyn Observer| {
+            dynamic_near(near, record, statics, &terms, low_speed, observer).map_err(fail)
+        };
+        estimate = dynamic(near, observer)?;
+        let everywhere = match near {
+            Some(_) => Some(dynamic(None, observer)?),
+            None => None,
+        };
+        if let Some(everywhere) = everywhere
+            && everywhere.fit.rmse < estimate.fit.rmse * (1.0 - SAME_ERROR_WITHIN)
+        {
             estimate = everywhere;
             warnings.push(Warning::new(
                 Code::NotConverged,
