@@ -144,6 +144,11 @@ impl Axis {
         Ok(())
     }
 
+    /// Whether the file gives a key, such as `log.crop`, or a table.
+    pub fn gives(&self, key: &str) -> bool {
+        self.places.has(key)
+    }
+
     /// An error of this code about the value of a key, such as `log.crop`; `None` where the file does not give it.
     pub fn refuse(
         &self,

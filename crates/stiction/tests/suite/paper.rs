@@ -169,7 +169,8 @@ fn on_an_axis_of_the_user() {
         ));
     }
     std::fs::write(&model, text).unwrap();
-    let known = "name = \"wrist\"\nkind = \"rotary\"\nmass = \"0.045 kg m2\"\n[log]\nresolution = \"1e-6 rad\"\n";
+    let known = "name = \"wrist\"\nkind = \"rotary\"\nmass = \"0.045 kg m2\"\n[log]\nresolution = \"1e-6 rad\"\n\
+                 [terms]\ngravity = true\n[search.ga]\npopulation = 40\n";
     std::fs::write(&axis, known).unwrap();
     let own = OwnAxis {
         axis: Some(axis),
@@ -203,6 +204,10 @@ fn on_an_axis_of_the_user() {
     assert!(file.not_run[0].starts_with("A corner of two axes"));
     let said = file.assumptions.join("\n");
     assert!(said.contains("differs between the directions"), "{said}");
+    assert!(
+        said.contains("Of the axis file search, terms.gravity are not used"),
+        "{said}"
+    );
     let html = stiction::bundle::reproduction(&outcome);
     let (_, html) = html
         .files()

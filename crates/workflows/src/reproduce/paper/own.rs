@@ -32,6 +32,22 @@ const LONGEST_PERIOD: f64 = 1.0;
 /// Most steps of ode4 in a control period.
 const MOST_STEPS: u32 = 64;
 
+/// Keys and tables of an axis file that change an identification and nothing here.
+const UNUSED: [&str; 12] = [
+    "search",
+    "conditioning",
+    "simulation",
+    "controller",
+    "terms.gravity",
+    "terms.cogging",
+    "terms.coulomb_load",
+    "terms.delay",
+    "terms.offset",
+    "terms.quadratic_viscous",
+    "terms.stribeck_exponent",
+    "terms.gms_elements",
+];
+
 impl Stage {
     /// The axis of these files.
     pub(super) fn own(files: &OwnAxis) -> Result<Self, Error> {
@@ -56,6 +72,15 @@ impl Stage {
         }
         let mut notes: Vec<String> = vec![model.origin.clone()];
         notes.extend(model.warnings.iter().map(|w| w.message.clone()));
+        let unused: Vec<&str> = UNUSED.into_iter().filter(|key| axis.gives(key)).collect();
+        if !unused.is_empty() {
+            notes.push(format!(
+                "Of the axis file {} {} not used: the experiments have the searches, filters and controllers of the paper, on an \
+                 axis without other forces.",
+                unused.join(", "),
+                if unused.len() == 1 { "is" } else { "are" }
+            ));
+        }
         let mass = match axis.terms.mass {
             Mass::Given(mass) => Some(mass),
             _ => model.value(Quantity::Mass),
