@@ -118,6 +118,7 @@ codes! {
     Output = "output": "the output folder or file cannot be used",
     ModelInDoubt = "model-in-doubt": "the model of a study is not trustworthy",
     NotInStudy = "not-in-study": "the model has terms that a study does not simulate",
+    BackEmf = "back-emf": "the voltage that a motor makes brakes the axis more than its friction grows with speed",
     LateEvent = "late-event": "an event of a study comes after the end of a motion",
     NotRun = "not-run": "a combination of a study could not be run",
     NotExported = "not-exported": "the target cannot express the model",

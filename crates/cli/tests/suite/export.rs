@@ -86,6 +86,19 @@ fn no_compiler() {
     assert!(holds(b"sources/x_axis_friction.c") && !holds(b"binaries/"));
 }
 
+/// A time with a unit is told what is meant.
+#[test]
+fn a_cycle_time_is_in_seconds() {
+    let dir = tempfile::tempdir().unwrap();
+    let output = export("c", dir.path())
+        .args(["--cycle-time", "1ms"])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2), "{}", said(&output));
+    let allowed = "a number of seconds is allowed, without a unit, such as 0.001 for 1 ms";
+    assert!(said(&output).contains(allowed), "{}", said(&output));
+}
+
 /// No room for the files: nothing has the name of the folder, and nothing is left beside it.
 #[test]
 #[cfg(unix)]

@@ -5,6 +5,7 @@ use crate::config::{Given, LARGEST_SI, Swept};
 use crate::error::{Error, Warning};
 use crate::model::{BY_HAND, ModelParameter, ReadModel};
 use crate::result::CovarianceEntry;
+use crate::shell::quoted;
 use crate::symbols;
 use std::path::Path;
 use stiction_codes::Code;
@@ -124,8 +125,16 @@ impl Model {
             return Err(read.refuse("force_unit", found, &allowed));
         }
         if let Some(missing) = read.missing() {
-            let allowed = "a study needs every parameter of the law";
-            return Err(read.refuse("parameter", format!("no {missing}"), allowed));
+            let mut allowed = "a study needs every parameter of the law".to_string();
+            if model.source.method == "presliding-step" {
+                let logs = model.source.inputs.iter().map(|input| quoted(&input.path));
+                allowed = format!(
+                    "{allowed}: steps show the bristles alone. With the steady curve of a model from --method static, here \
+                     curve/model.toml: stiction identify {} --method presliding-step --model curve/model.toml --out whole",
+                    logs.collect::<Vec<_>>().join(" ")
+                );
+            }
+            return Err(read.refuse("parameter", format!("no {missing}"), &allowed));
         }
         let simulated = |name: &str| name.parse().is_ok_and(|n: Name| is_simulated(n.quantity));
         let beyond = |p: &&ModelParameter| simulated(&p.name) && p.value.abs() > LARGEST_SI;

@@ -380,7 +380,9 @@ fn forces_at_their_limit_and_loops_that_swing() {
     let file = Desk::new().run(&together(&[&weak, SHORT, CASCADE, WHOLE]));
     assert_eq!(codes(&file), ["at-force-limit"]);
     assert!(
-        file.warnings[0].message.contains("limit of 10.0 N"),
+        file.warnings[0].message.contains("limit of 10.0 N")
+            && file.warnings[0].message.contains("with none (")
+            && file.warnings[0].message.contains(", whole ("),
         "{:?}",
         file.warnings
     );
@@ -468,6 +470,72 @@ fn what_the_report_does_not_draw_it_says() {
     stiction_testkit::assert_tables_fit(&html);
     assert!(html.contains("7 of 9: without compensation, and those that leave the least"));
     assert!(html.contains("largest error, gain 8; ") && html.contains("at the worst of ±10 %"));
+}
+
+/// Of many motions and controllers every motion has figures before one has them under a second controller; tables have all.
+#[test]
+fn figures_of_every_motion() {
+    let paths: String = (1..=9)
+        .map(|k| SHORT.replace("[[path]]", &format!("[[path]]\nname = \"{k} times\"")))
+        .collect();
+    let pid = "\n[[controller]]\nkind = \"pid\"\nbandwidth = \"40 Hz\"\n";
+    let study = Desk::new().study(&together(&[AXIS, &paths, CASCADE, pid]));
+    let outcome = stiction::simulate(&study.unwrap(), &mut Silent);
+    let html = String::from_utf8(stiction::bundle::study(&outcome).files()[0].1.clone()).unwrap();
+    assert!(html.contains("16 of 18 motions and controllers have figures"));
+    assert_eq!(html.matches("<title>Tracking error</title>").count(), 16);
+    let (_, last) = html.rsplit_once(">9 times, cascade 60 Hz<").unwrap();
+    let (section, without) = last.split_once(">9 times, pid 40 Hz<").unwrap();
+    assert!(section.contains("<title>Tracking error</title>"));
+    assert!(!without.contains("<title>Tracking error</title>"));
+    // One run has no worst, and no column of it.
+    assert!(!html.contains(">Worst<"));
+}
+
+/// What is said of a model is said of its axis, once.
+#[test]
+fn warnings_of_two_axes() {
+    let desk = Desk::new();
+    let doubtful = model(0.1, 0.1).replace("trustworthy = true", "trustworthy = false");
+    desk.write("model.toml", &doubtful);
+    let axes = "[axis]\nmodel = \"model.toml\"\nrate = \"4 kHz\"\npeak_force = \"200 N\"\n\
+                [second_axis]\nmodel = \"model.toml\"\npeak_force = \"200 N\"\n";
+    let text = together(&[axes, "[[contour]]\nkind = \"circle\"\n", CASCADE]);
+    let study = desk.study(&text).unwrap();
+    let said: Vec<&str> = study.warnings.iter().map(|w| w.message.as_str()).collect();
+    let flagged = "the identification flagged this model as not trustworthy: see its report";
+    assert_eq!(
+        said,
+        [
+            format!("first axis: {flagged}"),
+            format!("second axis: {flagged}")
+        ]
+    );
+}
+
+/// A model of force steps without a steady curve: what is missing, and how to have it.
+#[test]
+fn bristles_alone_are_no_axis() {
+    let desk = Desk::new();
+    let text = model(0.1, 0.1)
+        .replace("separable", "presliding-step")
+        .replace(
+            "inputs = []",
+            "inputs = [{ path = \"my step.csv\", sha256 = \"0\" }]",
+        );
+    let (before, rest) = text
+        .split_once("[[parameter]]\nname = \"stribeck_velocity\"")
+        .unwrap();
+    let (_, after) = rest.split_once("[[parameter]]").unwrap();
+    let (after, _) = after.split_once("[covariance]").unwrap();
+    let text = format!("{before}[[parameter]]{after}[covariance]\nnames = []\nmatrix = []\n");
+    desk.write("model.toml", &text);
+    let said = desk.refusal("[axis]\nmodel = \"model.toml\"\nrate = \"4 kHz\"\n");
+    let command = "stiction identify 'my step.csv' --method presliding-step --model curve/model.toml --out whole";
+    assert!(
+        said.contains("no stribeck_velocity") && said.ends_with(command),
+        "{said}"
+    );
 }
 
 /// The courses stand beside the report: the whole run, thinned evenly, one block for each run with exact parameters.

@@ -53,7 +53,9 @@ pub(crate) fn desk() -> Desk {
 }
 
 fn largest(file: &StudyFile) -> f64 {
-    assert!(file.warnings.is_empty(), "{:?}", file.warnings);
+    // Motors on a voltage are braked by their own.
+    let braked = file.warnings.iter().all(|w| w.code.as_str() == "back-emf");
+    assert!(braked, "{:?}", file.warnings);
     row(file, "none", "exact")
         .metric("peak_error")
         .unwrap()
@@ -155,7 +157,17 @@ fn a_slow_current_is_compensated_late() {
         .replace("peak_force   = \"1248 N\"", "");
     let gentle = CASCADE.replace("60 Hz", "8 Hz");
     let file = Desk::new().run(&together(&[&axis, SHORT, &gentle, WHOLE]));
-    assert!(file.warnings.is_empty(), "{:?}", file.warnings);
+    // Its own voltage brakes it with 96^2/2 N s/m.
+    let [warning] = &file.warnings[..] else {
+        panic!("{:?}", file.warnings);
+    };
+    assert_eq!(warning.code.as_str(), "back-emf");
+    assert!(
+        warning
+            .message
+            .contains(" 4608 N*s/m, viscous friction with 30:"),
+        "{warning:?}"
+    );
     assert_eq!(file.results.len(), 2);
     close(file.axis.current_lag_s, 5e-3, 1e-12);
 }

@@ -24,7 +24,9 @@ fn compensator(name: &str, more: &str) -> String {
 fn outcome(desk: &Desk, parts: &[&str]) -> StudyOutcome {
     let outcome = stiction::simulate(&desk.study(&together(parts)).unwrap(), &mut Silent);
     let warnings = &outcome.file.warnings;
-    assert!(warnings.is_empty(), "{warnings:?}");
+    // Motors on a voltage are braked by their own.
+    let braked = warnings.iter().all(|w| w.code.as_str() == "back-emf");
+    assert!(braked, "{warnings:?}");
     outcome
 }
 
@@ -159,6 +161,31 @@ fn a_load_on_a_motor_on_a_voltage_is_found() {
         (mass / 6.9 - 1.0).abs() < 0.02 && (level / 1.3 - 1.0).abs() < 0.02,
         "{mass} {level}"
     );
+}
+
+/// What comes after the end of a path is said, and drawn on the others alone.
+#[test]
+fn a_change_after_the_end_of_a_path() {
+    let long = SHORT.replace("cycles    = 2", "cycles    = 4\nname = \"longer\"");
+    let late = "\n[[event]]\ntime = \"0.7 s\"\nmass = \"6.9 kg\"\n";
+    let study = Desk::new().study(&together(&[AXIS, SHORT, &long, CASCADE, late]));
+    let outcome = stiction::simulate(&study.unwrap(), &mut Silent);
+    let [warning] = &outcome.file.warnings[..] else {
+        panic!("{:?}", outcome.file.warnings);
+    };
+    let said = "the event at 0.7000 s comes after the end of sine: nothing changes there";
+    assert_eq!(
+        (warning.code.as_str(), warning.message.as_str()),
+        ("late-event", said)
+    );
+    let html = stiction::bundle::study(&outcome).files()[0].1.clone();
+    let html = String::from_utf8(html).unwrap();
+    // On the longer path alone there is a line at that time.
+    let figures: Vec<&str> = html
+        .split("<title>Tracking error</title>")
+        .skip(1)
+        .collect();
+    assert_eq!(figures.len(), 2);
 }
 
 #[test]

@@ -14,6 +14,7 @@ use stiction_codes::Code;
 use stiction_friction::Damping;
 use stiction_log::Dimension;
 use stiction_log::mapping::WRAPS;
+use stiction_number::short;
 use stiction_parameters::Quantity;
 use stiction_servo::disturbance::Cogging;
 use stiction_servo::encoder::Encoder;
@@ -113,6 +114,25 @@ pub(super) fn machine(
     let (disturbance, said) = disturbance(table, folder, &is, rate * f64::from(substeps))?;
     model.warnings.extend(said);
     let encoder = table.not_negative("encoder", is.length)?.unwrap_or(0.0);
+    let drive = drive(table, &is, rate)?;
+    let sides = [law.curve().positive(), law.curve().negative()];
+    let of_law = sides
+        .map(|side| side.viscous)
+        .into_iter()
+        .fold(0.0, f64::max);
+    let of_motor = drive.gain() * drive.back_emf;
+    if of_motor > of_law + viscous.unwrap_or(0.0) {
+        let unit = Dimensions::per(is.force, is.speed).si_text();
+        model.warnings.push(Warning::new(
+            Code::BackEmf,
+            format!(
+                "the voltage that motion makes in the motor brakes the axis with {} {unit}, viscous friction with {}: neither the \
+                 compensators nor the feedforward know of it, and most of the error that is left may come from it",
+                short(of_motor),
+                short(of_law + viscous.unwrap_or(0.0))
+            ),
+        ));
+    }
     let machine = Machine {
         motion,
         law,
@@ -121,7 +141,7 @@ pub(super) fn machine(
         given_mass: given.is_some(),
         rate,
         substeps,
-        drive: drive(table, &is, rate)?,
+        drive,
         encoder: Encoder::new(encoder).map_err(|e| table.together(&e))?,
         position_noise: table
             .not_negative("position_noise", is.length)?
