@@ -652,13 +652,13 @@ fn a_short_stretch_is_sent_to_the_simulation() {
     assert_eq!(code, 2, "{err}");
     assert!(
         err.contains(
-            "next: stiction identify \"my log.csv\" --axis axis.toml --law dahl --asymmetric --method output-error --out out\n"
+            "next: stiction identify 'my log.csv' --axis axis.toml --law dahl --asymmetric --method output-error --out out\n"
         ),
         "{err}"
     );
     let (_, _, err) = bench.run(&["identify", "my log.csv", "--law", "lugre", "--out", "out"]);
     let lugre =
-        "next: stiction identify \"my log.csv\" --law lugre --method output-error --out out\n";
+        "next: stiction identify 'my log.csv' --law lugre --method output-error --out out\n";
     assert!(err.contains(lugre), "{err}");
     let (_, _, err) = bench.run(&["identify", "my log.csv", "--out", "out"]);
     assert!(err.contains(&lugre.replace(" --law lugre", "")), "{err}");
@@ -670,7 +670,7 @@ fn a_short_stretch_is_sent_to_the_simulation() {
         let asked = [&["identify", "my log.csv"][..], &other, &["--out", "out"]].concat();
         let (code, _, err) = bench.run(&asked);
         assert_eq!(code, 2, "{err}");
-        assert!(err.contains("next: stiction check \"my log.csv\""), "{err}");
+        assert!(err.contains("next: stiction check 'my log.csv'"), "{err}");
     }
 }
 
