@@ -2,7 +2,8 @@
 //!
 //! `cargo run --release -p stiction --example worlds -- [seeds] [first seed] [name ...]`, with names of axes (`stage`,
 //! `screw`, `joint`), motions (`commissioning`, `sine`, `trapezoid`) and worlds (`as-assumed`, `cogging`, `force-10-late`,
-//! ...); all of a kind where none is named. `each` prints every run too.
+//! ...); all of a kind where none is named. `each` prints every run too. `twice` identifies two logs of the axis together,
+//! `apart-PERCENT` two between which its friction has risen by so much; the second moves as `with-MOTION` says.
 //!
 //! A value is claimed where a result may be used and lists it as a constant of the machine. A run is silent where a claimed
 //! value is off by more than half an interval and a whole one: its interval misses the truth by more than its own width.
@@ -20,6 +21,15 @@ fn main() {
             Err(_) => names.push(argument),
         }
     }
+    let rise = names.iter().find_map(|name| match &name[..] {
+        "twice" => Some(0.0),
+        name => name.strip_prefix("apart-")?.parse::<f64>().ok(),
+    });
+    let other = |name: &str| Motion::ALL.into_iter().find(|m| m.name() == name);
+    let second = names
+        .iter()
+        .find_map(|name| other(name.strip_prefix("with-")?));
+    let rise = rise.or(second.map(|_| 0.0));
     let first = numbers.get(1).copied().unwrap_or(1);
     let seeds = first..first + numbers.first().copied().unwrap_or(4);
     let wanted = |kind: &[String], name: &str| {
@@ -48,10 +58,19 @@ fn main() {
         .par_iter()
         .map(|&(world, axis, motion, seed)| {
             let machine = Machine::all(seed)[axis].1;
-            judged(
-                &machine,
-                identified(&machine, &record(&machine, motion, world, seed)),
-            )
+            let mut logs = vec![record(&machine, motion, world, seed)];
+            let mut machines = vec![machine];
+            if let Some(percent) = rise {
+                let later = risen(machine, 1.0 + 0.01 * percent);
+                logs.push(record(
+                    &later,
+                    second.unwrap_or(motion),
+                    world,
+                    seed + LATER,
+                ));
+                machines.push(later);
+            }
+            judged(&machines, identified(&machine, &logs))
         })
         .collect();
     if names.iter().any(|n| n == "each") {
@@ -67,6 +86,21 @@ fn main() {
     table(&tasks, &runs, &axes);
 }
 
+/// What the seed of a second log is more than that of the first.
+const LATER: u64 = 1_000_000;
+
+/// A machine whose friction is so many times what it was.
+fn risen(machine: Machine, factor: f64) -> Machine {
+    Machine {
+        sigma0: factor * machine.sigma0,
+        sigma1: factor * machine.sigma1,
+        sigma2: factor * machine.sigma2,
+        coulomb: factor * machine.coulomb,
+        static_friction: factor * machine.static_friction,
+        ..machine
+    }
+}
+
 /// The name of a world as an argument.
 fn short(world: World) -> String {
     world
@@ -76,7 +110,17 @@ fn short(world: World) -> String {
         .to_lowercase()
 }
 
-fn identified(machine: &Machine, log: &Recording) -> Result<Fit, stiction::Error> {
+fn identified(machine: &Machine, logs: &[Recording]) -> Result<Fit, stiction::Error> {
+    let axis = Axis::default();
+    let logs: Result<Vec<Log>, _> = logs
+        .iter()
+        .enumerate()
+        .map(|(i, log)| Log::from_columns(&format!("log-{}", i + 1), columns(machine, log), &axis))
+        .collect();
+    identify(&logs?, &axis, &Options::default())
+}
+
+fn columns(machine: &Machine, log: &Recording) -> Vec<Column> {
     let (length, force) = match machine.kind {
         "rotary" => ("rad", "N*m"),
         _ => ("m", "N"),
@@ -94,9 +138,7 @@ fn identified(machine: &Machine, log: &Recording) -> Result<Fit, stiction::Error
         columns.push(column("velocity", &format!("{length}/s"), v));
     }
     columns.push(column("force", force, &log.force));
-    let axis = Axis::default();
-    let log = Log::from_columns("log", columns, &axis)?;
-    identify(&[log], &axis, &Options::default())
+    columns
 }
 
 /// What a run claims, and what of it holds.
@@ -148,7 +190,8 @@ impl std::fmt::Display for Run {
     }
 }
 
-fn judged(machine: &Machine, fit: Result<Fit, stiction::Error>) -> Run {
+/// A claim about several machines holds as far as it does for the one that it holds least for.
+fn judged(machines: &[Machine], fit: Result<Fit, stiction::Error>) -> Run {
     let fit = match fit {
         Ok(fit) => fit,
         Err(e) => {
@@ -176,16 +219,17 @@ fn judged(machine: &Machine, fit: Result<Fit, stiction::Error>) -> Run {
         .filter(|p| trust.constants.iter().any(|c| c == p.name()))
     {
         let base = p.name().trim_end_matches("_pos").trim_end_matches("_neg");
-        let Some((_, truth)) = machine.truth().into_iter().find(|t| t.0 == base) else {
-            continue;
-        };
         let Some((low, high)) = p.interval() else {
             continue;
         };
         let centre = 0.5 * (low + high);
-        let halves = (truth - centre) / (0.5 * (high - low));
-        run.claims
-            .push((p.name().to_owned(), p.value() / truth - 1.0, -halves));
+        let truths = machines.iter().flat_map(Machine::truth);
+        let claims = truths.filter(|t| t.0 == base).map(|(_, truth)| {
+            let halves = (centre - truth) / (0.5 * (high - low));
+            (p.name().to_owned(), p.value() / truth - 1.0, halves)
+        });
+        let least = claims.max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()));
+        run.claims.extend(least);
     }
     run
 }
