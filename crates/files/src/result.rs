@@ -184,7 +184,7 @@ pub struct ParameterEntry {
     pub bias: Option<f64>,
     /// 95 % interval; `null` where the data bound it on no side, a `null` end where on one side only.
     pub ci95: Option<[Option<f64>; 2]>,
-    /// `linear` or `profile`; `null` without an interval.
+    /// `linear`, `profile` or `state-space`; `null` without an interval.
     #[serde(default)]
     pub interval: Option<String>,
     /// Whether the data determine it.

@@ -72,6 +72,7 @@ mod reaction;
 mod refit;
 mod replica;
 mod separable;
+mod state_space;
 mod tune;
 mod watch;
 

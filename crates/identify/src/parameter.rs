@@ -19,6 +19,8 @@ pub enum IntervalKind {
     Linear,
     /// From the cost along the parameter, all others fitted again at each of its values.
     Profile,
+    /// From the likelihood of the encoder's counts, whose samples are left out in turn.
+    StateSpace,
 }
 
 impl IntervalKind {
@@ -27,6 +29,7 @@ impl IntervalKind {
         match self {
             IntervalKind::Linear => "linear",
             IntervalKind::Profile => "profile",
+            IntervalKind::StateSpace => "state-space",
         }
     }
 }

@@ -54,7 +54,7 @@ impl Logging {
     }
 
     /// The value that the log shows of a held force at a sample.
-    fn at(&self, held: &[f64], sample: usize) -> f64 {
+    pub fn at(&self, held: &[f64], sample: usize) -> f64 {
         let last = held.len() as isize - 1;
         let read = |i: isize| held[i.clamp(0, last) as usize];
         let now = sample as isize - self.whole;

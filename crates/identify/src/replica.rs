@@ -19,7 +19,7 @@ use stiction_servo::noise::Noise;
 use stiction_servo::plant::{Load, Motion, Plant};
 
 /// Delay of a force that is logged where it is held, from its sample to the next, samples.
-const HELD_DELAY: f64 = -0.5;
+pub(crate) const HELD_DELAY: f64 = -0.5;
 /// Deviations of a fitted delay that chance explains.
 const CHANCE: f64 = 2.0;
 /// The spring that keeps the simulated axis on the recorded motion: its frequency over the sample rate.

@@ -38,6 +38,7 @@ mod settling;
 mod sos;
 mod thinning;
 mod travel;
+mod wavelet;
 mod zero_phase;
 
 pub use correlation::{EffectiveSize, autocorrelation, effective_sample_size};
@@ -51,3 +52,4 @@ pub use savitzky_golay::SavitzkyGolay;
 pub use sos::{Section, Sos};
 pub use thinning::{Reading, Thinning};
 pub use travel::Travel;
+pub use wavelet::{finest_scale, without_noise};

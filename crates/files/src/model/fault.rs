@@ -249,10 +249,14 @@ fn against_itself(p: &ModelParameter) -> Option<(&'static str, String, &'static 
         let found = format!("origin = {}", shown(&p.origin));
         return Some(("origin", found, "\"identified\" or \"given\""));
     }
-    let kinds = ["linear", "profile"];
+    let kinds = ["linear", "profile", "state-space"];
     if let Some(kind) = p.interval.as_deref().filter(|kind| !kinds.contains(kind)) {
         let found = format!("interval = {}", shown(kind));
-        return Some(("interval", found, "\"linear\" or \"profile\""));
+        return Some((
+            "interval",
+            found,
+            "\"linear\", \"profile\" or \"state-space\"",
+        ));
     }
     if p.interval.is_some() && p.ci95.is_none() {
         let found = "interval without ci95".into();

@@ -12,6 +12,7 @@ use crate::parameter::physical::Physical;
 use crate::parameter::{IntervalKind, Parameter, quantile};
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
+use crate::state_space::{self, Counts};
 use crate::watch::Watch;
 use stiction_parameters::{Name, Quantity};
 use stiction_search::{Observer, Stage};
@@ -41,25 +42,45 @@ pub fn intervals(
         &optimum.p,
         c,
     );
-    conditioned(&objective, optimum, &raw, estimate, observer);
+    let mut watch = Watch::new(observer, Stage::Calibration);
+    let counts = state_space::ask(record, estimate, &mut watch);
+    estimate.fitted.counts.add(&watch.counts);
+    if !matches!(counts, Counts::Stated) {
+        of_the_force(&objective, optimum, &raw, estimate, observer);
+    }
+    if let Counts::Doubted(doubted) = &counts {
+        doubted.flag(estimate);
+    }
+    let fitted = &mut estimate.fitted;
+    flag_what_the_motion_hides(record, &mut fitted.parameters);
+    advice::explain(&mut fitted.parameters, &fitted.covariance);
+}
+
+/// The intervals of a fit of the force.
+fn of_the_force(
+    objective: &Objective,
+    optimum: &Optimum,
+    raw: &[Physical],
+    estimate: &mut Estimate,
+    observer: &mut dyn Observer,
+) {
+    conditioned(objective, optimum, raw, estimate, observer);
     let mut watch = Watch::new(observer, Stage::Calibration);
     watch.fraction = 1.0;
-    let missing = missing(&objective, optimum, &estimate.unknowns, &mut watch);
-    for p in &raw {
+    let missing = missing(objective, optimum, &estimate.unknowns, &mut watch);
+    for p in raw {
         if watch.stopped {
             break;
         }
         if curve_of(p.name).is_some_and(|side| missing[side]) {
             without_curve(estimate, p.name);
         } else {
-            profiled(&objective, optimum, p, estimate, &mut watch);
+            profiled(objective, optimum, p, estimate, &mut watch);
         }
     }
     estimate.fitted.counts.add(&watch.counts);
     let fitted = &mut estimate.fitted;
     stays_within(&fitted.law, optimum, &mut fitted.parameters);
-    flag_what_the_motion_hides(record, &mut fitted.parameters);
-    advice::explain(&mut fitted.parameters, &fitted.covariance);
 }
 
 /// Counts what the conditioning shifts.

@@ -8,6 +8,7 @@ mod common;
 mod conditioning;
 mod counts;
 mod coverage;
+mod dwells;
 mod dynamic;
 mod elasto_plastic;
 mod exponent;

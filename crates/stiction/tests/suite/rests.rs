@@ -154,3 +154,35 @@ fn rests_in_which_the_force_varies_are_not_fitted() {
     let held = fit(&log("held.csv", &|_| 0.0), None);
     assert!(held.result.inputs[0].excluded.is_empty());
 }
+
+/// Moves with dwells: the fit of the force has sigma0 off by ten half-widths, and says nothing.
+#[test]
+fn short_rests_are_asked_of_the_counts() {
+    use stiction_testkit::worlds::{Machine, Motion, World, record};
+    let machine = Machine::screw(2);
+    let bench = Bench::new();
+    let moves = record(&machine, Motion::Trapezoid, World::Faithful, 2);
+    let log = bench.write("moves.csv", &moves.to_csv(machine.kind));
+    let found = options(&[&log], LawKind::LuGre)
+        .identify(&mut Silent)
+        .unwrap();
+    for (name, truth) in machine.truth() {
+        let p = found.result.parameters.iter().find(|p| p.name == name);
+        let p = p.unwrap();
+        assert_eq!(p.interval.as_deref(), Some("state-space"));
+        let (low, high) = p.ci95.map(|[a, b]| (a.unwrap(), b.unwrap())).unwrap();
+        assert!(
+            (low..=high).contains(&truth),
+            "{name}: {truth} {low} {high}"
+        );
+    }
+    let says = |note: &&String| note.contains("rests in much of the log");
+    let said: Vec<&String> = found.result.axis.conditioning.iter().filter(says).collect();
+    assert_eq!(said.len(), 1);
+    insta::assert_snapshot!(said[0]);
+    let bundle = stiction::bundle::identification(&found);
+    let mut files = bundle.files().iter();
+    let (_, report) = files.find(|(name, _)| *name == "report.html").unwrap();
+    let report = std::str::from_utf8(report).unwrap();
+    assert!(report.contains("rests in much of the log"));
+}

@@ -11,7 +11,7 @@ use stiction_files::result::{
     ResolvedAxis, ResultFile, SCHEMA, Search, ValidationEntry,
 };
 use stiction_files::symbols;
-use stiction_identify::{Delay, Fit, FittedLaw, Parameter, Series};
+use stiction_identify::{Delay, Fit, FittedLaw, IntervalKind, Parameter, Series};
 use stiction_log::Motion;
 use stiction_parameters::{Name, Quantity};
 
@@ -186,6 +186,17 @@ pub(super) fn correction_note(estimate: &FittedLaw) -> Option<String> {
         most.name,
         stiction_number::Percent::error(100.0 * correction(most) / most.value).signed(2)
     ))
+}
+
+/// A note on the last step, where the counts of the encoder were asked.
+pub(super) fn counts_note(estimate: &FittedLaw) -> Option<String> {
+    let on_counts = |p: &Parameter| p.interval == IntervalKind::StateSpace;
+    estimate.parameters.iter().any(on_counts).then(|| {
+        "the axis rests in much of the log, where a fit of the force takes filtered encoder counts for motion: parameters and \
+         intervals are those of an axis simulated under the logged force (state-space likelihood of the counts); \
+         fit.csv and the errors belong to the fit of the force"
+            .into()
+    })
 }
 
 /// A note that the delay was not fitted with a law that cannot fit it, where the axis file asks for a fitted delay.

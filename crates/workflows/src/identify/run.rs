@@ -115,6 +115,7 @@ fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Resul
         conditioning: notes
             .chain(conditioned.note)
             .chain(assemble::correction_note(&estimate))
+            .chain(assemble::counts_note(&estimate))
             .chain(assemble::delay_note(&estimate))
             .chain(assemble::acceleration_note(asked, &loaded.sources))
             .collect(),

@@ -1,0 +1,62 @@
+//! Laws from the counts of an encoder: the last step where an axis rests in much of its log.
+//!
+//! A fit of the force takes the motion from filtered counts. At rest the axis creeps by parts of a count and by single ones;
+//! filtered counts move farther, and a law that sums up `|v|` loses deflection there that the axis keeps. Here the axis is
+//! simulated under the force that was logged, and its counts are compared with those of the log: an extended Kalman filter,
+//! whose likelihood is maximised (decision 0060).
+
+mod axis;
+mod climb;
+mod covariance;
+mod data;
+mod filter;
+mod fit;
+mod relaxation;
+mod response;
+mod rests;
+mod state;
+mod student;
+mod tangent;
+mod unknowns;
+
+use crate::conditioning::record::Record;
+use crate::estimate::Estimate;
+use crate::watch::Watch;
+
+/// Part of the samples at rest from which the counts are asked.
+const MUCH_REST: f64 = 0.15;
+
+/// What the counts of a log say of a fit.
+pub(crate) enum Counts {
+    /// Nothing: the axis hardly rests, or is not of the kind that is simulated.
+    NotAsked,
+    /// What is stated now.
+    Stated,
+    /// What can only be held against the fit of the force.
+    Doubted(Doubted),
+}
+
+/// A maximum of the likelihood that is not believed.
+pub(crate) struct Doubted(Box<fit::Likely>);
+
+impl Doubted {
+    /// Flags the parameters whose interval does not hold what the counts say.
+    pub fn flag(&self, estimate: &mut Estimate) {
+        state::doubt(estimate, &self.0);
+    }
+}
+
+/// Asks the counts of a record about the fit of its force; states what they say where they can be believed.
+pub(crate) fn ask(record: &Record, estimate: &mut Estimate, watch: &mut Watch) -> Counts {
+    if rests::share(record) < MUCH_REST {
+        return Counts::NotAsked;
+    }
+    match fit::most_likely(record, estimate, watch) {
+        None => Counts::NotAsked,
+        Some(found) if found.against.is_empty() => {
+            state::state(estimate, &found);
+            Counts::Stated
+        }
+        Some(found) => Counts::Doubted(Doubted(Box::new(found))),
+    }
+}

@@ -1,0 +1,392 @@
+//! The law that makes the counts of a log most likely, started from the fit of the force.
+
+use crate::conditioning::record::Record;
+use crate::estimate::Estimate;
+use crate::exponential::exp;
+use crate::law::LawKind;
+use crate::law::terms::{ColumnKind, Delay};
+use crate::replica::HELD_DELAY;
+use crate::state_space::climb::{Problem, Top};
+use crate::state_space::covariance::{Sureness, sureness};
+use crate::state_space::data::Data;
+use crate::state_space::filter::{Start, Stretch};
+use crate::state_space::unknowns::{
+    COULOMB, DAMPING, DISTURBANCE, EACH_SIDE, MASS, MEMORY, OFFSET, RATIO, STIFFNESS, UNKNOWNS,
+    VELOCITY, VISCOUS, WHITE, lanes,
+};
+use crate::watch::Watch;
+use libm::log;
+use stiction_parameters::{Quantity, Side};
+use stiction_search::Control;
+
+/// Parts of the samples that the jackknife leaves out in turn.
+const BLOCKS: usize = 20;
+/// Most samples of a log: each costs some 25 us, with all that a fit evaluates.
+const MOST_SAMPLES: usize = 120_000;
+/// Deviation of the disturbance beyond which it is not what the cleaning leaves of the noise of the force, in parts of that
+/// noise.
+const LARGEST_DISTURBANCE: f64 = 0.4;
+/// Its largest density at low frequencies, in parts of that of the noise: what is left of a noise has no more than the noise.
+const LARGEST_DENSITY: f64 = 2.5;
+/// By what factor a part of the samples may be above both: beyond, no more is asked.
+const HOPELESS: f64 = 2.0;
+/// Distance between the delays that are tried, samples: a force is logged at its sample, at one later, or as the mean of two.
+const DELAYS_APART: f64 = 0.5;
+/// Part of that distance by which the best delay, by a parabola, may lie beside them.
+const BESIDE: f64 = 0.35;
+/// Most delays that are tried.
+const MOST_DELAYS: usize = 6;
+/// Stribeck velocities that climbs start from, parts of the top speed, and Fs/Fc there.
+const START_VELOCITIES: [f64; 4] = [0.003, 0.01, 0.03, 0.1];
+const START_RATIO: f64 = 1.3;
+/// What counts too stiff or too soft an axis is started from: factors of sigma0 and sigma1.
+const START_BRISTLES: [[f64; 2]; 2] = [[1.25, 0.5], [0.8, 2.0]];
+/// Steps of a climb from each start, from the best two, and at other delays, on a third of the samples; on all of them.
+const FIRST_STEPS: usize = 3;
+const SECOND_STEPS: usize = 15;
+const DELAY_STEPS: usize = 15;
+const LAST_STEPS: usize = 30;
+/// Rise of the log likelihood in a step after which nothing is left to gain, on a part of the samples and on all of them.
+const LEAST_RISES: [f64; 2] = [0.3, 0.02];
+/// Parts that each stretch is cut into, the middle third of which is taken.
+const PARTS: usize = 3;
+/// Where the errors of the force start: white error and disturbance in parts of its noise, memory in samples.
+const START_WHITE: f64 = 0.05;
+const START_DISTURBANCE: f64 = 0.2;
+const START_MEMORY: f64 = 10.0;
+/// Least noise that a force is taken to have, parts of Coulomb friction.
+const LEAST_NOISE: f64 = 1e-9;
+/// Lowest logarithm of a parameter that is zero.
+const NOTHING: f64 = -30.0;
+
+/// The top of the likelihood.
+pub(super) struct Likely {
+    pub at: [f64; UNKNOWNS],
+    /// The unknowns that were free, those beside the law last.
+    pub free: Vec<usize>,
+    pub sureness: Sureness,
+    /// Delay of the force behind the motion, samples, and its 95 % reach, where it was looked for.
+    pub delay: Option<[f64; 2]>,
+    /// Why it is not believed; empty if it is.
+    pub against: &'static str,
+}
+
+/// `None` where the law or the log is not of the kind that is simulated here, or the observer stops it.
+pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch) -> Option<Likely> {
+    let samples: usize = record.segments.iter().map(|s| s.reading.len()).sum();
+    let law = &fitted.law;
+    let columns = fitted.terms.columns(law);
+    let simulated = law.kind == LawKind::LuGre
+        && law.exponent == 2.0
+        && !law.exponent_fitted
+        && columns.iter().all(|term| is_simulated(term.column));
+    if !simulated || samples > MOST_SAMPLES {
+        return None;
+    }
+    let mut search = Search {
+        record,
+        fitted,
+        free: free(fitted),
+        watch,
+    };
+    let begun = start(fitted)?;
+    let looked_for = fitted.terms.delay == Delay::Fitted;
+    let late = fitted.delay_samples() - HELD_DELAY;
+    let nearest = match looked_for {
+        true => DELAYS_APART * libm::round(late / DELAYS_APART),
+        false => late,
+    };
+    let first = search.many_starts(&begun, nearest)?;
+    if Left::of(&first.top, &first.data).is_beyond(HOPELESS) {
+        return None;
+    }
+    let (best, delay) = match looked_for {
+        true => search.best_delay(first)?,
+        false => (first, None),
+    };
+    let Tried { late, data, top } = best;
+    let problem = problem(
+        &data,
+        &data.stretches,
+        &top.at,
+        record.step(),
+        law.asymmetric,
+    );
+    let top = problem.climb_on(&top.at, &search.free, LAST_STEPS, LEAST_RISES[1]);
+    search.asked(&top)?;
+    // An error of the force that there is not says nothing of its size.
+    let faint = |lane: usize| top.at[lane] <= problem.faintest();
+    let known = |lane: &usize| match *lane {
+        WHITE => !faint(WHITE),
+        DISTURBANCE | MEMORY => !faint(DISTURBANCE),
+        _ => true,
+    };
+    let free: Vec<usize> = search.free.into_iter().filter(known).collect();
+    let beside = delay.map_or(0.0, |d: Fine| d.beside.abs() / DELAYS_APART);
+    let against = if !top.converged {
+        "the search for its maximum did not end"
+    } else if Left::of(&top, &data).is_beyond(1.0) {
+        "something acts on the axis that is not in the law"
+    } else if beside.is_nan() || beside > BESIDE {
+        "the delay of the force is no half of a sample"
+    } else {
+        ""
+    };
+    Some(Likely {
+        at: top.at,
+        sureness: sureness(&top, &free)?,
+        free,
+        delay: delay.map(|d| [late + HELD_DELAY, d.reach + d.beside.abs()]),
+        against,
+    })
+}
+
+/// What is left on the force, in parts of its noise.
+struct Left {
+    disturbance: f64,
+    density: f64,
+}
+
+impl Left {
+    fn of(top: &Top, data: &Data) -> Self {
+        let disturbance = exp(top.at[DISTURBANCE]) / data.noise;
+        Self {
+            disturbance,
+            // Of a process of the first order, each side of zero counted.
+            density: 2.0 * disturbance * disturbance * exp(top.at[MEMORY]),
+        }
+    }
+
+    /// Whether it is more than these times what may be left; also where the force has no noise that it could be part of.
+    fn is_beyond(&self, times: f64) -> bool {
+        let within = self.disturbance <= times * LARGEST_DISTURBANCE
+            && self.density <= times * LARGEST_DENSITY;
+        !within
+    }
+}
+
+/// A climb at a delay.
+struct Tried {
+    late: f64,
+    data: Data,
+    top: Top,
+}
+
+/// What the likelihood says of the delay beside the best one that was tried, samples.
+#[derive(Clone, Copy)]
+struct Fine {
+    beside: f64,
+    /// 95 % reach.
+    reach: f64,
+}
+
+struct Search<'a, 'o> {
+    record: &'a Record,
+    fitted: &'a Estimate,
+    free: Vec<usize>,
+    watch: &'a mut Watch<'o>,
+}
+
+impl Search<'_, '_> {
+    /// Counts the evaluations of a climb; `None` if the observer stops it.
+    fn asked(&mut self, top: &Top) -> Option<()> {
+        self.watch.counts.derivatives += top.evaluations as u64;
+        (self.watch.report(f64::INFINITY) == Control::Continue).then_some(())
+    }
+
+    /// Climbs on a part of the samples at a delay, from each start in a few steps and from the best two in more.
+    fn climbed(
+        &mut self,
+        starts: &[[f64; UNKNOWNS]],
+        late: f64,
+        [first, second]: [usize; 2],
+    ) -> Option<Tried> {
+        let data = Data::of(self.record, late)?;
+        let parts = parts(&data.stretches, self.record.step());
+        let problem = problem(
+            &data,
+            &parts,
+            starts.first()?,
+            self.record.step(),
+            self.fitted.law.asymmetric,
+        );
+        let mut tops = Vec::new();
+        for start in starts {
+            let mut start = *start;
+            if first > 0 {
+                start[WHITE] = log(START_WHITE * problem.noise);
+                start[DISTURBANCE] = log(START_DISTURBANCE * problem.noise);
+                start[MEMORY] = log(START_MEMORY);
+            }
+            let top = problem.climb(&start, &self.free, first, LEAST_RISES[0]);
+            self.asked(&top)?;
+            tops.push(top);
+        }
+        let higher = |a: &Top, b: &Top| b.whole.value.total_cmp(&a.whole.value);
+        tops.sort_by(higher);
+        tops.truncate(2);
+        for top in &mut tops {
+            *top = problem.climb_on(&top.at, &self.free, second, LEAST_RISES[0]);
+            self.asked(top)?;
+        }
+        tops.sort_by(higher);
+        Some(Tried {
+            late,
+            data,
+            top: tops.into_iter().next()?,
+        })
+    }
+
+    fn many_starts(&mut self, begun: &[f64; UNKNOWNS], late: f64) -> Option<Tried> {
+        let sides: &[usize] = if self.fitted.law.asymmetric {
+            &[0, EACH_SIDE]
+        } else {
+            &[0]
+        };
+        let mut starts = vec![*begun];
+        if self.free.contains(&VELOCITY) {
+            let top_speed = self.record.top_speed();
+            starts.extend(START_VELOCITIES.iter().map(|share| {
+                let mut start = *begun;
+                for side in sides {
+                    start[VELOCITY + side] = log(share * top_speed);
+                    start[RATIO + side] = log(START_RATIO);
+                }
+                start
+            }));
+        }
+        starts.extend(START_BRISTLES.iter().map(|[stiffness, damping]| {
+            let mut start = *begun;
+            start[STIFFNESS] += log(*stiffness);
+            start[DAMPING] += log(*damping);
+            start
+        }));
+        self.climbed(&starts, late, [FIRST_STEPS, SECOND_STEPS])
+    }
+
+    /// The delay at which the likelihood is higher than at its neighbours, from the first one that was tried.
+    fn best_delay(&mut self, first: Tried) -> Option<(Tried, Option<Fine>)> {
+        let mut tried = vec![first];
+        for _ in 1..MOST_DELAYS {
+            let value = |t: &Tried| t.top.whole.value;
+            let best =
+                (0..tried.len()).max_by(|&i, &j| value(&tried[i]).total_cmp(&value(&tried[j])))?;
+            let own = tried[best].late;
+            let at = |late: f64| {
+                tried
+                    .iter()
+                    .position(|t| (t.late - late).abs() < 0.5 * DELAYS_APART)
+            };
+            let (below, above) = (own - DELAYS_APART, own + DELAYS_APART);
+            let next = match [at(below), at(above)] {
+                [None, _] => below,
+                [_, None] => above,
+                [Some(below), Some(above)] => {
+                    let [below, above] =
+                        [below, above].map(|i| value(&tried[best]) - value(&tried[i]));
+                    let curvature = (below + above) / (DELAYS_APART * DELAYS_APART);
+                    let fine = Fine {
+                        beside: 0.5 * DELAYS_APART * (below - above) / (below + above),
+                        reach: 1.96 / (curvature * PARTS as f64).sqrt(),
+                    };
+                    return Some((tried.swap_remove(best), Some(fine)));
+                }
+            };
+            let start = tried[best].top.at;
+            let more = self.climbed(&[start], next, [0, DELAY_STEPS])?;
+            tried.push(more);
+        }
+        None
+    }
+}
+
+/// The middle third of each part of the stretches, each with a start of its own.
+fn parts(stretches: &[Stretch], step: f64) -> Vec<Stretch> {
+    let mut out = Vec::new();
+    for stretch in stretches {
+        let part = stretch.force.len() / PARTS;
+        for i in 0..PARTS {
+            let begin = i * part + part / 3;
+            let end = begin + part / 3;
+            let around = [begin.saturating_sub(5), begin + 5];
+            let span = (around[1] - around[0]) as f64 * step;
+            out.push(Stretch {
+                force: stretch.force[begin..end].to_vec(),
+                reading: stretch.reading[begin..end]
+                    .iter()
+                    .map(|x| x - stretch.reading[begin])
+                    .collect(),
+                variance: stretch.variance[begin..end].to_vec(),
+                velocity: (stretch.reading[around[1]] - stretch.reading[around[0]]) / span,
+            });
+        }
+    }
+    out
+}
+
+/// Whether a term is one of the law, the inertia or the constant force.
+fn is_simulated(column: ColumnKind) -> bool {
+    matches!(
+        column,
+        ColumnKind::Level
+            | ColumnKind::Rate
+            | ColumnKind::Speed(_)
+            | ColumnKind::Acceleration
+            | ColumnKind::One
+    )
+}
+
+/// The unknowns of a law that were fitted, and those of the errors of the force.
+fn free(fitted: &Estimate) -> Vec<usize> {
+    let identified = fitted.parameters.iter().filter(|p| p.identified);
+    let own = identified.filter_map(|p| lanes(p.name)?.last().copied());
+    own.chain([WHITE, DISTURBANCE, MEMORY]).collect()
+}
+
+/// The unknowns at a fit; `None` where it lacks one that is simulated.
+fn start(fitted: &Estimate) -> Option<[f64; UNKNOWNS]> {
+    let values = fitted.values();
+    let size = |value: f64| {
+        if value > 0.0 {
+            log(value).max(NOTHING)
+        } else {
+            NOTHING
+        }
+    };
+    let mut at = [0.0; UNKNOWNS];
+    at[STIFFNESS] = size(values.get(Quantity::Sigma0)?);
+    at[DAMPING] = size(values.get(Quantity::Sigma1).unwrap_or(0.0));
+    at[MASS] = size(values.get(Quantity::Mass)?);
+    at[OFFSET] = values.get(Quantity::Offset).unwrap_or(0.0);
+    for (side, shift) in [(Side::Positive, 0), (Side::Negative, EACH_SIDE)] {
+        let coulomb = values.on(Quantity::Coulomb, side)?;
+        let most = values.on(Quantity::Static, side).unwrap_or(coulomb);
+        at[COULOMB + shift] = size(coulomb);
+        at[RATIO + shift] = (size(most) - size(coulomb)).max(0.0);
+        at[VELOCITY + shift] = size(values.on(Quantity::StribeckVelocity, side).unwrap_or(1.0));
+        at[VISCOUS + shift] = size(values.on(Quantity::Sigma2, side)?);
+    }
+    at.iter().all(|x| x.is_finite()).then_some(at)
+}
+
+fn problem<'a>(
+    data: &Data,
+    stretches: &'a [Stretch],
+    at: &[f64; UNKNOWNS],
+    step: f64,
+    directed: bool,
+) -> Problem<'a> {
+    let frequency = exp(0.5 * (at[STIFFNESS] - at[MASS]));
+    Problem {
+        stretches,
+        start: Start {
+            velocity: data.count / step,
+            deflection: 0.5 * exp(at[COULOMB] - at[STIFFNESS]),
+        },
+        step,
+        substeps: (step * frequency / 0.1).ceil().clamp(2.0, 4.0) as u32,
+        directed,
+        blocks: BLOCKS,
+        noise: data.noise.max(LEAST_NOISE * exp(at[COULOMB])),
+    }
+}

@@ -1,0 +1,57 @@
+//! Rests of an axis in a log.
+
+use crate::conditioning::record::{Record, Segment};
+
+/// Samples over which a position that stays is a rest.
+const WINDOW: usize = 16;
+/// Speed below which an axis rests, parts of the top speed.
+const RESTING_SPEED: f64 = 0.003;
+
+/// Part of the samples of a record at which its axis rests, by its readings; 0 where the log has none.
+pub(crate) fn share(record: &Record) -> f64 {
+    let farthest = RESTING_SPEED * record.top_speed() * WINDOW as f64 * record.step();
+    let at_rest = |segment: &Segment| {
+        let windows = segment.reading.windows(WINDOW + 1);
+        let moved = windows.map(|x| (x[WINDOW] - x[0]).abs());
+        moved.filter(|moved| *moved <= farthest).count()
+    };
+    let resting: usize = record.segments.iter().map(at_rest).sum();
+    let samples: usize = record.segments.iter().map(|s| s.velocity.len()).sum();
+    resting as f64 / samples.max(1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::conditioning::record::Samples;
+    use crate::conditioning::{Conditioning, condition};
+
+    fn shares(speed: impl Fn(f64) -> f64) -> f64 {
+        let step = 1e-3;
+        let mut x = 0.0;
+        let position: Vec<f64> = (0..8000)
+            .map(|k| {
+                x += step * speed(k as f64 * step);
+                libm::round(x / 1e-6) * 1e-6
+            })
+            .collect();
+        let time: Vec<f64> = (0..position.len()).map(|k| k as f64 * step).collect();
+        let samples = Samples {
+            force: time.iter().map(|t| speed(*t).signum()).collect(),
+            time,
+            position: Some(position),
+            ..Samples::default()
+        };
+        share(&condition(&[samples], &Conditioning::default()).unwrap())
+    }
+
+    #[test]
+    fn dwells_are_rests_and_reversals_are_not() {
+        let sine = |t: f64| 0.1 * libm::sin(6.0 * t);
+        assert!(shares(sine) < 0.02);
+        // One second in two.
+        let dwells = |t: f64| if t % 2.0 < 1.0 { sine(t) } else { 0.0 };
+        let found = shares(dwells);
+        assert!((found - 0.5).abs() < 0.05, "{found}");
+    }
+}

@@ -1,0 +1,151 @@
+//! What the likelihood found, stated in an estimate.
+
+use crate::estimate::Estimate;
+use crate::exponential::exp;
+use crate::parameter::{
+    IDENTIFIABLE, IntervalKind, NORMAL_Q95, Parameter, WIDEST_INTERVAL, too_uncertain,
+};
+use crate::state_space::fit::Likely;
+use crate::state_space::student;
+use crate::state_space::unknowns::lanes;
+use nalgebra::{DMatrix, DVector};
+use stiction_parameters::{Name, Quantity};
+
+/// By what the jackknife is widened: what is left of the noise of the force pulls all blocks one way. Chosen on simulated axes,
+/// seeds 1 to 40 of a ball screw and a joint, and held against others (decision 0060).
+const WIDER: f64 = 1.7;
+
+/// A parameter as the likelihood has it.
+struct Own {
+    /// Its logarithm, the constant force itself.
+    value: f64,
+    /// 95 % reach of that.
+    reach: f64,
+    /// Weights of the free unknowns in it.
+    weights: DVector<f64>,
+}
+
+/// States the parameters of the likelihood.
+pub(super) fn state(estimate: &mut Estimate, found: &Likely) {
+    let step = estimate.step;
+    let parameters = &mut estimate.fitted.parameters;
+    let mut owns: Vec<(Name, Own)> = Vec::new();
+    for parameter in parameters.iter_mut().filter(|p| p.identified) {
+        if let Some(own) = own(parameter.name, found) {
+            write(parameter, &own);
+            owns.push((parameter.name, own));
+        } else if let Some([delay, reach]) = found.delay
+            && parameter.name == Quantity::Delay
+        {
+            parameter.value = delay * step;
+            normal(parameter, reach * step);
+        }
+    }
+    let covariance = &mut estimate.fitted.covariance;
+    let correlated = |a: &Own, b: &Own, m: &DMatrix<f64>| a.weights.dot(&(m * &b.weights));
+    let deviation = |name: Name| {
+        parameters
+            .iter()
+            .find(|p| p.name == name)
+            .and_then(|p| p.std)
+    };
+    for (i, first) in covariance.names.iter().enumerate() {
+        for (j, second) in covariance.names.iter().enumerate() {
+            let of = |name: &Name| owns.iter().find(|(own, _)| own == name).map(|(_, own)| own);
+            let correlation = match (of(first), of(second)) {
+                _ if i == j => 1.0,
+                (Some(a), Some(b)) => {
+                    let m = &found.sureness.seen;
+                    correlated(a, b, m) / (correlated(a, a, m) * correlated(b, b, m)).sqrt()
+                }
+                _ => 0.0,
+            };
+            if let (Some(a), Some(b)) = (deviation(*first), deviation(*second)) {
+                covariance.matrix[i][j] = if correlation.is_finite() {
+                    correlation * a * b
+                } else {
+                    0.0
+                };
+            }
+        }
+    }
+}
+
+/// What rests spoil in a fit of the force: all that a bristle deflects by.
+const SPOILED: [Quantity; 4] = [
+    Quantity::Sigma0,
+    Quantity::Sigma1,
+    Quantity::Static,
+    Quantity::StribeckVelocity,
+];
+
+/// Flags the parameters that rests spoil where their interval does not hold what the likelihood says, which is not believed
+/// either.
+pub(super) fn doubt(estimate: &mut Estimate, found: &Likely) {
+    for parameter in &mut estimate.fitted.parameters {
+        if !SPOILED.contains(&parameter.name.quantity) || !parameter.identified {
+            continue;
+        }
+        let interval = parameter.ci95.filter(|_| parameter.identifiable);
+        let (Some((low, high)), Some(own)) = (interval, own(parameter.name, found)) else {
+            continue;
+        };
+        let other = exp(own.value);
+        if !(low..=high).contains(&other) {
+            parameter.identifiable = false;
+            parameter.reason = format!(
+                "the axis rests in much of this log, where counts of the encoder say {}, which is not believed: {}",
+                stiction_number::four_digits(other),
+                found.against
+            );
+        }
+    }
+}
+
+fn own(name: Name, found: &Likely) -> Option<Own> {
+    let lanes = lanes(name)?;
+    let weights = DVector::from_iterator(
+        found.free.len(),
+        found
+            .free
+            .iter()
+            .map(|lane| f64::from(u8::from(lanes.contains(lane)))),
+    );
+    let deviation = |m: &DMatrix<f64>| weights.dot(&(m * &weights)).max(0.0).sqrt();
+    let sureness = &found.sureness;
+    let quantile = student::quantile(sureness.freedom(&weights));
+    let seen = WIDER * quantile * deviation(&sureness.seen);
+    Some(Own {
+        value: lanes.iter().map(|&lane| found.at[lane]).sum(),
+        reach: seen.max(NORMAL_Q95 * deviation(&sureness.stated)),
+        weights,
+    })
+}
+
+fn write(parameter: &mut Parameter, own: &Own) {
+    if parameter.name == Quantity::Offset {
+        parameter.value = own.value;
+        return normal(parameter, own.reach);
+    }
+    let relative = own.reach / NORMAL_Q95;
+    let value = exp(own.value);
+    parameter.value = value;
+    parameter.std = Some(relative * value);
+    parameter.bias = None;
+    parameter.interval = IntervalKind::StateSpace;
+    parameter.ci95 =
+        (own.reach <= WIDEST_INTERVAL).then(|| (value * exp(-own.reach), value * exp(own.reach)));
+    parameter.identifiable = relative <= IDENTIFIABLE;
+    parameter.reason = match parameter.identifiable {
+        true => String::new(),
+        false => too_uncertain(relative, "its value"),
+    };
+}
+
+/// The interval of a parameter that may have either sign.
+fn normal(parameter: &mut Parameter, reach: f64) {
+    parameter.std = Some(reach / NORMAL_Q95);
+    parameter.bias = None;
+    parameter.interval = IntervalKind::StateSpace;
+    parameter.ci95 = Some((parameter.value - reach, parameter.value + reach));
+}
