@@ -49,6 +49,9 @@ pub struct ResultFile {
     pub parameters: Vec<ParameterEntry>,
     /// Covariance of the identified parameters.
     pub covariance: CovarianceEntry,
+    /// What the law leaves of the force; absent after a method that does not fit the force sample by sample.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub remaining: Option<RemainingEntry>,
     /// Fit on the logs it was fitted to.
     pub fit: FitEntry,
     /// The same near zero speed; absent where no sample is slow.
@@ -326,6 +329,34 @@ pub struct ShortHorizonEntry {
     pub fit: FitEntry,
     /// Of each validation, in its order; `null` where no stretch is longer than the horizon.
     pub validation: Vec<Option<FitEntry>>,
+}
+
+/// What a law leaves of the force beyond white noise, by what it goes with; in the unit of the force and SI.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RemainingEntry {
+    /// How far the level of friction is from its mean at a place or time, as a part of it.
+    pub level: f64,
+    /// After a reversal.
+    pub shapes: Vec<ShapeEntry>,
+    /// From place to place, rms.
+    pub place: f64,
+    /// Wavelength of that, m or rad.
+    pub place_length: f64,
+    /// By itself, rms.
+    pub wandering: f64,
+    /// Time constant of that, s.
+    pub memory: f64,
+}
+
+/// A force between two travels after a reversal.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ShapeEntry {
+    /// Rms over reversals.
+    pub force: f64,
+    /// m or rad
+    pub short: f64,
+    /// m or rad
+    pub long: f64,
 }
 
 /// One law in the comparison.

@@ -11,7 +11,7 @@ pub mod result;
 mod start;
 pub mod template;
 
-pub use belief::{Belief, Family};
+pub use belief::{Belief, Drawn, Family, PROMISE_DRAWS};
 pub use grid::Job;
 pub use model::{Model, Parameter};
 pub use plan::{

@@ -80,3 +80,4 @@ pub mod sampled;
 pub mod speeds;
 pub mod trajectory;
 pub mod two_axes;
+pub mod unmodelled;

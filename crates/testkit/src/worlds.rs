@@ -18,10 +18,12 @@ mod logged;
 mod machine;
 mod motion;
 mod random;
+mod running;
 
 pub use logged::{Recording, record};
 pub use machine::Machine;
 pub use motion::Motion;
+pub use running::Running;
 
 /// What differs from the world that an identification of LuGre assumes.
 #[derive(Clone, Copy, Debug, PartialEq)]

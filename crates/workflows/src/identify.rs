@@ -21,6 +21,7 @@ mod options;
 mod outcome;
 mod predict;
 mod procedure;
+mod remaining;
 mod run;
 mod searched;
 mod simulate;

@@ -8,6 +8,7 @@ mod course;
 mod diverged;
 mod done;
 pub mod doubt;
+mod elsewhere;
 mod learnt;
 mod machine;
 mod metrics;
@@ -20,6 +21,7 @@ mod trace;
 
 pub use changing::LoadCourse;
 pub use contour_trace::ContourTrace;
+pub use elsewhere::{Metrics, simulate_on};
 pub use outcome::StudyOutcome;
 pub use run::simulate;
 pub use trace::{Course, Trace};

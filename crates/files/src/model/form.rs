@@ -1,6 +1,6 @@
 //! The form of a model file, and how it is written.
 
-use crate::result::{CovarianceEntry, ParameterEntry, ResultFile};
+use crate::result::{CovarianceEntry, ParameterEntry, RemainingEntry, ResultFile};
 use serde::Serialize;
 use stiction_parameters::{LawKind, ParameterSet};
 
@@ -30,6 +30,9 @@ pub struct ModelFile {
     pub parameter: Vec<ModelParameter>,
     /// Covariance of the identified parameters.
     pub covariance: CovarianceEntry,
+    /// What the law leaves of the force, where that is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub remaining: Option<RemainingEntry>,
 }
 
 /// Where the numbers came from.
@@ -124,6 +127,7 @@ impl ModelFile {
             },
             parameter: result.parameters.iter().map(ModelParameter::from).collect(),
             covariance: result.covariance.clone(),
+            remaining: result.remaining.clone(),
         }
     }
 

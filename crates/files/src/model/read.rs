@@ -5,7 +5,7 @@ use super::form::{ModelFile, ModelParameter, SCHEMA, SourceEntry, SourceInput};
 use crate::config::{Given, Places, Source, Table};
 use crate::error::Error;
 use crate::hash::sha256_of;
-use crate::result::CovarianceEntry;
+use crate::result::{CovarianceEntry, RemainingEntry, ShapeEntry};
 use crate::symbols;
 use std::path::Path;
 use stiction_log::Motion;
@@ -223,6 +223,11 @@ fn model(root: &Table<'_>, faults: &mut Faults) -> Result<ModelFile, Error> {
         None => Ok(CovarianceEntry::default()),
     });
     let covariance = faults.take("covariance", covariance);
+    let remaining = root.table("remaining").and_then(|table| match table {
+        Some(table) => self::remaining(&table).map(Some),
+        None => Ok(None),
+    });
+    let remaining = faults.take("remaining", remaining).flatten();
     let listed = list(root, "parameter", "tables [[parameter]]");
     let listed = faults.take("parameter", listed).unwrap_or_default();
     let parameter: Vec<_> = (listed.iter().enumerate())
@@ -245,6 +250,7 @@ fn model(root: &Table<'_>, faults: &mut Faults) -> Result<ModelFile, Error> {
         source: source.unwrap_or_default(),
         parameter,
         covariance: covariance.unwrap_or_default(),
+        remaining,
     })
 }
 
@@ -361,6 +367,47 @@ fn covariance(table: &Table<'_>) -> Result<CovarianceEntry, Error> {
     };
     table.end()?;
     Ok(covariance)
+}
+
+/// What the law leaves: sizes that are not negative, lengths and times above 0.
+fn remaining(table: &Table<'_>) -> Result<RemainingEntry, Error> {
+    let size = |table: &Table<'_>, key: &'static str| at_least(table, key, false);
+    let length = |table: &Table<'_>, key: &'static str| at_least(table, key, true);
+    let shapes = list(table, "shapes", "a list of forces after a reversal")?;
+    let remaining = RemainingEntry {
+        level: size(table, "level")?,
+        shapes: each(&shapes, |table| {
+            let (short, long) = (length(table, "short")?, length(table, "long")?);
+            let shape = ShapeEntry {
+                force: size(table, "force")?,
+                short,
+                long,
+            };
+            table.end()?;
+            Ok(shape)
+        })?,
+        place: size(table, "place")?,
+        place_length: length(table, "place_length")?,
+        wandering: size(table, "wandering")?,
+        memory: length(table, "memory")?,
+    };
+    table.end()?;
+    Ok(remaining)
+}
+
+/// A finite number from 0, or above 0.
+fn at_least(table: &Table<'_>, key: &'static str, above: bool) -> Result<f64, Error> {
+    let (given, allowed) = match above {
+        true => (table.get(key), "a number above 0"),
+        false => (table.get(key), "a number from 0"),
+    };
+    let given = table.required(key, given, allowed)?;
+    let value = number(&given)?;
+    let fits = value.is_finite() && (value > 0.0 || value == 0.0 && !above);
+    match fits {
+        true => Ok(value),
+        false => Err(given.refused(allowed)),
+    }
 }
 
 fn text(table: &Table<'_>, key: &'static str, example: &str) -> Result<String, Error> {

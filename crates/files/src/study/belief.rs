@@ -2,12 +2,13 @@
 
 use super::model::Model;
 use crate::model::covariance::root;
-use crate::result::CovarianceEntry;
-use stiction_friction::{Damping, LuGre};
+use crate::result::{CovarianceEntry, RemainingEntry};
+use stiction_friction::{Damping, Direction, LuGre, Stribeck};
 use stiction_number::four_digits as short;
 use stiction_parameters::{Name, Quantity, Side};
 use stiction_servo::known;
 use stiction_servo::noise::Noise;
+use stiction_servo::unmodelled::{Shape, Unmodelled, Wandering, Wave};
 
 /// The parameters of the axis that a compensator assumes, right or wrong.
 #[derive(Clone, Copy, PartialEq)]
@@ -26,7 +27,25 @@ pub struct Family {
     pub name: String,
     /// The members, one run each.
     pub beliefs: Vec<Belief>,
+    /// The axis of each member; none where it is that of the study.
+    pub axes: Vec<Drawn>,
 }
+
+/// An axis as it may be, as far as its identification tells.
+#[derive(Clone)]
+pub struct Drawn {
+    /// Its law and mass.
+    pub axis: Belief,
+    /// Forces that its law does not have.
+    pub beside: Unmodelled,
+}
+
+/// Axes that a promise is drawn from: the least and the largest but one of 32 leave out 5 % at each end.
+pub const PROMISE_DRAWS: u64 = 32;
+/// Makes the forces beside the law independent of its parameters.
+const REMAINING_SEED: u64 = 0x7072_6f6d_6973_6564;
+/// Least level of friction that is drawn, as a part of that of the law.
+const LEAST_LEVEL: f64 = 0.05;
 
 /// Draws that fit no law are drawn again, at most this many times for each one asked for.
 const MOST_TRIES: u64 = 1000;
@@ -51,6 +70,7 @@ impl Family {
             kind: "exact",
             name: "exact".into(),
             beliefs: vec![truth],
+            axes: Vec::new(),
         }
     }
 
@@ -61,6 +81,7 @@ impl Family {
             kind: "corners",
             name: format!("±{} %", percent(by)),
             beliefs: beliefs.collect(),
+            axes: Vec::new(),
         }
     }
 
@@ -126,7 +147,80 @@ impl Family {
             kind: "covariance",
             name: format!("{count} draws"),
             beliefs,
+            axes: Vec::new(),
         })
+    }
+
+    /// The parameters of the model on axes as the identification leaves them open: parameters drawn from its covariance,
+    /// and beside the law forces of the size of what it leaves.
+    pub(super) fn promised(
+        model: &Model,
+        truth: Belief,
+        mass: Option<f64>,
+        seed: u64,
+    ) -> Result<Self, Undrawn> {
+        let Some(remaining) = &model.remaining else {
+            return Err(Undrawn {
+                key: None,
+                found: "no [remaining] says what its law leaves of the force".into(),
+            });
+        };
+        let drawn = Family::draws(model, truth, mass, PROMISE_DRAWS, seed)?.beliefs;
+        let mut noise = Noise::new(seed ^ REMAINING_SEED);
+        let axes = drawn
+            .into_iter()
+            .map(|axis| beside(axis, remaining, &mut noise));
+        Ok(Family {
+            kind: "promised",
+            name: "promised".into(),
+            beliefs: vec![truth; PROMISE_DRAWS as usize],
+            axes: axes.collect(),
+        })
+    }
+}
+
+/// An axis with forces of that size.
+fn beside(axis: Belief, remaining: &RemainingEntry, noise: &mut Noise) -> Drawn {
+    let curve = axis.law.curve();
+    let mut level = |side: &Direction<f64>| {
+        let factor = (1.0 + remaining.level * noise.normal()).max(LEAST_LEVEL);
+        Direction {
+            coulomb: factor * side.coulomb,
+            static_friction: factor * side.static_friction,
+            viscous: factor * side.viscous,
+            ..*side
+        }
+    };
+    let sides = [level(curve.positive()), level(curve.negative())];
+    let curve = Stribeck::new(curve.shape(), sides[0], sides[1], curve.offset());
+    let law = curve.and_then(|curve| LuGre::new(axis.law.stiffness(), axis.law.damping(), curve));
+    let shapes = remaining.shapes.iter().map(|shape| Shape {
+        force: shape.force * noise.normal(),
+        short: shape.short,
+        long: shape.long,
+    });
+    let shapes = shapes.collect();
+    // Two waves of about that length.
+    let waves = [0, 1].map(|_| Wave {
+        force: remaining.place * noise.normal(),
+        length: remaining.place_length * libm::exp(0.5 * noise.normal()),
+        phase: std::f64::consts::TAU * noise.uniform(),
+    });
+    let wandering = (remaining.wandering > 0.0).then(|| Wandering {
+        force: remaining.wandering,
+        memory: remaining.memory,
+        seed: (noise.uniform() * (1u64 << 53) as f64) as u64,
+    });
+    Drawn {
+        axis: Belief {
+            law: law.unwrap_or(axis.law),
+            ..axis
+        },
+        beside: Unmodelled {
+            shapes,
+            waves: waves.into(),
+            wandering,
+        },
     }
 }
 

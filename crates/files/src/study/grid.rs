@@ -76,7 +76,8 @@ impl Study {
     fn matters(&self, compensator: usize, family: &Family) -> bool {
         let model = matches!(self.compensators[compensator].value, Scheme::Model(_));
         let mass = |b: &Belief| b.mass != self.machine.mass;
-        family.kind == "exact" || model || family.beliefs.iter().any(mass)
+        let always = ["exact", "promised"].contains(&family.kind);
+        always || model || family.beliefs.iter().any(mass)
     }
 
     /// The name of the path or contour of a run.

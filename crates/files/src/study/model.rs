@@ -4,7 +4,7 @@ use super::resolve::Dimensions;
 use crate::config::{Given, LARGEST_SI, Swept};
 use crate::error::{Error, Warning};
 use crate::model::{BY_HAND, ModelParameter, ReadModel};
-use crate::result::CovarianceEntry;
+use crate::result::{CovarianceEntry, RemainingEntry};
 use crate::shell::quoted;
 use crate::symbols;
 use std::path::Path;
@@ -28,6 +28,8 @@ pub struct Model {
     pub parameters: Vec<Parameter>,
     /// Of the identified parameters; none for a known axis.
     pub covariance: Option<CovarianceEntry>,
+    /// What the law leaves of the force; none where it was not measured.
+    pub remaining: Option<RemainingEntry>,
     /// What to beware of.
     pub warnings: Vec<Warning>,
     /// The file that it was read from, for messages about its values.
@@ -89,6 +91,7 @@ impl Model {
             origin: format!("Known axis {}: {}", axis.name, axis.source),
             parameters,
             covariance: None,
+            remaining: None,
             warnings: Vec::new(),
             read: None,
         })
@@ -192,6 +195,7 @@ impl Model {
             },
             parameters: parameters.collect(),
             covariance: Some(model.covariance.clone()),
+            remaining: model.remaining.clone(),
             warnings,
             read: None,
         };

@@ -1,6 +1,6 @@
 //! A study, resolved: everything that a run of it needs, in SI units and the types of the simulation.
 
-use super::belief::{Belief, Family};
+use super::belief::Family;
 use super::model::Model;
 use super::result::StudyInput;
 use crate::error::Warning;
@@ -38,6 +38,8 @@ pub struct Study {
     pub compensators: Vec<Named<Scheme>>,
     /// What is believed of the first axis; the first family is the exact parameters.
     pub families: Vec<Family>,
+    /// Why nothing is promised: what the models lack; none where something is, and for the values of a sweep.
+    pub not_promised: Option<String>,
     /// What changes on the axis while it runs, in order of time.
     pub events: Vec<Event>,
     /// Values of a key in turn.
@@ -218,8 +220,8 @@ pub struct Second {
     pub machine: Machine,
     /// One for each controller of the first axis, in its order.
     pub controllers: Vec<Controller>,
-    /// What is believed of this axis: one for each belief of each family.
-    pub families: Vec<Vec<Belief>>,
+    /// What is believed of this axis, and how it may be: as many families with as many members as of the first.
+    pub families: Vec<Family>,
     /// Control of the contour error, where there is any.
     pub coupling: Option<CrossCoupling>,
 }

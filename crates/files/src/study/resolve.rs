@@ -108,6 +108,7 @@ fn study(root: &Table<'_>, file: &Path) -> Result<Study, Error> {
         controllers: Vec::new(),
         compensators: Vec::new(),
         families: Vec::new(),
+        not_promised: None,
         events: Vec::new(),
         sweeps: Vec::new(),
         keeps_courses: root.swept().is_none(),
@@ -182,7 +183,7 @@ fn families(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
     let mut families = vec![Family::exact(study.machine.truth())];
     let mut others = Vec::new();
     if let Some(second) = &study.second {
-        others.push(Family::exact(second.machine.truth()).beliefs);
+        others.push(Family::exact(second.machine.truth()));
     }
     let wrong = root.tables("parameter_error", MOST_ENTRIES)?;
     // A sweep shows what a value does, not what an error of it does.
@@ -196,7 +197,7 @@ fn families(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
                     return Err(table.refused("by", "above 0 and below 100 %"));
                 }
                 let of = |machine: &Machine| Family::corners(machine.truth(), by);
-                others.extend(study.second.as_ref().map(|s| of(&s.machine).beliefs));
+                others.extend(study.second.as_ref().map(|s| of(&s.machine)));
                 of(&study.machine)
             }
             _ => {
@@ -221,10 +222,13 @@ fn families(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
                     let seed = study.seed.wrapping_add(1);
                     let machine = &second.machine;
                     others.push(match machine.model.covariance {
-                        None => vec![machine.truth(); draws as usize],
+                        None => Family {
+                            beliefs: vec![machine.truth(); draws as usize],
+                            ..Family::exact(machine.truth())
+                        },
                         Some(_) => {
                             let drawn = machine.draws(draws, seed);
-                            drawn.map_err(|e| refused(machine, e))?.beliefs
+                            drawn.map_err(|e| refused(machine, e))?
                         }
                     });
                 }
@@ -237,11 +241,33 @@ fn families(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
         once(table, families.iter().map(|f| &f.name), &family.name)?;
         families.push(family);
     }
+    if root.swept().is_none() {
+        match promised(study) {
+            Ok(promised) => {
+                let mut each = promised.into_iter();
+                families.extend(each.next());
+                others.extend(each.next());
+            }
+            Err(reason) => study.not_promised = Some(reason),
+        }
+    }
     study.families = families;
     if let Some(second) = &mut study.second {
         second.families = others;
     }
     Ok(())
+}
+
+/// What the identifications of the axes allow to promise, for each axis; `Err` is what one lacks.
+fn promised(study: &Study) -> Result<Vec<Family>, String> {
+    let machines = std::iter::once(&study.machine).chain(study.second.as_ref().map(|s| &s.machine));
+    let each = machines.enumerate().map(|(i, machine)| {
+        let mass = machine.given_mass.then_some(machine.mass);
+        let seed = study.seed.wrapping_add(i as u64);
+        let lacks = |e: Undrawn| format!("{}: {}", machine.model.origin, e.found);
+        Family::promised(&machine.model, machine.truth(), mass, seed).map_err(lacks)
+    });
+    each.collect()
 }
 
 impl Machine {

@@ -31,6 +31,12 @@ pub struct StudyFile {
     /// What changed on the axis while it ran.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub events: Vec<EventEntry>,
+    /// What the identification allows to promise, one entry for each path, controller and compensator.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub promise: Vec<PromiseEntry>,
+    /// Why nothing is promised: what a model lacks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub not_promised: Option<String>,
     /// One row for each path, controller, compensator and kind of parameters.
     pub results: Vec<ResultRow>,
     /// The same over the values of a key.
@@ -38,6 +44,26 @@ pub struct StudyFile {
     pub sweeps: Vec<SweepEntry>,
     /// What to beware of.
     pub warnings: Vec<Warning>,
+}
+
+/// What compensation leaves of the largest error, as far as the identification of the axis tells.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PromiseEntry {
+    /// Name of the path.
+    pub path: String,
+    /// Name of the controller.
+    pub controller: String,
+    /// Name of the compensator.
+    pub compensator: String,
+    /// Whether the axes are controlled together.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub coupled: bool,
+    /// The metric: `peak_error`, on a contour `contour_peak`.
+    pub metric: String,
+    /// Part of it that is left, percent: what 90 % of axes as the identification leaves them open lie between.
+    pub left90_percent: [f64; 2],
+    /// Axes that were drawn.
+    pub draws: usize,
 }
 
 /// A change of the axis while it runs.
@@ -245,7 +271,20 @@ impl SweepRow {
     }
 }
 
+impl PromiseEntry {
+    /// The compensator, and the coupling where there is one.
+    pub fn scheme(&self) -> String {
+        scheme(&self.compensator, self.coupled)
+    }
+}
+
 impl ResultRow {
+    /// The metric by which compensators are compared: the largest error.
+    pub fn judged(&self) -> Option<&MetricEntry> {
+        let contour = self.metric("contour_peak");
+        contour.or_else(|| self.metric("peak_error"))
+    }
+
     /// What became of the compensation: `switched off`, with how often in several runs; else nothing.
     pub fn remarks(&self) -> String {
         match self.switched_off {
@@ -279,6 +318,10 @@ pub struct MetricEntry {
     pub least: f64,
     /// Largest of all runs.
     pub largest: f64,
+    /// What is left of the same metric without compensation on the same axis, percent: what 90 % of further axes lie
+    /// between, of the axes that a promise is drawn from; `null` for other rows, and without compensation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub left90_percent: Option<[f64; 2]>,
     /// What 95 % of the runs lie between, for draws from a covariance.
     pub interval95: Option<[f64; 2]>,
     /// By how much the mean is below that of the same path and controller without compensation, percent; negative

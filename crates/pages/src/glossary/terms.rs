@@ -344,6 +344,20 @@ pub(super) const IDENTIFICATION: &[Term] = &[
         "A systematic error of a parameter, caused by encoder steps and filters; it is measured on replicas and subtracted.",
     ),
     term(
+        "promised",
+        "",
+        "%",
+        &["promise"],
+        "What compensation leaves of the largest tracking error, as an interval that holds 90 % of axes as the identification leaves them open: parameters drawn from the covariance, and beside the law forces of the size of what it leaves of the log.",
+    ),
+    term(
+        "axis as modelled",
+        "",
+        "",
+        &["exact parameters"],
+        "A simulated axis that is exactly the model, whose parameters the compensator knows: what it shows of a compensation is a limit, no promise.",
+    ),
+    term(
         "held-out",
         "",
         "",

@@ -1,13 +1,14 @@
 //! A study on the terminal.
 
 use super::table::table;
+use crate::report::study::promise::{best, error, lacking, left};
 use crate::report::study::rates::columns;
-use crate::report::study::rows::{judged, less};
+use crate::report::study::rows::{judged, kind, less, tabled};
 use crate::report::study::sweep::{groups, label, lines};
 use std::fmt::Write;
 use std::path::Path;
 use stiction_files::shell::quoted;
-use stiction_files::study::result::ResultRow;
+use stiction_files::study::result::{ResultRow, StudyFile};
 use stiction_files::study::{Started, results};
 use stiction_number::quantity;
 use stiction_workflows::study::StudyOutcome;
@@ -38,8 +39,10 @@ pub fn study(outcome: &StudyOutcome) -> String {
     if let Some(second) = &file.second_axis {
         let _ = writeln!(out, "second axis: {}", second.origin);
     }
+    out.push_str(&promised(file));
     let same = |a: &ResultRow, b: &ResultRow| (&a.path, &a.controller) == (&b.path, &b.controller);
-    for rows in file.results.chunk_by(same) {
+    let results = tabled(&file.results);
+    for rows in results.chunk_by(same) {
         let _ = writeln!(out, "\n{}, {}", rows[0].path, rows[0].controller);
         let header = [
             "compensator",
@@ -72,7 +75,7 @@ pub fn study(outcome: &StudyOutcome) -> String {
         }
     }
     if !file.results.is_empty() {
-        let several = file.results.iter().any(|row| row.runs > 1);
+        let several = results.iter().any(|row| row.runs > 1);
         let worst = |line: &&str| several || !line.starts_with("worst:");
         for line in LEGEND.lines().filter(worst) {
             let _ = writeln!(out, "{line}");
@@ -87,6 +90,47 @@ pub fn study(outcome: &StudyOutcome) -> String {
     out
 }
 
+/// What compensation is promised to leave, before everything else.
+fn promised(file: &StudyFile) -> String {
+    if let Some(reason) = &file.not_promised {
+        return format!("\n{}\n", lacking(reason));
+    }
+    let Some(draws) = file.promise.first().map(|entry| entry.draws) else {
+        return String::new();
+    };
+    let mut out = String::from("\n");
+    for entry in best(file) {
+        let _ = writeln!(
+            out,
+            "promised: {} reduced to {} with {}: {}, {}",
+            error(entry),
+            left(entry.left90_percent),
+            entry.scheme(),
+            entry.path,
+            entry.controller
+        );
+    }
+    let _ = writeln!(
+        out,
+        "90 % interval of {draws} draws of what the identification leaves open, each compared with itself without \
+         compensation\n"
+    );
+    let mut lines = vec![
+        ["path", "controller", "compensator", "left"]
+            .map(String::from)
+            .to_vec(),
+    ];
+    lines.extend(file.promise.iter().map(|entry| {
+        vec![
+            entry.path.clone(),
+            entry.controller.clone(),
+            entry.scheme(),
+            left(entry.left90_percent),
+        ]
+    }));
+    out + &table(&lines, &[false, false, false, true])
+}
+
 /// What is said of speed and standing still; nothing where the motion shows nothing of them.
 fn speeds(rows: &[ResultRow]) -> String {
     let (headers, cells) = columns(rows);
@@ -97,7 +141,7 @@ fn speeds(rows: &[ResultRow]) -> String {
     let header = names.iter().chain(&headers).map(|s| s.to_string());
     let mut lines = vec![header.collect::<Vec<_>>()];
     lines.extend(rows.iter().zip(cells).map(|(row, cells)| {
-        let names = [row.scheme(), row.parameters.clone()];
+        let names = [row.scheme(), kind(row)];
         names.into_iter().chain(cells).collect()
     }));
     let right: Vec<bool> = (0..lines[0].len()).map(|c| c >= names.len()).collect();
@@ -137,7 +181,7 @@ fn line(row: &ResultRow) -> Vec<String> {
     let percent = |x: Option<f64>| x.map_or(String::new(), less);
     vec![
         row.scheme(),
-        row.parameters.clone(),
+        kind(row),
         value(if contour { "contour_rms" } else { "rms_error" }),
         value(if contour {
             "contour_peak"

@@ -17,3 +17,4 @@ mod passivity;
 mod path;
 mod pid;
 mod plane;
+mod unmodelled;

@@ -4,6 +4,7 @@
 use crate::common::{Bench, options};
 use std::fmt::Write;
 use std::path::PathBuf;
+use stiction::commands::study::result::ResultRow;
 use stiction::{LawKind, Silent, Study, bundle};
 use stiction_friction::compensator::{Compensator, Friction, Settings, Source};
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
@@ -104,7 +105,12 @@ fn the_study_beside_a_model_shows_what_compensation_does() {
         .write(&dir)
         .unwrap();
     let study = Study::read(dir.join("study.toml")).unwrap();
-    let results = stiction::simulate(&study, &mut Silent).file.results;
+    let file = stiction::simulate(&study, &mut Silent).file;
+    // The model knows its errors, so that it promises: the axis as modelled is near what it is promised to be.
+    assert_eq!(file.promise.len(), 4, "{:?}", file.not_promised);
+    assert!(file.promise.iter().all(|p| p.left90_percent[1] < 60.0));
+    let modelled = |row: &&ResultRow| row.parameters == "exact";
+    let results: Vec<_> = file.results.iter().filter(modelled).collect();
     // Two paths, without, with Coulomb friction and with LuGre.
     assert_eq!(results.len(), 6);
     for path in results.chunks(3) {

@@ -14,6 +14,7 @@ mod model;
 mod motions;
 mod paper;
 mod procedures;
+mod promise;
 mod recordings;
 mod rests;
 mod simulation;

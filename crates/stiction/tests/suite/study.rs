@@ -469,7 +469,10 @@ fn what_the_report_does_not_draw_it_says() {
     let html = String::from_utf8(stiction::bundle::study(&outcome).files()[0].1.clone()).unwrap();
     stiction_testkit::assert_tables_fit(&html);
     assert!(html.contains("7 of 9: without compensation, and those that leave the least"));
-    assert!(html.contains("largest error, gain 8; ") && html.contains("at the worst of ±10 %"));
+    assert!(
+        html.contains("largest error, gain 8, if the axis were exactly the model; ")
+            && html.contains("at the worst of ±10 %")
+    );
 }
 
 /// Of many motions and controllers every motion has figures before one has them under a second controller; tables have all.

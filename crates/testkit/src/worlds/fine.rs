@@ -1,5 +1,6 @@
 //! The axis in continuous time, by a fine step.
 
+use super::motion::SetPoint;
 use super::{Machine, World};
 use std::f64::consts::TAU;
 
@@ -37,16 +38,22 @@ pub(super) struct Fine {
 }
 
 impl Fine {
-    pub fn new(machine: Machine, world: World, reach: f64, duration: f64) -> Self {
+    /// At rest at the beginning of a log along that path.
+    pub fn of(machine: &Machine, path: &[SetPoint], world: World) -> Self {
         Fine {
-            machine,
+            machine: *machine,
             world,
             state: [0.0; 8],
             slips: [false; 4],
-            reach,
-            duration,
+            reach: path.iter().fold(0.0_f64, |m, p| m.max(p.position.abs())),
+            duration: path.len() as f64 / machine.rate,
             time: 0.0,
         }
+    }
+
+    /// As warm as at the end of the log.
+    pub fn has_run(&mut self) {
+        self.time = self.duration;
     }
 
     /// Where the encoder is, m.
@@ -171,7 +178,7 @@ impl Fine {
         };
         let changed = match self.world {
             World::Position => 1.0 + 0.15 * x / self.reach,
-            World::WarmUp => 1.0 - 0.2 * self.time / self.duration,
+            World::WarmUp => 1.0 - 0.2 * (self.time / self.duration).min(1.0),
             _ => 1.0,
         };
         let z = s[4];

@@ -45,17 +45,16 @@ impl Recording {
 pub fn record(machine: &Machine, motion: Motion, world: World, seed: u64) -> Recording {
     let path = motion.of(machine);
     let h = 1.0 / machine.rate;
-    let n = path.len();
-    let reach = path.iter().fold(0.0_f64, |m, p| m.max(p.position.abs()));
     let mut random = Random::new(seed ^ 0x6c6f_6773);
-    let mut axis = Fine::new(*machine, world, reach, n as f64 * h);
+    let mut axis = Fine::of(machine, &path, world);
     let mut cascade = Cascade::new(machine);
     let phase = random.uniform();
     let counted = |x: f64| ((x / machine.count + phase).floor() - phase + 0.5) * machine.count;
 
     let (mut time, mut position, mut force) = (Vec::new(), Vec::new(), Vec::new());
     let mut velocity = Vec::new();
-    let (mut lagged, mut hidden) = (0.0, 0.0);
+    let mut lagged = 0.0;
+    let mut hidden = Hidden::of(machine, world);
     for (k, point) in path.iter().enumerate() {
         let read = counted(axis.position());
         let command = cascade.force(point.position, point.velocity, point.acceleration, read);
@@ -64,14 +63,7 @@ pub fn record(machine: &Machine, motion: Motion, world: World, seed: u64) -> Rec
         force.push(command);
         lagged += (1.0 - (-0.25_f64).exp()) * (axis.velocity() - lagged);
         velocity.push(lagged);
-        // A random force of a memory of 5 ms, of constant power.
-        let memory = (-h / 5e-3).exp();
-        hidden = memory * hidden + (1.0 - memory * memory).sqrt() * random.normal();
-        let unseen = match world {
-            World::HiddenForce => 0.1 * machine.coulomb * hidden,
-            _ => 0.0,
-        };
-        axis.advance(command + unseen, h);
+        axis.advance(command + hidden.next(h, &mut random), h);
     }
     for u in &mut force {
         *u += machine.noise * random.normal();
@@ -84,6 +76,30 @@ pub fn record(machine: &Machine, motion: Motion, world: World, seed: u64) -> Rec
     };
     spoil(&mut log, velocity, machine, world, &mut random);
     log
+}
+
+/// A random force on the axis that no log shows, with a memory of 5 ms and constant power.
+pub(super) struct Hidden {
+    /// Its root mean square, N.
+    size: f64,
+    now: f64,
+}
+
+impl Hidden {
+    pub fn of(machine: &Machine, world: World) -> Self {
+        let size = match world {
+            World::HiddenForce => 0.1 * machine.coulomb,
+            _ => 0.0,
+        };
+        Hidden { size, now: 0.0 }
+    }
+
+    /// The force over the next `h` seconds, N.
+    pub fn next(&mut self, h: f64, random: &mut Random) -> f64 {
+        let memory = (-h / 5e-3).exp();
+        self.now = memory * self.now + (1.0 - memory * memory).sqrt() * random.normal();
+        self.size * self.now
+    }
 }
 
 /// What the logging makes of it.

@@ -3,6 +3,7 @@
 use super::compensation;
 use super::load::Asked;
 use super::method::Method;
+use super::remaining::remaining;
 use super::trust::Judged;
 use crate::entries;
 use crate::source::Source;
@@ -102,6 +103,9 @@ pub(super) fn result(parts: Parts) -> ResultFile {
             names: covariance.names.iter().map(Name::to_string).collect(),
             matrix: covariance.matrix,
         },
+        remaining: (asked.options.procedures.method.fits_force())
+            .then(|| remaining(&estimate.series, presliding(estimate)))
+            .flatten(),
         fit: fit_entry(&estimate.fit),
         low_speed: estimate.low_speed.as_ref().map(low_entry),
         validation,
@@ -124,6 +128,18 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         searched: None,
         warnings: judged.warnings,
     }
+}
+
+/// Travel over which the friction of bristles reverses, m or rad; NaN for a law without bristles.
+fn presliding(estimate: &FittedLaw) -> f64 {
+    let value = |quantity: Quantity| {
+        let of = estimate
+            .parameters
+            .iter()
+            .filter(|p| p.name.quantity == quantity);
+        of.map(|p| p.value).fold(f64::NAN, f64::max)
+    };
+    value(Quantity::Coulomb) / value(Quantity::Sigma0)
 }
 
 fn top_speed(estimate: &FittedLaw) -> Option<f64> {

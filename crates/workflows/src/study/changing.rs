@@ -3,7 +3,7 @@
 use stiction_files::study::{Belief, Event, Machine, ModelScheme, Scheme, Study};
 use stiction_friction::{LuGre, ParamError};
 use stiction_servo::axis::{Axis, Correction, Sample};
-use stiction_servo::integrator::Quick;
+use stiction_servo::integrator::Integrator;
 use stiction_servo::load::{LoadEstimator, LoadSettings, scaled};
 use stiction_servo::path::Reference;
 
@@ -29,6 +29,8 @@ pub struct LoadCourse {
 pub(super) struct Changing<'a> {
     events: &'a [Event],
     machine: &'a Machine,
+    /// The axis itself.
+    axis: Belief,
     belief: Belief,
     /// Part of the mass that is fed forward, where the load is estimated.
     estimates: Option<f64>,
@@ -37,7 +39,13 @@ pub(super) struct Changing<'a> {
 
 impl<'a> Changing<'a> {
     /// `None` where nothing changes and nothing is looked for. `fed` is the mass that the controller feeds forward.
-    pub fn of(study: &'a Study, scheme: &Scheme, belief: Belief, fed: f64) -> Option<Self> {
+    pub fn of(
+        study: &'a Study,
+        scheme: &Scheme,
+        axis: Belief,
+        belief: Belief,
+        fed: f64,
+    ) -> Option<Self> {
         let model = |test: fn(&ModelScheme) -> bool| match scheme {
             Scheme::Model(model) => test(model),
             _ => false,
@@ -45,6 +53,7 @@ impl<'a> Changing<'a> {
         let changing = Changing {
             events: &study.events,
             machine: &study.machine,
+            axis,
             belief,
             estimates: model(|m| m.load_estimate).then_some(fed / belief.mass),
             adapts: model(|m| m.adaptation.is_some()),
@@ -54,9 +63,9 @@ impl<'a> Changing<'a> {
     }
 
     /// Runs the axis over the references, each with the velocity ahead.
-    pub fn follow(
+    pub fn follow<I: Integrator<LuGre<f64>>>(
         &self,
-        axis: &mut Axis<LuGre<f64>, Quick>,
+        axis: &mut Axis<LuGre<f64>, I>,
         references: impl ExactSizeIterator<Item = (Reference, f64)>,
     ) -> Result<(Vec<Sample>, LoadCourse), ParamError> {
         let machine = self.machine;
@@ -70,7 +79,7 @@ impl<'a> Changing<'a> {
             None => None,
         };
         let mut events = self.events.iter().peekable();
-        let (mut mass, mut level) = (machine.mass, 1.0);
+        let (mut mass, mut level) = (self.axis.mass, 1.0);
         let thin = references.len().div_ceil(MOST_POINTS_KEPT).max(1);
         let mut samples = Vec::with_capacity(references.len());
         let mut course = LoadCourse::default();
@@ -83,7 +92,7 @@ impl<'a> Changing<'a> {
                 }
                 if let Some(new) = event.friction {
                     level = new;
-                    axis.set_law(scaled(&machine.law, level)?);
+                    axis.set_law(scaled(&self.axis.law, level)?);
                 }
             }
             let sample = axis.step(now, ahead, Correction::default());

@@ -10,13 +10,14 @@ use super::machine::{self, largest_force};
 use super::metrics::feed;
 use stiction_files::study::result::PathEntry;
 use stiction_files::study::{Belief, ContourPlan, Job, Scheme, Second, Study};
-use stiction_friction::ParamError;
+use stiction_friction::{LuGre, ParamError};
 use stiction_servo::axis::{Axis, AxisSettings, Sample};
 use stiction_servo::controller::Controller;
 use stiction_servo::cross_coupling::CrossCoupling;
-use stiction_servo::integrator::Quick;
+use stiction_servo::integrator::{Integrator, Quick};
 use stiction_servo::metrics::{Contour, Feed, Tracking, circular_deviation, share_at_limit};
 use stiction_servo::two_axes::{PlaneSample, follow};
+use stiction_servo::unmodelled::Beside;
 
 /// What is asked of one run.
 struct Plan<'a> {
@@ -24,6 +25,9 @@ struct Plan<'a> {
     pub controllers: [Controller; 2],
     pub scheme: &'a Scheme,
     pub beliefs: [Belief; 2],
+    /// The axes themselves, and whether they are those of the study.
+    pub axes: [Belief; 2],
+    pub own: bool,
     pub coupling: Option<CrossCoupling>,
 }
 
@@ -37,28 +41,31 @@ struct Ran {
     pub counted: usize,
 }
 
-fn along(
+fn along<I: Integrator<LuGre<f64>>>(
     study: &Study,
     second: &Second,
     plan: &Plan,
     job: Job,
     before: &Learnt,
+    integrator: &dyn Fn(usize) -> Result<I, ParamError>,
 ) -> Result<Ran, Fault> {
     let contour = plan.contour;
     let machines = [&study.machine, &second.machine];
     // Without compensation.
-    let settings = [0, 1].map(|i| {
+    let settings = |i: usize| {
         let controller = believing(plan.controllers[i], machines[i], plan.beliefs[i]);
         // Noise of its own on each axis.
-        machine::settings(machines[i], controller, study.seed.wrapping_add(i as u64))
-    });
+        let seed = study.seed.wrapping_add(i as u64);
+        machine::settings(machines[i], plan.axes[i], controller, seed)
+    };
+    let settings = [settings(0)?, settings(1)?];
     let follow = |[x, y]: [AxisSettings; 2]| -> Result<_, ParamError> {
-        let mut axes = [Axis::new(x, Quick::new(1)?)?, Axis::new(y, Quick::new(1)?)?];
+        let mut axes = [Axis::new(x, integrator(0)?)?, Axis::new(y, integrator(1)?)?];
         let samples = follow(&mut axes, plan.coupling.as_ref(), contour.motion.as_ref())?;
         Ok((axes, samples))
     };
-    let own_mass = (machines.iter().zip(&plan.beliefs)).any(|(m, b)| m.mass != b.mass);
-    let watches = before.before(study, job, own_mass, || {
+    let own_mass = (machines.iter().zip(&plan.beliefs)).all(|(m, b)| m.mass == b.mass);
+    let watches = before.before(study, job, !(plan.own && own_mass), || {
         let (_, samples) = follow(settings.clone())?;
         Ok(sides(&samples).to_vec())
     })?;
@@ -143,6 +150,8 @@ pub(super) fn on_contour(
     let missing = ParamError::new("axes", 1.0, "two, for a contour");
     let second = study.second.as_ref().ok_or(missing)?;
     let family = &study.families[job.family];
+    let families = [family, &second.families[job.family]];
+    let drawn = families.map(|family| family.axes.get(job.belief));
     let controllers = [
         study.controllers[job.controller].value,
         second.controllers[job.controller],
@@ -152,13 +161,25 @@ pub(super) fn on_contour(
         contour,
         controllers,
         scheme: &study.compensators[job.compensator].value,
-        beliefs: [
-            family.beliefs[job.belief],
-            second.families[job.family][job.belief],
-        ],
+        beliefs: families.map(|family| family.beliefs[job.belief]),
+        axes: match drawn {
+            [Some(x), Some(y)] => [x.axis, y.axis],
+            _ => [&study.machine, &second.machine].map(|machine| Belief {
+                law: machine.law,
+                mass: machine.mass,
+            }),
+        },
+        own: drawn[0].is_none(),
         coupling: coupling.map(|c| c.above(controllers.each_ref())),
     };
-    let ran = along(study, second, &plan, job, before)?;
+    let ran = match drawn {
+        [Some(x), Some(y)] => {
+            let beside = [&x.beside, &y.beside];
+            let integrator = |i: usize| Ok(Beside::new(Quick::new(1)?, beside[i].clone()));
+            along(study, second, &plan, job, before, &integrator)?
+        }
+        _ => along(study, second, &plan, job, before, &|_| Quick::new(1))?,
+    };
     let names = study.names(job);
     let exact = family.kind == "exact" && study.keeps_courses;
     Ok(Done {

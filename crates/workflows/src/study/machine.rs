@@ -3,9 +3,9 @@
 use stiction_files::study::result::{
     AxisParameter, DisturbanceEntry, EventEntry, SimulatedAxis, VoltageEntry,
 };
-use stiction_files::study::{Event, Machine};
+use stiction_files::study::{Belief, Event, Machine};
 use stiction_files::symbols;
-use stiction_friction::Damping;
+use stiction_friction::{Damping, ParamError};
 use stiction_log::Motion;
 use stiction_servo::axis::AxisSettings;
 use stiction_servo::controller::Controller;
@@ -13,10 +13,15 @@ use stiction_servo::disturbance::Disturbance;
 use stiction_servo::drive::Drive;
 use stiction_servo::feedforward::Feedforward;
 
-/// The axis with a controller and without compensation.
-pub(super) fn settings(machine: &Machine, controller: Controller, seed: u64) -> AxisSettings {
-    AxisSettings {
-        plant: machine.plant,
+/// The axis with a controller and without compensation, with that law and mass.
+pub(super) fn settings(
+    machine: &Machine,
+    axis: Belief,
+    controller: Controller,
+    seed: u64,
+) -> Result<AxisSettings, ParamError> {
+    Ok(AxisSettings {
+        plant: machine.plant.with_law(axis.law).with_mass(axis.mass)?,
         drive: machine.drive,
         encoder: machine.encoder,
         position_noise: machine.position_noise,
@@ -27,7 +32,7 @@ pub(super) fn settings(machine: &Machine, controller: Controller, seed: u64) -> 
         rate: machine.rate,
         substeps: machine.substeps,
         seed,
-    }
+    })
 }
 
 /// What the controller may ask for and the drive can give, N (N m).

@@ -10,10 +10,10 @@ use super::machine::{largest_force, settings};
 use super::metrics::of_path;
 use super::trace::Trace;
 use stiction_files::study::result::PathEntry;
-use stiction_files::study::{Job, PathPlan, Scheme, Study};
-use stiction_friction::ParamError;
+use stiction_files::study::{Belief, Job, PathPlan, Scheme, Study};
+use stiction_friction::{LuGre, ParamError};
 use stiction_servo::axis::Axis;
-use stiction_servo::integrator::Quick;
+use stiction_servo::integrator::Integrator;
 use stiction_servo::path::Reference;
 use stiction_servo::run::{follow, follow_sampled, sample_count};
 use stiction_servo::sampled::Sampled;
@@ -34,16 +34,17 @@ pub(super) fn sampled(study: &Study, grids: usize) -> Vec<Option<Sampled>> {
     sampled.collect()
 }
 
-/// Along `sampled`, if it is there, which is the path's own reference.
-pub(super) fn on_path(
+/// Along `sampled`, if it is there, which is the path's own reference; `integrator` moves the axis.
+pub(super) fn on_path<I: Integrator<LuGre<f64>>>(
     study: &Study,
     job: Job,
     sampled: Option<&Sampled>,
     before: &Learnt,
+    integrator: &dyn Fn() -> Result<I, ParamError>,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Option<Done>, Fault> {
     let path = &study.paths[job.path];
-    let follow = |axis: &mut Axis<_, _>| match sampled {
+    let follow = |axis: &mut Axis<LuGre<f64>, I>| match sampled {
         Some(sampled) => follow_sampled(axis, sampled),
         None => follow(axis, path.trajectory.as_ref()),
     };
@@ -52,17 +53,23 @@ pub(super) fn on_path(
     let controller = study.controllers[job.controller].value;
     let controller = believing(controller, &study.machine, belief);
     let scheme = &study.compensators[job.compensator].value;
-    let mut settings = settings(&study.machine, controller, study.seed);
+    let drawn = family.axes.get(job.belief);
+    let own = Belief {
+        law: study.machine.law,
+        mass: study.machine.mass,
+    };
+    let axis = drawn.map_or(own, |d| d.axis);
+    let mut settings = settings(&study.machine, axis, controller, study.seed)?;
     let without = || {
-        let mut axis = Axis::new(settings.clone(), Quick::new(1)?)?;
+        let mut axis = Axis::new(settings.clone(), integrator()?)?;
         Ok(vec![follow(&mut axis)?])
     };
-    let own_mass = belief.mass != study.machine.mass;
-    let watches = before.before(study, job, own_mass, without)?;
+    let alone = drawn.is_some() || belief.mass != study.machine.mass;
+    let watches = before.before(study, job, alone, without)?;
     settings.feedforward = feedforward(scheme, &study.machine, &controller, belief, &watches[0])?;
-    let changing = Changing::of(study, scheme, belief, controller.mass_feedforward());
+    let changing = Changing::of(study, scheme, axis, belief, controller.mass_feedforward());
     let mut load = None;
-    let mut follow = |axis: &mut Axis<_, _>| {
+    let mut follow = |axis: &mut Axis<LuGre<f64>, I>| {
         let Some(changing) = &changing else {
             return follow(axis);
         };
@@ -74,7 +81,7 @@ pub(super) fn on_path(
         load = Some(course);
         Ok(samples)
     };
-    let mut axis = Axis::new(settings.clone(), Quick::new(1)?)?;
+    let mut axis = Axis::new(settings.clone(), integrator()?)?;
     let mut samples = follow(&mut axis)?;
     if let Scheme::Learning(learning, passes) = scheme {
         for _ in 1..*passes {
@@ -89,7 +96,7 @@ pub(super) fn on_path(
                 study.machine.rate,
             )?;
             settings.feedforward.learned = next;
-            axis = Axis::new(settings.clone(), Quick::new(1)?)?;
+            axis = Axis::new(settings.clone(), integrator()?)?;
             samples = follow(&mut axis)?;
         }
     }

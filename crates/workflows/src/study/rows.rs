@@ -3,12 +3,13 @@
 use super::done::Done;
 use super::machine::unit;
 use super::metrics::metrics;
-use stiction_files::study::Study;
-use stiction_files::study::result::{MetricEntry, ResultRow};
+use stiction_files::study::result::{MetricEntry, PromiseEntry, ResultRow};
+use stiction_files::study::{PROMISE_DRAWS, Study};
 
 /// Rows in the order of the grid, of what is done.
 pub(super) fn rows(study: &Study, done: &[Done]) -> Vec<ResultRow> {
     let mut rows: Vec<ResultRow> = Vec::new();
+    let mut bare: &[Done] = &[];
     for cell in done.chunk_by(|a, b| a.job.cell() == b.job.cell()) {
         let job = cell[0].job;
         let family = &study.families[job.family];
@@ -32,10 +33,19 @@ pub(super) fn rows(study: &Study, done: &[Done]) -> Vec<ResultRow> {
             switched_off: cell.iter().filter(|d| d.switched_off).count(),
             metrics: metrics.collect(),
         };
+        let promised = family.kind == "promised";
+        if promised {
+            if row.compensator == "none" && !row.coupled {
+                bare = cell;
+            } else {
+                promise(&mut row, cell, bare, names);
+            }
+        }
         let without = rows
             .iter()
             .find(|r| r.path == row.path && r.controller == row.controller)
-            .filter(|r| r.compensator == "none" && r.parameters == "exact" && !r.coupled);
+            .filter(|r| r.compensator == "none" && r.parameters == "exact" && !r.coupled)
+            .filter(|_| !promised);
         if let Some(without) = without {
             compare(&mut row, without);
         }
@@ -61,9 +71,55 @@ fn entry(name: String, unit: String, mut values: Vec<f64>, family: &str) -> Metr
         least: values[0],
         largest: values[values.len() - 1],
         interval95: (family == "covariance").then(|| [at(0.025), at(0.975)]),
+        left90_percent: None,
         reduction_percent: None,
         worst_reduction_percent: None,
     }
+}
+
+/// What is left of each metric on each axis that was drawn, compared with the same axis without compensation.
+fn promise(row: &mut ResultRow, cell: &[Done], bare: &[Done], names: &[&str]) {
+    for metric in &mut row.metrics {
+        let Some(i) = names.iter().position(|name| *name == metric.name) else {
+            continue;
+        };
+        let left = cell.iter().filter_map(|with| {
+            let without = bare.iter().find(|b| b.job.belief == with.job.belief)?;
+            Some(100.0 * with.metrics[i] / without.metrics[i])
+        });
+        let mut left: Vec<f64> = left.filter(|x| x.is_finite()).collect();
+        left.sort_by(f64::total_cmp);
+        // Axes on which a run could not be made would be missing at one end.
+        if left.len() == PROMISE_DRAWS as usize {
+            metric.left90_percent = Some([0.05, 0.95].map(|share| within(&left, share)));
+        }
+    }
+}
+
+/// What the rows promise of the largest error.
+pub(super) fn promises(rows: &[ResultRow]) -> Vec<PromiseEntry> {
+    let promised = rows.iter().filter_map(|row| {
+        let metric = row.judged()?;
+        Some(PromiseEntry {
+            path: row.path.clone(),
+            controller: row.controller.clone(),
+            compensator: row.compensator.clone(),
+            coupled: row.coupled,
+            metric: metric.name.clone(),
+            left90_percent: metric.left90_percent?,
+            draws: row.runs,
+        })
+    });
+    promised.collect()
+}
+
+/// The value below which a further draw lies with that probability: the draws divide the line into parts that it falls into
+/// equally often (Weibull's plotting position).
+fn within(sorted: &[f64], share: f64) -> f64 {
+    let place = (share * (sorted.len() + 1) as f64 - 1.0).clamp(0.0, (sorted.len() - 1) as f64);
+    let i = place as usize;
+    let next = sorted.get(i + 1).unwrap_or(&sorted[i]);
+    sorted[i] + (place - i as f64) * (next - sorted[i])
 }
 
 /// Largest change that is stated, %: beyond, what it is compared with is next to nothing.

@@ -5,7 +5,7 @@ use super::done::Done;
 use super::learnt::Learnt;
 use super::metrics::{may_be_absent, metrics};
 use super::outcome::StudyOutcome;
-use super::rows::rows;
+use super::rows::{promises, rows};
 use super::{contour, course, doubt, machine, path, sweeps};
 use rayon::prelude::*;
 use stiction_codes::Code;
@@ -15,7 +15,9 @@ use stiction_files::study::{Job, Study};
 use stiction_friction::ParamError;
 use stiction_number::{four_digits as short, quantity};
 use stiction_search::{Observer, Shared};
+use stiction_servo::integrator::Quick;
 use stiction_servo::sampled::Sampled;
+use stiction_servo::unmodelled::Beside;
 
 /// Runs the whole grid on all threads. The observer is told the number of runs done and their total, also between the
 /// passes of learning, and may stop the work: what is done then is kept. Results do not depend on the number of
@@ -96,6 +98,8 @@ pub fn simulate(study: &Study, observer: &mut dyn Observer) -> StudyOutcome {
                 .chain(study.contours.iter().map(contour::entry))
                 .collect(),
             events: study.events.iter().map(machine::event).collect(),
+            promise: promises(&results),
+            not_promised: study.not_promised.clone(),
             results,
             sweeps,
             warnings,
@@ -130,7 +134,16 @@ impl<'a> Grid<'a> {
             Some(contour) => Some(contour::on_contour(study, job, contour, &self.learnt)?),
             None => {
                 let sampled = self.sampled[job.path].as_ref();
-                path::on_path(study, job, sampled, &self.learnt, go_on)?
+                match study.families[job.family].axes.get(job.belief) {
+                    None => {
+                        let axis = || Quick::new(1);
+                        path::on_path(study, job, sampled, &self.learnt, &axis, go_on)?
+                    }
+                    Some(drawn) => {
+                        let axis = || Ok(Beside::new(Quick::new(1)?, drawn.beside.clone()));
+                        path::on_path(study, job, sampled, &self.learnt, &axis, go_on)?
+                    }
+                }
             }
         };
         for (&name, &value) in metrics(study, job)

@@ -70,6 +70,7 @@ pub(super) fn published(given: &Given<'_>) -> Result<Model, Error> {
         origin: "Parameters given in the study".into(),
         parameters,
         covariance: None,
+        remaining: None,
         warnings: Vec::new(),
         read: None,
     };

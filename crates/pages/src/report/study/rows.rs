@@ -16,15 +16,28 @@ pub(crate) const COLORS: [Color; 7] = [
 
 /// The metric by which compensators are compared.
 pub(crate) fn judged(row: &ResultRow) -> Option<&MetricEntry> {
-    row.metric("contour_peak")
-        .or_else(|| row.metric("peak_error"))
+    row.judged()
+}
+
+/// The rows of the tables: what is promised stands in one of its own.
+pub(crate) fn tabled(rows: &[ResultRow]) -> Vec<ResultRow> {
+    let tabled = rows.iter().filter(|r| r.parameters != "promised");
+    tabled.cloned().collect()
+}
+
+/// The kind of parameters.
+pub(crate) fn kind(row: &ResultRow) -> String {
+    match row.parameters.as_str() {
+        "exact" => "axis as modelled".into(),
+        other => other.into(),
+    }
 }
 
 /// The kind of parameters, and what became of the compensation.
 pub(crate) fn believed(row: &ResultRow) -> String {
     match row.remarks() {
-        remarks if remarks.is_empty() => row.parameters.clone(),
-        remarks => format!("{}, {remarks}", row.parameters),
+        remarks if remarks.is_empty() => kind(row),
+        remarks => format!("{}, {remarks}", kind(row)),
     }
 }
 

@@ -1,6 +1,8 @@
 //! Logs made on the spot, each in its own folder.
 #![allow(dead_code)]
 
+pub mod kept;
+
 use std::fmt::Write;
 use std::ops::{Deref, DerefMut};
 use std::path::{Path, PathBuf};
