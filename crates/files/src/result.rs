@@ -1,10 +1,12 @@
 //! `result.json`: everything an identification found. Schema `stiction.result/1`, only ever extended.
 
+mod misfit;
 mod procedure;
 mod searched;
 mod trust;
 
 use crate::error::Warning;
+pub use misfit::MisfitEntry;
 pub use procedure::{
     BreakAwayEntry, InversionEntry, PreslidingStepEntry, RejectedEntry, StaticMapEntry,
     StaticPointEntry, TwoStepEntry, TwoStepParameter,
@@ -56,6 +58,9 @@ pub struct ResultFile {
     pub fit: FitEntry,
     /// The same near zero speed; absent where no sample is slow.
     pub low_speed: Option<LowSpeedEntry>,
+    /// What the law leaves systematically; absent where the residual shows no more than noise, encoder and filters explain.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub misfit: Option<MisfitEntry>,
     /// Fit on logs (or parts of them) that were not fitted.
     pub validation: Vec<ValidationEntry>,
     /// What was simulated, where the method simulates the axis.

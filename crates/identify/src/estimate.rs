@@ -4,6 +4,7 @@ pub(crate) mod advice;
 mod autoregression;
 mod conditioned;
 mod curve;
+mod filtered;
 pub(crate) mod fitted;
 pub(crate) mod intervals;
 mod optimal;
@@ -197,6 +198,7 @@ pub fn estimate(
             fit,
             low_speed,
             low_speed_bound,
+            misfit: None,
             series,
             status: optimum.status,
             counts: optimum.counts,

@@ -4,6 +4,7 @@ use crate::conditioning::record::Record;
 use crate::conditioning::{Conditioning, condition_as};
 use crate::estimate::Estimate;
 use crate::estimate::uncertainty::{Unknowns, unknowns};
+use crate::misfit::{Divisions, Energies};
 use crate::replica::{Axis, Replica};
 use crate::separable::descent::descend;
 use crate::separable::objective::{Evaluation, Objective};
@@ -22,7 +23,7 @@ const MOST_TRIALS: usize = 60;
 /// Unknowns and coefficients that a fit of a replica finds, from its true values in `steps` Gauss-Newton
 /// steps: the errors are small, so one step is accurate to first order, and two are almost exact. Where
 /// two would lead far away, the record hardly determines some unknown, and a full descent is made
-/// instead. With `surety` also the uncertainty of that fit.
+/// instead. With `surety` also the uncertainty of that fit, and what comes back of its residual.
 pub(crate) fn refitted(
     replica: &Replica,
     conditioning: &Conditioning,
@@ -56,11 +57,13 @@ pub(crate) fn refitted(
         last = stepped(&objective, &last.p, &at)?;
     }
     let unknowns = surety.then(|| unknowns(&objective, &at));
+    let energies = surety.then(|| Divisions::of(&objective, &at).energies(at.residual()));
     let refit = Refit {
         p: last.p,
         square: (at.cost - last.fall).max(0.0) / at.residual().len().max(1) as f64,
         c: last.c,
         unknowns,
+        energies,
     };
     let finite = |x: &[f64]| x.iter().all(|x| x.is_finite());
     (finite(&refit.p) && finite(&refit.c) && refit.square.is_finite()).then_some(refit)
@@ -157,6 +160,8 @@ pub(crate) struct Refit {
     pub c: Vec<f64>,
     /// Their uncertainty from the residual, if asked for.
     pub unknowns: Option<Unknowns>,
+    /// What comes back of its residual, if asked for.
+    pub energies: Option<Energies>,
     /// Mean square of the residual.
     square: f64,
 }

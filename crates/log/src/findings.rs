@@ -17,6 +17,8 @@
 //! | `zero-filled` | position or force 0 in many samples whose neighbours are far from it | as missing cells |
 //! | `short-column` | a column ends before the others | all cut to the shortest; refused if that costs over 1 % |
 //! | `saturation` | force constant at its extreme for 5 samples or more and not a staircase; or at a given limit | samples excluded |
+//! | `coarse-force` | force in steps of more than a fiftieth of its range | kept |
+//! | `held-position` | the position changes at every n-th row only, n up to 64 | rows between left out |
 //! | `stuck-encoder` | position frozen while the velocity, the reference or the jump after it shows motion | samples excluded |
 //! | `rest-at-end` | the axis stands still for 1 s or more at the start or the end | left out of fits of the whole record, up to 0.02 s beside the motion; kept where the force varies on purpose |
 //! | `rest-between` | the same between two motions | fitted; a warning above a third of the samples |
@@ -55,6 +57,7 @@ pub(crate) fn inspect(log: &mut Log, mapping: &Mapping) {
     stray::strays(log);
     stuck::stuck(log);
     force::saturation(log, mapping);
+    force::steps(log);
     force::sign(log);
     velocity::consistency(log);
     acceleration::consistency(log);

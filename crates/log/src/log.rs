@@ -23,6 +23,7 @@
 mod cells;
 mod clock;
 mod filled;
+mod held;
 mod unwrap;
 
 use crate::findings::{self, Finding, Severity};
@@ -136,6 +137,16 @@ impl Log {
             if let Some(position) = columns.get_mut(Role::Position) {
                 findings.push(unwrap::unwrap(position, wrap.period, &unit));
             }
+        }
+        let held = columns
+            .get_mut(Role::Position)
+            .and_then(|position| held::period(&time, position));
+        if let Some((rows, first)) = held {
+            findings.push(held::finding(rows, rate(&time)));
+            if let Some(force) = columns.get_mut(Role::Force) {
+                *force = held::meaned(force, rows);
+            }
+            columns.keep(&mut time, |row| row % rows == first);
         }
         let mended = columns.mend(&mut time)?;
         findings.extend(mended.findings);
@@ -276,6 +287,40 @@ impl Log {
             .zip(ends)
             .map(|(from, to)| from..to)
             .collect();
+    }
+
+    /// Takes the force of every row so many rows later, within each segment, since it was logged late; rows at the end of one
+    /// whose force is not in it are excluded.
+    pub fn take_force_later(&mut self, rows: usize) {
+        let message = format!(
+            "the force was logged {rows} rows ({} ms) later than the motion that it belongs to; that of every row is taken that \
+             much later. State it as delay under [terms] in the axis file, in time, if it is known",
+            stiction_number::short(1e3 * rows as f64 / self.rate_hz)
+        );
+        let finding = Finding::new(Code::ForceLate, Severity::Warning, message);
+        self.findings.push(finding);
+        let segments = self.segments.clone();
+        if let Some(force) = &mut self.force {
+            for segment in &segments {
+                let own = &mut force[segment.clone()];
+                let rows = rows.min(own.len());
+                own.copy_within(rows.., 0);
+            }
+        }
+        for excluded in &mut self.excluded {
+            if excluded.code == Code::Saturation {
+                let earlier = |row: usize| row.saturating_sub(rows);
+                excluded.samples = earlier(excluded.samples.start)..earlier(excluded.samples.end);
+            }
+        }
+        for segment in segments {
+            self.exclude(
+                segment.end.saturating_sub(rows).max(segment.start)..segment.end,
+                Code::ForceLate,
+            );
+        }
+        self.excluded
+            .sort_by_key(|e| (e.samples.start, e.samples.end));
     }
 
     /// Marks samples as not to be fitted to.

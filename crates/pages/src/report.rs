@@ -178,9 +178,11 @@ fn measured_force(mut document: Document, outcome: &Outcome) -> Document {
 
 /// What the residual tells, and how the parameters are correlated.
 fn how_sure(document: Document, outcome: &Outcome) -> Document {
+    let mut document = document.heading(2, "How sure").paragraph(sureness(outcome));
+    if let Some(left) = figures::left(outcome) {
+        document = document.block(left);
+    }
     document
-        .heading(2, "How sure")
-        .paragraph(sureness(outcome))
         .block(Block::Columns(vec![
             figures::autocorrelation(outcome).into(),
             figures::convergence(outcome).into(),
@@ -330,10 +332,17 @@ fn sureness(outcome: &Outcome) -> String {
         true => "neighbouring residuals resemble each other, and the intervals count that",
         false => "neighbouring residuals do not resemble each other",
     };
+    let left = match &outcome.result.misfit {
+        None => String::new(),
+        Some(misfit) => format!(
+            ": {} of the residual comes back with {}, and the intervals count that",
+            Percent::error(misfit.share_percent).digits(2),
+            misfit.by.replace("level over", "levels of friction over")
+        ),
+    };
     format!(
         "The residual is worth about {} independent samples of {}: {resembles}. What is left outside the \
-         band in the autocorrelation is friction, cogging or dynamics that the law does not describe. \
-         The intervals do not cover the bias of a wrong law.",
+         band in the autocorrelation is friction, cogging or dynamics that the law does not describe{left}.",
         number::count(worth as u64),
         number::count(fit.samples as u64)
     )

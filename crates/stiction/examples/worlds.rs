@@ -5,13 +5,15 @@
 //! ...); all of a kind where none is named. `each` prints every run too. `twice` identifies two logs of the axis together,
 //! `apart-PERCENT` two between which its friction has risen by so much; the second moves as `with-MOTION` says.
 //!
-//! A value is claimed where a result may be used and lists it as a constant of the machine. A run is silent where a claimed
-//! value is off by more than half an interval and a whole one: its interval misses the truth by more than its own width.
+//! What is claimed, and when a run is silent, is defined in `tests/suite/claims`.
 
+#[path = "../tests/suite/claims/mod.rs"]
+mod claims;
+
+use claims::Run;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use stiction::{Axis, Column, Fit, Log, Options, identify};
-use stiction_testkit::worlds::{Machine, Motion, Recording, World, record};
+use stiction_testkit::worlds::{Machine, Motion, World, record};
 
 fn main() {
     let (mut numbers, mut names) = (Vec::new(), Vec::<String>::new());
@@ -70,7 +72,7 @@ fn main() {
                 ));
                 machines.push(later);
             }
-            judged(&machines, identified(&machine, &logs))
+            claims::judged(&machines, claims::identified(&machine, &logs))
         })
         .collect();
     if names.iter().any(|n| n == "each") {
@@ -110,153 +112,45 @@ fn short(world: World) -> String {
         .to_lowercase()
 }
 
-fn identified(machine: &Machine, logs: &[Recording]) -> Result<Fit, stiction::Error> {
-    let axis = Axis::default();
-    let logs: Result<Vec<Log>, _> = logs
-        .iter()
-        .enumerate()
-        .map(|(i, log)| Log::from_columns(&format!("log-{}", i + 1), columns(machine, log), &axis))
-        .collect();
-    identify(&logs?, &axis, &Options::default())
-}
+/// World, axis, motion, seed.
+type Task = (World, usize, Motion, u64);
 
-fn columns(machine: &Machine, log: &Recording) -> Vec<Column> {
-    let (length, force) = match machine.kind {
-        "rotary" => ("rad", "N*m"),
-        _ => ("m", "N"),
-    };
-    let column = |name: &str, unit: &str, values: &[f64]| Column {
-        name: name.into(),
-        unit: Some(unit.into()),
-        values: values.to_vec(),
-    };
-    let mut columns = vec![column("time", "s", &log.time)];
-    if let Some(x) = &log.position {
-        columns.push(column("position", length, x));
-    }
-    if let Some(v) = &log.velocity {
-        columns.push(column("velocity", &format!("{length}/s"), v));
-    }
-    columns.push(column("force", force, &log.force));
-    columns
-}
-
-/// What a run claims, and what of it holds.
-#[derive(Clone, Debug, Default)]
-struct Run {
-    refused: Option<String>,
-    trusted: bool,
-    law: String,
-    /// Every claimed value: name, error in parts of the truth, error in halves of its interval.
-    claims: Vec<(String, f64, f64)>,
-    /// Values that are listed as open.
-    open: usize,
-    codes: Vec<&'static str>,
-}
-
-impl Run {
-    /// Whether a claimed interval misses by more than its width.
-    fn is_silent(&self) -> bool {
-        self.claims.iter().any(|c| c.2.abs() > 3.0)
-    }
-}
-
-impl std::fmt::Display for Run {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        if let Some(why) = &self.refused {
-            return write!(f, "refused: {why}");
-        }
-        write!(
-            f,
-            "{} {}",
-            self.law,
-            if self.trusted {
-                "trusted"
-            } else {
-                "not trusted"
-            }
-        )?;
-        for (name, part, halves) in &self.claims {
-            let mark = if halves.abs() > 3.0 {
-                "!!"
-            } else if halves.abs() > 1.0 {
-                "!"
-            } else {
-                ""
-            };
-            write!(f, ", {name} {:+.1} % ({halves:+.1}){mark}", 100.0 * part)?;
-        }
-        write!(f, "; {} open; {}", self.open, self.codes.join(" "))
-    }
-}
-
-/// A claim about several machines holds as far as it does for the one that it holds least for.
-fn judged(machines: &[Machine], fit: Result<Fit, stiction::Error>) -> Run {
-    let fit = match fit {
-        Ok(fit) => fit,
-        Err(e) => {
-            return Run {
-                refused: Some(e.to_string()),
-                ..Run::default()
-            };
-        }
-    };
-    let trust = &fit.result().trust;
-    let mut run = Run {
-        trusted: fit.is_trustworthy(),
-        law: fit.law_kind().name().to_owned(),
-        open: trust.open.len(),
-        codes: fit.warnings().iter().map(|w| w.code.as_str()).collect(),
-        ..Run::default()
-    };
-    run.codes.sort_unstable();
-    run.codes.dedup();
-    if !run.trusted {
-        return run;
-    }
-    for p in fit
-        .parameters()
-        .filter(|p| trust.constants.iter().any(|c| c == p.name()))
-    {
-        let base = p.name().trim_end_matches("_pos").trim_end_matches("_neg");
-        let Some((low, high)) = p.interval() else {
-            continue;
-        };
-        let centre = 0.5 * (low + high);
-        let truths = machines.iter().flat_map(Machine::truth);
-        let claims = truths.filter(|t| t.0 == base).map(|(_, truth)| {
-            let halves = (centre - truth) / (0.5 * (high - low));
-            (p.name().to_owned(), p.value() / truth - 1.0, halves)
-        });
-        let least = claims.max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()));
-        run.claims.extend(least);
-    }
-    run
-}
-
-/// World, axis, motion.
-type Cell = (World, usize, Motion);
-
-fn table(tasks: &[(World, usize, Motion, u64)], runs: &[Run], axes: &[String]) {
+/// One row for each cell, for each motion of a world, for each world, and for all.
+fn table(tasks: &[Task], runs: &[Run], axes: &[String]) {
     println!(
         "| world | axis | motion | runs | trusted | silent | claimed | inside | open | largest error | largest, half-widths | codes |"
     );
     println!("|---|---|---|---:|---:|---:|---:|---:|---:|---|---|---|");
-    let mut cells: Vec<(Cell, Vec<&Run>)> = Vec::new();
-    for (task, run) in tasks.iter().zip(runs) {
-        let cell = (task.0, task.1, task.2);
-        match cells.last_mut().filter(|c| c.0 == cell) {
-            Some(last) => last.1.push(run),
-            None => cells.push((cell, vec![run])),
+    let of = |wanted: &dyn Fn(&Task) -> bool| -> Vec<&Run> {
+        let both = tasks.iter().zip(runs);
+        both.filter(|(task, _)| wanted(task))
+            .map(|(_, run)| run)
+            .collect()
+    };
+    let mut cells: Vec<(World, usize, Motion)> = tasks.iter().map(|t| (t.0, t.1, t.2)).collect();
+    cells.dedup();
+    for &(world, axis, motion) in &cells {
+        let head = [&world.name(), &axes[axis], motion.name()];
+        row(&head, &of(&|t| (t.0, t.1, t.2) == (world, axis, motion)));
+    }
+    let mut worlds: Vec<World> = cells.iter().map(|cell| cell.0).collect();
+    worlds.dedup();
+    for world in worlds {
+        for motion in Motion::ALL {
+            row(
+                &[&world.name(), "all", motion.name()],
+                &of(&|t| (t.0, t.2) == (world, motion)),
+            );
         }
+        row(&[&world.name(), "all", "all"], &of(&|t| t.0 == world));
     }
-    for ((world, axis, motion), runs) in cells {
-        row(&[&world.name(), &axes[axis], motion.name()], &runs);
-    }
-    row(&["all", "", ""], &runs.iter().collect::<Vec<_>>());
+    row(&["all", "all", "all"], &of(&|_| true));
 }
 
 fn row(head: &[&str], runs: &[&Run]) {
+    if runs.is_empty() {
+        return;
+    }
     let claims = || runs.iter().flat_map(|r| &r.claims);
     let inside = claims().filter(|c| c.2.abs() <= 1.0).count();
     let open: usize = runs.iter().filter(|r| r.trusted).map(|r| r.open).sum();

@@ -14,6 +14,8 @@ mod fit;
 mod judge;
 mod lacking;
 mod ladder;
+mod late;
+mod left;
 mod load;
 mod logs;
 mod method;

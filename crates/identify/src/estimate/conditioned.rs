@@ -10,6 +10,7 @@ use crate::conditioning::condition;
 use crate::conditioning::record::Record;
 use crate::estimate::Estimate;
 use crate::law::physical::physical;
+use crate::misfit::Energies;
 use crate::parameter::physical::Physical;
 use crate::refit::{Refit, force_noise, refitted};
 use crate::replica::{Axis, Replica};
@@ -40,6 +41,8 @@ pub(super) struct Shift {
     /// Squared difference between the shift of a replica and that of a replica of it, less what chance
     /// explains.
     change: Vec<f64>,
+    /// What comes back of the residuals of the replicas.
+    pub energies: Vec<Energies>,
 }
 
 impl Shift {
@@ -81,6 +84,7 @@ pub(super) fn shift(
     let mut first = Shifts::default();
     let mut second = Shifts::default();
     let mut stated = vec![0.0; raw.len()];
+    let mut energies = Vec::new();
     for i in 0..REPLICA_COUNT {
         let (found, replica) = once(record, fitted, &axis, noise, (FIRST_SEED + i, 2), watch)?;
         asked(watch)?;
@@ -88,6 +92,7 @@ pub(super) fn shift(
         for (sum, p) in stated.iter_mut().zip(&found.parameters) {
             *sum += p.variance(surety) / REPLICA_COUNT as f64;
         }
+        energies.extend(found.refit.energies);
         first.0.push(found.shift.clone());
         // A replica that cannot be simulated is left out. Of a replica of a replica only the shift is asked for, and to
         // first order.
@@ -114,6 +119,7 @@ pub(super) fn shift(
         scatter: all.clone().map(|i| first.variance(i)).collect(),
         stated,
         change: all.map(|i| second.change(&first, i)).collect(),
+        energies,
     })
 }
 
@@ -176,7 +182,8 @@ impl Found {
     }
 }
 
-/// Makes one replica and fits it in some steps; its uncertainty is stated where there are several.
+/// Makes one replica and fits it in some steps; its uncertainty, and what comes back of its residual, are stated where there are
+/// several.
 fn once(
     record: &Record,
     fitted: &Estimate,

@@ -35,7 +35,7 @@ pub(super) fn missing(
             return false;
         };
         let variance = unknowns.covariance[(e, e)];
-        let rise = variance / unknowns.bread[e];
+        let rise = variance / unknowns.bread[(e, e)];
         // A rise that is not finite belongs to an unknown that is flagged already.
         if variance.sqrt() < PLAIN_EXCESS_DEVIATION || !rise.is_finite() {
             return false;

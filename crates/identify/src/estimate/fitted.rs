@@ -8,6 +8,7 @@ use crate::fit::Fit;
 use crate::gms::score::ElementsScore;
 use crate::law::Law;
 use crate::law::terms::Terms;
+use crate::misfit::Misfit;
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
 use stiction_parameters::{Name, ParameterSet, Quantity};
@@ -30,6 +31,8 @@ pub struct FittedLaw {
     pub low_speed: Option<Fit>,
     /// That bound, m/s or rad/s.
     pub low_speed_bound: f64,
+    /// What the law leaves systematically, where more than noise, encoder and filters explain; known once intervals are.
+    pub misfit: Option<Misfit>,
     /// Signals at the kept samples.
     pub series: Series,
     /// How the search ended.

@@ -4,11 +4,14 @@
 use crate::conditioning::record::Record;
 use crate::estimate::conditioned::shift;
 use crate::estimate::curve::{missing, stays_within};
+use crate::estimate::filtered::flag_what_a_filter_hides;
+use crate::estimate::fitted::FittedLaw;
 use crate::estimate::profile::{End, Held, Profile};
 use crate::estimate::sliding::flag_what_the_motion_hides;
 use crate::estimate::{Estimate, advice, levels, optimal};
 use crate::law::physical::physical;
-use crate::parameter::physical::Physical;
+use crate::misfit::{Divisions, Misfit};
+use crate::parameter::physical::{Physical, propagate};
 use crate::parameter::{IntervalKind, Parameter, quantile};
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
@@ -42,18 +45,37 @@ pub fn intervals(
         &optimum.p,
         c,
     );
-    let mut watch = Watch::new(observer, Stage::Calibration);
-    let counts = state_space::ask(record, estimate, &mut watch);
-    estimate.fitted.counts.add(&watch.counts);
-    if !matches!(counts, Counts::Stated) {
-        of_the_force(&objective, optimum, &raw, estimate, observer);
-    }
-    if let Counts::Doubted(doubted) = &counts {
-        doubted.flag(estimate);
+    let before = estimate.clone();
+    of_the_force(&objective, optimum, &raw, estimate, observer);
+    // Counts say more than the force of the axis that the law describes; of another one they are as wrong, and surer.
+    if estimate.misfit.as_ref().and_then(Misfit::cause).is_none() {
+        of_the_counts(record, before, estimate, observer);
     }
     let fitted = &mut estimate.fitted;
     flag_what_the_motion_hides(record, &mut fitted.parameters);
     advice::explain(&mut fitted.parameters, &fitted.covariance);
+}
+
+/// Asks the counts of an axis that rests: states what they say, starting from the estimate `before` its intervals, or flags
+/// what they doubt.
+fn of_the_counts(
+    record: &Record,
+    mut before: Estimate,
+    estimate: &mut Estimate,
+    observer: &mut dyn Observer,
+) {
+    let mut watch = Watch::new(observer, Stage::Calibration);
+    let counts = state_space::ask(record, &mut before, &mut watch);
+    estimate.fitted.counts.add(&watch.counts);
+    match counts {
+        Counts::Stated => {
+            before.fitted.misfit = estimate.fitted.misfit.take();
+            before.fitted.counts = estimate.fitted.counts;
+            *estimate = before;
+        }
+        Counts::Doubted(doubted) => doubted.flag(estimate),
+        Counts::NotAsked => {}
+    }
 }
 
 /// The intervals of a fit of the force.
@@ -79,11 +101,13 @@ fn of_the_force(
         }
     }
     estimate.fitted.counts.add(&watch.counts);
+    flag_what_a_filter_hides(objective.record(), estimate);
     let fitted = &mut estimate.fitted;
     stays_within(&fitted.law, optimum, &mut fitted.parameters);
+    flag_what_another_shape_changes(fitted);
 }
 
-/// Counts what the conditioning shifts.
+/// Counts what the conditioning shifts, and what the law leaves systematically.
 fn conditioned(
     objective: &Objective,
     optimum: &Optimum,
@@ -92,15 +116,28 @@ fn conditioned(
     observer: &mut dyn Observer,
 ) {
     let mut watch = Watch::new(observer, Stage::Calibration);
-    let found = shift(objective.record(), estimate, raw, &mut watch);
+    let at = &optimum.evaluation;
+    let divisions = Divisions::of(objective, at);
+    let shift = shift(objective.record(), estimate, raw, &mut watch);
     estimate.fitted.counts.add(&watch.counts);
-    let Some(shift) = found else { return };
+    let energies = shift.as_ref().map_or(&[][..], |shift| &shift.energies);
+    let misfit = divisions.misfit(at.residual(), energies);
+    let spread = misfit.as_ref().map(|misfit| {
+        let unknowns = misfit.spread(&estimate.unknowns.bread, at.residual().len());
+        propagate(raw, &unknowns)
+    });
+    estimate.fitted.misfit = misfit;
+    if shift.is_none() && spread.is_none() {
+        return;
+    }
     let levels = levels(objective, raw);
     let matrix = &mut estimate.fitted.covariance.matrix;
     let n = raw.len();
     let widen: Vec<f64> = (0..n)
         .map(|i| {
-            let ratio = shift.total(i, matrix[i][i]) / matrix[i][i];
+            let stated = matrix[i][i];
+            let total = shift.as_ref().map_or(stated, |s| s.total(i, stated));
+            let ratio = (total + spread.as_ref().map_or(0.0, |s| s[(i, i)])) / stated;
             if ratio.is_finite() { ratio.sqrt() } else { 1.0 }
         })
         .collect();
@@ -112,7 +149,21 @@ fn conditioned(
     for (i, p) in raw.iter().enumerate() {
         let variance = estimate.covariance.matrix[i][i];
         if let Some(own) = find(estimate, p.name) {
-            *own = optimal::fitted(p, variance, Some(shift.bias[i]), optimum, levels[i]);
+            let bias = shift.as_ref().map(|shift| shift.bias[i]);
+            *own = optimal::fitted(p, variance, bias, optimum, levels[i]);
+        }
+    }
+}
+
+/// Flags the parameters that describe a shape which the residual shows to be another one.
+fn flag_what_another_shape_changes(fitted: &mut FittedLaw) {
+    let Some(cause) = fitted.misfit.as_ref().and_then(Misfit::cause) else {
+        return;
+    };
+    for p in fitted.parameters.iter_mut().filter(|p| p.identified) {
+        if let Some(reason) = cause.against(p.name.quantity).filter(|_| p.identifiable) {
+            p.identifiable = false;
+            p.reason = reason.into();
         }
     }
 }
@@ -171,7 +222,7 @@ fn profiled(
         return;
     };
     let variance = estimate.covariance.matrix[own][own];
-    let bread = estimate.unknowns.bread[index];
+    let bread = estimate.unknowns.bread[(index, index)];
     let std = estimate.unknowns.covariance[(index, index)].sqrt();
     let relative = variance.sqrt() / p.value;
     if !(relative > PROFILED_DEVIATION && relative.is_finite() && std.is_finite() && bread > 0.0) {

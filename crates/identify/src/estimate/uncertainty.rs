@@ -26,9 +26,8 @@ pub(crate) const ROUNDED_EIGENVALUE: f64 = 1e-15;
 pub(crate) struct Unknowns {
     /// Covariance; coefficients held at zero or left out have zero rows.
     pub covariance: DMatrix<f64>,
-    /// Diagonal of the inverse of `J^T J`: the variances for white residuals of variance 1; zero where
-    /// the covariance has a zero row.
-    pub bread: Vec<f64>,
+    /// Inverse of `J^T J`: the covariance for white residuals of variance 1; zero where the covariance has a zero row.
+    pub bread: DMatrix<f64>,
 }
 
 /// A nonlinear unknown at the bound of its search range counts as free here: the bound is a choice of the
@@ -42,12 +41,12 @@ pub(crate) fn unknowns(objective: &Objective, at: &Evaluation) -> Unknowns {
     let small = sandwich(&at.jacobian(), at.residual(), &objective.record().breaks());
     let mut out = Unknowns {
         covariance: DMatrix::zeros(width, width),
-        bread: vec![0.0; width],
+        bread: DMatrix::zeros(width, width),
     };
     for (a, &i) in index.iter().enumerate() {
-        out.bread[i] = small.bread[a];
         for (b, &j) in index.iter().enumerate() {
             out.covariance[(i, j)] = small.covariance[(a, b)];
+            out.bread[(i, j)] = small.bread[(a, b)];
         }
     }
     out
@@ -60,7 +59,7 @@ pub(crate) fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) 
     if q == 0 || n <= q {
         return Unknowns {
             covariance: DMatrix::from_element(q, q, f64::INFINITY),
-            bread: vec![f64::INFINITY; q],
+            bread: DMatrix::from_element(q, q, f64::INFINITY),
         };
     }
     let scale: Vec<f64> = jacobian
@@ -99,9 +98,7 @@ pub(crate) fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) 
             // for it.
             (known + white * lost[(i, j)]) * scale[i] * scale[j]
         }),
-        bread: (0..q)
-            .map(|i| bread[(i, i)] * scale[i] * scale[i])
-            .collect(),
+        bread: DMatrix::from_fn(q, q, |i, j| bread[(i, j)] * scale[i] * scale[j]),
     }
 }
 

@@ -175,6 +175,7 @@ pub(crate) fn describe(
         fit: position,
         low_speed: None,
         low_speed_bound: 0.02 * top,
+        misfit: None,
         series: Series {
             log: signals.log.clone(),
             time: signals.time.clone(),

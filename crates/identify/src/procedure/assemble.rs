@@ -40,6 +40,7 @@ fn fitted_law(
         fit,
         low_speed: None,
         low_speed_bound: 0.0,
+        misfit: None,
         series,
         status,
         counts,

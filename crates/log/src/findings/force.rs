@@ -1,5 +1,6 @@
 //! A force that saturates, and a force with the wrong sign.
 
+use super::encoder::quantum;
 use super::finding::{Finding, Severity, extremes, place};
 use crate::log::Log;
 use crate::mapping::Mapping;
@@ -18,6 +19,8 @@ const MIN_HELD_SHARE: f64 = 0.10;
 const MIN_LEVELS: f64 = 100.0;
 /// Share of a given limit from which on a sample is saturated: limits are stated in fewer digits than the force is logged.
 const SATURATED_SHARE_OF_LIMIT: f64 = 0.999;
+/// Fewest steps of the range of a force that is not called coarse.
+const FEWEST_FORCE_STEPS: f64 = 50.0;
 /// Net work over the sum of its magnitudes, below which the sign is wrong: friction as a force gives -1.
 const MIN_NET_WORK: f64 = -0.3;
 /// Largest net travel over the whole path of a motion to and fro.
@@ -127,6 +130,30 @@ fn flat_elsewhere(force: &[f64], low: f64, high: f64) -> impl Iterator<Item = (f
         .chunk_by(|a, b| a == b)
         .filter(move |run| run.len() >= MIN_FLAT_SAMPLES && run[0] != low && run[0] != high)
         .map(|run| (run[0], run.len()))
+}
+
+/// Names a force whose steps are coarse beside its range: friction below a step does not show, and the error of a step has the
+/// sign of the motion for as long as the force hardly changes.
+pub(super) fn steps(log: &mut Log) {
+    let Some(force) = &log.force else { return };
+    let Some((low, high)) = extremes(force) else {
+        return;
+    };
+    let Some(step) = quantum(force, &log.skipped()) else {
+        return;
+    };
+    if (high - low) / step >= FEWEST_FORCE_STEPS {
+        return;
+    }
+    let message = format!(
+        "the force comes in steps of {} {}, and its range of {} is {} of them: friction is known to a part of a step",
+        short(step),
+        log.force_unit,
+        short(high - low),
+        short(((high - low) / step).round())
+    );
+    log.findings
+        .push(Finding::new(Code::CoarseForce, Severity::Warning, message));
 }
 
 /// Compares work done along and against the motion: a force that drives an axis with friction

@@ -72,6 +72,15 @@ impl Columns {
             .filter(|values| !values.is_empty())
     }
 
+    /// Keeps the rows that a rule names, with their times.
+    pub fn keep(&mut self, time: &mut Vec<f64>, rule: impl Fn(usize) -> bool) {
+        let drop: Vec<bool> = (0..time.len()).map(|row| !rule(row)).collect();
+        retain(time, &drop);
+        for (_, values) in self.columns.iter_mut().filter(|(_, v)| !v.is_empty()) {
+            retain(values, &drop);
+        }
+    }
+
     /// Bridges short runs of missing cells and drops the rows of long ones, with their times.
     pub fn mend(&mut self, time: &mut Vec<f64>) -> Result<Mended, Error> {
         let rows = time.len();
@@ -141,11 +150,8 @@ impl Columns {
             findings.push(Finding::new(Code::MissingCells, severity, message).at(first.start));
         }
         if drop.contains(&true) {
-            retain(time, &drop);
             retain(&mut bridged, &drop);
-            for (_, values) in self.columns.iter_mut().filter(|(_, v)| !v.is_empty()) {
-                retain(values, &drop);
-            }
+            self.keep(time, |row| !drop[row]);
         }
         let excluded = |samples| Excluded {
             samples,

@@ -1,7 +1,7 @@
 //! The figures of the report.
 
 use stiction_files::symbols;
-use stiction_identify::Series;
+use stiction_identify::{Divided, Series};
 use stiction_parameters::{Quantity, Side, SteadyCurve};
 use stiction_report::{Axis, Color, Dash, Figure, Heatmap, Layer, Panel, Text};
 use stiction_signal::autocorrelation as correlate;
@@ -314,6 +314,35 @@ pub(super) fn autocorrelation(outcome: &Outcome) -> Figure {
     Figure::new("Autocorrelation of the residual")
         .panel(panel)
         .half()
+}
+
+/// The course of what the law leaves systematically, where its cause is named.
+pub(super) fn left(outcome: &Outcome) -> Option<Figure> {
+    let misfit = outcome.law().misfit.as_ref()?;
+    misfit.cause()?;
+    let length = symbols::length_unit(outcome.motion);
+    let along = match misfit.shown_by {
+        Divided::LevelOverTime => Axis::new("Time", "s"),
+        Divided::LevelOverPosition | Divided::Position => Axis::new("Position", length),
+        Divided::Speed => velocity_axis(outcome),
+        Divided::Acceleration => {
+            Axis::new("Acceleration", symbols::acceleration_unit(outcome.motion))
+        }
+        Divided::Travel | Divided::TravelAndSpeed | Divided::TravelAndPosition => {
+            Axis::new("Travel since the last reversal", length)
+        }
+    };
+    let level = misfit.shown_by.is_a_level();
+    let scale = if level { 100.0 } else { 1.0 };
+    let across = match level {
+        true => Axis::new("Level of friction about its mean", "%"),
+        false => Axis::new("Mean residual", outcome.force_unit.as_str()),
+    };
+    let (x, y): (Vec<f64>, Vec<f64>) = misfit.course.iter().map(|(x, y)| (*x, scale * y)).unzip();
+    let panel = Panel::new(along, across)
+        .layer(Layer::line(x.clone(), y.clone()).color(Color::Vermilion))
+        .layer(Layer::points(x, y).color(Color::Vermilion));
+    Some(Figure::new("What the law leaves systematically").panel(panel))
 }
 
 /// Relative residual over evaluations.

@@ -3,6 +3,7 @@
 mod auto;
 mod chain;
 mod check;
+mod claims;
 mod common;
 mod compare;
 mod compare_logs;
@@ -25,3 +26,4 @@ mod study_examples;
 mod study_sweep;
 mod terms;
 mod workflow;
+mod worlds;

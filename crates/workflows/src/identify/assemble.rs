@@ -1,6 +1,7 @@
 //! From what the engine found to what goes to disk.
 
 use super::compensation;
+use super::left;
 use super::load::Asked;
 use super::method::Method;
 use super::remaining::remaining;
@@ -108,6 +109,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
             .flatten(),
         fit: fit_entry(&estimate.fit),
         low_speed: estimate.low_speed.as_ref().map(low_entry),
+        misfit: left::entry(estimate, force_unit),
         validation,
         simulation: None,
         laws: parts.laws,

@@ -4,6 +4,7 @@ use super::assemble::{self, Parts};
 use super::condition::condition;
 use super::fit::fit;
 use super::judge::judge;
+use super::late::aligned;
 use super::load::{Asked, Loaded, load};
 use super::method::Method;
 use super::options::{Files, Options};
@@ -99,6 +100,7 @@ pub(crate) fn identify_asked(
 
 /// Fits the force of whole records.
 fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Result<Outcome, Error> {
+    let loaded = aligned(asked, loaded)?;
     let conditioned = condition(asked, &loaded, observer)?;
     let fitted = fit(asked, &loaded, &conditioned, observer)?;
     let names = conditioned.unseen_names.iter().cloned();

@@ -3,6 +3,7 @@
 use super::choice::EXPORTED;
 use super::compensation;
 use super::lacking;
+use super::left;
 use super::unfit;
 use crate::source::Source;
 use stiction_codes::Code;
@@ -72,8 +73,11 @@ impl Judged {
     ) -> Self {
         let names = |determined: bool| -> Vec<String> {
             let identified = law.parameters.iter().filter(|p| p.identified);
+            // Between two renewals of a held position a controller has moved the axis in ways that the log does not show.
+            let held = warnings.iter().any(|w| w.code == Code::HeldPosition);
             // A law that explains less than half has no constants of the machine, whatever its curvature says.
             let holds = law.status == Status::Converged
+                && !held
                 && law.fit.r2 >= LEAST_R2
                 && (!law.stays_in_presliding() || motion == Shown::Presliding);
             let known = |p: &Parameter| p.identifiable && holds;
@@ -323,6 +327,7 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
         reasons.push(text, evidence.another_law());
     }
     systematic(law, warnings);
+    left::named(law, &evidence.sources[0].log, warnings);
     shifted(law, warnings);
     static_at_rest(law, evidence.motion, warnings);
 }

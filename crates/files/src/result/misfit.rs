@@ -1,0 +1,25 @@
+//! What a law leaves systematically.
+
+use serde::{Deserialize, Serialize};
+
+/// The part of the residual that comes back with time, place, speed or travel, beyond what noise, encoder and filters explain.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MisfitEntry {
+    /// The division of the motion that shows most of it.
+    pub by: String,
+    /// Code of its likely cause; absent where it is too small a part of the residual to be named.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cause: Option<String>,
+    /// Its root mean square, in `unit`.
+    pub rmse: f64,
+    /// Unit of `rmse`.
+    pub unit: String,
+    /// Its part of the mean square of the residual, percent.
+    pub share_percent: f64,
+    /// Pitch of the wave over the position that explains most of it, m or rad.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pitch: Option<f64>,
+    /// Amplitude of that wave, in `unit`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub amplitude: Option<f64>,
+}

@@ -1,0 +1,228 @@
+//! What a law leaves systematically: the part of a residual that comes back at the same time, place, speed or travel.
+//!
+//! Noise averages out over a part of the motion, a wrong law does not. So the motion is divided into [`parts`](Divided) in
+//! several ways, and the products of what the residual has at two visits of a part, apart in time, are the energy of what comes
+//! back. Encoder steps and filters leave such a part too; how much, the replicas of the fitted axis show,
+//! whose law is right. What is beyond that is the misfit.
+//!
+//! A misfit that can be seen is what is left of one that the parameters have taken up as far as they could. Where a law is
+//! wrong in a few ways, each as large as what is seen, the parameters move as if there were that many samples only, however
+//! long the log is: [`spread`](Misfit::spread).
+
+mod cause;
+mod parts;
+mod ripple;
+mod visits;
+
+pub use cause::Cause;
+pub use parts::Divided;
+use parts::Measures;
+pub use ripple::Ripple;
+
+use self::visits::{BLOCKS, Visits};
+use crate::law::terms::ColumnKind;
+use crate::separable::objective::{Evaluation, Objective};
+use nalgebra::DMatrix;
+
+/// Independent ways in which a law is taken to be wrong, over which the energy of the misfit is spread. The worlds of
+/// `stiction_testkit::worlds` were the measure: with more, intervals miss where the law is another one.
+const WAYS: f64 = 4.0;
+/// What encoder and filters may leave in parts of what they leave in replicas, which show it roughly, and the standard
+/// deviations beyond it that chance explains.
+const ROUGHLY: f64 = 1.5;
+const CHANCE: f64 = 3.0;
+
+/// How a residual comes back, for each way of dividing the motion: mean squares, in the square of the unit of the force.
+pub(crate) type Energies = [f64; Divided::ALL.len()];
+
+/// A record divided in every way, and the friction along it.
+pub(crate) struct Divisions {
+    parts: Vec<Vec<usize>>,
+    friction: Vec<f64>,
+    measures: Measures,
+}
+
+/// What a law leaves systematically, beyond what noise, encoder and filters explain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Misfit {
+    /// The division that shows most of it.
+    pub by: Divided,
+    /// Its root mean square, in the unit of the force.
+    pub rms: f64,
+    /// Its part of the variance of the residual, 0 to 1.
+    pub share: f64,
+    /// That part for every division.
+    pub shares: Vec<(Divided, f64)>,
+    /// How far the level of friction differs from its mean over the stretches of time or the places, as parts of it: least
+    /// and largest.
+    pub levels: (f64, f64),
+    /// The wave over the position that explains most of a ripple.
+    pub ripple: Option<Ripple>,
+    /// By what its course is shown: `by`, or the one of a pair that shows more of it.
+    pub shown_by: Divided,
+    /// Its course: in each part that `shown_by` makes, the mean of what the motion is divided by (s, m, m/s, m/s^2, or with
+    /// rad), and that of the residual; as parts of the friction for levels.
+    pub course: Vec<(f64, f64)>,
+}
+
+impl Divisions {
+    /// Divides the record of an objective.
+    pub fn of(objective: &Objective, at: &Evaluation) -> Self {
+        let measures = Measures::of(objective.record());
+        Self {
+            parts: Divided::ALL.map(|by| measures.parts(by)).to_vec(),
+            friction: friction(objective, at),
+            measures,
+        }
+    }
+
+    /// The energies of a residual along this motion.
+    pub fn energies(&self, residual: &[f64]) -> Energies {
+        std::array::from_fn(|i| self.visits(i, residual).energy(&[]))
+    }
+
+    /// Sums over each part of a division, the samples of a level weighted with the friction.
+    fn sums(&self, i: usize, residual: &[f64]) -> Sums {
+        let mut sums = Sums::new(&self.parts[i]);
+        for (t, r) in residual.iter().enumerate() {
+            sums.add(self.parts[i][t], self.weight(i, t), *r);
+        }
+        sums
+    }
+
+    fn weight(&self, i: usize, t: usize) -> f64 {
+        match Divided::ALL[i].is_a_level() {
+            true => self.friction[t],
+            false => 1.0,
+        }
+    }
+
+    fn visits(&self, i: usize, residual: &[f64]) -> Visits {
+        let n = residual.len();
+        let block = |t: usize| t * BLOCKS / n.max(1);
+        let mut visits = Visits::new(&self.parts[i]);
+        for (t, r) in residual.iter().enumerate() {
+            visits.add(block(t), self.parts[i][t], self.weight(i, t), *r);
+        }
+        visits
+    }
+
+    /// Means over the parts of a division, in order of what it divides by.
+    fn course(&self, i: usize, residual: &[f64]) -> Vec<(f64, f64)> {
+        let sums = self.sums(i, residual);
+        let along = self.measures.along(Divided::ALL[i]);
+        let mut places = vec![0.0; sums.samples.len()];
+        for (&part, x) in self.parts[i].iter().zip(along) {
+            places[part] += x;
+        }
+        let means = sums.products.iter().zip(&sums.squares);
+        let mut course: Vec<(f64, f64)> = places
+            .iter()
+            .zip(&sums.samples)
+            .zip(means)
+            .filter(|(_, (_, square))| **square > 0.0)
+            .map(|((place, samples), (product, square))| (place / samples, product / square))
+            .collect();
+        course.sort_by(|a, b| a.0.total_cmp(&b.0));
+        course
+    }
+
+    /// What the residual of a log shows beyond chance, `replicas` being the energies of replicas of the axis.
+    pub fn misfit(&self, residual: &[f64], replicas: &[Energies]) -> Option<Misfit> {
+        let n = residual.len() as f64;
+        let square = residual.iter().map(|r| r * r).sum::<f64>() / n;
+        let mut own = Energies::default();
+        let mut beyond = Energies::default();
+        for i in 0..own.len() {
+            let visits = self.visits(i, residual);
+            own[i] = visits.energy(&[]);
+            let count = replicas.len() as f64;
+            let mean = replicas.iter().map(|e| e[i]).sum::<f64>() / count.max(1.0);
+            let scatter = replicas.iter().map(|e| (e[i] - mean).powi(2)).sum::<f64>();
+            let scatter = (scatter / (count - 1.0).max(1.0)).sqrt();
+            let chance = scatter.max(visits.chance());
+            beyond[i] = (own[i] - ROUGHLY * mean.max(0.0) - CHANCE * chance).max(0.0);
+        }
+        let most = (0..own.len()).max_by(|&a, &b| beyond[a].total_cmp(&beyond[b]))?;
+        if beyond[most] <= 0.0 || !beyond[most].is_finite() {
+            return None;
+        }
+        let shares = Divided::ALL
+            .into_iter()
+            .zip(beyond.iter().map(|e| e / square));
+        let by = Divided::ALL[most];
+        let shown = (0..own.len())
+            .filter(|&i| by.is_made_of(Divided::ALL[i]))
+            .max_by(|&a, &b| own[a].total_cmp(&own[b]))?;
+        let shown_by = Divided::ALL[shown];
+        Some(Misfit {
+            by,
+            rms: beyond[most].sqrt(),
+            share: (beyond[most] / square).min(1.0),
+            shares: shares.collect(),
+            levels: self.sums(most, residual).extent(),
+            ripple: (by == Divided::Position)
+                .then(|| Ripple::of(&self.measures.position, residual))
+                .flatten(),
+            shown_by,
+            course: self.course(shown, residual),
+        })
+    }
+}
+
+/// Sums over each part.
+struct Sums {
+    products: Vec<f64>,
+    squares: Vec<f64>,
+    samples: Vec<f64>,
+}
+
+impl Sums {
+    fn new(parts: &[usize]) -> Self {
+        let count = parts.iter().max().map_or(0, |most| most + 1);
+        Self {
+            products: vec![0.0; count],
+            squares: vec![0.0; count],
+            samples: vec![0.0; count],
+        }
+    }
+
+    fn add(&mut self, part: usize, weight: f64, residual: f64) {
+        self.products[part] += weight * residual;
+        self.squares[part] += weight * weight;
+        self.samples[part] += 1.0;
+    }
+
+    /// Least and largest mean.
+    fn extent(&self) -> (f64, f64) {
+        let means = self.products.iter().zip(&self.squares);
+        let means = means.filter(|(_, s)| **s > 0.0).map(|(p, s)| p / s);
+        means.fold((0.0, 0.0), |(low, high): (f64, f64), mean| {
+            (low.min(mean), high.max(mean))
+        })
+    }
+}
+impl Misfit {
+    /// Variances of the unknowns that a misfit of this size may cause, in a fit of `samples` residuals with the inverse of
+    /// `J^T J` that is given.
+    pub(crate) fn spread(&self, inverse: &DMatrix<f64>, samples: usize) -> DMatrix<f64> {
+        inverse * (self.rms * self.rms * samples as f64 / WAYS)
+    }
+}
+
+/// Friction as the law has it at the kept samples.
+fn friction(objective: &Objective, at: &Evaluation) -> Vec<f64> {
+    let mut out = vec![0.0; at.residual().len()];
+    let columns = at.columns.iter().zip(&at.solution.coefficients);
+    for (term, (column, c)) in objective.linear().iter().zip(columns) {
+        let beside = [ColumnKind::Acceleration, ColumnKind::One];
+        let wave = matches!(term.column, ColumnKind::Sine(_) | ColumnKind::Cosine(_));
+        if wave || beside.contains(&term.column) {
+            continue;
+        }
+        for (y, x) in out.iter_mut().zip(column.iter()) {
+            *y += c * x;
+        }
+    }
+    out
+}

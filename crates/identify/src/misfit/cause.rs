@@ -1,0 +1,71 @@
+//! What a misfit is most likely to come from, and which parameters it makes doubtful.
+
+use super::{Divided, Misfit};
+use stiction_parameters::Quantity;
+
+/// Part of the variance of the residual from which a misfit is named. Replicas and chance leave up to about half of it where
+/// the law is right.
+pub(super) const NAMED_SHARE: f64 = 0.1;
+/// Part that a ripple over the position explains where it is the cause; a wrong law comes back at the same places too, less
+/// sharply.
+const RIPPLE_SHARE: f64 = 0.6;
+/// Part of the largest share that a level over the position has where it is the cause, and the largest share that forces
+/// over the position then have.
+const LEVEL_PART: f64 = 0.8;
+const LEVEL_BESIDE: f64 = 0.3;
+
+/// Where the systematic part of a residual comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// The level of friction changes during the log.
+    Drift,
+    /// The level of friction changes along the stroke.
+    Position,
+    /// A force that repeats with the position.
+    Ripple,
+    /// Friction or inertia of another shape than that of the law.
+    Shape,
+}
+
+impl Misfit {
+    /// The most likely cause; `None` where the misfit is too small a part of the residual to be named.
+    pub fn cause(&self) -> Option<Cause> {
+        if self.share < NAMED_SHARE {
+            return None;
+        }
+        let share = |by| self.share_by(by);
+        Some(if self.by == Divided::LevelOverTime {
+            Cause::Drift
+        } else if share(Divided::Position) >= RIPPLE_SHARE && self.by == Divided::Position {
+            Cause::Ripple
+        } else if share(Divided::LevelOverPosition) >= LEVEL_PART * self.share
+            && share(Divided::Position) < LEVEL_BESIDE
+        {
+            Cause::Position
+        } else {
+            Cause::Shape
+        })
+    }
+
+    /// Part of the variance of the residual that comes back in a way of dividing the motion.
+    pub fn share_by(&self, by: Divided) -> f64 {
+        let own = self.shares.iter().find(|(own, _)| *own == by);
+        own.map_or(0.0, |(_, share)| *share)
+    }
+}
+
+impl Cause {
+    /// Why a parameter is no constant of the machine with this cause; `None` where its interval says enough.
+    pub(crate) fn against(self, quantity: Quantity) -> Option<&'static str> {
+        let of_shape = [
+            Quantity::Sigma0,
+            Quantity::Sigma1,
+            Quantity::Static,
+            Quantity::StribeckVelocity,
+            Quantity::StribeckExponent,
+        ];
+        (self == Cause::Shape && of_shape.contains(&quantity)).then_some(
+            "depends on the shape of the law, which the residual shows to be another one at reversals or low speed",
+        )
+    }
+}

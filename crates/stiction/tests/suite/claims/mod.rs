@@ -1,0 +1,132 @@
+//! What the default identification claims of a simulated log, and how much of it is true. Also for the example `worlds`.
+//!
+//! A value is claimed where a result may be used and lists it as a constant of the machine. A run is silent where a claimed
+//! value is off by more than half an interval and a whole one: its interval misses the truth by more than its own width.
+
+use stiction::{Axis, Column, Fit, Log, Options, identify};
+use stiction_testkit::worlds::{Machine, Recording};
+
+/// Identifies logs of a machine together, by default.
+pub fn identified(machine: &Machine, logs: &[Recording]) -> Result<Fit, stiction::Error> {
+    let axis = Axis::default();
+    let logs: Result<Vec<Log>, _> = logs
+        .iter()
+        .enumerate()
+        .map(|(i, log)| Log::from_columns(&format!("log-{}", i + 1), columns(machine, log), &axis))
+        .collect();
+    identify(&logs?, &axis, &Options::default())
+}
+
+fn columns(machine: &Machine, log: &Recording) -> Vec<Column> {
+    let (length, force) = match machine.kind {
+        "rotary" => ("rad", "N*m"),
+        _ => ("m", "N"),
+    };
+    let column = |name: &str, unit: &str, values: &[f64]| Column {
+        name: name.into(),
+        unit: Some(unit.into()),
+        values: values.to_vec(),
+    };
+    let mut columns = vec![column("time", "s", &log.time)];
+    if let Some(x) = &log.position {
+        columns.push(column("position", length, x));
+    }
+    if let Some(v) = &log.velocity {
+        columns.push(column("velocity", &format!("{length}/s"), v));
+    }
+    columns.push(column("force", force, &log.force));
+    columns
+}
+
+/// What a run claims, and what of it holds.
+#[derive(Clone, Debug, Default)]
+pub struct Run {
+    pub refused: Option<String>,
+    pub trusted: bool,
+    pub law: String,
+    /// Every claimed value: name, error in parts of the truth, error in halves of its interval.
+    pub claims: Vec<(String, f64, f64)>,
+    /// Values that are listed as open.
+    pub open: usize,
+    pub codes: Vec<&'static str>,
+}
+
+impl Run {
+    /// Whether a claimed interval misses by more than its width.
+    pub fn is_silent(&self) -> bool {
+        self.claims.iter().any(|c| c.2.abs() > 3.0)
+    }
+}
+
+impl std::fmt::Display for Run {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        if let Some(why) = &self.refused {
+            return write!(f, "refused: {why}");
+        }
+        write!(
+            f,
+            "{} {}",
+            self.law,
+            if self.trusted {
+                "trusted"
+            } else {
+                "not trusted"
+            }
+        )?;
+        for (name, part, halves) in &self.claims {
+            let mark = if halves.abs() > 3.0 {
+                "!!"
+            } else if halves.abs() > 1.0 {
+                "!"
+            } else {
+                ""
+            };
+            write!(f, ", {name} {:+.1} % ({halves:+.1}){mark}", 100.0 * part)?;
+        }
+        write!(f, "; {} open; {}", self.open, self.codes.join(" "))
+    }
+}
+
+/// A claim about several machines holds as far as it does for the one that it holds least for.
+pub fn judged(machines: &[Machine], fit: Result<Fit, stiction::Error>) -> Run {
+    let fit = match fit {
+        Ok(fit) => fit,
+        Err(e) => {
+            return Run {
+                refused: Some(e.to_string()),
+                ..Run::default()
+            };
+        }
+    };
+    let trust = &fit.result().trust;
+    let mut run = Run {
+        trusted: fit.is_trustworthy(),
+        law: fit.law_kind().name().to_owned(),
+        open: trust.open.len(),
+        codes: fit.warnings().iter().map(|w| w.code.as_str()).collect(),
+        ..Run::default()
+    };
+    run.codes.sort_unstable();
+    run.codes.dedup();
+    if !run.trusted {
+        return run;
+    }
+    for p in fit
+        .parameters()
+        .filter(|p| trust.constants.iter().any(|c| c == p.name()))
+    {
+        let base = p.name().trim_end_matches("_pos").trim_end_matches("_neg");
+        let Some((low, high)) = p.interval() else {
+            continue;
+        };
+        let centre = 0.5 * (low + high);
+        let truths = machines.iter().flat_map(Machine::truth);
+        let claims = truths.filter(|t| t.0 == base).map(|(_, truth)| {
+            let halves = (centre - truth) / (0.5 * (high - low));
+            (p.name().to_owned(), p.value() / truth - 1.0, halves)
+        });
+        let least = claims.max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()));
+        run.claims.extend(least);
+    }
+    run
+}

@@ -1,0 +1,84 @@
+//! What a law leaves systematically, and what to do about it, in words.
+
+use stiction_codes::Code;
+use stiction_files::result::MisfitEntry;
+use stiction_files::{Warning, symbols};
+use stiction_identify::{Cause, FittedLaw, Misfit};
+use stiction_log::Log;
+use stiction_number::{Percent, four_digits};
+
+/// What goes into the result.
+pub(super) fn entry(law: &FittedLaw, force_unit: &str) -> Option<MisfitEntry> {
+    let misfit = law.misfit.as_ref()?;
+    let ripple = misfit
+        .ripple
+        .filter(|_| misfit.cause() == Some(Cause::Ripple));
+    Some(MisfitEntry {
+        by: misfit.by.name().into(),
+        cause: misfit.cause().map(|cause| code(cause).to_string()),
+        rmse: misfit.rms,
+        unit: force_unit.into(),
+        share_percent: 100.0 * misfit.share,
+        pitch: ripple.map(|r| r.pitch),
+        amplitude: ripple.map(|r| r.amplitude),
+    })
+}
+
+fn code(cause: Cause) -> Code {
+    match cause {
+        Cause::Drift => Code::FrictionDrift,
+        Cause::Position => Code::PositionDependence,
+        Cause::Ripple => Code::PositionRipple,
+        Cause::Shape => Code::LawShape,
+    }
+}
+
+/// Names the likely cause of what the residual leaves systematically.
+pub(super) fn named(law: &FittedLaw, log: &Log, warnings: &mut Vec<Warning>) {
+    let Some(misfit) = &law.misfit else { return };
+    let Some(cause) = misfit.cause() else { return };
+    let message = message(misfit, cause, law, log);
+    warnings.push(Warning::new(code(cause), message));
+}
+
+fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String {
+    let share = Percent::error(100.0 * misfit.share).digits(2);
+    let of_force = Percent::error(misfit.share.sqrt() * law.fit.relative_error_percent).digits(2);
+    let left = format!("{share} of what the law leaves ({of_force} of the force)");
+    let levels = || {
+        let (low, high) = misfit.levels;
+        let part = |x: f64| Percent::error(100.0 * x).signed(0);
+        format!("{} to {}", part(low), part(high))
+    };
+    let counted = "The intervals count it";
+    match cause {
+        Cause::Drift => format!(
+            "friction changes during the log: {left} is a level that goes from {} of its mean. {counted}; the values are \
+                 means over the log. Record the axis warmed up, or its temperature beside the rest and set \
+                 coulomb_temperature = true under [terms] in the axis file",
+            levels()
+        ),
+        Cause::Position => format!(
+            "friction changes along the stroke: {left} is a level that goes from {} of its mean. {counted}. Set \
+                 coulomb_position = true under [terms] in the axis file",
+            levels()
+        ),
+        Cause::Ripple => {
+            let unit = symbols::length_unit(log.motion);
+            let line = misfit.ripple.map_or(String::new(), |ripple| {
+                format!(
+                    ", most of it a wave of {} {}. Set cogging = [\"{} {unit}\"] under [terms] in the axis file",
+                    four_digits(ripple.amplitude),
+                    log.force_unit,
+                    four_digits(ripple.pitch)
+                )
+            });
+            format!("a force repeats with the position: {left}{line}. {counted}")
+        }
+        Cause::Shape => format!(
+            "friction or inertia has another shape than this law: {left} comes back with speed and travel after each \
+                 reversal. {counted}, and what describes that shape is no constant of the machine. Compare the laws \
+                 maxwell-slip and elasto-plastic; a resonance, backlash, or a force logged late look alike"
+        ),
+    }
+}
