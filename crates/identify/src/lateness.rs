@@ -37,7 +37,7 @@ const FEWEST: usize = 20 * COLUMNS;
 /// Rows by which the force of these logs of one axis was logged later than its motion; `None` where that is not more than a fit
 /// finds by itself, or the motion does not show it.
 ///
-/// Costs two filters and as many products per sample as there are columns and lags, over [`EVERY`].
+/// Costs two filters of the log and, for one sample in ten, as many products as there are columns and lags.
 pub fn lateness(logs: &[Samples]) -> Option<usize> {
     let mut sums = Sums::new();
     for log in logs {
