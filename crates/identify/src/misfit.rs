@@ -31,6 +31,8 @@ const WAYS: f64 = 4.0;
 /// deviations beyond it that chance explains.
 const ROUGHLY: f64 = 1.5;
 const CHANCE: f64 = 3.0;
+/// Part of the friction below which nothing that comes back matters; a record without noise leaves what rounding does.
+const NEGLIGIBLE: f64 = 1e-5;
 
 /// How a residual comes back, for each way of dividing the motion: mean squares, in the square of the unit of the force.
 pub(crate) type Energies = [f64; Divided::ALL.len()];
@@ -144,7 +146,9 @@ impl Divisions {
             beyond[i] = (own[i] - ROUGHLY * mean.max(0.0) - CHANCE * chance).max(0.0);
         }
         let most = (0..own.len()).max_by(|&a, &b| beyond[a].total_cmp(&beyond[b]))?;
-        if beyond[most] <= 0.0 || !beyond[most].is_finite() {
+        let level = self.friction.iter().map(|f| f * f).sum::<f64>() / n;
+        let least = NEGLIGIBLE * NEGLIGIBLE * level;
+        if beyond[most].is_nan() || beyond[most] <= least || beyond[most].is_infinite() {
             return None;
         }
         let shares = Divided::ALL
@@ -161,7 +165,7 @@ impl Divisions {
             share: (beyond[most] / square).min(1.0),
             shares: shares.collect(),
             levels: self.sums(most, residual).extent(),
-            ripple: (by == Divided::Position)
+            ripple: (by == Divided::Position && beyond[most] >= cause::NAMED_SHARE * square)
                 .then(|| Ripple::of(&self.measures.position, residual))
                 .flatten(),
             shown_by,

@@ -6,6 +6,8 @@ use std::f64::consts::TAU;
 const FINE: f64 = 4.0;
 /// Most waves over the stroke.
 const MOST_WAVES: f64 = 64.0;
+/// Samples on which waves are tried, at most: many times the waves.
+const MOST_SAMPLES: usize = 2000;
 /// Steps of the search beside the best of them.
 const REFINED: usize = 40;
 
@@ -29,7 +31,10 @@ impl Ripple {
         if !(stroke > 0.0 && stroke.is_finite()) {
             return None;
         }
-        let at = |waves: f64| fitted(position, residual, waves / stroke);
+        let every = position.len().div_ceil(MOST_SAMPLES).max(1);
+        let some = |x: &[f64]| -> Vec<f64> { x.iter().step_by(every).copied().collect() };
+        let (few, left) = (some(position), some(residual));
+        let at = |waves: f64| fitted(&few, &left, waves / stroke);
         let tried = (FINE as usize..(FINE * MOST_WAVES) as usize).map(|i| i as f64 / FINE);
         let best = tried
             .map(|waves| (waves, at(waves)))
@@ -46,7 +51,7 @@ impl Ripple {
             }
         }
         let waves = 0.5 * (from + to);
-        let (amplitude, share) = at(waves);
+        let (amplitude, share) = fitted(position, residual, waves / stroke);
         Some(Ripple {
             pitch: stroke / waves,
             amplitude,
