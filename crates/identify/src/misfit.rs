@@ -206,6 +206,7 @@ impl Sums {
         })
     }
 }
+
 impl Misfit {
     /// Variances of the unknowns that a misfit of this size may cause, in a fit of `samples` residuals with the inverse of
     /// `J^T J` that is given.

@@ -28,7 +28,7 @@ const MUCH_REST: f64 = 0.15;
 
 /// What the counts of a log say of a fit.
 pub(crate) enum Counts {
-    /// Nothing: the axis hardly rests, or is not of the kind that is simulated.
+    /// Nothing: the axis is not of the kind that is simulated.
     NotAsked,
     /// What is stated now.
     Stated,
@@ -46,11 +46,14 @@ impl Doubted {
     }
 }
 
-/// Asks the counts of a record about the fit of its force; states what they say where they can be believed.
+/// Whether an axis rests in so much of a record that its counts are asked.
+pub(crate) fn rests_much(record: &Record) -> bool {
+    rests::share(record) >= MUCH_REST
+}
+
+/// Asks the counts of a record in which the axis [rests much](rests_much) about the fit of its force; states what they say where
+/// they can be believed.
 pub(crate) fn ask(record: &Record, estimate: &mut Estimate, watch: &mut Watch) -> Counts {
-    if rests::share(record) < MUCH_REST {
-        return Counts::NotAsked;
-    }
     match fit::most_likely(record, estimate, watch) {
         None => Counts::NotAsked,
         Some(found) if found.against.is_empty() => {

@@ -45,10 +45,11 @@ pub fn intervals(
         &optimum.p,
         c,
     );
-    let before = estimate.clone();
+    let before = state_space::rests_much(record).then(|| estimate.clone());
     of_the_force(&objective, optimum, &raw, estimate, observer);
     // Counts say more than the force of the axis that the law describes; of another one they are as wrong, and surer.
-    if estimate.misfit.as_ref().and_then(Misfit::cause).is_none() {
+    let cause = estimate.misfit.as_ref().and_then(Misfit::cause);
+    if let Some(before) = before.filter(|_| cause.is_none()) {
         of_the_counts(record, before, estimate, observer);
     }
     let fitted = &mut estimate.fitted;
