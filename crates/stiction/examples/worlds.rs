@@ -118,9 +118,9 @@ type Task = (World, usize, Motion, u64);
 /// One row for each cell, for each motion of a world, for each world, and for all.
 fn table(tasks: &[Task], runs: &[Run], axes: &[String]) {
     println!(
-        "| world | axis | motion | runs | trusted | silent | claimed | inside | open | largest error | largest, half-widths | codes |"
+        "| world | axis | motion | runs | trusted | silent | claimed | inside | open | half-width | largest error | largest, half-widths | codes |"
     );
-    println!("|---|---|---|---:|---:|---:|---:|---:|---:|---|---|---|");
+    println!("|---|---|---|---:|---:|---:|---:|---:|---:|---:|---|---|---|");
     let of = |wanted: &dyn Fn(&Task) -> bool| -> Vec<&Run> {
         let both = tasks.iter().zip(runs);
         both.filter(|(task, _)| wanted(task))
@@ -163,6 +163,11 @@ fn row(head: &[&str], runs: &[&Run]) {
         format!("{name} {:+.1} %", 100.0 * x)
     });
     let halves = worst(|c| c.2).map_or(String::new(), |(name, x)| format!("{name} {x:+.1}"));
+    // Half of an interval in parts of the truth, of the value in the middle.
+    let mut widths: Vec<f64> = claims().map(|c| (c.1 / c.2).abs()).collect();
+    widths.sort_by(f64::total_cmp);
+    let width = widths.get(widths.len() / 2);
+    let width = width.map_or(String::new(), |w| format!("{:.2} %", 100.0 * w));
     let mut codes = BTreeMap::<&str, usize>::new();
     for code in runs.iter().flat_map(|r| &r.codes) {
         *codes.entry(code).or_default() += 1;
@@ -176,7 +181,7 @@ fn row(head: &[&str], runs: &[&Run]) {
         .map(|(code, n)| format!("{code} {n}"))
         .collect();
     println!(
-        "| {} | {} | {} | {} | {} | {:.3} | {open} | {part} | {halves} | {} |",
+        "| {} | {} | {} | {} | {} | {:.3} | {open} | {width} | {part} | {halves} | {} |",
         head.join(" | "),
         runs.len(),
         runs.iter().filter(|r| r.trusted).count(),
