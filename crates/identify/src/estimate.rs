@@ -199,6 +199,7 @@ pub fn estimate(
             low_speed,
             low_speed_bound,
             misfit: None,
+            disagreements: Vec::new(),
             series,
             status: optimum.status,
             counts: optimum.counts,

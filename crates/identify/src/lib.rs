@@ -52,6 +52,7 @@
 //!
 //! Nothing here prints, sleeps or reads a clock; an [`Observer`] sees progress and may stop a run.
 
+mod agreement;
 pub mod candidates;
 mod choice;
 mod conditioning;
@@ -75,9 +76,11 @@ mod refit;
 mod replica;
 mod separable;
 mod state_space;
+mod student;
 mod tune;
 mod watch;
 
+pub use agreement::{Disagreement, NOT_CONSTANT};
 pub use choice::{NEVER_EQUAL_RATIO, Standing, choose};
 pub use conditioning::accelerometer::Accelerometer;
 pub use conditioning::channels::Channels;

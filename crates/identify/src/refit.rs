@@ -1,5 +1,6 @@
 //! Result of a fit to a [`replica`](crate::replica).
 
+use crate::agreement::Told;
 use crate::conditioning::record::Record;
 use crate::conditioning::{Conditioning, condition_as};
 use crate::estimate::Estimate;
@@ -7,6 +8,7 @@ use crate::estimate::uncertainty::{Unknowns, unknowns};
 use crate::misfit::{Divisions, Energies};
 use crate::replica::{Axis, Replica};
 use crate::separable::descent::descend;
+use crate::separable::logs::Logs;
 use crate::separable::objective::{Evaluation, Objective};
 use crate::separable::search_box::SearchBox;
 use crate::watch::Watch;
@@ -20,16 +22,23 @@ const LONGEST_STEP: f64 = 1.0;
 /// Most trials of a descent.
 const MOST_TRIALS: usize = 60;
 
-/// Unknowns and coefficients that a fit of a replica finds, from its true values in `steps` Gauss-Newton
-/// steps: the errors are small, so one step is accurate to first order, and two are almost exact. Where
-/// two would lead far away, the record hardly determines some unknown, and a full descent is made
-/// instead. With `surety` also the uncertainty of that fit, and what comes back of its residual.
+/// What is asked of a fit of a replica.
+#[derive(Clone, Copy)]
+pub(crate) enum Asked<'a> {
+    /// The unknowns, to first order.
+    Unknowns,
+    /// Also how sure they are, what comes back of the residual, and what the logs tell where there are several.
+    All(Option<&'a Logs>),
+}
+
+/// Unknowns and coefficients that a fit of a replica finds, from its true values in Gauss-Newton steps: the errors are small, so
+/// one step is accurate to first order, and two, where all is asked, are almost exact. Where two would lead far away, the record
+/// hardly determines some unknown, and a full descent is made instead.
 pub(crate) fn refitted(
     replica: &Replica,
     conditioning: &Conditioning,
     fitted: &Estimate,
-    steps: usize,
-    surety: bool,
+    asked: Asked,
     counts: &mut Counts,
 ) -> Option<Refit> {
     // The noise of the position is asked of a log that replicas are made of, not of a replica that is fitted.
@@ -41,7 +50,7 @@ pub(crate) fn refitted(
     };
     let mut at = evaluated(&replica.p, counts);
     let mut last = stepped(&objective, &replica.p, &at)?;
-    for _ in 1..steps {
+    if let Asked::All(_) = asked {
         if last.longest > LONGEST_STEP {
             let p = descended(&objective, &replica.p, counts)?;
             at = evaluated(&p, counts);
@@ -51,19 +60,29 @@ pub(crate) fn refitted(
                 longest: 0.0,
                 fall: 0.0,
             };
-            break;
+        } else {
+            at = evaluated(&last.p, counts);
+            last = stepped(&objective, &last.p, &at)?;
         }
-        at = evaluated(&last.p, counts);
-        last = stepped(&objective, &last.p, &at)?;
     }
-    let unknowns = surety.then(|| unknowns(&objective, &at));
-    let energies = surety.then(|| Divisions::of(&objective, &at).energies(at.residual()));
+    let all = match asked {
+        Asked::Unknowns => None,
+        Asked::All(logs) => {
+            let unknowns = unknowns(&objective, &at);
+            let left = logs.and_then(|logs| logs.within(&at));
+            let left = left.as_deref().unwrap_or(at.residual());
+            Some(All {
+                energies: Divisions::of(&objective, &at).energies(left),
+                told: logs.and_then(|logs| logs.told(&objective, &last.p, &at, &unknowns.bread)),
+                unknowns,
+            })
+        }
+    };
     let refit = Refit {
         p: last.p,
         square: (at.cost - last.fall).max(0.0) / at.residual().len().max(1) as f64,
         c: last.c,
-        unknowns,
-        energies,
+        all,
     };
     let finite = |x: &[f64]| x.iter().all(|x| x.is_finite());
     (finite(&refit.p) && finite(&refit.c) && refit.square.is_finite()).then_some(refit)
@@ -158,12 +177,20 @@ pub(crate) struct Refit {
     pub p: Vec<f64>,
     /// Linear ones.
     pub c: Vec<f64>,
-    /// Their uncertainty from the residual, if asked for.
-    pub unknowns: Option<Unknowns>,
-    /// What comes back of its residual, if asked for.
-    pub energies: Option<Energies>,
+    /// What else was asked for.
+    pub all: Option<All>,
     /// Mean square of the residual.
     square: f64,
+}
+
+/// What a fit of a replica says beside its unknowns.
+pub(crate) struct All {
+    /// Uncertainty of the unknowns from the residual.
+    pub unknowns: Unknowns,
+    /// What comes back of the residual.
+    pub energies: Energies,
+    /// What its logs tell; `None` for a single one.
+    pub told: Option<Told>,
 }
 
 /// White noise of the logged force, from the residual of a fit: the part that a replica without force
@@ -177,7 +204,7 @@ pub(crate) fn force_noise(
     counts: &mut Counts,
 ) -> Option<f64> {
     let quiet = axis.replica(0.0, SILENT_SEED)?;
-    let refit = refitted(&quiet, conditioning, fitted, 1, false, counts)?;
+    let refit = refitted(&quiet, conditioning, fitted, Asked::Unknowns, counts)?;
     let left = (fitted.fit.rmse * fitted.fit.rmse - refit.square).max(0.0);
     Some((left / record.noise_gain()).sqrt())
 }

@@ -8,6 +8,7 @@ pub(crate) mod elasto_plastic;
 pub(crate) mod fixed;
 pub(crate) mod in_lanes;
 pub(crate) mod linear;
+pub(crate) mod logs;
 pub(crate) mod moving;
 pub(crate) mod nonnegative;
 pub(crate) mod objective;

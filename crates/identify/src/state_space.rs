@@ -15,12 +15,13 @@ mod relaxation;
 mod response;
 mod rests;
 mod state;
-mod student;
 mod tangent;
 mod unknowns;
 
+use crate::agreement::Between;
 use crate::conditioning::record::Record;
 use crate::estimate::Estimate;
+use crate::law::LawKind;
 use crate::watch::Watch;
 
 /// Part of the samples at rest from which the counts are asked.
@@ -46,18 +47,30 @@ impl Doubted {
     }
 }
 
+/// Flags what rests spoil in a fit of the force, where logs of axes that differ leave no counts of one axis to be asked.
+pub(crate) fn flag_what_rests_spoil(estimate: &mut Estimate) {
+    if estimate.law.kind == LawKind::LuGre {
+        state::doubt_all(&mut estimate.fitted.parameters);
+    }
+}
+
 /// Whether an axis rests in so much of a record that its counts are asked.
 pub(crate) fn rests_much(record: &Record) -> bool {
     rests::share(record) >= MUCH_REST
 }
 
 /// Asks the counts of a record in which the axis [rests much](rests_much) about the fit of its force; states what they say where
-/// they can be believed.
-pub(crate) fn ask(record: &Record, estimate: &mut Estimate, watch: &mut Watch) -> Counts {
+/// they can be believed, with what the logs add `between` them.
+pub(crate) fn ask(
+    record: &Record,
+    estimate: &mut Estimate,
+    between: &Between,
+    watch: &mut Watch,
+) -> Counts {
     match fit::most_likely(record, estimate, watch) {
         None => Counts::NotAsked,
         Some(found) if found.against.is_empty() => {
-            state::state(estimate, &found);
+            state::state(estimate, &found, between);
             Counts::Stated
         }
         Some(found) => Counts::Doubted(Doubted(Box::new(found))),

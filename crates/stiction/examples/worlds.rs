@@ -63,7 +63,7 @@ fn main() {
             let mut logs = vec![record(&machine, motion, world, seed)];
             let mut machines = vec![machine];
             if let Some(percent) = rise {
-                let later = risen(machine, 1.0 + 0.01 * percent);
+                let later = machine.with_friction(1.0 + 0.01 * percent);
                 logs.push(record(
                     &later,
                     second.unwrap_or(motion),
@@ -90,18 +90,6 @@ fn main() {
 
 /// What the seed of a second log is more than that of the first.
 const LATER: u64 = 1_000_000;
-
-/// A machine whose friction is so many times what it was.
-fn risen(machine: Machine, factor: f64) -> Machine {
-    Machine {
-        sigma0: factor * machine.sigma0,
-        sigma1: factor * machine.sigma1,
-        sigma2: factor * machine.sigma2,
-        coulomb: factor * machine.coulomb,
-        static_friction: factor * machine.static_friction,
-        ..machine
-    }
-}
 
 /// The name of a world as an argument.
 fn short(world: World) -> String {

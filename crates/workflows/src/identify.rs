@@ -10,6 +10,7 @@ mod choice;
 mod compensation;
 mod condition;
 mod conditioning;
+mod disagree;
 mod fit;
 mod judge;
 mod lacking;

@@ -6,14 +6,16 @@
 //! the axis (bootstrap of the bias: Efron and Tibshirani 1993, ISBN 0-412-04231-2, chapter 10; errors
 //! in variables: Carroll et al. 2006, doi 10.1201/9781420010138).
 
+use crate::agreement::Told;
 use crate::conditioning::condition;
 use crate::conditioning::record::Record;
 use crate::estimate::Estimate;
 use crate::law::physical::physical;
 use crate::misfit::Energies;
 use crate::parameter::physical::Physical;
-use crate::refit::{Refit, force_noise, refitted};
+use crate::refit::{Asked, Refit, force_noise, refitted};
 use crate::replica::{Axis, Replica};
+use crate::separable::logs::Logs;
 use crate::watch::Watch;
 use stiction_search::Control;
 
@@ -43,6 +45,8 @@ pub(super) struct Shift {
     change: Vec<f64>,
     /// What comes back of the residuals of the replicas.
     pub energies: Vec<Energies>,
+    /// What the logs of each replica tell, where there are several.
+    pub told: Vec<Told>,
 }
 
 impl Shift {
@@ -75,6 +79,7 @@ pub(super) fn shift(
     record: &Record,
     fitted: &Estimate,
     raw: &[Physical],
+    logs: Option<&Logs>,
     watch: &mut Watch,
 ) -> Option<Shift> {
     let conditioning = record.conditioning?;
@@ -84,15 +89,23 @@ pub(super) fn shift(
     let mut first = Shifts::default();
     let mut second = Shifts::default();
     let mut stated = vec![0.0; raw.len()];
-    let mut energies = Vec::new();
+    let (mut energies, mut told) = (Vec::new(), Vec::new());
     for i in 0..REPLICA_COUNT {
-        let (found, replica) = once(record, fitted, &axis, noise, (FIRST_SEED + i, 2), watch)?;
+        let (found, replica) = once(
+            record,
+            fitted,
+            &axis,
+            noise,
+            (FIRST_SEED + i, Asked::All(logs)),
+            watch,
+        )?;
         asked(watch)?;
-        let surety = &found.refit.unknowns.as_ref()?.covariance;
+        let all = found.refit.all.as_ref()?;
         for (sum, p) in stated.iter_mut().zip(&found.parameters) {
-            *sum += p.variance(surety) / REPLICA_COUNT as f64;
+            *sum += p.variance(&all.unknowns.covariance) / REPLICA_COUNT as f64;
         }
-        energies.extend(found.refit.energies);
+        energies.push(all.energies);
+        told.extend(all.told.clone());
         first.0.push(found.shift.clone());
         // A replica that cannot be simulated is left out. Of a replica of a replica only the shift is asked for, and to
         // first order.
@@ -104,7 +117,7 @@ pub(super) fn shift(
                 &next,
                 &axis,
                 noise,
-                (FIRST_SECOND_SEED + i, 1),
+                (FIRST_SECOND_SEED + i, Asked::Unknowns),
                 watch,
             )
         {
@@ -120,6 +133,7 @@ pub(super) fn shift(
         stated,
         change: all.map(|i| second.change(&first, i)).collect(),
         energies,
+        told,
     })
 }
 
@@ -182,14 +196,13 @@ impl Found {
     }
 }
 
-/// Makes one replica and fits it in some steps; its uncertainty, and what comes back of its residual, are stated where there are
-/// several.
+/// Makes one replica and fits it.
 fn once(
     record: &Record,
     fitted: &Estimate,
     axis: &Axis,
     noise: f64,
-    (seed, steps): (u64, usize),
+    (seed, what): (u64, Asked),
     watch: &mut Watch,
 ) -> Option<(Found, Replica)> {
     let linear = fitted.terms.columns(&fitted.law);
@@ -200,8 +213,7 @@ fn once(
         &replica,
         &record.conditioning?,
         fitted,
-        steps,
-        steps > 1,
+        what,
         &mut watch.counts,
     )?;
     let truth = at(&replica.p, fitted.coefficients());

@@ -1,6 +1,7 @@
 //! The result that every fit of a law gives, whether it fitted the force, the position or points of the
 //! steady curve.
 
+use crate::agreement::Disagreement;
 use crate::conditioning::record::extent;
 use crate::estimate::series::Series;
 use crate::estimate::sliding::is_presliding;
@@ -33,6 +34,8 @@ pub struct FittedLaw {
     pub low_speed_bound: f64,
     /// What the law leaves systematically, where more than noise, encoder and filters explain; known once intervals are.
     pub misfit: Option<Misfit>,
+    /// Parameters that logs have differently; known once intervals are.
+    pub disagreements: Vec<Disagreement>,
     /// Signals at the kept samples.
     pub series: Series,
     /// How the search ended.

@@ -1,6 +1,7 @@
 //! From linear intervals to those that a result states: with what the conditioning shifts, and with
 //! the profile where a parabola is not good enough.
 
+use crate::agreement::Between;
 use crate::conditioning::record::Record;
 use crate::estimate::conditioned::shift;
 use crate::estimate::curve::{missing, stays_within};
@@ -13,6 +14,7 @@ use crate::law::physical::physical;
 use crate::misfit::{Divisions, Misfit};
 use crate::parameter::physical::{Physical, propagate};
 use crate::parameter::{IntervalKind, Parameter, quantile};
+use crate::separable::logs::Logs;
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
 use crate::state_space::{self, Counts};
@@ -46,13 +48,20 @@ pub fn intervals(
         c,
     );
     let before = state_space::rests_much(record).then(|| estimate.clone());
-    of_the_force(&objective, optimum, &raw, estimate, observer);
-    // Counts say more than the force of the axis that the law describes; of another one they are as wrong, and surer.
+    let between = of_the_force(&objective, optimum, &raw, estimate, observer);
+    // Counts say more than the force of the one axis that the law describes; of another they are as wrong, and surer.
     let cause = estimate.misfit.as_ref().and_then(Misfit::cause);
-    if let Some(before) = before.filter(|_| cause.is_none()) {
-        of_the_counts(record, before, estimate, observer);
+    match before {
+        Some(_) if !estimate.disagreements.is_empty() => {
+            state_space::flag_what_rests_spoil(estimate)
+        }
+        Some(before) if cause.is_none() => {
+            of_the_counts(record, before, &between, estimate, observer);
+        }
+        _ => {}
     }
     let fitted = &mut estimate.fitted;
+    flag_what_the_residual_doubts(fitted);
     flag_what_the_motion_hides(record, &mut fitted.parameters);
     advice::explain(&mut fitted.parameters, &fitted.covariance);
 }
@@ -62,11 +71,12 @@ pub fn intervals(
 fn of_the_counts(
     record: &Record,
     mut before: Estimate,
+    between: &Between,
     estimate: &mut Estimate,
     observer: &mut dyn Observer,
 ) {
     let mut watch = Watch::new(observer, Stage::Calibration);
-    let counts = state_space::ask(record, &mut before, &mut watch);
+    let counts = state_space::ask(record, &mut before, between, &mut watch);
     estimate.fitted.counts.add(&watch.counts);
     match counts {
         Counts::Stated => {
@@ -79,15 +89,15 @@ fn of_the_counts(
     }
 }
 
-/// The intervals of a fit of the force.
+/// The intervals of a fit of the force; gives what logs add to them.
 fn of_the_force(
     objective: &Objective,
     optimum: &Optimum,
     raw: &[Physical],
     estimate: &mut Estimate,
     observer: &mut dyn Observer,
-) {
-    conditioned(objective, optimum, raw, estimate, observer);
+) -> Between {
+    let between = conditioned(objective, optimum, raw, estimate, observer);
     let mut watch = Watch::new(observer, Stage::Calibration);
     watch.fraction = 1.0;
     let missing = missing(objective, optimum, &estimate.unknowns, &mut watch);
@@ -105,40 +115,64 @@ fn of_the_force(
     flag_what_a_filter_hides(objective.record(), estimate);
     let fitted = &mut estimate.fitted;
     stays_within(&fitted.law, optimum, &mut fitted.parameters);
-    flag_what_another_shape_changes(fitted);
+    between
 }
 
-/// Counts what the conditioning shifts, and what the law leaves systematically.
+/// Counts what the conditioning shifts, what the law leaves systematically, and by how much logs differ; gives the last of these.
 fn conditioned(
     objective: &Objective,
     optimum: &Optimum,
     raw: &[Physical],
     estimate: &mut Estimate,
     observer: &mut dyn Observer,
-) {
+) -> Between {
     let mut watch = Watch::new(observer, Stage::Calibration);
     let at = &optimum.evaluation;
+    let logs = Logs::of(objective.record());
     let divisions = Divisions::of(objective, at);
-    let shift = shift(objective.record(), estimate, raw, &mut watch);
+    let shift = shift(objective.record(), estimate, raw, logs.as_ref(), &mut watch);
     estimate.fitted.counts.add(&watch.counts);
-    let energies = shift.as_ref().map_or(&[][..], |shift| &shift.energies);
-    let misfit = divisions.misfit(at.residual(), energies);
+    let (energies, replicas) = match &shift {
+        Some(shift) => (&shift.energies[..], &shift.told[..]),
+        None => (&[][..], &[][..]),
+    };
+    // Levels that logs have differently are no misfit of the law; they are counted beside it.
+    let within = logs.as_ref().and_then(|logs| logs.within(at));
+    let left = within.as_deref().unwrap_or(at.residual());
+    let misfit = divisions.misfit(left, energies);
     let spread = misfit.as_ref().map(|misfit| {
-        let unknowns = misfit.spread(&estimate.unknowns.bread, at.residual().len());
+        let unknowns = misfit.spread(&estimate.unknowns.bread, left.len());
         propagate(raw, &unknowns)
     });
     estimate.fitted.misfit = misfit;
-    if shift.is_none() && spread.is_none() {
-        return;
+    let stated = &estimate.fitted.covariance.matrix;
+    let known: Vec<f64> = (0..raw.len())
+        .map(|i| {
+            let total = shift
+                .as_ref()
+                .map_or(stated[i][i], |s| s.total(i, stated[i][i]));
+            total + spread.as_ref().map_or(0.0, |s| s[(i, i)])
+        })
+        .collect();
+    let mut between = Between::default();
+    if let Some(logs) = logs
+        && let Some(own) = logs.told(objective, &optimum.p, at, &estimate.unknowns.bread)
+    {
+        between = logs.between(raw, &own, replicas, &known);
+        let optimum = (objective, &optimum.p[..], at);
+        estimate.fitted.disagreements = logs.disagreements(optimum, &own, replicas);
+    }
+    if shift.is_none() && spread.is_none() && between.is_nothing() {
+        return between;
     }
     let levels = levels(objective, raw);
     let matrix = &mut estimate.fitted.covariance.matrix;
     let n = raw.len();
-    let widen: Vec<f64> = (0..n)
-        .map(|i| {
-            let stated = matrix[i][i];
-            let total = shift.as_ref().map_or(stated, |s| s.total(i, stated));
-            let ratio = (total + spread.as_ref().map_or(0.0, |s| s[(i, i)])) / stated;
+    let widen: Vec<f64> = raw
+        .iter()
+        .enumerate()
+        .map(|(i, p)| {
+            let ratio = (known[i] + between.variance(p.name)) / matrix[i][i];
             if ratio.is_finite() { ratio.sqrt() } else { 1.0 }
         })
         .collect();
@@ -154,17 +188,21 @@ fn conditioned(
             *own = optimal::fitted(p, variance, bias, optimum, levels[i]);
         }
     }
+    between
 }
 
-/// Flags the parameters that describe a shape which the residual shows to be another one.
-fn flag_what_another_shape_changes(fitted: &mut FittedLaw) {
-    let Some(cause) = fitted.misfit.as_ref().and_then(Misfit::cause) else {
-        return;
-    };
-    for p in fitted.parameters.iter_mut().filter(|p| p.identified) {
-        if let Some(reason) = cause.against(p.name.quantity).filter(|_| p.identifiable) {
+/// Flags the parameters that describe a shape which the residual shows to be another one, and those that logs have too
+/// differently.
+fn flag_what_the_residual_doubts(fitted: &mut FittedLaw) {
+    let cause = fitted.misfit.as_ref().and_then(Misfit::cause);
+    let differing = &fitted.disagreements;
+    let claimed = |p: &&mut Parameter| p.identified && p.identifiable;
+    for p in fitted.parameters.iter_mut().filter(claimed) {
+        let shape = cause.and_then(|cause| cause.against(p.name.quantity));
+        let level = || differing.iter().find_map(|found| found.against(p.name));
+        if let Some(reason) = shape.map(String::from).or_else(level) {
             p.identifiable = false;
-            p.reason = reason.into();
+            p.reason = reason;
         }
     }
 }

@@ -14,6 +14,7 @@
 
 use crate::estimate::autoregression::{Autoregression, segments};
 use crate::separable::linear::dot;
+use crate::separable::logs::Logs;
 use crate::separable::objective::{Evaluation, Objective};
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -32,13 +33,16 @@ pub(crate) struct Unknowns {
 
 /// A nonlinear unknown at the bound of its search range counts as free here: the bound is a choice of the
 /// program, no physical limit, and holding the unknown would make the others look better known than they
-/// are.
+/// are. What levels that logs have differently leave is no noise within them: of several logs the residual is that of each with
+/// linear unknowns of its own.
 pub(crate) fn unknowns(objective: &Objective, at: &Evaluation) -> Unknowns {
     let k = at.slopes.len();
     let width = k + at.columns.len();
     let active = (0..at.columns.len()).filter(|&j| at.solution.active[j]);
     let index: Vec<usize> = (0..k).chain(active.map(|j| k + j)).collect();
-    let small = sandwich(&at.jacobian(), at.residual(), &objective.record().breaks());
+    let within = Logs::of(objective.record()).and_then(|logs| logs.within(at));
+    let residual = within.as_deref().unwrap_or(at.residual());
+    let small = sandwich(&at.jacobian(), residual, &objective.record().breaks());
     let mut out = Unknowns {
         covariance: DMatrix::zeros(width, width),
         bread: DMatrix::zeros(width, width),

@@ -176,6 +176,7 @@ pub(crate) fn describe(
         low_speed: None,
         low_speed_bound: 0.02 * top,
         misfit: None,
+        disagreements: Vec::new(),
         series: Series {
             log: signals.log.clone(),
             time: signals.time.clone(),

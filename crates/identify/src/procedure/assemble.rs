@@ -41,6 +41,7 @@ fn fitted_law(
         low_speed: None,
         low_speed_bound: 0.0,
         misfit: None,
+        disagreements: Vec::new(),
         series,
         status,
         counts,

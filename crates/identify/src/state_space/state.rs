@@ -1,13 +1,14 @@
 //! What the likelihood found, stated in an estimate.
 
+use crate::agreement::Between;
 use crate::estimate::Estimate;
 use crate::exponential::exp;
 use crate::parameter::{
     IDENTIFIABLE, IntervalKind, NORMAL_Q95, Parameter, WIDEST_INTERVAL, too_uncertain,
 };
 use crate::state_space::fit::Likely;
-use crate::state_space::student;
 use crate::state_space::unknowns::lanes;
+use crate::student;
 use nalgebra::{DMatrix, DVector};
 use stiction_parameters::{Name, Quantity};
 
@@ -25,20 +26,34 @@ struct Own {
     weights: DVector<f64>,
 }
 
-/// States the parameters of the likelihood.
-pub(super) fn state(estimate: &mut Estimate, found: &Likely) {
+impl Own {
+    /// Adds to the variance of the parameter.
+    fn widen(&mut self, name: Name, variance: f64) {
+        let size = match name == Quantity::Offset {
+            true => 1.0,
+            false => exp(self.value),
+        };
+        self.reach = libm::hypot(self.reach, NORMAL_Q95 * variance.sqrt() / size);
+    }
+}
+
+/// States the parameters of the likelihood, with what logs add to their variances. The jackknife leaves out parts of logs, of
+/// which it takes those of one log for independent.
+pub(super) fn state(estimate: &mut Estimate, found: &Likely, between: &Between) {
     let step = estimate.step;
     let parameters = &mut estimate.fitted.parameters;
     let mut owns: Vec<(Name, Own)> = Vec::new();
     for parameter in parameters.iter_mut().filter(|p| p.identified) {
-        if let Some(own) = own(parameter.name, found) {
+        if let Some(mut own) = own(parameter.name, found) {
+            own.widen(parameter.name, between.variance(parameter.name));
             write(parameter, &own);
             owns.push((parameter.name, own));
         } else if let Some([delay, reach]) = found.delay
             && parameter.name == Quantity::Delay
         {
             parameter.value = delay * step;
-            normal(parameter, reach * step);
+            let more = NORMAL_Q95 * between.variance(parameter.name).sqrt();
+            normal(parameter, libm::hypot(reach * step, more));
         }
     }
     let covariance = &mut estimate.fitted.covariance;
@@ -99,6 +114,18 @@ pub(super) fn doubt(estimate: &mut Estimate, found: &Likely) {
                 found.against
             );
         }
+    }
+}
+
+/// Flags the parameters that rests spoil whatever their interval.
+pub(super) fn doubt_all(parameters: &mut [Parameter]) {
+    let spoiled =
+        |p: &&mut Parameter| SPOILED.contains(&p.name.quantity) && p.identified && p.identifiable;
+    for parameter in parameters.iter_mut().filter(spoiled) {
+        parameter.identifiable = false;
+        parameter.reason = "the axis rests in much of the logs, and their counts, which would say more than the force, are \
+                            not those of one axis"
+            .into();
     }
 }
 

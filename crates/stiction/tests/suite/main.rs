@@ -18,6 +18,7 @@ mod procedures;
 mod promise;
 mod recordings;
 mod rests;
+mod several_logs;
 mod simulation;
 mod study;
 mod study_axis;

@@ -116,6 +116,19 @@ impl Machine {
         ]
     }
 
+    /// The same axis with friction that is so many times what it was.
+    #[must_use]
+    pub fn with_friction(self, factor: f64) -> Self {
+        Self {
+            sigma0: factor * self.sigma0,
+            sigma1: factor * self.sigma1,
+            sigma2: factor * self.sigma2,
+            coulomb: factor * self.coulomb,
+            static_friction: factor * self.static_friction,
+            ..self
+        }
+    }
+
     /// Every parameter moved at random; the difference of Fs and Fc as one of them.
     fn varied(mut self, seed: u64) -> Self {
         let mut random = Random::new(seed);

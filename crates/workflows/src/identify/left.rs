@@ -43,7 +43,8 @@ pub(super) fn named(law: &FittedLaw, log: &Log, warnings: &mut Vec<Warning>) {
 
 fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String {
     let share = Percent::error(100.0 * misfit.share).digits(2);
-    let of_force = Percent::error(misfit.share.sqrt() * law.fit.relative_error_percent).digits(2);
+    let of_force = misfit.rms / law.fit.rmse * law.fit.relative_error_percent;
+    let of_force = Percent::error(of_force).digits(2);
     let left = format!("{share} of what the law leaves ({of_force} of the force)");
     let levels = || {
         let (low, high) = misfit.levels;

@@ -46,7 +46,8 @@ pub(super) fn remaining(series: &Series, presliding: f64) -> Option<RemainingEnt
     if !(stroke > 0.0 && stroke.is_finite()) {
         return None;
     }
-    let axes = [&series.time, &series.position].map(|x| Along::of(x));
+    let time = one_after_another(series);
+    let axes = [&time, &series.position].map(|x| Along::of(x));
     let level = (axes.iter())
         .map(|along| along.levels(&friction, &left, white).1)
         .fold(0.0, f64::max);
@@ -70,6 +71,22 @@ pub(super) fn remaining(series: &Series, presliding: f64) -> Option<RemainingEnt
         wandering,
         memory,
     })
+}
+
+/// Times at which each log begins where the one before ended, s: levels that differ between logs are not to meet in a stretch.
+fn one_after_another(series: &Series) -> Vec<f64> {
+    let (mut shift, mut last) = (0.0, 0.0);
+    let mut log = series.log.first();
+    let samples = series.log.iter().zip(&series.time);
+    samples
+        .map(|(own, t)| {
+            if log != Some(own) {
+                (shift, log) = (last - t, Some(own));
+            }
+            last = t + shift;
+            last
+        })
+        .collect()
 }
 
 /// Variance of the white part: that of second differences, which is six times as large, as its median shows it.
@@ -318,6 +335,23 @@ mod tests {
         assert!((drift.level - 0.1).abs() < 0.01, "{drift:?}");
         let along = found(|t, x, sign| 0.1 * noise(t) + sign * COULOMB * 0.2 * (x / STROKE - 0.5));
         assert!((along.level - 0.1).abs() < 0.01, "{along:?}");
+    }
+
+    #[test]
+    fn a_level_that_logs_have_differently_is_found() {
+        let noise = white_noise();
+        let log = |level: f64| series(|t, _, sign| 0.1 * noise(t) + sign * COULOMB * level);
+        let (mut both, second) = (log(0.1), log(-0.1));
+        both.log.extend(second.log.iter().map(|_| 1));
+        both.time.extend(second.time);
+        both.position.extend(second.position);
+        both.velocity.extend(second.velocity);
+        both.model.extend(second.model);
+        both.other.extend(second.other);
+        both.measured.extend(second.measured);
+        let found = remaining(&both, 1e-5).unwrap();
+        // Of a step at the middle the straight line through all stretches ends at one and a half of it.
+        assert!((found.level - 0.15).abs() < 0.01, "{found:?}");
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use super::choice::EXPORTED;
 use super::compensation;
+use super::disagree;
 use super::lacking;
 use super::left;
 use super::unfit;
@@ -328,6 +329,7 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
     }
     systematic(law, warnings);
     left::named(law, &evidence.sources[0].log, warnings);
+    disagree::named(evidence, warnings);
     shifted(law, warnings);
     static_at_rest(law, evidence.motion, warnings);
 }

@@ -4,10 +4,18 @@ use crate::parameter::NORMAL_Q95;
 
 /// Fewest degrees of freedom that the expansion is good for.
 const FEWEST: f64 = 3.0;
+/// Two-sided 95 % quantiles with one degree of freedom, `tan(0.475 pi)`, and with two, `0.95 (2 / (1 - 0.95^2))^(1/2)`.
+const FEW: [f64; 2] = [12.706_204_736_174_7, 4.302_652_729_749_46];
+
+/// Two-sided 95 % quantile of a whole number of degrees of freedom, at least one.
+pub(crate) fn whole(freedom: usize) -> f64 {
+    let few = FEW.get(freedom.saturating_sub(1));
+    few.copied().unwrap_or_else(|| quantile(freedom as f64))
+}
 
 /// Two-sided 95 % quantile, by the expansion of Cornish and Fisher in the degrees of freedom (Abramowitz and Stegun 1964,
 /// 26.7.5); with fewer than three, that of three.
-pub(super) fn quantile(freedom: f64) -> f64 {
+pub(crate) fn quantile(freedom: f64) -> f64 {
     let n = freedom.max(FEWEST);
     let x = NORMAL_Q95;
     let [x3, x5, x7, x9] = [3, 5, 7, 9].map(|k| x.powi(k));
@@ -41,5 +49,15 @@ mod tests {
             );
         }
         assert_eq!(quantile(f64::NAN), quantile(3.0));
+    }
+
+    /// With one degree the distribution of Cauchy, with two `F(t) = 1/2 + t / (2 (2 + t^2)^(1/2))`.
+    #[test]
+    fn quantiles_of_few_are_those_of_their_distributions() {
+        let one = libm::atan(whole(1)) / std::f64::consts::PI;
+        assert!((one - 0.475).abs() < 1e-15, "{one}");
+        let two = whole(2) / (2.0 * (2.0 + whole(2).powi(2)).sqrt());
+        assert!((two - 0.475).abs() < 1e-14, "{two}");
+        assert_eq!(whole(3), quantile(3.0));
     }
 }

@@ -1,0 +1,140 @@
+//! Whether logs of one axis tell the same of its parameters.
+//!
+//! The residual of a deviation counts noise within a log. What differs from one log to the next (warmth, lubrication, load)
+//! is the same for all samples of a log: more samples do not average it out, and no residual within a log shows it. At the
+//! optimum the pulls of the logs on the unknowns, `(J^T J)^-1 J_l^T r_l` for log l, add up to zero; their scatter is that of
+//! the estimate if the logs are independent, whatever is correlated within them (cluster-robust covariance: Liang and Zeger
+//! 1986, doi 10.1093/biomet/73.1.13). Filters and encoder pull too: how much on which log, the replicas of the fitted axis
+//! show.
+//!
+//! A residual is so divided in two: what logs have differently is judged here, and what is left when each log has linear
+//! unknowns of its own ([`Logs::within`]) states the deviations and is looked through for a [misfit](crate::misfit) of the law.
+
+mod levels;
+
+use levels::Levels;
+pub use levels::{Disagreement, NOT_CONSTANT};
+
+use crate::parameter::NORMAL_Q95;
+use crate::parameter::physical::Physical;
+use crate::separable::linear::dot;
+use crate::separable::logs::Logs;
+use crate::separable::objective::Evaluation;
+use crate::student;
+use nalgebra::DMatrix;
+use std::ops::Range;
+use stiction_parameters::Name;
+
+/// Upper 5 % points of the ratio of variances with 1, 2, .. degrees of freedom above and 9 (of ten replicas) below
+/// (Abramowitz and Stegun, table 26.9); the last for all beyond.
+const CHANCE: [f64; 8] = [5.12, 4.26, 3.86, 3.63, 3.48, 3.37, 3.29, 3.23];
+
+/// How each log pulls on the unknowns.
+type Pulls = Vec<Vec<f64>>;
+
+/// What the logs of a fit tell: how they pull on its unknowns, and the levels of each.
+#[derive(Clone, Debug)]
+pub(crate) struct Told {
+    pulls: Pulls,
+    levels: Levels,
+}
+
+impl Logs {
+    /// How each log pulls on the unknowns `(p, c)` where the inverse of `J^T J` is given.
+    fn pulls(&self, at: &Evaluation, inverse: &DMatrix<f64>) -> Pulls {
+        let residual = at.residual();
+        let columns: Vec<&[f64]> = at
+            .slopes
+            .iter()
+            .chain(at.columns.iter().map(|column| &**column))
+            .map(Vec::as_slice)
+            .collect();
+        let pull = |range: &Range<usize>| {
+            let scores: Vec<f64> = columns
+                .iter()
+                .map(|column| dot(&column[range.clone()], &residual[range.clone()]))
+                .collect();
+            (0..columns.len())
+                .map(|i| {
+                    let each = scores.iter().enumerate();
+                    each.map(|(j, score)| inverse[(i, j)] * score).sum()
+                })
+                .collect()
+        };
+        self.ranges().iter().map(pull).collect()
+    }
+
+    /// What has to be added to the `known` variance of each parameter for logs that differ by more than it and the replicas
+    /// explain. With few logs their scatter is itself hardly known: the variance is enlarged so that 1.96 deviations are
+    /// Student's interval, with two logs 6.5 deviations.
+    pub fn between(
+        &self,
+        parameters: &[Physical],
+        own: &Told,
+        replicas: &[Told],
+        known: &[f64],
+    ) -> Between {
+        let free = self.ranges().len() - 1;
+        let chance = CHANCE[free.min(CHANCE.len()) - 1];
+        let few = student::whole(free) / NORMAL_Q95;
+        let mean = mean(replicas, &own.pulls);
+        let count = replicas.len() as f64;
+        let beyond = |p: &Physical, known: f64| {
+            let between = scatter(p, &own.pulls, &mean);
+            let each = replicas.iter().map(|told| scatter(p, &told.pulls, &mean));
+            let usual = each.sum::<f64>() / (count - 1.0).max(1.0);
+            between - chance * usual.max(known)
+        };
+        let each = parameters.iter().zip(known);
+        Between(
+            each.map(|(p, known)| (p.name, beyond(p, *known)))
+                .filter(|(_, beyond)| *beyond > 0.0)
+                .map(|(name, beyond)| (name, few * few * beyond))
+                .collect(),
+        )
+    }
+}
+
+/// What logs that differ add to the variances of parameters.
+#[derive(Debug, Default)]
+pub(crate) struct Between(Vec<(Name, f64)>);
+
+impl Between {
+    /// What they add to that of a parameter.
+    pub fn variance(&self, name: Name) -> f64 {
+        let own = self.0.iter().find(|(own, _)| *own == name);
+        own.map_or(0.0, |(_, variance)| *variance)
+    }
+
+    /// Whether they add to none.
+    pub fn is_nothing(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+/// Mean pulls of replicas; zero where there are none.
+fn mean(replicas: &[Told], own: &Pulls) -> Pulls {
+    let mut out: Pulls = own.iter().map(|pull| vec![0.0; pull.len()]).collect();
+    for told in replicas {
+        for (sum, pull) in out.iter_mut().zip(&told.pulls) {
+            for (sum, x) in sum.iter_mut().zip(pull) {
+                *sum += x / replicas.len() as f64;
+            }
+        }
+    }
+    out
+}
+
+/// Variance of a parameter from the scatter of the pulls about those that are expected.
+fn scatter(parameter: &Physical, pulls: &Pulls, expected: &Pulls) -> f64 {
+    let along = |(pull, expected): (&Vec<f64>, &Vec<f64>)| -> f64 {
+        let slopes = parameter.slope.iter();
+        slopes
+            .zip(pull.iter().zip(expected))
+            .map(|(slope, (x, e))| slope * (x - e))
+            .sum()
+    };
+    let logs = pulls.len() as f64;
+    let squares = pulls.iter().zip(expected).map(along).map(|d| d * d);
+    squares.sum::<f64>() * logs / (logs - 1.0)
+}
