@@ -63,24 +63,20 @@ impl Logs {
         };
         self.ranges().iter().map(pull).collect()
     }
+}
 
+impl Told {
     /// What has to be added to the `known` variance of each parameter for logs that differ by more than it and the replicas
     /// explain. With few logs their scatter is itself hardly known: the variance is enlarged so that 1.96 deviations are
     /// Student's interval, with two logs 6.5 deviations.
-    pub fn between(
-        &self,
-        parameters: &[Physical],
-        own: &Told,
-        replicas: &[Told],
-        known: &[f64],
-    ) -> Between {
-        let free = self.ranges().len() - 1;
+    pub fn between(&self, parameters: &[Physical], replicas: &[Told], known: &[f64]) -> Between {
+        let free = self.pulls.len() - 1;
         let chance = CHANCE[free.min(CHANCE.len()) - 1];
         let few = student::whole(free) / NORMAL_Q95;
-        let mean = mean(replicas, &own.pulls);
+        let mean = mean(replicas, &self.pulls);
         let count = replicas.len() as f64;
         let beyond = |p: &Physical, known: f64| {
-            let between = scatter(p, &own.pulls, &mean);
+            let between = scatter(p, &self.pulls, &mean);
             let each = replicas.iter().map(|told| scatter(p, &told.pulls, &mean));
             let usual = each.sum::<f64>() / (count - 1.0).max(1.0);
             between - chance * usual.max(known)
@@ -125,7 +121,8 @@ fn mean(replicas: &[Told], own: &Pulls) -> Pulls {
     out
 }
 
-/// Variance of a parameter from the scatter of the pulls about those that are expected.
+/// Variance of a parameter from the scatter of the pulls about those that are expected. What they add up to is not between the
+/// logs: nothing at an optimum, and the rest of the way to it in a replica.
 fn scatter(parameter: &Physical, pulls: &Pulls, expected: &Pulls) -> f64 {
     let along = |(pull, expected): (&Vec<f64>, &Vec<f64>)| -> f64 {
         let slopes = parameter.slope.iter();
@@ -135,6 +132,72 @@ fn scatter(parameter: &Physical, pulls: &Pulls, expected: &Pulls) -> f64 {
             .sum()
     };
     let logs = pulls.len() as f64;
-    let squares = pulls.iter().zip(expected).map(along).map(|d| d * d);
+    let each: Vec<f64> = pulls.iter().zip(expected).map(along).collect();
+    let mean = each.iter().sum::<f64>() / logs;
+    let squares = each.iter().map(|d| (d - mean) * (d - mean));
     squares.sum::<f64>() * logs / (logs - 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use stiction_parameters::Quantity;
+
+    fn mass() -> [Physical; 1] {
+        [Physical {
+            name: Quantity::Mass.into(),
+            value: 1.0,
+            slope: vec![1.0],
+            nonlinear: None,
+            linear: Some(0),
+        }]
+    }
+
+    /// Logs that know equally much: each pulls on the mean by how far it is from it, divided by their number.
+    fn told(values: &[f64]) -> Told {
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        Told {
+            pulls: values.iter().map(|x| vec![(x - mean) / count]).collect(),
+            levels: Vec::new(),
+        }
+    }
+
+    /// Half-width of the 95 % interval that is stated.
+    fn reach(values: &[f64], known: f64, replicas: &[Told]) -> f64 {
+        let between = told(values).between(&mass(), replicas, &[known]);
+        NORMAL_Q95 * (known + between.variance(Quantity::Mass.into())).sqrt()
+    }
+
+    /// Intervals of a mean as a table of Student's t has them: 12.706 and 4.303 standard errors.
+    #[test]
+    fn logs_without_noise_have_students_interval() {
+        let two = reach(&[0.9, 1.1], 0.0, &[]);
+        assert!((two - 12.706 * 0.1).abs() < 1e-4, "{two}");
+        // Deviation 0.1, its mean over three a root of three less.
+        let three = reach(&[0.9, 1.0, 1.1], 0.0, &[]);
+        assert!(
+            (three - 4.303 * 0.1 / 3.0_f64.sqrt()).abs() < 1e-4,
+            "{three}"
+        );
+    }
+
+    #[test]
+    fn what_is_known_or_replicas_show_is_not_counted_again() {
+        let values = [0.99, 1.01];
+        let known = 1e-4 / 5.0;
+        assert_eq!(reach(&values, known, &[]), NORMAL_Q95 * known.sqrt());
+        // Replicas in which the second log pulls up as much as it does here, some more and some less.
+        let replicas: Vec<Told> = [0.5, 1.5]
+            .map(|part| told(&values.map(|x| part * x)))
+            .to_vec();
+        assert_eq!(reach(&values, 0.0, &replicas), 0.0);
+        // A common step that replicas still had to take says nothing of logs.
+        let mut moved = replicas;
+        for pull in moved.iter_mut().flat_map(|told| &mut told.pulls) {
+            pull[0] += 1.0;
+        }
+        let far = reach(&[0.5, 1.5], 0.0, &moved);
+        assert!(far > 12.0 * 0.49 && far < 12.8 * 0.5, "{far}");
+    }
 }

@@ -27,6 +27,7 @@ use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
 use crate::parameter::physical::{Physical, propagate};
 use crate::separable::fixed::Column;
+use crate::separable::logs::Logs;
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
 use std::ops::Deref;
@@ -43,6 +44,8 @@ pub struct Estimate {
     pub(crate) p: Vec<f64>,
     pub(crate) coefficients: Vec<f64>,
     pub(crate) unknowns: Unknowns,
+    /// Root mean square of the residual within the logs; of a single one that of the fit.
+    pub(crate) within: f64,
 }
 
 impl Deref for Estimate {
@@ -189,7 +192,10 @@ pub fn estimate(
         &series.velocity,
         low_speed_bound,
     );
+    let within = Logs::of(record).and_then(|logs| logs.within(at));
+    let within = within.and_then(|within| Fit::new(&series.measured, &within));
     Estimate {
+        within: within.map_or(fit.rmse, |within| within.rmse),
         fitted: FittedLaw {
             law,
             terms: terms.clone(),

@@ -205,7 +205,7 @@ pub(crate) fn force_noise(
 ) -> Option<f64> {
     let quiet = axis.replica(0.0, SILENT_SEED)?;
     let refit = refitted(&quiet, conditioning, fitted, Asked::Unknowns, counts)?;
-    let left = (fitted.fit.rmse * fitted.fit.rmse - refit.square).max(0.0);
+    let left = (fitted.within * fitted.within - refit.square).max(0.0);
     Some((left / record.noise_gain()).sqrt())
 }
 

@@ -158,7 +158,7 @@ fn conditioned(
     if let Some(logs) = logs
         && let Some(own) = logs.told(objective, &optimum.p, at, &estimate.unknowns.bread)
     {
-        between = logs.between(raw, &own, replicas, &known);
+        between = own.between(raw, replicas, &known);
         let optimum = (objective, &optimum.p[..], at);
         estimate.fitted.disagreements = logs.disagreements(optimum, &own, replicas);
     }
