@@ -104,8 +104,8 @@ pub struct PreslidingStepEntry {
     pub damping_ratio: f64,
     /// How much later the position is logged than the force, s.
     pub delay_s: f64,
-    /// Its standard deviation, s.
-    pub delay_std_s: f64,
+    /// Its standard deviation, s; `None` at the end of its range.
+    pub delay_std_s: Option<f64>,
     /// The published inversion of each log, for comparison.
     pub published: Vec<InversionEntry>,
 }

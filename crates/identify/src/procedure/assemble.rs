@@ -93,9 +93,11 @@ impl StepFit {
             exponent: settings.exponent,
             ..Law::new(LawKind::LuGre)
         };
+        let is_known = self.covariance.place(Quantity::Offset.into()).is_some();
+        let offset = (is_known || settings.offset != 0.0).then_some(settings.offset);
         let terms = Terms {
             mass: settings.mass.map_or(Mass::Fitted, Mass::Given),
-            offset: false,
+            offset: offset.is_some(),
             ..Terms::default()
         };
         let mut parameters = self.parameters.clone();
@@ -128,6 +130,9 @@ impl StepFit {
         }
         if let Some(mass) = settings.mass {
             parameters.push(known(Quantity::Mass, mass));
+        }
+        if let Some(offset) = offset {
+            parameters.push(known(Quantity::Offset, offset));
         }
         let mut series = Series::default();
         for (log, response) in self.series.iter().enumerate() {

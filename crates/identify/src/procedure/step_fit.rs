@@ -41,6 +41,11 @@ const SETTLED_STEP: f64 = 1e-8;
 const LONGEST_STEP: f64 = 1.0;
 /// Largest delay between force and position that is looked for, samples.
 const MOST_DELAY: f64 = 2.0;
+/// Share of it from which a delay counts as being at the end of its range.
+const END_OF_DELAYS: f64 = 0.99;
+/// What is wrong with every parameter there.
+const LATE: &str = "the delay between force and position is at the end of its range, two samples: something shapes the response \
+                    that the law and what is given beside it do not explain";
 
 /// What is known beside the step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,9 +57,12 @@ pub struct StepSettings {
     pub curve: Option<Direction<f64>>,
     /// Stribeck exponent.
     pub exponent: f64,
-    /// Covariance of what is given, in the order Fc, Fs, vs, sigma2, mass, exponent; zero for what is exact.
+    /// Constant force F0 beside friction, N (N m): at rest friction is the force less this one, and that deflects the
+    /// bristles before the step.
+    pub offset: f64,
+    /// Covariance of what is given, in the order Fc, Fs, vs, sigma2, mass, exponent, offset; zero for what is exact.
     /// The intervals of the result count it, and its covariance contains it.
-    pub given: [[f64; 6]; 6],
+    pub given: [[f64; 7]; 7],
 }
 
 /// The fit of one or more step responses.
@@ -64,8 +72,9 @@ pub struct StepFit {
     pub parameters: Vec<Parameter>,
     /// Their covariance, and that of what was given and is not exact, with which they vary.
     pub covariance: Covariance,
-    /// How much later the position is logged than the force, s, and its standard deviation.
-    pub delay: (f64, f64),
+    /// How much later the position is logged than the force, s, and its standard deviation; `None` at the end of its
+    /// range, where the delay stands for something that the law does not explain.
+    pub delay: (f64, Option<f64>),
     /// Per response: time from the first sample shown, s, measured and fitted displacement, m or rad.
     pub series: Vec<StepSeries>,
     /// Residual of the position, rms, m or rad.
@@ -102,7 +111,7 @@ impl StepFit {
 
 /// Fits step responses of one axis together.
 ///
-/// Unknown are ln sigma0, ln sigma1, the delay between force and position, and where they are not
+/// Unknown are ln sigma0, ln sigma1, the delay between force and position as a share of the longest, and where they are not
 /// given ln M and ln Fs; the level of the position of each response is solved exactly.
 ///
 /// # Errors
@@ -138,7 +147,10 @@ pub fn fit_steps(
     }
     let highest = runs
         .iter()
-        .map(|(_, s)| (s.before + s.height).abs().max(s.before.abs()))
+        .map(|(_, s)| {
+            let friction = s.before - settings.offset;
+            (friction + s.height).abs().max(friction.abs())
+        })
         .fold(0.0, f64::max);
     if let Some(curve) = settings.curve
         && curve.static_friction <= highest
@@ -263,7 +275,8 @@ impl Problem {
             mass,
             curve,
             exponent: self.settings.exponent,
-            delay: MOST_DELAY * self.step * libm::tanh(p[2]),
+            offset: self.settings.offset,
+            delay: MOST_DELAY * self.step * p[2],
         }
     }
 
@@ -332,8 +345,9 @@ impl Problem {
             ..Settings::default()
         };
         let n = start.len();
-        let (low, high) = (vec![f64::NEG_INFINITY; n], vec![f64::INFINITY; n]);
-        let nowhere = Region {
+        let (mut low, mut high) = (vec![f64::NEG_INFINITY; n], vec![f64::INFINITY; n]);
+        (low[2], high[2]) = (-1.0, 1.0);
+        let delays = Region {
             low: &low,
             high: &high,
         };
@@ -345,7 +359,7 @@ impl Problem {
             sums: None,
             tried: None,
         };
-        let walk = descend(&mut fitted, walk, nowhere, &settings);
+        let walk = descend(&mut fitted, walk, delays, &settings);
         let cost = dot(&fitted.residual, &fitted.residual);
         let status = walk.status().unwrap_or(Status::Budget);
         (cost, walk.into_point(), status)
@@ -369,7 +383,9 @@ impl Problem {
         let trial = self.trial(p);
         let n = residual.len() as f64;
         let level = trial.curve.coulomb;
-        // Every unknown is a logarithm, that of Fs the one of its distance from the highest step.
+        let delay_std = covariance[(2, 2)].max(0.0).sqrt();
+        let at_end = p[2].abs() > END_OF_DELAYS;
+        // Every other unknown is a logarithm, that of Fs the one of its distance from the highest step.
         let mut rows = vec![
             (Quantity::Sigma0, trial.sigma0, 0, trial.sigma0),
             (Quantity::Sigma1, trial.sigma1, 1, trial.sigma1),
@@ -388,13 +404,18 @@ impl Problem {
         let parameters = rows
             .iter()
             .map(|&(name, value, i, slope)| {
-                Found {
+                let found = Found {
                     name: name.into(),
                     value,
                     variance: covariance[(i, i)] * slope * slope,
                     reason: "",
+                };
+                let mut parameter = found.parameter(level, quantile(n));
+                if at_end && parameter.identifiable {
+                    parameter.identifiable = false;
+                    parameter.reason = LATE.into();
                 }
-                .parameter(level, quantile(n))
+                parameter
             })
             .collect();
         for (j, quantity) in GIVEN.into_iter().enumerate() {
@@ -410,7 +431,6 @@ impl Problem {
                 row.map(|b| covariance[(a.2, b.2)] * a.3 * b.3).collect()
             })
             .collect();
-        let slope = MOST_DELAY * self.step / libm::cosh(p[2]).powi(2);
         let mut start = 0;
         let series = self
             .responses
@@ -438,7 +458,10 @@ impl Problem {
                 names: rows.iter().map(|r| r.0.into()).collect(),
                 matrix,
             },
-            delay: (trial.delay, covariance[(2, 2)].max(0.0).sqrt() * slope),
+            delay: (
+                trial.delay,
+                (!at_end).then_some(MOST_DELAY * self.step * delay_std),
+            ),
             series,
             rmse: (dot(&residual, &residual) / n).sqrt(),
             status,

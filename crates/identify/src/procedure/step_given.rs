@@ -1,4 +1,4 @@
-//! Inputs of a step fit that are taken as known but are not exact: the steady curve, the mass, and the
+//! Inputs of a step fit that are taken as known but are not exact: the steady curve, the mass, the offset, and the
 //! force of each step, which is uncertain because of noise. The residual does not show their errors,
 //! since other values of sigma0, sigma1 and mass can compensate all of them.
 
@@ -8,13 +8,14 @@ use nalgebra::{DMatrix, DVector};
 use stiction_parameters::Quantity;
 
 /// Numbers of the settings, in the order of their covariance.
-pub(super) const GIVEN: [Quantity; 6] = [
+pub(super) const GIVEN: [Quantity; 7] = [
     Quantity::Coulomb,
     Quantity::Static,
     Quantity::StribeckVelocity,
     Quantity::Sigma2,
     Quantity::Mass,
     Quantity::StribeckExponent,
+    Quantity::Offset,
 ];
 /// Two for each response come after them.
 const SETTINGS: usize = GIVEN.len();
@@ -108,6 +109,7 @@ fn moved(problem: &mut Problem, p: &[f64], which: usize, by: f64) -> Option<Vec<
         match GIVEN[which] {
             Quantity::Mass => after.mass = Some(before.mass? + by),
             Quantity::StribeckExponent => after.exponent += by,
+            Quantity::Offset => after.offset += by,
             quantity => {
                 let mut curve = before.curve?;
                 match quantity {

@@ -22,6 +22,8 @@ pub(super) struct Trial {
     pub mass: f64,
     pub curve: Direction<f64>,
     pub exponent: f64,
+    /// Constant force beside friction.
+    pub offset: f64,
     /// How much later the position is logged than the force, s.
     pub delay: f64,
 }
@@ -100,7 +102,7 @@ impl Response {
         let plant = Plant::new(trial.mass, law).ok()?;
         let bound = 0.999 * law.bound();
         let mut motion = Motion {
-            deflection: (self.before / trial.sigma0).clamp(-bound, bound),
+            deflection: ((self.before - trial.offset) / trial.sigma0).clamp(-bound, bound),
             ..Motion::default()
         };
         let n = self.time.len();
@@ -108,8 +110,9 @@ impl Response {
         path.push(motion);
         for k in 1..n {
             let h = (self.time[k] - self.time[k - 1]) / f64::from(steps);
+            let force = self.force[k - 1] - trial.offset;
             for _ in 0..steps {
-                motion = plant.step(motion, h, Load::force(self.force[k - 1])).motion;
+                motion = plant.step(motion, h, Load::force(force)).motion;
             }
             path.push(motion);
         }

@@ -46,6 +46,11 @@ fn level_axis(ratio: f64) -> Axis {
 
 /// A log of a step of `share` of Fs after .05 s of rest, about twenty samples a period.
 fn log(axis: &Axis, share: f64, noise: f64, seed: u64) -> Samples {
+    held(axis, share, [0.0; 2], noise, seed)
+}
+
+/// The same beside a constant force, from rest under a force of the drive: `[offset, before]`.
+fn held(axis: &Axis, share: f64, [offset, before]: [f64; 2], noise: f64, seed: u64) -> Samples {
     let law = axis.plant.law();
     let omega = (law.stiffness() / axis.plant.mass()).sqrt();
     let h = std::f64::consts::TAU / omega / 40.0;
@@ -53,16 +58,21 @@ fn log(axis: &Axis, share: f64, noise: f64, seed: u64) -> Samples {
     let n = ((30.0 * ratio.max(1.0 / ratio) / omega) / h) as usize;
     let height = share * axis.curve.static_friction;
     let mut random = Noise::new(seed);
-    let mut motion = Motion::default();
+    // At rest friction carries what the drive gives beyond the constant force.
+    let mut motion = Motion {
+        deflection: (before - offset) / law.stiffness(),
+        ..Motion::default()
+    };
     let mut out = Samples::default();
     let mut position = Vec::new();
     for k in 0..n + 60 {
-        let force = if k >= 60 { height } else { 0.0 };
+        let force = before + if k >= 60 { height } else { 0.0 };
         out.time.push(k as f64 * h);
         out.force.push(force);
         position.push(0.25 + motion.position + noise * random.normal());
         for _ in 0..40 {
-            motion = axis.plant.step(motion, h / 40.0, Load::force(force)).motion;
+            let load = Load::force(force - offset);
+            motion = axis.plant.step(motion, h / 40.0, load).motion;
         }
     }
     out.position = Some(position);
@@ -86,7 +96,8 @@ fn fit(axis: &Axis, logs: &[Samples], mass: bool, curve: bool) -> StepFit {
         mass: mass.then_some(axis.plant.mass()),
         curve: curve.then_some(axis.curve),
         exponent: 2.0,
-        given: [[0.0; 6]; 6],
+        offset: 0.0,
+        given: [[0.0; 7]; 7],
     };
     fit_steps(&runs, &settings, &mut Silent).unwrap()
 }
@@ -234,6 +245,84 @@ fn a_delay_is_found() {
     assert!(off(&fit, "sigma1", axis.plant.law().damping().at_rest()).abs() < 1.0);
 }
 
+/// A constant force, held by the drive before the step or not, or a drive that pushes without one: the bristles carry what
+/// the drive gives beyond the constant force. With that force left out sigma1 is off by far more than its interval.
+#[test]
+fn a_constant_force_is_no_friction() {
+    let axis = axis("machine", 0.2);
+    let law = *axis.plant.law();
+    let unit = axis.curve.static_friction;
+    let fit = |log: &Samples, offset: f64| {
+        let settings = StepSettings {
+            mass: Some(axis.plant.mass()),
+            curve: Some(axis.curve),
+            exponent: 2.0,
+            offset,
+            given: [[0.0; 7]; 7],
+        };
+        let runs = [(run(log), StepResponse::read(&run(log), 0).unwrap())];
+        fit_steps(&runs, &settings, &mut Silent).unwrap()
+    };
+    for [offset, before] in [[0.08, 0.08], [-0.08, -0.08], [0.08, 0.0], [0.0, 0.08]] {
+        let offset = offset * unit;
+        let log = held(&axis, 0.25, [offset, before * unit], 0.0, 1);
+        let known = fit(&log, offset);
+        for (name, truth) in [
+            ("sigma0", law.stiffness()),
+            ("sigma1", law.damping().at_rest()),
+        ] {
+            let off = off(&known, name, truth);
+            assert!(off.abs() < 0.2, "{offset} {before} {name}: {off:+.2} %");
+        }
+        if offset != 0.0 {
+            let off = off(&fit(&log, 0.0), "sigma1", law.damping().at_rest());
+            println!("offset {offset} N taken for friction: sigma1 {off:+.1} %");
+            assert!(off.abs() > 3.0, "{off}");
+        }
+    }
+}
+
+/// The uncertainty of a given constant force moves sigma1 as its own error does.
+#[test]
+fn the_uncertainty_of_a_constant_force_is_carried_on() {
+    let axis = axis("machine", 0.2);
+    let unit = axis.curve.static_friction;
+    let log = held(&axis, 0.25, [0.05 * unit; 2], 0.0, 1);
+    let runs = [(run(&log), StepResponse::read(&run(&log), 0).unwrap())];
+    let std = 0.01 * unit;
+    let mut settings = StepSettings {
+        mass: Some(axis.plant.mass()),
+        curve: Some(axis.curve),
+        exponent: 2.0,
+        offset: 0.05 * unit + std,
+        given: [[0.0; 7]; 7],
+    };
+    settings.given[6][6] = std * std;
+    let fit = fit_steps(&runs, &settings, &mut Silent).unwrap();
+    let truth = axis.plant.law().damping().at_rest();
+    let sigma1 = fit.parameters.iter().find(|p| p.name == "sigma1").unwrap();
+    let deviations = (sigma1.value - truth).abs() / sigma1.std.unwrap();
+    assert!((0.7..1.2).contains(&deviations), "{deviations}");
+    let law = fit.fitted_law(&settings);
+    let offset = law.parameters.iter().find(|p| p.name == "offset").unwrap();
+    assert_eq!(offset.value, settings.offset);
+    assert!((offset.std.unwrap() / std - 1.0).abs() < 1e-12);
+}
+
+/// A position that is logged six samples late, beyond what is looked for: nothing of it is stated as certain.
+#[test]
+fn a_delay_at_the_end_of_its_range_leaves_all_open() {
+    let axis = axis("machine", 0.2);
+    let mut log = log(&axis, 0.2, 0.0, 1);
+    if let Some(position) = &mut log.position {
+        let n = position.len();
+        position.copy_within(..n - 6, 6);
+    }
+    let fit = fit(&axis, &[log], true, true);
+    assert_eq!(fit.delay.1, None);
+    assert!(fit.parameters.iter().all(|p| !p.identifiable));
+}
+
 /// A given Fs that is one of its deviations off moves sigma0 by one of its own: the uncertainty of what
 /// is given is in the intervals, and to first order in nothing else.
 #[test]
@@ -244,7 +333,7 @@ fn the_uncertainty_of_what_is_given_is_carried_on() {
     for (which, share) in [(1, 0.01), (4, 0.01)] {
         let mut curve = axis.curve;
         let mut mass = axis.plant.mass();
-        let mut given = [[0.0; 6]; 6];
+        let mut given = [[0.0; 7]; 7];
         let std = if which == 1 {
             share * curve.static_friction
         } else {
@@ -259,6 +348,7 @@ fn the_uncertainty_of_what_is_given_is_carried_on() {
             mass: Some(mass),
             curve: Some(curve),
             exponent: 2.0,
+            offset: 0.0,
             given,
         };
         let fit = fit_steps(&runs, &settings, &mut Silent).unwrap();
@@ -392,7 +482,8 @@ fn what_is_no_step_is_refused() {
             viscous: 0.0,
         }),
         exponent: 2.0,
-        given: [[0.0; 6]; 6],
+        offset: 0.0,
+        given: [[0.0; 7]; 7],
     };
     assert!(matches!(
         fit_steps(&[(run(&good), step)], &settings, &mut Silent),

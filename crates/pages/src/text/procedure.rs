@@ -148,9 +148,12 @@ fn presliding_step(entry: &PreslidingStepEntry, result: &ResultFile) -> String {
     ));
     let _ = writeln!(
         out,
-        "delay of the position against the force {} s, std {} s",
+        "delay of the position against the force {} s, {}",
         short(entry.delay_s),
-        short(entry.delay_std_s)
+        match entry.delay_std_s {
+            Some(std) => format!("std {} s", short(std)),
+            None => "the end of its range".into(),
+        }
     );
     out
 }

@@ -282,6 +282,13 @@ pub(super) fn of_steps(
         warnings.push(Warning::new(code, text.clone()));
         reasons.push(text, next);
     }
+    if fit.delay.1.is_none() {
+        warnings.push(Warning::new(
+            Code::DelayOutOfRange,
+            "the delay between force and position is at the end of its range, two samples: it takes the place of something that the \
+             law does not explain, such as another force held before the step than the one of the model",
+        ));
+    }
     for p in fit.parameters.iter().filter(|p| p.name == "sigma0") {
         if !p.identifiable {
             let text = format!("sigma0 is not determined by these steps: {}", p.reason);

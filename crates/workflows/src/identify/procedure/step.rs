@@ -19,6 +19,7 @@ use stiction_files::symbols;
 use stiction_friction::Direction;
 use stiction_identify::procedure::{Run, Statics, StepFit, StepResponse, StepSettings, fit_steps};
 use stiction_identify::{LawKind, Mass, Observer};
+use stiction_number::four_digits;
 use stiction_parameters::{Name, Quantity, Side};
 
 /// Findings about a log that hardly moves, which a step below break-away does on purpose.
@@ -71,10 +72,7 @@ pub(in crate::identify) fn run(
     let mut result = assemble::result(Parts {
         asked,
         sources,
-        conditioning: vec![
-            "force and position as logged, nothing filtered; each force held until the next sample"
-                .into(),
-        ],
+        conditioning: conditioning(&settings, &sources[0].log.force_unit),
         law: &law,
         validation: &[],
         laws: Vec::new(),
@@ -89,6 +87,22 @@ pub(in crate::identify) fn run(
     break_away.into_result(&mut result);
     let found = Found::Procedure(Box::new(law));
     Ok(Outcome::new(result, found, Vec::new(), loaded.sources))
+}
+
+/// What was done to the logs, in words.
+fn conditioning(settings: &StepSettings, unit: &str) -> Vec<String> {
+    let mut out = vec![
+        "force and position as logged, nothing filtered; each force held until the next sample"
+            .to_string(),
+    ];
+    if settings.offset != 0.0 {
+        out.push(format!(
+            "the constant force F₀ of the steady curve, {} {unit}, is taken off the force: friction carries the rest, before the \
+             step too",
+            four_digits(settings.offset)
+        ));
+    }
+    out
 }
 
 /// What is known beside the steps: mass and steady curve, and what of them was not determined.
@@ -123,13 +137,14 @@ fn settings(
         mass,
         curve: None,
         exponent: axis.stribeck_exponent,
-        given: [[0.0; 6]; 6],
+        offset: 0.0,
+        given: [[0.0; 7]; 7],
     };
     if beside.model.is_none() && beside.statics.is_empty() {
         warnings.push(Warning::new(
             Code::StaticsAssumed,
             "neither a model nor logs of constant velocities give the steady curve: its level is taken as constant and \
-             fitted, sigma2 as zero. sigma1 then stands for sigma1 + sigma2, and where the axis gets \
+             fitted, sigma2 and the constant force F₀ as zero: the bristles are taken to carry all that is held before the step. sigma1 then stands for sigma1 + sigma2, and where the axis gets \
              near the Stribeck velocity all parameters are off by more than their intervals",
         ));
         return Ok((settings, None, Vec::new()));
@@ -140,6 +155,9 @@ fn settings(
     let back = runs.iter().all(|(_, step)| step.height < 0.0);
     let [pos, neg] = known.statics.sides;
     settings.exponent = known.statics.exponent;
+    let offset = known.statics.parameters.iter();
+    let offset = offset.into_iter().find(|p| p.name == Quantity::Offset);
+    settings.offset = offset.map_or(0.0, |p| p.value);
     let shares = match (forth, back) {
         (true, _) => [1.0, 0.0],
         (_, true) => [0.0, 1.0],
@@ -149,7 +167,7 @@ fn settings(
     settings.given = given(&known.statics, shares);
     if matches!(terms.mass, Mass::Given(_)) {
         // The axis file's mass is exact.
-        settings.given[4] = [0.0; 6];
+        settings.given[4] = [0.0; 7];
         settings.given.iter_mut().for_each(|row| row[4] = 0.0);
     }
     let mean = |of: fn(&Direction<f64>) -> f64| shares[0] * of(&pos) + shares[1] * of(&neg);
@@ -169,9 +187,9 @@ fn settings(
     Ok((settings, known.map, undetermined))
 }
 
-/// Covariance of the curve, the mass and the exponent that are given: of the one direction in which the steps go, or of the mean
+/// Covariance of the curve, the mass, the exponent and the offset that are given: of the one direction in which the steps go, or of the mean
 /// of both.
-fn given(statics: &Statics, shares: [f64; 2]) -> [[f64; 6]; 6] {
+fn given(statics: &Statics, shares: [f64; 2]) -> [[f64; 7]; 7] {
     let covariance = &statics.covariance;
     // Of each what the parameters of the covariance contribute.
     let parts = [
@@ -181,6 +199,7 @@ fn given(statics: &Statics, shares: [f64; 2]) -> [[f64; 6]; 6] {
         Quantity::Sigma2,
         Quantity::Mass,
         Quantity::StribeckExponent,
+        Quantity::Offset,
     ]
     .map(|quantity| -> Vec<(usize, f64)> {
         let both = covariance.place(quantity.into());
@@ -194,7 +213,7 @@ fn given(statics: &Statics, shares: [f64; 2]) -> [[f64; 6]; 6] {
             None => sides.collect(),
         }
     });
-    let mut out = [[0.0; 6]; 6];
+    let mut out = [[0.0; 7]; 7];
     for (i, row) in parts.iter().enumerate() {
         for (j, column) in parts.iter().enumerate() {
             let pairs = row.iter().flat_map(|a| column.iter().map(move |b| (a, b)));

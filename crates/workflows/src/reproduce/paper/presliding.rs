@@ -73,7 +73,8 @@ pub(super) fn run(stage: &Stage, identified: &Named, watch: &Watch) -> Result<Pr
             mass: Some(mass),
             curve: Some(side),
             exponent: 2.0,
-            given: [[0.0; 6]; 6],
+            offset: 0.0,
+            given: [[0.0; 7]; 7],
         },
         &mut Silent,
     )?;
