@@ -8,7 +8,8 @@
 //! force stands in only where no measured one exists. Columns about errors, limits and states are
 //! passed over. Where names say nothing, the only column in a unit of length (angle, velocity,
 //! force, torque) is taken. Two columns that fit equally well are refused, unless they are equal
-//! sample by sample. Columns that a mapping names are taken as named; only what it leaves
+//! sample by sample. Motion and force are of one axis: beside `X act` and `X current`, `Y act` is a position
+//! too, and the one is taken whose force is named. Columns that a mapping names are taken as named; only what it leaves
 //! open is filled in: time where neither time nor rate is given, force where none is given, and
 //! position and velocity only where neither is given.
 //!

@@ -14,12 +14,17 @@ const PLAUSIBLE_SAMPLE_TIME: std::ops::RangeInclusive<f64> = 1e-9..=1e3;
 /// How much a given rate and that of the time stamps may differ, as a fraction.
 const MAX_RATE_DEVIATION: f64 = 0.01;
 
+/// What must be of one axis: a motion and the force that drives it.
+const MOVED_AND_MOVING: [Role; 3] = [Role::Position, Role::Velocity, Role::Force];
+
 /// A table with what its names and units say.
 struct Scan<'a> {
     table: &'a Table,
     hints: Vec<Option<Hint>>,
     units: Vec<Option<Unit>>,
     used: Vec<bool>,
+    /// Letter of the axis whose columns are named so far.
+    axis: Option<char>,
 }
 
 /// Fills in the columns that are left open.
@@ -47,6 +52,11 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
                 return Err(of_role(error));
             }
             scan.used[column] = true;
+            if MOVED_AND_MOVING.contains(&role) {
+                scan.axis = scan
+                    .axis
+                    .or(names::axis_letter(&table.columns[column].name));
+            }
         }
     }
     if given.time.is_some() && given.rate_hz.is_some() {
@@ -76,6 +86,7 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
     if given.position.is_none() && given.velocity.is_none() {
         for role in [Role::Position, Role::Velocity] {
             if let Some(column) = scan.pick(role)? {
+                scan.refuse_other_axis(&out.mapping, role, column)?;
                 *out.mapping.slot(role) = Some(scan.take(column));
             }
         }
@@ -85,7 +96,10 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
     }
     if given.force.is_none() {
         match scan.pick(Role::Force)? {
-            Some(column) => out.mapping.force = Some(scan.take(column)),
+            Some(column) => {
+                scan.refuse_other_axis(&out.mapping, Role::Force, column)?;
+                out.mapping.force = Some(scan.take(column));
+            }
             None => out.findings.push(no_force(table)),
         }
     }
@@ -113,7 +127,8 @@ pub(super) fn clear(table: &Table) -> Mapping {
     let mut out = Mapping::default();
     let mut scan = Scan::new(table);
     for role in Role::ALL {
-        if let Ok(Some(column)) = scan.pick(role) {
+        let picked = scan.pick(role).ok().flatten();
+        if let Some(column) = picked.filter(|c| scan.refuse_other_axis(&out, role, *c).is_ok()) {
             let unit = scan.units[column].clone();
             let channel = scan.take(column);
             *out.slot(role) = Some(Channel { unit, ..channel });
@@ -176,11 +191,32 @@ impl<'a> Scan<'a> {
     fn new(table: &'a Table) -> Self {
         let unit = |text: &String| Unit::parse(text).ok();
         let units = table.columns.iter();
-        Self {
+        let mut scan = Self {
             table,
             hints: table.columns.iter().map(|c| names::hint(&c.name)).collect(),
             units: units.map(|c| c.unit.as_ref().and_then(unit)).collect(),
             used: vec![false; table.columns.len()],
+            axis: None,
+        };
+        scan.hint_axes();
+        scan
+    }
+
+    /// `Y act` is a position where `X act` is one too: by itself `x` is the name of any position, beside other
+    /// letters that of one axis of several.
+    fn hint_axes(&mut self) {
+        let of_axis = |c: usize| {
+            names::hint_of_axis(&self.table.columns[c].name)
+                .filter(|hint| self.unit_allows(c, hint.role))
+        };
+        let hints: Vec<_> = (0..self.hints.len()).map(of_axis).collect();
+        let letter = |c: usize| names::axis_letter(&self.table.columns[c].name);
+        let mut letters = (0..hints.len()).filter(|c| hints[*c].is_some()).map(letter);
+        let Some(first) = letters.next() else { return };
+        if letters.any(|other| other != first) {
+            for (own, of_axis) in self.hints.iter_mut().zip(hints) {
+                *own = own.or(of_axis);
+            }
         }
     }
 
@@ -232,13 +268,8 @@ impl<'a> Scan<'a> {
         if is_motion && fits.iter().all(|(_, h)| h.commanded) {
             return Ok(None);
         }
-        self.only(
-            distinct(
-                self.table,
-                fits.into_iter().map(|(column, _)| column).collect(),
-            ),
-            role,
-        )
+        let fits = fits.into_iter().map(|(column, _)| column).collect();
+        self.only(distinct(self.table, fits), role)
     }
 
     /// The one column without a telling name that is in a unit of this role.
@@ -258,7 +289,12 @@ impl<'a> Scan<'a> {
         self.only(distinct(self.table, fits), role)
     }
 
-    fn only(&self, fits: Vec<usize>, role: Role) -> Result<Option<usize>, Error> {
+    fn only(&self, mut fits: Vec<usize>, role: Role) -> Result<Option<usize>, Error> {
+        // Of several axes the one whose force or motion is named.
+        let letter = |c: &usize| names::axis_letter(&self.table.columns[*c].name);
+        if MOVED_AND_MOVING.contains(&role) && fits.iter().any(|c| self.axis == letter(c)) {
+            fits.retain(|c| self.axis.is_none() || self.axis == letter(c));
+        }
         match fits.as_slice() {
             [] => Ok(None),
             [one] => Ok(Some(*one)),
@@ -272,7 +308,7 @@ impl<'a> Scan<'a> {
                 let lines: Vec<_> = several
                     .iter()
                     .take(4)
-                    .map(|&c| describe::line(self.table, c, role))
+                    .map(|&c| self.lines_of_axis(c, role))
                     .collect();
                 let allowed = format!(
                     "say which in axis.toml under [columns]: {}",
@@ -281,6 +317,65 @@ impl<'a> Scan<'a> {
                 Err(Error::new(Kind::Ambiguous, found, allowed))
             }
         }
+    }
+
+    /// The line that makes a column a role, and for a motion the line of the force of the same axis.
+    fn lines_of_axis(&self, column: usize, role: Role) -> String {
+        let line = describe::line(self.table, column, role);
+        let letter = |c: usize| names::axis_letter(&self.table.columns[c].name);
+        let is_force = |c: usize| match self.hints[c] {
+            Some(hint) => hint.role == Role::Force && self.unit_allows(c, Role::Force),
+            None => self.units[c]
+                .as_ref()
+                .is_some_and(|unit| is_force(unit.dimension())),
+        };
+        let mut forces = (0..self.units.len())
+            .filter(|&c| letter(c).is_some() && letter(c) == letter(column) && is_force(c));
+        match (forces.next(), forces.next()) {
+            (Some(force), None) if role == Role::Position => {
+                let force = describe::line(self.table, force, Role::Force);
+                format!("{line} with {force}")
+            }
+            _ => line,
+        }
+    }
+
+    /// Refuses a column of another axis than that of the columns chosen so far: nothing in the samples would show
+    /// that a motion and a force have nothing to do with each other.
+    fn refuse_other_axis(&self, chosen: &Mapping, role: Role, column: usize) -> Result<(), Error> {
+        // A force that is called `y` is no force of the axis Y.
+        let letter = |role: Role, c: usize| {
+            let name = &self.table.columns[c].name;
+            let axis = names::axis_letter(name);
+            axis.filter(|_| role != Role::Force || names::hint_of_axis(name).is_none())
+        };
+        if !MOVED_AND_MOVING.contains(&role) {
+            return Ok(());
+        }
+        let Some(own) = letter(role, column) else {
+            return Ok(());
+        };
+        for other in MOVED_AND_MOVING {
+            let channel = chosen.channel(other);
+            let Some(index) = channel.and_then(|c| select(self.table, &c.column, other).ok())
+            else {
+                continue;
+            };
+            if letter(other, index).is_some_and(|letter| letter != own) {
+                let found = format!(
+                    "the {role} would be {}, and the {other} {}: by their names two axes",
+                    describe::column(self.table, column),
+                    describe::column(self.table, index)
+                );
+                let allowed = format!(
+                    "say which belong together in axis.toml under [columns], as in: {} with {}",
+                    describe::line(self.table, column, role),
+                    describe::line(self.table, index, other)
+                );
+                return Err(Error::new(Kind::Ambiguous, found, allowed));
+            }
+        }
+        Ok(())
     }
 
     fn unit_allows(&self, column: usize, role: Role) -> bool {

@@ -176,6 +176,48 @@ pub(super) fn hint(name: &str) -> Option<Hint> {
     })
 }
 
+/// Letters that a machine's axes are called by where they stand alone.
+const AXIS_LETTERS: &[&str] = &["x", "y", "z"];
+/// Letters before that of the axis in a name of two: `IX` is the current of X, `FY` the force of Y.
+const BEFORE_AXIS: &[char] = &['i', 'f', 'v', 'm', 'p', 's'];
+
+/// The letter of the axis that a name speaks of: `x` in `X act` and in `IX`.
+pub(super) fn axis_letter(name: &str) -> Option<char> {
+    words(name).iter().find_map(|word| {
+        let mut letters = word.chars();
+        let letter = match (letters.next()?, letters.next(), letters.next()) {
+            (letter, None, _) => letter,
+            (before, Some(letter), None) if BEFORE_AXIS.contains(&before) => letter,
+            _ => return None,
+        };
+        AXIS_LETTERS
+            .contains(&letter.to_string().as_str())
+            .then_some(letter)
+    })
+}
+
+/// What a name says that is nothing but the letter of an axis (`Y act`), in a table that has several axes: what
+/// `X act` says.
+pub(super) fn hint_of_axis(name: &str) -> Option<Hint> {
+    let words = words(name);
+    let has = |list: &[&str]| words.iter().any(|w| list.contains(&w.as_str()));
+    let letter = words.iter().find(|w| AXIS_LETTERS.contains(&w.as_str()))?;
+    if has(PASSED_OVER) || !alone(&words, letter) {
+        return None;
+    }
+    let commanded = has(COMMANDED);
+    Some(Hint {
+        role: if commanded {
+            Role::Reference
+        } else {
+            Role::Position
+        },
+        commanded,
+        measured: has(MEASURED),
+        weak: true,
+    })
+}
+
 /// Whether a name speaks of errors, limits, states and other things that no role takes.
 pub(super) fn passed_over(name: &str) -> bool {
     words(name)

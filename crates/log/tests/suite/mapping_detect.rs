@@ -114,6 +114,84 @@ fn what_is_refused_with_the_choices() {
     ]));
 }
 
+/// A lone `X` names the position of any axis, but beside a `Y` one axis of two.
+#[test]
+fn motion_and_force_are_of_one_axis() {
+    insta::assert_snapshot!(pick_each(&[
+        &[
+            "t [s]",
+            "X act [mm]",
+            "X current [A]",
+            "Y act [mm]",
+            "Y current [A]"
+        ],
+        &["t [s]", "X [mm]", "IX [A]", "Y [mm]", "IY [A]"],
+        &[
+            "t [s]",
+            "X cmd [mm]",
+            "X act [mm]",
+            "X current [A]",
+            "Y cmd [mm]",
+            "Y act [mm]",
+            "Y current [A]"
+        ],
+        &["t [s]", "X act [mm]", "Y current [A]"],
+        &["t [s]", "Y act [mm]", "Y current [A]"],
+        &[
+            "t [s]",
+            "Axis 1 pos [mm]",
+            "Axis 1 current [A]",
+            "Axis 2 pos [mm]",
+            "Axis 2 current [A]"
+        ],
+        &["t [s]", "x [mm]", "y [N]"],
+        &["x", "v", "t"],
+    ]));
+}
+
+#[test]
+fn the_motion_is_that_of_the_axis_whose_force_is_named() {
+    let names = [
+        "t [s]",
+        "X act [mm]",
+        "X current [A]",
+        "Y act [mm]",
+        "Y current [A]",
+    ];
+    for (force, position) in [("X current", "X act"), ("Y current", "Y act")] {
+        let mapping = Mapping {
+            force: Some(Channel::named(force)),
+            ..Mapping::default()
+        };
+        let found = mapping.complete(&headed(&names)).unwrap().mapping;
+        assert_eq!(
+            found.position.unwrap().column,
+            Selector::Name(position.into())
+        );
+        let mapping = Mapping {
+            position: Some(Channel::named(position)),
+            ..Mapping::default()
+        };
+        let found = mapping.complete(&headed(&names)).unwrap().mapping;
+        assert_eq!(found.force.unwrap().column, Selector::Name(force.into()));
+    }
+    let short = ["t [s]", "X [mm]", "IX [A]", "Y [mm]", "IY [A]"];
+    let mapping = Mapping {
+        force: Some(Channel::named("IY")),
+        ..Mapping::default()
+    };
+    let found = mapping.complete(&headed(&short)).unwrap().mapping;
+    assert_eq!(found.position.unwrap().column, Selector::Name("Y".into()));
+    let alone = ["t [s]", "X act [mm]", "Y current [A]"];
+    let mapping = Mapping {
+        force: Some(Channel::named("Y current")),
+        ..Mapping::default()
+    };
+    let error = mapping.complete(&headed(&alone)).unwrap_err();
+    assert_eq!(error.kind, Kind::Ambiguous);
+    assert_eq!(Mapping::clear_columns(&headed(&names)).position, None);
+}
+
 #[test]
 fn a_time_without_unit_is_seconds_only_where_that_is_plausible() {
     let milli: Vec<f64> = (0..1000).map(f64::from).collect();
