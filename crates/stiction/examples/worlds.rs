@@ -86,6 +86,7 @@ fn main() {
         }
     }
     table(&tasks, &runs, &axes);
+    widths(&tasks, &runs, &axes);
 }
 
 /// What the seed of a second log is more than that of the first.
@@ -135,6 +136,43 @@ fn table(tasks: &[Task], runs: &[Run], axes: &[String]) {
     row(&["all", "all", "all"], &of(&|_| true));
 }
 
+/// Half of the interval of each parameter by motion, where everything is as assumed: what a motion costs.
+fn widths(tasks: &[Task], runs: &[Run], axes: &[String]) {
+    let mut found = BTreeMap::<(&str, usize), [Vec<f64>; Motion::ALL.len()]>::new();
+    for ((world, axis, motion, _), run) in tasks.iter().zip(runs) {
+        let column = Motion::ALL.iter().position(|m| m == motion);
+        for claim in run.claims.iter().filter(|_| *world == World::Faithful) {
+            let sided = claim.0.trim_end_matches("_pos").trim_end_matches("_neg");
+            let by_motion = found.entry((sided, *axis)).or_default();
+            by_motion[column.expect("one of all motions")].push(half_width(claim));
+        }
+    }
+    if found.is_empty() {
+        return;
+    }
+    let names = Motion::ALL.map(Motion::name);
+    println!("\n| half-width of | axis | {} |", names.join(" | "));
+    println!("|---|---|{}", "---:|".repeat(names.len()));
+    for ((name, axis), by_motion) in found {
+        let cells = by_motion.map(|widths| percent(middle(widths)));
+        println!("| {name} | {} | {} |", axes[axis], cells.join(" | "));
+    }
+}
+
+/// Half of the interval of a claim, in parts of the truth.
+fn half_width(claim: &(String, f64, f64)) -> f64 {
+    (claim.1 / claim.2).abs()
+}
+
+fn middle(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
+
+fn percent(part: Option<f64>) -> String {
+    part.map_or(String::new(), |w| format!("{:.2} %", 100.0 * w))
+}
+
 fn row(head: &[&str], runs: &[&Run]) {
     if runs.is_empty() {
         return;
@@ -151,11 +189,7 @@ fn row(head: &[&str], runs: &[&Run]) {
         format!("{name} {:+.1} %", 100.0 * x)
     });
     let halves = worst(|c| c.2).map_or(String::new(), |(name, x)| format!("{name} {x:+.1}"));
-    // Half of an interval in parts of the truth, of the value in the middle.
-    let mut widths: Vec<f64> = claims().map(|c| (c.1 / c.2).abs()).collect();
-    widths.sort_by(f64::total_cmp);
-    let width = widths.get(widths.len() / 2);
-    let width = width.map_or(String::new(), |w| format!("{:.2} %", 100.0 * w));
+    let width = percent(middle(claims().map(half_width).collect()));
     let mut codes = BTreeMap::<&str, usize>::new();
     for code in runs.iter().flat_map(|r| &r.codes) {
         *codes.entry(code).or_default() += 1;

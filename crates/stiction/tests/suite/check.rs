@@ -116,6 +116,36 @@ fn a_motion_shows_nothing_that_it_lacks() {
     );
 }
 
+/// Dwells of half a second, in half of the time: too short to be left out, and dear.
+#[test]
+fn dwells_are_told_what_they_cost() {
+    let bench = Bench::new();
+    let rests = |name: &str, dwells: bool| {
+        let turned = |t: f64| match dwells {
+            true => PI * (t.floor() + (2.0 * t.fract()).min(1.0)),
+            false => 2.0 * PI * t,
+        };
+        let log = bench.log(
+            name,
+            8000,
+            |t| 0.02 * (1.0 - turned(t).cos()),
+            |i, t| 20.0 * turned(t).sin().signum() + noise(4, i),
+        );
+        let found = checked(&log, None).logs.remove(0);
+        let cost = found.shows.into_iter().find(|s| s.name == "rests");
+        (cost, found.motion.unwrap().still)
+    };
+    let (cost, still) = rests("dwells.csv", true);
+    assert!((still - 0.5).abs() < 0.05, "{still}");
+    let cost = cost.unwrap();
+    assert_eq!(cost.shown, "doubtful");
+    assert!(cost.because.contains("times as wide"), "{}", cost.because);
+    assert!(!cost.record.is_empty());
+    let (cost, still) = rests("sine.csv", false);
+    assert!(still < 0.05, "{still}");
+    assert!(cost.is_none(), "{cost:?}");
+}
+
 /// Never to a command that would refuse the log.
 #[test]
 fn every_log_leads_on() {

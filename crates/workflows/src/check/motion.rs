@@ -31,6 +31,8 @@ pub struct Motion {
     pub back: f64,
     /// Share of the samples in rests of 1 s or more.
     pub at_rest: f64,
+    /// Share of the samples at which the axis is no faster than that error: rests, and dwells however short.
+    pub still: f64,
     /// Share of the samples in the first, second and third decade below the top speed.
     pub decades: [f64; 3],
     /// The same in the first to third decade, in the direction that has less.
@@ -108,6 +110,7 @@ impl Motion {
             speed_error: error,
             forward: share(&|v: f64| v > 3.0 * error),
             back: share(&|v: f64| v < -3.0 * error),
+            still: velocity.iter().filter(|v| v.abs() <= error).count() as f64 / n as f64,
             at_rest: resting.iter().filter(|r| **r).count() as f64 / n as f64,
             decades: sides.map(|(a, b)| a + b),
             decades_one_way: sides.map(|(a, b)| a.min(b)),

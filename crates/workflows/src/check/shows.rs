@@ -29,6 +29,8 @@ const SAMPLES_FOR_DAMPING: f64 = 20.0;
 const ACCELERATION: f64 = 5.0;
 /// Least angle over which sin q and cos q are neither constant nor a straight line, rad.
 const ANGLE_FOR_GRAVITY: f64 = 1.0;
+/// Share of the samples at rest from which it is said what rests cost: from there the counts of the encoder are asked.
+const MUCH_REST: f64 = 0.15;
 /// Least ratio of the share of samples of the rarer direction to that of the other for levels of their own.
 const BALANCED: f64 = 0.3;
 
@@ -193,6 +195,20 @@ pub(super) fn shows(log: &Log, motion: &Motion, mass: Mass) -> Vec<Shows> {
         ways,
         "as much motion one way as the other, at the same speeds",
     );
+    if m.still >= MUCH_REST {
+        say(
+            "rests",
+            "the cost of rests",
+            "doubtful",
+            format!(
+                "the axis stands still in {} of the samples; on simulated axes that dwell between moves, intervals of σ₀, σ₁ and vs \
+                 are 2 to 13 times as wide as on a log of the same length that never rests",
+                percent(m.still)
+            ),
+            "the same stroke without dwells: sines from slow to fast one after the other, some so slow that the axis creeps \
+             through its turns",
+        );
+    }
     if log.motion == Kind::Rotary {
         let wide = m.range >= ANGLE_FOR_GRAVITY;
         say(
