@@ -11,6 +11,7 @@
 
 mod cause;
 mod parts;
+mod reversals;
 mod ripple;
 mod visits;
 
@@ -19,6 +20,7 @@ pub use parts::Divided;
 use parts::Measures;
 pub use ripple::Ripple;
 
+use self::reversals::Reversals;
 use self::visits::{BLOCKS, Visits};
 use crate::law::terms::ColumnKind;
 use crate::separable::objective::{Evaluation, Objective};
@@ -42,6 +44,8 @@ pub(crate) struct Divisions {
     parts: Vec<Vec<usize>>,
     friction: Vec<f64>,
     measures: Measures,
+    /// Where a bristle turns round; `None` for a law without one.
+    reversals: Option<Reversals>,
 }
 
 /// What a law leaves systematically, beyond what noise, encoder and filters explain.
@@ -68,19 +72,31 @@ pub struct Misfit {
 }
 
 impl Divisions {
-    /// Divides the record of an objective.
-    pub fn of(objective: &Objective, at: &Evaluation) -> Self {
+    /// Divides the record of an objective, evaluated at the unknowns `p`.
+    pub fn of(objective: &Objective, at: &Evaluation, p: &[f64]) -> Self {
         let measures = Measures::of(objective.record());
+        let bristle = objective.law().layout().kappa;
+        let length = bristle.map(|i| libm::exp(-p[i]));
         Self {
             parts: Divided::ALL.map(|by| measures.parts(by)).to_vec(),
             friction: friction(objective, at),
+            reversals: length.map(|length| Reversals::of(&measures, length)),
             measures,
         }
     }
 
     /// The energies of a residual along this motion.
     pub fn energies(&self, residual: &[f64]) -> Energies {
-        std::array::from_fn(|i| self.visits(i, residual).energy(&[]))
+        std::array::from_fn(|i| match Divided::ALL[i] {
+            Divided::AfterReversals => self.after_reversals(residual).0,
+            _ => self.visits(i, residual).energy(&[]),
+        })
+    }
+
+    /// What a residual has after reversals beyond what it has elsewhere, and how much of that may be chance.
+    fn after_reversals(&self, residual: &[f64]) -> (f64, f64) {
+        let reversals = self.reversals.as_ref();
+        reversals.map_or((0.0, 0.0), |reversals| reversals.excess(residual))
     }
 
     /// Sums over each part of a division, the samples of a level weighted with the friction.
@@ -136,16 +152,29 @@ impl Divisions {
         let mut own = Energies::default();
         let mut beyond = Energies::default();
         for i in 0..own.len() {
-            let visits = self.visits(i, residual);
-            own[i] = visits.energy(&[]);
+            let by_chance;
+            (own[i], by_chance) = match Divided::ALL[i] {
+                Divided::AfterReversals => self.after_reversals(residual),
+                _ => {
+                    let visits = self.visits(i, residual);
+                    (visits.energy(&[]), visits.chance())
+                }
+            };
             let count = replicas.len() as f64;
             let mean = replicas.iter().map(|e| e[i]).sum::<f64>() / count.max(1.0);
             let scatter = replicas.iter().map(|e| (e[i] - mean).powi(2)).sum::<f64>();
             let scatter = (scatter / (count - 1.0).max(1.0)).sqrt();
-            let chance = scatter.max(visits.chance());
+            let chance = scatter.max(by_chance);
             beyond[i] = (own[i] - ROUGHLY * mean.max(0.0) - CHANCE * chance).max(0.0);
         }
-        let most = (0..own.len()).max_by(|&a, &b| beyond[a].total_cmp(&beyond[b]))?;
+        let of_all = |kinds: &mut dyn Iterator<Item = usize>| {
+            kinds.max_by(|&a, &b| beyond[a].total_cmp(&beyond[b]))
+        };
+        // What comes back says more of its cause than what lies after reversals.
+        let returns = |i: &usize| Divided::ALL[*i] != Divided::AfterReversals;
+        let most = of_all(&mut (0..own.len()).filter(returns))
+            .filter(|&i| beyond[i] >= cause::NAMED_SHARE * square)
+            .or_else(|| of_all(&mut (0..own.len())))?;
         let level = self.friction.iter().map(|f| f * f).sum::<f64>() / n;
         let least = NEGLIGIBLE * NEGLIGIBLE * level;
         if beyond[most].is_nan() || beyond[most] <= least || beyond[most].is_infinite() {
@@ -156,7 +185,7 @@ impl Divisions {
             .zip(beyond.iter().map(|e| e / square));
         let by = Divided::ALL[most];
         let shown = (0..own.len())
-            .filter(|&i| by.is_made_of(Divided::ALL[i]))
+            .filter(|&i| by.is_shown_by(Divided::ALL[i]))
             .max_by(|&a, &b| own[a].total_cmp(&own[b]))?;
         let shown_by = Divided::ALL[shown];
         Some(Misfit {

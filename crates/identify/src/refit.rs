@@ -72,7 +72,7 @@ pub(crate) fn refitted(
             let left = logs.and_then(|logs| logs.within(&at));
             let left = left.as_deref().unwrap_or(at.residual());
             Some(All {
-                energies: Divisions::of(&objective, &at).energies(left),
+                energies: Divisions::of(&objective, &at, &last.p).energies(left),
                 told: logs.and_then(|logs| logs.told(&objective, &last.p, &at, &unknowns.bread)),
                 unknowns,
             })

@@ -55,7 +55,7 @@ pub(crate) fn flag_what_rests_spoil(estimate: &mut Estimate) {
 }
 
 /// Whether an axis rests in so much of a record that its counts are asked.
-pub(crate) fn rests_much(record: &Record) -> bool {
+pub fn rests_much(record: &Record) -> bool {
     rests::share(record) >= MUCH_REST
 }
 

@@ -62,6 +62,34 @@ pub(super) fn missing(
     [first, second]
 }
 
+/// Flags static friction that may be Coulomb friction, where the Stribeck velocity is open: the motion shows no rise towards zero
+/// speed, and says nothing of one at speeds that it does not dwell at.
+pub(super) fn rises_unseen(law: &Law, parameters: &mut [Parameter]) {
+    for &side in Side::all(law.asymmetric) {
+        let of = |quantity| {
+            let name = Name::new(quantity, side);
+            parameters.iter().position(|p| p.name == name)
+        };
+        let (Some(most), Some(level), Some(velocity)) = (
+            of(Quantity::Static),
+            of(Quantity::Coulomb),
+            of(Quantity::StribeckVelocity),
+        ) else {
+            continue;
+        };
+        let open = |at: usize| parameters[at].identified && !parameters[at].identifiable;
+        let low = parameters[most].ci95.map(|(low, _)| low);
+        let seen = low.is_some_and(|low| low > parameters[level].value);
+        if open(velocity) && parameters[most].identifiable && !seen {
+            let p = &mut parameters[most];
+            p.identifiable = false;
+            p.reason =
+                "no rise above Coulomb friction is seen; one at lower speeds would not show here"
+                    .into();
+        }
+    }
+}
+
 /// Flags the Coulomb level and the viscous friction of a direction whose Stribeck velocity lies at the
 /// top speed: the motion stays inside the Stribeck range, so neither is ever seen separately.
 pub(super) fn stays_within(law: &Law, optimum: &Optimum, parameters: &mut [Parameter]) {

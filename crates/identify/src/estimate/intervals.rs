@@ -4,7 +4,7 @@
 use crate::agreement::Between;
 use crate::conditioning::record::Record;
 use crate::estimate::conditioned::shift;
-use crate::estimate::curve::{missing, stays_within};
+use crate::estimate::curve::{missing, rises_unseen, stays_within};
 use crate::estimate::filtered::flag_what_a_filter_hides;
 use crate::estimate::fitted::FittedLaw;
 use crate::estimate::profile::{End, Held, Profile};
@@ -63,6 +63,7 @@ pub fn intervals(
     let fitted = &mut estimate.fitted;
     flag_what_the_residual_doubts(fitted);
     flag_what_the_motion_hides(record, &mut fitted.parameters);
+    rises_unseen(&fitted.law, &mut fitted.parameters);
     advice::explain(&mut fitted.parameters, &fitted.covariance);
 }
 
@@ -129,7 +130,7 @@ fn conditioned(
     let mut watch = Watch::new(observer, Stage::Calibration);
     let at = &optimum.evaluation;
     let logs = Logs::of(objective.record());
-    let divisions = Divisions::of(objective, at);
+    let divisions = Divisions::of(objective, at, &optimum.p);
     let shift = shift(objective.record(), estimate, raw, logs.as_ref(), &mut watch);
     estimate.fitted.counts.add(&watch.counts);
     let (energies, replicas) = match &shift {

@@ -31,11 +31,14 @@ pub enum Divided {
     TravelAndSpeed,
     /// Travel since the last reversal and place.
     TravelAndPosition,
+    /// The way after a reversal in which a bristle turns round, and the rest of the motion. A law that is wrong there after
+    /// reversals of different depth leaves what does not come back, but more than elsewhere.
+    AfterReversals,
 }
 
 impl Divided {
     /// All of them, simple ones first.
-    pub const ALL: [Divided; 8] = [
+    pub const ALL: [Divided; 9] = [
         Divided::LevelOverTime,
         Divided::LevelOverPosition,
         Divided::Position,
@@ -44,6 +47,7 @@ impl Divided {
         Divided::Acceleration,
         Divided::TravelAndSpeed,
         Divided::TravelAndPosition,
+        Divided::AfterReversals,
     ];
 
     /// Whether a level of friction is sought in each part instead of a force.
@@ -62,17 +66,22 @@ impl Divided {
             Divided::Acceleration => "acceleration",
             Divided::TravelAndSpeed => "travel since the last reversal and velocity",
             Divided::TravelAndPosition => "travel since the last reversal and position",
+            Divided::AfterReversals => "travel after each reversal",
         }
     }
 
-    /// Whether this is that division, or one half of this pair is.
-    pub(super) fn is_made_of(self, of: Divided) -> bool {
-        self == of
-            || match self {
-                Divided::TravelAndSpeed => matches!(of, Divided::Travel | Divided::Speed),
-                Divided::TravelAndPosition => matches!(of, Divided::Travel | Divided::Position),
-                _ => false,
+    /// Whether the course over the parts of a division shows this one: it is the same, or one half of this pair.
+    pub(super) fn is_shown_by(self, course: Divided) -> bool {
+        match self {
+            Divided::AfterReversals => course == Divided::Travel,
+            Divided::TravelAndSpeed if course != self => {
+                matches!(course, Divided::Travel | Divided::Speed)
             }
+            Divided::TravelAndPosition if course != self => {
+                matches!(course, Divided::Travel | Divided::Position)
+            }
+            own => own == course,
+        }
     }
 }
 
@@ -105,8 +114,16 @@ impl Measures {
             Divided::LevelOverPosition | Divided::Position => &self.position,
             Divided::Speed => &self.speed,
             Divided::Acceleration => &self.acceleration,
-            Divided::Travel | Divided::TravelAndSpeed | Divided::TravelAndPosition => &self.travel,
+            Divided::Travel
+            | Divided::TravelAndSpeed
+            | Divided::TravelAndPosition
+            | Divided::AfterReversals => &self.travel,
         }
+    }
+
+    /// Whether each kept sample lies within that distance of the last reversal, m or rad.
+    pub fn after_reversals(&self, within: f64) -> Vec<bool> {
+        self.travel.iter().map(|x| x.abs() < within).collect()
     }
 
     /// The part that each kept sample belongs to.
@@ -123,7 +140,7 @@ impl Measures {
             }
             Divided::LevelOverPosition | Divided::Acceleration => even(along, PARTS),
             Divided::Position => even(along, PLACES),
-            Divided::Speed | Divided::Travel => logarithmic(along),
+            Divided::Speed | Divided::Travel | Divided::AfterReversals => logarithmic(along),
             Divided::TravelAndSpeed => both(Divided::Travel, Divided::Speed),
             Divided::TravelAndPosition => both(Divided::Travel, Divided::LevelOverPosition),
         }

@@ -56,6 +56,9 @@ const START_DISTURBANCE: f64 = 0.2;
 const START_MEMORY: f64 = 10.0;
 /// Least noise that a force is taken to have, parts of Coulomb friction.
 const LEAST_NOISE: f64 = 1e-9;
+/// Least damping that is started from, in parts of sqrt(sigma0 M): a fit of the force spoiled by rests may end without any, where
+/// no slope leads back.
+const LEAST_DAMPING: f64 = 0.2;
 /// Lowest logarithm of a parameter that is zero.
 const NOTHING: f64 = -30.0;
 
@@ -336,11 +339,15 @@ fn is_simulated(column: ColumnKind) -> bool {
     )
 }
 
-/// The unknowns of a law that were fitted, and those of the errors of the force.
+/// The unknowns of a law that were fitted, micro-damping that it holds at nothing, because the others depend on it, and those of
+/// the errors of the force.
 fn free(fitted: &Estimate) -> Vec<usize> {
     let identified = fitted.parameters.iter().filter(|p| p.identified);
     let own = identified.filter_map(|p| lanes(p.name)?.last().copied());
-    own.chain([WHITE, DISTURBANCE, MEMORY]).collect()
+    let held = fitted.law.undamped.then_some(DAMPING);
+    own.chain(held)
+        .chain([WHITE, DISTURBANCE, MEMORY])
+        .collect()
 }
 
 /// The unknowns at a fit; `None` where it lacks one that is simulated.
@@ -355,8 +362,9 @@ fn start(fitted: &Estimate) -> Option<[f64; UNKNOWNS]> {
     };
     let mut at = [0.0; UNKNOWNS];
     at[STIFFNESS] = size(values.get(Quantity::Sigma0)?);
-    at[DAMPING] = size(values.get(Quantity::Sigma1).unwrap_or(0.0));
     at[MASS] = size(values.get(Quantity::Mass)?);
+    let least = log(LEAST_DAMPING) + 0.5 * (at[STIFFNESS] + at[MASS]);
+    at[DAMPING] = size(values.get(Quantity::Sigma1).unwrap_or(0.0)).max(least);
     at[OFFSET] = values.get(Quantity::Offset).unwrap_or(0.0);
     for (side, shift) in [(Side::Positive, 0), (Side::Negative, EACH_SIDE)] {
         let coulomb = values.on(Quantity::Coulomb, side)?;

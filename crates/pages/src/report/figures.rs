@@ -328,9 +328,10 @@ pub(super) fn left(outcome: &Outcome) -> Option<Figure> {
         Divided::Acceleration => {
             Axis::new("Acceleration", symbols::acceleration_unit(outcome.motion))
         }
-        Divided::Travel | Divided::TravelAndSpeed | Divided::TravelAndPosition => {
-            Axis::new("Travel since the last reversal", length)
-        }
+        Divided::Travel
+        | Divided::TravelAndSpeed
+        | Divided::TravelAndPosition
+        | Divided::AfterReversals => Axis::new("Travel since the last reversal", length),
     };
     let level = misfit.shown_by.is_a_level();
     let scale = if level { 100.0 } else { 1.0 };
