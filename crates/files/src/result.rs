@@ -374,6 +374,9 @@ pub struct LawEntry {
     /// What of the law is left out, as in [`ResultFile::without`].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub without: Vec<String>,
+    /// Whether its Stribeck exponent is fitted; absent where it is assumed or given.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub exponent_fitted: bool,
     /// Whether a constant force is fitted beside it.
     #[serde(default)]
     pub offset: bool,
@@ -413,6 +416,10 @@ pub struct LawEntry {
     /// Whether it is the law of the result.
     #[serde(default)]
     pub reported: bool,
+}
+
+fn is_false(x: &bool) -> bool {
+    !x
 }
 
 /// One number of elements of a Maxwell-slip law.

@@ -73,6 +73,18 @@ impl Estimate {
     /// Flags parameters that a law which holds less has elsewhere, by more than half of their interval: they depend on what is
     /// held. `before` is this estimate as its search left it, as `freer` is: the corrections of both would be the same.
     pub fn doubt_beside(&mut self, before: &FittedLaw, freer: &FittedLaw) {
+        let (own, other) = (&before.law, &freer.law);
+        let freed: Vec<&str> = [
+            (own.flat && !other.flat, "the Stribeck curve"),
+            (own.undamped && !other.undamped, "micro-damping"),
+            (
+                other.exponent_fitted && !own.exponent_fitted,
+                "the Stribeck exponent",
+            ),
+        ]
+        .into_iter()
+        .filter_map(|(freed, name)| freed.then_some(name))
+        .collect();
         for parameter in &mut self.fitted.parameters {
             let Some((low, high)) = parameter.ci95.filter(|_| parameter.identifiable) else {
                 continue;
@@ -85,8 +97,9 @@ impl Estimate {
             if (other - mine).abs() > 0.5 * (high - low) {
                 parameter.identifiable = false;
                 parameter.reason = format!(
-                    "depends on what the law holds fixed: {} with nothing held",
-                    stiction_number::four_digits(parameter.value + other - mine)
+                    "depends on what the law holds fixed: {} where {} is fitted too",
+                    stiction_number::four_digits(parameter.value + other - mine),
+                    freed.join(" and ")
                 );
             }
         }

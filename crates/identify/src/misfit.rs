@@ -89,7 +89,7 @@ impl Divisions {
     pub fn energies(&self, residual: &[f64]) -> Energies {
         std::array::from_fn(|i| match Divided::ALL[i] {
             Divided::AfterReversals => self.after_reversals(residual).0,
-            _ => self.visits(i, residual).energy(&[]),
+            _ => self.visits(i, residual).energy(),
         })
     }
 
@@ -157,7 +157,7 @@ impl Divisions {
                 Divided::AfterReversals => self.after_reversals(residual),
                 _ => {
                     let visits = self.visits(i, residual);
-                    (visits.energy(&[]), visits.chance())
+                    (visits.energy(), visits.chance())
                 }
             };
             let count = replicas.len() as f64;

@@ -13,11 +13,14 @@ pub(crate) fn law_of(result: &ResultFile) -> String {
 
 /// A law of a comparison, with a constant force named where that is not usual.
 pub(crate) fn law_beside(entry: &LawEntry) -> String {
-    let name = named(&entry.law, entry.asymmetric, &entry.without);
-    match entry.asymmetric && entry.offset {
-        true => format!("{name}, with offset"),
-        false => name,
+    let mut name = named(&entry.law, entry.asymmetric, &entry.without);
+    if entry.exponent_fitted {
+        name.push_str(", δ fitted");
     }
+    if entry.asymmetric && entry.offset {
+        name.push_str(", with offset");
+    }
+    name
 }
 
 fn named(law: &str, asymmetric: bool, without: &[String]) -> String {
@@ -111,6 +114,7 @@ mod tests {
             law: "lugre".into(),
             asymmetric,
             without: Vec::new(),
+            exponent_fitted: false,
             offset: !asymmetric,
             elements: None,
             parameters: 9,

@@ -25,8 +25,8 @@ pub struct Axis {
     pub conditioning: Conditioning,
     /// Linear terms beside the friction law; a mass in kg or kg m^2.
     pub terms: Terms,
-    /// Stribeck exponent, dimensionless.
-    pub stribeck_exponent: f64,
+    /// Stribeck exponent, dimensionless, where it is given.
+    pub stribeck_exponent: Option<f64>,
     /// Elements of the Maxwell-slip law; `None` leaves the number to the data.
     pub gms_elements: Option<usize>,
     /// Whether the Stribeck exponent is fitted instead.
@@ -63,7 +63,7 @@ impl Default for Axis {
                 delay: Delay::Fitted,
                 ..Terms::default()
             },
-            stribeck_exponent: 2.0,
+            stribeck_exponent: None,
             gms_elements: None,
             exponent_fitted: false,
             low_speed: None,
@@ -120,6 +120,16 @@ impl Axis {
     /// Whether nothing is said of a constant force beside the law.
     pub fn leaves_offset_open(&self) -> bool {
         self.offset.is_none()
+    }
+
+    /// The Stribeck exponent to assume, dimensionless: that of the Gaussian curve unless another is given.
+    pub fn exponent(&self) -> f64 {
+        self.stribeck_exponent.unwrap_or(2.0)
+    }
+
+    /// Whether nothing is said of the Stribeck exponent.
+    pub fn leaves_exponent_open(&self) -> bool {
+        self.stribeck_exponent.is_none() && !self.exponent_fitted
     }
 
     /// Refuses a pitch that the encoder cannot show.

@@ -103,7 +103,7 @@ fn every_key_is_understood() {
     assert!(near(axis.conditioning.min_speed, 2.0 * PI));
     assert!(axis.terms.gravity);
     assert!(near(axis.terms.cogging[1], PI / 12.0));
-    assert_eq!(axis.stribeck_exponent, 1.5);
+    assert_eq!(axis.stribeck_exponent, Some(1.5));
     assert_eq!(axis.gms_elements, Some(4));
     assert_eq!(axis.low_speed, Some(1.0));
     assert_eq!(axis.hold, Hold::Centred);

@@ -5,7 +5,7 @@ pub(super) const BLOCKS: usize = 256;
 /// Blocks between two visits that are compared, at least: noise with a memory of that many is not the same in both.
 const APART: usize = 3;
 /// Draws of signs for the blocks, from which chance is known.
-const DRAWS: u64 = 24;
+const DRAWS: usize = 24;
 
 /// Sums over the parts of a motion, block by block.
 pub(super) struct Visits {
@@ -48,47 +48,67 @@ impl Visits {
     }
 
     /// Mean square of what comes back: the products of the sums of any two visits apart, over those of their weights, the parts
-    /// weighted with what they have of such pairs. With the signs of blocks, where given.
+    /// weighted with what they have of such pairs.
     ///
     /// Noise adds nothing in the mean, so that it may come out negative.
-    pub fn energy(&self, signs: &[f64]) -> f64 {
-        let (mut products, mut squares, mut all) = (0.0, 0.0, 0.0);
-        for visits in &self.parts {
-            let sign = |visit: &Visit| signs.get(visit.block).copied().unwrap_or(1.0);
-            let mut before = visits.iter().peekable();
-            let (mut product, mut square) = (0.0, 0.0);
-            let (mut pairs, mut weights, mut own) = (0.0, 0.0, 0.0);
-            for visit in visits {
-                while let Some(early) = before.next_if(|v| v.block + APART <= visit.block) {
-                    product += sign(early) * early.product;
-                    square += early.square;
-                }
-                pairs += 2.0 * sign(visit) * visit.product * product;
-                weights += 2.0 * visit.square * square;
-                own += visit.square;
-            }
-            if own > 0.0 {
-                products += pairs / own;
-                squares += weights / own;
-                all += own;
-            }
-        }
-        if squares > 0.0 {
-            products / squares * all / self.samples as f64
-        } else {
-            0.0
-        }
+    pub fn energy(&self) -> f64 {
+        let [energy] = self.energies(|_| [1.0]);
+        energy
     }
 
     /// Root mean square of that where nothing comes back: blocks with signs as drawn.
     pub fn chance(&self) -> f64 {
-        let draw = |seed: u64| {
-            let sign = |block: usize| 1.0 - 2.0 * (hash(seed << 32 | block as u64) & 1) as f64;
-            let signs: Vec<f64> = (0..BLOCKS).map(sign).collect();
-            self.energy(&signs)
+        let draw = |seed: usize, block: usize| {
+            let bit = hash((seed as u64 + 1) << 32 | block as u64) & 1;
+            1.0 - 2.0 * bit as f64
         };
-        let square: f64 = (1..=DRAWS).map(|seed| draw(seed).powi(2)).sum();
+        let signs: Vec<[f64; DRAWS]> = (0..BLOCKS)
+            .map(|block| std::array::from_fn(|seed| draw(seed, block)))
+            .collect();
+        let square: f64 = self
+            .energies(|block| signs[block])
+            .map(|e| e * e)
+            .iter()
+            .sum();
         (square / DRAWS as f64).sqrt()
+    }
+
+    /// The energies with the blocks in several signs.
+    fn energies<const N: usize>(&self, signs: impl Fn(usize) -> [f64; N]) -> [f64; N] {
+        let mut products = [0.0; N];
+        let (mut squares, mut all) = (0.0, 0.0);
+        for visits in &self.parts {
+            let mut before = visits.iter().peekable();
+            let (mut product, mut square) = ([0.0; N], 0.0);
+            let (mut pairs, mut weights, mut own) = ([0.0; N], 0.0, 0.0);
+            for visit in visits {
+                while let Some(early) = before.next_if(|v| v.block + APART <= visit.block) {
+                    for (sum, sign) in product.iter_mut().zip(signs(early.block)) {
+                        *sum += sign * early.product;
+                    }
+                    square += early.square;
+                }
+                let twice = 2.0 * visit.product;
+                for ((pairs, sum), sign) in pairs.iter_mut().zip(&product).zip(signs(visit.block)) {
+                    *pairs += sign * twice * sum;
+                }
+                weights += 2.0 * visit.square * square;
+                own += visit.square;
+            }
+            if own > 0.0 {
+                for (all, pairs) in products.iter_mut().zip(&pairs) {
+                    *all += pairs / own;
+                }
+                squares += weights / own;
+                all += own;
+            }
+        }
+        let scale = if squares > 0.0 {
+            all / squares / self.samples as f64
+        } else {
+            0.0
+        };
+        products.map(|product| product * scale)
     }
 }
 

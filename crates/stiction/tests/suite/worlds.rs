@@ -33,13 +33,22 @@ fn the_cause_of_what_a_law_leaves_is_named() {
             "position-dependence",
         ),
         ("screw", Motion::Sine, World::WarmUp, "friction-drift"),
+        // By what comes back, and by what lies after reversals of different depth and does not.
         ("joint", Motion::Sine, World::MaxwellSlip, "law-shape"),
+        (
+            "stage",
+            Motion::Commissioning,
+            World::MaxwellSlip,
+            "law-shape",
+        ),
     ];
-    let causes = cases.map(|case| case.3);
+    let mut causes = cases.map(|case| case.3).to_vec();
+    causes.dedup();
     for (axis, motion, world, cause) in cases {
         let found = of(axis, motion, world);
         let named: Vec<&str> = causes
-            .into_iter()
+            .iter()
+            .copied()
             .filter(|c| found.codes.contains(c))
             .collect();
         assert_eq!(named, [cause], "{axis}, {world:?}: {found}");
@@ -56,6 +65,41 @@ fn an_axis_as_assumed_has_no_such_cause_and_claims_what_is_true() {
         let outside = found.claims.iter().filter(|claim| claim.2.abs() > 1.0);
         assert!(outside.count() <= 1, "{axis}: {found}");
     }
+}
+
+#[test]
+fn a_stribeck_curve_that_is_no_gaussian_is_found() {
+    let found = of("screw", Motion::Sine, World::Exponent);
+    let mut claims = found.claims.iter();
+    let most = claims.find(|claim| claim.0 == "static");
+    assert!(most.is_some_and(|claim| claim.2.abs() < 1.5), "{found}");
+    assert!(!found.is_silent(), "{found}");
+    // Where it is one, it is assumed as before, and nothing is doubted.
+    let found = of("screw", Motion::Sine, World::Faithful);
+    let curve = ["static", "stribeck_velocity"];
+    let claimed = found
+        .claims
+        .iter()
+        .filter(|claim| curve.contains(&&claim.0[..]));
+    assert_eq!(claimed.count(), 2, "{found}");
+    assert!(!found.is_silent(), "{found}");
+}
+
+#[test]
+fn a_rise_at_speeds_that_the_motion_does_not_dwell_at_is_open() {
+    let (_, machine) = Machine::all(SEED)[1];
+    let machine = Machine {
+        stribeck_velocity: machine.stribeck_velocity / 512.0,
+        ..machine
+    };
+    let found = run(&machine, Motion::Commissioning, World::Faithful);
+    assert!(found.trusted, "{found}");
+    let curve = ["static", "stribeck_velocity"];
+    let claimed = found
+        .claims
+        .iter()
+        .filter(|claim| curve.contains(&&claim.0[..]));
+    assert_eq!(claimed.count(), 0, "{found}");
 }
 
 #[test]

@@ -43,7 +43,7 @@ pub(super) fn subject(
         ));
     }
     let law = Law {
-        exponent: axis.stribeck_exponent,
+        exponent: axis.exponent(),
         ..lugre()
     };
     let (sources, record, terms) = record_of(logs, axis, observer).map_err(|e| e.at_axis(axis))?;

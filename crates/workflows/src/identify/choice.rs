@@ -18,6 +18,14 @@ pub(super) const EXPORTED: [LawKind; 4] = [
     LawKind::LuGre,
 ];
 
+/// Stribeck exponent of the curve that is assumed, dimensionless.
+const GAUSSIAN: f64 = 2.0;
+/// Distance of a fitted exponent from it, of logarithms, that filters and encoder may have made: on simulated axes up to 0.14
+/// (decision 0064).
+const SHIFTED: f64 = 0.22;
+/// The same in standard deviations.
+const SURELY: f64 = 3.0;
+
 /// A fitted law and the laws it was compared with.
 pub(super) struct Choice {
     pub estimate: Estimate,
@@ -106,7 +114,8 @@ pub(super) fn fitted_already(
 ///
 /// In rounds, so that only laws are fitted that may turn out best: the symmetric ones; what these leave open held at
 /// nothing, and asymmetric laws of the families that hold best; the same of the best asymmetric one; the best of all with
-/// its static friction kept below what the log shows, where it is above that.
+/// its static friction kept below what the log shows, where it is above that; the best of all with its Stribeck exponent
+/// fitted.
 pub(super) fn auto(
     base: Law,
     ladder: &Ladder,
@@ -126,6 +135,21 @@ pub(super) fn auto(
         let more = ladder.climb(&next, None, settings, observer);
         climb = climb.and(more);
     }
+    let mut unsure = None;
+    if !climb.stopped
+        && let Some(next) = shaped(&climb, ladder)
+        && let Ok((estimate, optimum)) = ladder.fit(&next, settings, observer)
+    {
+        match shape(&estimate) {
+            Shape::AsAssumed => {}
+            Shape::Unknown => unsure = Some(estimate),
+            Shape::Another => {
+                let known = Some((&estimate, &optimum));
+                let more = ladder.climb(&[next], known, settings, observer);
+                climb = climb.and(more);
+            }
+        }
+    }
     let climb = climb.sorted();
     let (mut laws, best) = climb.entries();
     let Some(best) = best else {
@@ -139,8 +163,12 @@ pub(super) fn auto(
     let held_out = laws.iter().all(|law| law.held_out_error_percent.is_some());
     // Too few samples may be left to hold some out.
     let by = if held_out { "cross-validation" } else { "bic" };
-    let freer = freer(&rungs, &rungs[at].estimate.law);
-    let freer = freer.map(|freer| (rungs[at].estimate.clone(), freer.estimate.clone()));
+    let before = rungs[at].estimate.clone();
+    let fitted = rungs.iter().map(|rung| &rung.estimate).chain(&unsure);
+    let freer: Vec<Estimate> = fitted
+        .filter(|other| holds_less(&other.law, &before.law))
+        .cloned()
+        .collect();
     let rung = rungs.swap_remove(at);
     let held_out_rmse = rung.cross_validated_rmse(ladder);
     let held_back = unfit::unseen_force(&rung.estimate);
@@ -149,8 +177,8 @@ pub(super) fn auto(
         estimate, optimum, ..
     } = rung;
     let mut estimate = stated(ladder, &optimum, estimate, observer);
-    if let Some((before, freer)) = &freer {
-        estimate.doubt_beside(before, freer);
+    for freer in &freer {
+        estimate.doubt_beside(&before, freer);
     }
     if stopped {
         // Not all laws were tried, so even a converged one is only the best so far.
@@ -166,17 +194,14 @@ pub(super) fn auto(
     })
 }
 
-/// The same law with nothing held, where this one holds something.
-fn freer<'r>(rungs: &'r [Rung], law: &Law) -> Option<&'r Rung> {
-    let same = |rung: &&Rung| {
-        let other = rung.estimate.law;
-        other.kind == law.kind
-            && other.asymmetric == law.asymmetric
-            && !other.flat
-            && !other.undamped
-    };
-    let holds = law.flat || law.undamped;
-    holds.then(|| rungs.iter().find(same)).flatten()
+/// Whether a law is another one with less held: micro-damping, the Stribeck curve or its exponent.
+fn holds_less(law: &Law, than: &Law) -> bool {
+    let held = |law: &Law| [law.flat, law.undamped, !law.exponent_fitted];
+    let parts = || held(law).into_iter().zip(held(than));
+    law.kind == than.kind
+        && law.asymmetric == than.asymmetric
+        && parts().all(|(own, other)| other || !own)
+        && parts().any(|(own, other)| other && !own)
 }
 
 /// What the symmetric laws suggest: LuGre with what it leaves open held at nothing, and the families that hold best with
@@ -237,19 +262,56 @@ fn capped<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
     let level = |side| values.on(Quantity::Coulomb, side).unwrap_or(f64::INFINITY);
     let coulomb = [Side::Positive, Side::Negative].map(level);
     let most = unfit::largest_friction(&rung.estimate);
-    let both = ladder.terms.asymmetric_with_offset.as_ref();
-    let beside_it =
-        both.filter(|terms| law.asymmetric && rung.estimate.terms.offset == terms.offset);
-    let usual = ladder.usual(law);
     let candidate = Candidate {
-        terms: beside_it.unwrap_or(usual.terms),
-        ..usual
+        terms: ladder.beside(rung),
+        ..ladder.usual(law)
     };
     let candidate = candidate.from(&[rung]);
     vec![Candidate {
         capped: Some(rung.optimum.bounds_with_static_below(coulomb, most)),
         ..candidate
     }]
+}
+
+/// The best law so far with its Stribeck exponent fitted, where the data show the curve.
+fn shaped<'a>(climb: &Climb, ladder: &'a Ladder) -> Option<Candidate<'a>> {
+    let (_, best) = climb.entries();
+    let rung = &climb.rungs[best?];
+    let law = rung.estimate.law;
+    let shown = |quantity| !rung.leaves_open(quantity);
+    // A fit of the force sees another curve in every rest.
+    let asks = ladder.exponent_is_open
+        && !engine::rests_much(ladder.record)
+        && law.has_stribeck()
+        && shown(Quantity::Static)
+        && shown(Quantity::StribeckVelocity);
+    let candidate = Candidate {
+        terms: ladder.beside(rung),
+        ..ladder.usual(law.with_fitted_exponent())
+    };
+    asks.then(|| candidate.from(&[rung]))
+}
+
+/// What a fitted exponent says of the curve that is assumed.
+enum Shape {
+    AsAssumed,
+    Another,
+    Unknown,
+}
+
+fn shape(fitted: &Estimate) -> Shape {
+    let Some(p) = fitted.parameter(Quantity::StribeckExponent) else {
+        return Shape::AsAssumed;
+    };
+    if !p.identifiable {
+        return Shape::Unknown;
+    }
+    let off = libm::log(p.value / GAUSSIAN).abs();
+    let sure = p.std.is_some_and(|std| off > SURELY * std / p.value);
+    match off > SHIFTED && sure {
+        true => Shape::Another,
+        false => Shape::AsAssumed,
+    }
 }
 
 /// LuGre with what it leaves open held at nothing.

@@ -60,7 +60,7 @@ fn law(asked: Asked) -> Law {
     let Asked { options, axis, .. } = asked;
     Law {
         asymmetric: options.asymmetric,
-        exponent: axis.stribeck_exponent,
+        exponent: axis.exponent(),
         exponent_fitted: axis.exponent_fitted,
         elements: axis.gms_elements.unwrap_or(0),
         ..Law::new(options.one_law())
@@ -68,12 +68,13 @@ fn law(asked: Asked) -> Law {
 }
 
 /// What laws are fitted and compared on.
-fn ladder(conditioned: &Conditioned) -> Ladder<'_> {
+fn ladder<'a>(asked: Asked, conditioned: &'a Conditioned) -> Ladder<'a> {
     Ladder {
         record: &conditioned.record,
         held_out: &conditioned.unseen,
         terms: &conditioned.terms,
         low_speed: conditioned.low_speed,
+        exponent_is_open: asked.axis.leaves_exponent_open(),
     }
 }
 
@@ -85,7 +86,7 @@ fn at_once(
     observer: &mut dyn Observer,
 ) -> Result<Fitted, Error> {
     let options = asked.options;
-    let ladder = ladder(conditioned);
+    let ladder = ladder(asked, conditioned);
     let settings = settings(options.seed);
     let choice = match options.law {
         Some(_) => choice::asked(
@@ -140,7 +141,7 @@ fn by_search(
         true => Choice::alone(found.estimate),
         false => choice::fitted_already(
             (found.estimate, found.optimum),
-            &ladder(conditioned),
+            &ladder(asked, conditioned),
             options.compare_laws,
             &settings,
             observer,

@@ -22,6 +22,8 @@ pub(super) struct Ladder<'a> {
     /// Linear terms beside the laws.
     pub terms: &'a LinearTerms,
     pub low_speed: f64,
+    /// Whether the Stribeck exponent is assumed, and may be fitted where the data ask for it.
+    pub exponent_is_open: bool,
 }
 
 /// Linear terms beside the laws.
@@ -105,6 +107,15 @@ impl Ladder<'_> {
             starts: Vec::new(),
             capped: None,
         }
+    }
+
+    /// The terms that a law was fitted with.
+    pub fn beside(&self, rung: &Rung) -> &Terms {
+        let law = rung.estimate.law;
+        let both = self.terms.asymmetric_with_offset.as_ref();
+        let offset = rung.estimate.terms.offset;
+        let with_offset = both.filter(|terms| law.asymmetric && offset == terms.offset);
+        with_offset.unwrap_or(self.usual(law).terms)
     }
 
     /// Fits one law.
@@ -223,6 +234,7 @@ impl Rung {
             law: law.kind.name().into(),
             asymmetric: law.asymmetric,
             without: without(law, self.capped),
+            exponent_fitted: law.has_stribeck() && law.exponent_fitted,
             offset: estimate.terms.offset,
             elements: law.kind.has_elements().then_some(law.elements),
             parameters: score.parameters,
@@ -260,11 +272,13 @@ impl Climb {
             let held = usize::from(law.flat) + usize::from(law.undamped);
             let offset = rung.estimate.terms.offset;
             let capped = rung.capped;
+            let exponent = law.exponent_fitted;
             (
                 law.kind,
                 law.asymmetric,
                 2 - held,
                 law.undamped,
+                exponent,
                 offset,
                 capped,
             )

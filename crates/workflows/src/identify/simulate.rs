@@ -77,7 +77,7 @@ pub(super) fn run(
     let controller = axis.controller_for(first)?;
     let law = Law {
         asymmetric: options.asymmetric,
-        exponent: axis.stribeck_exponent,
+        exponent: axis.exponent(),
         elements: axis.gms_elements.unwrap_or(0),
         ..Law::new(kind)
     };

@@ -45,7 +45,7 @@ impl Resolver {
             match (given.as_text(), given.as_number()) {
                 (Some("fit"), _) => axis.exponent_fitted = true,
                 (_, Some(exponent)) if allowed.admits(exponent) => {
-                    axis.stribeck_exponent = exponent;
+                    axis.stribeck_exponent = Some(exponent);
                 }
                 _ => {
                     let allowed = format!("a number {}, or \"fit\"", allowed.words());

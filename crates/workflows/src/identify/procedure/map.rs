@@ -56,7 +56,7 @@ pub(super) fn map(
         asymmetric: options.asymmetric,
         offset: terms.offset && !options.asymmetric,
         stribeck: options.law != Some(LawKind::CoulombViscous),
-        exponent: Exponent::Given(axis.stribeck_exponent),
+        exponent: Exponent::Given(axis.exponent()),
     };
     // Least squares refuse what no search could be given either.
     let everywhere = static_map(&found.points, &settings).map_err(|e| refused(sources, e))?;

@@ -136,7 +136,7 @@ fn settings(
     let mut settings = StepSettings {
         mass,
         curve: None,
-        exponent: axis.stribeck_exponent,
+        exponent: axis.exponent(),
         offset: 0.0,
         given: [[0.0; 7]; 7],
     };
