@@ -3,6 +3,7 @@
 pub(crate) mod advice;
 mod autoregression;
 mod conditioned;
+mod confused;
 mod curve;
 mod filtered;
 pub(crate) mod fitted;

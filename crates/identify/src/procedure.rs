@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | `stretch`, `moments`, `settle` | a log | its constant-velocity stretches, one point each | |
 //! | `static_map`, `profile`, `robust` | points | Fc, Fs, vs, sigma2 | Zhang et al. 2025, doi 10.1371/journal.pone.0322844, eqs. 7-8 |
-//! | `dynamic` | a record, static parameters | sigma0, sigma1, mass | the same, eqs. 35-38 |
+//! | `dynamic`, `dynamic_shift` | a record, static parameters | sigma0, sigma1, mass | the same, eqs. 35-38 |
 //! | `step`, `level` | a force step below break-away | sigma0, sigma1 by inversion | the same, eqs. 26-34 |
 //! | `step_fit`, `step_model`, `step_given` | the same | sigma0, sigma1 by simulation | |
 //! | `break_away` | a force ramp | the force at break-away, with the ramp's rate | Canudas de Wit et al. 1995, doi 10.1109/9.376053, section III.C |
@@ -15,6 +15,7 @@
 mod assemble;
 mod break_away;
 mod dynamic;
+mod dynamic_shift;
 mod level;
 mod moments;
 mod parameter;
@@ -32,6 +33,7 @@ mod stretch;
 
 pub use break_away::{BreakAway, Predicted, break_away, predict_break_away};
 pub use dynamic::{dynamic, dynamic_near};
+pub use dynamic_shift::dynamic_conditioned;
 pub(crate) use static_map::LEAST_VELOCITY_SHARE;
 pub use static_map::{Exponent, StaticMap, StaticSettings, static_map, static_map_near};
 pub use statics::Statics;

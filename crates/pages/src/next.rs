@@ -4,6 +4,9 @@ use std::path::{Path, PathBuf};
 use stiction_files::result::{Next, ResultFile};
 use stiction_files::shell::{plain, quoted};
 
+/// What a log that is still to be recorded is called in commands.
+pub(crate) const ANOTHER_LOG: &str = "another.csv";
+
 /// What the commands are for.
 pub(crate) fn why(next: Next) -> &'static str {
     match next {
@@ -15,6 +18,9 @@ pub(crate) fn why(next: Next) -> &'static str {
         Next::Simulate => "fit the position of the simulated axis, which differentiates nothing",
         Next::AxisFile => "correct the axis file as said above",
         Next::Check => "see what the log shows, and what motion to record instead",
+        Next::Record => {
+            "record another log with the motion that is named above (docs/procedures.md), then"
+        }
         Next::Again => "the same again, to the end",
     }
 }
@@ -54,6 +60,14 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
             ),
         },
         Next::Check => format!("stiction check {log}"),
+        Next::Record => {
+            let axis = result.axis.file.as_ref();
+            let axis = axis.map_or(String::new(), |file| format!(" --axis {}", quoted(file)));
+            format!(
+                "stiction identify {ANOTHER_LOG}{axis} --out {}",
+                another("again")
+            )
+        }
         Next::Again => {
             let law = match (result.law_chosen_by.as_str(), result.asymmetric) {
                 ("user", true) => format!(" --law {} --asymmetric", result.law),

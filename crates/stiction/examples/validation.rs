@@ -123,6 +123,7 @@ fn defaults(data: &Path, out: &mut String) {
                 Next::Export => "`stiction export DIR/model.toml --target c --out DIR/c`",
                 Next::Simulate => "`--method output-error`",
                 Next::Check => "`stiction check`",
+                Next::Record => "another recording",
                 Next::LetTheDataChoose | Next::IdentifyTheOther | Next::Again => "identify again",
                 Next::AxisFile => "correct the axis file",
             }

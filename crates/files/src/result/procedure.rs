@@ -84,6 +84,19 @@ pub struct BreakAwayEntry {
     pub threshold: f64,
     /// Force at which the model passes the same speed, on a ramp of this rate; `null` without a model.
     pub predicted_force: Option<f64>,
+    /// Friction at break-away: the force without mass times acceleration there and without the offset; `null` where the mass
+    /// is not known.
+    #[serde(default)]
+    pub friction: Option<f64>,
+    /// What of the force is mass times acceleration; `null` where the mass is not known.
+    #[serde(default)]
+    pub inertia: Option<f64>,
+    /// What of the force is the offset of the model; 0 without one.
+    #[serde(default)]
+    pub offset: f64,
+    /// Friction at the same speed in the prediction.
+    #[serde(default)]
+    pub predicted_friction_there: Option<f64>,
     /// First maximum of friction in the same prediction.
     pub predicted_friction: Option<f64>,
     /// Slips after which the axis stuck again; 0 where it breaks away once and goes on.

@@ -58,6 +58,8 @@ pub enum Next {
     AxisFile,
     /// See what the log shows, and record the motion that is missing.
     Check,
+    /// Record the motion that is missing: no other fit of this log leads further.
+    Record,
     /// Give the same command again, and let it end.
     Again,
 }

@@ -4,6 +4,7 @@
 use crate::agreement::Between;
 use crate::conditioning::record::Record;
 use crate::estimate::conditioned::shift;
+use crate::estimate::confused::flag_levels_that_take_viscous_friction;
 use crate::estimate::curve::{missing, rises_unseen, stays_within};
 use crate::estimate::filtered::flag_what_a_filter_hides;
 use crate::estimate::fitted::FittedLaw;
@@ -64,6 +65,8 @@ pub fn intervals(
     flag_what_the_residual_doubts(fitted);
     flag_what_the_motion_hides(record, &mut fitted.parameters);
     rises_unseen(&fitted.law, &mut fitted.parameters);
+    let at = &optimum.evaluation;
+    flag_levels_that_take_viscous_friction(&objective, at, &raw, &mut fitted.parameters);
     advice::explain(&mut fitted.parameters, &fitted.covariance);
 }
 

@@ -69,6 +69,54 @@ fn stays_in_presliding(stroke: f64, parameters: &mut [Parameter]) {
     }
 }
 
+/// Ways of the bristles from one side to the other within which an axis that never reached its static level may have crept.
+const CREPT: f64 = 2.0;
+
+/// Flags the parameters of sliding after a simulation in which the axis never breaks away, and the mass where its inertia
+/// is less than what the simulation leaves. Returns whether that is so.
+///
+/// Bristles under a force that swings creep: the stroke may be longer than their way from one side to the other although
+/// friction never reached the static level.
+pub(crate) fn flag_what_never_breaks_away(
+    parameters: &mut [Parameter],
+    stroke: f64,
+    largest_friction: f64,
+    (inertia, left): (f64, f64),
+) -> bool {
+    let of = |quantity: Quantity| {
+        let all = parameters
+            .iter()
+            .filter(move |p| p.name.quantity == quantity);
+        all.map(|p| p.value)
+    };
+    let level = of(Quantity::Static).chain(of(Quantity::Coulomb));
+    let level = level.fold(0.0, f64::max);
+    let Some(stiffness) = of(Quantity::Sigma0).next() else {
+        return false;
+    };
+    let is_short = stroke * stiffness < CREPT * 2.0 * level;
+    if !(is_short && largest_friction < level || is_presliding(stroke, parameters)) {
+        return false;
+    }
+    for p in parameters
+        .iter_mut()
+        .filter(|p| p.identified && p.identifiable)
+    {
+        let reason = match p.name.quantity {
+            quantity if SLIDING.contains(&quantity) => {
+                "the axis never breaks away: friction stays below the static level"
+            }
+            Quantity::Mass if inertia < left => {
+                "its inertia is less than what the law leaves of the motion"
+            }
+            _ => continue,
+        };
+        p.identifiable = false;
+        p.reason = reason.into();
+    }
+    true
+}
+
 /// Whether the stroke (m or rad) is shorter than the travel that turns the bristles from one side to the other, which is the
 /// sum of the Coulomb levels divided by sigma0.
 pub(crate) fn is_presliding(stroke: f64, parameters: &[Parameter]) -> bool {

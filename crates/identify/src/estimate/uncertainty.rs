@@ -36,13 +36,33 @@ pub(crate) struct Unknowns {
 /// are. What levels that logs have differently leave is no noise within them: of several logs the residual is that of each with
 /// linear unknowns of its own.
 pub(crate) fn unknowns(objective: &Objective, at: &Evaluation) -> Unknowns {
+    beside(objective, at, |j| at.solution.active[j])
+}
+
+/// The same with rows for the coefficients held at zero, as if they were free.
+pub(crate) fn free(objective: &Objective, at: &Evaluation) -> Unknowns {
+    let (solution, bounded) = (&at.solution, objective.nonnegative());
+    beside(objective, at, |j| {
+        solution.active[j] || (bounded[j] && !solution.dependent[j])
+    })
+}
+
+/// With the coefficients of which that is said beside the nonlinear unknowns.
+fn beside(objective: &Objective, at: &Evaluation, is_free: impl Fn(usize) -> bool) -> Unknowns {
     let k = at.slopes.len();
     let width = k + at.columns.len();
-    let active = (0..at.columns.len()).filter(|&j| at.solution.active[j]);
-    let index: Vec<usize> = (0..k).chain(active.map(|j| k + j)).collect();
+    let columns: Vec<usize> = (0..at.columns.len()).filter(|&j| is_free(j)).collect();
+    let index: Vec<usize> = (0..k).chain(columns.iter().map(|j| k + j)).collect();
+    let of_columns = columns.iter().map(|&j| at.columns[j].as_slice());
+    let jacobian: Vec<&[f64]> = at
+        .slopes
+        .iter()
+        .map(|s| s.as_slice())
+        .chain(of_columns)
+        .collect();
     let within = Logs::of(objective.record()).and_then(|logs| logs.within(at));
     let residual = within.as_deref().unwrap_or(at.residual());
-    let small = sandwich(&at.jacobian(), residual, &objective.record().breaks());
+    let small = sandwich(&jacobian, residual, &objective.record().breaks());
     let mut out = Unknowns {
         covariance: DMatrix::zeros(width, width),
         bread: DMatrix::zeros(width, width),

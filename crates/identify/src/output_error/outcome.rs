@@ -36,6 +36,8 @@ pub struct SimulationFit {
     pub position: Fit,
     /// Force error; `None` in open loop, where the force is what drives the simulation.
     pub force: Option<Fit>,
+    /// Whether the axis never breaks away in the logs: its levels are open then.
+    pub never_breaks_away: bool,
     /// Pieces that were simulated in the fit, each from a start of its own that was fitted too.
     pub runs: usize,
     /// Stretches without a gap that the pieces were cut from.
@@ -165,6 +167,23 @@ pub(crate) fn describe(
     sliding::flag_one_direction(&mut parameters, || {
         signals.moves_both_ways(search.simulation.quantum)
     });
+    let value = |quantity: Quantity| {
+        parameters
+            .iter()
+            .find(|p| p.name == quantity)
+            .map_or(0.0, |p| p.value)
+    };
+    let inertia = value(Quantity::Mass) * signals.acceleration_rms();
+    let left = value(Quantity::Sigma0) * position.rmse;
+    let never_breaks_away = sliding::flag_what_never_breaks_away(
+        &mut parameters,
+        signals.stroke(),
+        signals
+            .friction
+            .iter()
+            .fold(0.0, |most: f64, f| most.max(f.abs())),
+        (inertia, left),
+    );
     advice::explain(&mut parameters, &covariance);
     let top = signals.velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let fitted = FittedLaw {
@@ -194,6 +213,7 @@ pub(crate) fn describe(
     };
     SimulationFit {
         fitted,
+        never_breaks_away,
         position,
         force: signals.force_fit(),
         signals,

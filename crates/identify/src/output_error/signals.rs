@@ -6,6 +6,11 @@ use crate::output_error::simulate::simulate;
 use std::ops::Range;
 use stiction_signal::{Travel, noise_deviation};
 
+/// A second difference of a position whose errors are independent, over their size: the root of 1 + 4 + 1.
+const BEND_OF_NOISE: f64 = 2.449_489_742_783_178;
+/// How many times as large it has to be to be one of the motion.
+const CLEAR_BEND: f64 = 3.0;
+
 /// Measured and simulated signals at the samples that count.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Signals {
@@ -30,6 +35,43 @@ pub struct Signals {
 }
 
 impl Signals {
+    /// Longest way between two measured positions of a log, m or rad.
+    pub(crate) fn stroke(&self) -> f64 {
+        let of_log = |own: &[f64]| {
+            let low = own.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = own.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            high - low
+        };
+        self.stretches().map(of_log).fold(0.0, f64::max)
+    }
+
+    /// Acceleration of the measured motion, rms, m/s^2 or rad/s^2, over the shortest time in which it shows clearly beside what
+    /// the simulation leaves of the position; 0 where it never does.
+    pub(crate) fn acceleration_rms(&self) -> f64 {
+        let clear = CLEAR_BEND * BEND_OF_NOISE * self.position_rmse();
+        let longest = self.bounds().map(|range| range.len()).max().unwrap_or(0);
+        let mut lag = 1;
+        while 2 * lag < longest {
+            let (mut bends, mut accelerations, mut count) = (0.0, 0.0, 0_usize);
+            for range in self.bounds() {
+                for k in range.start + lag..range.end.saturating_sub(lag) {
+                    let bend =
+                        self.position[k + lag] - 2.0 * self.position[k] + self.position[k - lag];
+                    let time = 0.5 * (self.time[k + lag] - self.time[k - lag]);
+                    bends += bend * bend;
+                    accelerations += (bend / (time * time)).powi(2);
+                    count += 1;
+                }
+            }
+            let count = count.max(1) as f64;
+            if (bends / count).sqrt() > clear {
+                return (accelerations / count).sqrt();
+            }
+            lag *= 2;
+        }
+        0.0
+    }
+
     /// Size of the position error. The relative error is against the motion, the position about the mean of its stretch:
     /// where the origin of the encoder is does not matter, and 100 % is what standing still would leave.
     pub fn position_fit(&self) -> Fit {

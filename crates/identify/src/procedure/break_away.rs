@@ -7,7 +7,8 @@
 //! last one at which the axis was slower than a threshold, before it stays faster. The threshold is the
 //! given speed (a third of vs where a model is known), but never below what the position resolves: five
 //! of its steps, or of the standard deviation of its noise at rest, within a hundredth of the ramp. The
-//! force is that of the ramp at that instant.
+//! force is that of the ramp at that instant. It accelerates the axis too: what friction takes of it is less by mass
+//! times the acceleration there, which on fast ramps is more than friction falls.
 //!
 //! **Stick-slip.** An axis that slips and sticks again, once or many times, has broken away at its first slip: it is faster
 //! than the threshold for a while, moves farther than all the way before, and comes to rest again.
@@ -49,6 +50,8 @@ pub struct BreakAway {
     pub displacement: f64,
     /// Speed that counts as broken away, m/s or rad/s.
     pub threshold: f64,
+    /// Acceleration at that instant, m/s^2 or rad/s^2, with its sign.
+    pub acceleration: f64,
     /// Slips after which the axis stuck again; 0 where it breaks away once and goes on.
     pub slips: usize,
 }
@@ -58,6 +61,8 @@ pub struct BreakAway {
 pub struct Predicted {
     /// Force of the ramp when the axis passes the threshold: the criterion of the measurement.
     pub force: f64,
+    /// Friction there: that force without what accelerates the axis.
+    pub at_threshold: f64,
     /// First maximum of the friction force, which no sensor sees.
     pub friction: f64,
 }
@@ -146,6 +151,19 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
     let (a, b) = (speed(i), speed(i + 1));
     let share = ((threshold - a) / (b - a)).clamp(0.0, 1.0);
     let instant = time[i] + share * (time[i + 1] - time[i]);
+    // Over the shortest time in which the path bends clearly: the axis is about to go off, and accelerates ever more.
+    let bent = |reach: usize| {
+        let around = |at: usize| moved.mean(at - reach / 4, at + reach / 4 + 1);
+        around(i + reach) - 2.0 * around(i) + around(i - reach)
+    };
+    let most = (2 * window).min((i - start) / 2).min((top - i) / 2).max(1);
+    let reaches = std::iter::successors(Some(4), |reach| Some(reach + reach / 4));
+    let reach = reaches
+        .take_while(|reach| *reach < most)
+        .find(|&reach| bent(reach).abs() > CLEAR_MOTION * noise)
+        .unwrap_or(most);
+    let half = 0.5 * (time[i + reach] - time[i - reach]);
+    let acceleration = bent(reach) / (half * half);
     let ramp = Moments::new(time, force);
     let rate = ramp.slope(start, i + 1);
     let line = |t: f64| ramp.mean(start, i + 1) + rate * (t - ramp.instant(start, i + 1));
@@ -164,6 +182,7 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
         rate,
         displacement: place(i) - mean(rest),
         threshold,
+        acceleration,
         slips: slips.len(),
     })
 }
@@ -215,7 +234,8 @@ pub fn predict_break_away(plant: &Plant, rate: f64, threshold: f64) -> Option<Pr
             .motion;
         if crossed.is_none() && next.velocity >= threshold {
             let share = (threshold - motion.velocity) / (next.velocity - motion.velocity);
-            crossed = Some(rate * (t + share * h));
+            let [before, after] = [motion, next].map(|m| law.force(m.deflection, m.velocity));
+            crossed = Some((rate * (t + share * h), before + share * (after - before)));
         }
         motion = next;
         let now = law.force(motion.deflection, motion.velocity);
@@ -224,16 +244,21 @@ pub fn predict_break_away(plant: &Plant, rate: f64, threshold: f64) -> Option<Pr
             peak = Some(friction);
         }
         friction = now;
-        if let (Some(force), Some(friction)) = (crossed, peak) {
-            return Some(Predicted { force, friction });
+        if let (Some((force, at_threshold)), Some(friction)) = (crossed, peak) {
+            return Some(Predicted {
+                force,
+                at_threshold,
+                friction,
+            });
         }
         if t > whole {
             break;
         }
     }
     // If overdamped, friction has no maximum: its value at the threshold is taken.
-    crossed.map(|force| Predicted {
+    crossed.map(|(force, at_threshold)| Predicted {
         force,
+        at_threshold,
         friction: peak.unwrap_or(friction),
     })
 }

@@ -40,7 +40,8 @@ const DIFFERENCE_STEP: f64 = 1e-4;
 
 /// Fits the dynamic parameters of LuGre to a record, the steady curve held.
 ///
-/// The uncertainty of the curve is carried into that of sigma0 and sigma1.
+/// The uncertainty of the curve is carried into that of sigma0 and sigma1. What encoder and filters shift is not in it:
+/// [`dynamic_conditioned`](super::dynamic_conditioned) measures that.
 ///
 /// # Errors
 /// As [`separable`](crate::separable()): no motion, too few samples.
@@ -86,15 +87,7 @@ pub fn dynamic_near(
             losses: record.losses(),
         });
     }
-    let (p, c) = statics.unknowns(&law, objective.linear());
-    let held = Held {
-        kappa: law.layout().kappa.unwrap_or(0),
-        objective,
-        statics,
-        law,
-        p,
-        c,
-    };
+    let held = Held::of(objective, statics, law);
     let (best, status, counts) = held.search(&bounds, near, observer);
     let mut p = held.p.clone();
     p[held.kappa] = best;
@@ -126,7 +119,8 @@ pub fn dynamic_near(
     Ok(out)
 }
 
-struct Held<'a> {
+/// A fit with the steady curve held.
+pub(super) struct Held<'a> {
     objective: Objective<'a>,
     statics: &'a Statics,
     law: Law,
@@ -136,7 +130,36 @@ struct Held<'a> {
     c: Vec<f64>,
 }
 
-impl Held<'_> {
+impl<'a> Held<'a> {
+    /// On a record of the same axis.
+    pub fn new(record: &'a Record, statics: &'a Statics, law: Law, terms: &'a Terms) -> Self {
+        Self::of(Objective::new(record, law, terms), statics, law)
+    }
+
+    fn of(objective: Objective<'a>, statics: &'a Statics, law: Law) -> Self {
+        let (p, c) = statics.unknowns(&law, objective.linear());
+        Self {
+            kappa: law.layout().kappa.unwrap_or(0),
+            objective,
+            statics,
+            law,
+            p,
+            c,
+        }
+    }
+
+    /// Unknowns and coefficients at the minimum next to these unknowns; `None` for a record without motion.
+    pub fn found_near(&self, near: &[f64]) -> Option<(Vec<f64>, Vec<f64>, Counts)> {
+        let bounds = SearchBox::from_record(self.objective.record(), &self.law).ok()?;
+        let range = (bounds.low(self.kappa), bounds.high(self.kappa));
+        let near = near.get(self.kappa)?.clamp(range.0, range.1);
+        let (best, _, counts) = self.follow(near, range);
+        let mut p = self.p.clone();
+        p[self.kappa] = best;
+        let c = self.whole(&self.solve(best));
+        Some((p, c, counts))
+    }
+
     fn free(&self) -> Vec<usize> {
         let linear = self.objective.linear().iter().enumerate();
         linear

@@ -132,10 +132,19 @@ impl Statics {
         (p, c)
     }
 
+    /// Whether a parameter is one of the curve.
+    pub(super) fn holds(quantity: Quantity) -> bool {
+        quantity.is_of_the_steady_curve() || Self::owns_quantity(quantity)
+    }
+
     /// Which coefficients belong to the curve.
     pub(super) fn owns(term: &LinearTerm) -> bool {
+        Self::owns_quantity(term.name.quantity)
+    }
+
+    fn owns_quantity(quantity: Quantity) -> bool {
         matches!(
-            term.name.quantity,
+            quantity,
             Quantity::Coulomb
                 | Quantity::CoulombLoad
                 | Quantity::CoulombTemperature

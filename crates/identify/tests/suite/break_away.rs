@@ -191,3 +191,23 @@ fn what_is_no_break_away_is_refused() {
         let _ = found(&log, 0.0, None);
     }
 }
+
+/// The faster the force rises, the more of it accelerates the axis: the force at the threshold rises with the rate, while the
+/// friction that is left without mass times acceleration is that of the axis.
+#[test]
+fn inertia_is_no_friction() {
+    for rate in [5.0, 20.0] {
+        let log = ramp(rate, 2e-4, 1e-8);
+        let hit = found(&log, 1e-8, Some(1e-3 / 3.0)).unwrap();
+        let exact = predict_break_away(&block(), rate, hit.threshold).unwrap();
+        let inertia = block().mass() * hit.acceleration;
+        let friction = hit.force - inertia;
+        println!("{rate}: {hit:?}, {exact:?}, inertia {inertia}");
+        assert!(inertia > 0.0);
+        assert!(
+            (friction / exact.at_threshold - 1.0).abs() < 0.03,
+            "{rate}: {friction}, {}",
+            exact.at_threshold
+        );
+    }
+}

@@ -207,3 +207,30 @@ fn what_depends_on_the_law_is_flagged() {
         "{lost:?}"
     );
 }
+
+/// At speeds of twice the Stribeck velocity Coulomb and viscous friction share one force. With little noise Fc is known whatever
+/// viscous friction is; with more, what viscous friction takes of it is not.
+#[test]
+fn a_level_that_viscous_friction_may_take_is_open() {
+    let omega = 2.0 * std::f64::consts::PI;
+    let motion = |t: f64| 2e-3 * (omega * t).sin();
+    let acceleration = |t: f64| 2e-3 * omega * (omega * t).cos();
+    for (sd, known) in [(0.01, true), (0.2, false)] {
+        let (v, friction) = force_along(&C95.law(), 30_001, 1e-4, 20, motion);
+        let mut noise = Noise::new(3);
+        let force = |(i, f): (usize, &f64)| f + acceleration(i as f64 * 1e-4) + sd * noise.normal();
+        let u = friction.iter().enumerate().map(force).collect();
+        let found = fit(
+            &record(1e-4, v, u),
+            Law::new(LawKind::LuGre),
+            &Terms::default(),
+        );
+        for name in ["coulomb", "sigma2"] {
+            let p = found.parameter(name).unwrap();
+            println!("{sd} {name} {} {:?} {}", p.value, p.std, p.reason);
+        }
+        let own = found.parameter("coulomb").unwrap();
+        assert_eq!(own.identifiable, known, "{sd}: {}", own.reason);
+        assert!(!found.parameter("sigma2").unwrap().identifiable);
+    }
+}

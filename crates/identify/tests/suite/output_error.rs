@@ -166,3 +166,40 @@ fn covered(found: &SimulationFit) -> (usize, f64) {
     }
     (inside, worst)
 }
+
+/// A force that swings below break-away: the position shows the bristles and nothing of the levels, whatever a fit makes of
+/// their creep. The slow swings show no inertia either.
+#[test]
+fn an_axis_that_never_breaks_away_leaves_its_levels_open() {
+    let h = 1e-3;
+    let plant = machine();
+    let encoder = Encoder::new(1e-7).unwrap();
+    let mut motion = Motion::default();
+    let mut samples = Samples::default();
+    let mut position = Vec::new();
+    for k in 0..8000 {
+        let t = k as f64 * h;
+        let force = 2.0 + (14.0 + t) * (3.0 * t).sin();
+        samples.time.push(t);
+        samples.force.push(force);
+        position.push(encoder.read(motion.position));
+        for _ in 0..FINE {
+            let load = Load::force(force);
+            motion = plant.step(motion, h / FINE as f64, load).motion;
+        }
+    }
+    samples.position = Some(position);
+    let log = Recording {
+        samples,
+        reference: None,
+    };
+    let found = fit(&[log], &Simulation::default());
+    assert!(found.never_breaks_away);
+    for p in &found.fitted.parameters {
+        println!("{} {} {}", p.name, p.value, p.reason);
+    }
+    for name in ["coulomb", "static", "stribeck_velocity", "sigma2", "mass"] {
+        let p = found.fitted.parameter(name).unwrap();
+        assert!(!p.identifiable, "{name}: {}", p.value);
+    }
+}

@@ -309,7 +309,10 @@ fn break_away_table(outcome: &Outcome, runs: &[BreakAwayEntry]) -> Table {
     let mut table = Table::new([
         ("Log".to_string(), Align::Left),
         (format!("Rate, {unit}/s"), Align::Right),
-        (format!("Break-away, {unit}"), Align::Right),
+        (format!("Force, {unit}"), Align::Right),
+        ("Inertia".into(), Align::Right),
+        ("Offset".into(), Align::Right),
+        ("Friction".into(), Align::Right),
         ("Predicted".into(), Align::Right),
         ("Largest friction".into(), Align::Right),
         (
@@ -325,9 +328,11 @@ fn break_away_table(outcome: &Outcome, runs: &[BreakAwayEntry]) -> Table {
     .caption(
         "The axis has broken away at the last instant at which it is slower than the threshold; where it sticks again \
          (slips: how often), before its first slip. \
-         Predicted is the force of a simulated ramp of the same rate at the same speed; the largest \
+         Friction is the force of the drive without inertia (mass times acceleration there) and offset. \
+         Predicted is the friction of a simulated ramp of the same rate at the same speed; the largest \
          friction before it is what no sensor sees. Break-away is not a point of the static map: the \
-         faster the force rises, the lower it is.",
+         faster the force rises, the lower is that friction, while the force of the drive may rise with its rate, since it \
+         accelerates the axis too.",
     );
     let plain = |x: Option<f64>| x.map_or("–".into(), |x| number::sig(x, 4));
     for run in runs {
@@ -335,7 +340,10 @@ fn break_away_table(outcome: &Outcome, runs: &[BreakAwayEntry]) -> Table {
             run.path.clone(),
             number::sig(run.rate, 4),
             number::sig(run.force, 4),
-            plain(run.predicted_force),
+            plain(run.inertia),
+            number::sig(run.offset, 4),
+            plain(run.friction),
+            plain(run.predicted_friction_there),
             plain(run.predicted_friction),
             number::sig(run.displacement, 3),
             number::sig(run.threshold, 3),

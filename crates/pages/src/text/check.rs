@@ -1,7 +1,7 @@
 //! The outcome of a check, and what an axis file was begun with.
 
 use super::table::table;
-use crate::next::axis_file;
+use crate::next::{ANOTHER_LOG, axis_file};
 use std::fmt::Write;
 use std::path::Path;
 use stiction_files::shell::quoted;
@@ -172,7 +172,10 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
         ));
     }
     if log.next == Lead::Simulate {
-        out.push("where a fit by simulation is refused too: record what is named above".into());
+        out.push(format!(
+            "where a fit by simulation is refused too: record what is named above, then: stiction identify {ANOTHER_LOG}{with} --out \
+             another"
+        ));
     }
     out.push(match log.next {
         Lead::Identify => format!("next: stiction identify {path}{with} --out result"),
@@ -187,9 +190,10 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
             format!("next: stiction identify {path}{with} --method output-error --out result")
         }
         Lead::Record => {
-            "next: record a log that moves both ways, with its force (what to record: docs/procedures.md); then stiction \
-             check on it"
-                .into()
+            format!(
+                "next: record a log that moves both ways, with its force (what to record: docs/procedures.md), then: stiction \
+                 check {ANOTHER_LOG}{with}"
+            )
         }
     });
     out

@@ -163,6 +163,7 @@ fn break_away(runs: &[BreakAwayEntry], unit: &str) -> String {
         "break-away".to_string(),
         format!("rate {unit}/s"),
         format!("force {unit}"),
+        "friction".into(),
         "predicted".into(),
         "after".into(),
         String::new(),
@@ -172,14 +173,24 @@ fn break_away(runs: &[BreakAwayEntry], unit: &str) -> String {
             run.path.clone(),
             short(run.rate),
             short(run.force),
-            run.predicted_force.map_or("-".into(), short),
+            run.friction.map_or("-".into(), short),
+            run.predicted_friction_there.map_or("-".into(), short),
             short(run.displacement),
             slips(run.slips),
         ]);
     }
+    let offset = runs.iter().map(|run| run.offset).fold(0.0, |_, own| own);
+    let friction = match (runs.iter().any(|run| run.friction.is_some()), offset != 0.0) {
+        (false, _) => "force: what the drive gives, mass times acceleration and constant force included; their mass is not known\n".into(),
+        (true, false) => "friction: the force of the drive less mass times acceleration\n".to_string(),
+        (true, true) => format!(
+            "friction: the force of the drive less mass times acceleration and less the offset, {} {unit}\n",
+            short(offset)
+        ),
+    };
     format!(
-        "\n{}",
-        table(&rows, &[false, true, true, true, true, false])
+        "\n{}{friction}",
+        table(&rows, &[false, true, true, true, true, true, false])
     )
 }
 

@@ -80,7 +80,11 @@ impl Judged {
             let holds = law.status == Status::Converged
                 && !held
                 && law.fit.r2 >= LEAST_R2
-                && (!law.stays_in_presliding() || motion == Shown::Presliding);
+                && match motion {
+                    Shown::Sliding => !law.stays_in_presliding(),
+                    Shown::Presliding => true,
+                    Shown::TooLittle => false,
+                };
             let known = |p: &Parameter| p.identifiable && holds;
             identified
                 .filter(|p| known(p) == determined)
@@ -110,6 +114,8 @@ enum Shown {
     Sliding,
     /// Force steps below break-away, for stiffness and micro-damping.
     Presliding,
+    /// Sliding too, but the axis never broke away: of what is fitted there no noise of the force is counted.
+    TooLittle,
 }
 
 /// Reasons against a result, each with what leads on from it.
@@ -225,7 +231,21 @@ pub(super) fn of_position(
             reasons.push(text, Next::Check);
         }
     }
-    Judged::new(evidence.law, Shown::Sliding, None, reasons, warnings)
+    let shown = match found.never_breaks_away {
+        true => Shown::TooLittle,
+        false => Shown::Sliding,
+    };
+    if found.never_breaks_away && !evidence.law.stays_in_presliding() {
+        let text = "the axis never breaks away: friction stays below its static level, and what it is there and beyond is not seen";
+        reasons.push(text, Next::Record);
+    }
+    // What a check has to say has led here.
+    reasons.0.iter_mut().for_each(|(_, next)| {
+        if *next == Next::Check {
+            *next = Next::Record;
+        }
+    });
+    Judged::new(evidence.law, shown, None, reasons, warnings)
 }
 
 /// A steady curve through points of constant velocity, of which some lie off it.

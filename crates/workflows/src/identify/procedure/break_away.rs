@@ -71,6 +71,8 @@ pub(in crate::identify) fn break_away(
         let predicted = model
             .and_then(|(plant, _)| predict_break_away(&plant, found.rate.abs(), found.threshold));
         let offset = values.get(Quantity::Offset).unwrap_or(0.0);
+        let mass = values.get(Quantity::Mass).filter(|mass| *mass > 0.0);
+        let inertia = mass.map(|mass| mass * found.acceleration);
         out.entries.push(BreakAwayEntry {
             path: source.path.display().to_string(),
             rate: found.rate,
@@ -80,6 +82,10 @@ pub(in crate::identify) fn break_away(
             displacement: found.displacement,
             threshold: found.threshold,
             predicted_force: predicted.map(|p| sign * p.force + offset),
+            friction: inertia.map(|inertia| found.force - inertia - offset),
+            inertia,
+            offset,
+            predicted_friction_there: predicted.map(|p| sign * p.at_threshold),
             predicted_friction: predicted.map(|p| sign * p.friction),
             slips: found.slips,
         });

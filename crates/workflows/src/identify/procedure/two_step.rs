@@ -15,7 +15,7 @@ use stiction_files::result::{
 };
 use stiction_files::symbols;
 use stiction_identify as engine;
-use stiction_identify::procedure::dynamic_near;
+use stiction_identify::procedure::{dynamic_conditioned, dynamic_near};
 use stiction_identify::{
     Accelerometer, Delay, Estimate, FittedLaw, Law, LawKind, Observer, Record, Settings, Terms,
 };
@@ -75,8 +75,15 @@ pub(in crate::identify) fn two_step(
     let low_speed = parts.low_speed;
     let measured = parts.record.with_accelerometer();
     let record = measured.as_ref().map_or(parts.record, |(record, _)| record);
-    let (joint, _) =
-        engine::fit_law(record, law, terms, low_speed, parts.settings, observer).map_err(fail)?;
+    // Intervals rest on simulated encoders: a measured acceleration has none, and a search alone has no intervals.
+    let is_derived = measured.as_ref().is_none_or(|(_, found)| !found.taken);
+    let is_stated = is_derived && !options.searching.no_finish;
+    let joint = match is_stated {
+        true => engine::identify(record, law, terms, low_speed, parts.settings, observer),
+        false => engine::fit_law(record, law, terms, low_speed, parts.settings, observer)
+            .map(|(joint, _)| joint),
+    };
+    let joint = joint.map_err(fail)?;
     // The delay belongs to the log, not to friction: both see the same.
     let delay = match (joint.terms.delay, joint.value("delay")) {
         (Delay::Fitted, Some(time)) => Delay::Given(time),
@@ -128,6 +135,9 @@ pub(in crate::identify) fn two_step(
                  which are given: its box, [search.box] of the axis file, or its budget keeps it away",
             ));
         }
+    }
+    if is_stated {
+        dynamic_conditioned(record, statics, &mut estimate, observer);
     }
     if known.interrupted || step.as_ref().is_some_and(|step| step.interrupted) {
         estimate = estimate.interrupted();

@@ -1,0 +1,67 @@
+//! Whether a Coulomb level is more than its sum with viscous friction.
+//!
+//! Where an axis slides at hardly more than one speed, a log shows the force there, and Coulomb and viscous friction share it
+//! in many ways. Viscous friction is never negative: an estimate that is pressed against zero, by noise or by anything that
+//! the law does not describe, takes the level along, and neither its deviation nor replicas of it show how far.
+
+use crate::estimate::uncertainty;
+use crate::parameter::Parameter;
+use crate::parameter::covariance::Covariance;
+use crate::parameter::physical::{Physical, propagate};
+use crate::separable::objective::{Evaluation, Objective};
+use stiction_parameters::{Name, Quantity, Side};
+
+/// Correlation of a level with the viscous friction of its direction from which the two share one force.
+const SHARED: f64 = 0.9;
+/// Part of a level from which what viscous friction may still be worth there counts.
+const WORTH: f64 = 0.1;
+/// Part of a level from which what viscous friction takes of it within chance counts, where the two share one force: below
+/// it, the level is known whatever viscous friction is.
+const WORTH_OF_CHANCE: f64 = 0.01;
+/// Standard deviations within which viscous friction cannot be told from none.
+const CHANCE: f64 = 2.0;
+
+/// Flags the Coulomb levels that take the place of a viscous friction which the data do not tell from none.
+pub(super) fn flag_levels_that_take_viscous_friction(
+    objective: &Objective,
+    at: &Evaluation,
+    raw: &[Physical],
+    parameters: &mut [Parameter],
+) {
+    let cannot_be_told = |p: &Parameter| {
+        let is_low = p.std.is_none_or(|std| p.value <= CHANCE * std);
+        p.name.quantity == Quantity::Sigma2 && p.identified && !p.identifiable && is_low
+    };
+    let open: Vec<(Side, Option<f64>)> = parameters
+        .iter()
+        .filter(|p| cannot_be_told(p))
+        .map(|p| (p.name.side, p.ci95.map(|(_, high)| high - p.value)))
+        .collect();
+    if open.is_empty() {
+        return;
+    }
+    let matrix = propagate(raw, &uncertainty::free(objective, at).covariance);
+    let covariance = Covariance::new(raw.iter().map(|p| p.name).collect(), &matrix);
+    let correlation = covariance.correlation();
+    for (side, more) in open {
+        let of = |quantity| covariance.place(Name::new(quantity, side));
+        let (Some(level), Some(viscous)) = (of(Quantity::Coulomb), of(Quantity::Sigma2)) else {
+            continue;
+        };
+        // Force at which one takes the place of the other, for each unit of viscous friction.
+        let taken = -matrix[(level, viscous)] / matrix[(viscous, viscous)];
+        let name = Name::new(Quantity::Coulomb, side);
+        let own = parameters.iter_mut().find(|p| p.name == name);
+        if let Some(own) = own.filter(|p| p.identifiable) {
+            let is_much = more.is_some_and(|more| taken * more > WORTH * own.value);
+            let chance = CHANCE * taken * matrix[(viscous, viscous)].sqrt();
+            let is_shared =
+                correlation[level][viscous] <= -SHARED && chance > WORTH_OF_CHANCE * own.value;
+            if !is_much && !is_shared {
+                continue;
+            }
+            own.identifiable = false;
+            own.reason = "it shares one force with viscous friction, which this motion does not tell from none".into();
+        }
+    }
+}
