@@ -103,6 +103,22 @@ pub enum Error {
         /// What is missing.
         reason: &'static str,
     },
+    /// No jump of the force stands out from its noise.
+    #[error(
+        "log {log}: the force has no step above its noise: the highest between the means of {stretch} samples before \
+         and {stretch} after is {}, and {} would be clear",
+        short(*highest), short(*needed)
+    )]
+    FaintStep {
+        /// Which log, counted from 1.
+        log: usize,
+        /// The highest jump between two means, in the unit of the force.
+        highest: f64,
+        /// How high it would have to be.
+        needed: f64,
+        /// Samples in each mean.
+        stretch: usize,
+    },
     /// The force does not rise in a line, or the axis does not break away under it.
     #[error("log {log}: {reason}")]
     NoBreakAway {

@@ -14,7 +14,7 @@ pub enum Error {
     #[error("{0}")]
     File(#[from] stiction_files::Error),
     /// A record cannot be identified.
-    #[error("{inputs}: {source}")]
+    #[error("{inputs}: {}", of_the_log(source))]
     Identify {
         /// The logs, for the message.
         inputs: String,
@@ -76,7 +76,7 @@ impl Error {
                 Fit::NoMotion { .. } => Code::NoMotion,
                 Fit::NoForce { .. } => Code::NoForce,
                 Fit::TooFewSpeeds { .. } => Code::TooFewSpeeds,
-                Fit::NoStep { .. } => Code::NoStep,
+                Fit::NoStep { .. } | Fit::FaintStep { .. } => Code::NoStep,
                 Fit::NoBreakAway { .. } => Code::NoBreakAway,
                 Fit::Setting { .. } | Fit::Filter { .. } => Code::BadSetting,
                 Fit::NotSimulated { .. } | Fit::Diverged { .. } => Code::NotSimulated,
@@ -138,6 +138,18 @@ impl Error {
             found: found.into(),
             allowed: allowed.into(),
         }
+    }
+}
+
+/// What the engine says of a log without its number, where the path stands before it.
+fn of_the_log(source: &stiction_identify::Error) -> String {
+    use stiction_identify::Error as Fit;
+    let said = source.to_string();
+    match source {
+        Fit::NoStep { log, .. } | Fit::FaintStep { log, .. } | Fit::NoBreakAway { log, .. } => said
+            .strip_prefix(&format!("log {log}: "))
+            .map_or(said.clone(), str::to_string),
+        _ => said,
     }
 }
 

@@ -21,6 +21,13 @@ const FEWEST_BEFORE: usize = 5;
 const FEWEST_AFTER: usize = 30;
 /// How much higher than the scatter of the force a step must be.
 const CLEAR_STEP: f64 = 6.0;
+/// How many times the usual jump of means over longer stretches, which is 0.67 of its standard deviation: a step is
+/// six of them high.
+const CLEAR_JUMP: f64 = 9.0;
+/// The longest stretch is this part of the log, so that the usual jump is not that of the step.
+const LARGEST_STRETCH: usize = 16;
+/// Standard errors of a mean that is off the level, which has as large an error.
+const STANDING_OUT: f64 = 8.0;
 /// How far the position may still move over the last tenth of the record, relative to the step.
 const SETTLED_MOTION: f64 = 0.05;
 
@@ -64,7 +71,7 @@ impl StepResponse {
     /// the highest.
     ///
     /// # Errors
-    /// [`Error::NoStep`] where the force does not step from one constant level to another, or the axis
+    /// [`Error::FaintStep`] where no jump of the force rises above its noise, [`Error::NoStep`] where it does not step from one constant level to another, or the axis
     /// does not come to rest after it.
     pub fn read(run: &Run, log: usize) -> Result<Self, Error> {
         crate::conditioning::check(log + 1, run.samples)?;
@@ -83,17 +90,28 @@ impl StepResponse {
                 "too few samples: 5 before the step and 30 after it are needed",
             ));
         }
-        let onset = onset(force).ok_or(none("the force has no step above its noise"))?;
+        let Jump { onset, stretch } = jump(force).map_err(|highest| Error::FaintStep {
+            log: log + 1,
+            highest: highest.height,
+            needed: highest.needed,
+            stretch: highest.stretch,
+        })?;
         if onset < FEWEST_BEFORE {
             return Err(none(
                 "fewer than 5 samples before the step: its level at rest is not known",
             ));
         }
-        let level = mean(&force[onset..(onset + FEWEST_BEFORE).min(n)]);
+        let level = mean(&force[onset..(onset + stretch).min(n)]);
         let base = Level::held(force, 0..onset, onset);
-        let end = (onset..n)
-            .find(|&i| (force[i] - level).abs() > 0.5 * (level - base.mean).abs())
-            .unwrap_or(n);
+        let half = 0.5 * (level - base.mean).abs();
+        let telling = telling(force, onset, half).min(n - onset);
+        let level = mean(&force[onset..(onset + stretch.max(telling)).min(n)]);
+        let sums = sums(&force[onset..]);
+        let over = level - mean(&force[onset..]);
+        let off = |i: usize| (sums[i + telling] - sums[i]) / telling as f64 - over;
+        let end = (0..=n - onset - telling)
+            .find(|&i| off(i).abs() > half)
+            .map_or(n, |i| onset + i);
         if end - onset < FEWEST_AFTER {
             return Err(none("fewer than 30 samples before the force changes again"));
         }
@@ -169,25 +187,130 @@ impl StepResponse {
     }
 }
 
-/// First sample after the first jump that is at least half as high as the highest.
-fn onset(force: &[f64]) -> Option<usize> {
-    let w = FEWEST_BEFORE;
+/// The step of a force, and over how many samples on either side means have to be taken to see it.
+struct Jump {
+    /// First sample at the new force.
+    onset: usize,
+    stretch: usize,
+}
+
+/// The highest jump of a force without a clear one, and how high it would have to be.
+struct Highest {
+    height: f64,
+    needed: f64,
+    stretch: usize,
+}
+
+/// The first jump that is at least half as high as the highest: of the means of 5 samples on either side, and where
+/// that does not rise above the noise of the force, of means over more and more.
+fn jump(force: &[f64]) -> Result<Jump, Highest> {
     let n = force.len();
-    let jump = |k: usize| mean(&force[k..k + w]) - mean(&force[k - w..k]);
-    let jumps: Vec<f64> = (w..=n - w).map(|k| jump(k).abs()).collect();
-    let highest = jumps.iter().copied().fold(0.0, f64::max);
-    let mut steps: Vec<f64> = force.windows(2).map(|f| (f[1] - f[0]).abs()).collect();
-    let middle = steps.len() / 2;
-    let (_, usual, _) = steps.select_nth_unstable_by(middle, f64::total_cmp);
-    if !(highest > CLEAR_STEP * *usual && highest > 0.0) {
-        return None;
+    let sums = sums(force);
+    let mut stretch = FEWEST_BEFORE;
+    let mut faint: Option<Highest> = None;
+    while stretch == FEWEST_BEFORE || stretch <= n / LARGEST_STRETCH {
+        let jumps = jumps(force, &sums, stretch);
+        let height = jumps.iter().copied().fold(0.0, f64::max);
+        // The usual jump is that of the noise, slow noise and ramps included.
+        let mut needed = CLEAR_JUMP * median(jumps.clone());
+        if stretch == FEWEST_BEFORE {
+            needed = needed.max(CLEAR_STEP * usual_difference(force));
+        }
+        if height > needed && height > 0.0 {
+            return Ok(Jump {
+                onset: onset(force, stretch, &jumps, needed.max(0.5 * height)),
+                stretch,
+            });
+        }
+        let nearer = |f: &Highest| height * f.needed > f.height * needed;
+        if faint.as_ref().is_none_or(nearer) {
+            faint = Some(Highest {
+                height,
+                needed,
+                stretch,
+            });
+        }
+        stretch *= 2;
     }
-    let first = jumps.iter().position(|j| *j >= 0.5 * highest)?;
-    let best =
-        (first..(first + 2 * w).min(jumps.len())).max_by(|&a, &b| jumps[a].total_cmp(&jumps[b]))?;
+    Err(faint.expect("one stretch is always tried"))
+}
+
+/// By how much the means of so many samples before and after each sample differ.
+fn jumps(force: &[f64], sums: &[f64], stretch: usize) -> Vec<f64> {
+    let w = stretch;
+    let of = |k: usize| {
+        if w == FEWEST_BEFORE {
+            mean(&force[k..k + w]) - mean(&force[k - w..k])
+        } else {
+            (sums[k + w] - 2.0 * sums[k] + sums[k - w]) / w as f64
+        }
+    };
+    (w..=force.len() - w).map(|k| of(k).abs()).collect()
+}
+
+/// Sums of the samples before each, less the mean of all, so that long means cost no more than short ones.
+fn sums(force: &[f64]) -> Vec<f64> {
+    let level = mean(force);
+    let mut sum = 0.0;
+    let add = |f: &f64| {
+        sum += f - level;
+        sum
+    };
+    std::iter::once(0.0).chain(force.iter().map(add)).collect()
+}
+
+/// Median difference between neighbouring samples.
+fn usual_difference(force: &[f64]) -> f64 {
+    median(force.windows(2).map(|f| (f[1] - f[0]).abs()).collect())
+}
+
+fn median(mut of: Vec<f64>) -> f64 {
+    let middle = of.len() / 2;
+    let (_, median, _) = of.select_nth_unstable_by(middle, f64::total_cmp);
+    *median
+}
+
+/// First sample after the first jump that is at least so high.
+fn onset(force: &[f64], stretch: usize, jumps: &[f64], least: f64) -> usize {
+    let first = jumps.iter().position(|j| *j >= least).unwrap_or(0);
+    let among = first..(first + 2 * stretch).min(jumps.len());
+    let best = among
+        .max_by(|&a, &b| jumps[a].total_cmp(&jumps[b]))
+        .unwrap_or(first);
     // Of several equally high jumps the first is the step.
-    let at = (first..=best).find(|&i| jumps[i] >= jumps[best] * (1.0 - 1e-9))?;
-    Some(at + w)
+    let at = (first..=best)
+        .find(|&i| jumps[i] >= jumps[best] * (1.0 - 1e-9))
+        .unwrap_or(best);
+    let at = at + stretch;
+    if stretch == FEWEST_BEFORE {
+        return at;
+    }
+    // The top of a jump of long means is flat. Where the two levels are, the samples beside it tell: the step is
+    // where the squares about the two means are least.
+    let around = at - stretch..at + stretch;
+    let (mut left, total) = (0.0, force[around.clone()].iter().sum::<f64>());
+    let mut best = (0.0, at);
+    for (k, i) in around.clone().enumerate() {
+        let (before, after) = (k as f64, (2 * stretch - k) as f64);
+        if k > 0 {
+            let apart = left / before - (total - left) / after;
+            let between = apart * apart * before * after;
+            if between > best.0 {
+                best = (between, i);
+            }
+        }
+        left += force[i];
+    }
+    best.1
+}
+
+/// Over how many samples from `onset` on a mean has to be taken so that noise does not move it by `by`.
+fn telling(force: &[f64], onset: usize, by: f64) -> usize {
+    // The median difference of independent normal samples is 0.954 of their deviation.
+    let scatter = deviation(&force[onset.saturating_sub(BLOCK)..onset]);
+    let noise = scatter.max(usual_difference(force) / 0.954);
+    let share = STANDING_OUT * noise / by;
+    (share * share).ceil().clamp(1.0, force.len() as f64) as usize
 }
 
 /// Time and height of the largest displacement, by a parabola through its top.

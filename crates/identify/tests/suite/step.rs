@@ -448,7 +448,7 @@ fn what_is_no_step_is_refused() {
     let good = log(&axis, 0.2, 0.0, 1);
     let n = good.time.len();
     let refused = |samples: &Samples| match StepResponse::read(&run(samples), 0) {
-        Err(Error::NoStep { reason, .. }) => reason,
+        Err(error @ (Error::NoStep { .. } | Error::FaintStep { .. })) => error.to_string(),
         other => panic!("{other:?}"),
     };
     let constant = Samples {
@@ -489,4 +489,71 @@ fn what_is_no_step_is_refused() {
         fit_steps(&[(run(&good), step)], &settings, &mut Silent),
         Err(Error::Setting { name: "static", .. })
     ));
+}
+
+/// Of 6 deviations of the force noise or of 3, a step shows in the means of many samples.
+#[test]
+fn a_step_in_noise_shows_in_means_over_many_samples() {
+    let axis = level_axis(0.3);
+    let clean = log(&axis, 0.2, 0.0, 1);
+    let height = 0.2 * axis.curve.static_friction;
+    for (times, most) in [(6.0, 1), (4.0, 2), (3.0, 4)] {
+        for seed in 1..=5 {
+            let mut random = Noise::new(seed);
+            // Long before it and long after it.
+            let lead = 500;
+            let n = clean.time.len();
+            let mut samples = Samples::default();
+            let position = clean.position.as_ref().unwrap();
+            let step = clean.time[1];
+            let mut places = Vec::new();
+            for k in 0..lead + n + 3000 {
+                let at = k.saturating_sub(lead).min(n - 1);
+                samples.time.push(k as f64 * step);
+                samples
+                    .force
+                    .push(clean.force[at] + height / times * random.normal());
+                places.push(position[at]);
+            }
+            samples.position = Some(places);
+            let found = StepResponse::read(&run(&samples), 0).unwrap();
+            assert!(
+                found.onset.abs_diff(lead + 60) <= most,
+                "{times} {seed}: {}",
+                found.onset
+            );
+            assert_eq!(found.range.end, samples.time.len(), "{times} {seed}");
+            let error = (found.errors[0].powi(2) + found.errors[1].powi(2)).sqrt();
+            let off = (found.height - height).abs();
+            assert!(
+                off < 4.0 * error && off < 0.05 * height,
+                "{times} {seed}: {off}"
+            );
+        }
+    }
+}
+
+/// Noise by itself, white or slow, and a ramp have no step however long the means are.
+#[test]
+fn what_has_no_step_has_none_over_many_samples() {
+    let force = |of: &mut dyn FnMut(usize) -> f64| Samples {
+        time: (0..5000).map(|i| 1e-3 * i as f64).collect(),
+        force: (0..5000).map(of).collect(),
+        position: Some(vec![0.0; 5000]),
+        ..Samples::default()
+    };
+    let faint = |samples: &Samples| {
+        let read = StepResponse::read(&run(samples), 0);
+        assert!(matches!(read, Err(Error::FaintStep { .. })), "{read:?}");
+    };
+    for seed in 1..=10 {
+        let mut random = Noise::new(seed);
+        faint(&force(&mut |_| random.normal()));
+        let mut slow = 0.0;
+        faint(&force(&mut |_| {
+            slow = 0.95 * slow + random.normal();
+            slow
+        }));
+        faint(&force(&mut |i| 1e-3 * i as f64 + random.normal()));
+    }
 }

@@ -27,9 +27,9 @@ pub(super) fn run_of<'a>(source: &'a Source, samples: &'a Samples, axis: &Axis) 
 pub(super) fn refused(sources: &[Source], source: engine::Error) -> Error {
     // The engine knows logs by their number; a message gives the path.
     let one = match &source {
-        engine::Error::NoStep { log, .. } | engine::Error::NoBreakAway { log, .. } => {
-            sources.get(log - 1).map(std::slice::from_ref)
-        }
+        engine::Error::NoStep { log, .. }
+        | engine::Error::FaintStep { log, .. }
+        | engine::Error::NoBreakAway { log, .. } => sources.get(log - 1).map(std::slice::from_ref),
         _ => None,
     };
     let named = one.unwrap_or(sources);
