@@ -16,6 +16,7 @@ use stiction::commands::{
     CompareOptions, Cost, Excitation, FileError, Files, Input, Outcome, Scheme, check_folder,
     check_folder_of, check_inputs, write_atomic,
 };
+use stiction::result::Next;
 use stiction::{
     Axis, Code, CostKind, Error, ExportOptions, LawKind, Method, Options, Procedures, Searching,
     Study, Target, bundle,
@@ -77,6 +78,14 @@ fn next(error: &Error, command: &Command) -> Option<String> {
             axis.collect::<String>()
         ));
     }
+    if let Command::Identify(identify) = command
+        && error.code() == Code::NoStep
+    {
+        return Some(shown(
+            identify,
+            "shows how the force runs, and what else the log is good for",
+        ));
+    }
     let (logs, axis) = match command {
         Command::Check(check) if check.init.is_none() => (&check.logs, &check.axis),
         Command::Identify(identify) => (&identify.logs, &identify.axis),
@@ -120,16 +129,23 @@ fn more_samples(error: &Error, identify: &arguments::Identify) -> Option<String>
     }
     let is_long = losses.logged >= ENOUGH_TO_SIMULATE;
     simulated(identify).filter(|_| is_long).or_else(|| {
-        let mut next = String::from("next: stiction check");
-        for log in &identify.logs {
-            next.push_str(&format!(" {}", typed(log)));
-        }
-        if let Some(axis) = &identify.axis {
-            next.push_str(&format!(" --axis {}", typed(axis)));
-        }
-        next.push_str(" says what the log shows, and what motion to record instead");
-        Some(next)
+        Some(shown(
+            identify,
+            "says what the log shows, and what motion to record instead",
+        ))
     })
+}
+
+/// The command that shows what the logs hold, and what for.
+fn shown(identify: &arguments::Identify, what: &str) -> String {
+    let mut next = String::from("next: stiction check");
+    for log in &identify.logs {
+        next.push_str(&format!(" {}", typed(log)));
+    }
+    if let Some(axis) = &identify.axis {
+        next.push_str(&format!(" --axis {}", typed(axis)));
+    }
+    format!("{next} {what}")
 }
 
 /// The same identification by simulation, which filters nothing and needs fewer samples; for a law that can be simulated.
@@ -404,11 +420,13 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
     } else if !common.quiet {
         let text = stiction::commands::text::outcome(outcome);
         let next = match outcome.result.trust.next {
-            stiction::result::Next::Again => {
+            next @ (Next::Again | Next::Finish) => {
                 let arguments = std::env::args_os().skip(1);
                 let arguments = arguments.map(|a| a.to_string_lossy().into_owned());
-                let command = stiction::commands::text::command(arguments);
-                format!("next: the same again, to the end\n  {command}\n")
+                let kept = arguments.filter(|a| next == Next::Again || a != "--no-finish");
+                let command = stiction::commands::text::command(kept);
+                let why = stiction::commands::text::why(next);
+                format!("next: {why}\n  {command}\n")
             }
             _ => {
                 let is_study = |path: &&PathBuf| path.ends_with("study.toml");

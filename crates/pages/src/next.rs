@@ -6,9 +6,13 @@ use stiction_files::shell::{plain, quoted};
 
 /// What a log that is still to be recorded is called in commands.
 pub(crate) const ANOTHER_LOG: &str = "another.csv";
+/// Rate of a compensator that is exported without a cycle of its own, Hz.
+const USUAL_RATE: f64 = 1000.0;
+/// Difference of two rates, as a part, up to which they are one.
+const SAME_RATE_WITHIN: f64 = 0.01;
 
 /// What the commands are for.
-pub(crate) fn why(next: Next) -> &'static str {
+pub fn why(next: Next) -> &'static str {
     match next {
         Next::Export => {
             "the compensator as C; also st, tcpou, plcopen, rust, mujoco, hal, fmu and tf5200"
@@ -22,6 +26,9 @@ pub(crate) fn why(next: Next) -> &'static str {
             "record another log with the motion that is named above (docs/procedures.md), then"
         }
         Next::Again => "the same again, to the end",
+        Next::Finish => {
+            "the same without --no-finish: least squares after the search give intervals"
+        }
     }
 }
 
@@ -44,7 +51,8 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
         Next::Export => {
             let model = quoted(&dir.join("model.toml").display().to_string());
             let code = quoted(&dir.join("c").display().to_string());
-            format!("stiction export {model} --target c --out {code}")
+            let cycle = cycle(result);
+            format!("stiction export {model} --target c{cycle} --out {code}")
         }
         Next::LetTheDataChoose => format!("stiction identify {log} --out {}", another("auto")),
         Next::IdentifyTheOther => format!("stiction identify {log} --out {}", another("other")),
@@ -68,7 +76,7 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
                 another("again")
             )
         }
-        Next::Again => {
+        Next::Again | Next::Finish => {
             let law = match (result.law_chosen_by.as_str(), result.asymmetric) {
                 ("user", true) => format!(" --law {} --asymmetric", result.law),
                 ("user", false) => format!(" --law {}", result.law),
@@ -81,6 +89,18 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
             format!("stiction identify {log}{law}{method} --out {folder}")
         }
     }
+}
+
+/// The cycle of a controller as fast as the logs, where that is shorter than the usual one.
+fn cycle(result: &ResultFile) -> String {
+    let rate = result.inputs.iter().map(|i| i.rate_hz).fold(0.0, f64::max);
+    if rate.is_nan() || rate <= USUAL_RATE * (1.0 + SAME_RATE_WITHIN) {
+        return String::new();
+    }
+    // Time stamps give a rate with digits that no controller has.
+    let rounded = format!("{:.3e}", 1.0 / rate);
+    let seconds: f64 = rounded.parse().unwrap_or(1.0 / rate);
+    format!(" --cycle-time {seconds}")
 }
 
 /// The command that runs a study of the result in a folder.

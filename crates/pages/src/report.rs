@@ -255,7 +255,7 @@ fn next_step(result: &ResultFile) -> Text {
     let next = result.trust.next;
     let (place, dir) = match next {
         // It was typed with options that a result does not keep.
-        Next::Again => return format!("Next: {}.", next::why(next)).into(),
+        Next::Again | Next::Finish => return format!("Next: {}.", next::why(next)).into(),
         Next::Export => ("In the folder of this report", ""),
         _ => ("In the folder it was identified in", "result"),
     };

@@ -13,7 +13,7 @@ use crate::deviation::Deviation;
 use crate::inputs;
 use crate::names::{chosen_by, force_noise, law_beside, law_of, simulated_runs, without_offset};
 use crate::next;
-pub use crate::next::axis_file;
+pub use crate::next::{axis_file, why};
 use crate::trust::{compensation, constants};
 pub use check::{check, started};
 pub use comparison::comparison;

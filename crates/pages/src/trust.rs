@@ -1,6 +1,6 @@
 //! What a result may be used for, in words that reports and the terminal share.
 
-use stiction_files::result::{Compensation, ResultFile, Trust};
+use stiction_files::result::{Compensation, Next, ResultFile, Trust};
 use stiction_number::{Percent, four_digits as short};
 
 /// How well the law predicts friction, and on which motion that was seen.
@@ -32,6 +32,9 @@ pub(crate) fn compensation(seen: &Compensation, result: &ResultFile) -> String {
 
 /// Which parameters are constants of the machine, each called as its name or its symbol.
 pub(crate) fn constants(trust: &Trust, called: impl Fn(&str) -> String) -> String {
+    if trust.next == Next::Finish {
+        return "none: a search by itself gives no intervals".into();
+    }
     let listed = |names: &[String]| {
         let called: Vec<_> = names.iter().map(|name| called(name)).collect();
         called.join(", ")

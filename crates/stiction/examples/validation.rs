@@ -124,7 +124,8 @@ fn defaults(data: &Path, out: &mut String) {
                 Next::Simulate => "`--method output-error`",
                 Next::Check => "`stiction check`",
                 Next::Record => "another recording",
-                Next::LetTheDataChoose | Next::IdentifyTheOther | Next::Again => "identify again",
+                Next::LetTheDataChoose | Next::IdentifyTheOther | Next::Again | Next::Finish =>
+                    "identify again",
                 Next::AxisFile => "correct the axis file",
             }
         );

@@ -62,4 +62,6 @@ pub enum Next {
     Record,
     /// Give the same command again, and let it end.
     Again,
+    /// Give the same command with the least squares after the search.
+    Finish,
 }

@@ -59,6 +59,33 @@ fn is_simulated(quantity: Quantity) -> bool {
     ) || quantity.is_of_the_steady_curve()
 }
 
+/// The command that identifies the law lugre where a model has another one. A steady curve is kept, and the bristles come
+/// from a log with reversals; of other logs lugre is fitted.
+fn lugre(read: &ReadModel) -> String {
+    let model = &read.model;
+    let file = quoted(&read.file().display().to_string());
+    let out = quoted(&format!("{}-lugre", model.law));
+    if model.source.method == "static" {
+        return format!(
+            "this is the steady curve of one, and a log with reversals gives the rest: stiction identify LOG --axis AXIS.toml \
+             --method static-then-dynamic --model {file} --out {out}"
+        );
+    }
+    let logs: Vec<String> = model
+        .source
+        .inputs
+        .iter()
+        .map(|i| quoted(&i.path))
+        .collect();
+    let logs = match logs.is_empty() {
+        true => "LOG".into(),
+        false => logs.join(" "),
+    };
+    format!(
+        "identify it, with the axis file if there was one: stiction identify {logs} --law lugre --out {out}"
+    )
+}
+
 impl Model {
     /// A known axis by its name.
     pub fn known(name: &str) -> Option<Self> {
@@ -112,8 +139,8 @@ impl Model {
         let kind = match LawKind::from_name(&model.law) {
             Some(kind) if SIMULATED.contains(&kind) => kind,
             _ => {
-                let allowed = "a study simulates lugre and dahl; identify the law lugre";
-                return Err(read.refuse("law", format!("{:?}", model.law), allowed));
+                let allowed = format!("a study simulates lugre and dahl; {}", lugre(&read));
+                return Err(read.refuse("law", format!("{:?}", model.law), &allowed));
             }
         };
         let (motion, force) = match model.kind.as_str() {

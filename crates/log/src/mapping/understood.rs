@@ -47,6 +47,8 @@ fn used(table: &Table, given: &Mapping, part: &Part) -> Understood {
         "named in the axis file"
     } else if names::hint(name).is_some_and(|hint| hint.role == role) {
         "by its name"
+    } else if names::hint_of_axis(name).is_some_and(|hint| hint.role == role) {
+        "by the name of its axis"
     } else {
         "the only column in such a unit"
     };

@@ -25,6 +25,10 @@ pub(super) fn sections(result: &ResultFile) -> String {
         out.push_str(&break_away(
             &result.break_away,
             &unit(&result.axis.force_unit),
+            match result.axis.kind.as_str() {
+                "rotary" => "rad",
+                _ => "m",
+            },
         ));
     }
     out
@@ -158,14 +162,14 @@ fn presliding_step(entry: &PreslidingStepEntry, result: &ResultFile) -> String {
     out
 }
 
-fn break_away(runs: &[BreakAwayEntry], unit: &str) -> String {
+fn break_away(runs: &[BreakAwayEntry], unit: &str, length: &str) -> String {
     let mut rows = vec![vec![
         "break-away".to_string(),
         format!("rate {unit}/s"),
         format!("force {unit}"),
         "friction".into(),
         "predicted".into(),
-        "after".into(),
+        format!("after {length}"),
         String::new(),
     ]];
     for run in runs {

@@ -1,7 +1,7 @@
 //! A study on the terminal.
 
 use super::table::table;
-use crate::report::study::promise::{best, error, lacking, left};
+use crate::report::study::promise::{best, lacking, left, said};
 use crate::report::study::rates::columns;
 use crate::report::study::rows::{judged, kind, less, tabled};
 use crate::report::study::sweep::{groups, label, lines};
@@ -102,9 +102,8 @@ fn promised(file: &StudyFile) -> String {
     for entry in best(file) {
         let _ = writeln!(
             out,
-            "promised: {} reduced to {} with {}: {}, {}",
-            error(entry),
-            left(entry.left90_percent),
+            "{} with {}: {}, {}",
+            said(entry),
             entry.scheme(),
             entry.path,
             entry.controller

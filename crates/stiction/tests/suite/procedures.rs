@@ -504,6 +504,8 @@ fn a_search_alone() {
         asked.searching.evaluations = Some(600);
         let outcome = run(&asked).unwrap();
         let result = &outcome.result;
+        assert_eq!(result.trust.next, stiction::result::Next::Finish);
+        assert!(result.trust.reasons[0].contains("no intervals"), "{cost}");
         let searched = result.searched.as_ref().unwrap();
         assert_eq!(searched.cost, cost);
         let own = searched.own.as_ref().unwrap();

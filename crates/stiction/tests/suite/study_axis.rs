@@ -165,7 +165,7 @@ fn a_slow_current_is_compensated_late() {
     assert!(
         warning
             .message
-            .contains(" 4608 N*s/m, viscous friction with 30:"),
+            .contains(" 4608 N·s/m, viscous friction with 30 N·s/m:"),
         "{warning:?}"
     );
     assert_eq!(file.results.len(), 2);

@@ -174,6 +174,7 @@ impl Evidence<'_> {
 /// A law that was fitted to the force.
 pub(super) fn of_force(evidence: &Evidence, mut warnings: Vec<Warning>) -> Judged {
     let mut reasons = Reasons::default();
+    of_a_search_alone(evidence.law, &mut reasons);
     let compensation = record(evidence, &mut warnings, &mut reasons);
     Judged::new(
         evidence.law,
@@ -187,11 +188,12 @@ pub(super) fn of_force(evidence: &Evidence, mut warnings: Vec<Warning>) -> Judge
 /// The same with static parameters found first.
 pub(super) fn of_two_steps(evidence: &Evidence, mut warnings: Vec<Warning>) -> Judged {
     let mut reasons = Reasons::default();
+    of_a_search_alone(evidence.law, &mut reasons);
     let compensation = record(evidence, &mut warnings, &mut reasons);
     if evidence
         .law
         .parameter("sigma0")
-        .is_some_and(|p| !p.identifiable)
+        .is_some_and(|p| !p.identifiable && p.reason != NO_INTERVAL)
     {
         let text = "sigma0 is not determined, and it is what the second step is for";
         reasons.push(text, Next::Check);
@@ -222,8 +224,16 @@ pub(super) fn of_position(
     }
     let mut fitted = evidence.law.parameters.iter().filter(|p| p.identified);
     if fitted.all(|p| !p.identifiable) {
-        let text = "the position says nothing certain of any parameter; what follows the reference through a stiff controller \
-                    hardly shows the axis";
+        let text = match found.is_closed_loop() {
+            true => {
+                "the position says nothing certain of any parameter; what follows the reference through a stiff controller \
+                 hardly shows the axis"
+            }
+            false => {
+                "the position says nothing certain of any parameter: under the force of these logs many axes would move \
+                 alike; record a motion with reversals over several speeds"
+            }
+        };
         reasons.push(text, Next::Check);
     }
     for (name, one) in unseen {
@@ -257,6 +267,7 @@ pub(super) fn of_static_map(
     mut warnings: Vec<Warning>,
 ) -> Judged {
     let mut reasons = Reasons::default();
+    of_a_search_alone(law, &mut reasons);
     interrupted(law, &mut warnings, &mut reasons);
     saturation(sources, &mut reasons);
     unidentifiable(law, motion, &mut warnings);
@@ -383,6 +394,15 @@ fn slides_freely(law: &FittedLaw, reasons: &mut Reasons, next: Next) {
     let mut levels = levels.filter(|p| p.name.quantity == Quantity::Coulomb);
     if levels.any(|p| p.value.is_nan() || p.value <= 0.0) {
         reasons.push("its Coulomb friction is zero", next);
+    }
+}
+
+/// What a search gives has no intervals: how far it is off nothing says.
+fn of_a_search_alone(law: &FittedLaw, reasons: &mut Reasons) {
+    if law.status != Status::Interrupted && law.parameters.iter().any(|p| p.reason == NO_INTERVAL) {
+        let text =
+            "what a search finds by itself has no intervals: least squares after it were left out";
+        reasons.push(text, Next::Finish);
     }
 }
 

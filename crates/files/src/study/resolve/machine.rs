@@ -122,11 +122,13 @@ pub(super) fn machine(
         .fold(0.0, f64::max);
     let of_motor = drive.gain() * drive.back_emf;
     if of_motor > of_law + viscous.unwrap_or(0.0) {
-        let unit = Dimensions::per(is.force, is.speed).si_text();
+        let unit = Dimensions::per(is.force, is.speed)
+            .si_text()
+            .replace('*', "·");
         model.warnings.push(Warning::new(
             Code::BackEmf,
             format!(
-                "the voltage that motion makes in the motor brakes the axis with {} {unit}, viscous friction with {}: neither the \
+                "the voltage that motion makes in the motor brakes the axis with {} {unit}, viscous friction with {} {unit}: neither the \
                  compensators nor the feedforward know of it, and most of the error that is left may come from it",
                 short(of_motor),
                 short(of_law + viscous.unwrap_or(0.0))

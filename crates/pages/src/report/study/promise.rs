@@ -14,7 +14,22 @@ pub(crate) fn left([least, most]: [f64; 2]) -> String {
     let fine = if most - least < 2.0 { 1 } else { 0 };
     let text = |x: f64| Percent::error(x).decimals(fine).replace('-', "−");
     let (least, most) = (text(least), text(most));
+    if least == most {
+        return most;
+    }
     format!("{}–{most}", least.trim_end_matches(" %"))
+}
+
+/// What an entry promises; where the interval reaches 100 %, nothing.
+pub(crate) fn said(entry: &PromiseEntry) -> String {
+    let (error, left) = (error(entry), left(entry.left90_percent));
+    if entry.left90_percent[0] >= 100.0 {
+        format!("no reduction: {error} at {left} of that without compensation")
+    } else if entry.left90_percent[1] >= 100.0 {
+        format!("no reduction promised: {error} at {left} of that without compensation")
+    } else {
+        format!("promised: {error} reduced to {left}")
+    }
 }
 
 /// The error that a promise is about.
@@ -57,9 +72,11 @@ pub(super) fn blocks(file: &StudyFile) -> Vec<Block> {
         return Vec::new();
     };
     let text = format!(
-        "Promised: {} reduced to {} of that without compensation{} (90 % interval of {} draws).",
-        error(first),
-        left(first.left90_percent),
+        "{}{} (90 % interval of {} draws).",
+        match first.left90_percent[1] >= 100.0 {
+            true => capital(&said(first)),
+            false => format!("{} of that without compensation", capital(&said(first))),
+        },
         match best.len() {
             1 => format!(", with {}", first.scheme()),
             _ => format!(
@@ -88,6 +105,12 @@ pub(super) fn blocks(file: &StudyFile) -> Vec<Block> {
         Block::KeyFigures(figures.collect()),
         Block::from(figure(file)),
     ]
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(char::to_uppercase);
+    first.into_iter().flatten().chain(letters).collect()
 }
 
 fn callout(severity: Severity, text: String) -> Callout {

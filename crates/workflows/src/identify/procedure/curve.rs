@@ -4,15 +4,18 @@ use super::map::{self, Mapped};
 use crate::error::Error;
 use crate::identify::beside::Beside;
 use crate::identify::load::Asked;
-use crate::identify::logs::refused;
+use crate::identify::logs::{paths, refused};
 use crate::source::Source;
+use crate::wording::Setting;
 use stiction_files::ModelFile;
 use stiction_files::Warning;
 use stiction_files::model::ReadModel;
 use stiction_files::result::StaticMapEntry;
 use stiction_friction::Direction;
+use stiction_identify as engine;
 use stiction_identify::procedure::Statics;
 use stiction_identify::{Covariance, Observer, Parameter};
+use stiction_number::four_digits;
 use stiction_parameters::{LawKind, Name, ParameterSet, Quantity, Side};
 use stiction_servo::plant::Plant;
 
@@ -48,8 +51,25 @@ pub(super) fn known(
         warnings,
         interrupted,
     } = map::map(asked, logs, observer)?;
+    let own = beside.statics.is_empty();
     Ok(Known {
-        statics: Statics::from_map(&map).map_err(|e| refused(logs, e))?,
+        statics: Statics::from_map(&map).map_err(|e| match e {
+            engine::Error::Setting { name, found, .. } if own => {
+                let found = format!(
+                    "{}: no steady curve can be read from its constant velocities: {name} would be {}",
+                    paths(logs).join(", "),
+                    four_digits(found)
+                );
+                let allowed = [
+                    "a log of constant velocities for the curve, ".into(),
+                    Setting::Statics.is("LOG"),
+                    ", or a model that has it, ".into(),
+                    Setting::Model.is("MODEL.toml"),
+                ];
+                Error::usage(found, allowed)
+            }
+            e => refused(logs, e),
+        })?,
         from,
         map: Some(entry),
         warnings,

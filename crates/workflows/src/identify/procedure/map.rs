@@ -82,6 +82,9 @@ pub(super) fn map(
         _ => map,
     };
     let mut warnings = warnings(&map, &found, sources, motion);
+    if asked.options.searching.no_finish {
+        warnings.extend(searched.as_ref().and_then(|step| step.warning()));
+    }
     if elsewhere {
         warnings.push(Warning::new(
             Code::NotConverged,

@@ -25,6 +25,8 @@ use stiction_parameters::{Name, Quantity};
 /// Difference of a parameter between the two ways, in standard deviations of the joint fit, above which it is explained:
 /// two, as the 95 % intervals.
 const EXPLAINED_DIFFERENCE: f64 = 2.0;
+/// Standard deviations beyond which their number says nothing more.
+const MOST_DEVIATIONS_WRITTEN: f64 = 100.0;
 /// Part of its residual up to which a fit counts as the same, dimensionless: far above rounding.
 const SAME_ERROR_WITHIN: f64 = 1e-6;
 /// Correlation of two parameters in the joint fit, 0 to 1, from which they are named as hard to tell apart.
@@ -99,6 +101,7 @@ pub(in crate::identify) fn two_step(
     let mut warnings = known.warnings;
     let mut estimate;
     if let Some(step) = step.as_ref().filter(|_| options.searching.no_finish) {
+        warnings.extend(step.warning());
         let of = |quantity: Quantity| {
             let found = step.values.iter().find(|(name, _)| *name == quantity);
             found.map_or(0.0, |(_, value)| *value)
@@ -249,7 +252,11 @@ impl TwoSteps {
                 .iter()
                 .map(|p| {
                     let d = p.difference_in_std.unwrap_or(0.0);
-                    format!("{} by {d:+.1}", symbols::symbol(&p.name))
+                    let by = match d.abs() > MOST_DEVIATIONS_WRITTEN {
+                        true => format!("more than {MOST_DEVIATIONS_WRITTEN}"),
+                        false => format!("{d:+.1}"),
+                    };
+                    format!("{} by {by}", symbols::symbol(&p.name))
                 })
                 .collect();
             out.push(format!(

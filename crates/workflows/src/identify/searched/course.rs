@@ -11,8 +11,12 @@ use stiction_files::Axis;
 use stiction_files::result::{SearchedEntry, SearchedParameter, SearchedPoint};
 use stiction_identify::Observer;
 use stiction_identify::candidates::Candidates;
-use stiction_search::{Best, Finish, Finished, Limits, Plan, Run, Searcher};
+use stiction_number::four_digits;
+use stiction_search::{Best, Bounds, Finish, Finished, Limits, Plan, Run, Searcher};
 
+/// How near an end of its range, as a part of it, an unknown counts as at the end: a search without least squares stops short
+/// of it.
+const AT_AN_END: f64 = 0.02;
 /// Most evaluations of the full record, where the command names none: enough for the genetic algorithms of the
 /// publication to end by themselves on most logs.
 const USUAL_EVALUATIONS: u64 = 20_000;
@@ -36,6 +40,8 @@ pub(super) struct Searched {
     pub entry: SearchedEntry,
     pub point: Vec<f64>,
     pub ended: Ended,
+    /// Unknowns that ended at an end of their range, in words; empty where none did.
+    pub at_ends: Vec<String>,
     /// Why the state could not be kept.
     pub lost: Option<Error>,
 }
@@ -114,6 +120,8 @@ pub(super) fn run<P: Candidates + Sync>(
     };
     let middle = || bounds.at(&vec![0.5; bounds.dimensions()]);
     let ends = bounds.low().iter().zip(bounds.high());
+    let ends_at = |best: &Best| at_ends(&best.point, &bounds, &unknowns);
+    let at_ends = run.best().map(ends_at).unwrap_or_default();
     let entry = SearchedEntry {
         method: course.plan.method.name().into(),
         cost: cost.into(),
@@ -137,6 +145,25 @@ pub(super) fn run<P: Candidates + Sync>(
         entry,
         point: run.best().map_or_else(middle, |best| best.point.clone()),
         ended,
+        at_ends,
         lost,
     })
+}
+
+/// Which unknowns lie at an end of their range, which keeps the search from going on.
+fn at_ends(point: &[f64], bounds: &Bounds, unknowns: &[String]) -> Vec<String> {
+    let ranges = bounds.low().iter().zip(bounds.high());
+    let named = unknowns.iter().zip(point).zip(ranges);
+    named
+        .filter_map(|((name, at), (low, high))| {
+            let near = AT_AN_END * (high - low);
+            let (which, end) = match (at - low <= near, high - at <= near) {
+                (true, _) => ("lower", low),
+                (_, true) => ("upper", high),
+                _ => return None,
+            };
+            let end = four_digits(libm::exp(*end));
+            Some(format!("{name} at the {which} end, {end}"))
+        })
+        .collect()
 }

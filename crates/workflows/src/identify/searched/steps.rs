@@ -9,6 +9,8 @@ use crate::identify::load::Asked;
 use crate::identify::logs::refused;
 use crate::source::Source;
 use libm::exp;
+use stiction_codes::Code;
+use stiction_files::Warning;
 use stiction_files::result::SearchedEntry;
 use stiction_identify::candidates::{
     Candidates, Curve, Dynamic, Scheme, SixParameters, box_of_curve, box_of_six,
@@ -24,6 +26,22 @@ pub(in crate::identify) struct Step {
     /// What the search found, by name, SI; where least squares are left out, the answer.
     pub values: Vec<(Name, f64)>,
     pub interrupted: bool,
+    /// Unknowns at an end of their range, in words.
+    at_ends: Vec<String>,
+}
+
+impl Step {
+    /// Says which unknowns the box of the search keeps from going on.
+    pub fn warning(&self) -> Option<Warning> {
+        let all = self.at_ends.join(", ");
+        (!all.is_empty()).then(|| {
+            let text = format!(
+                "the search ended with {all} of its range (SI): it may have gone on beyond; widen the range in [search.box] of \
+                 the axis file"
+            );
+            Warning::new(Code::NotConverged, text)
+        })
+    }
 }
 
 /// The search that the steps are to make; `None` where least squares alone are asked for.
@@ -81,6 +99,7 @@ pub(in crate::identify) fn curve(
         near: near.map(|genes| exp(genes[3])).collect(),
         values: problem.parameters(&found.point),
         interrupted: found.ended == Ended::Interrupted,
+        at_ends: found.at_ends,
         entry: found.entry,
     }))
 }
@@ -119,6 +138,7 @@ pub(in crate::identify) fn dynamic(
         near: vec![found.point[0] - coulomb],
         values: problem.parameters(&found.point),
         interrupted: found.ended == Ended::Interrupted,
+        at_ends: found.at_ends,
         entry: found.entry,
     }))
 }
