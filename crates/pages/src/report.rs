@@ -22,6 +22,7 @@ use crate::trust::{compensation, constants};
 use std::path::Path;
 use stiction_files::compare_file::CompareFile;
 use stiction_files::result::{Input, Next, ResultFile};
+use stiction_identify::Divided;
 use stiction_number::Percent;
 use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
 use stiction_workflows::identify::Outcome;
@@ -334,11 +335,19 @@ fn sureness(outcome: &Outcome) -> String {
     };
     let left = match &outcome.result.misfit {
         None => String::new(),
-        Some(misfit) => format!(
-            ": {} of the residual comes back with {}, and the intervals count that",
-            Percent::error(misfit.share_percent).digits(2),
-            misfit.by.replace("level over", "levels of friction over")
-        ),
+        Some(misfit) => {
+            let after = misfit.by == Divided::AfterReversals.name();
+            format!(
+                ": {} of the residual {} {}, and the intervals count that",
+                Percent::error(misfit.share_percent).digits(2),
+                if after {
+                    "is more on"
+                } else {
+                    "comes back with"
+                },
+                misfit.by.replace("level over", "levels of friction over")
+            )
+        }
     };
     format!(
         "The residual is worth about {} independent samples of {}: {resembles}. What is left outside the \

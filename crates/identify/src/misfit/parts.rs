@@ -66,7 +66,7 @@ impl Divided {
             Divided::Acceleration => "acceleration",
             Divided::TravelAndSpeed => "travel since the last reversal and velocity",
             Divided::TravelAndPosition => "travel since the last reversal and position",
-            Divided::AfterReversals => "travel after each reversal",
+            Divided::AfterReversals => "the way after a reversal",
         }
     }
 

@@ -202,7 +202,7 @@ pub(super) fn shows(log: &Log, motion: &Motion, mass: Mass) -> Vec<Shows> {
             "doubtful",
             format!(
                 "the axis stands still in {} of the samples; on simulated axes that dwell between moves, intervals of σ₀, σ₁ and vs \
-                 are 2 to 13 times as wide as on a log of the same length that never rests",
+                 are 3 to 18 times as wide as on a log of the same length that never rests",
                 percent(m.still)
             ),
             "the same stroke without dwells: sines from slow to fast one after the other, some so slow that the axis creeps \

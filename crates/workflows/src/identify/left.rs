@@ -3,7 +3,7 @@
 use stiction_codes::Code;
 use stiction_files::result::MisfitEntry;
 use stiction_files::{Warning, symbols};
-use stiction_identify::{Cause, FittedLaw, Misfit};
+use stiction_identify::{Cause, Divided, FittedLaw, Misfit};
 use stiction_log::Log;
 use stiction_number::{Percent, four_digits};
 
@@ -77,9 +77,12 @@ fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String 
             format!("a force repeats with the position: {left}{line}. {counted}")
         }
         Cause::Shape => format!(
-            "friction or inertia has another shape than this law: {left} comes back with speed and travel after each \
-                 reversal. {counted}, and what describes that shape is no constant of the machine. Compare the laws \
-                 maxwell-slip and elasto-plastic; a resonance, backlash, or a force logged late look alike"
+            "friction or inertia has another shape than this law: {left} {}. {counted}, and what describes that shape is no constant of the machine. Compare the laws \
+                 maxwell-slip and elasto-plastic; a resonance, backlash, or a force logged late look alike",
+            match misfit.by {
+                Divided::AfterReversals => "lies after reversals, beyond what is left elsewhere",
+                _ => "comes back with speed and travel after each reversal",
+            }
         ),
     }
 }
