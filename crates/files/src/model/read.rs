@@ -369,42 +369,67 @@ fn covariance(table: &Table<'_>) -> Result<CovarianceEntry, Error> {
     Ok(covariance)
 }
 
+/// Most forces after a reversal that a law leaves.
+const MOST_SHAPES: usize = 16;
+
 /// What the law leaves: sizes that are not negative, lengths and times above 0.
 fn remaining(table: &Table<'_>) -> Result<RemainingEntry, Error> {
-    let size = |table: &Table<'_>, key: &'static str| at_least(table, key, false);
-    let length = |table: &Table<'_>, key: &'static str| at_least(table, key, true);
-    let shapes = list(table, "shapes", "a list of forces after a reversal")?;
+    let allowed = "a list of at most 16 forces after a reversal";
+    let shapes = list(table, "shapes", allowed)?;
+    if shapes.len() > MOST_SHAPES
+        && let Some(given) = table.get("shapes")
+    {
+        return Err(given.refused(allowed));
+    }
     let remaining = RemainingEntry {
-        level: size(table, "level")?,
+        level: part(table, "level")?,
         shapes: each(&shapes, |table| {
-            let (short, long) = (length(table, "short")?, length(table, "long")?);
             let shape = ShapeEntry {
                 force: size(table, "force")?,
-                short,
-                long,
+                short: extent(table, "short")?,
+                long: extent(table, "long")?,
             };
+            if shape.short >= shape.long
+                && let Some(long) = table.get("long")
+            {
+                return Err(long.refused("a length above that of `short`"));
+            }
             table.end()?;
             Ok(shape)
         })?,
         place: size(table, "place")?,
-        place_length: length(table, "place_length")?,
+        place_length: extent(table, "place_length")?,
         wandering: size(table, "wandering")?,
-        memory: length(table, "memory")?,
+        memory: extent(table, "memory")?,
     };
     table.end()?;
     Ok(remaining)
 }
 
-/// A finite number from 0, or above 0.
-fn at_least(table: &Table<'_>, key: &'static str, above: bool) -> Result<f64, Error> {
-    let (given, allowed) = match above {
-        true => (table.get(key), "a number above 0"),
-        false => (table.get(key), "a number from 0"),
-    };
-    let given = table.required(key, given, allowed)?;
+/// A part of a level.
+fn part(table: &Table<'_>, key: &'static str) -> Result<f64, Error> {
+    within(table, key, 0.0..=100.0, "a number from 0 to 100")
+}
+
+/// A force.
+fn size(table: &Table<'_>, key: &'static str) -> Result<f64, Error> {
+    within(table, key, 0.0..=1e15, "a number from 0 to 1e15")
+}
+
+/// A length or a time.
+fn extent(table: &Table<'_>, key: &'static str) -> Result<f64, Error> {
+    within(table, key, 1e-12..=1e12, "a number from 1e-12 to 1e12")
+}
+
+fn within(
+    table: &Table<'_>,
+    key: &'static str,
+    range: std::ops::RangeInclusive<f64>,
+    allowed: &str,
+) -> Result<f64, Error> {
+    let given = table.required(key, table.get(key), allowed)?;
     let value = number(&given)?;
-    let fits = value.is_finite() && (value > 0.0 || value == 0.0 && !above);
-    match fits {
+    match range.contains(&value) {
         true => Ok(value),
         false => Err(given.refused(allowed)),
     }

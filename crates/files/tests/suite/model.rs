@@ -277,3 +277,28 @@ fn everything_wrong_is_said_at_once() {
     let _ = writeln!(said, "{}", refusal(""));
     insta::assert_snapshot!(said);
 }
+
+/// What a law leaves is drawn from: a shape turned round or a length of nothing would draw something else in silence.
+#[test]
+fn what_a_law_leaves_has_limits() {
+    let shape = "{ force = 1.0, short = 1e-6, long = 1e-5 }";
+    let remaining = |level: &str, shapes: &str, length: &str| {
+        format!(
+            "{GOOD}\n[remaining]\nlevel = {level}\nshapes = [{shapes}]\nplace = 0.1\nplace_length = {length}\nwandering = \
+             0.1\nmemory = 0.5\n"
+        )
+    };
+    let good = remaining("0.05", shape, "0.01");
+    ModelFile::parse(&good).unwrap();
+    let turned = "{ force = 1.0, short = 1e-5, long = 1e-6 }";
+    let many = [shape; 17].join(", ");
+    for (text, place) in [
+        (remaining("1e6", shape, "0.01"), "remaining.level"),
+        (remaining("0.05", turned, "0.01"), "long"),
+        (remaining("0.05", &many, "0.01"), "remaining.shapes"),
+        (remaining("0.05", shape, "1e-300"), "remaining.place_length"),
+    ] {
+        let message = refusal(&text);
+        assert!(message.contains(place), "{message}");
+    }
+}
