@@ -375,7 +375,7 @@ pub struct LawEntry {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub without: Vec<String>,
     /// Whether its Stribeck exponent is fitted; absent where it is assumed or given.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub exponent_fitted: bool,
     /// Whether a constant force is fitted beside it.
     #[serde(default)]
@@ -416,10 +416,6 @@ pub struct LawEntry {
     /// Whether it is the law of the result.
     #[serde(default)]
     pub reported: bool,
-}
-
-fn is_false(x: &bool) -> bool {
-    !x
 }
 
 /// One number of elements of a Maxwell-slip law.

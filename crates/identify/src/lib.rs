@@ -53,6 +53,8 @@
 //! Nothing here prints, sleeps or reads a clock; an [`Observer`] sees progress and may stop a run.
 
 mod agreement;
+#[cfg(test)]
+mod answered;
 pub mod candidates;
 mod choice;
 mod conditioning;
@@ -75,6 +77,7 @@ mod reaction;
 mod refit;
 mod replica;
 mod separable;
+mod shifts;
 mod state_space;
 mod student;
 mod tune;
@@ -117,7 +120,7 @@ pub use separable::optimum::Optimum;
 pub use separable::search_box::SearchBox;
 pub use separable::separable;
 pub use separable::settings::Settings;
-pub use state_space::rests_much;
+pub use state_space::{MUCH_REST, rests_much};
 pub use stiction_parameters::{
     Dimension, LawKind, Name, ParameterSet, Quantity, Side, SteadyCurve,
 };

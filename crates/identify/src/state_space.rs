@@ -24,8 +24,8 @@ use crate::estimate::Estimate;
 use crate::law::LawKind;
 use crate::watch::Watch;
 
-/// Part of the samples at rest from which the counts are asked.
-const MUCH_REST: f64 = 0.15;
+/// Part of the samples at rest from which the counts are asked, dimensionless.
+pub const MUCH_REST: f64 = 0.15;
 
 /// What the counts of a log say of a fit.
 pub(crate) enum Counts {

@@ -16,21 +16,14 @@ use crate::parameter::physical::Physical;
 use crate::refit::{Asked, Refit, force_noise, refitted};
 use crate::replica::{Axis, Replica};
 use crate::separable::logs::Logs;
+use crate::shifts::{REPLICA_COUNT, SHIFT_DOUBT, Shifts, TEN_REPLICAS_FACTOR, as_found, between};
 use crate::watch::Watch;
 use stiction_search::Control;
 
-/// Replicas that the shift is averaged over (decision 0014).
-const REPLICA_COUNT: u64 = 10;
 /// First seed of these replicas; they differ from those that the cut-offs were chosen on.
 const FIRST_SEED: u64 = 1000;
-/// Factor by which a variance from ten replicas is enlarged because they are few: the square of Student's
-/// 97.5 % quantile of 9 degrees of freedom over the normal one.
-const TEN_REPLICAS_FACTOR: f64 = 1.332;
 /// Seeds of the replicas of replicas begin here.
 const FIRST_SECOND_SEED: u64 = 2000;
-/// Part of the shift that counts as one standard deviation of its own error: on simulated closed loops
-/// the replicas show the shift to about a tenth of its value.
-const SHIFT_DOUBT: f64 = 0.1;
 
 /// Shift of each parameter, SI, and how the fits of the replicas scatter.
 #[derive(Clone, Debug)]
@@ -110,7 +103,8 @@ pub(super) fn shift(
         // A replica that cannot be simulated is left out. Of a replica of a replica only the shift is asked for, and to
         // first order.
         if let Ok(again) = condition(&replica.logs, &conditioning)
-            && let next = found.as_fitted(fitted, &replica)
+            && let refit = &found.refit
+            && let next = as_found(fitted, &replica, (&refit.p, &refit.c), &found.parameters)
             && let Some(axis) = Axis::of(&again, &next)
             && let Some((next, _)) = once(
                 &again,
@@ -137,32 +131,6 @@ pub(super) fn shift(
     })
 }
 
-/// Shifts of all parameters, replica by replica.
-#[derive(Default)]
-struct Shifts(Vec<Vec<f64>>);
-
-impl Shifts {
-    fn mean(&self, i: usize) -> f64 {
-        self.0.iter().map(|s| s[i]).sum::<f64>() / self.0.len() as f64
-    }
-
-    /// Variance from one replica to the next.
-    fn variance(&self, i: usize) -> f64 {
-        let mean = self.mean(i);
-        let spread: f64 = self.0.iter().map(|s| (s[i] - mean).powi(2)).sum();
-        spread / (self.0.len() as f64 - 1.0)
-    }
-
-    /// Square of the difference of the means, less the part that chance explains.
-    fn change(&self, other: &Self, i: usize) -> f64 {
-        let difference = self.mean(i) - other.mean(i);
-        let chance =
-            self.variance(i) / self.0.len() as f64 + other.variance(i) / other.0.len() as f64;
-        // NaN with fewer than two replicas; `max` then gives zero.
-        (difference * difference - chance).max(0.0)
-    }
-}
-
 /// Whether to go on: `None` if the observer stops it.
 fn asked(watch: &mut Watch) -> Option<()> {
     (watch.report(f64::INFINITY) == Control::Continue).then_some(())
@@ -173,27 +141,6 @@ struct Found {
     refit: Refit,
     parameters: Vec<Physical>,
     shift: Vec<f64>,
-}
-
-impl Found {
-    /// The estimate with the results of this replica in place of the original ones.
-    fn as_fitted(&self, fitted: &Estimate, replica: &Replica) -> Estimate {
-        let mut out = fitted.clone();
-        out.p.clone_from(&self.refit.p);
-        out.coefficients.clone_from(&self.refit.c);
-        out.fitted.terms = replica.terms.clone();
-        for p in &self.parameters {
-            if let Some(own) = out
-                .fitted
-                .parameters
-                .iter_mut()
-                .find(|own| own.name == p.name)
-            {
-                own.value = p.value;
-            }
-        }
-        out
-    }
 }
 
 /// Makes one replica and fits it.
@@ -218,20 +165,10 @@ fn once(
     )?;
     let truth = at(&replica.p, fitted.coefficients());
     let parameters = at(&refit.p, &refit.c);
-    let shift = truth.iter().zip(&parameters).map(|(a, b)| step(a, b));
     let found = Found {
-        shift: shift.collect(),
+        shift: between(&truth, &parameters),
         parameters,
         refit,
     };
     Some((found, replica))
-}
-
-/// Difference of two values; of their logarithms where both are positive by nature.
-fn step(from: &Physical, to: &Physical) -> f64 {
-    if from.is_positive() && from.value > 0.0 && to.value > 0.0 {
-        from.value * libm::log(to.value / from.value)
-    } else {
-        to.value - from.value
-    }
 }

@@ -11,24 +11,16 @@ use crate::conditioning::{Conditioning, condition, condition_as};
 use crate::estimate::Estimate;
 use crate::law::physical::physical;
 use crate::parameter::Parameter;
-use crate::parameter::physical::Physical;
 use crate::refit::force_noise;
 use crate::replica::{Axis, Replica};
+use crate::shifts::{REPLICA_COUNT, SHIFT_DOUBT, Shifts, TEN_REPLICAS_FACTOR, as_found, between};
 use crate::watch::Watch;
 use stiction_search::{Control, Observer, Stage};
 
-/// Replicas that the shift is averaged over.
-const REPLICA_COUNT: u64 = 10;
 /// First seed of them.
 const FIRST_SEED: u64 = 3000;
 /// First seed of the replicas of replicas.
 const FIRST_SECOND_SEED: u64 = 4000;
-/// Factor by which a variance from ten replicas is enlarged because they are few: the square of Student's 97.5 % quantile of
-/// 9 degrees of freedom over the normal one.
-const TEN_REPLICAS_FACTOR: f64 = 1.332;
-/// Part of the shift that counts as one standard deviation of its own error.
-const SHIFT_DOUBT: f64 = 0.1;
-
 /// Takes what the conditioning adds to the parameters that were fitted beside the curve off them, and counts in their
 /// intervals what is not known of it. Leaves the estimate as it is where that cannot be measured: the motion does not come from
 /// a position, the axis cannot be simulated, or the observer stops it.
@@ -61,18 +53,14 @@ pub fn dynamic_conditioned(
         if is_held || parameter.std.is_none() {
             continue;
         }
-        let n = first.len() as f64;
-        let (bias, scatter) = moments(&first, i);
-        let (again, scatter_again) = moments(&second, i);
-        // By how much the shift is another one elsewhere, less what chance explains (an iterated bootstrap: Hall 1992, doi
-        // 10.1007/978-1-4612-4384-7, section 1.4); NaN with fewer than two replicas, of which `max` makes zero.
-        let chance = scatter / n + scatter_again / second.len() as f64;
-        let change = ((again - bias).powi(2) - chance).max(0.0);
+        let (bias, scatter) = (first.mean(i), first.variance(i));
         let stated = fitted.covariance.matrix[place][place];
         // What the residual states may be less than what replicas scatter by, since encoder steps repeat with the motion.
         let doubt = SHIFT_DOUBT * bias;
-        let variance =
-            stated.max(TEN_REPLICAS_FACTOR * scatter) + scatter / n + doubt * doubt + change;
+        let variance = stated.max(TEN_REPLICAS_FACTOR * scatter)
+            + scatter / first.count()
+            + doubt * doubt
+            + second.change(&first, i);
         let widen = (variance / stated).sqrt();
         if !widen.is_finite() {
             continue;
@@ -90,11 +78,11 @@ fn shifts(
     statics: &Statics,
     fitted: &Estimate,
     watch: &mut Watch,
-) -> Option<[Vec<Vec<f64>>; 2]> {
+) -> Option<[Shifts; 2]> {
     let conditioning = record.conditioning?;
     let axis = Axis::of(record, fitted)?;
     let noise = force_noise(record, &axis, &conditioning, fitted, &mut watch.counts)?;
-    let [mut first, mut second] = [Vec::new(), Vec::new()];
+    let [mut first, mut second] = [Shifts::default(), Shifts::default()];
     for i in 0..REPLICA_COUNT {
         let replica = axis.replica(noise, FIRST_SEED + i)?;
         let found = once(&replica, &conditioning, statics, fitted, watch)?;
@@ -104,9 +92,9 @@ fn shifts(
             && let Some(next) = axis.replica(noise, FIRST_SECOND_SEED + i)
             && let Some(next) = once(&next, &conditioning, statics, &found.estimate, watch)
         {
-            second.push(next.shift);
+            second.0.push(next.shift);
         }
-        first.push(found.shift);
+        first.0.push(found.shift);
         watch.fraction = (i + 1) as f64 / REPLICA_COUNT as f64;
         if watch.report(f64::INFINITY) == Control::Stop {
             return None;
@@ -138,32 +126,8 @@ fn once(
     let at = |p: &[f64], c: &[f64]| physical(&fitted.law, &linear, record.step(), p, c);
     let truth = at(&replica.p, fitted.coefficients());
     let found = at(&p, &c);
-    let shift = truth.iter().zip(&found).map(|(a, b)| step(a, b)).collect();
-    let mut estimate = fitted.clone();
-    (estimate.p, estimate.coefficients) = (p, c);
-    estimate.fitted.terms = replica.terms.clone();
-    for value in &found {
-        let mut own = estimate.fitted.parameters.iter_mut();
-        if let Some(own) = own.find(|own| own.name == value.name) {
-            own.value = value.value;
-        }
-    }
-    Some(Found { shift, estimate })
-}
-
-/// Mean of one parameter's shifts, and their variance.
-fn moments(shifts: &[Vec<f64>], i: usize) -> (f64, f64) {
-    let n = shifts.len() as f64;
-    let mean = shifts.iter().map(|s| s[i]).sum::<f64>() / n;
-    let spread: f64 = shifts.iter().map(|s| (s[i] - mean).powi(2)).sum();
-    (mean, spread / (n - 1.0))
-}
-
-/// Difference of two values; of their logarithms where both are positive by nature.
-fn step(from: &Physical, to: &Physical) -> f64 {
-    if from.is_positive() && from.value > 0.0 && to.value > 0.0 {
-        from.value * libm::log(to.value / from.value)
-    } else {
-        to.value - from.value
-    }
+    Some(Found {
+        shift: between(&truth, &found),
+        estimate: as_found(fitted, replica, (&p, &c), &found),
+    })
 }

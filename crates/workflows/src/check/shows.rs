@@ -6,7 +6,7 @@
 use super::motion::Motion;
 use serde::Serialize;
 use stiction_files::symbols;
-use stiction_identify::Mass;
+use stiction_identify::{MUCH_REST, Mass};
 use stiction_log::{Log, Motion as Kind};
 use stiction_number::{Percent, counted, four_digits as short};
 
@@ -29,8 +29,6 @@ const SAMPLES_FOR_DAMPING: f64 = 20.0;
 const ACCELERATION: f64 = 5.0;
 /// Least angle over which sin q and cos q are neither constant nor a straight line, rad.
 const ANGLE_FOR_GRAVITY: f64 = 1.0;
-/// Share of the samples at rest from which it is said what rests cost: from there the counts of the encoder are asked.
-const MUCH_REST: f64 = 0.15;
 /// Least ratio of the share of samples of the rarer direction to that of the other for levels of their own.
 const BALANCED: f64 = 0.3;
 

@@ -18,9 +18,7 @@ pub(super) const EXPORTED: [LawKind; 4] = [
     LawKind::LuGre,
 ];
 
-/// Stribeck exponent of the curve that is assumed, dimensionless.
-const GAUSSIAN: f64 = 2.0;
-/// Distance of a fitted exponent from it, of logarithms, that filters and encoder may have made: on simulated axes up to 0.14
+/// Distance of a fitted exponent from the one assumed, of logarithms, that filters and encoder may have made: on simulated axes up to 0.14
 /// (decision 0064).
 const SHIFTED: f64 = 0.22;
 /// The same in standard deviations.
@@ -140,7 +138,7 @@ pub(super) fn auto(
         && let Some(next) = shaped(&climb, ladder)
         && let Ok((estimate, optimum)) = ladder.fit(&next, settings, observer)
     {
-        match shape(&estimate) {
+        match shape(&estimate, base.exponent) {
             Shape::AsAssumed => {}
             Shape::Unknown => unsure = Some(estimate),
             Shape::Another => {
@@ -294,19 +292,22 @@ fn shaped<'a>(climb: &Climb, ladder: &'a Ladder) -> Option<Candidate<'a>> {
 
 /// What a fitted exponent says of the curve that is assumed.
 enum Shape {
+    /// It is of that shape, or not surely of another.
     AsAssumed,
+    /// It is not.
     Another,
+    /// The data do not determine the exponent.
     Unknown,
 }
 
-fn shape(fitted: &Estimate) -> Shape {
+fn shape(fitted: &Estimate, assumed: f64) -> Shape {
     let Some(p) = fitted.parameter(Quantity::StribeckExponent) else {
         return Shape::AsAssumed;
     };
     if !p.identifiable {
         return Shape::Unknown;
     }
-    let off = libm::log(p.value / GAUSSIAN).abs();
+    let off = libm::log(p.value / assumed).abs();
     let sure = p.std.is_some_and(|std| off > SURELY * std / p.value);
     match off > SHIFTED && sure {
         true => Shape::Another,
