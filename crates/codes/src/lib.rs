@@ -128,6 +128,7 @@ codes! {
     NotInStudy = "not-in-study": "the model has terms that a study does not simulate",
     BackEmf = "back-emf": "the voltage that a motor makes brakes the axis more than its friction grows with speed",
     LateEvent = "late-event": "an event of a study comes after the end of a motion",
+    LoadNotLearnt = "load-not-learnt": "a load estimate of a study had too little acceleration to learn from",
     NotRun = "not-run": "a combination of a study could not be run",
     NotExported = "not-exported": "the target cannot express the model",
     ExportUntrusted = "export-untrusted": "the identification found that the law should not be used to compensate",

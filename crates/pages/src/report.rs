@@ -183,11 +183,13 @@ fn how_sure(document: Document, outcome: &Outcome) -> Document {
     if let Some(left) = figures::left(outcome) {
         document = document.block(left);
     }
+    let mut side_by_side = vec![figures::autocorrelation(outcome).into()];
+    // A single evaluation does not converge.
+    if outcome.law().history.len() > 1 {
+        side_by_side.push(figures::convergence(outcome).into());
+    }
     document
-        .block(Block::Columns(vec![
-            figures::autocorrelation(outcome).into(),
-            figures::convergence(outcome).into(),
-        ]))
+        .block(Block::Columns(side_by_side))
         .block(figures::correlation(outcome))
 }
 

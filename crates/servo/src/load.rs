@@ -51,6 +51,8 @@ pub struct LoadEstimator {
     /// The two latest positions, m (rad), the newer first, once there are any.
     positions: Option<[f64; 2]>,
     seen: u32,
+    /// Samples that were learnt from.
+    learnt: u32,
     deflection: f64,
     /// Mean friction and drive force over the period before.
     friction: f64,
@@ -113,6 +115,7 @@ impl LoadEstimator {
             load: Load { mass, level: 1.0 },
             positions: None,
             seen: 0,
+            learnt: 0,
             deflection: 0.0,
             friction: 0.0,
             force: 0.0,
@@ -126,6 +129,11 @@ impl LoadEstimator {
     /// The present estimate.
     pub fn load(&self) -> Load {
         self.load
+    }
+
+    /// How long it has learnt, s: the time with an acceleration above the least.
+    pub fn learning_time(&self) -> f64 {
+        f64::from(self.learnt) / self.rate
     }
 
     /// Takes a sample: the measured position, m (rad), and the force commanded at it, N (N m). Samples that are not finite
@@ -172,6 +180,7 @@ impl LoadEstimator {
         if a.abs() < self.settings.least_acceleration {
             return;
         }
+        self.learnt = self.learnt.saturating_add(1);
         let p = self.covariance;
         let pa = [p[0][0] * a + p[0][1] * f, p[1][0] * a + p[1][1] * f];
         let fade = self.fade;

@@ -13,6 +13,11 @@ use stiction_files::study::{Started, results};
 use stiction_number::quantity;
 use stiction_workflows::study::StudyOutcome;
 
+/// Rows of a study up to which all are shown; of more, the best of each path and controller.
+const MOST_ROWS: usize = 40;
+/// The same of the promises.
+const MOST_PROMISES: usize = 12;
+
 /// What a study file was begun with, and what to type next.
 pub fn started_study(started: &Started, file: &Path) -> String {
     let mut out = format!("{} written\n", file.display());
@@ -42,24 +47,24 @@ pub fn study(outcome: &StudyOutcome) -> String {
     out.push_str(&promised(file));
     let same = |a: &ResultRow, b: &ResultRow| (&a.path, &a.controller) == (&b.path, &b.controller);
     let results = tabled(&file.results);
-    for rows in results.chunk_by(same) {
-        let _ = writeln!(out, "\n{}, {}", rows[0].path, rows[0].controller);
-        let header = [
-            "compensator",
-            "parameters",
-            "rms",
-            "largest",
-            "at reversals",
-            "less",
-            "worst",
-            "",
-        ];
-        let mut lines = vec![header.map(String::from).to_vec()];
-        lines.extend(rows.iter().map(line));
-        let right = [false, false, true, true, true, true, true, false];
-        let (lines, right) = filled(&lines, &right);
-        out.push_str(&table(&lines, &right));
-        out.push_str(&speeds(rows));
+    if results.len() > MOST_ROWS {
+        let best = results.chunk_by(same).flat_map(bare_and_best);
+        let lines =
+            best.map(|row| [vec![row.path.clone(), row.controller.clone()], line(row)].concat());
+        let header = ["path", "controller"].iter().chain(&HEADER);
+        out.push('\n');
+        out.push_str(&rows_table(header, lines, 2));
+        let _ = writeln!(
+            out,
+            "\nwithout compensation and with the best of each path and controller; all {} rows: report.html, study.json",
+            results.len()
+        );
+    } else {
+        for rows in results.chunk_by(same) {
+            let _ = writeln!(out, "\n{}, {}", rows[0].path, rows[0].controller);
+            out.push_str(&rows_table(HEADER.iter(), rows.iter().map(line), 0));
+            out.push_str(&speeds(rows));
+        }
     }
     for sweep in &file.sweeps {
         for rows in groups(sweep) {
@@ -90,6 +95,42 @@ pub fn study(outcome: &StudyOutcome) -> String {
     out
 }
 
+/// The columns of a row.
+const HEADER: [&str; 8] = [
+    "compensator",
+    "parameters",
+    "rms",
+    "largest",
+    "at reversals",
+    "less",
+    "worst",
+    "",
+];
+
+/// A table of rows, with `names` more columns of text before the compensator.
+fn rows_table<'a>(
+    header: impl Iterator<Item = &'a &'a str>,
+    lines: impl Iterator<Item = Vec<String>>,
+    names: usize,
+) -> String {
+    let mut all = vec![header.map(|s| s.to_string()).collect::<Vec<_>>()];
+    all.extend(lines);
+    let last = all[0].len() - 1;
+    let right: Vec<bool> = (0..=last).map(|c| c >= names + 2 && c < last).collect();
+    let (lines, right) = filled(&all, &right);
+    table(&lines, &right)
+}
+
+/// Of the rows of a path under a controller those of the axis as modelled without compensation and with the smallest error.
+fn bare_and_best(rows: &[ResultRow]) -> impl Iterator<Item = &ResultRow> {
+    let exact = || rows.iter().filter(|row| row.parameters == "exact");
+    let bare = exact().find(|row| row.compensator == "none" && !row.coupled);
+    let left = |row: &&ResultRow| judged(row).map_or(f64::INFINITY, |m| m.mean);
+    let best = exact().min_by(|a, b| left(a).total_cmp(&left(b)));
+    let best = best.filter(|best| bare.is_none_or(|bare| !std::ptr::eq(*best, bare)));
+    bare.into_iter().chain(best)
+}
+
 /// What compensation is promised to leave, before everything else.
 fn promised(file: &StudyFile) -> String {
     if let Some(reason) = &file.not_promised {
@@ -99,7 +140,8 @@ fn promised(file: &StudyFile) -> String {
         return String::new();
     };
     let mut out = String::from("\n");
-    for entry in best(file) {
+    let best = best(file);
+    for entry in best.iter().take(MOST_PROMISES) {
         let _ = writeln!(
             out,
             "{} with {}: {}, {}",
@@ -119,7 +161,12 @@ fn promised(file: &StudyFile) -> String {
             .map(String::from)
             .to_vec(),
     ];
-    lines.extend(file.promise.iter().map(|entry| {
+    let many = file.promise.len() > MOST_PROMISES;
+    let shown = match many {
+        true => best,
+        false => file.promise.iter().collect(),
+    };
+    lines.extend(shown.iter().map(|entry| {
         vec![
             entry.path.clone(),
             entry.controller.clone(),
@@ -127,7 +174,15 @@ fn promised(file: &StudyFile) -> String {
             left(entry.left90_percent),
         ]
     }));
-    out + &table(&lines, &[false, false, false, true])
+    out += &table(&lines, &[false, false, false, true]);
+    if many {
+        let all = file.promise.len();
+        let _ = writeln!(
+            out,
+            "\nthe best of each path and controller; all {all} intervals: report.html"
+        );
+    }
+    out
 }
 
 /// What is said of speed and standing still; nothing where the motion shows nothing of them.
@@ -156,6 +211,7 @@ feed error: largest difference of the velocity along the motion from that of the
 jumps: over ten times the velocity of the reference
 ripple, at rest: at constant velocity, its rms deviation and the share of the time below a tenth of it
 standing error, hunting, period: mean error, half width and length of a limit cycle while the reference stands still
+mass found, friction found: at the end of the run, of a load estimate or an adaptation; friction as a factor on that of the law
 ";
 
 /// The columns of a table in which a row below the header has something.

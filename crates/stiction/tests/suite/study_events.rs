@@ -30,6 +30,28 @@ fn outcome(desk: &Desk, parts: &[&str]) -> StudyOutcome {
     outcome
 }
 
+/// Slow motion teaches a load estimate nothing: that is said, and the load it began with is not called found.
+#[test]
+fn a_load_estimate_that_learns_nothing_is_named() {
+    let desk = Desk::new();
+    let slow = "\n[[path]]\nkind = \"sine\"\namplitude = \"1 mm\"\nfrequency = \"1 Hz\"\n";
+    let estimate = compensator("estimate", "load_estimate = true");
+    let study = desk.study(&together(&[AXIS, slow, CASCADE, &estimate]));
+    let outcome = stiction::simulate(&study.unwrap(), &mut Silent);
+    let said: Vec<_> = outcome.file.warnings.iter().collect();
+    let named = said.iter().find(|w| w.code.as_str() == "load-not-learnt");
+    assert!(named.unwrap().message.contains("no time"), "{said:?}");
+    let text = stiction::commands::text::study(&outcome);
+    let line = text.lines().find(|l| l.contains("mass found")).unwrap();
+    let at = line.find("mass found").unwrap();
+    let rows = text.lines().filter(|l| l.starts_with("estimate"));
+    assert!(
+        rows.clone()
+            .any(|l| l.get(at..).is_some_and(|c| c.contains("n/a"))),
+        "{text}"
+    );
+}
+
 /// A load that is taken up is found within 2 %, and what is found takes the error back to that of the axis as it was.
 #[test]
 fn a_load_that_is_taken_up_is_found() {

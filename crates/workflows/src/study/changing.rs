@@ -23,6 +23,8 @@ pub struct LoadCourse {
     pub found_mass: Vec<f64>,
     /// The level that is estimated or adapted; empty where neither is.
     pub found_level: Vec<f64>,
+    /// How long the load estimate learnt, s; `None` where there is none.
+    pub learning_time: Option<f64>,
 }
 
 /// What changes in a run and is looked for.
@@ -117,6 +119,7 @@ impl<'a> Changing<'a> {
                 course.found_level.push(compensator.state().level);
             }
         }
+        course.learning_time = estimator.map(|(estimator, _)| estimator.learning_time());
         Ok((samples, course))
     }
 }

@@ -1,4 +1,4 @@
-//! What a run shows that its figures do not: a force at its limit, a command that shakes.
+//! What a run shows that its figures do not: a force at its limit, a command that shakes, a load that nothing was learnt of.
 
 use super::machine::largest_force;
 use stiction_codes::Code;
@@ -7,6 +7,7 @@ use stiction_files::study::Study;
 use stiction_files::study::result::ResultRow;
 use stiction_number::Percent;
 use stiction_number::quantity;
+use stiction_servo::load::LoadSettings;
 
 /// Part of the samples at the limit of the force above which a run gets a warning, dimensionless.
 const WARNED_SHARE_AT_LIMIT: f64 = 0.01;
@@ -15,7 +16,11 @@ const WARNED_SHARE_AT_LIMIT: f64 = 0.01;
 const WARNED_COMMAND_CHANGE: f64 = 0.1;
 
 /// Codes of the warnings that are made here.
-pub const CODES: [Code; 2] = [Code::AtForceLimit, Code::UnsteadyCommand];
+pub const CODES: [Code; 3] = [
+    Code::AtForceLimit,
+    Code::UnsteadyCommand,
+    Code::LoadNotLearnt,
+];
 
 /// What is to be said of the rows of a path or contour under a controller.
 pub(super) fn warnings(study: &Study, rows: &[ResultRow]) -> Vec<Warning> {
@@ -23,6 +28,7 @@ pub(super) fn warnings(study: &Study, rows: &[ResultRow]) -> Vec<Warning> {
     for rows in rows.chunk_by(|a, b| (&a.path, &a.controller) == (&b.path, &b.controller)) {
         warnings.extend(at_limit(study, rows));
         warnings.extend(shaking(study, rows));
+        warnings.extend(not_learnt(rows));
     }
     warnings
 }
@@ -82,6 +88,31 @@ fn shaking(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
             ),
         )
     })
+}
+
+/// A load estimate that had less than its memory to learn in.
+fn not_learnt(rows: &[ResultRow]) -> Option<Warning> {
+    let settings = LoadSettings::default();
+    let learning = |row: &ResultRow| Some(row.metric("learning_time")?.largest);
+    let row = rows
+        .iter()
+        .find(|row| learning(row).is_some_and(|time| time < settings.memory))?;
+    let time = match learning(row)? {
+        0.0 => "no time".into(),
+        time => quantity(time, "s"),
+    };
+    Some(Warning::new(
+        Code::LoadNotLearnt,
+        format!(
+            "{}, {}: the load estimate of {} had {time} to learn in, of {} that it takes: it learns while the \
+             acceleration is above {}, and feeds forward the mass and the friction that it began with",
+            row.path,
+            row.controller,
+            row.compensator,
+            quantity(settings.memory, "s"),
+            quantity(settings.least_acceleration, "m/s^2 (rad/s^2)"),
+        ),
+    ))
 }
 
 /// The largest force of each axis under a controller, N (N m); with one axis its force twice.

@@ -43,7 +43,7 @@ pub(super) fn largest_force(machine: &Machine, controller: &Controller) -> f64 {
 /// Unit of a metric.
 pub(super) fn unit(machine: &Machine, metric: &str) -> String {
     match (metric, machine.motion) {
-        ("stick_time" | "hunting_period", _) => "s",
+        ("stick_time" | "hunting_period" | "learning_time", _) => "s",
         ("velocity_ripple" | "rest_share" | "feed_error_share" | "found_friction", _) => "1",
         ("found_mass", Motion::Linear) => "kg",
         ("found_mass", Motion::Rotary) => "kg*m^2",

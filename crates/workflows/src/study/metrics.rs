@@ -6,7 +6,7 @@ use stiction_servo::axis::Sample;
 use stiction_servo::metrics::{Crawl, Feed, Hunting, Tracking, share_at_limit, standing_error};
 
 /// Of a path, in the order in which a run gives them.
-const PATH: [&str; 16] = [
+const PATH: [&str; 17] = [
     "rms_error",
     "peak_error",
     "reversal_peak",
@@ -23,6 +23,7 @@ const PATH: [&str; 16] = [
     "hunting_period",
     "found_mass",
     "found_friction",
+    "learning_time",
 ];
 
 /// Of a contour, in the same order.
@@ -42,7 +43,7 @@ const CONTOUR: [&str; 12] = [
 ];
 
 /// Those that not every motion has: NaN where they mean nothing.
-const NOT_ALWAYS: [&str; 11] = [
+const NOT_ALWAYS: [&str; 12] = [
     "velocity_ripple",
     "rest_share",
     "feed_error_rms",
@@ -53,6 +54,7 @@ const NOT_ALWAYS: [&str; 11] = [
     "hunting_period",
     "found_mass",
     "found_friction",
+    "learning_time",
     "circular_deviation",
 ];
 
@@ -103,6 +105,10 @@ pub(super) fn of_path(
         let found = load.and_then(|load| of(load).last());
         found.copied().unwrap_or(f64::NAN)
     };
-    metrics.extend([last(|l| &l.found_mass), last(|l| &l.found_level)]);
+    metrics.extend([
+        last(|l| &l.found_mass),
+        last(|l| &l.found_level),
+        load.and_then(|l| l.learning_time).unwrap_or(f64::NAN),
+    ]);
     metrics
 }

@@ -1,5 +1,5 @@
-//! What the rows of a study say of the feed rate, of motion at constant velocity and of standing still: the columns that mean
-//! something on a path.
+//! What the rows of a study say of the feed rate, of motion at constant velocity, of standing still and of the load that is
+//! found: the columns that mean something on a path.
 
 use super::rows::believed;
 use stiction_files::study::result::{MetricEntry, ResultRow};
@@ -7,7 +7,7 @@ use stiction_number::{Percent, quantity};
 use stiction_report::{Align, Table, Text, number};
 
 /// Metrics and the words for them, in the order of the columns.
-const COLUMNS: [(&str, &str); 7] = [
+const COLUMNS: [(&str, &str); 9] = [
     ("feed_error_peak", "feed error"),
     ("feed_error_share", "of the feed"),
     ("velocity_ripple", "ripple"),
@@ -15,6 +15,8 @@ const COLUMNS: [(&str, &str); 7] = [
     ("standing_error", "standing error"),
     ("hunting_amplitude", "hunting"),
     ("hunting_period", "period"),
+    ("found_mass", "mass found"),
+    ("found_friction", "friction found"),
 ];
 
 /// Headers and, for each row, the values in words; no columns where the motion has none of them.
@@ -23,6 +25,8 @@ pub(crate) fn columns(rows: &[ResultRow]) -> (Vec<&'static str>, Vec<Vec<String>
     let columns: Vec<_> = COLUMNS.iter().filter(|(name, _)| shown(name)).collect();
     let cells = |row: &ResultRow| {
         let values = columns.iter().map(|(name, _)| row.metric(name));
+        let known = |m: &&MetricEntry| !(m.name.starts_with("found") && learnt_nothing(row));
+        let values = values.map(|m| m.filter(known));
         values.map(|m| m.map_or("n/a".into(), value)).collect()
     };
     (
@@ -31,12 +35,19 @@ pub(crate) fn columns(rows: &[ResultRow]) -> (Vec<&'static str>, Vec<Vec<String>
     )
 }
 
+/// Whether the load that a row found is the one it began with.
+fn learnt_nothing(row: &ResultRow) -> bool {
+    row.metric("learning_time")
+        .is_some_and(|m| m.largest == 0.0)
+}
+
 /// The mean in the unit of the field: feed rates by the minute, shares in percent.
 fn value(metric: &MetricEntry) -> String {
     let mean = metric.mean;
     match metric.unit.as_str() {
         "m/s" => format!("{} mm/min", number::sig(60e3 * mean, 3)),
         "rad/s" => format!("{} °/min", number::sig(60.0 * mean.to_degrees(), 3)),
+        "1" if metric.name == "found_friction" => format!("× {}", number::sig(mean, 3)),
         "1" => share(100.0 * mean),
         _ if metric.name == "hunting_amplitude" && mean == 0.0 => "none".into(),
         unit => quantity(mean, unit),
@@ -72,8 +83,8 @@ pub(super) fn table(rows: &[ResultRow]) -> Option<Table> {
     ];
     columns.extend(headers.iter().map(|words| (capital(words), Align::Right)));
     let columns = columns.iter().map(|(text, align)| (text.as_str(), *align));
-    let table =
-        Table::new(columns).caption("Speed and standing still, means over the runs of a row.");
+    let table = Table::new(columns)
+        .caption("Speed, standing still and the load found, means over the runs of a row.");
     Some(rows.iter().zip(cells).fold(table, |table, (row, cells)| {
         let names = [row.scheme(), believed(row)];
         table.row(names.into_iter().chain(cells).map(Text::from))
