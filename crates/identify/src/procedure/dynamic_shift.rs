@@ -10,6 +10,7 @@ use crate::conditioning::record::Record;
 use crate::conditioning::{Conditioning, condition, condition_as};
 use crate::estimate::Estimate;
 use crate::law::physical::physical;
+use crate::law::terms::{Delay, Terms};
 use crate::parameter::Parameter;
 use crate::refit::force_noise;
 use crate::replica::{Axis, Replica};
@@ -21,21 +22,22 @@ use stiction_search::{Control, Observer, Stage};
 const FIRST_SEED: u64 = 3000;
 /// First seed of the replicas of replicas.
 const FIRST_SECOND_SEED: u64 = 4000;
+
 /// Takes what the conditioning adds to the parameters that were fitted beside the curve off them, and counts in their
-/// intervals what is not known of it. Leaves the estimate as it is where that cannot be measured: the motion does not come from
-/// a position, the axis cannot be simulated, or the observer stops it.
+/// intervals what is not known of it, and the error of a delay that was held: `delay_deviation`, s, 0 where it is known. What
+/// the conditioning adds is left where it cannot be measured: the motion does not come from a position, the axis cannot be
+/// simulated, or the observer stops it.
 pub fn dynamic_conditioned(
     record: &Record,
     statics: &Statics,
     estimate: &mut Estimate,
+    delay_deviation: f64,
     observer: &mut dyn Observer,
 ) {
     let mut watch = Watch::new(observer, Stage::Calibration);
     let shifts = shifts(record, statics, estimate, &mut watch);
+    let late = of_delay(record, statics, estimate, delay_deviation, &mut watch);
     estimate.fitted.counts.add(&watch.counts);
-    let Some([first, second]) = shifts else {
-        return;
-    };
     let linear = estimate.terms.columns(&estimate.law);
     let (p, c) = (estimate.unknowns(), estimate.coefficients());
     let raw = physical(&estimate.law, &linear, record.step(), p, c);
@@ -53,23 +55,62 @@ pub fn dynamic_conditioned(
         if is_held || parameter.std.is_none() {
             continue;
         }
-        let (bias, scatter) = (first.mean(i), first.variance(i));
         let stated = fitted.covariance.matrix[place][place];
-        // What the residual states may be less than what replicas scatter by, since encoder steps repeat with the motion.
-        let doubt = SHIFT_DOUBT * bias;
-        let variance = stated.max(TEN_REPLICAS_FACTOR * scatter)
-            + scatter / first.count()
-            + doubt * doubt
-            + second.change(&first, i);
+        let (bias, conditioned) = match &shifts {
+            Some([first, second]) => {
+                let (bias, scatter) = (first.mean(i), first.variance(i));
+                // What the residual states may be less than what replicas scatter by, since encoder steps repeat with the
+                // motion.
+                let doubt = SHIFT_DOUBT * bias;
+                let variance = stated.max(TEN_REPLICAS_FACTOR * scatter)
+                    + scatter / first.count()
+                    + doubt * doubt
+                    + second.change(first, i);
+                (Some(bias), variance)
+            }
+            None => (None, stated),
+        };
+        let late = late.as_ref().map_or(0.0, |late| late[i]);
+        let variance = conditioned + late * late;
         let widen = (variance / stated).sqrt();
         if !widen.is_finite() {
             continue;
         }
-        *parameter = Parameter::judged(found, variance, Some(bias), String::new(), level);
+        *parameter = Parameter::judged(found, variance, bias, String::new(), level);
         let matrix = &mut fitted.covariance.matrix;
         matrix[place].iter_mut().for_each(|x| *x *= widen);
         matrix.iter_mut().for_each(|row| row[place] *= widen);
     }
+}
+
+/// By how much each parameter moves with one deviation of the delay that is held; `None` where it is known.
+fn of_delay(
+    record: &Record,
+    statics: &Statics,
+    fitted: &Estimate,
+    deviation: f64,
+    watch: &mut Watch,
+) -> Option<Vec<f64>> {
+    let Delay::Given(delay) = fitted.terms.delay else {
+        return None;
+    };
+    if deviation <= 0.0 {
+        return None;
+    }
+    let mut at = |delay: f64| {
+        let terms = Terms {
+            delay: Delay::Given(delay),
+            ..fitted.terms.clone()
+        };
+        let held = Held::new(record, statics, fitted.law, &terms);
+        let (p, c, counts) = held.found_near(fitted.unknowns())?;
+        watch.counts.add(&counts);
+        let linear = terms.columns(&fitted.law);
+        Some(physical(&fitted.law, &linear, record.step(), &p, &c))
+    };
+    let [early, late] = [at(delay - deviation)?, at(delay + deviation)?];
+    let pairs = early.iter().zip(&late);
+    Some(pairs.map(|(a, b)| 0.5 * (b.value - a.value)).collect())
 }
 
 /// By how much each parameter comes out beside its truth: replica by replica, and replica by replica of a replica.

@@ -166,7 +166,7 @@ fn what_encoder_and_filters_shift_is_taken_off() {
         let trial = quantised(1e-6, 0.05, &filters, run);
         let mut found = dynamic(&trial.record, &statics, &terms, 1e-3, &mut Silent).unwrap();
         let raw = found.clone();
-        dynamic_conditioned(&trial.record, &statics, &mut found, &mut Silent);
+        dynamic_conditioned(&trial.record, &statics, &mut found, 0.0, &mut Silent);
         for (k, name) in names.iter().enumerate() {
             let truth = trial.truth.iter().find(|(own, _)| own == name).unwrap().1;
             let off = |estimate: &Estimate| (estimate.value(*name).unwrap() / truth - 1.0).powi(2);
@@ -178,4 +178,37 @@ fn what_encoder_and_filters_shift_is_taken_off() {
     }
     println!("before {before:?}, after {after:?}, {inside} inside");
     assert!(before.iter().sum::<f64>() > 2.0 * after.iter().sum::<f64>());
+}
+
+/// The error of a delay that was found on the same record and then held is one of sigma1 and of the mass: their deviations are
+/// those of the held delay and of its error together, taken from fits at the ends of its interval.
+#[test]
+fn the_error_of_a_held_delay_is_counted() {
+    let filters = Conditioning {
+        source_cutoff: Cutoff::Hz(400.0),
+        common_cutoff: Cutoff::Hz(200.0),
+        ..Conditioning::default()
+    };
+    let trial = quantised(1e-6, 0.05, &filters, 1);
+    let statics = statics(&MACHINE, 1e-4, 1);
+    let deviation = 5e-5;
+    let at = |delay: f64, deviation: f64| {
+        let terms = Terms {
+            delay: Delay::Given(delay),
+            ..Terms::default()
+        };
+        let mut found = dynamic(&trial.record, &statics, &terms, 1e-3, &mut Silent).unwrap();
+        let raw = found.clone();
+        dynamic_conditioned(&trial.record, &statics, &mut found, deviation, &mut Silent);
+        (raw, found)
+    };
+    let [(early, _), (late, _)] = [-deviation, deviation].map(|delay| at(delay, 0.0));
+    let [(_, known), (_, held)] = [0.0, deviation].map(|deviation| at(0.0, deviation));
+    for name in ["sigma1", "mass"] {
+        let moved = 0.5 * (late.value(name).unwrap() - early.value(name).unwrap());
+        let [known, held] = [&known, &held].map(|e| e.parameter(name).unwrap().std.unwrap());
+        println!("{name} moves by {moved}, {known} to {held}");
+        assert!(moved.abs() > 0.5 * known, "{name} does not feel the delay");
+        assert!((held / known.hypot(moved) - 1.0).abs() < 1e-2, "{name}");
+    }
 }

@@ -140,7 +140,9 @@ pub(in crate::identify) fn two_step(
         }
     }
     if is_stated {
-        dynamic_conditioned(record, statics, &mut estimate, observer);
+        let delay = joint.parameter(Quantity::Delay);
+        let deviation = delay.and_then(|delay| delay.std).unwrap_or(0.0);
+        dynamic_conditioned(record, statics, &mut estimate, deviation, observer);
     }
     if known.interrupted || step.as_ref().is_some_and(|step| step.interrupted) {
         estimate = estimate.interrupted();
