@@ -294,6 +294,7 @@ impl Quantity {
             Quantity::StribeckVelocity | Quantity::Attraction => Allowed::Positive,
             Quantity::StribeckExponent => Allowed::Exponent,
             Quantity::BreakawayRatio => Allowed::Share,
+            Quantity::Delay => Allowed::Delay,
             _ => Allowed::Any,
         }
     }

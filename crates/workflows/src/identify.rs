@@ -22,6 +22,7 @@ mod logs;
 mod method;
 mod options;
 mod outcome;
+mod outside;
 mod predict;
 mod procedure;
 mod remaining;

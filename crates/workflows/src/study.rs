@@ -12,6 +12,7 @@ mod elsewhere;
 mod learnt;
 mod machine;
 mod metrics;
+mod not_promised;
 mod outcome;
 mod path;
 mod rows;

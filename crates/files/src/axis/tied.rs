@@ -1,6 +1,6 @@
 //! Values whose unit fits one kind of axis only: checked when the log says which it is.
 
-use stiction_log::{Dimension, Log, Motion};
+use stiction_log::{Dimension, Motion};
 
 /// A value of the file with its place, text and dimension.
 #[derive(Clone, Debug)]
@@ -13,8 +13,8 @@ pub(super) struct Tied {
 }
 
 impl Tied {
-    /// What is allowed instead, if this does not fit the log.
-    pub fn misfit(&self, log: &Log) -> Option<String> {
+    /// What is allowed instead, if this does not fit an axis of that kind, in a `source` that has the force in that unit.
+    pub fn misfit(&self, motion: Motion, force_unit: &str, source: &str) -> Option<String> {
         let forces = [
             Dimension::FORCE,
             Dimension::TORQUE,
@@ -23,10 +23,10 @@ impl Tied {
         ];
         let inertia = [Dimension::MASS, Dimension::INERTIA];
         if forces.contains(&self.dimension) {
-            let fits = self.dimension.si_text() == log.force_unit;
-            return (!fits).then(|| format!("the force of this log is in {}", log.force_unit));
+            let fits = self.dimension.si_text() == force_unit;
+            return (!fits).then(|| format!("the force of this {source} is in {force_unit}"));
         }
-        let (motion, mass) = match log.motion {
+        let (lengths, mass) = match motion {
             Motion::Linear => (
                 [Dimension::LENGTH, Dimension::LINEAR_VELOCITY],
                 Dimension::MASS,
@@ -37,23 +37,21 @@ impl Tied {
             ),
         };
         if inertia.contains(&self.dimension) {
-            if log.force_unit != log.motion.force().si_text() {
+            let force = motion.force().si_text();
+            if force_unit != force {
                 return Some(format!(
-                    "a known mass needs the force in {}, this log has it in {}: give the force a scale",
-                    log.motion.force().si_text(),
-                    log.force_unit
+                    "a known mass needs the force in {force}, this {source} has it in {force_unit}: give the force a scale"
                 ));
             }
             let fits = self.dimension == mass;
-            return (!fits).then(|| format!("a {} axis takes {}", log.motion, mass.si_text()));
+            return (!fits).then(|| format!("a {motion} axis takes {}", mass.si_text()));
         }
-        let fits = motion.contains(&self.dimension);
+        let fits = lengths.contains(&self.dimension);
         (!fits).then(|| {
             format!(
-                "a {} axis takes {} or {}",
-                log.motion,
-                motion[0].si_text(),
-                motion[1].si_text()
+                "a {motion} axis takes {} or {}",
+                lengths[0].si_text(),
+                lengths[1].si_text()
             )
         })
     }

@@ -95,11 +95,7 @@ impl Axis {
     /// Where a unit of the file does not fit the log: an angle on a linear axis, a mass where the force
     /// is a current, a force limit in another unit than the force.
     pub fn terms_for(&self, log: &Log, asymmetric: bool) -> Result<Terms, Error> {
-        for tied in &self.tied {
-            if let Some(allowed) = tied.misfit(log) {
-                return Err(self.misfit(&tied.place, &tied.text, allowed));
-            }
-        }
+        self.fits(log.motion, &log.force_unit, "log")?;
         if self.terms.gravity && log.motion == Motion::Linear {
             let allowed = "sin q and cos q need the angle of a rotary axis; gravity on a linear axis is \
                            the constant force";
@@ -110,6 +106,19 @@ impl Axis {
         let mut terms = self.terms.clone();
         terms.offset = self.offset.unwrap_or(!asymmetric);
         Ok(terms)
+    }
+
+    /// Whether every unit fits an axis of that kind, in a `source` (log, model) that has the force in that unit.
+    ///
+    /// # Errors
+    /// For the first value whose unit does not.
+    pub fn fits(&self, motion: Motion, force_unit: &str, source: &str) -> Result<(), Error> {
+        for tied in &self.tied {
+            if let Some(allowed) = tied.misfit(motion, force_unit, source) {
+                return Err(self.misfit(&tied.place, &tied.text, allowed));
+            }
+        }
+        Ok(())
     }
 
     /// The file that it was read from.

@@ -230,6 +230,27 @@ fn a_model_may_be_written_by_hand() {
     assert!(model.asymmetric);
 }
 
+/// A delay beyond any drive is refused with its line.
+#[test]
+fn a_delay_has_limits() {
+    let with = |delay: &str| {
+        format!("{BY_HAND}\n[[parameter]]\nname = \"delay\"\nvalue = {delay}\nunit = \"s\"\n")
+    };
+    ModelFile::parse(&with("-0.002")).unwrap();
+    for delay in ["1e9", "-5.0"] {
+        let said = refusal(&with(delay));
+        let line = with(delay)
+            .lines()
+            .position(|l| l.starts_with(&format!("value = {delay}")));
+        let place = format!(
+            "line {}, column 9, parameter[8].value: delay = ",
+            line.unwrap() + 1
+        );
+        assert!(said.contains(&place), "{said}");
+        assert!(said.contains("from -1 s to 1 s"), "{said}");
+    }
+}
+
 /// All that is missing and all that is wrong of a file that is written by hand is said at once, each with its line.
 #[test]
 fn everything_wrong_is_said_at_once() {

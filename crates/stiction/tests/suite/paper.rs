@@ -171,6 +171,24 @@ fn on_an_axis_of_the_user() {
     std::fs::write(&model, text).unwrap();
     let known = "name = \"wrist\"\nkind = \"rotary\"\nmass = \"0.045 kg m2\"\n[log]\nresolution = \"1e-6 rad\"\n\
                  [terms]\ngravity = true\n[search.ga]\npopulation = 40\n";
+    // A unit that does not fit the force of the model is refused with its line, not taken for another.
+    for wrong in ["2 kN", "5 V"] {
+        let text = known.replace("[terms]", &format!("force_limit = \"{wrong}\"\n[terms]"));
+        std::fs::write(&axis, text).unwrap();
+        let own = OwnAxis {
+            axis: Some(axis.clone()),
+            model: model.clone(),
+        };
+        let said = zhang_2025_on(&own, SMALL, &mut Silent)
+            .err()
+            .unwrap()
+            .to_string();
+        assert!(
+            said.contains("line 6, column 15, log.force_limit: "),
+            "{said}"
+        );
+        assert!(said.contains("the force of this model is in N*m"), "{said}");
+    }
     std::fs::write(&axis, known).unwrap();
     let own = OwnAxis {
         axis: Some(axis),

@@ -567,6 +567,21 @@ fn a_box_off_the_truth_does_not_decide() {
         let named = warnings.iter().any(|w| w.message.contains("[search.box]"));
         assert!(named, "{warnings:?}");
     }
+    // Without a search the box does not decide either, and what lies outside is named.
+    let mut asked = with(&[&logs[1]], Procedures::default());
+    let text = "[search.box]\nsigma0 = [\"1e10 N/m\", \"1e12 N/m\"]\nsigma2 = [\"1 N s/m\", \"1e3 N s/m\"]\n";
+    asked.files.axis = Some(bench.write("off.toml", text));
+    let warnings = run(&asked).unwrap().result.warnings;
+    let outside = warnings.iter().filter(|w| w.code.as_str() == "outside-box");
+    let outside: Vec<_> = outside.map(|w| w.message.as_str()).collect();
+    let [said] = outside.as_slice() else {
+        panic!("{warnings:?}");
+    };
+    assert!(
+        said.contains("sigma0 = 1.") && said.contains("not 1.000e10 to 1.000e12"),
+        "{said}"
+    );
+    assert!(!said.contains("sigma2"), "{said}");
 }
 
 /// A search where none is made, or a setting that it cannot have there.

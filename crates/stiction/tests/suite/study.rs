@@ -623,22 +623,29 @@ speed = \"1 m/s\"
 duration = \"1 ms\"
 ";
 
-/// Set points that go 1e200 m, the square of which is no number.
-fn far() -> String {
-    let rows = (0..100).map(|i| format!("{},{:e}\n", 0.01 * f64::from(i), 1e198 * f64::from(i)));
-    "t [s],x [m]\n".to_string() + &rows.collect::<String>()
-}
-
-/// A run whose figures are not finite is none: it is named, and no row stands for it.
+/// What goes farther than any axis is refused at its place, in the study and in the files that it names.
 #[test]
-fn figures_that_are_no_numbers() {
+fn motions_and_forces_beyond_all_measure_are_refused() {
     let desk = Desk::new();
-    desk.write("far.csv", &far());
-    let path = "\n[[path]]\nname = \"far\"\nkind = \"file\"\nfile = \"far.csv\"\n";
-    let file = desk.run(&together(&[AXIS, path, CASCADE, WHOLE]));
-    assert!(file.results.is_empty(), "{:?}", file.results);
-    assert_eq!(codes(&file), ["not-run", "not-run"]);
-    insta::assert_snapshot!(file.warnings[0].message);
+    let rows = (0..100).map(|i| {
+        format!(
+            "{},{}\n",
+            0.01 * f64::from(i),
+            if i == 50 { 1e300 } else { 0.0 }
+        )
+    });
+    let rows: String = rows.collect();
+    desk.write("far.csv", &format!("t [s],x [m]\n{rows}"));
+    desk.write("strong.csv", &format!("t [s],force [N]\n{rows}"));
+    let file = "\n[[path]]\nkind = \"file\"\nfile = \"far.csv\"\n";
+    let disturbed = AXIS.to_string() + "disturbance = { kind = \"file\", file = \"strong.csv\" }\n";
+    let wide = SINE.replace("5 mm", "1e15 m");
+    let said = [
+        desk.refusal(&together(&[AXIS, file, CASCADE, WHOLE])),
+        desk.refusal(&together(&[&disturbed, SINE, CASCADE, WHOLE])),
+        desk.refusal(&together(&[AXIS, &wide, CASCADE, WHOLE])),
+    ];
+    insta::assert_snapshot!(said.join("\n"));
 }
 
 /// A loop that is not stable is named with its gains and the time at which the axis left the path; it has no figures, and the
@@ -661,6 +668,33 @@ force_limit   = \"1e15 N\"
     assert!(file.results.iter().all(|row| row.controller != "wild"));
     assert_eq!(codes(&file), ["not-run"]);
     insta::assert_snapshot!(file.warnings[0].message);
+}
+
+/// Axes of a promise that leave their path are counted, with what was drawn; the gains, with which the axis as modelled stays on
+/// its path, are not blamed.
+#[test]
+fn drawn_axes_that_diverge() {
+    let desk = Desk::new();
+    let remaining = "[remaining]\nshapes = []\nlevel = 0.0\nplace = PLACE\nplace_length = 0.001\nwandering = 0.0\nmemory = 0.01\n";
+    let with = |place: &str| model(0.12, 0.18) + &remaining.replace("PLACE", place);
+    desk.write("good.toml", &with("0.1"));
+    desk.write("wild.toml", &with("1e15"));
+    let run = |file: &str| {
+        let text = together(&[AXIS, SHORT, CASCADE, WHOLE]);
+        desk.run(&text.replace("known        = \"motor\"", &format!("model = \"{file}\"")))
+    };
+    let good = run("good.toml");
+    assert_eq!(good.promise.len(), 1, "{:?}", good.not_promised);
+    assert!(good.warnings.is_empty(), "{:?}", good.warnings);
+    let wild = run("wild.toml");
+    assert_eq!(codes(&wild), ["not-promised"]);
+    assert!(wild.promise.is_empty());
+    assert!(row(&wild, "whole", "exact").metric("peak_error").is_some());
+    insta::assert_snapshot!(format!(
+        "{}\n{}",
+        wild.not_promised.unwrap(),
+        wild.warnings[0].message
+    ));
 }
 
 /// Between the passes of learning the work can be stopped; what was not finished is not kept.
@@ -717,8 +751,8 @@ fn what_is_refused() {
     desk.write(
         "part.toml",
         &model(0.1, 0.1)
-            .replacen("sigma0", "delay", 1)
-            .replacen("N/m", "s", 1),
+            .replacen("sigma0", "offset", 1)
+            .replacen("N/m", "N", 1),
     );
     desk.write("weightless.toml", &model(0.1, 0.1).replace("4.6", "0.0"));
     desk.write("points.csv", "t [s],x [parsec]\n0,0\n1,1\n");

@@ -9,6 +9,7 @@ use super::load::{Asked, Loaded, load};
 use super::method::Method;
 use super::options::{Files, Options};
 use super::outcome::{ForceFit, Found, Outcome};
+use super::outside;
 use super::procedure::{static_map, step};
 use super::simulate;
 use crate::error::Error;
@@ -102,14 +103,17 @@ pub(crate) fn identify_asked(
 fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Result<Outcome, Error> {
     let loaded = aligned(asked, loaded)?;
     let conditioned = condition(asked, &loaded, observer)?;
+    let ranges = asked.axis.search_box(&loaded.sources[0].log)?;
     let fitted = fit(asked, &loaded, &conditioned, observer)?;
     let names = conditioned.unseen_names.iter().cloned();
     let validation: Vec<(String, Series)> = names
         .zip(&conditioned.unseen)
         .map(|(name, record)| (name, engine::predict(record, &fitted.choice.estimate)))
         .collect();
-    let judged = judge(asked, &loaded, &conditioned, &fitted, &validation);
+    let mut judged = judge(asked, &loaded, &conditioned, &fitted, &validation);
     let estimate = fitted.choice.estimate;
+    let outside = outside::named(&ranges, &estimate, &loaded.sources[0].log);
+    judged.warnings.extend(outside);
     let notes = conditioned.record.notes.iter().cloned();
     let mut result = assemble::result(Parts {
         asked,

@@ -4,14 +4,18 @@ use super::done::Done;
 use super::machine::unit;
 use super::metrics::metrics;
 use stiction_files::study::result::{MetricEntry, PromiseEntry, ResultRow};
-use stiction_files::study::{PROMISE_DRAWS, Study};
+use stiction_files::study::{Job, PROMISE_DRAWS, Study};
 
 /// Rows in the order of the grid, of what is done.
 pub(super) fn rows(study: &Study, done: &[Done]) -> Vec<ResultRow> {
     let mut rows: Vec<ResultRow> = Vec::new();
     let mut bare: &[Done] = &[];
+    let place = |job: Job| (job.path, job.controller);
     for cell in done.chunk_by(|a, b| a.job.cell() == b.job.cell()) {
         let job = cell[0].job;
+        if bare.first().is_some_and(|b| place(b.job) != place(job)) {
+            bare = &[];
+        }
         let family = &study.families[job.family];
         let names = metrics(study, job);
         let name = |i: usize| (names[i].to_string(), unit(&study.machine, names[i]));

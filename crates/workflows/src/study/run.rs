@@ -6,7 +6,7 @@ use super::learnt::Learnt;
 use super::metrics::{may_be_absent, metrics};
 use super::outcome::StudyOutcome;
 use super::rows::{promises, rows};
-use super::{contour, course, doubt, machine, path, sweeps};
+use super::{contour, course, doubt, machine, not_promised, path, sweeps};
 use rayon::prelude::*;
 use stiction_codes::Code;
 use stiction_files::Warning;
@@ -55,6 +55,10 @@ pub fn simulate(study: &Study, observer: &mut dyn Observer) -> StudyOutcome {
             None => {}
         }
     }
+    let (drawn, mut failed): (Vec<Failed>, Vec<Failed>) = failed
+        .into_iter()
+        .partition(|(i, job, _)| grids[*i].study.families[job.family].kind == "promised");
+    warnings.extend(not_promised::warnings(study, &drawn, &failed));
     // The same fault in every member of a cell, and with every value of a sweep, is said once.
     failed.dedup_by_key(|(i, job, _)| (*i, job.cell()));
     let mut said: Vec<Job> = Vec::new();
@@ -76,6 +80,9 @@ pub fn simulate(study: &Study, observer: &mut dyn Observer) -> StudyOutcome {
     let sweeps = sweeps::entries(study, &kept[1..]);
     let kept = kept.swap_remove(0);
     let results = rows(study, &kept);
+    let promise = promises(&results);
+    let lacking =
+        (promise.is_empty() && !drawn.is_empty()).then(|| not_promised::reason(study, &drawn));
     warnings.extend(doubt::warnings(study, &results));
     let (mut traces, mut contours) = (Vec::new(), Vec::new());
     let mut courses = headers(study);
@@ -98,8 +105,8 @@ pub fn simulate(study: &Study, observer: &mut dyn Observer) -> StudyOutcome {
                 .chain(study.contours.iter().map(contour::entry))
                 .collect(),
             events: study.events.iter().map(machine::event).collect(),
-            promise: promises(&results),
-            not_promised: study.not_promised.clone(),
+            promise,
+            not_promised: study.not_promised.clone().or(lacking),
             results,
             sweeps,
             warnings,
@@ -177,7 +184,7 @@ fn headers(study: &Study) -> [String; 2] {
 }
 
 /// A run that gave nothing: its grid, its place in that, and why.
-type Failed = (usize, Job, Fault);
+pub(super) type Failed = (usize, Job, Fault);
 
 /// What is said of a run of a grid of the study that could not be made, or of those along a path under one controller that
 /// diverged.

@@ -9,8 +9,6 @@ use stiction_log::Dimension;
 use stiction_log::mapping::WRAPS;
 use stiction_parameters::Quantity;
 
-/// Longest delay of either sign, s: a choice, far beyond any drive; what is longer is a typing error.
-const LONGEST_DELAY: f64 = 1.0;
 /// Most pitches of cogging, and of friction along the axis.
 const MOST_PITCHES: usize = 4;
 
@@ -102,8 +100,9 @@ fn delay(given: Given<'_>) -> Result<Delay, Error> {
         (given, None) => given,
     };
     let (time, _) = given.value(&[Dimension::TIME])?;
-    if time.abs() <= LONGEST_DELAY {
+    let allowed = Quantity::Delay.allowed();
+    if allowed.admits(time) {
         return Ok(Delay::Given(time));
     }
-    Err(given.refused("a time from -1 s to 1 s"))
+    Err(given.refused(&format!("a time {}", allowed.words())))
 }

@@ -12,6 +12,9 @@ pub(super) const MOST_SAMPLES: usize = 1_000_000;
 /// Least samples of a period, a move, a turn: fewer do not represent its form.
 pub(super) const LEAST_SAMPLES: f64 = 10.0;
 
+/// Farthest way of a motion, m or rad, as that after which a position may repeat.
+pub(super) const MOST_WAY: f64 = 1e9;
+
 /// Most samples at which a motion is evaluated to find how far it goes.
 const MOST_LOOKED_AT: f64 = 10_000.0;
 
@@ -41,8 +44,8 @@ pub(super) fn sampled(
     Err(table.refuse(key, found, &allowed))
 }
 
-/// Checks that a motion covers at least one encoder step: the controller sees nothing of a smaller one. `position` at
-/// a time, s.
+/// Checks that a motion goes no farther than any axis, and covers at least one encoder step: the controller sees nothing of a
+/// smaller one. `position` at a time, s.
 pub(super) fn seen(
     table: &Table<'_>,
     (duration, rate): (f64, f64),
@@ -50,9 +53,6 @@ pub(super) fn seen(
     unit: &str,
     position: impl Fn(f64) -> f64,
 ) -> Result<(), Error> {
-    if encoder == 0.0 {
-        return Ok(());
-    }
     let samples = (duration * rate).clamp(1.0, MOST_LOOKED_AT);
     let times = (0..=samples as usize).map(|i| duration * i as f64 / samples);
     let (low, high) = times
@@ -60,12 +60,16 @@ pub(super) fn seen(
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
             (low.min(x), high.max(x))
         });
-    if high - low >= encoder {
+    let way = high - low;
+    let found = || format!("goes over {} {unit}", short(way));
+    if way > MOST_WAY {
+        return Err(table.refuse("kind", found(), &format!("at most {MOST_WAY:e} {unit}")));
+    }
+    if way >= encoder {
         return Ok(());
     }
-    let found = format!("goes over {} {unit}", short(high - low));
     let allowed = format!("at least one encoder step, {} {unit}", short(encoder));
-    Err(table.refuse("kind", found, &allowed))
+    Err(table.refuse("kind", found(), &allowed))
 }
 
 /// Checks that a frequency is below half the control rate.

@@ -1,11 +1,12 @@
 //! Values over time from a file: `kind = "file"` of a path, a contour or a disturbance.
 
-use super::entry::MOST_SAMPLES;
-use crate::config::Table;
+use super::entry::{MOST_SAMPLES, MOST_WAY};
+use crate::config::{LARGEST_SI, Table};
 use crate::error::{Error, Warning};
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 use stiction_log::{Column, Dimension, Kind, Limits, ReadOptions, Unit, read_table};
+use stiction_number::{four_digits as short, full};
 
 /// Largest file, bytes.
 const MOST_BYTES: u64 = 256 << 20;
@@ -87,6 +88,7 @@ pub(super) fn points<const AXES: usize>(
             &format!("at most {MOST_SAMPLES}"),
         ));
     }
+    let lengths = [Dimension::LENGTH, Dimension::ANGLE];
     let si = |i: usize, dimension: Dimension| -> Result<Vec<f64>, Error> {
         let column = &read.columns[i];
         let place = |row: usize| format!("data row {}, column {}: ", row + 1, named(column, i));
@@ -103,6 +105,18 @@ pub(super) fn points<const AXES: usize>(
             return Err(refuse(place, format!("unit {}", unit.text()), &allowed));
         }
         let values: Vec<f64> = column.values.iter().map(|x| unit.to_si(*x)).collect();
+        let most = if lengths.contains(&dimension) {
+            MOST_WAY
+        } else {
+            LARGEST_SI
+        };
+        let large = |x: &f64| x.is_finite() && x.abs() > most;
+        if let Some(row) = values.iter().position(large) {
+            let is = dimension.si_text();
+            let found = format!("{} {is}", short(values[row]));
+            let allowed = format!("from -{most:e} to {most:e} {is}");
+            return Err(refuse(place(row), found, &allowed));
+        }
         match values.iter().position(|x| !x.is_finite()) {
             Some(row) => Err(refuse(
                 place(row),
@@ -132,7 +146,7 @@ pub(super) fn points<const AXES: usize>(
             row + 2,
             named(&read.columns[0], 0)
         );
-        let found = format!("{} s", times[row + 1]);
+        let found = format!("{} s", full(times[row + 1]));
         let allowed = "later than the row before, by 1 ns at least";
         return Err(refuse(place, found, allowed));
     }

@@ -70,6 +70,7 @@ impl Stage {
             let allowed = format!("\"{motion}\", as the axis file has it");
             return Err(model.refuse("kind", found, &allowed).into());
         }
+        axis.fits(model.motion, &model.motion.force().si_text(), "model")?;
         let mut notes: Vec<String> = vec![model.origin.clone()];
         notes.extend(model.warnings.iter().map(|w| w.message.clone()));
         let unused: Vec<&str> = UNUSED.into_iter().filter(|key| axis.gives(key)).collect();
