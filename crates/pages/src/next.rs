@@ -71,6 +71,12 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
         Next::Record => {
             let axis = result.axis.file.as_ref();
             let axis = axis.map_or(String::new(), |file| format!(" --axis {}", quoted(file)));
+            if result.method == "presliding-step" {
+                let out = another("again");
+                return format!(
+                    "stiction identify {log} --method presliding-step --static {ANOTHER_LOG} --out {out}"
+                );
+            }
             format!(
                 "stiction identify {ANOTHER_LOG}{axis} --out {}",
                 another("again")

@@ -77,8 +77,11 @@ impl Judged {
             // Between two renewals of a held position a controller has moved the axis in ways that the log does not show.
             let held = warnings.iter().any(|w| w.code == Code::HeldPosition);
             // A law that explains less than half has no constants of the machine, whatever its curvature says.
+            // Nor does a parameter beside an assumed curve, whose error no interval knows.
+            let assumed = warnings.iter().any(|w| w.code == Code::StaticsAssumed);
             let holds = law.status == Status::Converged
                 && !held
+                && !assumed
                 && law.fit.r2 >= LEAST_R2
                 && match motion {
                     Shown::Sliding => !law.stays_in_presliding(),
@@ -319,6 +322,11 @@ pub(super) fn of_steps(
             "the delay between force and position is at the end of its range, two samples: it takes the place of something that the \
              law does not explain, such as another force held before the step than the one of the model",
         ));
+    }
+    if warnings.iter().any(|w| w.code == Code::StaticsAssumed) {
+        let text = "the steady curve is assumed, not known, and no interval includes what that is off by: record constant velocities \
+                    and give them with --static speeds.csv, or the model of them with --model DIR/model.toml";
+        reasons.push(text, Next::Record);
     }
     for p in fit.parameters.iter().filter(|p| p.name == "sigma0") {
         if !p.identifiable {
