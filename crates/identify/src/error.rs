@@ -120,12 +120,14 @@ pub enum Error {
         stretch: usize,
     },
     /// The force does not rise in a line, or the axis does not break away under it.
-    #[error("log {log}: {reason}")]
+    #[error(
+        "log {log}: {reason}; a ramp is a force that rises steadily from zero, on an axis at rest, until that moves, one in each log"
+    )]
     NoBreakAway {
         /// Which log, counted from 1.
         log: usize,
-        /// What is missing.
-        reason: &'static str,
+        /// What was found, or is missing.
+        reason: String,
     },
     /// A setting outside its range.
     #[error("{name} = {}: {allowed}", full(*found))]

@@ -17,6 +17,7 @@ use super::moments::Moments;
 use super::stretch::Run;
 use crate::error::Error;
 use std::ops::Range;
+use stiction_number::short;
 use stiction_servo::plant::{Load, Motion, Plant};
 
 /// Fewest samples of a ramp.
@@ -32,6 +33,9 @@ const THRESHOLD_SHARE: f64 = 1e-3;
 const ELASTIC_SPEEDS: f64 = 30.0;
 /// Largest deviation of the force from a line until break-away, relative to its rise.
 const MOST_BEND: f64 = 0.1;
+/// Largest force before the ramp, for as long as it takes, as a part of that at break-away: an axis that was moved before it is
+/// not at rest on its bristles.
+const MOST_BEFORE: f64 = 0.5;
 /// Most steps of a prediction.
 const MOST_STEPS: f64 = 2e6;
 
@@ -70,13 +74,12 @@ pub struct Predicted {
 /// Finds the break-away in a log in which the force rises steadily from rest.
 ///
 /// # Errors
-/// [`Error::NoBreakAway`] where the force does not rise in a line, or the axis moves from the start or
-/// never.
+/// [`Error::NoBreakAway`] where the force does not rise in a line from rest, or the axis moves from the start or never.
 pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<BreakAway, Error> {
     crate::conditioning::check(log + 1, run.samples)?;
-    let none = |reason: &'static str| Error::NoBreakAway {
+    let none = |reason: &str| Error::NoBreakAway {
         log: log + 1,
-        reason,
+        reason: reason.into(),
     };
     let (time, force) = (&run.samples.time, &run.samples.force);
     let position = run
@@ -172,8 +175,36 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
         .sum::<f64>();
     let scatter = (off / (i + 1 - start) as f64).sqrt();
     let at = line(instant);
-    if scatter.is_nan() || scatter > MOST_BEND * at.abs() {
+    let risen = (rate * (instant - time[start])).abs();
+    if scatter.is_nan() || scatter > MOST_BEND * risen {
         return Err(none("the force does not rise linearly until break-away"));
+    }
+    // What the axis did before, for as long as the ramp took.
+    let before = start - start.min(i - start);
+    let held = force[before..start].iter();
+    let most = held.fold(0.0_f64, |a, f| if f.abs() > a.abs() { *f } else { a });
+    if most.abs() > MOST_BEFORE * at.abs() {
+        let reason = format!(
+            "what rises to {} at {} s began at {} s after a force of {}",
+            short(at),
+            short(instant),
+            short(time[start]),
+            short(most)
+        );
+        return Err(none(&reason));
+    }
+    let late = start - (start - before) / 4;
+    let way = |from: usize, to: usize| (place(to) - place(from)).abs();
+    if late > window && start - late >= window {
+        let (came, went) = (way(late, start), (place(i) - mean(rest)).abs());
+        let slower = came * (time[i] - time[start]) <= went * (time[start] - time[late]);
+        if came > CLEAR_MOTION * noise && !slower {
+            let reason = format!(
+                "the axis still moves when the force begins to rise, at {} s",
+                short(time[start])
+            );
+            return Err(none(&reason));
+        }
     }
     Ok(BreakAway {
         time: instant,

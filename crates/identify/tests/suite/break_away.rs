@@ -180,6 +180,17 @@ fn what_is_no_break_away_is_refused() {
         ..good.clone()
     };
     assert!(refused(&none).contains("no position"));
+    // Under control friction rises through zero at every reversal, and that is no ramp: the axis came from the other side.
+    let wait = n / 11;
+    let mut reversal = good.clone();
+    reversal.force[..wait].fill(-1.0);
+    assert!(refused(&reversal).contains("after a force of -1"));
+    let mut coasting = good.clone();
+    let position = coasting.position.as_mut().unwrap();
+    for (i, x) in position[..3 * wait / 2].iter_mut().enumerate() {
+        *x = 1e-4 * (3 * wait / 2 - i) as f64;
+    }
+    assert!(refused(&coasting).contains("still moves"));
     for size in [1e-300, 1e300] {
         let mut log = good.clone();
         log.force.iter_mut().for_each(|f| *f *= size);
