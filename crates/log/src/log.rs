@@ -16,12 +16,14 @@
 //!    linearly in time and excluded; longer runs are dropped with their rows and leave a gap. In
 //!    reference, temperature and load every missing cell is interpolated or held: they vary slowly; so it is in an
 //!    acceleration, which no fit has to rely on;
-//! 8. the log is inspected (see [`Finding`]).
+//! 8. a rate, travel, speed or force that no axis has is refused: its unit is wrong;
+//! 9. the log is inspected (see [`Finding`]).
 //!
 //! No sample is resampled, filtered or moved in time.
 
 mod cells;
 mod clock;
+mod credible;
 mod filled;
 mod held;
 mod unwrap;
@@ -135,6 +137,7 @@ impl Log {
                 .position()
                 .si_text();
             if let Some(position) = columns.get_mut(Role::Position) {
+                unwrap::resolved(position, wrap.period, mapping.resolution, &unit)?;
                 findings.push(unwrap::unwrap(position, wrap.period, &unit));
             }
         }
@@ -187,6 +190,7 @@ impl Log {
             columns: completed.columns,
             mapping,
         };
+        credible::check(&log, table, &sources)?;
         let mapping = log.mapping.clone();
         findings::inspect(&mut log, &mapping);
         log.excluded

@@ -24,7 +24,7 @@ const MAX_RMS_OFF_WHOLE: f64 = 0.1;
 
 /// The quantum of a quantised signal, in its own unit; `None` where it is continuous or too short to tell.
 /// Samples where `skip` is true are left out.
-pub(super) fn quantum(values: &[f64], skip: &[bool]) -> Option<f64> {
+pub(crate) fn quantum(values: &[f64], skip: &[bool]) -> Option<f64> {
     let (low, high) = extremes(values)?;
     // Differences below the rounding of the numbers themselves are not steps.
     let fuzz = 8.0 * f64::EPSILON * low.abs().max(high.abs());

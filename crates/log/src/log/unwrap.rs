@@ -1,7 +1,34 @@
 //! Unwrapping a position.
 
-use crate::findings::{Finding, Severity, count, short};
+use crate::findings::{Finding, Severity, count, quantum, short};
+use crate::{Error, Kind};
 use stiction_codes::Code;
+
+/// Fewest encoder steps of a wrap, so that a step forward is none back.
+const LEAST_STEPS: f64 = 2.0;
+
+/// Refuses a period that the encoder does not resolve: its step is as given, or as the data show it.
+pub(super) fn resolved(
+    position: &[f64],
+    period: f64,
+    given: Option<f64>,
+    unit: &str,
+) -> Result<(), Error> {
+    let shown = || quantum(position, &vec![false; position.len()]);
+    let Some(step) = given
+        .or_else(shown)
+        .filter(|step| period < LEAST_STEPS * step)
+    else {
+        return Ok(());
+    };
+    let (period, step) = (short(period), short(step));
+    let found = format!("wrap is {period} {unit}, and the position has steps of {step} {unit}");
+    let allowed = "the travel after which the position begins again, at least two steps of the encoder; without [log] wrap \
+                   nothing is unwrapped";
+    Err(Error::new(Kind::Value, found, allowed)
+        .in_column("position")
+        .of_setting("log.wrap"))
+}
 
 /// Adds whole periods so that no step is longer than half a period; missing samples are passed
 /// over. Turns made within a gap cannot be known.

@@ -93,6 +93,26 @@ impl Source {
         }
     }
 
+    /// The column as the place of an error.
+    pub fn place(&self, table: &Table) -> String {
+        describe::place(table, self.column)
+    }
+
+    /// The line of the axis file that gives it another unit.
+    pub fn line(&self, table: &Table, role: Role) -> String {
+        let rotary = Motion::Rotary;
+        let angular = [rotary.position(), rotary.velocity(), rotary.acceleration()];
+        let unit = match (role, angular.contains(&self.dimension)) {
+            (Role::Time, _) => "ms".to_string(),
+            (Role::Position | Role::Reference, false) => "mm".into(),
+            (Role::Position | Role::Reference, true) => "deg".into(),
+            (Role::Velocity, false) => "mm/s".into(),
+            (Role::Velocity, true) => "deg/s".into(),
+            _ => self.dimension.si_text(),
+        };
+        describe::line_with(table, self.column, role, &format!("unit = \"{unit}\""))
+    }
+
     /// A difference of two numbers of the file in SI.
     pub fn si_difference(&self, difference: f64) -> f64 {
         (self.unit.to_si(difference) - self.unit.to_si(0.0)) * self.scale

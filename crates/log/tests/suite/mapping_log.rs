@@ -655,3 +655,62 @@ fn numbers_of_any_size_stay_short() {
     let error = Log::from_table(&table, &Mapping::default()).unwrap_err();
     assert!(error.found.contains("0.199 to 5e-324"), "{error}");
 }
+
+/// A step of time, a travel or a force that no axis has is refused with its column: the unit is wrong. What is tiny on purpose is
+/// read.
+#[test]
+fn what_no_axis_does_is_refused() {
+    let mut said = String::new();
+    let scaled = |column: usize, size: f64| {
+        let mut table = axis(300).table();
+        table.columns[column]
+            .values
+            .iter_mut()
+            .for_each(|x| *x *= size);
+        Log::from_table(&table, &Mapping::default())
+    };
+    for (column, size) in [
+        (0, 1e-12),
+        (0, 1e9),
+        (1, 1e-300),
+        (1, 1e20),
+        (3, 1e-20),
+        (3, 1e20),
+    ] {
+        let error = scaled(column, size).unwrap_err();
+        assert!(error.setting().is_some());
+        said.push_str(&format!("{error}\n"));
+    }
+    insta::assert_snapshot!(said);
+    for (column, size) in [(1, 1e-6), (1, 1e6), (3, 1e-6), (3, 1e6)] {
+        scaled(column, size).unwrap();
+    }
+}
+
+/// A wrap that the encoder does not resolve is refused, whether its step is given or seen.
+#[test]
+fn a_wrap_is_longer_than_the_steps_of_the_encoder() {
+    let mut table = axis(3000).table();
+    let position = &mut table.columns[1].values;
+    position
+        .iter_mut()
+        .for_each(|x| *x = (*x / 1e-6).round() * 1e-6);
+    let with = |period: f64, resolution: Option<f64>| {
+        let mapping = Mapping {
+            wrap: Some(Wrap { period }),
+            resolution,
+            ..Mapping::default()
+        };
+        Log::from_table(&table, &mapping)
+    };
+    for (period, resolution) in [(1e-9, None), (1.5e-6, None), (1e-3, Some(1e-3))] {
+        let error = with(period, resolution).unwrap_err();
+        assert_eq!(error.setting(), Some("log.wrap"), "{error}");
+        assert!(
+            error.allowed.contains("two steps of the encoder"),
+            "{error}"
+        );
+    }
+    with(10.0, None).unwrap();
+    with(10.0, Some(1e-6)).unwrap();
+}
