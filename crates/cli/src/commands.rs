@@ -10,11 +10,12 @@ use crate::wording;
 use clap::ValueEnum;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use stiction::commands::number::full;
 use stiction::commands::reproduce::{Budget, OwnAxis, canudas_1995, zhang_2025, zhang_2025_on};
 use stiction::commands::shell::quoted;
 use stiction::commands::{
-    CompareOptions, Cost, Excitation, FileError, Files, Input, Outcome, Scheme, check_folder,
-    check_folder_of, check_inputs, write_atomic,
+    Bundle, CompareOptions, Cost, Excitation, FileError, Files, Input, Outcome, Scheme,
+    check_folder, check_folder_of, check_inputs, compare_file, write_atomic,
 };
 use stiction::result::Next;
 use stiction::{
@@ -86,6 +87,15 @@ fn next(error: &Error, command: &Command) -> Option<String> {
             "shows how the force runs, and what else the log is good for",
         ));
     }
+    if let Command::Identify(identify) = command
+        && error.code() == Code::NoBreakAway
+    {
+        return Some(looked_at(
+            &identify.break_away,
+            identify,
+            "shows what the log is good for; what to record instead: docs/procedures.md",
+        ));
+    }
     let (logs, axis) = match command {
         Command::Check(check) if check.init.is_none() => (&check.logs, &check.axis),
         Command::Identify(identify) => (&identify.logs, &identify.axis),
@@ -138,8 +148,13 @@ fn more_samples(error: &Error, identify: &arguments::Identify) -> Option<String>
 
 /// The command that shows what the logs hold, and what for.
 fn shown(identify: &arguments::Identify, what: &str) -> String {
+    looked_at(&identify.logs, identify, what)
+}
+
+/// The same of some of its logs.
+fn looked_at(logs: &[PathBuf], identify: &arguments::Identify, what: &str) -> String {
     let mut next = String::from("next: stiction check");
-    for log in &identify.logs {
+    for log in logs {
         next.push_str(&format!(" {}", typed(log)));
     }
     if let Some(axis) = &identify.axis {
@@ -194,7 +209,7 @@ fn simulated(identify: &arguments::Identify) -> Option<String> {
         }
     }
     if let Some(part) = identify.split {
-        out.push_str(&format!(" --split {part}"));
+        out.push_str(&format!(" --split {}", full(part)));
     }
     out.push_str(&format!(" --out {}", typed(&identify.out)));
     Some(out)
@@ -337,7 +352,7 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
 }
 
 fn compare(compare: &arguments::Compare, common: &Common) -> Result<Exit, Error> {
-    check_folder_of(&compare.out, "stiction.compare/1", compare.force)?;
+    check_folder_of(&compare.out, compare_file::SCHEMA, compare.force)?;
     check_inputs(&compare.out, compare.logs.iter().chain(&compare.axis))?;
     let options = CompareOptions {
         input: match &compare.problem {
@@ -375,14 +390,15 @@ fn compare(compare: &arguments::Compare, common: &Common) -> Result<Exit, Error>
     let found = stiction::commands::compare(&options, &mut bar);
     bar.finish();
     let found = found?;
-    bundle::comparison(&found).write(&compare.out)?;
+    let bundle = bundle::comparison(&found);
+    let (out, _) = put(&bundle, &compare.out, compare_file::SCHEMA, &found.status)?;
     if common.json {
         output::json(&found)?;
     } else if !common.quiet {
         output::print(&format!(
             "{}\nwritten to {}: report.html, compare.json\n",
             stiction::commands::text::comparison(&found),
-            compare.out.display()
+            out.display()
         ))?;
     }
     Ok(stiction::commands::verdict::of_comparison(&found).into())
@@ -412,9 +428,49 @@ fn searching(typed: &arguments::Searching) -> Searching {
     }
 }
 
+/// Writes files into a folder, or beside it where they are of an outcome that was stopped early and a complete one is there; says
+/// what is kept. The folder, and what was written.
+fn put(
+    bundle: &Bundle,
+    dir: &Path,
+    schema: &str,
+    status: &str,
+) -> Result<(PathBuf, Vec<PathBuf>), Error> {
+    let partial = bundle::PARTIAL.contains(&status);
+    let beside = partial
+        .then(|| bundle::beside_complete(dir, schema))
+        .flatten();
+    let out = beside.as_deref().unwrap_or(dir);
+    let kept = bundle.kept(out);
+    let written = bundle.write(out)?;
+    let mut lines = Vec::new();
+    if beside.is_some() {
+        lines.push(format!(
+            "{} holds a complete result and is kept; what was found before the stop is in {}",
+            dir.display(),
+            out.display()
+        ));
+    }
+    lines.extend(kept.iter().map(|(from, to)| {
+        format!(
+            "{} was changed since, or belongs to an earlier result only, and is kept as {}",
+            from.display(),
+            to.display()
+        )
+    }));
+    for line in lines {
+        // With standard error closed there is nowhere to say it.
+        let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&line));
+    }
+    Ok((out.to_path_buf(), written))
+}
+
 /// Writes the files, says what was found, and what it is worth.
 fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error> {
-    let written = bundle::identification(outcome).write(dir)?;
+    let status = &outcome.result.search.status;
+    let bundle = bundle::identification(outcome);
+    let (dir, written) = put(&bundle, dir, stiction::result::SCHEMA, status)?;
+    let dir = dir.as_path();
     if common.json {
         output::json(&outcome.result)?;
     } else if !common.quiet {
@@ -460,12 +516,13 @@ fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Err
     let mut bar = Bar::new(common.json || common.quiet);
     let outcome = stiction::simulate(&study, &mut bar);
     bar.finish();
-    let written = bundle::study(&outcome).write(dir)?;
+    let schema = stiction::commands::study::result::SCHEMA;
+    let (dir, written) = put(&bundle::study(&outcome), dir, schema, &outcome.file.status)?;
     if common.json {
         output::json(&outcome.file)?;
     } else if !common.quiet {
         let text = stiction::commands::text::study(&outcome);
-        output::print(&format!("{text}\n{}", written_to(dir, &written)))?;
+        output::print(&format!("{text}\n{}", written_to(&dir, &written)))?;
     }
     Ok(outcome.verdict().into())
 }
@@ -548,12 +605,18 @@ fn reproduce(reproduce: &arguments::Reproduce, common: &Common) -> Result<Exit, 
         }
     };
     bar.finish();
-    let written = bundle::reproduction(&outcome).write(dir)?;
+    let schema = stiction::commands::reproduce_file::SCHEMA;
+    let (dir, written) = put(
+        &bundle::reproduction(&outcome),
+        dir,
+        schema,
+        &outcome.file.status,
+    )?;
     if common.json {
         output::json(&outcome.file)?;
     } else if !common.quiet {
         let text = stiction::commands::text::reproduction(&outcome.file);
-        output::print(&format!("{text}{}", written_to(dir, &written)))?;
+        output::print(&format!("{text}{}", written_to(&dir, &written)))?;
     }
     Ok(outcome.verdict().into())
 }

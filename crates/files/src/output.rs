@@ -18,6 +18,7 @@ const MARKS: [&str; 4] = [
 #[derive(Clone, Debug, Default)]
 pub struct Bundle {
     files: Vec<(&'static str, Vec<u8>)>,
+    absent: Vec<&'static str>,
 }
 
 impl Bundle {
@@ -26,13 +27,47 @@ impl Bundle {
         self.files.push((name, content.into()));
     }
 
+    /// Says that there is none of a file that others of this kind have: an older one does not belong to what is written.
+    pub fn lacks(&mut self, name: &'static str) {
+        self.absent.push(name);
+    }
+
+    /// Files in `dir` that [`Bundle::write`] keeps under another name, with that: those that were changed since the outcome that is
+    /// there was written, and those that belong to that alone.
+    pub fn kept(&self, dir: impl AsRef<Path>) -> Vec<(PathBuf, PathBuf)> {
+        let dir = dir.as_ref();
+        let mark = self.files.iter().find(|(name, _)| MARKS.contains(name));
+        let Some((mark, _)) = mark.filter(|(name, _)| {
+            let kind = name.trim_end_matches(".json");
+            is_ours(&dir.join(name), kind)
+        }) else {
+            return Vec::new();
+        };
+        let changed = |path: &Path| path.metadata().and_then(|m| m.modified()).ok();
+        // The mark is written last.
+        let written = changed(&dir.join(mark));
+        let edited = self.files.iter().filter(|(name, content)| {
+            let path = dir.join(name);
+            let later = name != mark && path.is_file() && changed(&path) > written;
+            later && fs::read(&path).is_ok_and(|there| there != *content)
+        });
+        let edited = edited.map(|(name, _)| *name);
+        let stale = self.absent.iter().copied();
+        let stale = stale.filter(|name| dir.join(name).is_file());
+        let kept = edited
+            .chain(stale)
+            .map(|name| (dir.join(name), free(dir, name)));
+        kept.collect()
+    }
+
     /// Names and contents, in the order they were added.
     pub fn files(&self) -> &[(&'static str, Vec<u8>)] {
         &self.files
     }
 
     /// Writes every file into `dir`: all under temporary names first, renamed once the last one is
-    /// complete, the one that marks the folder at the very end. A full disk or an interrupt leaves what was there.
+    /// complete, the one that marks the folder at the very end. A full disk or an interrupt leaves what was there; what
+    /// [`Bundle::kept`] names is kept under another name.
     ///
     /// # Errors
     /// When the folder cannot be made or a file cannot be written.
@@ -53,6 +88,9 @@ impl Bundle {
             let file = stage(&path, content)?;
             staged.push((path, file));
         }
+        for (path, other) in self.kept(dir) {
+            fs::rename(&path, &other).map_err(|e| Error::output(&path, describe(&e)))?;
+        }
         let mut written = Vec::new();
         for (path, file) in staged {
             publish(file, &path)?;
@@ -60,6 +98,14 @@ impl Bundle {
         }
         Ok(written)
     }
+}
+
+/// The first of `study-1.toml`, `study-2.toml` and so on that nothing is called.
+fn free(dir: &Path, name: &str) -> PathBuf {
+    let (stem, end) = name.rsplit_once('.').unwrap_or((name, ""));
+    let names = (1_u64..).map(|k| dir.join(format!("{stem}-{k}.{end}")));
+    let mut names = names.filter(|path| path.symlink_metadata().is_err());
+    names.next().unwrap_or_else(|| dir.join(name))
 }
 
 /// Writes files (relative path, content) as one folder: made under a temporary name beside `dir` and renamed when it is

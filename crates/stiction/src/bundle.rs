@@ -2,9 +2,11 @@
 
 use crate::fit_csv::fit_csv;
 use serde::Serialize;
+use std::io::Read;
+use std::path::{Path, PathBuf};
 use stiction_files::compare_file::CompareFile;
 use stiction_files::study::template::{Shown, template};
-use stiction_files::{Bundle, ModelFile};
+use stiction_files::{Bundle, ModelFile, check_folder_of};
 use stiction_pages::report;
 use stiction_workflows::identify::Outcome;
 use stiction_workflows::reproduce::Reproduction;
@@ -18,8 +20,9 @@ pub fn identification(outcome: &Outcome) -> Bundle {
     bundle.add("model.toml", model.to_toml());
     bundle.add("fit.csv", fit_csv(outcome));
     bundle.add("report.html", report::identification(outcome).to_html());
-    if let Some(study) = study_of(outcome) {
-        bundle.add("study.toml", study);
+    match study_of(outcome) {
+        Some(study) => bundle.add("study.toml", study),
+        None => bundle.lacks("study.toml"),
     }
     bundle.add("result.json", json(&outcome.result));
     bundle
@@ -53,8 +56,9 @@ pub fn study(outcome: &StudyOutcome) -> Bundle {
     bundle.add("report.html", report::study(outcome).to_html());
     let names = ["trajectories.csv", "contours.csv"];
     for (name, rows) in names.into_iter().zip(&outcome.courses) {
-        if !rows.is_empty() {
-            bundle.add(name, rows.as_str());
+        match rows.is_empty() {
+            false => bundle.add(name, rows.as_str()),
+            true => bundle.lacks(name),
         }
     }
     bundle.add("study.json", json(&outcome.file));
@@ -68,6 +72,54 @@ pub fn reproduction(outcome: &Reproduction) -> Bundle {
     bundle.add("reproduce.json", json(&outcome.file));
     bundle
 }
+
+/// Where an outcome that was stopped early goes: beside `dir` where that holds a complete one of this schema, which is kept;
+/// `None` where `dir` itself may take it.
+pub fn beside_complete(dir: &Path, schema: &str) -> Option<PathBuf> {
+    if !holds_complete(dir, schema) {
+        return None;
+    }
+    // Without a slash or a dot at its end.
+    let plain: PathBuf = dir.components().collect();
+    let named = |end: &str| {
+        let mut name = plain.clone().into_os_string();
+        name.push(end);
+        PathBuf::from(name)
+    };
+    let beside = (1..MOST_NAMES).map(|k| match k {
+        1 => named("-interrupted"),
+        k => named(&format!("-interrupted-{k}")),
+    });
+    let beside = beside.filter(|_| plain.file_name().is_some());
+    // Within it where nothing can be written beside it.
+    let mut names = beside.chain([plain.join("interrupted")]);
+    names.find(|other| {
+        check_folder_of(other, schema, false).is_ok() && !holds_complete(other, schema)
+    })
+}
+
+/// Most names that are tried.
+const MOST_NAMES: u32 = 100;
+
+/// Whether a folder holds an outcome of this schema that was not stopped early.
+fn holds_complete(dir: &Path, schema: &str) -> bool {
+    let kind = schema.trim_start_matches("stiction.").split('/').next();
+    let file = dir.join(format!("{}.json", kind.unwrap_or_default()));
+    if !file.is_file() {
+        return false;
+    }
+    let read = std::fs::File::open(file).ok().and_then(|file| {
+        let value: serde_json::Value = serde_json::from_reader(file.take(MOST_BYTES)).ok()?;
+        let status = value.pointer("/search/status").or(value.get("status"))?;
+        Some(!PARTIAL.contains(&status.as_str()?))
+    });
+    read.unwrap_or(false)
+}
+
+/// Largest file that is looked into, bytes.
+const MOST_BYTES: u64 = 256 << 20;
+/// States of what was stopped early.
+pub const PARTIAL: [&str; 2] = ["interrupted", "budget"];
 
 fn json(value: &impl Serialize) -> String {
     serde_json::to_string_pretty(value).expect("plain data") + "\n"

@@ -347,6 +347,82 @@ fn the_folder_is_whole_or_untouched() {
     }
 }
 
+/// A file that was edited since, and one that belongs to an earlier result alone, is kept under another name.
+#[test]
+fn edits_are_kept() {
+    let bench = Bench::new();
+    let log = bench.good("good.csv", 5);
+    let outcome = run(&options(&[&log], LawKind::CoulombViscous)).unwrap();
+    let bundle = stiction::bundle::identification(&outcome);
+    let out = bench.path("out");
+    bundle.write(&out).unwrap();
+    assert!(bundle.kept(&out).is_empty());
+    let edit = |name: &str, text: &str| {
+        std::fs::write(out.join(name), text).unwrap();
+        let file = std::fs::File::options()
+            .write(true)
+            .open(out.join(name))
+            .unwrap();
+        let later = std::time::SystemTime::now() + std::time::Duration::from_secs(2);
+        file.set_modified(later).unwrap();
+    };
+    edit("model.toml", "mine");
+    // This law has no study.
+    edit("study.toml", "of a law before");
+    let kept = [
+        ("model.toml", "model-1.toml"),
+        ("study.toml", "study-1.toml"),
+    ];
+    let kept = kept.map(|(from, to)| (out.join(from), out.join(to)));
+    assert_eq!(bundle.kept(&out), kept);
+    bundle.write(&out).unwrap();
+    let four = [
+        "fit.csv",
+        "model-1.toml",
+        "model.toml",
+        "report.html",
+        "result.json",
+        "study-1.toml",
+    ];
+    assert_eq!(names(&out), four);
+    let text = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
+    assert_eq!(
+        (text("model-1.toml"), text("study-1.toml")),
+        ("mine".into(), "of a law before".into())
+    );
+    edit("model.toml", "again");
+    bundle.write(&out).unwrap();
+    assert_eq!(text("model-2.toml"), "again");
+}
+
+/// What was stopped early does not take the place of a complete result.
+#[test]
+fn a_complete_result_stays() {
+    let bench = Bench::new();
+    let log = bench.good("good.csv", 5);
+    let mut outcome = run(&options(&[&log], LawKind::CoulombViscous)).unwrap();
+    let out = bench.path("out");
+    let beside = || stiction::bundle::beside_complete(&out, stiction::result::SCHEMA);
+    assert_eq!(beside(), None);
+    stiction::bundle::identification(&outcome)
+        .write(&out)
+        .unwrap();
+    assert_eq!(beside(), Some(bench.path("out-interrupted")));
+    // Nor that of something else beside it.
+    std::fs::create_dir(bench.path("out-interrupted")).unwrap();
+    std::fs::write(
+        bench.path("out-interrupted").join("thesis.doc"),
+        "years of work",
+    )
+    .unwrap();
+    assert_eq!(beside(), Some(bench.path("out-interrupted-2")));
+    outcome.result.search.status = "interrupted".into();
+    stiction::bundle::identification(&outcome)
+        .write(&out)
+        .unwrap();
+    assert_eq!(beside(), None);
+}
+
 /// A pipe of the name of a result must not make anyone wait.
 #[cfg(unix)]
 #[test]
@@ -420,9 +496,16 @@ fn validation_and_split() {
         split.split = Some(part);
         assert_eq!(run(&split).unwrap_err().code().as_str(), "usage", "{part}");
     }
-    // Too little to fit, too little to validate on.
-    split.split = Some(1e-6);
-    assert_eq!(run(&split).unwrap_err().code().as_str(), "too-few-samples");
+    // Too little to fit, too little to validate on: the share is named.
+    for (part, left) in [
+        (1e-6, " leaves 0 samples to fit"),
+        (1.0 - 1e-6, " to validate on"),
+    ] {
+        split.split = Some(part);
+        let error = run(&split).unwrap_err();
+        assert_eq!(error.code().as_str(), "usage");
+        assert!(error.to_string().contains(left), "{error}");
+    }
 }
 
 /// Where the measured force never changes there is no variance to explain; the files stay readable.
