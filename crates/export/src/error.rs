@@ -48,7 +48,12 @@ pub enum Error {
         source: ParamError,
     },
     /// An implausible cycle time.
-    #[error("cycle time {found} s; allowed: {} s to {} s", crate::check::CYCLE_TIMES.0, crate::check::CYCLE_TIMES.1)]
+    #[error(
+        "cycle time {} s; allowed: {} s to {} s",
+        shortest(*found),
+        crate::check::CYCLE_TIMES.0,
+        crate::check::CYCLE_TIMES.1
+    )]
     CycleTime {
         /// The time found, s.
         found: f64,

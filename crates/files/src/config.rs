@@ -14,7 +14,7 @@ mod syntax;
 mod table;
 mod typed;
 
-pub(crate) use given::{Given, LARGEST_SI};
+pub(crate) use given::{ANY_COUNT, Given, LARGEST_SI};
 pub(crate) use places::Places;
 pub(crate) use source::Source;
 pub(crate) use swept::Swept;

@@ -3,6 +3,7 @@
 
 use std::borrow::Cow;
 use std::fmt;
+use stiction_number::full;
 
 /// Between two options that exclude each other.
 pub(crate) const TOGETHER_WITH: &str = " together with ";
@@ -124,7 +125,21 @@ impl Setting {
 
     /// The option with a value, for a message.
     pub(crate) fn is(self, value: impl fmt::Display) -> Part {
-        Part::Setting(self, Some(value.to_string()))
+        Part::Setting(self, Some(quoted(value.to_string())))
+    }
+}
+
+/// Most characters of a value that are quoted.
+const QUOTED: usize = 60;
+
+/// A value as it is quoted: a number of hundreds of digits with a power of ten, a long text cut.
+fn quoted(text: String) -> String {
+    if text.chars().count() <= QUOTED {
+        return text;
+    }
+    match text.parse::<f64>() {
+        Ok(x) => full(x),
+        Err(_) => text.chars().take(QUOTED).chain("...".chars()).collect(),
     }
 }
 

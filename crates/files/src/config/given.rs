@@ -6,13 +6,17 @@ use super::typed;
 use crate::error::Error;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
+use stiction_codes::Code;
 use stiction_log::{Dimension, Value};
+use stiction_number::full;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// Largest value with a unit, in SI, and the inverse of the smallest above 0. No machine comes near; products of twenty of them
 /// stay finite (below 1e308).
 pub(crate) const LARGEST_SI: f64 = 1e15;
+/// The largest whole number that a file can hold: no limit of its own.
+pub(crate) const ANY_COUNT: u64 = i64::MAX as u64;
 /// Longest piece of the file that is quoted, characters.
 const QUOTED: usize = 60;
 
@@ -68,6 +72,17 @@ impl<'a> Given<'a> {
                 let allowed = format!("{allowed}; or {}", either(words));
                 self.source.error(self.place(), found, &allowed)
             }
+        }
+    }
+
+    /// The same with a code of its own: what is wrong with a file that this names.
+    pub fn refuse_as(&self, code: Code, found: String, allowed: &str) -> Error {
+        Error::Misfit {
+            file: self.source.file.to_path_buf(),
+            place: self.place(),
+            found,
+            allowed: allowed.into(),
+            code,
         }
     }
 
@@ -170,8 +185,11 @@ impl<'a> Given<'a> {
         match self.as_number() {
             Some(x) if (low..=high).contains(&x) => Ok(x),
             _ => {
-                let allowed = format!("a number from {low} to {high}, without quotes");
-                Err(self.refused(&allowed))
+                let range = match high {
+                    f64::MAX => String::new(),
+                    _ => format!(" from {} to {}", full(low), full(high)),
+                };
+                Err(self.refused(&format!("a number{range}, without quotes")))
             }
         }
     }
@@ -181,8 +199,12 @@ impl<'a> Given<'a> {
         match self.as_whole().and_then(|x| u64::try_from(x).ok()) {
             Some(x) if (low..=high).contains(&x) => Ok(x),
             _ => {
-                let allowed = format!("a whole number from {low} to {high}, without quotes");
-                Err(self.refused(&allowed))
+                // Nobody types the largest number of a machine.
+                let range = match high {
+                    ANY_COUNT => format!("from {low} on, with at most 18 digits"),
+                    _ => format!("from {low} to {high}"),
+                };
+                Err(self.refused(&format!("a whole number {range}, without quotes")))
             }
         }
     }

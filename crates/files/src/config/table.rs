@@ -8,6 +8,7 @@ use crate::error::Error;
 use std::cell::RefCell;
 use stiction_friction::ParamError;
 use stiction_log::Dimension;
+use stiction_number::full;
 use toml::de::DeTable;
 
 /// Parameters of the engines that have another name in the files.
@@ -279,7 +280,7 @@ impl<'a> Table<'a> {
             Some(given) => given.refused(error.allowed),
             None => {
                 let place = self.place(self.prefix.trim_end_matches('.'));
-                let found = format!("{} = {}", error.name, error.value);
+                let found = format!("{} = {}", error.name, full(error.value));
                 self.source.error(place, found, error.allowed)
             }
         }

@@ -2,7 +2,7 @@
 
 use super::fault;
 use super::form::{ModelFile, ModelParameter, SCHEMA, SourceEntry, SourceInput};
-use crate::config::{Given, Places, Source, Table};
+use crate::config::{ANY_COUNT, Given, Places, Source, Table};
 use crate::error::Error;
 use crate::hash::sha256_of;
 use crate::result::{CovarianceEntry, RemainingEntry, ShapeEntry};
@@ -288,7 +288,7 @@ fn kind_of(parameters: &[ModelParameter], force: &str) -> &'static str {
 }
 
 fn source(table: &Table<'_>) -> Result<SourceEntry, Error> {
-    let seed = table.count("seed", 0, i64::MAX as u64)?;
+    let seed = table.count("seed", 0, ANY_COUNT)?;
     let inputs = list(table, "inputs", "a list of logs, which may be empty")?;
     let source = SourceEntry {
         version: text(table, "version", "the version that wrote the model")?,

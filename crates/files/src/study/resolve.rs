@@ -19,7 +19,7 @@ mod usual;
 
 use super::belief::{Belief, Family, Undrawn};
 use super::plan::{Machine, Named, Study};
-use crate::config::{Source, Table};
+use crate::config::{ANY_COUNT, Source, Table};
 use crate::error::{Error, Warning};
 pub(super) use dimensions::Dimensions;
 use entry::{few, once, seen};
@@ -75,7 +75,7 @@ fn study(root: &Table<'_>, file: &Path) -> Result<Study, Error> {
             .map_or_else(String::new, |s| s.to_string_lossy().into_owned()),
         Some(name) => name.to_string(),
     };
-    let seed = root.count("seed", 0, i64::MAX as u64)?.unwrap_or(0);
+    let seed = root.count("seed", 0, ANY_COUNT)?.unwrap_or(0);
     let axis = root.table("axis")?;
     let axis = root.required("axis", axis, "a table [axis] with model = \"model.toml\"")?;
     let folder = file.parent().unwrap_or(Path::new(""));

@@ -250,11 +250,7 @@ fn crop(
                 .map(&at)
                 .find(|t| t.is_finite())
                 .unwrap_or(0.0);
-            let found = format!(
-                "crop from {} to {} s keeps no sample",
-                short(from),
-                short(to)
-            );
+            let found = format!("crop from {} to {} s keeps no sample", full(from), full(to));
             let allowed = format!(
                 "the record runs from 0 to {} s, counted from its first sample",
                 short(last)

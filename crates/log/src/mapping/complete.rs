@@ -7,6 +7,7 @@ use super::{Detected, Mapping, choose, describe, motion, names, understood};
 use crate::findings::{Finding, Severity};
 use crate::{Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;
+use stiction_number::full;
 
 /// Median spacings, s, with which a time column without a unit is taken as seconds: 5 Hz to 1 MHz.
 const PLAUSIBLE_SPACING: std::ops::RangeInclusive<f64> = 1e-6..=0.2;
@@ -228,7 +229,7 @@ fn seconds(table: &Table, part: &Part) -> Result<Unit, Error> {
         return Unit::parse("s");
     }
     let median = median.map_or("no two samples".to_string(), |dt| {
-        format!("a median spacing of {dt}")
+        format!("a median spacing of {}", full(dt))
     });
     let milli = describe::line_with(table, part.column, Role::Time, "unit = \"ms\"");
     let seconds = describe::line_with(table, part.column, Role::Time, "unit = \"s\"");

@@ -19,9 +19,10 @@ pub(super) fn place(table: &Table, index: usize) -> String {
 /// `"Torque [N m]"` in quotes; empty where the column has no name.
 pub(super) fn key(table: &Table, index: usize) -> String {
     let column = &table.columns[index];
-    match (&column.unit, column.name.as_str()) {
+    let name = shortened(&column.name);
+    match (&column.unit, name.as_str()) {
         (_, "") => String::new(),
-        (Some(unit), name) => format!("\"{name} [{unit}]\""),
+        (Some(unit), name) => format!("\"{name} [{}]\"", shortened(unit)),
         (None, name) => format!("\"{name}\""),
     }
 }
@@ -44,9 +45,12 @@ pub(super) fn columns(table: &Table) -> String {
     format!("{there}; left out: {left_out}")
 }
 
-/// At most 80 characters of a text.
+/// Most characters of a text that are quoted.
+const QUOTED: usize = 80;
+
+/// As many characters of a text as are quoted.
 fn shortened(text: &str) -> String {
-    match text.char_indices().nth(80) {
+    match text.char_indices().nth(QUOTED) {
         Some((end, _)) => format!("{}...", &text[..end]),
         None => text.to_string(),
     }
@@ -85,7 +89,7 @@ fn value(table: &Table, index: usize) -> String {
     let name = &table.columns[index].name;
     let unique = table.columns.iter().filter(|c| c.name == *name).count() == 1;
     let plain = !name.is_empty() && !name.contains(['"', '\\']) && !name.contains(char::is_control);
-    if unique && plain {
+    if unique && plain && name.chars().count() <= QUOTED {
         format!("\"{name}\"")
     } else {
         table.number(index).to_string()

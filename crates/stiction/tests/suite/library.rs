@@ -25,6 +25,7 @@ fn options_are_named_as_fields() {
     let mut found = vec![
         said(&with(|o| (o.law, o.asymmetric) = (None, true)), &logs, &[]),
         said(&with(|o| o.split = Some(2.0)), &logs, &[]),
+        said(&with(|o| o.split = Some(1e-9)), &logs, &[]),
         said(
             &with(|o| o.searching.cost = Some(CostKind::Six)),
             &logs,

@@ -1,7 +1,7 @@
 //! An identification from logs to outcome: load, condition, fit, judge.
 
 use super::assemble::{self, Parts};
-use super::condition::condition;
+use super::condition::{Conditioned, condition};
 use super::fit::fit;
 use super::judge::judge;
 use super::late::aligned;
@@ -18,7 +18,8 @@ use crate::wording::Setting;
 use std::time::Instant;
 use stiction_files::Axis;
 use stiction_identify as engine;
-use stiction_identify::{Observer, Series};
+use stiction_identify::{Observer, Record, Series};
+use stiction_number::counted;
 
 /// Reads, conditions, fits, compares laws and validates.
 ///
@@ -99,12 +100,29 @@ pub(crate) fn identify_asked(
     outcome.map_err(|e| e.at_axis(asked.axis))
 }
 
+/// The refusal of a record that is too short, where the split alone makes it so.
+fn of_the_split(asked: Asked, conditioned: &Conditioned, error: Error) -> Error {
+    let fitted = conditioned.record.kept();
+    let usable = fitted + conditioned.unseen.iter().map(Record::kept).sum::<usize>();
+    match (asked.options.split, error.losses()) {
+        (Some(part), Some((_, needed))) if usable >= needed => {
+            let left = format!(" leaves {} to fit", counted(fitted, "sample"));
+            let allowed = format!(
+                "at least {needed} of the {usable} usable ones: a larger share, such as 0.5"
+            );
+            Error::usage([Setting::Split.is(part), left.into()], allowed)
+        }
+        _ => error,
+    }
+}
+
 /// Fits the force of whole records.
 fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Result<Outcome, Error> {
     let loaded = aligned(asked, loaded)?;
     let conditioned = condition(asked, &loaded, observer)?;
     let ranges = asked.axis.search_box(&loaded.sources[0].log)?;
-    let fitted = fit(asked, &loaded, &conditioned, observer)?;
+    let fitted = fit(asked, &loaded, &conditioned, observer);
+    let fitted = fitted.map_err(|e| of_the_split(asked, &conditioned, e))?;
     let names = conditioned.unseen_names.iter().cloned();
     let validation: Vec<(String, Series)> = names
         .zip(&conditioned.unseen)

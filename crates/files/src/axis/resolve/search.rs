@@ -3,13 +3,14 @@
 use super::simulation::gain;
 use crate::axis::gain::Gain;
 use crate::axis::search::{BOX_KEYS, SearchValues};
-use crate::config::{Given, Table};
+use crate::config::{ANY_COUNT, Given, Table};
 use crate::error::Error;
+use stiction_number::full;
 use stiction_search::genetic::{self, Annealing, Crossover, Rates, Ratio, Selection};
 use stiction_search::{Error as Refused, Method};
 
 /// Larger than any count that a search allows: what it allows, it says itself.
-const ANY_COUNT: u64 = 1 << 32;
+const LARGE_COUNT: u64 = 1 << 32;
 
 /// The methods with settings, and the box.
 pub(super) fn search(root: &Table<'_>) -> Result<SearchValues, Error> {
@@ -40,7 +41,7 @@ pub(super) fn search(root: &Table<'_>) -> Result<SearchValues, Error> {
 fn settings(mut method: Method, table: &Table<'_>) -> Result<Method, Error> {
     let count = |key, out: &mut usize| -> Result<(), Error> {
         if let Some(n) = table.count(key, 0, ANY_COUNT)? {
-            *out = n as usize;
+            *out = n.min(LARGE_COUNT) as usize;
         }
         Ok(())
     };
@@ -81,7 +82,7 @@ fn settings(mut method: Method, table: &Table<'_>) -> Result<Method, Error> {
         }
         Method::CmaEs(s) => {
             if let Some(n) = table.count("population", 0, ANY_COUNT)? {
-                s.population = Some(n as usize);
+                s.population = Some(n.min(LARGE_COUNT) as usize);
             }
             number("deviation", &mut s.deviation)?;
             count("restarts", &mut s.restarts)?;
@@ -231,5 +232,8 @@ fn misfit(table: &Table<'_>, error: &Refused) -> Error {
         "ratio" => "crossover_ratio",
         same => same,
     };
-    table.refuse(key, found.to_string(), allowed)
+    match table.find(key) {
+        Some(given) if given.as_number().is_some() => given.refused(allowed),
+        _ => table.refuse(key, full(*found), allowed),
+    }
 }

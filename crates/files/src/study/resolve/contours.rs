@@ -12,6 +12,7 @@ use crate::study::plan::{Machine, Study};
 use std::path::Path;
 use stiction_friction::ParamError;
 use stiction_log::Dimension;
+use stiction_number::full;
 use stiction_servo::cross_coupling::CrossCoupling;
 use stiction_servo::motion::Limits;
 use stiction_servo::plane::{Along, Circle, Curve, FigureEight, FreeForm, PlaneMotion, Polygon};
@@ -112,8 +113,8 @@ pub(super) fn contour(
     let skip = table.not_negative("skip", Dimension::TIME)?;
     let skip = skip.unwrap_or(usual);
     if skip >= duration {
-        let allowed = format!("shorter than the contour, {duration} s");
-        return Err(table.refuse("skip", format!("{skip} s"), &allowed));
+        let allowed = format!("shorter than the contour, {} s", full(duration));
+        return Err(table.refuse("skip", format!("{} s", full(skip)), &allowed));
     }
     let plan = ContourPlan {
         name: name(table, kind.into())?,

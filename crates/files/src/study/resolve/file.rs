@@ -68,13 +68,14 @@ pub(super) fn points<const AXES: usize>(
             format!("{}: {}", file.display(), e.found),
             &format!("give the path of {what}"),
         ),
-        _ => e.into(),
+        code => {
+            let mut found = e;
+            let allowed = std::mem::take(&mut found.allowed);
+            given.refuse_as(code.code(), found.to_string(), &allowed)
+        }
     })?;
-    let refuse = |place: String, found: String, allowed: &str| Error::Config {
-        file: file.clone(),
-        place,
-        found,
-        allowed: allowed.into(),
+    let refuse = |place: String, found: String, allowed: &str| {
+        given.refuse(format!("{}: {place}{found}", file.display()), allowed)
     };
     if read.columns.len() < 1 + AXES {
         let found = format!("{} columns of numbers", read.columns.len());

@@ -10,6 +10,7 @@ use crate::study::plan::{PathPlan, Study};
 use std::path::Path as FilePath;
 use stiction_friction::ParamError;
 use stiction_log::Dimension;
+use stiction_number::full;
 use stiction_servo::motion::{Chirp, Limits, Move, Moves, SetPoints, Sine};
 use stiction_servo::path::Path;
 use stiction_servo::trajectory::Trajectory;
@@ -105,8 +106,10 @@ impl Asked<'_, '_> {
         let skip = self.table.not_negative("skip", Dimension::TIME)?;
         let skip = skip.unwrap_or(default);
         if skip >= duration {
-            let allowed = format!("shorter than the path, {duration} s");
-            return Err(self.table.refuse("skip", format!("{skip} s"), &allowed));
+            let allowed = format!("shorter than the path, {} s", full(duration));
+            return Err(self
+                .table
+                .refuse("skip", format!("{} s", full(skip)), &allowed));
         }
         Ok(PathPlan {
             name,

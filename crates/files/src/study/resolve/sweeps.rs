@@ -114,7 +114,11 @@ fn ascending<'a>(
             }
         };
         if i > 0 && of != dimension {
-            return Err(given.refused("a unit of the same kind as that of the first value"));
+            let first = known[0].1.shown();
+            let found = format!("{} beside {first}, the first of the list", given.shown());
+            let allowed =
+                format!("all with units of one kind, that of {name}: one of both is wrong");
+            return Err(given.refuse(found, &allowed));
         }
         if known.last().is_some_and(|(before, _)| x <= *before) {
             return Err(given.refused("above the value before it"));
@@ -176,7 +180,7 @@ impl<'a> Asked<'a> {
                 place,
                 found,
                 allowed,
-            } if place != given.place() => Error::Config {
+            } if place != given.place() || !found.contains(&given.shown()) => Error::Config {
                 found: format!("{found}, with {} = {}", self.name, given.shown()),
                 file,
                 place,
