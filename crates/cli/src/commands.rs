@@ -452,11 +452,11 @@ fn put(
         ));
     }
     lines.extend(kept.iter().map(|(from, to)| {
-        format!(
-            "{} was changed since, or belongs to an earlier result only, and is kept as {}",
-            from.display(),
-            to.display()
-        )
+        let why = match written.contains(from) {
+            true => "was changed after it was written",
+            false => "is of an earlier result, and this one has none",
+        };
+        format!("{} {why}: it is kept as {}", from.display(), to.display())
     }));
     for line in lines {
         // With standard error closed there is nowhere to say it.

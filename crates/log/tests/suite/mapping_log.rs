@@ -718,15 +718,10 @@ fn a_wrap_is_longer_than_the_steps_of_the_encoder() {
 /// However long the header of a column is, what is said of it stays short.
 #[test]
 fn long_headers_are_cut() {
-    let long = "a".repeat(1_000_000);
-    for (name, unit) in [("position", long.as_str()), (long.as_str(), "parsec")] {
-        let mut table = axis(300).table();
-        table.columns[1].name = name.into();
-        table.columns[1].unit = Some(unit.into());
-        let said = Log::from_table(&table, &Mapping::default())
-            .unwrap_err()
-            .to_string();
-        assert!(said.len() < 1500, "{} bytes", said.len());
-        assert!(said.contains("aaa..."), "{said}");
-    }
+    let mut table = axis(300).table();
+    table.columns[1].unit = Some("a".repeat(1_000_000));
+    let error = Log::from_table(&table, &Mapping::default()).unwrap_err();
+    let said = error.to_string();
+    assert!(said.len() < 500, "{} bytes", said.len());
+    assert!(said.contains("aaa...]"), "{said}");
 }

@@ -46,8 +46,11 @@ fn text(study: &Study, runs: &[Failed], modelled: bool) -> String {
             } else {
                 ""
             };
-            let with = study.names(job)[2];
-            format!("{} of {PROMISE_DRAWS} with {with}{coupled}", runs.len())
+            let with = match study.names(job)[2] {
+                "none" => "without compensation".into(),
+                name => format!("with {name}"),
+            };
+            format!("{} of {PROMISE_DRAWS} {with}{coupled}", runs.len())
         })
         .collect();
     let fault = match fault {
