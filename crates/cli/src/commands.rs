@@ -391,7 +391,7 @@ fn compare(compare: &arguments::Compare, common: &Common) -> Result<Exit, Error>
     bar.finish();
     let found = found?;
     let bundle = bundle::comparison(&found);
-    let (out, _) = put(&bundle, &compare.out, compare_file::SCHEMA, &found.status)?;
+    let (out, _) = put(&bundle, &compare.out, compare_file::SCHEMA)?;
     if common.json {
         output::json(&found)?;
     } else if !common.quiet {
@@ -430,16 +430,8 @@ fn searching(typed: &arguments::Searching) -> Searching {
 
 /// Writes files into a folder, or beside it where they are of an outcome that was stopped early and a complete one is there; says
 /// what is kept. The folder, and what was written.
-fn put(
-    bundle: &Bundle,
-    dir: &Path,
-    schema: &str,
-    status: &str,
-) -> Result<(PathBuf, Vec<PathBuf>), Error> {
-    let partial = bundle::PARTIAL.contains(&status);
-    let beside = partial
-        .then(|| bundle::beside_complete(dir, schema))
-        .flatten();
+fn put(bundle: &Bundle, dir: &Path, schema: &str) -> Result<(PathBuf, Vec<PathBuf>), Error> {
+    let beside = bundle::beside_complete(bundle, dir, schema);
     let out = beside.as_deref().unwrap_or(dir);
     let kept = bundle.kept(out);
     let written = bundle.write(out)?;
@@ -467,9 +459,8 @@ fn put(
 
 /// Writes the files, says what was found, and what it is worth.
 fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error> {
-    let status = &outcome.result.search.status;
     let bundle = bundle::identification(outcome);
-    let (dir, written) = put(&bundle, dir, stiction::result::SCHEMA, status)?;
+    let (dir, written) = put(&bundle, dir, stiction::result::SCHEMA)?;
     let dir = dir.as_path();
     if common.json {
         output::json(&outcome.result)?;
@@ -517,7 +508,7 @@ fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Err
     let outcome = stiction::simulate(&study, &mut bar);
     bar.finish();
     let schema = stiction::commands::study::result::SCHEMA;
-    let (dir, written) = put(&bundle::study(&outcome), dir, schema, &outcome.file.status)?;
+    let (dir, written) = put(&bundle::study(&outcome), dir, schema)?;
     if common.json {
         output::json(&outcome.file)?;
     } else if !common.quiet {
@@ -606,12 +597,7 @@ fn reproduce(reproduce: &arguments::Reproduce, common: &Common) -> Result<Exit, 
     };
     bar.finish();
     let schema = stiction::commands::reproduce_file::SCHEMA;
-    let (dir, written) = put(
-        &bundle::reproduction(&outcome),
-        dir,
-        schema,
-        &outcome.file.status,
-    )?;
+    let (dir, written) = put(&bundle::reproduction(&outcome), dir, schema)?;
     if common.json {
         output::json(&outcome.file)?;
     } else if !common.quiet {

@@ -75,8 +75,11 @@ pub fn reproduction(outcome: &Reproduction) -> Bundle {
 
 /// Where an outcome that was stopped early goes: beside `dir` where that holds a complete one of this schema, which is kept;
 /// `None` where `dir` itself may take it.
-pub fn beside_complete(dir: &Path, schema: &str) -> Option<PathBuf> {
-    if !holds_complete(dir, schema) {
+pub fn beside_complete(bundle: &Bundle, dir: &Path, schema: &str) -> Option<PathBuf> {
+    let file = file_of(schema);
+    let (_, content) = bundle.files().iter().find(|(name, _)| **name == file)?;
+    let early = serde_json::from_slice(content).is_ok_and(|value| stopped_early(&value));
+    if !early || !holds_complete(dir, schema) {
         return None;
     }
     // Without a slash or a dot at its end.
@@ -101,25 +104,40 @@ pub fn beside_complete(dir: &Path, schema: &str) -> Option<PathBuf> {
 /// Most names that are tried.
 const MOST_NAMES: u32 = 100;
 
+/// The file of a schema: `result.json` of `stiction.result/1`.
+fn file_of(schema: &str) -> String {
+    let kind = schema.trim_start_matches("stiction.").split('/').next();
+    format!("{}.json", kind.unwrap_or_default())
+}
+
 /// Whether a folder holds an outcome of this schema that was not stopped early.
 fn holds_complete(dir: &Path, schema: &str) -> bool {
-    let kind = schema.trim_start_matches("stiction.").split('/').next();
-    let file = dir.join(format!("{}.json", kind.unwrap_or_default()));
+    let file = dir.join(file_of(schema));
     if !file.is_file() {
         return false;
     }
     let read = std::fs::File::open(file).ok().and_then(|file| {
-        let value: serde_json::Value = serde_json::from_reader(file.take(MOST_BYTES)).ok()?;
-        let status = value.pointer("/search/status").or(value.get("status"))?;
-        Some(!PARTIAL.contains(&status.as_str()?))
+        let value = serde_json::from_reader(file.take(MOST_BYTES)).ok()?;
+        Some(!stopped_early(&value))
     });
     read.unwrap_or(false)
 }
 
+/// Whether a user, a budget or the time ended the work before it was done; least squares after a search end it.
+fn stopped_early(value: &serde_json::Value) -> bool {
+    let is = |place: &str, states: &[&str]| {
+        let state = value.pointer(place).and_then(|state| state.as_str());
+        state.is_some_and(|state| states.contains(&state))
+    };
+    let early = ["interrupted", "budget"];
+    is("/status", &early)
+        || is("/search/status", &early)
+        || (is("/trust/next", &["finish"])
+            && is("/searched/status", &["interrupted", "budget", "time"]))
+}
+
 /// Largest file that is looked into, bytes.
 const MOST_BYTES: u64 = 256 << 20;
-/// States of what was stopped early.
-pub const PARTIAL: [&str; 2] = ["interrupted", "budget"];
 
 fn json(value: &impl Serialize) -> String {
     serde_json::to_string_pretty(value).expect("plain data") + "\n"

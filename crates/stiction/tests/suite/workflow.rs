@@ -402,25 +402,21 @@ fn a_complete_result_stays() {
     let log = bench.good("good.csv", 5);
     let mut outcome = run(&options(&[&log], LawKind::CoulombViscous)).unwrap();
     let out = bench.path("out");
-    let beside = || stiction::bundle::beside_complete(&out, stiction::result::SCHEMA);
-    assert_eq!(beside(), None);
-    stiction::bundle::identification(&outcome)
-        .write(&out)
-        .unwrap();
-    assert_eq!(beside(), Some(bench.path("out-interrupted")));
+    let whole = stiction::bundle::identification(&outcome);
+    outcome.result.search.status = "interrupted".into();
+    let part = stiction::bundle::identification(&outcome);
+    let beside = |bundle| stiction::bundle::beside_complete(bundle, &out, stiction::result::SCHEMA);
+    assert_eq!(beside(&part), None);
+    whole.write(&out).unwrap();
+    assert_eq!(beside(&whole), None);
+    assert_eq!(beside(&part), Some(bench.path("out-interrupted")));
     // Nor that of something else beside it.
     std::fs::create_dir(bench.path("out-interrupted")).unwrap();
-    std::fs::write(
-        bench.path("out-interrupted").join("thesis.doc"),
-        "years of work",
-    )
-    .unwrap();
-    assert_eq!(beside(), Some(bench.path("out-interrupted-2")));
-    outcome.result.search.status = "interrupted".into();
-    stiction::bundle::identification(&outcome)
-        .write(&out)
-        .unwrap();
-    assert_eq!(beside(), None);
+    let thesis = bench.path("out-interrupted").join("thesis.doc");
+    std::fs::write(thesis, "years of work").unwrap();
+    assert_eq!(beside(&part), Some(bench.path("out-interrupted-2")));
+    part.write(&out).unwrap();
+    assert_eq!(beside(&part), None);
 }
 
 /// A pipe of the name of a result must not make anyone wait.
