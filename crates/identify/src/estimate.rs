@@ -289,6 +289,7 @@ fn series(objective: &Objective, p: &[f64], coefficients: &[f64], columns: &[Col
                 | ColumnKind::Speed(_)
                 | ColumnKind::Square(_)
                 | ColumnKind::LevelTimes(..)
+                | ColumnKind::RateTimes(_)
                 | ColumnKind::SpeedTimes(..)
         );
         for (y, x) in model.iter_mut().zip(column.iter()) {

@@ -9,9 +9,11 @@
 use crate::conditioning::record::{Record, Samples, Segment};
 use crate::conditioning::shift::Shift;
 use crate::estimate::Estimate;
+use crate::law::dependence::Factor;
 use crate::law::terms::{ColumnKind, Delay, LinearTerm, Terms};
 use crate::reaction::{Logging, Reaction};
 use std::borrow::Cow;
+use stiction_friction::{Damping, Direction, LuGre, Stribeck};
 use stiction_parameters::Quantity;
 use stiction_servo::encoder::Encoder;
 use stiction_servo::integrator::{Integrator, Quick};
@@ -41,7 +43,8 @@ pub(crate) struct Replica {
 /// The axis of an estimate, ready to be simulated along its record any number of times.
 pub(crate) struct Axis<'a> {
     record: &'a Record,
-    plant: Plant,
+    /// Of each segment: logs may have levels of their own.
+    plants: Vec<Plant>,
     fitted: &'a Estimate,
     logging: Logging,
     stroke: f64,
@@ -55,7 +58,10 @@ pub(crate) struct Axis<'a> {
 impl<'a> Axis<'a> {
     /// `None` for an axis that cannot be simulated: without inertia, or without a bristle.
     pub fn of(record: &'a Record, fitted: &'a Estimate) -> Option<Self> {
-        let plant = plant(fitted)?;
+        let first = plant(fitted)?;
+        let plants = record.segments.iter();
+        let plants = plants.map(|segment| of_log(first, fitted, segment.log));
+        let plants = plants.collect::<Option<Vec<_>>>()?;
         let logging = Logging::new(late(fitted, record.step()));
         let segments = &record.segments;
         let linear = fitted.terms.columns(&fitted.law);
@@ -69,8 +75,8 @@ impl<'a> Axis<'a> {
         });
         Some(Self {
             record,
-            substeps: substeps(&plant, record.step()),
-            plant,
+            substeps: substeps(&plants, record.step()),
+            plants,
             fitted,
             logging,
             stroke: record.stroke(),
@@ -107,18 +113,20 @@ impl<'a> Axis<'a> {
         seed: u64,
     ) -> Option<Vec<Samples>> {
         let mut noise = Noise::new(seed);
-        let segments = self.record.segments.iter().zip(&self.others).enumerate();
+        let segments = self.record.segments.iter().zip(&self.others);
         segments
-            .map(|(i, (segment, other))| {
+            .zip(&self.plants)
+            .enumerate()
+            .map(|(i, ((segment, other), plant))| {
                 let answer = answered.map(|(reaction, felt)| (reaction, &felt[i][..]));
-                self.run(segment, other, answer, force_noise, &mut noise)
+                self.run((segment, plant), other, answer, force_noise, &mut noise)
             })
             .collect()
     }
 
     fn run(
         &self,
-        segment: &Segment,
+        (segment, plant): (&Segment, &Plant),
         other: &[f64],
         answered: Option<(&Reaction, &[f64])>,
         force_noise: f64,
@@ -134,8 +142,8 @@ impl<'a> Axis<'a> {
             TRACKING_FREQUENCY
         };
         let omega = std::f64::consts::TAU * tracking / h;
-        let spring = self.plant.mass() * omega * omega;
-        let damper = 1.4 * self.plant.mass() * omega;
+        let spring = plant.mass() * omega * omega;
+        let damper = 1.4 * plant.mass() * omega;
         // Periodic motion crosses the encoder steps at the same places again and again: the position of
         // the steps is therefore one more random quantity of the log.
         let encoder = Encoder::new(record.resolution.unwrap_or(0.0)).ok()?;
@@ -184,7 +192,7 @@ impl<'a> Axis<'a> {
             before = applied;
             force.push(logged + force_noise * noise.normal());
             let load = Load::force(applied - other);
-            motion = integrator.advance(&self.plant, motion, h, load, 0.0);
+            motion = integrator.advance(plant, motion, h, load, 0.0);
         }
         Some(Samples {
             time: (0..n).map(|k| k as f64 * h).collect(),
@@ -221,7 +229,10 @@ fn other<'t>(
             ColumnKind::Level
             | ColumnKind::Rate
             | ColumnKind::Speed(_)
-            | ColumnKind::Acceleration => {}
+            | ColumnKind::Acceleration
+            | ColumnKind::LevelTimes(Factor::Log(_), _)
+            | ColumnKind::RateTimes(Factor::Log(_))
+            | ColumnKind::SpeedTimes(Factor::Log(_), _) => {}
             ColumnKind::One => out.iter_mut().for_each(|y| *y += c),
             ColumnKind::Sine(k) => {
                 for (y, x) in out.iter_mut().zip(&segment.position) {
@@ -237,6 +248,7 @@ fn other<'t>(
             | ColumnKind::Sign(_)
             | ColumnKind::Square(_)
             | ColumnKind::LevelTimes(..)
+            | ColumnKind::RateTimes(_)
             | ColumnKind::SpeedTimes(..) => return None,
         }
     }
@@ -245,8 +257,9 @@ fn other<'t>(
 
 /// Plant steps in a sample: the implicit midpoint has a relative error of a twelfth of `(h omega)^2` in
 /// the frequency of the mass on its bristles, which should be a small part of a percent.
-fn substeps(plant: &Plant, h: f64) -> u32 {
-    let omega = (plant.law().stiffness() / plant.mass()).sqrt();
+fn substeps(plants: &[Plant], h: f64) -> u32 {
+    let squares = plants.iter().map(|p| p.law().stiffness() / p.mass());
+    let omega = squares.fold(0.0, f64::max).sqrt();
     (h * omega / 0.05).ceil().clamp(1.0, 8.0) as u32
 }
 
@@ -254,4 +267,31 @@ fn substeps(plant: &Plant, h: f64) -> u32 {
 fn plant(fitted: &Estimate) -> Option<Plant> {
     let law = fitted.values().without(Quantity::Offset).lugre().ok()?;
     Plant::new(fitted.value(Quantity::Mass)?, law).ok()
+}
+
+/// The plant of one log where logs have levels of their own: the whole bristle, and so static friction and stiffness with it,
+/// goes with the Coulomb level.
+fn of_log(first: Plant, fitted: &Estimate, log: usize) -> Option<Plant> {
+    let number = log as u32 + 1;
+    let beyond = |quantity: Quantity| fitted.value(quantity).unwrap_or(0.0);
+    let level = beyond(Quantity::CoulombLog(number));
+    let damping = beyond(Quantity::Sigma1Log(number));
+    let viscous = beyond(Quantity::Sigma2Log(number));
+    if [level, damping, viscous] == [0.0; 3] {
+        return Some(first);
+    }
+    let law = first.law();
+    let curve = law.curve();
+    let by = 1.0 + level / curve.positive().coulomb;
+    let [positive, negative] = [curve.positive(), curve.negative()].map(|side| Direction {
+        coulomb: by * side.coulomb,
+        static_friction: by * side.static_friction,
+        viscous: viscous + side.viscous,
+        ..*side
+    });
+    let curve = Stribeck::new(curve.shape(), positive, negative, curve.offset()).ok()?;
+    // What is not determined may come out below zero.
+    let damping = (law.damping().at_rest() + damping).max(0.0);
+    let law = LuGre::new(by * law.stiffness(), Damping::Constant(damping), curve).ok()?;
+    Plant::new(first.mass(), law).ok()
 }

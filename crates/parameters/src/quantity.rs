@@ -61,6 +61,12 @@ pub enum Quantity {
     CoulombPitch(u32, Wave),
     /// Viscous friction per temperature.
     Sigma2Temperature,
+    /// Coulomb level of the second, third, ... log beyond that of the first.
+    CoulombLog(u32),
+    /// Micro-damping of the second, third, ... log beyond that of the first.
+    Sigma1Log(u32),
+    /// Viscous friction of the second, third, ... log beyond that of the first.
+    Sigma2Log(u32),
     /// Load at which the parameters hold.
     LoadReference,
     /// Temperature at which the parameters hold.
@@ -179,6 +185,9 @@ impl Quantity {
             Quantity::Gravity(wave) => format!("gravity_{}", part(wave)).into(),
             Quantity::Cogging(k, wave) => format!("cogging{k}_{}", part(wave)).into(),
             Quantity::CoulombPitch(k, wave) => format!("coulomb_pitch{k}_{}", part(wave)).into(),
+            Quantity::CoulombLog(k) => format!("coulomb_log{k}").into(),
+            Quantity::Sigma1Log(k) => format!("sigma1_log{k}").into(),
+            Quantity::Sigma2Log(k) => format!("sigma2_log{k}").into(),
             // Every other quantity stands in the list.
             _ => "".into(),
         }
@@ -210,6 +219,9 @@ impl Quantity {
                 .map(Quantity::ElementStiffness)
                 .or_else(|| element("yield_").map(Quantity::ElementYield))
                 .or_else(|| element("element_").map(Quantity::ElementForce))
+                .or_else(|| element("coulomb_log").map(Quantity::CoulombLog))
+                .or_else(|| element("sigma1_log").map(Quantity::Sigma1Log))
+                .or_else(|| element("sigma2_log").map(Quantity::Sigma2Log))
                 .or_else(|| wave("cogging").map(|(k, part)| Quantity::Cogging(k, part)))
                 .or_else(|| wave("coulomb_pitch").map(|(k, part)| Quantity::CoulombPitch(k, part))),
         }
@@ -246,6 +258,9 @@ impl Quantity {
             Quantity::Gravity(Wave::Cosine) => "gravity, cos q",
             Quantity::Cogging(..) => "cogging",
             Quantity::CoulombPitch(..) => "Coulomb friction, wave along the stroke",
+            Quantity::CoulombLog(_) => "Coulomb friction of a log, less that of the first",
+            Quantity::Sigma1Log(_) => "micro-damping of a log, less that of the first",
+            Quantity::Sigma2Log(_) => "viscous friction of a log, less that of the first",
             _ => self.plain().map_or("", |entry| entry.3),
         }
     }
@@ -256,7 +271,10 @@ impl Quantity {
             Quantity::Sigma0 | Quantity::ElementStiffness(_) | Quantity::CoulombPosition => {
                 Dimension::Stiffness
             }
-            Quantity::Sigma1 | Quantity::Sigma2 => Dimension::Damping,
+            Quantity::Sigma1
+            | Quantity::Sigma2
+            | Quantity::Sigma1Log(_)
+            | Quantity::Sigma2Log(_) => Dimension::Damping,
             Quantity::QuadraticViscous => Dimension::QuadraticDamping,
             Quantity::Coulomb
             | Quantity::Static
@@ -264,7 +282,8 @@ impl Quantity {
             | Quantity::ElementForce(_)
             | Quantity::Gravity(_)
             | Quantity::Cogging(..)
-            | Quantity::CoulombPitch(..) => Dimension::Force,
+            | Quantity::CoulombPitch(..)
+            | Quantity::CoulombLog(_) => Dimension::Force,
             Quantity::StribeckVelocity => Dimension::Speed,
             Quantity::StribeckExponent | Quantity::BreakawayRatio => Dimension::One,
             Quantity::Attraction => Dimension::Rate,
@@ -340,6 +359,14 @@ impl Quantity {
         matches!(
             self,
             Quantity::Coulomb | Quantity::Static | Quantity::StribeckVelocity | Quantity::Sigma2
+        )
+    }
+
+    /// Whether it belongs to one of several logs rather than to the machine.
+    pub fn is_of_a_log(self) -> bool {
+        matches!(
+            self,
+            Quantity::CoulombLog(_) | Quantity::Sigma1Log(_) | Quantity::Sigma2Log(_)
         )
     }
 

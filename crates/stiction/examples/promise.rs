@@ -10,51 +10,26 @@
 //! not be used (exit code 1) are counted apart.
 
 use rayon::prelude::*;
-use stiction_testkit::worlds::{Machine, Motion, World};
+use stiction_testkit::worlds::{Machine, World};
 
+mod asked;
+#[path = "../tests/suite/common/identified.rs"]
+mod identified;
 #[path = "../tests/suite/common/kept.rs"]
 mod kept;
+use asked::Asked;
 use kept::{Kept, Told, kept};
 
 fn main() {
-    let (mut numbers, mut names) = (Vec::new(), Vec::<String>::new());
-    for argument in std::env::args().skip(1) {
-        match argument.parse::<u64>() {
-            Ok(n) => numbers.push(n),
-            Err(_) => names.push(argument),
-        }
-    }
-    let first = numbers.get(1).copied().unwrap_or(1);
-    let seeds = first..first + numbers.first().copied().unwrap_or(1);
-    let wanted = |kind: &[String], name: &str| {
-        let of_kind = |n: &&String| kind.contains(n);
-        let mut asked = names.iter().filter(of_kind).peekable();
-        asked.peek().is_none() || asked.any(|n| n == name)
-    };
-    let axes: Vec<String> = Machine::all(0).map(|(name, _)| name.to_owned()).to_vec();
-    let motions = Motion::ALL.map(|m| m.name().to_owned()).to_vec();
-    let worlds = World::ALL.map(short).to_vec();
-    let mut tasks = Vec::new();
-    for world in World::ALL
-        .into_iter()
-        .filter(|w| wanted(&worlds, &short(*w)))
-    {
-        for axis in (0..axes.len()).filter(|&i| wanted(&axes, &axes[i])) {
-            for motion in Motion::ALL
-                .into_iter()
-                .filter(|m| wanted(&motions, m.name()))
-            {
-                tasks.extend(seeds.clone().map(|seed| (world, axis, motion, seed)));
-            }
-        }
-    }
+    let asked = Asked::of_arguments(1);
+    let tasks = &asked.tasks;
     let told: Vec<Told> = tasks
         .par_iter()
         .map(|&(world, axis, motion, seed)| kept(&Machine::all(seed)[axis].1, motion, world, seed))
         .collect();
-    if names.iter().any(|n| n == "each") {
-        for ((world, axis, motion, seed), told) in tasks.iter().zip(&told) {
-            let cell = format!("{} {} {} {seed}", short(*world), axes[*axis], motion.name());
+    if asked.has("each") {
+        for (task, told) in tasks.iter().zip(&told) {
+            let cell = asked.cell(task);
             match told {
                 Told::Nothing(why) => println!("{cell}: {why}"),
                 Told::Promised { trusted, kept } => kept.iter().for_each(|k| {
@@ -78,12 +53,7 @@ fn main() {
     row("all", &told.iter().collect::<Vec<_>>());
 }
 
-/// The name of a world as an argument.
-fn short(world: World) -> String {
-    let name = world.name().replace(", ", "-");
-    name.replace(' ', "-").to_lowercase()
-}
-
+/// A row of the table.
 fn row(name: &str, told: &[&Told]) {
     if told.is_empty() {
         return;

@@ -3,26 +3,28 @@
 //! `cargo run --release -p stiction --example worlds -- [seeds] [first seed] [name ...]`, with names of axes (`stage`,
 //! `screw`, `joint`), motions (`commissioning`, `sine`, `trapezoid`) and worlds (`as-assumed`, `cogging`, `force-10-late`,
 //! ...); all of a kind where none is named. `each` prints every run too. `twice` identifies two logs of the axis together,
-//! `apart-PERCENT` two between which its friction has risen by so much; the second moves as `with-MOTION` says.
+//! `apart-PERCENT` two between which its friction has risen by so much; the second moves as `with-MOTION` says. With
+//! `levels` each of the two has levels of its own, and the claims are of the first.
 //!
 //! What is claimed, and when a run is silent, is defined in `tests/suite/claims`.
 
+mod asked;
 #[path = "../tests/suite/claims/mod.rs"]
 mod claims;
+#[path = "../tests/suite/common/identified.rs"]
+mod identified;
 
+use asked::{Asked, Task};
 use claims::Run;
+use identified::identified;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use stiction::Axis;
 use stiction_testkit::worlds::{Machine, Motion, World, record};
 
 fn main() {
-    let (mut numbers, mut names) = (Vec::new(), Vec::<String>::new());
-    for argument in std::env::args().skip(1) {
-        match argument.parse::<u64>() {
-            Ok(n) => numbers.push(n),
-            Err(_) => names.push(argument),
-        }
-    }
+    let asked = Asked::of_arguments(4);
+    let (tasks, axes, names) = (&asked.tasks, &asked.axes, &asked.names);
     let rise = names.iter().find_map(|name| match &name[..] {
         "twice" => Some(0.0),
         name => name.strip_prefix("apart-")?.parse::<f64>().ok(),
@@ -32,30 +34,11 @@ fn main() {
         .iter()
         .find_map(|name| other(name.strip_prefix("with-")?));
     let rise = rise.or(second.map(|_| 0.0));
-    let first = numbers.get(1).copied().unwrap_or(1);
-    let seeds = first..first + numbers.first().copied().unwrap_or(4);
-    let wanted = |kind: &[String], name: &str| {
-        let of_kind = |n: &&String| kind.contains(n);
-        let mut asked = names.iter().filter(of_kind).peekable();
-        asked.peek().is_none() || asked.any(|n| n == name)
+    let levels = asked.has("levels");
+    let file = match levels {
+        true => Axis::parse("[terms]\ncoulomb_log = true\nsigma2_log = true\n").unwrap(),
+        false => Axis::default(),
     };
-    let axes: Vec<String> = Machine::all(0).map(|(name, _)| name.to_owned()).to_vec();
-    let motions = Motion::ALL.map(|m| m.name().to_owned()).to_vec();
-    let worlds = World::ALL.map(short).to_vec();
-    let mut tasks = Vec::new();
-    for world in World::ALL
-        .into_iter()
-        .filter(|w| wanted(&worlds, &short(*w)))
-    {
-        for axis in (0..axes.len()).filter(|&i| wanted(&axes, &axes[i])) {
-            for motion in Motion::ALL
-                .into_iter()
-                .filter(|m| wanted(&motions, m.name()))
-            {
-                tasks.extend(seeds.clone().map(|seed| (world, axis, motion, seed)));
-            }
-        }
-    }
     let runs: Vec<Run> = tasks
         .par_iter()
         .map(|&(world, axis, motion, seed)| {
@@ -70,40 +53,26 @@ fn main() {
                     world,
                     seed + LATER,
                 ));
-                machines.push(later);
+                if !levels {
+                    machines.push(later);
+                }
             }
-            claims::judged(&machines, claims::identified(&machine, &logs))
+            claims::judged(&machines, identified(&machine, &logs, &file))
         })
         .collect();
-    if names.iter().any(|n| n == "each") {
-        for ((world, axis, motion, seed), run) in tasks.iter().zip(&runs) {
-            println!(
-                "{} {} {} {seed}: {run}",
-                short(*world),
-                axes[*axis],
-                motion.name()
-            );
+    if asked.has("each") {
+        for (task, run) in tasks.iter().zip(&runs) {
+            println!("{}: {run}", asked.cell(task));
         }
     }
-    table(&tasks, &runs, &axes);
-    widths(&tasks, &runs, &axes);
+    table(tasks, &runs, axes);
+    widths(tasks, &runs, axes);
 }
 
 /// What the seed of a second log is more than that of the first.
 const LATER: u64 = 1_000_000;
 
 /// The name of a world as an argument.
-fn short(world: World) -> String {
-    world
-        .name()
-        .replace(", ", "-")
-        .replace(' ', "-")
-        .to_lowercase()
-}
-
-/// World, axis, motion, seed.
-type Task = (World, usize, Motion, u64);
-
 /// One row for each cell, for each motion of a world, for each world, and for all.
 fn table(tasks: &[Task], runs: &[Run], axes: &[String]) {
     println!(

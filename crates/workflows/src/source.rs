@@ -157,14 +157,14 @@ impl Source {
 
     /// The first term that lacks its column, and what to say of it.
     fn missing_channel(&self, terms: &Terms) -> Option<(&'static str, stiction_log::Error)> {
-        let lacks = |channel: &str| match channel {
+        let lacks = |channel: &&str| match *channel {
             "load" => self.log.load.is_none(),
             "temperature" => self.log.temperature.is_none(),
             _ => self.log.position.is_none(),
         };
         let mut terms = terms.dependences.iter();
-        let term = terms.find(|term| lacks(term.channel()))?;
-        let (name, channel) = (term.name(), term.channel());
+        let (name, channel) =
+            terms.find_map(|term| Some((term.name(), term.channel().filter(lacks)?)))?;
         let found = format!("no {channel} column, and [terms] {name} needs one");
         let allowed = format!("name it in the axis file: [columns] {channel} = \"...\"");
         let error = stiction_log::Error::new(stiction_log::Kind::Missing, found, allowed);

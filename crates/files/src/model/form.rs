@@ -2,7 +2,7 @@
 
 use crate::result::{CovarianceEntry, ParameterEntry, RemainingEntry, ResultFile};
 use serde::Serialize;
-use stiction_parameters::{LawKind, ParameterSet};
+use stiction_parameters::{LawKind, Name, ParameterSet};
 
 /// Name of the schema.
 pub const SCHEMA: &str = "stiction.model/1";
@@ -100,8 +100,28 @@ impl From<&ParameterEntry> for ModelParameter {
     }
 }
 
+/// Whether a parameter is one of the machine rather than of one of the logs.
+fn is_of_the_machine(name: &str) -> bool {
+    let name = name.parse::<Name>();
+    !name.is_ok_and(|name| name.quantity.is_of_a_log())
+}
+
+fn of_the_machine(covariance: &CovarianceEntry) -> CovarianceEntry {
+    let names = covariance.names.iter().enumerate();
+    let kept: Vec<usize> = names
+        .filter(|(_, name)| is_of_the_machine(name))
+        .map(|(i, _)| i)
+        .collect();
+    CovarianceEntry {
+        names: kept.iter().map(|&i| covariance.names[i].clone()).collect(),
+        matrix: (kept.iter())
+            .map(|&i| kept.iter().map(|&j| covariance.matrix[i][j]).collect())
+            .collect(),
+    }
+}
+
 impl ModelFile {
-    /// The model that a result holds.
+    /// The model that a result holds: of several logs with levels of their own that of the first.
     pub fn from_result(result: &ResultFile) -> Self {
         Self {
             schema: SCHEMA.into(),
@@ -125,8 +145,11 @@ impl ModelFile {
                     })
                     .collect(),
             },
-            parameter: result.parameters.iter().map(ModelParameter::from).collect(),
-            covariance: result.covariance.clone(),
+            parameter: (result.parameters.iter())
+                .filter(|p| is_of_the_machine(&p.name))
+                .map(ModelParameter::from)
+                .collect(),
+            covariance: of_the_machine(&result.covariance),
             remaining: result.remaining.clone(),
         }
     }

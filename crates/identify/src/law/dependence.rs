@@ -1,4 +1,4 @@
-//! Friction that changes with more than the velocity: normal load, temperature, place on the stroke.
+//! Friction that changes with more than the velocity: normal load, temperature, place on the stroke, from log to log.
 //!
 //! The level of friction becomes `Fc + sum c_k f_k(t)` with a known factor `f_k` of another channel.
 //! In the separable form `Fc eta` becomes `(Fc + sum c_k f_k) eta`, so each `c_k` is one more linear
@@ -30,6 +30,10 @@ pub enum Dependence {
     CoulombPitch(f64),
     /// Viscous friction, linear in the temperature about this one, K.
     ViscousTemperature(f64),
+    /// Coulomb level and micro-damping of each of so many logs; the parameters hold in the first.
+    CoulombLog(usize),
+    /// Viscous friction of each of so many logs.
+    ViscousLog(usize),
 }
 
 /// What multiplies a column of the law.
@@ -42,6 +46,8 @@ pub(crate) enum Factor {
     /// `sin` of a rate times position, 1/m or 1/rad.
     Sine(f64),
     Cosine(f64),
+    /// 1 in this log, counted from 0, and 0 in the others.
+    Log(usize),
 }
 
 impl Dependence {
@@ -53,15 +59,28 @@ impl Dependence {
             Dependence::CoulombPosition(_) => "coulomb_position",
             Dependence::CoulombPitch(_) => "coulomb_pitch",
             Dependence::ViscousTemperature(_) => "sigma2_temperature",
+            Dependence::CoulombLog(_) => "coulomb_log",
+            Dependence::ViscousLog(_) => "sigma2_log",
         }
     }
 
-    /// The channel of the log that it needs.
-    pub fn channel(&self) -> &'static str {
+    /// The channel of the log that it needs, if any.
+    pub fn channel(&self) -> Option<&'static str> {
         match self {
-            Dependence::CoulombLoad(_) => "load",
-            Dependence::CoulombTemperature(_) | Dependence::ViscousTemperature(_) => "temperature",
-            Dependence::CoulombPosition(_) | Dependence::CoulombPitch(_) => "position",
+            Dependence::CoulombLoad(_) => Some("load"),
+            Dependence::CoulombTemperature(_) | Dependence::ViscousTemperature(_) => {
+                Some("temperature")
+            }
+            Dependence::CoulombPosition(_) | Dependence::CoulombPitch(_) => Some("position"),
+            Dependence::CoulombLog(_) | Dependence::ViscousLog(_) => None,
+        }
+    }
+
+    /// The logs that have levels of their own, where it is that.
+    pub(crate) fn logs(&self) -> Option<usize> {
+        match *self {
+            Dependence::CoulombLog(logs) | Dependence::ViscousLog(logs) => Some(logs),
+            _ => None,
         }
     }
 
@@ -73,13 +92,18 @@ impl Dependence {
                 Some((Quantity::TemperatureReference, x))
             }
             Dependence::CoulombPosition(x) => Some((Quantity::PositionReference, x)),
-            Dependence::CoulombPitch(_) => None,
+            Dependence::CoulombPitch(_) | Dependence::CoulombLog(_) | Dependence::ViscousLog(_) => {
+                None
+            }
         }
     }
 
     /// Whether it changes the viscous term rather than the level.
     pub(crate) fn is_viscous(&self) -> bool {
-        matches!(self, Dependence::ViscousTemperature(_))
+        matches!(
+            self,
+            Dependence::ViscousTemperature(_) | Dependence::ViscousLog(_)
+        )
     }
 
     /// Its columns: the parameter, and the factor.
@@ -102,11 +126,17 @@ impl Dependence {
                     (wave(Wave::Cosine), Factor::Cosine(TAU / pitch)),
                 ]
             }
+            Dependence::CoulombLog(logs) => {
+                let mut out = beyond_the_first(logs, Quantity::CoulombLog);
+                out.extend(beyond_the_first(logs, Quantity::Sigma1Log));
+                out
+            }
+            Dependence::ViscousLog(logs) => beyond_the_first(logs, Quantity::Sigma2Log),
         }
     }
 
     /// The same about what a record holds: the mean of load and temperature over the samples that
-    /// count, the middle of the stroke.
+    /// count, the middle of the stroke, the number of its logs.
     pub(crate) fn about(self, record: &Record) -> Self {
         let mean = |channel: &dyn Fn(&Channels) -> &[f64]| {
             let values = record.pick(|s| channel(&s.channels));
@@ -133,22 +163,42 @@ impl Dependence {
                 })
             }
             Dependence::CoulombPitch(_) => self,
+            Dependence::CoulombLog(_) => Dependence::CoulombLog(logs(record)),
+            Dependence::ViscousLog(_) => Dependence::ViscousLog(logs(record)),
         }
     }
 }
 
+/// The logs of a record, also those that gave no samples.
+fn logs(record: &Record) -> usize {
+    let last = record.segments.iter().map(|s| s.log + 1).max();
+    last.unwrap_or(0)
+}
+
+/// A parameter of every log but the first, numbered from 2.
+fn beyond_the_first(logs: usize, of: fn(u32) -> Quantity) -> Vec<(Quantity, Factor)> {
+    let others = 1..logs;
+    others.map(|k| (of(k as u32 + 1), Factor::Log(k))).collect()
+}
+
 impl Factor {
+    /// None for what belongs to a log.
     fn channel<'a>(&self, channels: &'a Channels) -> &'a [f64] {
         match self {
             Factor::Load(_) => &channels.load,
             Factor::Temperature(_) => &channels.temperature,
             Factor::Position(_) | Factor::Sine(_) | Factor::Cosine(_) => &channels.position,
+            Factor::Log(_) => &[],
         }
     }
 
     /// The factor at the full rate of a segment; zero (as at the reference) where the channel is
     /// missing, which a fit refuses.
     pub fn along(&self, segment: &Segment) -> Vec<f64> {
+        if let Factor::Log(log) = *self {
+            let own = f64::from(u8::from(segment.log == log));
+            return vec![own; segment.velocity.len()];
+        }
         let values = self.channel(&segment.channels);
         if values.len() != segment.velocity.len() {
             return vec![0.0; segment.velocity.len()];
@@ -159,6 +209,7 @@ impl Factor {
             | Factor::Position(reference) => x - reference,
             Factor::Sine(rate) => libm::sin(rate * x),
             Factor::Cosine(rate) => libm::cos(rate * x),
+            Factor::Log(_) => 0.0,
         };
         values.iter().map(|&x| at(x)).collect()
     }
@@ -176,7 +227,7 @@ impl Factor {
             Factor::Load(reference) => largest.max(reference.abs()),
             Factor::Temperature(_) => largest.max(USUAL_SPAN),
             Factor::Position(_) => largest,
-            Factor::Sine(_) | Factor::Cosine(_) => 1.0,
+            Factor::Sine(_) | Factor::Cosine(_) | Factor::Log(_) => 1.0,
         }
     }
 }

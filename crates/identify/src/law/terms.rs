@@ -100,6 +100,8 @@ pub(crate) enum ColumnKind {
     Square(Option<Side>),
     /// `eta` times a factor, or that in one direction of the deflection only.
     LevelTimes(Factor, Option<Side>),
+    /// The rate times a factor.
+    RateTimes(Factor),
     /// `v` times a factor, or that in one direction only.
     SpeedTimes(Factor, Option<Side>),
     Acceleration,
@@ -137,7 +139,7 @@ impl Side {
 
 impl Terms {
     /// The same terms with the references of the dependences taken from a record: the mean load and
-    /// temperature, the middle of the stroke.
+    /// temperature, the middle of the stroke, the number of logs.
     #[must_use]
     pub fn about(&self, record: &Record) -> Self {
         let dependences = self.dependences.iter().map(|d| d.about(record)).collect();
@@ -147,11 +149,21 @@ impl Terms {
         }
     }
 
-    /// Refuses a record without a channel that a term needs.
+    /// Refuses a record without a channel that a term needs, and a single log where logs are to have levels of their own.
     pub(crate) fn check(&self, record: &Record) -> Result<(), Error> {
         for dependence in &self.dependences {
+            if let Some(logs @ 0..2) = dependence.logs() {
+                return Err(Error::Setting {
+                    name: dependence.name(),
+                    found: logs as f64,
+                    allowed: "two logs or more in one fit: leave the key out for a single one",
+                });
+            }
+            let Some(channel) = dependence.channel() else {
+                continue;
+            };
             let missing = record.segments.iter().find(|s| {
-                let channel = match dependence.channel() {
+                let channel = match channel {
                     "load" => &s.channels.load,
                     "temperature" => &s.channels.temperature,
                     _ => &s.channels.position,
@@ -161,7 +173,7 @@ impl Terms {
             if let Some(segment) = missing {
                 return Err(Error::MissingChannel {
                     log: segment.log + 1,
-                    channel: dependence.channel(),
+                    channel,
                     term: dependence.name(),
                 });
             }
@@ -218,7 +230,18 @@ impl Terms {
         let mut pitches = 0;
         for dependence in &self.dependences {
             for (quantity, factor) in dependence.factors(pitches) {
-                for side in sides(law) {
+                if let Quantity::Sigma1Log(_) = quantity {
+                    if law.has_micro_damping() {
+                        push(quantity.into(), ColumnKind::RateTimes(factor));
+                    }
+                    continue;
+                }
+                // The direction of motion makes no difference to what happens between logs.
+                let sides = match dependence.logs() {
+                    Some(_) => vec![None],
+                    None => sides(law),
+                };
+                for side in sides {
                     let column = if dependence.is_viscous() {
                         ColumnKind::SpeedTimes(factor, side)
                     } else {

@@ -84,7 +84,11 @@ fn at_shift(
 fn is_known(column: ColumnKind) -> bool {
     !matches!(
         column,
-        ColumnKind::Level | ColumnKind::Element(_) | ColumnKind::Rate | ColumnKind::LevelTimes(..)
+        ColumnKind::Level
+            | ColumnKind::Element(_)
+            | ColumnKind::Rate
+            | ColumnKind::LevelTimes(..)
+            | ColumnKind::RateTimes(_)
     )
 }
 
@@ -102,7 +106,8 @@ pub(super) fn full_column(segment: &Segment, column: ColumnKind) -> Cow<'_, [f64
         ColumnKind::Level
         | ColumnKind::Element(_)
         | ColumnKind::Rate
-        | ColumnKind::LevelTimes(..) => Cow::default(),
+        | ColumnKind::LevelTimes(..)
+        | ColumnKind::RateTimes(_) => Cow::default(),
         ColumnKind::Sign(side) => of(velocity, &|v| {
             if side.selects(v) { v.signum() } else { 0.0 }
         }),

@@ -48,12 +48,20 @@ pub struct Objective<'a> {
     lanes: OnceLock<Option<InLanes>>,
 }
 
-/// A column `f(t) eta`.
+/// A column `f(t) eta`, or that of the rate of `eta`.
 #[derive(Clone, Debug)]
 struct Varying {
     linear: usize,
+    of: Varied,
     side: Option<Side>,
     factors: Vec<Vec<f64>>,
+}
+
+/// What of the law a factor multiplies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Varied {
+    Level,
+    Rate,
 }
 
 /// One trial.
@@ -132,13 +140,18 @@ impl<'a> Objective<'a> {
         let varying = linear
             .iter()
             .enumerate()
-            .filter_map(|(i, term)| match term.column {
-                ColumnKind::LevelTimes(factor, side) => Some(Varying {
+            .filter_map(|(i, term)| {
+                let (of, factor, side) = match term.column {
+                    ColumnKind::LevelTimes(factor, side) => (Varied::Level, factor, side),
+                    ColumnKind::RateTimes(factor) => (Varied::Rate, factor, None),
+                    _ => return None,
+                };
+                Some(Varying {
                     linear: i,
+                    of,
                     side,
                     factors: record.segments.iter().map(|s| factor.along(s)).collect(),
-                }),
-                _ => None,
+                })
             })
             .collect();
         let force = record.whole(|s| &s.force);
@@ -391,7 +404,10 @@ impl<'a> Objective<'a> {
             .into_iter()
             .enumerate()
             .map(|(i, trace)| {
-                let times = |v: &Varying| product(&trace.eta, &v.factors[i], v.side);
+                let times = |v: &Varying| match v.of {
+                    Varied::Level => product(&trace.eta, &v.factors[i], v.side),
+                    Varied::Rate => product(&trace.rate, &v.factors[i], v.side),
+                };
                 let varying: Vec<Vec<f64>> = self.varying.iter().map(times).collect();
                 let mut run = Run {
                     trace,
@@ -451,7 +467,7 @@ impl<'a> Objective<'a> {
                 (Some(column), _) => self.at(column, shift),
                 (None, ColumnKind::Rate) => own(runs, 1),
                 (None, ColumnKind::Element(k)) => own(runs, 2 + k),
-                (None, ColumnKind::LevelTimes(..)) => {
+                (None, ColumnKind::LevelTimes(..) | ColumnKind::RateTimes(_)) => {
                     let k = next.next().unwrap_or_default();
                     let own = runs.first().map_or(0, |run| run.trace.own().count());
                     gather(runs, own + k)
@@ -470,7 +486,7 @@ impl<'a> Objective<'a> {
             match (fixed, term.column) {
                 (None, ColumnKind::Rate) => c_rate += c,
                 // Depends on the sample: see below.
-                (None, ColumnKind::LevelTimes(..)) | (Some(_), _) => {}
+                (None, ColumnKind::LevelTimes(..) | ColumnKind::RateTimes(_)) | (Some(_), _) => {}
                 (None, _) => c_eta += c,
             }
         }
@@ -490,7 +506,8 @@ impl<'a> Objective<'a> {
                 let slope = |i| gms::recursion::slope(&t.elements, i, coefficients);
                 (0..k).map(slope).collect()
             } else {
-                let level = self.level(s, &t.eta, c_eta, coefficients);
+                let level = self.factor(Varied::Level, s, &t.eta, c_eta, coefficients);
+                let damping = self.factor(Varied::Rate, s, &t.eta, c_rate, coefficients);
                 let mut full = std::mem::take(&mut t.eta_slope);
                 let mut rates = t.rate_slope.iter();
                 for d in &mut full {
@@ -498,8 +515,13 @@ impl<'a> Objective<'a> {
                         None => d.iter_mut().for_each(|x| *x *= c_eta),
                         Some(level) => d.iter_mut().zip(level).for_each(|(x, c)| *x *= c),
                     }
-                    for (x, r) in d.iter_mut().zip(rates.next().into_iter().flatten()) {
-                        *x += c_rate * r;
+                    let rate = rates.next().into_iter().flatten();
+                    match &damping {
+                        None => d.iter_mut().zip(rate).for_each(|(x, r)| *x += c_rate * r),
+                        Some(damping) => {
+                            let rate = rate.zip(damping);
+                            d.iter_mut().zip(rate).for_each(|(x, (r, c))| *x += c * r);
+                        }
                     }
                 }
                 full
@@ -544,21 +566,27 @@ impl<'a> Objective<'a> {
         out
     }
 
-    /// The factor of `eta` at each sample of a segment; `None` where it is the constant `c_eta`.
-    fn level(&self, segment: usize, eta: &[f64], c_eta: f64, c: &[f64]) -> Option<Vec<f64>> {
-        if self.varying.is_empty() {
-            return None;
-        }
-        let mut level = vec![c_eta; eta.len()];
-        for varying in &self.varying {
+    /// The factor of `eta`, or of its rate, at each sample of a segment; `None` where it is this constant.
+    fn factor(
+        &self,
+        of: Varied,
+        segment: usize,
+        eta: &[f64],
+        constant: f64,
+        c: &[f64],
+    ) -> Option<Vec<f64>> {
+        let mut all = self.varying.iter().filter(|v| v.of == of).peekable();
+        all.peek()?;
+        let mut out = vec![constant; eta.len()];
+        for varying in all {
             let factors = &varying.factors[segment];
-            for ((level, f), &eta) in level.iter_mut().zip(factors).zip(eta) {
+            for ((out, f), &eta) in out.iter_mut().zip(factors).zip(eta) {
                 if varying.side.is_none_or(|side| side.selects(eta)) {
-                    *level += c[varying.linear] * f;
+                    *out += c[varying.linear] * f;
                 }
             }
         }
-        Some(level)
+        Some(out)
     }
 
     /// For each linear unknown, the size of its column in use: the coefficient times this compares with

@@ -1,4 +1,4 @@
-//! Lines of the formula for friction that changes with load, temperature or position.
+//! Lines of the formula for friction that changes with load, temperature or position, or from log to log.
 
 use super::sign::sign;
 use stiction_files::result::ParameterEntry;
@@ -10,16 +10,27 @@ use stiction_workflows::identify::Outcome;
 /// Whether the level of friction changes with more than the velocity.
 pub(super) fn level_changes(outcome: &Outcome) -> bool {
     let mut terms = outcome.law().terms.dependences.iter();
-    terms.any(|d| !matches!(d, Dependence::ViscousTemperature(_)))
+    let viscous = |d: &Dependence| {
+        matches!(
+            d,
+            Dependence::ViscousTemperature(_) | Dependence::ViscousLog(_)
+        )
+    };
+    terms.any(|d| !viscous(d))
 }
 
 /// `L`, by which the level of one direction is multiplied, and what stands beside `sigma2`.
 pub(super) fn lines(outcome: &Outcome, side: &str) -> Vec<Math> {
+    let mark = |symbol: Math| match sign(side) {
+        "" => symbol,
+        sign => sup(symbol, op(sign)),
+    };
     let mut level = vec![num("1")];
     let mut viscous = Vec::new();
     let find = |name: String| outcome.result.parameters.iter().find(|p| p.name == name);
     let coulomb = find(format!("coulomb{side}")).map_or(1.0, |p| p.value);
     let mut pitch = 0;
+    let mut of_logs = Vec::new();
     for dependence in &outcome.law().terms.dependences {
         let name = dependence.name();
         if let Dependence::CoulombPitch(length) = dependence {
@@ -32,6 +43,29 @@ pub(super) fn lines(outcome: &Outcome, side: &str) -> Vec<Math> {
                     level.extend([id(wave), paren(angle)]);
                 }
             }
+            continue;
+        }
+        if let Dependence::CoulombLog(logs) | Dependence::ViscousLog(logs) = dependence {
+            let others = 2..=*logs;
+            of_logs.extend(others.filter_map(|k| {
+                let p = find(format!("{name}{k}"))?;
+                let log = |symbol: &str, at: String| sub(id(symbol), num(at));
+                Some(match dependence {
+                    Dependence::CoulombLog(_) => row([
+                        log("L", format!("log {k}")),
+                        op("="),
+                        num(number::sig(1.0 + p.value / coulomb, 4)),
+                    ]),
+                    _ => {
+                        let first = find(format!("sigma2{side}")).map_or(0.0, |p| p.value);
+                        row([
+                            mark(log("σ", format!("2, log {k}"))),
+                            op("="),
+                            quantity(number::sig(first + p.value, 4), p.unit.clone()),
+                        ])
+                    }
+                })
+            }));
             continue;
         }
         let Some(p) = find(format!("{name}{side}")) else {
@@ -51,18 +85,16 @@ pub(super) fn lines(outcome: &Outcome, side: &str) -> Vec<Math> {
                 level.push(distance("x", *about));
             }
             Dependence::ViscousTemperature(about) => viscous.push((p, *about)),
-            Dependence::CoulombPitch(_) => {}
+            Dependence::CoulombPitch(_) | Dependence::CoulombLog(_) | Dependence::ViscousLog(_) => {
+            }
         }
     }
-    let mark = |symbol: Math| match sign(side) {
-        "" => symbol,
-        sign => sup(symbol, op(sign)),
-    };
     let mut out = Vec::new();
     if level.len() > 1 {
         level.splice(0..0, [mark(id("L")), op("=")]);
         out.push(row(level));
     }
+    out.extend(of_logs);
     let sigma2 = find(format!("sigma2{side}"));
     for (p, about) in viscous {
         out.push(at_temperature(

@@ -107,6 +107,9 @@ fn meaning(outcome: &Outcome) -> String {
     if has("delay") {
         known.push("τ the time by which the logged force is later than its motion");
     }
+    if has("coulomb_log2") {
+        known.push("L a factor on the level, 1 in the first log");
+    }
     format!("{}.", known.join(", "))
 }
 

@@ -1,6 +1,7 @@
 //! Several logs of one axis: what is said where they tell the same, and where they do not.
 
-use stiction::{Axis, Code, Column, Fit, Log, Options, identify};
+use crate::common::identified::identified;
+use stiction::{Axis, Code, Fit};
 use stiction_testkit::worlds::{Machine, Motion, World, record};
 
 /// What the seed of a second log is more than that of the first.
@@ -8,28 +9,16 @@ const LATER: u64 = 1_000_000;
 
 /// Two logs of a joint, the second of them with friction that has risen by a factor.
 fn twice(seed: u64, motion: Motion, factor: f64) -> (Fit, [Machine; 2]) {
+    twice_on(&Axis::default(), seed, motion, factor)
+}
+
+/// The same with what an axis file says.
+fn twice_on(axis: &Axis, seed: u64, motion: Motion, factor: f64) -> (Fit, [Machine; 2]) {
     let machine = Machine::joint(seed);
     let machines = [machine, machine.with_friction(factor)];
-    let axis = Axis::default();
-    let logs: Vec<Log> = machines
-        .iter()
-        .zip([("morning.csv", seed), ("noon.csv", seed + LATER)])
-        .map(|(machine, (name, seed))| {
-            let log = record(machine, motion, World::Faithful, seed);
-            let column = |name: &str, unit: &str, values: Vec<f64>| Column {
-                name: name.into(),
-                unit: Some(unit.into()),
-                values,
-            };
-            let columns = vec![
-                column("time", "s", log.time),
-                column("position", "rad", log.position.unwrap()),
-                column("torque", "N*m", log.force),
-            ];
-            Log::from_columns(name, columns, &axis).unwrap()
-        })
-        .collect();
-    let fit = identify(&logs, &axis, &Options::default()).unwrap();
+    let logs = [(&machines[0], seed), (&machines[1], seed + LATER)]
+        .map(|(machine, seed)| record(machine, motion, World::Faithful, seed));
+    let fit = identified(&machine, &logs, axis).unwrap();
     (fit, machines)
 }
 
@@ -104,4 +93,49 @@ fn a_twentieth_between_logs_is_inside_the_interval_of_the_level() {
             }
         }
     }
+}
+
+/// Each log with levels of its own: nothing is left to disagree, the levels hold those of the logs, and what the logs share is
+/// found from both.
+#[test]
+fn levels_of_each_log_are_found() {
+    let file = "[terms]\ncoulomb_log = true\nsigma2_log = true\n";
+    let axis: Axis = Axis::parse(file).unwrap();
+    let (mut inside, mut stated) = (0, 0);
+    for seed in 1..4 {
+        let (fit, [first, second]) = twice_on(&axis, seed, Motion::Sine, 1.2);
+        assert_eq!(disagreements(&fit), [""; 0], "seed {seed}");
+        let mut truth = first.truth().to_vec();
+        truth.push(("coulomb_log2", second.coulomb - first.coulomb));
+        truth.push(("sigma1_log2", second.sigma1 - first.sigma1));
+        truth.push(("sigma2_log2", second.sigma2 - first.sigma2));
+        for (name, truth) in truth {
+            let Some(p) = fit.parameter(name) else {
+                continue;
+            };
+            println!(
+                "{seed} {name} {truth} {} {:?} {}",
+                p.value(),
+                p.interval(),
+                p.is_identifiable()
+            );
+            if let (true, Some((low, high))) = (p.is_identifiable(), p.interval()) {
+                stated += 1;
+                inside += usize::from(low <= truth && truth <= high);
+            }
+        }
+        assert!(fit.parameter("coulomb_log2").unwrap().is_identifiable());
+        let model = fit.model();
+        assert!(model.parameter.iter().all(|p| !p.name.contains("_log")));
+    }
+    assert!(10 * inside >= 9 * stated, "{inside} of {stated} inside");
+}
+
+#[test]
+fn a_level_for_each_log_needs_two() {
+    let axis = Axis::parse("[terms]\ncoulomb_log = true\n").unwrap();
+    let machine = Machine::joint(1);
+    let log = record(&machine, Motion::Sine, World::Faithful, 1);
+    let error = identified(&machine, &[log], &axis).err().unwrap();
+    insta::assert_snapshot!(error.to_string());
 }

@@ -1,14 +1,16 @@
 //! What is claimed of axes that are not what an identification assumes.
 
-use crate::claims::{Run, identified, judged};
+use crate::claims::{Run, judged};
+use crate::common::identified::identified;
 use rayon::prelude::*;
+use stiction::Axis;
 use stiction_testkit::worlds::{Machine, Motion, World, record};
 
 const SEED: u64 = 1;
 
 fn run(machine: &Machine, motion: Motion, world: World) -> Run {
     let log = record(machine, motion, world, SEED);
-    judged(&[*machine], identified(machine, &[log]))
+    judged(&[*machine], identified(machine, &[log], &Axis::default()))
 }
 
 fn of(axis: &str, motion: Motion, world: World) -> Run {

@@ -35,12 +35,25 @@ fn warning(found: &Disagreement, evidence: &Evidence) -> Warning {
         true => "The intervals count how the logs scatter",
         false => "It is no constant of the machine",
     };
+    let own_level = match found.name.quantity {
+        Quantity::Coulomb => Some("coulomb_log"),
+        Quantity::Sigma2 => Some("sigma2_log"),
+        _ => None,
+    };
+    let identify = match own_level {
+        Some(key) => format!(
+            "Give each log its own in one fit with {key} = true under [terms] in the axis file ({} is then that of the first \
+             log), or identify",
+            found.name
+        ),
+        None => "Identify".into(),
+    };
     let command = |path: &str| format!("stiction identify {} --out RESULT", shell::quoted(path));
     Warning::new(
         Code::LogsDisagree,
         format!(
             "the logs differ in {} ({}): {} {unit} in {}, {} {unit} in {}, {}{of} apart, where {} is chance. {verdict}. \
-             Identify each by itself, with the other options of this run: {}; {}",
+             {identify} each by itself, with the other options of this run: {}; {}",
             found.name,
             symbols::meaning_of(found.name, motion),
             values[0],

@@ -73,7 +73,9 @@ impl Judged {
         warnings: Vec<Warning>,
     ) -> Self {
         let names = |determined: bool| -> Vec<String> {
-            let identified = law.parameters.iter().filter(|p| p.identified);
+            // What one log has more than another is none of the machine's.
+            let of_the_machine = |p: &&Parameter| p.identified && !p.name.quantity.is_of_a_log();
+            let identified = law.parameters.iter().filter(of_the_machine);
             // Between two renewals of a held position a controller has moved the axis in ways that the log does not show.
             let held = warnings.iter().any(|w| w.code == Code::HeldPosition);
             // A law that explains less than half has no constants of the machine, whatever its curvature says.

@@ -56,7 +56,7 @@ impl Resolver {
         table.end()
     }
 
-    /// The quantities that friction depends on; their reference values come from the log.
+    /// The quantities that friction depends on; their reference values and the number of logs come from the logs.
     fn dependences(&self, table: &Table<'_>) -> Result<Vec<Dependence>, Error> {
         let mut out = Vec::new();
         for (key, dependence) in [
@@ -64,6 +64,8 @@ impl Resolver {
             ("coulomb_temperature", Dependence::CoulombTemperature(0.0)),
             ("coulomb_position", Dependence::CoulombPosition(0.0)),
             ("sigma2_temperature", Dependence::ViscousTemperature(0.0)),
+            ("coulomb_log", Dependence::CoulombLog(0)),
+            ("sigma2_log", Dependence::ViscousLog(0)),
         ] {
             if table.flag(key)? == Some(true) {
                 out.push(dependence);

@@ -3,40 +3,8 @@
 //! A value is claimed where a result may be used and lists it as a constant of the machine. A run is silent where a claimed
 //! value is off by more than half an interval and a whole one: its interval misses the truth by more than its own width.
 
-use stiction::{Axis, Column, Fit, Log, Options, identify};
-use stiction_testkit::worlds::{Machine, Recording};
-
-/// Identifies logs of a machine together, by default.
-pub fn identified(machine: &Machine, logs: &[Recording]) -> Result<Fit, stiction::Error> {
-    let axis = Axis::default();
-    let logs: Result<Vec<Log>, _> = logs
-        .iter()
-        .enumerate()
-        .map(|(i, log)| Log::from_columns(&format!("log-{}", i + 1), columns(machine, log), &axis))
-        .collect();
-    identify(&logs?, &axis, &Options::default())
-}
-
-fn columns(machine: &Machine, log: &Recording) -> Vec<Column> {
-    let (length, force) = match machine.kind {
-        "rotary" => ("rad", "N*m"),
-        _ => ("m", "N"),
-    };
-    let column = |name: &str, unit: &str, values: &[f64]| Column {
-        name: name.into(),
-        unit: Some(unit.into()),
-        values: values.to_vec(),
-    };
-    let mut columns = vec![column("time", "s", &log.time)];
-    if let Some(x) = &log.position {
-        columns.push(column("position", length, x));
-    }
-    if let Some(v) = &log.velocity {
-        columns.push(column("velocity", &format!("{length}/s"), v));
-    }
-    columns.push(column("force", force, &log.force));
-    columns
-}
+use stiction::Fit;
+use stiction_testkit::worlds::Machine;
 
 /// What a run claims, and what of it holds.
 #[derive(Clone, Debug, Default)]

@@ -1,11 +1,12 @@
 //! A promise of compensation, and whether the axis keeps it that the log came from.
 
+use super::identified::identified;
 use std::fmt;
-use stiction::{Axis, Column, Fit, Log, Options, Silent, Study, identify, simulate};
+use stiction::{Axis, Silent, Study, simulate};
 use stiction_friction::LuGre;
 use stiction_servo::integrator::Integrator;
 use stiction_servo::plant::{Load, Motion as State, Plant};
-use stiction_testkit::worlds::{Machine, Motion, Recording, Running, World, record};
+use stiction_testkit::worlds::{Machine, Motion, Running, World, record};
 use stiction_workflows::study::simulate_on;
 
 /// What becomes of a log.
@@ -70,7 +71,11 @@ impl Integrator<LuGre<f64>> for Real {
 
 /// Identifies the log of a world, takes what the study beside the model promises, and measures it on the axis of the world.
 pub fn kept(machine: &Machine, motion: Motion, world: World, seed: u64) -> Told {
-    let fit = match identified(machine, &record(machine, motion, world, seed)) {
+    let fit = match identified(
+        machine,
+        &[record(machine, motion, world, seed)],
+        &Axis::default(),
+    ) {
         Ok(fit) => fit,
         Err(e) => return Told::Nothing(e.to_string()),
     };
@@ -107,27 +112,4 @@ pub fn kept(machine: &Machine, motion: Motion, world: World, seed: u64) -> Told 
         trusted: fit.is_trustworthy(),
         kept: kept.collect(),
     }
-}
-
-fn identified(machine: &Machine, log: &Recording) -> Result<Fit, stiction::Error> {
-    let (length, force) = match machine.kind {
-        "rotary" => ("rad", "N*m"),
-        _ => ("m", "N"),
-    };
-    let column = |name: &str, unit: &str, values: &[f64]| Column {
-        name: name.into(),
-        unit: Some(unit.into()),
-        values: values.to_vec(),
-    };
-    let mut columns = vec![column("time", "s", &log.time)];
-    if let Some(x) = &log.position {
-        columns.push(column("position", length, x));
-    }
-    if let Some(v) = &log.velocity {
-        columns.push(column("velocity", &format!("{length}/s"), v));
-    }
-    columns.push(column("force", force, &log.force));
-    let axis = Axis::default();
-    let log = Log::from_columns("log", columns, &axis)?;
-    identify(&[log], &axis, &Options::default())
 }

@@ -1,6 +1,7 @@
 //! Logs made on the spot, each in its own folder.
 #![allow(dead_code)]
 
+pub mod identified;
 pub mod kept;
 
 use std::fmt::Write;
