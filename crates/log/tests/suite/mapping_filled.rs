@@ -112,7 +112,8 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
     /// Any sine with noise on an offset, in any steps, clipped or not, passes through 0 or rests
-    /// there without being taken for filled.
+    /// there without being taken for filled. It rests for half of each turn at most: what leaves a clipped level for two or three
+    /// samples, one of them in the step at 0, cannot be told from a level with a sample filled in.
     #[test]
     fn stepped_and_clipped_signals_are_not_filled(
         per_turn in 20.0..2000.0_f64,
@@ -120,7 +121,7 @@ proptest! {
         noisy in 0.0..0.5_f64,
         step in 0.0..0.6_f64,
         clip in 0.2..2.0_f64,
-        rest in 0.0..1.0_f64,
+        rest in 0.0..0.5_f64,
         seed in 0..9999_usize,
     ) {
         let steps = |x: f64| if step > 0.01 { step * (x / step).round() } else { x };
