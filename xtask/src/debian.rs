@@ -28,6 +28,31 @@ const PACKAGES: &[Package] = &[
         why: "checks exported C against MISRA",
     },
     Package {
+        name: "g++",
+        program: Some("g++"),
+        why: "builds matiec",
+    },
+    Package {
+        name: "autoconf",
+        program: Some("autoreconf"),
+        why: "builds matiec",
+    },
+    Package {
+        name: "automake",
+        program: Some("automake"),
+        why: "builds matiec",
+    },
+    Package {
+        name: "flex",
+        program: Some("flex"),
+        why: "builds matiec",
+    },
+    Package {
+        name: "bison",
+        program: Some("bison"),
+        why: "builds matiec",
+    },
+    Package {
         name: "linuxcnc-uspace",
         program: Some("halrun"),
         why: "runs exported HAL components",

@@ -10,6 +10,7 @@ use crate::number::Literal;
 use crate::template::Fill;
 use crate::vectors::{DOUBLE_TOLERANCE, SINGLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, header, law};
+use stiction_friction::compensator::Settings;
 use unit::Unit;
 
 const DECLARATION: &str = include_str!("../templates/st/block.declaration.in");
@@ -48,6 +49,10 @@ const REAL: Precision = Precision {
     terms: 7,
     tolerance: SINGLE_TOLERANCE,
 };
+
+/// A slew limit that limits nothing, f_unit/s: compilers refuse what single precision has no number for, also where it
+/// stands for an LREAL.
+const NO_SLEW_LIMIT: f64 = 1e30;
 
 /// Plain text, one file per unit.
 pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
@@ -97,8 +102,8 @@ fn precision<T: Literal>(model: &Model, precision: &Precision) -> Result<[Unit; 
         .set("f_unit", model.force_unit());
     law::fill(&mut fill, compensator.friction(), T::st);
     let mut test = fill.clone();
-    law::settings(&mut fill, compensator.settings(), T::st);
-    law::settings::<T>(&mut test, &cast(&vectors.settings), T::st);
+    law::settings(&mut fill, &writable(compensator.settings()), T::st);
+    law::settings(&mut test, &writable(&cast(&vectors.settings)), T::st);
     let tolerance = T::from_f64(precision.tolerance * vectors.scale(model));
     test.set("rows", rows(&vectors))
         .set("count", vectors.rows.len().to_string())
@@ -118,6 +123,14 @@ fn precision<T: Literal>(model: &Model, precision: &Precision) -> Result<[Unit; 
             body: test.render(TEST_BODY),
         },
     ])
+}
+
+/// The settings as they can be written.
+fn writable<T: Literal>(settings: &Settings<T>) -> Settings<T> {
+    Settings {
+        slew: settings.slew.min(T::from_f64(NO_SLEW_LIMIT)),
+        ..*settings
+    }
 }
 
 /// `exp(-a) - 1 = -a (1 - a/2 (1 - a/3 (...)))`, innermost first.
@@ -140,7 +153,7 @@ fn rows<T: Literal>(vectors: &Vectors<T>) -> String {
         .map(|(i, row)| {
             let (v, x, force) = (row.velocity.st(), row.error.st(), row.force.st());
             let on = if row.enable { "TRUE" } else { "FALSE" };
-            format!("    {i}: v := {v}; x := {x}; on := {on}; due := {force};")
+            format!("    {i}: v := {v}; x := {x}; wanted := {on}; due := {force};")
         })
         .collect();
     rows.join("\n")

@@ -46,17 +46,10 @@ fn pou(unit: &Unit, out: &mut String) {
         out,
         "      <pou name=\"{name}\" pouType=\"{kind}\">\n        <interface>"
     );
-    // The head ends where the declaration begins.
-    let start = if unit.program {
-        "PROGRAM"
-    } else {
-        "FUNCTION_BLOCK"
-    };
-    let at = unit
-        .declaration
-        .find(&format!("\n{start} "))
-        .map_or(0, |i| i + 1);
-    let (head, declaration) = unit.declaration.split_at(at);
+    // Its own line, the comment, then the variables.
+    let (_, after) = unit.declaration.split_once('\n').unwrap_or_default();
+    let at = after.find("\nVAR").map_or(0, |i| i + 1);
+    let (head, declaration) = after.split_at(at);
     for line in declaration.lines().map(str::trim) {
         match line {
             "VAR_INPUT" => out.push_str("          <inputVars>\n"),

@@ -4,6 +4,7 @@ mod c;
 mod common;
 mod fmu;
 mod hal;
+mod matiec;
 mod mujoco;
 mod rust;
 mod st;

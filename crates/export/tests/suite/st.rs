@@ -1,12 +1,14 @@
 //! The Structured Text: parsed by two parsers, its test program run, and executed beside the compensator.
 
 use crate::common;
+use crate::common::compiled::Sample;
+use crate::common::reserved::is_reserved;
 use crate::common::{adversarial, busy, laws, model, random};
 use std::collections::HashSet;
 use std::path::PathBuf;
 use std::process::Command;
 use stiction_export::{File, Model, Target, export};
-use stiction_friction::compensator::{Compensator, Friction, Input, Source};
+use stiction_friction::compensator::{Compensator, Friction, Input, Settings, Source};
 use stiction_friction::{CoulombViscous, Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_testkit::st::Library;
 
@@ -132,8 +134,7 @@ fn seen(h: f64, input: &Input<f64>, huge: f64) -> (f64, Input<f64>) {
 
 /// A million samples of every kind over all laws, in LREAL: within 1e-12 of the larger of force and static friction.
 /// Deflection within its bound.
-#[test]
-fn lreal_agrees() {
+pub fn lreal(what: &str, through: impl Fn(&Model, bool, &[Sample]) -> Vec<[f64; 2]>) {
     let mut worst = 0.0_f64;
     let laws = laws();
     let each = 1_000_000 / laws.len() + 1;
@@ -143,50 +144,54 @@ fn lreal_agrees() {
         if seed % 2 == 1 {
             model.settings.watchdog = None;
         }
-        let library = library(&model);
-        let mut block = library.instance("FB_x_axis_Friction");
-        let slots = [
-            "cycle_time",
-            "reference_velocity",
-            "tracking_error",
-            "enable",
-        ]
-        .map(|n| block.slot(n));
-        let (force, z) = (
-            block.slot("force"),
-            bristles(&friction).map(|_| block.slot("deflection")),
-        );
         let mut compensator =
             Compensator::new(friction, Source::Reference, model.settings).unwrap();
-        for (i, (h, input)) in adversarial(each, true, &mut random(seed as u64))
-            .iter()
-            .enumerate()
-        {
-            let enable = f64::from(u8::from(input.enable));
-            for (slot, x) in
-                slots
-                    .into_iter()
-                    .zip([*h, input.reference_velocity, input.tracking_error, enable])
-            {
-                block.set(slot, x);
-            }
-            block.call();
+        let samples = adversarial(each, true, &mut random(seed as u64));
+        let found = through(&model, bristles(&friction).is_some(), &samples);
+        assert_eq!(found.len(), samples.len());
+        for (i, ((h, input), [force, z])) in samples.iter().zip(found).enumerate() {
             let (h, input) = seen(*h, input, 1e15);
             let due = compensator.step_in(h, input);
-            let scale = due.abs().max(level(&friction));
-            let off = (block.get(force) - due).abs() / scale;
+            let off = (force - due).abs() / due.abs().max(level(&friction));
             worst = worst.max(off);
-            assert!(
-                off <= 1e-12,
-                "{name} {i}: {} {due} at {h} {input:?}",
-                block.get(force)
-            );
-            if let (Some(bound), Some(z)) = (bristles(&friction), z) {
-                assert!(block.get(z).abs() <= bound, "{name} {i}");
+            assert!(off <= 1e-12, "{name} {i}: {force} {due} at {h} {input:?}");
+            if let Some(bound) = bristles(&friction) {
+                assert!(z.abs() <= bound, "{name} {i}");
             }
         }
     }
-    println!("LREAL: largest deviation {worst:.2e} of Fs");
+    println!("{what}, LREAL: largest deviation {worst:.2e} of Fs");
+}
+
+#[test]
+fn lreal_agrees() {
+    lreal("interpreter", |model, bristles, samples| {
+        interpreted(model, "FB_x_axis_Friction", bristles, samples)
+    });
+}
+
+/// Force and deflection, where there is one, of a block in the interpreter.
+fn interpreted(model: &Model, name: &str, bristles: bool, samples: &[Sample]) -> Vec<[f64; 2]> {
+    let mut block = library(model).instance(name);
+    let inputs = [
+        "cycle_time",
+        "reference_velocity",
+        "tracking_error",
+        "enable",
+    ];
+    let inputs = inputs.map(|n| block.slot(n));
+    let force = block.slot("force");
+    let z = bristles.then(|| block.slot("deflection"));
+    let step = |(h, input): &Sample| {
+        let enable = f64::from(u8::from(input.enable));
+        let values = [*h, input.reference_velocity, input.tracking_error, enable];
+        for (slot, x) in inputs.into_iter().zip(values) {
+            block.set(slot, x);
+        }
+        block.call();
+        [block.get(force), z.map_or(0.0, |z| block.get(z))]
+    };
+    samples.iter().map(step).collect()
 }
 
 #[test]
@@ -197,7 +202,7 @@ fn the_text_is_passive() {
         let names = ["reference_velocity", "enable", "force", "deflection"];
         let [velocity, enable, force, z] = names.map(|n| block.slot(n));
         block.set(enable, 1.0);
-        let step = |(_, input): &common::compiled::Sample| {
+        let step = |(_, input): &Sample| {
             block.set(velocity, input.reference_velocity);
             block.call();
             [block.get(force), block.get(z)]
@@ -206,70 +211,42 @@ fn the_text_is_passive() {
     });
 }
 
-/// REAL against the compensator in double precision, on motions as they are: to single precision.
-#[test]
-fn real_agrees() {
+/// REAL against the compensator in single precision, on motions as they are.
+pub fn real(what: &str, through: impl Fn(&Model, bool, &[Sample]) -> Vec<[f64; 2]>) {
     let mut worst = 0.0_f64;
     for (seed, (name, friction)) in laws().into_iter().enumerate() {
         let mut model = model(friction);
         model.settings = busy();
         model.settings.watchdog = None;
-        let library = library(&model);
-        let mut block = library.instance("FB_x_axis_Friction_R");
-        let slots = [
-            "cycle_time",
-            "reference_velocity",
-            "tracking_error",
-            "enable",
-        ]
-        .map(|n| block.slot(n));
-        let force = block.slot("force");
-        let small = stiction_friction::compensator::Settings {
+        let small = Settings {
             gain: 0.9_f32,
             dead_zone: 1e-5,
             slew: 8000.0,
             ramp: 0.02,
             watchdog: None,
-            ..stiction_friction::compensator::Settings::new(1e-3, 33.0)
+            ..Settings::new(1e-3, 33.0)
         };
         let to = |x: [f64; 2]| x.map(|x| x as f32);
         let law: Friction<f32> = match &friction {
             Friction::Coulomb(law) => Friction::Coulomb(
-                stiction_friction::CoulombViscous::new(
-                    to(law.coulomb()),
-                    to(law.viscous()),
-                    law.offset() as f32,
-                )
-                .unwrap(),
+                CoulombViscous::new(to(law.coulomb()), to(law.viscous()), law.offset() as f32)
+                    .unwrap(),
             ),
             Friction::Stribeck(curve) => Friction::Stribeck(curve.cast().unwrap()),
             Friction::LuGre(law) => Friction::LuGre(law.cast().unwrap()),
         };
         let mut compensator = Compensator::new(law, Source::Reference, small).unwrap();
-        for (i, (h, input)) in adversarial(150_000, true, &mut random(50 + seed as u64))
-            .iter()
-            .enumerate()
-        {
+        let mut samples = adversarial(150_000, true, &mut random(50 + seed as u64));
+        for (h, input) in &mut samples {
             // As the controller's REAL inputs hold it.
-            let single = |x: f64| f64::from(x as f32);
-            let (h, v, x) = (
-                single(*h),
-                single(input.reference_velocity),
-                single(input.tracking_error),
-            );
-            let input = Input {
-                reference_velocity: v,
-                tracking_error: x,
-                ..*input
-            };
-            for (slot, x) in slots
-                .into_iter()
-                .zip([h, v, x, f64::from(u8::from(input.enable))])
-            {
-                block.set(slot, x);
+            for x in [h, &mut input.reference_velocity, &mut input.tracking_error] {
+                *x = f64::from(*x as f32);
             }
-            block.call();
-            let (h, input) = seen(h, &input, 1e12);
+        }
+        let found = through(&model, bristles(&friction).is_some(), &samples);
+        assert_eq!(found.len(), samples.len());
+        for (i, ((h, input), [force, _])) in samples.iter().zip(found).enumerate() {
+            let (h, input) = seen(*h, input, 1e12);
             let input = Input {
                 reference_velocity: input.reference_velocity as f32,
                 measured_velocity: 0.0,
@@ -277,16 +254,19 @@ fn real_agrees() {
                 enable: input.enable,
             };
             let due = f64::from(compensator.step_in(h as f32, input));
-            let off = (block.get(force) - due).abs() / level(&friction);
+            let off = (force - due).abs() / level(&friction);
             worst = worst.max(off);
-            assert!(
-                off <= 2e-6,
-                "{name} {i}: {} {due} at {h} {input:?}",
-                block.get(force)
-            );
+            assert!(off <= 2e-6, "{name} {i}: {force} {due} at {h} {input:?}");
         }
     }
-    println!("REAL: largest deviation {worst:.2e} of Fs");
+    println!("{what}, REAL: largest deviation {worst:.2e} of Fs");
+}
+
+#[test]
+fn real_agrees() {
+    real("interpreter", |model, bristles, samples| {
+        interpreted(model, "FB_x_axis_Friction_R", bristles, samples)
+    });
 }
 
 fn bristles(friction: &Friction<f64>) -> Option<f64> {
@@ -311,7 +291,7 @@ fn bad_settings_give_no_force() {
     for (setting, values) in [
         ("gain", [1.1, -0.1, f64::NAN]),
         ("largest_force", [0.0, -1.0, f64::NAN]),
-        ("ramp", [-1.0, 1e300, f64::NAN]),
+        ("ramp_time", [-1.0, 1e300, f64::NAN]),
         ("sigma0", [0.0, f64::INFINITY, f64::NAN]),
         ("static_pos", [1.0, f64::INFINITY, f64::NAN]),
     ] {
@@ -326,6 +306,72 @@ fn bad_settings_give_no_force() {
             assert_eq!(block.get(block.slot("valid")), 0.0, "{setting} {value}");
             assert_eq!(block.get(block.slot("force")), 0.0);
         }
+    }
+}
+
+/// No name that a file declares is a word of the language, of a library or of a tool, whatever the law.
+#[test]
+fn no_name_is_reserved() {
+    assert!(is_reserved("ramp") && is_reserved("On") && is_reserved("max_int"));
+    for (_, law) in laws() {
+        let model = model(law);
+        for target in [Target::St, Target::TcPou, Target::PlcOpen] {
+            for file in export(&model, target).unwrap() {
+                let text = String::from_utf8(file.bytes).unwrap();
+                let names = declared(&text, target);
+                assert!(names.len() > 5, "{}", file.path);
+                for name in names {
+                    assert!(!is_reserved(&name), "{}: {name}", file.path);
+                }
+            }
+        }
+    }
+}
+
+/// The names of units and variables that a text declares.
+fn declared(text: &str, target: Target) -> Vec<String> {
+    if target == Target::PlcOpen {
+        let document = roxmltree::Document::parse(text).unwrap();
+        let named =
+            |n: &roxmltree::Node<'_, '_>| ["pou", "variable"].contains(&n.tag_name().name());
+        let names = document.descendants().filter(named);
+        return names
+            .map(|n| n.attribute("name").unwrap().to_string())
+            .collect();
+    }
+    let mut names = Vec::new();
+    let mut inside = false;
+    for line in text.lines() {
+        // TwinCAT's XML stands before the first line of a declaration.
+        let line = line.rsplit("CDATA[").next().unwrap_or(line);
+        if let Some(name) = ["FUNCTION_BLOCK ", "PROGRAM "]
+            .iter()
+            .find_map(|head| line.strip_prefix(head))
+        {
+            names.push(name.to_string());
+        }
+        inside = match line {
+            "VAR" | "VAR_INPUT" | "VAR_OUTPUT" => true,
+            "END_VAR" => false,
+            _ => inside,
+        };
+        if let (true, Some((name, _))) = (inside, line.split_once(" : ")) {
+            names.push(name.trim().to_string());
+        }
+    }
+    names
+}
+
+/// Nothing stands before the first word of a unit: some parsers take no comment there.
+#[test]
+fn a_unit_begins_with_its_name() {
+    for file in export(&model(laws().remove(0).1), Target::St).unwrap() {
+        let text = String::from_utf8(file.bytes).unwrap();
+        assert!(
+            text.starts_with("FUNCTION_BLOCK FB_") || text.starts_with("PROGRAM PRG_"),
+            "{}",
+            file.path
+        );
     }
 }
 

@@ -2,6 +2,8 @@
 #![allow(dead_code)]
 
 pub mod compiled;
+pub mod matiec;
+pub mod reserved;
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
