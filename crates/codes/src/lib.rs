@@ -98,6 +98,8 @@ codes! {
     FrictionDrift = "friction-drift": "the level of friction changes during the log",
     PositionDependence = "position-dependence": "the level of friction changes along the stroke",
     PositionRipple = "position-ripple": "a force repeats with the position",
+    Resonance = "resonance": "motor and load vibrate against each other on a spring",
+    Backlash = "backlash": "a gap lies between motor and load",
     LawShape = "law-shape": "friction or inertia has another shape than the law",
     CorrelatedResidual = "correlated-residual": "the residual is not noise: a systematic effect is left",
     ForceLate = "force-late": "the force was logged much later than the motion it belongs to",

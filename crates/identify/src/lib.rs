@@ -106,7 +106,7 @@ pub use lateness::lateness;
 pub use law::Law;
 pub use law::dependence::Dependence;
 pub use law::terms::{Delay, Mass, Terms};
-pub use misfit::{Cause, Divided, Misfit, Ripple};
+pub use misfit::{Between, Cause, Coupling, Divided, Encoder, Misfit, Ripple};
 pub use output_error::controller::Controller;
 pub use output_error::outcome::{Short, SimulationFit};
 pub use output_error::run::{Hold, Recording};

@@ -10,19 +10,21 @@
 //! long the log is: [`spread`](Misfit::spread).
 
 mod cause;
+mod coupling;
 mod parts;
 mod reversals;
 mod ripple;
 mod visits;
 
 pub use cause::Cause;
+pub use coupling::{Between, Coupling, Encoder};
 pub use parts::Divided;
 use parts::Measures;
 pub use ripple::Ripple;
 
 use self::reversals::Reversals;
 use self::visits::{BLOCKS, Visits};
-use crate::law::terms::ColumnKind;
+use crate::law::terms::{ColumnKind, Terms};
 use crate::separable::objective::{Evaluation, Objective};
 use nalgebra::DMatrix;
 
@@ -64,6 +66,8 @@ pub struct Misfit {
     pub levels: (f64, f64),
     /// The wave over the position that explains most of a ripple.
     pub ripple: Option<Ripple>,
+    /// A spring or a gap between motor and load that explains it.
+    pub coupling: Option<Coupling>,
     /// By what its course is shown: `by`, or the one of a pair that shows more of it.
     pub shown_by: Divided,
     /// Its course: in each part that `shown_by` makes, the mean of what the motion is divided by (s, m, m/s, m/s^2, or with
@@ -197,6 +201,7 @@ impl Divisions {
             ripple: (by == Divided::Position && beyond[most] >= cause::NAMED_SHARE * square)
                 .then(|| Ripple::of(&self.measures.position, residual))
                 .flatten(),
+            coupling: None,
             shown_by,
             course: self.course(shown, residual),
         })
@@ -233,6 +238,51 @@ impl Sums {
         means.fold((0.0, 0.0), |(low, high): (f64, f64), mean| {
             (low.min(mean), high.max(mean))
         })
+    }
+}
+
+impl Divisions {
+    /// The misfit with a spring or a gap between motor and load where one shows. It is looked for where the misfit has no other
+    /// cause than the shape of the law, or none; what it explains is a misfit, also where no division shows one.
+    pub fn coupled(
+        &self,
+        misfit: Option<Misfit>,
+        objective: &Objective,
+        terms: &Terms,
+        at: (&Evaluation, &[f64]),
+        residual: &[f64],
+    ) -> Option<Misfit> {
+        let cause = misfit.as_ref().and_then(Misfit::cause);
+        if !matches!(cause, None | Some(Cause::Shape)) {
+            return misfit;
+        }
+        let springs = cause.is_some();
+        let Some(found) = coupling::sought(self, objective, terms, at, residual, springs) else {
+            return misfit;
+        };
+        let square = residual.iter().map(|r| r * r).sum::<f64>() / residual.len() as f64;
+        let mut misfit = misfit.unwrap_or_else(|| self.unseen(residual));
+        misfit.share = misfit.share.max(found.share);
+        misfit.rms = misfit.rms.max((found.share * square).sqrt());
+        misfit.coupling = Some(found).filter(Coupling::is_sure);
+        Some(misfit)
+    }
+
+    /// A misfit that no division shows.
+    fn unseen(&self, residual: &[f64]) -> Misfit {
+        let by = Divided::Acceleration;
+        let shown = Divided::ALL.iter().position(|own| *own == by);
+        Misfit {
+            by,
+            rms: 0.0,
+            share: 0.0,
+            shares: Divided::ALL.map(|by| (by, 0.0)).to_vec(),
+            levels: (0.0, 0.0),
+            ripple: None,
+            coupling: None,
+            shown_by: by,
+            course: shown.map_or_else(Vec::new, |i| self.course(i, residual)),
+        }
     }
 }
 

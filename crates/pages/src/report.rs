@@ -337,6 +337,10 @@ fn sureness(outcome: &Outcome) -> String {
     };
     let left = match &outcome.result.misfit {
         None => String::new(),
+        Some(misfit) if misfit.load_percent.is_some() => {
+            ": what lies between motor and load explains part of it, and the intervals count that"
+                .into()
+        }
         Some(misfit) => {
             let after = misfit.by == Divided::AfterReversals.name();
             format!(

@@ -62,7 +62,10 @@ fn main() {
         .collect();
     if asked.has("each") {
         for (task, run) in tasks.iter().zip(&runs) {
-            println!("{}: {run}", asked.cell(task));
+            let truth = task.0.coupling(&Machine::all(task.3)[task.1].1);
+            let truth = run.coupling.and(truth);
+            let truth = truth.map_or(String::new(), |truth| format!(" of {truth:.3e}"));
+            println!("{}: {run}{truth}", asked.cell(task));
         }
     }
     table(tasks, &runs, axes);

@@ -10,6 +10,7 @@ mod choice;
 mod compensation;
 mod condition;
 mod conditioning;
+mod coupled;
 mod disagree;
 mod fit;
 mod judge;

@@ -22,4 +22,22 @@ pub struct MisfitEntry {
     /// Amplitude of that wave, in `unit`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub amplitude: Option<f64>,
+    /// Frequency of the load on its spring while the motor stands still, Hz.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frequency_hz: Option<f64>,
+    /// Frequency of motor and load against each other, Hz.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub resonance_hz: Option<f64>,
+    /// Where the encoder of a load on a spring is: `motor` or `load`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub encoder: Option<String>,
+    /// Lost motion between motor and load, m or rad.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lost_motion: Option<f64>,
+    /// Standard deviation of that frequency or lost motion, percent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coupling_std_percent: Option<f64>,
+    /// The load, percent of the moving mass.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load_percent: Option<f64>,
 }

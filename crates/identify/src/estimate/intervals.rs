@@ -144,6 +144,8 @@ fn conditioned(
     let within = logs.as_ref().and_then(|logs| logs.within(at));
     let left = within.as_deref().unwrap_or(at.residual());
     let misfit = divisions.misfit(left, energies);
+    let fit = (at, &optimum.p[..]);
+    let misfit = divisions.coupled(misfit, objective, &estimate.terms, fit, left);
     let spread = misfit.as_ref().map(|misfit| {
         let unknowns = misfit.spread(&estimate.unknowns.bread, left.len());
         propagate(raw, &unknowns)

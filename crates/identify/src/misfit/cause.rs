@@ -1,6 +1,6 @@
 //! What a misfit is most likely to come from, and which parameters it makes doubtful.
 
-use super::{Divided, Misfit};
+use super::{Between, Divided, Misfit};
 use stiction_parameters::Quantity;
 
 /// Part of the variance of the residual from which a misfit is named. Replicas and chance leave up to about half of it where
@@ -23,6 +23,10 @@ pub enum Cause {
     Position,
     /// A force that repeats with the position.
     Ripple,
+    /// A load on a spring.
+    Resonance,
+    /// A load behind a gap.
+    Backlash,
     /// Friction or inertia of another shape than that of the law.
     Shape,
 }
@@ -32,6 +36,12 @@ impl Misfit {
     pub fn cause(&self) -> Option<Cause> {
         if self.share < NAMED_SHARE {
             return None;
+        }
+        if let Some(coupling) = &self.coupling {
+            return Some(match coupling.between {
+                Between::Spring { .. } => Cause::Resonance,
+                Between::Gap { .. } => Cause::Backlash,
+            });
         }
         let share = |by| self.share_by(by);
         Some(if self.by == Divided::LevelOverTime {
@@ -64,8 +74,18 @@ impl Cause {
             Quantity::StribeckVelocity,
             Quantity::StribeckExponent,
         ];
-        (self == Cause::Shape && of_shape.contains(&quantity)).then_some(
-            "depends on the shape of the law, which the residual shows to be another one at reversals or low speed",
-        )
+        let reason = match self {
+            Cause::Shape => {
+                "depends on the shape of the law, which the residual shows to be another one at reversals or low speed"
+            }
+            Cause::Resonance => {
+                "takes up part of what a resonance between motor and load does at reversals"
+            }
+            Cause::Backlash => {
+                "takes up part of what backlash between motor and load does at reversals"
+            }
+            Cause::Drift | Cause::Position | Cause::Ripple => return None,
+        };
+        of_shape.contains(&quantity).then_some(reason)
     }
 }

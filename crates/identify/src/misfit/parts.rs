@@ -87,10 +87,12 @@ impl Divided {
 
 /// What a motion is divided by, at the kept samples.
 pub(super) struct Measures {
-    time: Vec<f64>,
+    /// s; each log begins where the one before ended.
+    pub time: Vec<f64>,
     /// m or rad.
     pub position: Vec<f64>,
-    speed: Vec<f64>,
+    /// m/s or rad/s.
+    pub speed: Vec<f64>,
     /// Signed distance from the last reversal, m or rad.
     travel: Vec<f64>,
     acceleration: Vec<f64>,

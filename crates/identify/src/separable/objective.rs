@@ -351,8 +351,18 @@ impl<'a> Objective<'a> {
         columns.iter().zip(coefficients).map(scaled).collect()
     }
 
+    /// Moving mass, given or fitted, in the unit of the force; `None` where there is none.
+    pub(crate) fn mass(&self, coefficients: &[f64]) -> Option<f64> {
+        if let Some((mass, _)) = &self.inertia {
+            return Some(*mass);
+        }
+        let mut terms = self.linear.iter().zip(coefficients);
+        let found = terms.find(|(term, _)| term.column == ColumnKind::Acceleration);
+        found.map(|(_, c)| *c)
+    }
+
     /// By how much earlier in the log the motion is that belongs to a force.
-    fn shift(&self, p: &[f64]) -> Shift {
+    pub(crate) fn shift(&self, p: &[f64]) -> Shift {
         match (self.delay, p.last()) {
             (Delay::Fitted, Some(&samples)) => Shift::earlier(samples),
             (Delay::Fitted, None) => Shift::NONE,

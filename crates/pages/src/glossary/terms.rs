@@ -207,6 +207,20 @@ pub(super) const AXIS: &[Term] = &[
         "A force of a motor's teeth and magnets that repeats along the position.",
     ),
     term(
+        "resonance",
+        "",
+        "Hz",
+        &["natural frequency"],
+        "The frequency at which motor and load vibrate against each other on the spring between them; while the motor stands still the load alone vibrates at a lower one.",
+    ),
+    term(
+        "backlash",
+        "",
+        "m",
+        &["lost motion", "play"],
+        "A gap between motor and load: how far the motor moves without the load when the force on it turns round.",
+    ),
+    term(
         "delay",
         "τ",
         "s",

@@ -1,7 +1,7 @@
 //! The figures of the report.
 
 use stiction_files::symbols;
-use stiction_identify::{Divided, Series};
+use stiction_identify::{Between, Coupling, Divided, Series};
 use stiction_parameters::{Quantity, Side, SteadyCurve};
 use stiction_report::{Axis, Color, Dash, Figure, Heatmap, Layer, Panel, Text};
 use stiction_signal::autocorrelation as correlate;
@@ -321,6 +321,9 @@ pub(super) fn left(outcome: &Outcome) -> Option<Figure> {
     let misfit = outcome.law().misfit.as_ref()?;
     misfit.cause()?;
     let length = symbols::length_unit(outcome.motion);
+    if let Some(coupling) = &misfit.coupling {
+        return Some(coupled(coupling, length));
+    }
     let along = match misfit.shown_by {
         Divided::LevelOverTime => Axis::new("Time", "s"),
         Divided::LevelOverPosition | Divided::Position => Axis::new("Position", length),
@@ -344,6 +347,28 @@ pub(super) fn left(outcome: &Outcome) -> Option<Figure> {
         .layer(Layer::line(x.clone(), y.clone()).color(Color::Vermilion))
         .layer(Layer::points(x, y).color(Color::Vermilion));
     Some(Figure::new("What the law leaves systematically").panel(panel))
+}
+
+/// How much of what the law leaves a spring or a gap between motor and load explains, over its frequency or width.
+fn coupled(coupling: &Coupling, length: &str) -> Figure {
+    let (along, at) = match coupling.between {
+        Between::Spring { frequency, .. } => (
+            Axis::new("Frequency of the load on its spring", "Hz"),
+            frequency,
+        ),
+        Between::Gap { width } => (
+            Axis::new("Lost motion between motor and load", length),
+            width,
+        ),
+    };
+    let across = Axis::new("Explained of what the law leaves", "%");
+    let course = coupling.course.iter();
+    let (x, y): (Vec<f64>, Vec<f64>) = course.map(|(x, y)| (*x, 100.0 * y)).unzip();
+    let panel = Panel::new(along.log(), across)
+        .layer(Layer::line(x.clone(), y.clone()).color(Color::Vermilion))
+        .layer(Layer::points(x, y).color(Color::Vermilion))
+        .layer(Layer::points(vec![at], vec![100.0 * coupling.share]).color(Color::Blue));
+    Figure::new("What the law leaves systematically").panel(panel)
 }
 
 /// Relative residual over evaluations.

@@ -59,6 +59,79 @@ fn the_cause_of_what_a_law_leaves_is_named() {
 }
 
 #[test]
+fn what_lies_between_motor_and_load_is_named_with_its_size() {
+    let cases = [
+        ("stage", Motion::Sine, World::ResonanceAtMotor, "resonance"),
+        (
+            "screw",
+            Motion::Trapezoid,
+            World::ResonanceAtMotor,
+            "resonance",
+        ),
+        (
+            "joint",
+            Motion::Commissioning,
+            World::ResonanceAtLoad,
+            "resonance",
+        ),
+        ("joint", Motion::Commissioning, World::Backlash, "backlash"),
+        ("stage", Motion::Trapezoid, World::Backlash, "backlash"),
+    ];
+    let causes = ["resonance", "backlash", "law-shape"];
+    for (axis, motion, world, cause) in cases {
+        let found = of(axis, motion, world);
+        let named: Vec<&str> = causes
+            .into_iter()
+            .filter(|c| found.codes.contains(c))
+            .collect();
+        assert_eq!(named, [cause], "{axis}, {world:?}: {found}");
+        assert!(!found.is_silent(), "{axis}, {world:?}: {found}");
+        let mut machines = Machine::all(SEED).into_iter();
+        let (_, machine) = machines.find(|(name, _)| *name == axis).unwrap();
+        let truth = world.coupling(&machine).unwrap();
+        let (value, _) = found.coupling.unwrap();
+        // A load that bounces crosses its gap longer than one that does not.
+        let within = match cause {
+            "backlash" => 1.6,
+            _ => 1.1,
+        };
+        let off = value / truth;
+        assert!(
+            (1.0 / within..=within).contains(&off),
+            "{axis}, {world:?}: {truth:.3e}, {found}"
+        );
+    }
+}
+
+#[test]
+fn a_resonance_says_at_which_frequency_and_what_to_do() {
+    let (_, machine) = Machine::all(SEED)[2];
+    let log = record(
+        &machine,
+        Motion::Commissioning,
+        World::ResonanceAtMotor,
+        SEED,
+    );
+    let fit = identified(&machine, &[log], &Axis::default()).unwrap();
+    let mut warnings = fit.warnings().iter();
+    let message = &warnings
+        .find(|w| w.code.as_str() == "resonance")
+        .unwrap()
+        .message;
+    // The truth is 25.5 Hz; a third of it is the cut-off.
+    for words in [
+        "the encoder on the motor",
+        "The load alone vibrates at 25.",
+        "common_cutoff = \"8.",
+    ] {
+        assert!(message.contains(words), "{message}");
+    }
+    let misfit = fit.result().misfit.as_ref().unwrap();
+    assert_eq!(misfit.cause.as_deref(), Some("resonance"));
+    assert!(misfit.resonance_hz > misfit.frequency_hz);
+}
+
+#[test]
 fn an_axis_as_assumed_has_no_such_cause_and_claims_what_is_true() {
     for axis in ["stage", "joint"] {
         let found = of(axis, Motion::Commissioning, World::Faithful);

@@ -13,6 +13,8 @@ const MOTOR: f64 = 0.5;
 const RESONANCE: (f64, f64) = (2.0, 0.03);
 const RESONANCE_OF_LOAD: (f64, f64) = (5.0, 0.1);
 const RESONANCE_OF_GAP: (f64, f64) = (4.0, 0.03);
+/// Width of the gap, in deflections at which friction breaks away, Fs/sigma0.
+const GAP: f64 = 0.5;
 /// Periods of the cogging in the distance that the top speed covers in a second.
 const PITCHES: f64 = 13.0;
 /// Share of each Maxwell-slip element in force and in stiffness.
@@ -23,6 +25,26 @@ const ATTRACTION: f64 = 50.0;
 
 /// Motor position and velocity, load position and velocity, bristle deflection or element forces.
 type State = [f64; 8];
+
+/// Lost motion between motor and load, m.
+fn gap(machine: &Machine) -> f64 {
+    GAP * machine.static_friction / machine.sigma0
+}
+
+impl World {
+    /// What lies between motor and load: the frequency of the load while the motor stands still, Hz, or the lost motion, m;
+    /// `None` where they are one.
+    pub fn coupling(self, machine: &Machine) -> Option<f64> {
+        // The whole is that of both masses against each other.
+        let held = |(bandwidths, _): (f64, f64)| bandwidths * machine.bandwidth * MOTOR.sqrt();
+        match self {
+            World::ResonanceAtMotor => Some(held(RESONANCE)),
+            World::ResonanceAtLoad => Some(held(RESONANCE_OF_LOAD)),
+            World::Backlash => Some(gap(machine)),
+            _ => None,
+        }
+    }
+}
 
 /// An axis that moves.
 pub(super) struct Fine {
@@ -124,7 +146,7 @@ impl Fine {
         let (mass, coupling) = match self.world {
             World::Backlash => {
                 let k = self.spring(RESONANCE_OF_GAP);
-                let half = 0.25 * m.static_friction / m.sigma0;
+                let half = 0.5 * gap(m);
                 let apart = x - xl;
                 let squeezed = apart - apart.clamp(-half, half);
                 let damped = if squeezed == 0.0 { 0.0 } else { v - vl };

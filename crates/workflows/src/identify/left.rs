@@ -1,5 +1,6 @@
 //! What a law leaves systematically, and what to do about it, in words.
 
+use super::coupled;
 use stiction_codes::Code;
 use stiction_files::result::MisfitEntry;
 use stiction_files::{Warning, symbols};
@@ -13,7 +14,7 @@ pub(super) fn entry(law: &FittedLaw, force_unit: &str) -> Option<MisfitEntry> {
     let ripple = misfit
         .ripple
         .filter(|_| misfit.cause() == Some(Cause::Ripple));
-    Some(MisfitEntry {
+    let mut entry = MisfitEntry {
         by: misfit.by.name().into(),
         cause: misfit.cause().map(|cause| code(cause).to_string()),
         rmse: misfit.rms,
@@ -21,7 +22,17 @@ pub(super) fn entry(law: &FittedLaw, force_unit: &str) -> Option<MisfitEntry> {
         share_percent: 100.0 * misfit.share,
         pitch: ripple.map(|r| r.pitch),
         amplitude: ripple.map(|r| r.amplitude),
-    })
+        frequency_hz: None,
+        resonance_hz: None,
+        encoder: None,
+        lost_motion: None,
+        coupling_std_percent: None,
+        load_percent: None,
+    };
+    if let Some(coupling) = &misfit.coupling {
+        coupled::state(coupling, &mut entry);
+    }
+    Some(entry)
 }
 
 fn code(cause: Cause) -> Code {
@@ -29,6 +40,8 @@ fn code(cause: Cause) -> Code {
         Cause::Drift => Code::FrictionDrift,
         Cause::Position => Code::PositionDependence,
         Cause::Ripple => Code::PositionRipple,
+        Cause::Resonance => Code::Resonance,
+        Cause::Backlash => Code::Backlash,
         Cause::Shape => Code::LawShape,
     }
 }
@@ -53,6 +66,11 @@ fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String 
     };
     let counted = "The intervals count it";
     match cause {
+        Cause::Resonance | Cause::Backlash => {
+            misfit.coupling.as_ref().map_or_else(String::new, |found| {
+                coupled::message(found, law.fit.relative_error_percent, log)
+            })
+        }
         Cause::Drift => format!(
             "friction changes during the log: {left} is a level that goes from {} of its mean. {counted}; the values are \
                  means over the log. Record the axis warmed up, or its temperature beside the rest and set \
@@ -78,7 +96,8 @@ fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String 
         }
         Cause::Shape => format!(
             "friction or inertia has another shape than this law: {left} {}. {counted}, and what describes that shape is no constant of the machine. Compare the laws \
-                 maxwell-slip and elasto-plastic; a resonance, backlash, or a force logged late look alike",
+                 maxwell-slip and elasto-plastic. Neither a load on a spring nor one behind a gap explains it surely; a force logged \
+                 late looks alike",
             match misfit.by {
                 Divided::AfterReversals => "lies after reversals, beyond what is left elsewhere",
                 _ => "comes back with speed and travel after each reversal",

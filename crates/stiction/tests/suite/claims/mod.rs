@@ -17,6 +17,8 @@ pub struct Run {
     /// Values that are listed as open.
     pub open: usize,
     pub codes: Vec<&'static str>,
+    /// Frequency (Hz) or width (m, rad) of what lies between motor and load, and its standard deviation, percent.
+    pub coupling: Option<(f64, f64)>,
 }
 
 impl Run {
@@ -51,7 +53,11 @@ impl std::fmt::Display for Run {
             };
             write!(f, ", {name} {:+.1} % ({halves:+.1}){mark}", 100.0 * part)?;
         }
-        write!(f, "; {} open; {}", self.open, self.codes.join(" "))
+        write!(f, "; {} open; {}", self.open, self.codes.join(" "))?;
+        match self.coupling {
+            Some((value, std)) => write!(f, "; coupled at {value:.3e} (std {std:.1} %)"),
+            None => Ok(()),
+        }
     }
 }
 
@@ -71,6 +77,10 @@ pub fn judged(machines: &[Machine], fit: Result<Fit, stiction::Error>) -> Run {
         trusted: fit.is_trustworthy(),
         law: fit.law_kind().name().to_owned(),
         open: trust.open.len(),
+        coupling: fit.result().misfit.as_ref().and_then(|misfit| {
+            let value = misfit.frequency_hz.or(misfit.lost_motion)?;
+            Some((value, misfit.coupling_std_percent?))
+        }),
         codes: fit.warnings().iter().map(|w| w.code.as_str()).collect(),
         ..Run::default()
     };
