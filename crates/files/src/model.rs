@@ -5,7 +5,9 @@ mod fault;
 mod form;
 mod read;
 mod refusal;
+mod supported;
 
 pub use form::{ModelFile, ModelParameter, SCHEMA, SourceEntry, SourceInput};
 pub use read::ReadModel;
+pub use supported::Lowered;
 pub(crate) use read::{BY_HAND, MODEL};

@@ -8,11 +8,12 @@ use stiction_codes::Code;
 use stiction_export::{Model, Parameter, Provenance};
 use stiction_files::ModelFile;
 use stiction_files::Warning;
-use stiction_files::model::ReadModel;
+use stiction_files::model::{Lowered, ReadModel};
 use stiction_files::{write_folder, write_into_folder};
 use stiction_friction::ParamError;
 use stiction_friction::compensator::{Compensator, Friction, Settings};
-use stiction_parameters::{FrictionLaw, LawError, LawKind, Name};
+use stiction_friction::Stribeck;
+use stiction_parameters::{FrictionLaw, LawError, LawKind, Name, ParameterSet, Quantity, Side};
 
 pub use stiction_export::{Error as ExportError, File, Target};
 
@@ -201,7 +202,7 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
             .refuse_parameter(&p.name, p.name.as_str(), allowed)
             .into());
     }
-    let friction = friction(file).map_err(|e| match e {
+    let (friction, lowered) = friction(file, options.cycle_time).map_err(|e| match e {
         Unfit::Law => read.refuse(
             "law",
             file.law.as_str(),
@@ -223,8 +224,12 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
         Some(name) => name.clone(),
         None => stiction_export::identifier(&title),
     };
-    let limit = options.limit.unwrap_or_else(|| default_limit(&friction));
+    let limit = options.limit.unwrap_or_else(|| match lowered.is_empty() {
+        true => default_limit(&friction),
+        false => seen(&friction, file.source.top_speed),
+    });
     let mut warnings = doubts(file);
+    warnings.extend(less(&lowered, options.limit.is_none()));
     if options.name.is_none() && !stiction_export::is_whole(&title) {
         warnings.push(Warning::new(
             Code::ExportName,
@@ -341,6 +346,50 @@ fn doubts(file: &ModelFile) -> Vec<Warning> {
     found
 }
 
+/// Where less is used than was identified; `limited` where the limit follows from it.
+fn less(lowered: &[Lowered], limited: bool) -> Option<Warning> {
+    let each = lowered.iter().map(|l| {
+        let [from, to] = [l.from, l.to].map(stiction_number::four_digits);
+        format!("{} = {to} {} instead of {from}", l.name, l.unit)
+    });
+    let each = each.collect::<Vec<_>>().join(", ");
+    let limit = match limited {
+        true => ", and its limit is the largest friction up to the speeds of the log",
+        false => "",
+    };
+    (!lowered.is_empty()).then(|| {
+        Warning::new(
+            Code::ExportSupported,
+            format!(
+                "the code makes the least force that the log supports: {each}{limit}. A log that determines them gives more: \
+                 stiction check LOG names the motion"
+            ),
+        )
+    })
+}
+
+/// The largest friction up to the speeds of the log; at standstill where those are not known.
+fn seen(friction: &Friction<f64>, top_speed: Option<f64>) -> f64 {
+    let top = top_speed.unwrap_or(0.0);
+    let sides = |curve: &Stribeck<f64>| [*curve.positive(), *curve.negative()];
+    let largest = |statics: [f64; 2], viscous: [f64; 2], coulomb: [f64; 2]| {
+        let of = |i: usize| statics[i].max(coulomb[i] + viscous[i] * top);
+        of(0).max(of(1))
+    };
+    let of_curve = |curve: &Stribeck<f64>| {
+        let [p, n] = sides(curve);
+        let statics = [p.static_friction, n.static_friction];
+        largest(statics, [p.viscous, n.viscous], [p.coulomb, n.coulomb]) + curve.offset().abs()
+    };
+    match friction {
+        Friction::Coulomb(law) => {
+            largest(law.coulomb(), law.viscous(), law.coulomb()) + law.offset().abs()
+        }
+        Friction::Stribeck(curve) => of_curve(curve),
+        Friction::LuGre(law) => of_curve(law.curve()),
+    }
+}
+
 /// Twice the largest force at standstill: room for the viscous part, far below what a drive can do.
 fn default_limit(friction: &Friction<f64>) -> f64 {
     let (level, offset) = match friction {
@@ -369,18 +418,41 @@ impl From<LawError> for Unfit {
 }
 
 /// The law as it was identified, sigma1 constant: the export caps it, and warns where that counts.
-fn friction(file: &ModelFile) -> Result<Friction<f64>, Unfit> {
-    let values = file.values().ok_or(Unfit::Law)?;
+fn friction(file: &ModelFile, cycle_time: f64) -> Result<(Friction<f64>, Vec<Lowered>), Unfit> {
+    let (mut values, mut lowered) = file.supported().ok_or(Unfit::Law)?;
     match values.kind() {
         LawKind::ElastoPlastic | LawKind::MaxwellSlip | LawKind::Gms => return Err(Unfit::Law),
         LawKind::CoulombViscous | LawKind::Stribeck | LawKind::Dahl | LawKind::LuGre => {}
     }
-    match values.law()? {
-        FrictionLaw::CoulombViscous(law) => Ok(Friction::Coulomb(law)),
-        FrictionLaw::Stribeck(curve) => Ok(Friction::Stribeck(curve)),
-        FrictionLaw::LuGre(law) => Ok(Friction::LuGre(law)),
-        FrictionLaw::ElastoPlastic(_) | FrictionLaw::MaxwellSlip(_) => Err(Unfit::Law),
+    lowered.extend(resolved(file, &mut values, cycle_time));
+    let friction = match values.law()? {
+        FrictionLaw::CoulombViscous(law) => Friction::Coulomb(law),
+        FrictionLaw::Stribeck(curve) => Friction::Stribeck(curve),
+        FrictionLaw::LuGre(law) => Friction::LuGre(law),
+        FrictionLaw::ElastoPlastic(_) | FrictionLaw::MaxwellSlip(_) => return Err(Unfit::Law),
+    };
+    Ok((friction, lowered))
+}
+
+/// A stiffness that the data leave open is no stiffer than a cycle resolves: at the Stribeck velocity the presliding length is
+/// passed in one.
+fn resolved(file: &ModelFile, values: &mut ParameterSet, cycle_time: f64) -> Option<Lowered> {
+    let from = values.get(Quantity::Sigma0)?;
+    let speed = values.on(Quantity::StribeckVelocity, Side::Positive)?;
+    let level = values.on(Quantity::Coulomb, Side::Positive)?;
+    let to = level / (speed * cycle_time);
+    let name = Name::from(Quantity::Sigma0);
+    if !(file.leaves_open(name) && to > 0.0 && to < from) {
+        return None;
     }
+    values.insert(name, to);
+    let p = file.parameter.iter().find(|p| p.name == name.to_string())?;
+    Some(Lowered {
+        name,
+        from: p.value,
+        to,
+        unit: p.unit.clone(),
+    })
 }
 
 #[cfg(test)]
@@ -424,7 +496,7 @@ mod tests {
             text += "[covariance]\nnames = []\nmatrix = []\n";
             std::fs::write(&path, &text).unwrap();
             let file = ModelFile::read(&path).unwrap();
-            let Ok(Friction::LuGre(exported)) = friction(&file) else {
+            let Ok((Friction::LuGre(exported), _)) = friction(&file, 1e-3) else {
                 panic!("no law is exported");
             };
             assert_eq!(exported.curve().shape(), shape);

@@ -8,7 +8,7 @@ use stiction_parameters::{LawKind, Name, ParameterSet};
 pub const SCHEMA: &str = "stiction.model/1";
 
 /// The whole file.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ModelFile {
     /// `stiction.model/1`.
     pub schema: String,

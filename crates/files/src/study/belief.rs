@@ -151,7 +151,7 @@ impl Family {
         })
     }
 
-    /// The parameters of the model on axes as the identification leaves them open: parameters drawn from its covariance,
+    /// The parameters that a compensator of the model has, on axes as the identification leaves them open: parameters drawn from its covariance,
     /// and beside the law forces of the size of what it leaves.
     pub(super) fn promised(
         model: &Model,
@@ -173,9 +173,22 @@ impl Family {
         Ok(Family {
             kind: "promised",
             name: "promised".into(),
-            beliefs: vec![truth; PROMISE_DRAWS as usize],
+            beliefs: vec![supported(model, truth); PROMISE_DRAWS as usize],
             axes: axes.collect(),
         })
+    }
+}
+
+/// What a compensator of a model is made of.
+fn supported(model: &Model, truth: Belief) -> Belief {
+    let law = model.supported.as_ref().and_then(|values| {
+        let law = values.lugre().ok()?;
+        let damping = like(truth.law.damping(), law.damping().at_rest());
+        law.with_damping(damping).ok()
+    });
+    Belief {
+        law: law.unwrap_or(truth.law),
+        ..truth
     }
 }
 

@@ -26,6 +26,8 @@ pub struct Model {
     pub origin: String,
     /// Every parameter.
     pub parameters: Vec<Parameter>,
+    /// What a compensator is made of where the data leave parameters open; none where they do not.
+    pub supported: Option<ParameterSet>,
     /// Of the identified parameters; none for a known axis.
     pub covariance: Option<CovarianceEntry>,
     /// What the law leaves of the force; none where it was not measured.
@@ -117,6 +119,7 @@ impl Model {
             kind: LawKind::LuGre,
             origin: format!("Known axis {}: {}", axis.name, axis.source),
             parameters,
+            supported: None,
             covariance: None,
             remaining: None,
             warnings: Vec::new(),
@@ -209,6 +212,7 @@ impl Model {
                 unit: p.unit.clone(),
             })
         });
+        let supported = model.supported().filter(|(_, lowered)| !lowered.is_empty());
         let name = model.name.as_deref();
         let found = Model {
             motion,
@@ -221,6 +225,7 @@ impl Model {
                 ),
             },
             parameters: parameters.collect(),
+            supported: supported.map(|(values, _)| values),
             covariance: Some(model.covariance.clone()),
             remaining: model.remaining.clone(),
             warnings,

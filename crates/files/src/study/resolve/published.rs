@@ -69,6 +69,7 @@ pub(super) fn published(given: &Given<'_>) -> Result<Model, Error> {
         kind: LawKind::LuGre,
         origin: "Parameters given in the study".into(),
         parameters,
+        supported: None,
         covariance: None,
         remaining: None,
         warnings: Vec::new(),
