@@ -9,5 +9,5 @@ mod supported;
 
 pub use form::{ModelFile, ModelParameter, SCHEMA, SourceEntry, SourceInput};
 pub use read::ReadModel;
-pub use supported::Lowered;
 pub(crate) use read::{BY_HAND, MODEL};
+pub use supported::Lowered;

@@ -11,8 +11,8 @@ use stiction_files::Warning;
 use stiction_files::model::{Lowered, ReadModel};
 use stiction_files::{write_folder, write_into_folder};
 use stiction_friction::ParamError;
-use stiction_friction::compensator::{Compensator, Friction, Settings};
 use stiction_friction::Stribeck;
+use stiction_friction::compensator::{Compensator, Friction, Settings};
 use stiction_parameters::{FrictionLaw, LawError, LawKind, Name, ParameterSet, Quantity, Side};
 
 pub use stiction_export::{Error as ExportError, File, Target};
