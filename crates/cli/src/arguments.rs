@@ -442,6 +442,21 @@ pub struct Export {
     /// Largest force, in the unit of the model's force [default: twice static friction and offset].
     #[arg(long, value_name = "FORCE", allow_negative_numbers = true)]
     pub limit: Option<f64>,
+    /// Share of the friction that is compensated, 0 to 1 [default: 0.75].
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    pub gain: Option<f64>,
+    /// Time in which the compensation comes in and goes, s [default: 0.05].
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = seconds)]
+    pub ramp: Option<f64>,
+    /// Speeds up to this count as standstill, m/s or rad/s [default: from the law].
+    #[arg(long, value_name = "SPEED", allow_negative_numbers = true)]
+    pub dead_zone: Option<f64>,
+    /// Fastest change of the force, in the unit of the model's force per second [default: from the law].
+    #[arg(long, value_name = "RATE", allow_negative_numbers = true)]
+    pub slew: Option<f64>,
+    /// Moving time that the watchdog compares, a cycle of the motion, s; 0: no watchdog [default: 2].
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = seconds)]
+    pub window: Option<f64>,
     /// Rated force of the motor, in the unit of the model's force; for tf5200.
     #[arg(long, value_name = "FORCE", allow_negative_numbers = true)]
     pub rated_force: Option<f64>,

@@ -549,6 +549,11 @@ fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
     options.name.clone_from(&export.name);
     options.limit = export.limit;
     options.rated_force = export.rated_force;
+    options.gain = export.gain;
+    options.safety.ramp = export.ramp;
+    options.safety.dead_zone = export.dead_zone;
+    options.safety.slew = export.slew;
+    options.safety.window = export.window;
     let exported = stiction::export_file(&export.model, &options)?;
     match export.force {
         true => exported.write_over(&export.out)?,

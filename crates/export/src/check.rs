@@ -1,7 +1,7 @@
 //! Advice before the code runs.
 
 use crate::number::short;
-use crate::{Error, Model, Target, check_identifier, hal, tf5200};
+use crate::{Error, Model, Target, check_identifier, hal, mujoco, tf5200};
 use stiction_codes::Code;
 use stiction_friction::compensator::Friction;
 use stiction_friction::{Damping, LuGre};
@@ -45,7 +45,7 @@ pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
         found.extend(unresolved(model, law, target));
     }
     match target {
-        Target::Mujoco => {}
+        Target::Mujoco => found.extend(shaking(model)),
         Target::Tf5200 => {
             // The table ends at its last speed.
             if tf5200::largest_force(model) > model.settings.limit {
@@ -223,8 +223,33 @@ fn unresolved(model: &Model, law: &LuGre<f64>, target: Target) -> Option<Advice>
     })
 }
 
+/// A joint in MuJoCo that sticks would not come to rest with the time step that was asked for.
+fn shaking(model: &Model) -> Option<Advice> {
+    let Friction::LuGre(law) = &model.friction else {
+        return None;
+    };
+    let (asked, longest) = (model.settings.cycle_time, mujoco::longest_step(law));
+    let written = mujoco::time_step(law, asked);
+    let outcome = if written < asked {
+        format!("the file has a timestep of {written} s in place of {asked} s")
+    } else {
+        format!(
+            "no allowed timestep ({:?} s or more) is short enough, the file has {asked} s",
+            CYCLE_TIMES.0
+        )
+    };
+    (asked >= longest).then(|| Advice {
+        code: Code::ExportCycleTime,
+        message: format!(
+            "with a timestep of {} s or more a joint that sticks shakes and does not come to rest, since MuJoCo takes the force \
+             of the beginning of a step: {outcome}; a longer one needs a larger sigma1 or a smaller sigma0",
+            short(longest)
+        ),
+    })
+}
+
 /// Rounded down to two digits.
-fn two_digits(x: f64) -> f64 {
+pub(crate) fn two_digits(x: f64) -> f64 {
     let unit = libm::pow(10.0, libm::floor(libm::log10(x)) - 1.0);
     libm::floor(x / unit * (1.0 + 1e-9)) * unit
 }

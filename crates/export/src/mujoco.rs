@@ -3,7 +3,8 @@
 //! MuJoCo holds the velocity over a step as stiction does, so the deflections are the same; its force is that of the
 //! beginning of the step, with the deflection rate of the state equation and a constant sigma1. The self-test compares with that.
 
-use crate::number::Literal;
+use crate::check::{CYCLE_TIMES, two_digits};
+use crate::number::{Literal, short};
 use crate::template::Fill;
 use crate::vectors::Vectors;
 use crate::{Error, File, Model, header, law};
@@ -32,6 +33,7 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         .map_err(|e| Error::number("double", e))?;
     let vectors = Vectors::<f64>::new(model, "double")?;
     let name = &model.identifier;
+    let step = time_step(&lugre, model.settings.cycle_time);
     let mut fill = Fill::default();
     fill.set("name", name.clone())
         .set("v_unit", model.speed_unit())
@@ -40,13 +42,14 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         .set("type", if model.rotary { "hinge" } else { "slide" })
         .set("axis", if model.rotary { "0 0 1" } else { "1 0 0" })
         .set("against", (-lugre.curve().offset()).c())
-        .set("rows", rows(&lugre, &vectors, model.settings.cycle_time))
+        .set("rows", rows(&lugre, &vectors, step))
         .set("force_tolerance", (TOLERANCE * vectors.scale(model)).c())
         .set("deflection_tolerance", (TOLERANCE * lugre.bound()).c());
-    law::settings(&mut fill, &model.settings, f64::c);
+    fill.set("timestep", step.c())
+        .set("longest", short(longest_step(&lugre)).c())
+        .set("mass", MASS.to_string());
     law::fill(&mut fill, &Friction::LuGre(lugre), f64::c);
-    // Two hyphens would end a comment in XML.
-    let words = header::comment(model, "").replace("--", "- -");
+    let words = spaced(&header::comment(model, ""));
     let xml = fill.clone().set("header", words).render(MODEL);
     let test = fill
         .set("header", header::comment(model, "# "))
@@ -55,6 +58,48 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         File::text(format!("{name}_friction.xml"), xml),
         File::text(format!("{name}_selftest.py"), test),
     ])
+}
+
+/// A text for a comment in XML, where no two hyphens may stand together.
+fn spaced(text: &str) -> String {
+    let mut out = text.replace("--", "- -");
+    // Of three hyphens the last two are together still.
+    while out.contains("--") {
+        out = out.replace("--", "- -");
+    }
+    out
+}
+
+/// The mass in the file, kg (kg m^2).
+const MASS: f64 = 1.0;
+
+/// The time step that is written, s: that which was asked for, or the longest at which the joint comes to rest, to two
+/// digits, if there is one that is allowed.
+pub(crate) fn time_step(law: &LuGre<f64>, asked: f64) -> f64 {
+    let most = short(two_digits(longest_step(law)));
+    if most < CYCLE_TIMES.0 {
+        asked
+    } else {
+        asked.min(most)
+    }
+}
+
+/// The longest time step, s, at which a joint that sticks comes to rest.
+///
+/// Stuck, the bristles are a spring. MuJoCo takes deflection and velocity at the beginning of a step of h for both, and
+/// the joint's damping implicitly: `z+ = z + h v`, `(m + h sigma2) v+ = m v - h (sigma0 z + sigma1 v)`. By Jury's criterion that decays for
+/// `h sigma0 < sigma1 + sigma2` and `sigma0 h^2 - 2 (sigma1 - sigma2) h + 4 m > 0`.
+pub(crate) fn longest_step(law: &LuGre<f64>) -> f64 {
+    let (stiffness, damping) = (law.stiffness(), law.damping().at_rest());
+    let viscous = law.curve().positive().viscous;
+    let spring = (damping + viscous) / stiffness;
+    let excess = damping - viscous;
+    let root = excess * excess - 4.0 * MASS * stiffness;
+    if excess <= 0.0 || root < 0.0 {
+        return spring;
+    }
+    // The lesser root, without the difference of nearly equal numbers.
+    spring.min(4.0 * MASS / (excess + libm::sqrt(root)))
 }
 
 /// The law, if MuJoCo has one.

@@ -139,7 +139,7 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
             },
         )
         .set("delay", format!("{:.0}", delay.min(MAX_POSITION_DELAY)))
-        .set("scaling", format!("{:.0}", 100.0 * model.settings.gain))
+        .set("scaling", format!("{:.0}", 1000.0 * model.settings.gain))
         .flag("limited", limited)
         .flag("at_rest", at_rest)
         .set("limit", short(limit).to_string())

@@ -138,8 +138,8 @@ fn motion(model: &Model, h: f64) -> Vec<(f64, f64, bool)> {
         }
     };
     add(2, 0.0, false, &|_| 0.0);
-    // The watchdog learns over two reversals, then compensation comes in.
-    add(14, TRACKING_ERROR, false, &to_and_fro);
+    // The watchdog learns over five windows of two strokes, then compensation comes in.
+    add(46, TRACKING_ERROR, false, &to_and_fro);
     add(12, 0.5 * TRACKING_ERROR, true, &|_| v);
     add(35, 0.5 * TRACKING_ERROR, true, &|k| 3.0 * v * sine(k, 25.0));
     add(25, 0.5 * TRACKING_ERROR, true, &|k| small * sine(k, 12.0));

@@ -1,7 +1,7 @@
 //! The compensator that runs on the drive: a friction force, limited and supervised, to be added to the controller's.
 //!
 //! One call a sample, plain arithmetic, no allocation. [`Settings`] and the law are checked once and, except for the
-//! gain, never change; everything that changes is in [`State`].
+//! gain and the limit, never change; everything that changes is in [`State`].
 //!
 //! ```text
 //! velocity --dead zone--> law --level--> x gain, by its ramp --> saturation --slew limit--> force
@@ -39,7 +39,7 @@ pub use input::Input;
 pub use preview::ahead;
 pub use settings::Settings;
 pub use state::State;
-pub use watchdog::{Watch, Watchdog};
+pub use watchdog::{Trip, Watch, Watchdog};
 
 use crate::{ParamError, Real};
 
@@ -74,11 +74,7 @@ impl<T: Real> Compensator<T> {
     #[must_use]
     pub fn running(mut self, watch: &Watch<T>) -> Self {
         self.state.share = self.settings.gain;
-        self.state.watch = Watch {
-            without: watch.without,
-            peak_without: watch.peak_without,
-            ..Watch::default()
-        };
+        self.state.watch = watch.knowledge();
         self
     }
 
@@ -122,6 +118,16 @@ impl<T: Real> Compensator<T> {
     pub fn set_gain(&mut self, gain: T) -> Result<(), ParamError> {
         Settings::check_gain(gain)?;
         self.settings.gain = gain;
+        Ok(())
+    }
+
+    /// Sets the largest force either way, > 0, N (N m). The force is within it from the next step on, whatever the slew limit.
+    ///
+    /// # Errors
+    /// Where it is out of range; the limit then stays.
+    pub fn set_limit(&mut self, limit: T) -> Result<(), ParamError> {
+        ParamError::positive("limit", limit)?;
+        self.settings.limit = limit;
         Ok(())
     }
 

@@ -119,7 +119,9 @@ pub use stiction_files::{Axis, ModelFile, Warning, model, result};
 pub use stiction_friction::compensator::{Compensator, Input};
 pub use stiction_identify::{Control, LawKind, Observer, Progress, Silent, Stage};
 pub use stiction_parameters::FrictionLaw;
-pub use stiction_workflows::export::{ExportOptions, Exported, Target, export, export_file};
+pub use stiction_workflows::export::{
+    ExportOptions, Exported, Safety, Target, export, export_file,
+};
 pub use stiction_workflows::identify::{CostKind, Method, Prediction, Procedures, Searching};
 pub use stiction_workflows::study::{StudyOutcome, simulate};
 pub use stiction_workflows::{Error, Verdict, demo, set_threads};

@@ -50,6 +50,8 @@ enum Function {
     Ln,
     Sqrt,
     Expt,
+    Min,
+    Max,
 }
 
 #[derive(Clone)]
@@ -200,6 +202,8 @@ impl Instance {
                     Function::Ln => self.arithmetic(x.ln()),
                     Function::Sqrt => self.arithmetic(x.sqrt()),
                     Function::Expt => self.arithmetic(x.powf(self.eval(&arguments[1]))),
+                    Function::Min => x.min(self.eval(&arguments[1])),
+                    Function::Max => x.max(self.eval(&arguments[1])),
                 }
             }
         }
@@ -408,6 +412,8 @@ impl<'l> Loader<'l> {
                     "LN" => (Function::Ln, 1),
                     "SQRT" => (Function::Sqrt, 1),
                     "EXPT" => (Function::Expt, 2),
+                    "MIN" => (Function::Min, 2),
+                    "MAX" => (Function::Max, 2),
                     other => return Err(format!("function {other}")),
                 };
                 let values: Vec<&Expr> = args.iter().filter_map(|a| a.value.as_ref()).collect();

@@ -12,7 +12,7 @@ use stiction_files::model::{Lowered, ReadModel};
 use stiction_files::{write_folder, write_into_folder};
 use stiction_friction::ParamError;
 use stiction_friction::Stribeck;
-use stiction_friction::compensator::{Compensator, Friction, Settings};
+use stiction_friction::compensator::{Compensator, Friction, Settings, Watchdog};
 use stiction_parameters::{FrictionLaw, LawError, LawKind, Name, ParameterSet, Quantity, Side};
 
 pub use stiction_export::{Error as ExportError, File, Target};
@@ -32,6 +32,24 @@ pub struct ExportOptions {
     pub limit: Option<f64>,
     /// Force that the motor is rated for, in the unit of the model's; for `tf5200`, and for no other target.
     pub rated_force: Option<f64>,
+    /// Share of the friction that is compensated, 0 to 1; 0.75 if absent. Not for `mujoco`.
+    pub gain: Option<f64>,
+    /// Settings of the compensator; not for `mujoco` and `tf5200`, which have none of them.
+    pub safety: Safety,
+}
+
+/// Settings of a compensator; those that are absent follow from the law ([`Settings::for_law`]).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Safety {
+    /// Time in which the compensation goes from 0 to its full value, s.
+    pub ramp: Option<f64>,
+    /// Speeds up to this count as standstill, m/s (rad/s). If absent, for a law without a Stribeck velocity a thousandth of
+    /// the top speed of the recordings, where the model has it.
+    pub dead_zone: Option<f64>,
+    /// Fastest change of the force, in the unit of the model's force per second.
+    pub slew: Option<f64>,
+    /// Moving time that the watchdog compares, s; 0: no watchdog.
+    pub window: Option<f64>,
 }
 
 impl ExportOptions {
@@ -43,6 +61,8 @@ impl ExportOptions {
             cycle_time,
             limit: None,
             rated_force: None,
+            gain: None,
+            safety: Safety::default(),
         }
     }
 }
@@ -148,6 +168,27 @@ fn check(options: &ExportOptions) -> Result<(), Error> {
             "the friction of a joint in MuJoCo is not limited",
         ));
     }
+    let target = options.target.name();
+    if options.gain.is_some() && options.target == Target::Mujoco {
+        return Err(Error::usage(
+            "a gain for the target mujoco",
+            "the friction of a joint in MuJoCo is the whole friction",
+        ));
+    }
+    let safety = &options.safety;
+    let given = [
+        ("ramp", safety.ramp),
+        ("dead zone", safety.dead_zone),
+        ("slew", safety.slew),
+        ("window", safety.window),
+    ];
+    let none = matches!(options.target, Target::Mujoco | Target::Tf5200);
+    if let Some((name, _)) = given.iter().find(|(_, value)| none && value.is_some()) {
+        return Err(Error::usage(
+            format!("a {name} for the target {target}"),
+            "it has none",
+        ));
+    }
     Ok(())
 }
 
@@ -224,10 +265,10 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
         Some(name) => name.clone(),
         None => stiction_export::identifier(&title),
     };
-    let limit = options.limit.unwrap_or_else(|| match lowered.is_empty() {
-        true => default_limit(&friction),
-        false => seen(&friction, file.source.top_speed),
-    });
+    let mut settings = settings(&friction, file.source.top_speed, options);
+    if options.limit.is_none() && !lowered.is_empty() {
+        settings.limit = seen(&friction, file.source.top_speed);
+    }
     let mut warnings = doubts(file);
     warnings.extend(less(&lowered, options.limit.is_none()));
     if options.name.is_none() && !stiction_export::is_whole(&title) {
@@ -244,7 +285,7 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
         rotary: file.kind == "rotary",
         force_unit: file.force_unit.replace('*', " "),
         friction,
-        settings: Settings::new(options.cycle_time, limit),
+        settings,
         rated_force: options.rated_force,
         top_speed: file.source.top_speed,
         parameters: file
@@ -294,7 +335,16 @@ fn place(source: stiction_export::Error, read: &ReadModel, options: &ExportOptio
             ..
         } => {
             let asked = *name == "limit" && options.limit.is_some();
-            if asked || matches!(*name, "rated_force" | "cycle_time") {
+            let of_no_parameter = [
+                "rated_force",
+                "cycle_time",
+                "gain",
+                "ramp",
+                "dead_zone",
+                "slew",
+                "watchdog_window",
+            ];
+            if asked || of_no_parameter.contains(name) {
                 return source.into();
             }
             read.place_of_parameter(name)
@@ -390,14 +440,36 @@ fn seen(friction: &Friction<f64>, top_speed: Option<f64>) -> f64 {
     }
 }
 
-/// Twice the largest force at standstill: room for the viscous part, far below what a drive can do.
-fn default_limit(friction: &Friction<f64>) -> f64 {
-    let (level, offset) = match friction {
-        Friction::Coulomb(law) => (law.coulomb()[0].max(law.coulomb()[1]), law.offset()),
-        Friction::Stribeck(curve) => (curve.largest_static_level(), curve.offset()),
-        Friction::LuGre(law) => (law.curve().largest_static_level(), law.curve().offset()),
-    };
-    2.0 * (level + offset.abs())
+/// Dead zone of a law without a Stribeck velocity, of the top speed of the recordings.
+const SLOW: f64 = 1e-3;
+
+/// What was asked for, and else what follows from the law.
+fn settings(
+    friction: &Friction<f64>,
+    top_speed: Option<f64>,
+    options: &ExportOptions,
+) -> Settings<f64> {
+    let mut settings = Settings::for_law(friction, options.cycle_time);
+    if let (Friction::Coulomb(_), Some(top)) = (friction, top_speed) {
+        settings.dead_zone = SLOW * top;
+    }
+    let safety = &options.safety;
+    for (setting, asked) in [
+        (&mut settings.limit, options.limit),
+        (&mut settings.gain, options.gain),
+        (&mut settings.ramp, safety.ramp),
+        (&mut settings.dead_zone, safety.dead_zone),
+        (&mut settings.slew, safety.slew),
+    ] {
+        *setting = asked.unwrap_or(*setting);
+    }
+    if let Some(window) = safety.window {
+        settings.watchdog = (window != 0.0).then(|| Watchdog {
+            window,
+            ..Watchdog::default()
+        });
+    }
+    settings
 }
 
 /// Why no law that can be exported follows from the numbers of a model.

@@ -84,6 +84,22 @@ impl Variables {
             "to be added to the force of the controller",
         );
         number(
+            "baseline",
+            Role::Output,
+            0.0,
+            Unit::Length,
+            "law.baseline",
+            "rms error without compensation; 0: not known yet",
+        );
+        number(
+            "reason",
+            Role::Output,
+            0.0,
+            Unit::One,
+            "reason",
+            "why the watchdog has switched off: 0 it has not; 1 larger mean square error; 2 larger peaks, again and again or for long",
+        );
+        number(
             "friction",
             Role::Local,
             offset,
@@ -347,6 +363,14 @@ impl Variables {
             true,
             "law.ready",
             "the parameters are in range; else the force is 0",
+        );
+        flag(
+            7,
+            "learned",
+            Role::Output,
+            false,
+            "law.learned",
+            "the error without compensation is known: the force may come in",
         );
         Variables(list)
     }

@@ -3,7 +3,7 @@
 use crate::common;
 use crate::common::compiled::Sample;
 use crate::common::reserved::is_reserved;
-use crate::common::{adversarial, busy, laws, model, random};
+use crate::common::{GUARDED, adversarial, busy, guarded, laws, model, random};
 use std::collections::HashSet;
 use std::path::PathBuf;
 use std::process::Command;
@@ -42,7 +42,7 @@ fn the_test_program_passes() {
                 program.slot("passed"),
                 program.slot("worst"),
             );
-            for _ in 0..152 {
+            for _ in 0..184 {
                 program.call();
             }
             assert_eq!(program.get(done), 1.0, "{name}");
@@ -73,7 +73,7 @@ fn what_is_exported_is_valid() {
         let library = library(&model);
         for (suffix, huge) in [("", 1e15), ("_R", 1e12)] {
             let mut program = library.instance(&format!("PRG_x_axis_FrictionTest{suffix}"));
-            (0..152).for_each(|_| program.call());
+            (0..184).for_each(|_| program.call());
             let of = |name: &str| program.get(program.slot(name));
             assert_eq!(of("passed"), 1.0, "{k}{suffix}: {}", of("worst"));
             let mut block = library.instance(&format!("FB_x_axis_Friction{suffix}"));
@@ -144,19 +144,28 @@ pub fn lreal(what: &str, through: impl Fn(&Model, bool, &[Sample]) -> Vec<[f64; 
         if seed % 2 == 1 {
             model.settings.watchdog = None;
         }
-        let mut compensator =
-            Compensator::new(friction, Source::Reference, model.settings).unwrap();
-        let samples = adversarial(each, true, &mut random(seed as u64));
-        let found = through(&model, bristles(&friction).is_some(), &samples);
-        assert_eq!(found.len(), samples.len());
-        for (i, ((h, input), [force, z])) in samples.iter().zip(found).enumerate() {
-            let (h, input) = seen(*h, input, 1e15);
-            let due = compensator.step_in(h, input);
-            let off = (force - due).abs() / due.abs().max(level(&friction));
-            worst = worst.max(off);
-            assert!(off <= 1e-12, "{name} {i}: {force} {due} at {h} {input:?}");
-            if let Some(bound) = bristles(&friction) {
-                assert!(z.abs() <= bound, "{name} {i}");
+        let mut runs = vec![(
+            model.settings,
+            adversarial(each, true, &mut random(seed as u64)),
+        )];
+        if let Some(kind) = GUARDED.get(seed) {
+            let samples = guarded(friction, busy(), *kind, &mut random(seed as u64));
+            runs.push((busy(), samples));
+        }
+        for (settings, samples) in runs {
+            model.settings = settings;
+            let mut compensator = Compensator::new(friction, Source::Reference, settings).unwrap();
+            let found = through(&model, bristles(&friction).is_some(), &samples);
+            assert_eq!(found.len(), samples.len());
+            for (i, ((h, input), [force, z])) in samples.iter().zip(found).enumerate() {
+                let (h, input) = seen(*h, input, 1e15);
+                let due = compensator.step_in(h, input);
+                let off = (force - due).abs() / due.abs().max(level(&friction));
+                worst = worst.max(off);
+                assert!(off <= 1e-12, "{name} {i}: {force} {due} at {h} {input:?}");
+                if let Some(bound) = bristles(&friction) {
+                    assert!(z.abs() <= bound, "{name} {i}");
+                }
             }
         }
     }

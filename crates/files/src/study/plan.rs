@@ -181,11 +181,11 @@ pub struct ModelScheme {
     pub source: Source<f64>,
     /// Part of the force that is let through, 0 to 1.
     pub gain: f64,
-    /// Speed below which the force stays as it is, m/s (rad/s).
-    pub dead_zone: f64,
+    /// Speed below which the force stays as it is, m/s (rad/s); `None`: what is exported for the law.
+    pub dead_zone: Option<f64>,
     /// Largest force, N (N m); `None`: that of the controller.
     pub limit: Option<f64>,
-    /// Largest change of the force, N/s (N m/s).
+    /// Largest change of the force, N/s (N m/s); `None`: what is exported for the law.
     pub slew: Option<f64>,
     /// Time in which the force comes in, s.
     pub ramp: f64,

@@ -5,6 +5,11 @@ use crate::error::require;
 use crate::record::one_plus_ratio;
 use crate::{CoulombViscous, LuGre, ParamError, Real, State, Stribeck};
 
+/// Dead zone of a law that has no velocity of its own, m/s (rad/s).
+const SLOWEST: f64 = 1e-5;
+/// Dead zone of a Stribeck curve, in Stribeck velocities: the level is that at standstill to 1e-4 there.
+const STANDSTILL: f64 = 0.01;
+
 /// The law whose force is fed forward.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Friction<T> {
@@ -73,6 +78,29 @@ impl<T: Real> Friction<T> {
                 force: curve.offset(),
             },
             Friction::LuGre(law) => law.rest(),
+        }
+    }
+
+    /// Twice the largest force at standstill, N (N m).
+    pub(super) fn usual_limit(&self) -> T {
+        let (level, offset) = match self {
+            Friction::Coulomb(law) => (law.coulomb()[0].max(law.coulomb()[1]), law.offset()),
+            Friction::Stribeck(curve) => (curve.largest_static_level(), curve.offset()),
+            Friction::LuGre(law) => (law.curve().largest_static_level(), law.curve().offset()),
+        };
+        T::from_f64(2.0) * (level + offset.abs())
+    }
+
+    /// Speeds at which a law without bristles is told from standstill, m/s (rad/s).
+    pub(super) fn usual_dead_zone(&self) -> T {
+        match self {
+            Friction::Coulomb(_) => T::from_f64(SLOWEST),
+            Friction::Stribeck(curve) => {
+                let (pos, neg) = (curve.positive(), curve.negative());
+                let least = pos.stribeck_velocity.min(neg.stribeck_velocity);
+                T::from_f64(STANDSTILL) * least
+            }
+            Friction::LuGre(_) => T::ZERO,
         }
     }
 

@@ -14,13 +14,15 @@ impl<T: Real> Settings<T> {
         // h times the slew limit may be infinite: then there is no limit.
         let most = h * self.slew;
         let change = force - state.output;
-        state.output = if change.abs() <= most {
+        let next = if change.abs() <= most {
             force
         } else if change > T::ZERO {
             state.output + most
         } else {
             state.output - most
         };
+        // A limit that was lowered acts at once.
+        state.output = next.max(-self.limit).min(self.limit);
         state.output
     }
 

@@ -1,8 +1,11 @@
 //! Settings and limits of a compensator.
 
-use super::{Adaptation, Watchdog};
+use super::{Adaptation, Friction, Watchdog};
 use crate::error::require;
 use crate::{ParamError, Real};
+
+/// Time in which the force may go from 0 to the usual limit, s.
+const SLEW_TIME: f64 = 2e-3;
 
 /// Settings of a compensator, immutable while it runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,8 +14,8 @@ pub struct Settings<T> {
     pub cycle_time: T,
     /// Share of the friction that is compensated, 0 to 1.
     pub gain: T,
-    /// Speeds up to this count as standstill, >= 0, m/s (rad/s): bristles keep their deflection. For measured velocities, which
-    /// are never quite 0; half an encoder step per cycle is enough.
+    /// Speeds up to this count as standstill, >= 0, m/s (rad/s): bristles keep their deflection, a law without them gives its
+    /// force at rest. For measured velocities, which are never quite 0, half an encoder step per cycle is enough.
     pub dead_zone: T,
     /// Largest force either way, > 0, N (N m).
     pub limit: T,
@@ -29,7 +32,7 @@ pub struct Settings<T> {
 
 impl<T: Real> Settings<T> {
     /// Settings to start with, for a cycle time (s) and a largest force (N, N m): gain .75, no dead zone, no slew limit, a
-    /// ramp of 50 ms, the watchdog on.
+    /// ramp of 50 ms, the watchdog on. On a machine: [`for_law`](Self::for_law).
     ///
     /// With a gain of .75 even parameters that are 30 % too large undercompensate. That is the safe side: a force above
     /// the actual friction sets an axis in motion that should stand, and where the loop is slow compared with the
@@ -44,6 +47,28 @@ impl<T: Real> Settings<T> {
             ramp: T::from_f64(0.05),
             adaptation: None,
             watchdog: Some(Watchdog::default()),
+        }
+    }
+
+    /// Settings to start with on a machine (decision 0067): as [`new`](Self::new), with a limit of twice the largest force at
+    /// standstill, which leaves room for the viscous part; a slew limit that reaches it within 2 ms; and for a law
+    /// without bristles a dead zone.
+    ///
+    /// 2 ms is the time constant of a speed loop of 80 Hz: a jump of the reference becomes a force that the loop can follow,
+    /// and the bristles of an axis bend no faster up to 10 m/s^2. The dead zone is a hundredth of the Stribeck velocity, at which
+    /// the law still is at its static level; without a Stribeck velocity 1e-5 m/s (rad/s). Without it a set speed that is
+    /// nothing but rounding would get the whole friction force, now this way and now that.
+    pub fn for_law(friction: &Friction<T>, cycle_time: T) -> Self {
+        let limit = friction.usual_limit();
+        let slew = limit / T::from_f64(SLEW_TIME);
+        Settings {
+            slew: if slew > T::ZERO && slew.is_finite() {
+                slew
+            } else {
+                T::MAX
+            },
+            dead_zone: friction.usual_dead_zone(),
+            ..Self::new(cycle_time, limit)
         }
     }
 

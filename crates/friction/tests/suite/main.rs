@@ -11,3 +11,4 @@ mod parameters;
 mod passivity;
 mod sweep;
 mod symmetry;
+mod watchdog;

@@ -60,14 +60,21 @@ fn from_law(
     };
     let period = 1.0 / machine.rate;
     let limit = model.limit.unwrap_or(limit);
+    let usual = Settings::for_law(&friction, period);
+    let dead_zone = match model.kind {
+        // The law has a Stribeck velocity, although what is made of it has none.
+        ModelKind::Coulomb => Settings::for_law(&Friction::Stribeck(*curve), period).dead_zone,
+        _ => usual.dead_zone,
+    };
     let settings = Settings {
         gain: model.gain,
-        dead_zone: model.dead_zone,
-        slew: model.slew.unwrap_or(f64::MAX),
+        dead_zone: model.dead_zone.unwrap_or(dead_zone),
+        limit,
+        slew: model.slew.unwrap_or(usual.slew),
         ramp: model.ramp,
         adaptation: model.adaptation,
         watchdog: model.watchdog,
-        ..Settings::new(period, limit)
+        ..usual
     };
     let preview = model.preview.unwrap_or(match model.source {
         Source::Reference => machine.drive.preview(period).min(MAX_PREVIEW),

@@ -87,7 +87,7 @@ fn along<I: Integrator<LuGre<f64>>>(
     let counted = &samples[from..];
     let switched_off = axes.iter().any(|axis| {
         let compensator = axis.feedforward().compensator();
-        compensator.is_some_and(|c| c.state().watch.tripped)
+        compensator.is_some_and(|c| c.state().watch.tripped())
     });
     let limits = [
         largest_force(&study.machine, &plan.controllers[0]),

@@ -85,8 +85,9 @@ fn learn(watchdog: Watchdog<f64>, samples: &[Sample], rate: f64) -> Result<Watch
             ..Input::default()
         })
         .collect();
-    // A window ends after ten times its length at the latest; time before the first reversal does not count.
-    let longest = (10.0 * watchdog.window * rate) as usize + 2 * inputs.len() + 2;
+    // It learns over five windows, each of which ends after ten times its length at the latest; time before the first
+    // reversal does not count.
+    let longest = 5 * ((10.0 * watchdog.window * rate) as usize + 2 * inputs.len() + 2);
     for input in inputs.iter().cycle().take(longest) {
         compensator.step(*input);
         if compensator.state().watch.allows() {

@@ -112,7 +112,7 @@ pub(super) fn on_path<I: Integrator<LuGre<f64>>>(
             largest_force(&study.machine, &controller),
             load.as_ref(),
         ),
-        switched_off: compensator.is_some_and(|c| c.state().watch.tripped),
+        switched_off: compensator.is_some_and(|c| c.state().watch.tripped()),
         trace: exact.then(|| Trace {
             load,
             ..Trace::of(study.names(job), counted)

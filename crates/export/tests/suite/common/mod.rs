@@ -9,7 +9,9 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::io::Read;
 use stiction_export::{File, Model, Parameter, Provenance};
-use stiction_friction::compensator::{Friction, Input, Settings, Watchdog};
+use stiction_friction::compensator::{
+    Compensator, Friction, Input, Settings, Source, Trip, Watchdog,
+};
 use stiction_friction::{CoulombViscous, Damping, Direction, LuGre, Shape, Stribeck};
 
 fn side(
@@ -156,6 +158,50 @@ pub fn adversarial(samples: usize, wild: bool, random: &mut impl Rng) -> Vec<(f6
         }
     }
     out.truncate(samples);
+    out
+}
+
+/// What the error with compensation is, of that without, in [`guarded`]: better, worse on average, worse at its peaks.
+pub const GUARDED: [(f64, Option<Trip>); 3] = [
+    (0.6, None),
+    (1.2, Some(Trip::Mean)),
+    (2.0, Some(Trip::Peak)),
+];
+
+/// Samples of a reference that goes to and fro, with an error at its turns that is `factor` times as large where a force is
+/// added, and faults of the measurement: the watchdog learns, judges, and does what it has to.
+pub fn guarded(
+    friction: Friction<f64>,
+    settings: Settings<f64>,
+    (factor, trip): (f64, Option<Trip>),
+    random: &mut impl Rng,
+) -> Vec<(f64, Input<f64>)> {
+    let h = settings.cycle_time;
+    let mut compensator = Compensator::new(friction, Source::Reference, settings).unwrap();
+    let faults = [1234, 3210, 5050, 9999].map(|at| at + random.random_range(0..100));
+    let mut out = Vec::new();
+    for k in 0..20_000_usize {
+        let phase = 2.0 * std::f64::consts::PI * k as f64 * h;
+        let since_turn = (k as f64 * h * 2.0).fract();
+        let size = 1e-6 + 1e-5 * (-since_turn / 0.04).exp() + 1e-8 * random.random_range(-1.0..1.0);
+        let with = compensator.state().output != 0.0;
+        let mut tracking_error = if with { factor * size } else { size };
+        for (i, at) in faults.into_iter().enumerate() {
+            if (at..=at + 7 * i).contains(&k) {
+                tracking_error += 1e-3;
+            }
+        }
+        let input = Input {
+            reference_velocity: 0.02 * phase.sin(),
+            measured_velocity: 0.0,
+            tracking_error,
+            enable: true,
+        };
+        compensator.step(input);
+        out.push((h, input));
+    }
+    assert_eq!(compensator.state().watch.trip, trip, "{factor}");
+    assert!(compensator.state().watch.learned());
     out
 }
 

@@ -78,9 +78,7 @@ fn model(table: &Table<'_>, study: &Study, kind: ModelKind) -> Result<ModelSchem
         kind,
         source: source(table, kind)?,
         gain: table.number("gain", 0.0, 1.0)?.unwrap_or(usual.gain),
-        dead_zone: table
-            .not_negative("dead_zone", is.speed)?
-            .unwrap_or(usual.dead_zone),
+        dead_zone: table.not_negative("dead_zone", is.speed)?,
         limit: table.positive("limit", is.force)?,
         slew: table.positive("slew", Dimensions::per(is.force, Dimension::TIME))?,
         ramp: table
