@@ -424,3 +424,77 @@ fn the_example_runs() {
     let said = run("./a.out", &[], dir.path());
     assert_eq!(said, "6.15 N at 10 mm/s\n-6.15 N at -10 mm/s\n");
 }
+
+/// A program in C++ links what a C compiler made.
+#[test]
+fn cpp_includes_the_header() {
+    let dir = tempfile::tempdir().unwrap();
+    write(
+        &export(&model(laws().remove(0).1), Target::C).unwrap(),
+        dir.path(),
+    );
+    let program = r#"
+#include "x_axis_friction.h"
+#include "x_axis_friction_f32.h"
+int main()
+{
+    x_axis_params_t params;
+    x_axis_state_t state;
+    x_axis_params(&params);
+    x_axis_f32_params_t small;
+    x_axis_f32_params(&small);
+    return x_axis_init(&params, &state) && params.limit == small.limit ? 0 : 1;
+}
+"#;
+    std::fs::write(dir.path().join("main.cpp"), program).unwrap();
+    for file in ["x_axis_friction", "x_axis_friction_f32"] {
+        gcc("-std=c99 -O2 -c", &[&format!("{file}.c")], dir.path());
+    }
+    let objects = ["x_axis_friction.o", "x_axis_friction_f32.o"];
+    let rest = [
+        &["-Wall", "-Wextra", "-Werror", "main.cpp"],
+        &objects[..],
+        &["-lm"],
+    ]
+    .concat();
+    run("g++", &rest, dir.path());
+    run("./a.out", &[], dir.path());
+}
+
+/// A limit that is lowered while it runs holds from the next step on, whatever the slew limit.
+#[test]
+fn a_lowered_limit_acts_at_once() {
+    let dir = tempfile::tempdir().unwrap();
+    write(
+        &export(&model(laws().remove(0).1), Target::C).unwrap(),
+        dir.path(),
+    );
+    let program = r#"
+#include "x_axis_friction.h"
+#include <stdio.h>
+int main(void)
+{
+    x_axis_params_t params;
+    x_axis_state_t state;
+    const x_axis_input_t input = { 0.1, 0.0, true };
+    x_axis_params(&params);
+    params.watchdog_window = 0.0;
+    params.slew = 100.0;
+    (void)x_axis_init(&params, &state);
+    for (int k = 0; k < 1000; k++) {
+        (void)x_axis_step(&params, &state, &input);
+    }
+    const double before = x_axis_step(&params, &state, &input);
+    params.limit = 2.5;
+    (void)printf("%.2f %.2f", before, x_axis_step(&params, &state, &input));
+    return 0;
+}
+"#;
+    std::fs::write(dir.path().join("main.c"), program).unwrap();
+    gcc(
+        "-std=c99 -O2",
+        &["main.c", "x_axis_friction.c", "-lm"],
+        dir.path(),
+    );
+    assert_eq!(run("./a.out", &[], dir.path()), "11.25 2.50");
+}

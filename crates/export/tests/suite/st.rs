@@ -548,11 +548,19 @@ fn the_example_runs() {
         .unwrap();
     let mut program = library.instance("PRG_Axis");
     let torque = program.slot("additive_torque");
-    for (sign, cycles) in [(1.0, 1000), (-1.0, 1000)] {
-        (0..cycles).for_each(|_| program.call());
+    let stopping = program.slot("stopping");
+    // It learns from the first turn over five windows of two strokes.
+    (0..11_000).for_each(|_| program.call());
+    assert_eq!(program.get(torque), 0.0);
+    (0..1000).for_each(|_| program.call());
+    for sign in [1.0, -1.0] {
+        (0..1000).for_each(|_| program.call());
         // A half of Fc + (Fs - Fc) exp(-(v/vs)^2) + sigma2 v, in per mille of 200 N.
         let force = 12.0 + 6.0 * (-(10.0_f64 / 3.0).powi(2)).exp() + 0.3;
         let due = sign * 0.5 * force / 200.0 * 1000.0;
         assert!((program.get(torque) - due).abs() < 1e-9);
     }
+    program.set(stopping, 1.0);
+    program.call();
+    assert_eq!(program.get(torque), 0.0);
 }

@@ -531,6 +531,58 @@ fn a_new_gain_comes_by_its_ramp() {
     }
 }
 
+/// A limit that is lowered holds from the next step on, whatever the slew limit; one out of range changes nothing.
+#[test]
+fn a_lowered_limit_acts_at_once() {
+    let settings = Settings {
+        slew: 100.0,
+        ..Settings::bare(H, 50.0)
+    };
+    let mut compensator = coulomb(settings);
+    for _ in 0..1000 {
+        compensator.step(moving(0.1));
+    }
+    assert_eq!(compensator.step(moving(0.1)), 10.0);
+    compensator.set_limit(2.5).unwrap();
+    assert_eq!(compensator.step(moving(0.1)), 2.5);
+    assert_eq!(compensator.set_limit(0.0).unwrap_err().name, "limit");
+    assert_eq!(compensator.settings().limit, 2.5);
+}
+
+/// A set speed that is nothing but rounding gets no force from a law without bristles, and no jump of the reference more
+/// than a cycle's share of 2 ms of the limit.
+#[test]
+fn settings_of_a_law() {
+    let curve = *c95(Damping::Capped).curve();
+    for law in [
+        Friction::Stribeck(curve),
+        Friction::Coulomb(CoulombViscous::symmetric(10.0, 1.0, 0.0).unwrap()),
+    ] {
+        let settings = Settings {
+            watchdog: None,
+            ..Settings::for_law(&law, H)
+        };
+        let mut compensator = Compensator::new(law, Source::Reference, settings).unwrap();
+        for k in 0..1000 {
+            let rounding = if k % 2 == 0 { 1e-9 } else { -1e-9 };
+            assert_eq!(compensator.step(moving(rounding)), 0.0);
+        }
+        let mut last = 0.0;
+        for k in 0..1000 {
+            let force = compensator.step(moving(if k % 50 < 25 { 10.0 } else { -10.0 }));
+            let most = settings.limit * H / 2e-3;
+            assert!(
+                (force - last).abs() <= most * (1.0 + 1e-12),
+                "{force} {last}"
+            );
+            last = force;
+        }
+    }
+    let bristles = Friction::LuGre(c95(Damping::Capped));
+    assert_eq!(Settings::for_law(&bristles, H).dead_zone, 0.0);
+    assert_eq!(Settings::for_law(&bristles, H).limit, 3.0);
+}
+
 /// At standstill under a constant force the estimate is `F (1 - exp(-w t))`; at constant acceleration without friction it
 /// settles at the momentum lost in one cycle.
 #[test]
