@@ -11,9 +11,11 @@
 //! unknowns of its own ([`Logs::within`]) states the deviations and is looked through for a [misfit](crate::misfit) of the law.
 
 mod levels;
+mod points;
 
 use levels::Levels;
 pub use levels::{Disagreement, NOT_CONSTANT};
+pub(crate) use points::{Placed, disagreement};
 
 use crate::parameter::NORMAL_Q95;
 use crate::parameter::physical::Physical;

@@ -7,7 +7,7 @@ mod quantile;
 use physical::Physical;
 pub(crate) use quantile::{NORMAL_Q95, quantile};
 use stiction_number::{LARGEST_PERCENT, Percent};
-use stiction_parameters::{Dimension, Name};
+use stiction_parameters::{Dimension, Name, Quantity};
 
 /// Relative standard deviation above which a parameter counts as not determined by the data.
 pub const IDENTIFIABLE: f64 = 0.10;
@@ -131,7 +131,9 @@ impl Parameter {
             // Relative to the value that is stated, so that a table of both is consistent.
             let (size, of) = sized(value);
             let relative = std / size;
-            if relative > IDENTIFIABLE || relative.is_nan() {
+            // A difference of two dampings is mostly nothing, and there is no size to compare it with.
+            let has_size = !matches!(p.name.quantity, Quantity::Sigma1Log(_));
+            if has_size && (relative > IDENTIFIABLE || relative.is_nan()) {
                 reason = too_uncertain(relative, of);
             } else if !corrected {
                 reason = format!(

@@ -165,6 +165,7 @@ fn study(root: &Table<'_>, file: &Path) -> Result<Study, Error> {
     }
     families(root, &mut study)?;
     events::events(root, &mut study)?;
+    events::of_one_axis(&mut study);
     let mut of_axes = std::mem::take(&mut study.machine.model.warnings);
     if let Some(second) = &mut study.second {
         let of = |axis: &'static str| {

@@ -11,9 +11,9 @@ use stiction_number::four_digits;
 use stiction_parameters::{Name, Quantity};
 
 /// Deviations of a difference from which it is no chance: 1 in 1000 with the nine degrees of freedom of ten replicas.
-const CERTAIN: f64 = 4.8;
+pub(super) const CERTAIN: f64 = 4.8;
 /// Difference of two logs, in parts of the value, from which it is named.
-const NAMED: f64 = 0.03;
+pub(super) const NAMED: f64 = 0.03;
 /// Difference of two logs, in parts of the value, from which the value is no constant of the machine: the deviation from which
 /// a parameter counts as unknown.
 pub const NOT_CONSTANT: f64 = 0.1;

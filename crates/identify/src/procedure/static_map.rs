@@ -11,11 +11,12 @@ use super::parameter::{Found, quantile};
 use super::profile::{Best, Block, EXPONENT_RANGE, best_exponent, fall};
 use super::robust;
 use super::stretch::StaticPoint;
+use crate::agreement::{Disagreement, Placed, disagreement};
 use crate::error::Error;
 use crate::estimate::advice;
 use crate::estimate::uncertainty::ROUNDED_EIGENVALUE;
-use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
+use crate::parameter::{NORMAL_Q95, Parameter};
 use nalgebra::{DMatrix, SymmetricEigen};
 use stiction_parameters::{Name, Quantity, Side};
 
@@ -88,6 +89,8 @@ pub struct StaticMap {
     pub parameters: Vec<Parameter>,
     /// Their covariance, without what was given.
     pub covariance: Covariance,
+    /// Two logs that have another level of friction at the same speeds.
+    pub disagreement: Option<Disagreement>,
 }
 
 impl StaticMap {
@@ -264,6 +267,31 @@ fn unknowns(blocks: &[Block], settings: &StaticSettings) -> usize {
         + fitted
 }
 
+/// Widens the levels of logs that differ, and takes them for no constants where they differ by much.
+fn scattered(found: &Disagreement, parameters: &mut [Parameter]) {
+    let levels = [Quantity::Coulomb, Quantity::Static];
+    for p in parameters
+        .iter_mut()
+        .filter(|p| p.identified && levels.contains(&p.name.quantity))
+    {
+        let Some(std) = p.std else { continue };
+        let wider = (std * std + found.between(p.value)).sqrt();
+        // Friction is positive, and its interval that of a logarithm.
+        let reach = NORMAL_Q95 * wider / p.value;
+        p.std = Some(wider);
+        p.ci95 = Some((p.value * libm::exp(-reach), p.value * libm::exp(reach)));
+        let own = Name::new(Quantity::Coulomb, p.name.side);
+        let of_side = Disagreement {
+            name: own,
+            ..found.clone()
+        };
+        if let Some(reason) = of_side.against(p.name) {
+            p.identifiable = false;
+            p.reason = reason;
+        }
+    }
+}
+
 fn standardised<'a>(residual: &'a [f64], block: &'a Block) -> impl Iterator<Item = f64> + 'a {
     residual.iter().zip(&block.deviation).map(|(r, s)| r / s)
 }
@@ -345,7 +373,22 @@ impl Fitted<'_> {
         let covariance = Covariance::new(names, &matrix);
         advice::explain(&mut parameters, &covariance);
         let (model, weights, deviation) = self.by_point();
+        let offset = parameters.iter().find(|p| p.name == Quantity::Offset);
+        let offset = offset.map_or(0.0, |p| p.value);
+        let placed = self.points.iter().zip(&model);
+        let placed: Vec<Placed> = placed
+            .map(|(point, model)| Placed {
+                point,
+                residual: point.force - model,
+                friction: model - offset,
+            })
+            .collect();
+        let disagreement = disagreement(&placed, level);
+        if let Some(found) = &disagreement {
+            scattered(found, &mut parameters);
+        }
         StaticMap {
+            disagreement,
             settings: *self.settings,
             points: self.points,
             model,

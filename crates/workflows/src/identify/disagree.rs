@@ -1,7 +1,10 @@
 //! What logs of one axis have differently, in words.
 
+use super::load::Asked;
 use super::logs::path_of;
-use super::trust::Evidence;
+use crate::identify::Method;
+use crate::source::Source;
+use std::fmt::Write;
 use stiction_codes::Code;
 use stiction_files::{Warning, shell, symbols};
 use stiction_identify::{Disagreement, NOT_CONSTANT};
@@ -9,20 +12,62 @@ use stiction_log::Motion;
 use stiction_number::{Percent, four_digits};
 use stiction_parameters::Quantity;
 
-/// Names every parameter that two logs have differently.
-pub(super) fn named(evidence: &Evidence, warnings: &mut Vec<Warning>) {
-    let found = evidence.law.disagreements.iter();
-    warnings.extend(found.map(|found| warning(found, evidence)));
+/// The options of a run that is to be repeated for each log, as they are typed.
+pub(super) fn options(asked: Asked) -> String {
+    let Asked { options, axis, .. } = asked;
+    let mut out = String::new();
+    if let Some(file) = axis.file() {
+        let _ = write!(
+            out,
+            " --axis {}",
+            shell::quoted(&file.display().to_string())
+        );
+    }
+    if options.procedures.method == Method::Static {
+        out.push_str(" --method static");
+    }
+    if let Some(law) = options.law {
+        let _ = write!(out, " --law {}", law.name());
+    }
+    if options.asymmetric {
+        out.push_str(" --asymmetric");
+    }
+    out
 }
 
-fn warning(found: &Disagreement, evidence: &Evidence) -> Warning {
-    let motion = evidence.motion;
-    let paths = found.logs.map(|log| path_of(evidence.sources, log));
+/// A warning for every parameter that two logs have differently; `options` are those of the run that has to be repeated for each
+/// log, as they are typed, and whether it makes a map of constant velocities.
+pub(super) fn named(
+    found: &[Disagreement],
+    sources: &[Source],
+    motion: Motion,
+    (options, of_a_map): (&str, bool),
+) -> Vec<Warning> {
+    let all = found.iter().enumerate();
+    // The commands are the same for all.
+    all.map(|(i, found)| {
+        warning(
+            found,
+            sources,
+            motion,
+            ((i == 0).then_some(options), of_a_map),
+        )
+    })
+    .collect()
+}
+
+fn warning(
+    found: &Disagreement,
+    sources: &[Source],
+    motion: Motion,
+    (options, of_a_map): (Option<&str>, bool),
+) -> Warning {
+    let paths = found.logs.map(|log| path_of(sources, log));
     let values = found.values.map(four_digits);
     let unit = symbols::unit(
         found.name.dimension(),
         motion,
-        force_unit(evidence, motion),
+        force_unit(sources, motion),
         "",
     );
     let of = match found.name.quantity {
@@ -35,25 +80,29 @@ fn warning(found: &Disagreement, evidence: &Evidence) -> Warning {
         true => "The intervals count how the logs scatter",
         false => "It is no constant of the machine",
     };
+    // A map of constant velocities has one level.
     let own_level = match found.name.quantity {
-        Quantity::Coulomb => Some("coulomb_log"),
-        Quantity::Sigma2 => Some("sigma2_log"),
+        Quantity::Coulomb if !of_a_map => Some("coulomb_log"),
+        Quantity::Sigma2 if !of_a_map => Some("sigma2_log"),
         _ => None,
     };
-    let identify = match own_level {
-        Some(key) => format!(
-            "Give each log its own in one fit with {key} = true under [terms] in the axis file ({} is then that of the first \
-             log), or identify",
+    let together = own_level.map_or(String::new(), |key| {
+        format!(
+            ". Give each log its own in one fit with {key} = true under [terms] in the axis file ({} is then that of the first log)",
             found.name
-        ),
-        None => "Identify".into(),
-    };
-    let command = |path: &str| format!("stiction identify {} --out RESULT", shell::quoted(path));
+        )
+    });
+    let apart = options.map_or(String::new(), |options| {
+        let command = |i: usize| {
+            let log = shell::quoted(&paths[i]);
+            format!("stiction identify {log}{options} --out RESULT-{}", i + 1)
+        };
+        format!(". Each by itself: {}; {}", command(0), command(1))
+    });
     Warning::new(
         Code::LogsDisagree,
         format!(
-            "the logs differ in {} ({}): {} {unit} in {}, {} {unit} in {}, {}{of} apart, where {} is chance. {verdict}. \
-             {identify} each by itself, with the other options of this run: {}; {}",
+            "the logs differ in {} ({}): {} {unit} in {}, {} {unit} in {}, {}{of} apart, where {} is chance. {verdict}{together}{apart}",
             found.name,
             symbols::meaning_of(found.name, motion),
             values[0],
@@ -61,15 +110,13 @@ fn warning(found: &Disagreement, evidence: &Evidence) -> Warning {
             values[1],
             paths[1],
             part(found.part),
-            part(found.deviation / size),
-            command(&paths[0]),
-            command(&paths[1]),
+            part(found.deviation / size)
         ),
     )
 }
 
 /// The unit of the force of the logs.
-fn force_unit<'a>(evidence: &'a Evidence, motion: Motion) -> &'a str {
-    let first = evidence.sources.first();
+fn force_unit(sources: &[Source], motion: Motion) -> &str {
+    let first = sources.first();
     first.map_or(symbols::force_unit(motion), |s| &s.log.force_unit)
 }

@@ -1,6 +1,7 @@
 //! The fourth step: how far the fitted law may be trusted, and what to beware of.
 
 use super::condition::Conditioned;
+use super::disagree;
 use super::fit::Fitted;
 use super::load::{Asked, Loaded};
 use super::logs::log_warnings;
@@ -50,6 +51,7 @@ pub(super) fn judge(
         held_out_rmse: fitted.choice.held_out_rmse,
         validation,
         validated_on_logs: !loaded.held_out.is_empty(),
+        options: disagree::options(asked),
         can_be_simulated: can_be_simulated(asked, loaded),
     };
     match &fitted.two_steps {

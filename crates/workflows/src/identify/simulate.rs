@@ -3,6 +3,7 @@
 use super::assemble::{self, Parts};
 use super::condition::settings;
 use super::conditioning::{self, conditioned};
+use super::disagree;
 use super::load::{Asked, Loaded};
 use super::logs::{log_warnings, paths};
 use super::outcome::{Found, Outcome, Simulated};
@@ -141,6 +142,7 @@ pub(super) fn run(
         held_out_rmse: None,
         validation: &[],
         validated_on_logs: false,
+        options: disagree::options(asked),
         can_be_simulated: false,
         motion,
     };

@@ -119,7 +119,7 @@ enum Shown {
     Sliding,
     /// Force steps below break-away, for stiffness and micro-damping.
     Presliding,
-    /// Sliding too, but the axis never broke away: of what is fitted there no noise of the force is counted.
+    /// Sliding too, but no interval counts the noise of the force: the axis never broke away, or an open loop integrates it.
     TooLittle,
 }
 
@@ -153,6 +153,8 @@ pub(super) struct Evidence<'a> {
     pub validation: &'a [(String, Series)],
     /// Whether those are of logs of their own.
     pub validated_on_logs: bool,
+    /// The options of the run, as they are typed.
+    pub options: String,
     /// Whether the axis can be simulated: its position and its inertia are known or fitted.
     pub can_be_simulated: bool,
 }
@@ -221,7 +223,7 @@ pub(super) fn of_position(
 ) -> Judged {
     let mut reasons = Reasons::default();
     whole_record(evidence, &mut warnings, &mut reasons);
-    open_loop(found, &mut warnings, &mut reasons);
+    let biased = open_loop(found, &mut warnings, &mut reasons);
     if evidence.law.law.kind == LawKind::Gms {
         let text = "simulated, this law jumps where slipping elements begin to stick: its search may end beside the truth, and \
                     its intervals do not say so. Take maxwell-slip, or the fit of the force";
@@ -246,7 +248,7 @@ pub(super) fn of_position(
             reasons.push(text, Next::Check);
         }
     }
-    let shown = match found.never_breaks_away {
+    let shown = match found.never_breaks_away || biased {
         true => Shown::TooLittle,
         false => Shown::Sliding,
     };
@@ -377,7 +379,12 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
     }
     systematic(law, warnings);
     left::named(law, &evidence.sources[0].log, warnings);
-    disagree::named(evidence, warnings);
+    warnings.extend(disagree::named(
+        &law.disagreements,
+        evidence.sources,
+        evidence.motion,
+        (&evidence.options, false),
+    ));
     shifted(law, warnings);
     static_at_rest(law, evidence.motion, warnings);
 }
@@ -584,8 +591,8 @@ fn systematic(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
 }
 
 /// An error of the logged force drives the simulated axis of an open loop like the force itself, is integrated twice
-/// on its way to the position, and so biases the parameters.
-fn open_loop(found: &SimulationFit, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
+/// on its way to the position, and so biases the parameters: whether by more than their intervals say.
+fn open_loop(found: &SimulationFit, warnings: &mut Vec<Warning>, reasons: &mut Reasons) -> bool {
     let fit = &found.position;
     let encoder_only = found
         .floor
@@ -596,7 +603,7 @@ fn open_loop(found: &SimulationFit, warnings: &mut Vec<Warning>, reasons: &mut R
         || encoder_only
         || fit.effective_samples >= LEAST_SAMPLES_PER_UNKNOWN * unknowns as f64
     {
-        return;
+        return false;
     }
     let worth = format!(
         "the residual has {:.0} effective samples for {unknowns} unknowns, the starts of the runs \
@@ -617,6 +624,7 @@ fn open_loop(found: &SimulationFit, warnings: &mut Vec<Warning>, reasons: &mut R
         "{worth}: noise of the logged force biases the parameters, and their intervals do not include that"
     );
     reasons.push(text, Next::Check);
+    true
 }
 
 /// What an unseen position has against a fitted law: an error far above that of the fit over the same horizon, or a motion

@@ -105,7 +105,7 @@ fn not_learnt(rows: &[ResultRow]) -> Option<Warning> {
         Code::LoadNotLearnt,
         format!(
             "{}, {}: the load estimate of {} had {time} to learn in, of {} that it takes: it learns while the \
-             acceleration is above {}, and feeds forward the mass and the friction that it began with",
+             acceleration is above {}; what it found by then is fed forward all the same, and tells nothing of the load",
             row.path,
             row.controller,
             row.compensator,

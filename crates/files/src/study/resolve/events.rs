@@ -5,7 +5,7 @@ use super::dimensions::Dimensions;
 use super::machine::plant_steps;
 use crate::config::Table;
 use crate::error::{Error, Warning};
-use crate::study::plan::{Event, Study};
+use crate::study::plan::{Event, Scheme, Study};
 use stiction_codes::Code;
 use stiction_log::Dimension;
 use stiction_number::four_digits as short;
@@ -71,4 +71,22 @@ pub(super) fn events(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
         study.events.push(event);
     }
     Ok(())
+}
+
+/// Warns of load estimates that a contour does not have.
+pub(super) fn of_one_axis(study: &mut Study) {
+    let contours: Vec<&str> = study.contours.iter().map(|c| c.name.as_str()).collect();
+    let estimates = study.compensators.iter().filter(
+        |c| matches!(&c.value, Scheme::Model(model) if model.load_estimate && !contours.is_empty()),
+    );
+    let said = estimates.map(|c| {
+        let message = format!(
+            "{} is not run on {}: a load estimate is of one axis, on paths",
+            c.name,
+            contours.join(", ")
+        );
+        Warning::new(Code::NotRun, message)
+    });
+    let said: Vec<Warning> = said.collect();
+    study.warnings.extend(said);
 }

@@ -1,6 +1,7 @@
 //! The static map of logs of constant velocity: the stretches, the curve, and what to beware of.
 
 use crate::error::Error;
+use crate::identify::disagree;
 use crate::identify::load::Asked;
 use crate::identify::logs::{path_of, refused, run_of, samples};
 use crate::identify::options::Options;
@@ -92,6 +93,12 @@ pub(super) fn map(
              is given: its box, [search.box] of the axis file, or its budget keeps it away",
         ));
     }
+    warnings.extend(disagree::named(
+        map.disagreement.as_slice(),
+        sources,
+        motion,
+        (&disagree::options(asked), true),
+    ));
     let interrupted = searched.as_ref().is_some_and(|step| step.interrupted);
     let entry = StaticMapEntry {
         searched: searched.map(|step| step.entry),
