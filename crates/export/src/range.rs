@@ -34,7 +34,7 @@ impl Range {
                 bristles: 1e15,
                 limit: (1e-15, 1e15),
             },
-            Some("float") => Range {
+            Some("float" | "f32") => Range {
                 parameters: (1e-15, 1e15),
                 bristles: 1e15,
                 limit: (1e-30, 1e30),

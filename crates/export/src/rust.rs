@@ -2,7 +2,7 @@
 
 use crate::number::Literal;
 use crate::template::Fill;
-use crate::vectors::{DOUBLE_TOLERANCE, Vectors};
+use crate::vectors::{DOUBLE_TOLERANCE, SINGLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, header, law};
 
 const MANIFEST: &str = include_str!("../templates/rust/Cargo.toml.in");
@@ -11,12 +11,12 @@ const SELFTEST: &str = include_str!("../templates/rust/selftest.rs.in");
 
 pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     let vectors = Vectors::<f64>::new(model, "f64")?;
+    let small = Vectors::<f32>::new(model, "f32")?;
     let compensator = model.compensator::<f64>(&model.settings, "f64")?;
     let name = model.identifier.to_ascii_lowercase();
     let mut fill = Fill::default();
     fill.set("crate", format!("{}-friction", name.replace('_', "-")))
         .set("module", format!("{name}_friction"))
-        .set("repository", env!("CARGO_PKG_REPOSITORY"))
         .set("version", env!("CARGO_PKG_VERSION"))
         .set("v_unit", model.speed_unit())
         .set("x_unit", model.length_unit())
@@ -28,6 +28,11 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     law::settings(&mut test, &vectors.settings, f64::c);
     test.set("header", header::comment(model, "//! "))
         .set("rows", rows(&vectors))
+        .set("rows_f32", rows(&small))
+        .set(
+            "tolerance_f32",
+            f64::c(SINGLE_TOLERANCE * small.scale(model)),
+        )
         .set("count", vectors.rows.len().to_string())
         .set("tolerance", (DOUBLE_TOLERANCE * vectors.scale(model)).c());
     let manifest = fill
@@ -44,14 +49,19 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     ])
 }
 
-fn rows(vectors: &Vectors<f64>) -> String {
+fn rows<T: Literal>(vectors: &Vectors<T>) -> String {
     let rows: Vec<String> = vectors
         .rows
         .iter()
         .map(|row| {
-            let (v, e, f) = (row.velocity.c(), row.error.c(), row.force.c());
+            let (v, e, f) = (plain(row.velocity), plain(row.error), plain(row.force));
             format!("    ({v}, {e}, {}, {f}),", row.enable)
         })
         .collect();
     rows.join("\n")
+}
+
+/// A number without the suffix of its type in C.
+fn plain<T: Literal>(x: T) -> String {
+    x.c().trim_end_matches('f').to_string()
 }

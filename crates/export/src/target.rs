@@ -78,7 +78,7 @@ impl Target {
         match self {
             Target::C => "float",
             Target::St | Target::TcPou | Target::PlcOpen => "REAL",
-            Target::Rust => "f64",
+            Target::Rust => "f32",
             Target::Mujoco | Target::Hal | Target::Fmu | Target::Tf5200 => "double",
         }
     }

@@ -576,3 +576,50 @@ fn what_is_said() {
     }
     insta::assert_snapshot!(said);
 }
+
+/// Slew limit and dead zone follow from the law, and what is asked for takes their place; a target without them refuses.
+#[test]
+fn settings_follow_from_the_law_or_are_given() {
+    let bench = Bench::new();
+    let static_law: Vec<_> = LUGRE
+        .into_iter()
+        .filter(|(name, ..)| !name.starts_with("sigma") || *name == "sigma2")
+        .collect();
+    let mut options = bench.options(&text("stribeck", &static_law));
+    let has = |folder: &str, line: &str| {
+        let path = bench.path(folder);
+        let (_, bytes) = contents(&path)
+            .into_iter()
+            .find(|(name, _)| name.ends_with("friction.c"))
+            .unwrap();
+        let text = String::from_utf8(bytes).unwrap();
+        assert!(text.contains(line), "{line}");
+    };
+    bench.export_to("usual", &options).unwrap();
+    // 2 x 30 N in 2 ms; a hundredth of 5 mm/s.
+    has("usual", "params->slew = 30000.0;");
+    has("usual", "params->dead_zone = 5e-5;");
+    has("usual", "params->watchdog_window = 2.0;");
+    options.gain = Some(0.4);
+    options.safety.ramp = Some(0.2);
+    options.safety.dead_zone = Some(0.0);
+    options.safety.slew = Some(500.0);
+    options.safety.window = Some(0.0);
+    bench.export_to("given", &options).unwrap();
+    for line in [
+        "params->gain = 0.4;",
+        "params->ramp = 0.2;",
+        "params->dead_zone = 0.0;",
+        "params->slew = 500.0;",
+        "params->watchdog_window = 0.0;",
+    ] {
+        has("given", line);
+    }
+    options.gain = Some(1.5);
+    let error = bench.export_to("none", &options).unwrap_err().to_string();
+    assert!(error.contains("gain = 1.5"), "{error}");
+    options.gain = None;
+    options.target = Target::Mujoco;
+    let error = bench.export_to("none", &options).unwrap_err().to_string();
+    assert!(error.contains("a ramp for the target mujoco"), "{error}");
+}
