@@ -58,7 +58,7 @@ fn the_self_test_holds_to_the_ends_of_the_range() {
         gcc("-std=c99 -O1 -Werror", &[&source, &test, "-lm"], dir.path());
         let said = run("./a.out", &[], dir.path());
         assert!(said.starts_with("ok: 183 samples"), "{k}: {said}");
-        for file in export(&corners(k, 1e100), Target::Rust).unwrap() {
+        for file in export(&corners(k, 1e100), Target::Hal).unwrap() {
             let text = String::from_utf8(file.bytes).unwrap();
             let rows = text.lines().filter(|line| line.starts_with("    ("));
             assert!(
