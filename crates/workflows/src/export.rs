@@ -496,7 +496,11 @@ fn friction(file: &ModelFile, cycle_time: f64) -> Result<(Friction<f64>, Vec<Low
         LawKind::ElastoPlastic | LawKind::MaxwellSlip | LawKind::Gms => return Err(Unfit::Law),
         LawKind::CoulombViscous | LawKind::Stribeck | LawKind::Dahl | LawKind::LuGre => {}
     }
-    lowered.extend(resolved(file, &mut values, cycle_time));
+    if let Some(stiffness) = resolved(file, &mut values, cycle_time) {
+        // Of one that was lowered before, this is the lower value.
+        lowered.retain(|l| l.name != stiffness.name);
+        lowered.push(stiffness);
+    }
     let friction = match values.law()? {
         FrictionLaw::CoulombViscous(law) => Friction::Coulomb(law),
         FrictionLaw::Stribeck(curve) => Friction::Stribeck(curve),

@@ -347,38 +347,20 @@ fn what_fast_speeds_do_not_tell_comes_with_advice() {
 /// alike they are not. Of logs at speeds of their own, which share none, nothing is said.
 #[test]
 fn logs_with_other_levels_are_named() {
-    let speeds: Vec<f64> = (0..14).map(|i| 1e-3 * 1.6_f64.powi(i)).collect();
-    let curve = |v: f64| (20.0 + 10.0 * (-(v / 5e-3).powi(2)).exp()) * v.signum() + 60.0 * v;
-    let mut noise = Noise::new(7);
-    let mut points = |factor: f64, apart: f64| -> Vec<StaticPoint> {
-        let logs = [(0, 1.0, 1.0), (1, factor, apart)];
-        let each = logs.iter().flat_map(|&(log, factor, apart)| {
-            let all = speeds.iter().flat_map(move |v| [apart * v, -apart * v]);
-            all.map(move |v| (log, factor, v)).collect::<Vec<_>>()
-        });
-        let placed: Vec<_> = each.collect();
-        let point = placed
-            .into_iter()
-            .map(|(log, factor, velocity)| StaticPoint {
-                log,
-                time: (0.0, 1.0),
-                position: 0.0,
-                velocity,
-                force: factor * curve(velocity) + 0.1 * noise.normal(),
-                error: 0.1,
-                samples: 1000,
-                effective: 1000.0,
-                dropped: 0.0,
-                pitches: 0,
-            });
-        point.collect()
+    let own = |factor: f64, log: usize, low: f64| -> Vec<StaticPoint> {
+        let side = [20.0 * factor, 30.0 * factor, 60.0 * factor, 5e-3];
+        let law = curve(side, side, 0.0);
+        let all = points(&law, &speeds(low, 450.0 * low, 14), 0.1, 7 + log as u64);
+        let of_log = |p| StaticPoint { log, ..p };
+        all.into_iter().map(of_log).collect()
     };
-    let alike = fit(&points(1.0, 1.0), false);
+    let both = |factor: f64, apart: f64| [own(1.0, 0, 1e-3), own(factor, 1, 1e-3 * apart)].concat();
+    let alike = fit(&both(1.0, 1.0), false);
     assert_eq!(alike.disagreement, None);
-    let elsewhere = fit(&points(1.2, 1e4), false);
+    let elsewhere = fit(&both(1.2, 1e4), false);
     assert_eq!(elsewhere.disagreement, None);
     for (factor, constant) in [(1.06, true), (1.2, false)] {
-        let map = fit(&points(factor, 1.0), false);
+        let map = fit(&both(factor, 1.0), false);
         let found = map.disagreement.clone().unwrap();
         assert_eq!(found.logs, [0, 1]);
         assert!((found.values[1] / found.values[0] / factor - 1.0).abs() < 0.02);
@@ -386,7 +368,7 @@ fn logs_with_other_levels_are_named() {
             ("coulomb", 20.0, 20.0 * factor),
             ("static", 30.0, 30.0 * factor),
         ] {
-            let p = map.parameters.iter().find(|p| p.name == name).unwrap();
+            let p = parameter(&map, name);
             let (from, to) = p.ci95.unwrap();
             assert!(from < low && high < to, "{name}: {from} to {to}");
             assert!(constant || !p.identifiable, "{name}");

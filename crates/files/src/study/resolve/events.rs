@@ -76,9 +76,12 @@ pub(super) fn events(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
 /// Warns of load estimates that a contour does not have.
 pub(super) fn of_one_axis(study: &mut Study) {
     let contours: Vec<&str> = study.contours.iter().map(|c| c.name.as_str()).collect();
-    let estimates = study.compensators.iter().filter(
-        |c| matches!(&c.value, Scheme::Model(model) if model.load_estimate && !contours.is_empty()),
-    );
+    if contours.is_empty() {
+        return;
+    }
+    let schemes = study.compensators.iter();
+    let estimates =
+        schemes.filter(|c| matches!(&c.value, Scheme::Model(model) if model.load_estimate));
     let said = estimates.map(|c| {
         let message = format!(
             "{} is not run on {}: a load estimate is of one axis, on paths",
