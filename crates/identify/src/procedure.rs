@@ -6,7 +6,7 @@
 //! | `static_map`, `profile`, `robust` | points | Fc, Fs, vs, sigma2 | Zhang et al. 2025, doi 10.1371/journal.pone.0322844, eqs. 7-8 |
 //! | `dynamic`, `dynamic_shift` | a record, static parameters | sigma0, sigma1, mass | the same, eqs. 35-38 |
 //! | `step`, `level` | a force step below break-away | sigma0, sigma1 by inversion | the same, eqs. 26-34 |
-//! | `step_fit`, `step_model`, `step_given` | the same | sigma0, sigma1 by simulation | |
+//! | `step_fit`, `step_model`, `step_given`, `step_rounding` | the same | sigma0, sigma1 by simulation | |
 //! | `break_away` | a force ramp | the force at break-away, with the ramp's rate | Canudas de Wit et al. 1995, doi 10.1109/9.376053, section III.C |
 //!
 //! A static map does not include acceleration, and break-away is not a point of it: the force at which an
@@ -29,6 +29,7 @@ mod step;
 mod step_fit;
 mod step_given;
 mod step_model;
+mod step_rounding;
 mod stretch;
 
 pub use break_away::{BreakAway, Predicted, break_away, predict_break_away};

@@ -9,6 +9,7 @@ use super::parameter::{Found, quantile};
 use super::step::StepResponse;
 use super::step_given::{GIVEN, carried};
 use super::step_model::{Response, Trial};
+use super::step_rounding::rounding;
 use super::stretch::Run;
 use crate::error::Error;
 use crate::estimate::uncertainty;
@@ -165,7 +166,7 @@ pub fn fit_steps(
     let inverted = first.invert(settings.mass, viscous);
     let responses: Vec<Response> = runs
         .iter()
-        .map(|(run, step)| Response::new(run.samples, step))
+        .map(|(run, step)| Response::new(run, step))
         .collect();
     let step = responses[0]
         .time
@@ -380,6 +381,7 @@ impl Problem {
         let own = uncertainty::sandwich(&columns, &residual, &breaks).covariance;
         let mut corner = covariance.view_mut((0, 0), own.shape());
         corner += own;
+        corner += rounding(&self, &residual, &slopes);
         let trial = self.trial(p);
         let n = residual.len() as f64;
         let level = trial.curve.coulomb;

@@ -2,7 +2,7 @@
 
 use super::level::Level;
 use super::step::StepResponse;
-use crate::conditioning::record::Samples;
+use super::stretch::Run;
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_servo::plant::{Load, Motion, Plant};
 
@@ -39,10 +39,13 @@ pub(super) struct Response {
     onset: usize,
     /// Standard errors of the force before the step and after it.
     pub errors: [f64; 2],
+    /// Step of the position's counts, where it has them.
+    pub resolution: Option<f64>,
 }
 
 impl Response {
-    pub fn new(samples: &Samples, step: &StepResponse) -> Self {
+    pub fn new(run: &Run, step: &StepResponse) -> Self {
+        let samples = run.samples;
         let end = step.range.end.min(step.onset + MOST_SAMPLES);
         let start = step.onset.saturating_sub(10).max(step.range.start);
         let cut = |x: &[f64]| x[start..end].to_vec();
@@ -67,6 +70,7 @@ impl Response {
             before: step.before,
             onset: step.onset - start,
             errors: step.errors,
+            resolution: run.resolution,
         }
     }
 

@@ -557,3 +557,63 @@ fn what_has_no_step_has_none_over_many_samples() {
         faint(&force(&mut |i| 1e-3 * i as f64 + random.normal()));
     }
 }
+
+/// An axis that has settled repeats one count, whose rounding no residual shows: over the phases of an encoder with 50
+/// counts in the smaller step, sigma0 and sigma1 are inside their intervals as often as these say.
+#[test]
+fn the_rounding_of_a_settled_position_is_counted() {
+    let axis = axis("machine", 0.3);
+    let law = *axis.plant.law();
+    let size = 0.1 * axis.curve.static_friction / law.stiffness();
+    let count = size / 50.0;
+    let truths = [
+        ("sigma0", law.stiffness()),
+        ("sigma1", law.damping().at_rest()),
+    ];
+    let mut inside = [0; 2];
+    let mut phases = Noise::new(7);
+    let all = 40;
+    for _ in 0..all {
+        let logs: Vec<Samples> = [0.1, 0.3]
+            .iter()
+            .map(|share| {
+                let phase = count * phases.normal();
+                // Steps of one height would end at one place within a count.
+                let mut log = log(&axis, share * (1.0 + 0.05 * phases.normal()), 0.0, 1);
+                log.position
+                    .iter_mut()
+                    .flatten()
+                    .for_each(|x| *x = ((*x + phase) / count).round() * count);
+                log
+            })
+            .collect();
+        let runs: Vec<_> = logs
+            .iter()
+            .map(|log| {
+                let resolution = Some(count);
+                let run = Run {
+                    resolution,
+                    ..run(log)
+                };
+                (run, StepResponse::read(&run, 0).unwrap())
+            })
+            .collect();
+        let settings = StepSettings {
+            mass: Some(axis.plant.mass()),
+            curve: Some(axis.curve),
+            exponent: 2.0,
+            offset: 0.0,
+            given: [[0.0; 7]; 7],
+        };
+        let fit = fit_steps(&runs, &settings, &mut Silent).unwrap();
+        for ((name, truth), inside) in truths.iter().zip(&mut inside) {
+            let found = fit.parameters.iter().find(|p| p.name == *name).unwrap();
+            let (low, high) = found.ci95.unwrap();
+            *inside += u32::from((low..=high).contains(truth));
+            // Wide would be easy: the half-width stays near that of one rounding of the two settled positions.
+            assert!(high - low < 0.03 * truth, "{name} {low} {high}");
+        }
+    }
+    println!("sigma0 {} and sigma1 {} of {all}", inside[0], inside[1]);
+    assert!(inside.iter().all(|n| *n >= 36), "{inside:?} of {all}");
+}
