@@ -97,6 +97,8 @@ codes! {
     RicherLawHoldsBetter = "richer-law-holds-better": "a law with more parameters predicts unseen samples much better",
     FrictionDrift = "friction-drift": "the level of friction changes during the log",
     PositionDependence = "position-dependence": "the level of friction changes along the stroke",
+    LoadDependence = "load-dependence": "the level of friction changes with the load",
+    TemperatureDependence = "temperature-dependence": "the level of friction changes with the temperature",
     PositionRipple = "position-ripple": "a force repeats with the position",
     Resonance = "resonance": "motor and load vibrate against each other on a spring",
     Backlash = "backlash": "a gap lies between motor and load",

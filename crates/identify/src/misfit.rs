@@ -93,6 +93,7 @@ impl Divisions {
     pub fn energies(&self, residual: &[f64]) -> Energies {
         std::array::from_fn(|i| match Divided::ALL[i] {
             Divided::AfterReversals => self.after_reversals(residual).0,
+            _ if self.parts[i].is_empty() => 0.0,
             _ => self.visits(i, residual).energy(),
         })
     }
@@ -159,6 +160,7 @@ impl Divisions {
             let by_chance;
             (own[i], by_chance) = match Divided::ALL[i] {
                 Divided::AfterReversals => self.after_reversals(residual),
+                _ if self.parts[i].is_empty() => (0.0, 0.0),
                 _ => {
                     let visits = self.visits(i, residual);
                     (visits.energy(), visits.chance())
@@ -188,23 +190,27 @@ impl Divisions {
             .into_iter()
             .zip(beyond.iter().map(|e| e / square));
         let by = Divided::ALL[most];
-        let shown = (0..own.len())
-            .filter(|&i| by.is_shown_by(Divided::ALL[i]))
-            .max_by(|&a, &b| own[a].total_cmp(&own[b]))?;
-        let shown_by = Divided::ALL[shown];
-        Some(Misfit {
+        let mut misfit = Misfit {
             by,
             rms: beyond[most].sqrt(),
             share: (beyond[most] / square).min(1.0),
             shares: shares.collect(),
-            levels: self.sums(most, residual).extent(),
+            levels: (0.0, 0.0),
             ripple: (by == Divided::Position && beyond[most] >= cause::NAMED_SHARE * square)
                 .then(|| Ripple::of(&self.measures.position, residual))
                 .flatten(),
             coupling: None,
-            shown_by,
-            course: self.course(shown, residual),
-        })
+            shown_by: by,
+            course: Vec::new(),
+        };
+        misfit.by = misfit.cause().and_then(Cause::level).unwrap_or(by);
+        let shown = (0..own.len())
+            .filter(|&i| misfit.by.is_shown_by(Divided::ALL[i]))
+            .max_by(|&a, &b| own[a].total_cmp(&own[b]))?;
+        misfit.shown_by = Divided::ALL[shown];
+        misfit.levels = self.sums(shown, residual).extent();
+        misfit.course = self.course(shown, residual);
+        Some(misfit)
     }
 }
 

@@ -9,8 +9,8 @@ pub(super) const NAMED_SHARE: f64 = 0.1;
 /// Part that a ripple over the position explains where it is the cause; a wrong law comes back at the same places too, less
 /// sharply.
 const RIPPLE_SHARE: f64 = 0.6;
-/// Part of the largest share that a level over the position has where it is the cause, and the largest share that forces
-/// over the position then have.
+/// Part of the largest share that a level over position, load or temperature has where it is the cause, and the largest share
+/// that forces over the position then have beside a level over the position.
 const LEVEL_PART: f64 = 0.8;
 const LEVEL_BESIDE: f64 = 0.3;
 
@@ -21,6 +21,10 @@ pub enum Cause {
     Drift,
     /// The level of friction changes along the stroke.
     Position,
+    /// The level of friction changes with the load that the log has.
+    Load,
+    /// The level of friction changes with the temperature that the log has.
+    Temperature,
     /// A force that repeats with the position.
     Ripple,
     /// A load on a spring.
@@ -44,13 +48,17 @@ impl Misfit {
             });
         }
         let share = |by| self.share_by(by);
-        Some(if self.by == Divided::LevelOverTime {
+        let explains = |by| share(by) >= LEVEL_PART * self.share;
+        // What is measured beside the motion says more than time or place, with which it changes.
+        Some(if explains(Divided::LevelOverLoad) {
+            Cause::Load
+        } else if explains(Divided::LevelOverTemperature) {
+            Cause::Temperature
+        } else if self.by == Divided::LevelOverTime {
             Cause::Drift
         } else if share(Divided::Position) >= RIPPLE_SHARE && self.by == Divided::Position {
             Cause::Ripple
-        } else if share(Divided::LevelOverPosition) >= LEVEL_PART * self.share
-            && share(Divided::Position) < LEVEL_BESIDE
-        {
+        } else if explains(Divided::LevelOverPosition) && share(Divided::Position) < LEVEL_BESIDE {
             Cause::Position
         } else {
             Cause::Shape
@@ -65,6 +73,17 @@ impl Misfit {
 }
 
 impl Cause {
+    /// By what the motion is divided where a level of friction changes.
+    pub(super) fn level(self) -> Option<Divided> {
+        match self {
+            Cause::Drift => Some(Divided::LevelOverTime),
+            Cause::Position => Some(Divided::LevelOverPosition),
+            Cause::Load => Some(Divided::LevelOverLoad),
+            Cause::Temperature => Some(Divided::LevelOverTemperature),
+            Cause::Ripple | Cause::Resonance | Cause::Backlash | Cause::Shape => None,
+        }
+    }
+
     /// Why a parameter is no constant of the machine with this cause; `None` where its interval says enough.
     pub(crate) fn against(self, quantity: Quantity) -> Option<&'static str> {
         let of_shape = [
@@ -84,7 +103,9 @@ impl Cause {
             Cause::Backlash => {
                 "takes up part of what backlash between motor and load does at reversals"
             }
-            Cause::Drift | Cause::Position | Cause::Ripple => return None,
+            Cause::Drift | Cause::Position | Cause::Load | Cause::Temperature | Cause::Ripple => {
+                return None;
+            }
         };
         of_shape.contains(&quantity).then_some(reason)
     }

@@ -19,6 +19,10 @@ pub enum Divided {
     LevelOverTime,
     /// Places on the stroke; the level of friction at each.
     LevelOverPosition,
+    /// Normal loads, where the log has them; the level of friction under each.
+    LevelOverLoad,
+    /// Temperatures, where the log has them; the level of friction at each.
+    LevelOverTemperature,
     /// Places on the stroke, each with a force of its own.
     Position,
     /// Speeds, direction by direction.
@@ -38,9 +42,11 @@ pub enum Divided {
 
 impl Divided {
     /// All of them, simple ones first.
-    pub const ALL: [Divided; 9] = [
+    pub const ALL: [Divided; 11] = [
         Divided::LevelOverTime,
         Divided::LevelOverPosition,
+        Divided::LevelOverLoad,
+        Divided::LevelOverTemperature,
         Divided::Position,
         Divided::Speed,
         Divided::Travel,
@@ -52,7 +58,13 @@ impl Divided {
 
     /// Whether a level of friction is sought in each part instead of a force.
     pub fn is_a_level(self) -> bool {
-        matches!(self, Divided::LevelOverTime | Divided::LevelOverPosition)
+        matches!(
+            self,
+            Divided::LevelOverTime
+                | Divided::LevelOverPosition
+                | Divided::LevelOverLoad
+                | Divided::LevelOverTemperature
+        )
     }
 
     /// Its name in results.
@@ -60,6 +72,8 @@ impl Divided {
         match self {
             Divided::LevelOverTime => "level over time",
             Divided::LevelOverPosition => "level over position",
+            Divided::LevelOverLoad => "level over load",
+            Divided::LevelOverTemperature => "level over temperature",
             Divided::Position => "position",
             Divided::Speed => "velocity",
             Divided::Travel => "travel since the last reversal",
@@ -96,6 +110,10 @@ pub(super) struct Measures {
     /// Signed distance from the last reversal, m or rad.
     travel: Vec<f64>,
     acceleration: Vec<f64>,
+    /// In the unit of the log; empty where a log has none.
+    load: Vec<f64>,
+    /// K; empty where a log has none.
+    temperature: Vec<f64>,
 }
 
 impl Measures {
@@ -106,6 +124,8 @@ impl Measures {
             speed: record.pick(|s| &s.velocity),
             travel: travel(record),
             acceleration: record.pick(|s| &s.acceleration),
+            load: in_every_log(record, |s| &s.channels.load),
+            temperature: in_every_log(record, |s| &s.channels.temperature),
         }
     }
 
@@ -114,6 +134,8 @@ impl Measures {
         match by {
             Divided::LevelOverTime => &self.time,
             Divided::LevelOverPosition | Divided::Position => &self.position,
+            Divided::LevelOverLoad => &self.load,
+            Divided::LevelOverTemperature => &self.temperature,
             Divided::Speed => &self.speed,
             Divided::Acceleration => &self.acceleration,
             Divided::Travel
@@ -128,7 +150,7 @@ impl Measures {
         self.travel.iter().map(|x| x.abs() < within).collect()
     }
 
-    /// The part that each kept sample belongs to.
+    /// The part that each kept sample belongs to; none where the log has not what the motion would be divided by.
     pub fn parts(&self, by: Divided) -> Vec<usize> {
         let both = |a, b| -> Vec<usize> {
             let pairs = self.parts(a).into_iter().zip(self.parts(b));
@@ -140,12 +162,24 @@ impl Measures {
                 let n = along.len();
                 (0..n).map(|t| t * PARTS / n).collect()
             }
-            Divided::LevelOverPosition | Divided::Acceleration => even(along, PARTS),
+            Divided::LevelOverPosition
+            | Divided::LevelOverLoad
+            | Divided::LevelOverTemperature
+            | Divided::Acceleration => even(along, PARTS),
             Divided::Position => even(along, PLACES),
             Divided::Speed | Divided::Travel | Divided::AfterReversals => logarithmic(along),
             Divided::TravelAndSpeed => both(Divided::Travel, Divided::Speed),
             Divided::TravelAndPosition => both(Divided::Travel, Divided::LevelOverPosition),
         }
+    }
+}
+
+/// A channel at the kept samples; empty where a log has none.
+fn in_every_log(record: &Record, channel: impl Fn(&Segment) -> &[f64]) -> Vec<f64> {
+    let missing = |s: &Segment| channel(s).len() != s.velocity.len();
+    match record.segments.iter().any(missing) {
+        true => Vec::new(),
+        false => record.pick(channel),
     }
 }
 

@@ -327,6 +327,8 @@ pub(super) fn left(outcome: &Outcome) -> Option<Figure> {
     let along = match misfit.shown_by {
         Divided::LevelOverTime => Axis::new("Time", "s"),
         Divided::LevelOverPosition | Divided::Position => Axis::new("Position", length),
+        Divided::LevelOverLoad => Axis::new("Load", outcome.load_unit.as_str()),
+        Divided::LevelOverTemperature => Axis::new("Temperature", "K"),
         Divided::Speed => velocity_axis(outcome),
         Divided::Acceleration => {
             Axis::new("Acceleration", symbols::acceleration_unit(outcome.motion))

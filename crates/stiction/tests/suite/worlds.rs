@@ -58,6 +58,64 @@ fn the_cause_of_what_a_law_leaves_is_named() {
     }
 }
 
+/// A level that changes with something that the log has is named after that, and the term that the message asks for takes it.
+#[test]
+fn a_level_that_follows_a_channel_is_named_after_it() {
+    let cases = [
+        (
+            "screw",
+            World::WarmUp,
+            "temperature-dependence",
+            "coulomb_temperature",
+        ),
+        ("joint", World::Position, "load-dependence", "coulomb_load"),
+    ];
+    let causes = [
+        "temperature-dependence",
+        "load-dependence",
+        "position-dependence",
+        "friction-drift",
+    ];
+    for (axis, world, cause, term) in cases {
+        let mut machines = Machine::all(SEED).into_iter();
+        let (_, machine) = machines.find(|(name, _)| *name == axis).unwrap();
+        let mut log = record(&machine, Motion::Sine, world, SEED);
+        let end = log.time.last().copied().unwrap();
+        let position = log.position.clone().unwrap();
+        let most = position.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        log.beside = vec![
+            (
+                "temperature",
+                "degC",
+                log.time
+                    .iter()
+                    .map(|t| 22.0 + 15.0 * t / end + 0.1 * libm::sin(1e5 * t))
+                    .collect(),
+            ),
+            (
+                "load",
+                "N",
+                position
+                    .iter()
+                    .map(|x| 100.0 + 15.0 * x / most + 0.2 * libm::sin(1e5 * x / most))
+                    .collect(),
+            ),
+        ];
+        let as_it_is = identified(&machine, &[log.clone()], &Axis::default()).unwrap();
+        let named = |fit: &stiction::Fit| -> Vec<String> {
+            let codes = fit.warnings().iter().map(|w| w.code.to_string());
+            codes.filter(|c| causes.contains(&c.as_str())).collect()
+        };
+        assert_eq!(named(&as_it_is), [cause], "{axis}, {world:?}");
+        let mut warnings = as_it_is.warnings().iter();
+        let warning = warnings.find(|w| w.code.as_str() == cause).unwrap();
+        assert!(warning.message.contains(&format!("{term} = true")));
+        let axis_file = Axis::parse(&format!("[terms]\n{term} = true\n")).unwrap();
+        let taken = identified(&machine, &[log], &axis_file);
+        assert_eq!(named(taken.as_ref().unwrap()), [""; 0], "{axis}, {world:?}");
+    }
+}
+
 #[test]
 fn what_lies_between_motor_and_load_is_named_with_its_size() {
     let cases = [

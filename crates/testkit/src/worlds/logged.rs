@@ -21,6 +21,8 @@ pub struct Recording {
     pub velocity: Option<Vec<f64>>,
     /// Force, positive towards positive positions, N (N m).
     pub force: Vec<f64>,
+    /// What else was measured: name, unit, values.
+    pub beside: Vec<(&'static str, &'static str, Vec<f64>)>,
 }
 
 impl Recording {
@@ -73,6 +75,7 @@ pub fn record(machine: &Machine, motion: Motion, world: World, seed: u64) -> Rec
         position: Some(position),
         velocity: None,
         force,
+        beside: Vec::new(),
     };
     spoil(&mut log, velocity, machine, world, &mut random);
     log

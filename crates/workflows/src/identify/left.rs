@@ -4,7 +4,7 @@ use super::coupled;
 use stiction_codes::Code;
 use stiction_files::result::MisfitEntry;
 use stiction_files::{Warning, symbols};
-use stiction_identify::{Cause, Divided, FittedLaw, Misfit};
+use stiction_identify::{Cause, Dependence, Divided, FittedLaw, Misfit};
 use stiction_log::Log;
 use stiction_number::{Percent, four_digits};
 
@@ -39,6 +39,8 @@ fn code(cause: Cause) -> Code {
     match cause {
         Cause::Drift => Code::FrictionDrift,
         Cause::Position => Code::PositionDependence,
+        Cause::Load => Code::LoadDependence,
+        Cause::Temperature => Code::TemperatureDependence,
         Cause::Ripple => Code::PositionRipple,
         Cause::Resonance => Code::Resonance,
         Cause::Backlash => Code::Backlash,
@@ -82,6 +84,24 @@ fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String 
                  coulomb_position = true under [terms] in the axis file",
             levels()
         ),
+        Cause::Load => format!(
+            "friction changes with the load: {left} is a level that goes from {} of its mean over the loads of the log. \
+                 {counted}. {}",
+            levels(),
+            untaken(law, &[Dependence::CoulombLoad(0.0)])
+        ),
+        Cause::Temperature => format!(
+            "friction changes with the temperature: {left} is a level that goes from {} of its mean over the temperatures of \
+                 the log. {counted}. {}",
+            levels(),
+            untaken(
+                law,
+                &[
+                    Dependence::CoulombTemperature(0.0),
+                    Dependence::ViscousTemperature(0.0)
+                ]
+            )
+        ),
         Cause::Ripple => {
             let unit = symbols::length_unit(log.motion);
             let line = misfit.ripple.map_or(String::new(), |ripple| {
@@ -104,4 +124,18 @@ fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String 
             }
         ),
     }
+}
+
+/// The first of some terms that the fit has not, as a line of the axis file.
+fn untaken(law: &FittedLaw, terms: &[Dependence]) -> String {
+    let taken: Vec<&str> = law.terms.dependences.iter().map(Dependence::name).collect();
+    let open = terms.iter().find(|term| !taken.contains(&term.name()));
+    open.map_or(
+        "No straight line over it describes that: record within the range that the axis works in"
+            .into(),
+        |term| {
+            let name = term.name();
+            format!("Set {name} = true under [terms] in the axis file")
+        },
+    )
 }

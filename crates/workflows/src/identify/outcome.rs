@@ -20,6 +20,8 @@ pub struct Outcome {
     pub motion: Motion,
     /// Unit of the force.
     pub force_unit: String,
+    /// Unit of the normal load, where the logs have one.
+    pub load_unit: String,
     /// Known values to compare with, by parameter name; empty unless the axis is simulated.
     pub truth: Vec<(String, f64)>,
 }
@@ -67,6 +69,7 @@ impl Outcome {
             validation,
             motion: sources[0].log.motion,
             force_unit: sources[0].log.force_unit.clone(),
+            load_unit: sources[0].log.load_unit.clone(),
             sources,
             truth: Vec::new(),
         }

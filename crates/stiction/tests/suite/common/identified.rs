@@ -38,5 +38,8 @@ fn columns(machine: &Machine, log: &Recording) -> Vec<Column> {
         columns.push(column("velocity", &format!("{length}/s"), v));
     }
     columns.push(column("force", force, &log.force));
+    for (name, unit, values) in &log.beside {
+        columns.push(column(name, unit, values));
+    }
     columns
 }
