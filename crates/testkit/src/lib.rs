@@ -1,5 +1,5 @@
-//! For tests only: where measured recordings are, what must hold on them, an interpreter of Structured Text, the plain midpoint
-//! step, and simulated logs of worlds that an identification does, or does not, assume ([`worlds`]).
+//! For tests only: where measured recordings are, what must hold on them, an interpreter of Structured Text, LinuxCNC, the plain
+//! midpoint step, and simulated logs of worlds that an identification does, or does not, assume ([`worlds`]).
 //!
 //! Start with [`recordings`] for a test on measured data, and with [`st::Library`] for one that runs Structured Text:
 //!
@@ -16,6 +16,8 @@
 //! ```
 
 mod cases;
+#[cfg(unix)]
+pub mod hal;
 mod mean_of_ends;
 mod pages;
 pub mod st;

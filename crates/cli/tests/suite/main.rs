@@ -2,6 +2,8 @@
 
 mod cli;
 mod export;
+#[cfg(unix)]
+mod linuxcnc;
 mod paper;
 mod procedures;
 mod searches;

@@ -2,74 +2,13 @@
 
 use crate::common::compiled::{Sample, agree, drive, gcc, passive, run, write};
 use crate::common::{laws, model};
-use std::fs::File;
-use std::path::{Path, PathBuf};
 use stiction_export::{Model, Target, export};
-
-/// Where LinuxCNC looks for components, and nowhere else.
-const MODULES: &str = "/usr/lib/linuxcnc/modules";
-
-/// A component that is removed again.
-struct Installed(PathBuf);
-
-impl Installed {
-    fn new(component: &str, dir: &Path) -> Self {
-        let source = format!("{component}.comp");
-        if may_write() {
-            run("halcompile", &["--install", &source], dir);
-        } else {
-            run("sudo", &["-n", "halcompile", "--install", &source], dir);
-        }
-        Self(Path::new(MODULES).join(format!("{component}.so")))
-    }
-}
-
-/// Whether the user who runs the test may put components where LinuxCNC looks.
-fn may_write() -> bool {
-    let probe = Path::new(MODULES).join(format!(".stiction-{}", std::process::id()));
-    std::fs::write(&probe, "").is_ok() && std::fs::remove_file(probe).is_ok()
-}
-
-/// Whether components may be installed; where not, the test says so and passes over. It takes root's rights from nobody
-/// who has not given them: `STICTION_SUDO=1` lets it ask sudo.
-fn may_install() -> bool {
-    if may_write() || std::env::var("STICTION_SUDO").as_deref() == Ok("1") {
-        return true;
-    }
-    let message =
-        format!("{MODULES} is not ours to write: STICTION_SUDO=1 lets this test use sudo");
-    assert!(std::env::var("CI").as_deref() != Ok("true"), "{message}");
-    eprintln!("SKIPPED: {message}");
-    false
-}
-
-impl Drop for Installed {
-    fn drop(&mut self) {
-        if std::fs::remove_file(&self.0).is_err() {
-            let _ = std::process::Command::new("sudo")
-                .args(["-n", "rm", "-f"])
-                .arg(&self.0)
-                .status();
-        }
-    }
-}
-
-/// There is one HAL a machine: only one of these tests runs at a time, in whichever workspace.
-fn alone() -> File {
-    let path = std::env::temp_dir().join("stiction-hal.lock");
-    let lock = File::options()
-        .create(true)
-        .append(true)
-        .open(path)
-        .unwrap();
-    lock.lock().unwrap();
-    lock
-}
+use stiction_testkit::hal::{self, Installed};
 
 #[test]
 fn linuxcnc_gives_the_forces_that_are_due() {
-    let _alone = alone();
-    if !may_install() {
+    let _alone = hal::alone();
+    if !hal::may_install() {
         return;
     }
     for (name, law) in laws()
@@ -96,8 +35,8 @@ fn linuxcnc_gives_the_forces_that_are_due() {
 /// The example of the page, with the model beside it: Fc 12 N and 30 N s/m at 31.4 mm/s, a share of a half.
 #[test]
 fn the_example_runs() {
-    let _alone = alone();
-    if !may_install() {
+    let _alone = hal::alone();
+    if !hal::may_install() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
@@ -111,17 +50,15 @@ fn the_example_runs() {
         .replace("x_axis", "stiction_example")
         .replace("x-axis", "stiction-example");
     std::fs::write(dir.path().join("axis.hal"), text).unwrap();
-    // As root, HAL becomes another user, who has to reach the folder.
-    std::fs::set_permissions(
-        dir.path(),
-        std::os::unix::fs::PermissionsExt::from_mode(0o777),
-    )
-    .unwrap();
-    let environment = format!("RTAPI_FIFO_PATH={}", dir.path().join("fifo").display());
-    let said = run(
-        "env",
-        &["RTAPI_UID=65534", &environment, "halrun", "axis.hal"],
-        dir.path(),
+    let output = hal::command("halrun", dir.path())
+        .arg("axis.hal")
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(
+        output.status.success(),
+        "{said}{}",
+        String::from_utf8_lossy(&output.stderr)
     );
     let mut lines = said.lines();
     assert_eq!(lines.next(), Some("TRUE"), "{said}");
