@@ -3,7 +3,7 @@
 use crate::separable::descent::settings;
 use crate::separable::in_lanes::InLanes;
 use crate::separable::objective::Objective;
-use crate::separable::search::{LINE, same, sobol, valleys};
+use crate::separable::search::{HOPELESS_COST_RATIO, LINE, same, sobol, valleys};
 use crate::separable::search_box::SearchBox;
 use crate::watch::Watch;
 use stiction_search::descent::{self, Descent};
@@ -12,6 +12,10 @@ use stiction_search::{Derivatives, Stage, Status};
 /// Most steps of a descent. One more step of all descents costs as much as a third of an evaluation of a
 /// long record, one unnecessary start as much as five.
 const MOST_ROUNDS: usize = 30;
+/// Number of rounds that descents with a hopeless cost may continue after the best has ended.
+const PATIENCE: usize = 2;
+/// So few trials are faster one by one, with the samples in lanes.
+const FEW: usize = 3;
 /// Trials under way at once; the observer is asked between.
 const BATCH_TRIALS: usize = 16;
 /// The scan with the stiffest bristle has the number of points of the scan of the whole box divided by this.
@@ -64,11 +68,6 @@ pub(super) struct Coarse<'a> {
     pub objective: &'a Objective<'a>,
     pub sums: &'a InLanes,
     pub bounds: &'a SearchBox,
-    /// Whether so few trials are under way that it is faster to evaluate them one by one with the samples
-    /// in lanes.
-    pub few: bool,
-    /// Number of rounds that the other descents may continue after the best one has ended.
-    pub patience: usize,
 }
 
 impl Coarse<'_> {
@@ -109,12 +108,7 @@ impl Coarse<'_> {
             let costs: Vec<f64> = along.iter().map(|(_, cost)| *cost).collect();
             chosen.extend(valleys(&costs).into_iter().map(|i| along[i].0.clone()));
         }
-        self.followed(chosen, watch)
-    }
-
-    /// Ends of descents from given points.
-    pub fn followed(&self, points: Vec<Vec<f64>>, watch: &mut Watch) -> Option<Minima> {
-        let points = self.evaluated(points, watch)?;
+        let points = self.evaluated(chosen, watch)?;
         self.descended(points, watch)
     }
 
@@ -153,7 +147,7 @@ impl Coarse<'_> {
     }
 
     fn reduced(&self, trials: &[&[f64]]) -> Option<Vec<Derivatives>> {
-        if self.few {
+        if trials.len() <= FEW {
             return trials.iter().map(|p| self.sums.reduced(p)).collect();
         }
         self.sums.many(trials)
@@ -184,17 +178,25 @@ impl Coarse<'_> {
         };
         let mut walks: Vec<Walk> = points.into_iter().map(walk).collect();
         let mut steps = 0;
-        let mut patience = self.patience;
+        let mut patience = PATIENCE;
         for round in 0..MOST_ROUNDS {
             watch.fraction = round as f64 / MOST_ROUNDS as f64;
             join(&mut walks);
             let ended = walks.first().is_some_and(Walk::is_settled);
-            if watch.stopped || ended && patience == 0 {
+            if watch.stopped {
                 break;
             }
-            patience -= usize::from(ended);
+            // A simple minimum is reached soon; the right one may lie at the end of a long valley.
+            let most = match ended && patience == 0 {
+                true => HOPELESS_COST_RATIO * walks[0].now.cost,
+                false => f64::INFINITY,
+            };
+            patience -= usize::from(ended && patience > 0);
             let mut trials = Vec::new();
             for (i, walk) in walks.iter_mut().enumerate() {
+                if walk.now.cost > most {
+                    continue;
+                }
                 let now = (&walk.now).into();
                 if let Some(p) = walk.descent.propose(&settings, self.bounds.region(), now) {
                     trials.push((i, p));

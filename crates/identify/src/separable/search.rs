@@ -20,17 +20,12 @@ const MOST_PAIRED: usize = 3;
 /// Distance in the logarithms within which two minima are one.
 const SAME_MINIMUM_DISTANCE: f64 = 1e-2;
 /// Ratio of the cost of a start to that of the best above which it is not tried (decision 0036: three times).
-const HOPELESS_COST_RATIO: f64 = 3.0;
+pub(super) const HOPELESS_COST_RATIO: f64 = 3.0;
 /// The same where costs were followed down on thousands of samples, which tell them apart better (decision
 /// 0036).
 const RIVAL_COST_RATIO: f64 = 1.3;
-/// Number of rounds that the other descents may continue after the best has ended, on the record of the
-/// scan and on the thinned one: a round of the second costs as much as four of the first.
-const ROUNDS_AFTER_BEST: [usize; 2] = [6, 2];
 /// Ratio of the cost of the second minimum to that of the best below which it is also followed to the end.
 const LAST_RIVAL_COST_RATIO: f64 = 1.05;
-/// Of the samples of the thinned record, the scan sees one in this many.
-const SCAN_THINNING: usize = 4;
 /// Number of stiffnesses tried with the curve of the static law.
 pub(super) const LINE: usize = 16;
 
@@ -112,46 +107,24 @@ impl<'a> Search<'a> {
         bounds: &SearchBox,
         watch: &mut Watch,
     ) -> Option<Vec<Vec<f64>>> {
-        let rough = self.near().thinned(self.settings.thin / SCAN_THINNING);
-        let rough = rough
-            .as_ref()
-            .map(|record| Objective::new(record, self.law, self.terms));
-        let sums = objective.sums()?;
-        let first = rough.as_ref().unwrap_or(objective);
         let coarse = Coarse {
-            objective: first,
-            sums: first.sums()?,
+            objective,
+            sums: objective.sums()?,
             bounds,
-            few: false,
-            patience: ROUNDS_AFTER_BEST[0],
         };
-        let mut minima = coarse.minima(
+        let minima = coarse.minima(
             self.seed(),
             self.settings.scan,
             self.settings.starts,
             self.law.layout().kappa?,
             watch,
         )?;
-        if rough.is_some() {
-            let coarse = Coarse {
-                objective,
-                sums,
-                bounds,
-                few: true,
-                patience: ROUNDS_AFTER_BEST[1],
-            };
-            self.iterations += minima.steps;
-            let most = HOPELESS_COST_RATIO * minima.ends.first()?.cost;
-            let ends = minima.ends.into_iter();
-            let points = ends.filter(|end| !end.settled || end.cost <= most);
-            let points = points.map(|end| end.p).collect();
-            minima = coarse.followed(points, watch)?;
-        }
         self.iterations += minima.steps;
-        let most = RIVAL_COST_RATIO * minima.ends.first()?.cost;
+        let best = minima.ends.first()?.cost;
+        let (most, hopeless) = (RIVAL_COST_RATIO * best, HOPELESS_COST_RATIO * best);
         let mut starts: Vec<Vec<f64>> = Vec::new();
-        for End { p, cost, .. } in minima.ends {
-            let counts = starts.is_empty() || cost <= most;
+        for End { p, cost, settled } in minima.ends {
+            let counts = starts.is_empty() || cost <= most || !settled && cost <= hopeless;
             if counts && !starts.iter().any(|other| same(&p, other)) {
                 starts.push(p);
             }

@@ -12,7 +12,7 @@ pub struct Settings {
     /// Descents on the thinned record. Default 6.
     pub starts: usize,
     /// Samples of the thinned record that the scan and its descents see; of the motion, where the record has a
-    /// common filter. For a law that the batch kernels know, the scan sees a quarter of them. Default 4000.
+    /// common filter. Default 4000. Fewer do not resolve the reversals of a long log.
     pub thin: usize,
     /// Most steps of one descent. Default 200.
     pub steps: usize,

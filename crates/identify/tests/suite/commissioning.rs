@@ -101,3 +101,74 @@ fn a_log_of_regimes_in_turn_shows_its_law() {
 fn a_log_of_regimes_in_turn_shows_its_asymmetry() {
     assert_eq!(chosen(1.05), (LawKind::LuGre, true));
 }
+
+/// Fast strokes cross the whole Stribeck range within a few samples. The search sees it nevertheless, whatever the noise: it
+/// does not end in a law without one, of which a descent on few samples never comes back.
+#[test]
+fn reversals_at_speed_show_the_stribeck_effect() {
+    let both = Direction {
+        coulomb: 21.6,
+        static_friction: 30.0,
+        stribeck_velocity: 4e-3,
+        viscous: 45.0,
+    };
+    let curve = Stribeck::symmetric(Shape::Gaussian, both, 0.0).unwrap();
+    let law = LuGre::new(7.2e5, Damping::Constant(900.0), curve).unwrap();
+    let wave = [
+        (0.6, 0.41, 5.24),
+        (0.28, 1.7, 3.75),
+        (0.12, 5.3, 1.81),
+        (0.03, 17.0, 0.27),
+    ];
+    let velocity = |t: f64| {
+        let start = (t / 0.3).min(1.0);
+        let sum = |(part, hertz, phase): (f64, f64, f64)| part * (TAU * hertz * t + phase).sin();
+        0.2 * start * wave.into_iter().map(sum).sum::<f64>()
+    };
+    let (step, fine, count) = (5e-4, 20, 1e-7);
+    let (v, u) = crate::common::force_along(&law, 28_001, step, fine, velocity);
+    let h = step / fine as f64;
+    let mut position = vec![0.0];
+    for i in 1..v.len() {
+        let from = (i - 1) as f64 * step;
+        let moved: f64 = (0..fine)
+            .map(|k| h * velocity(from + (k as f64 + 0.5) * h))
+            .sum();
+        position.push(position[i - 1] + moved);
+    }
+    for seed in 0..12 {
+        let mut noise = Noise::new(seed);
+        let phase = noise.uniform();
+        let time: Vec<f64> = (0..v.len()).map(|i| i as f64 * step).collect();
+        let accelerated = |t: f64| 8.0 * (velocity(t + 1e-5) - velocity(t - 1e-5)) / 2e-5;
+        let samples = Samples {
+            force: time
+                .iter()
+                .zip(&u)
+                .map(|(t, u)| u + accelerated(*t) - 0.8 + 0.12 * noise.normal())
+                .collect(),
+            position: Some(
+                position
+                    .iter()
+                    .map(|x| ((x / count + phase).round() - phase) * count)
+                    .collect(),
+            ),
+            time,
+            ..Samples::default()
+        };
+        let conditioning = Conditioning {
+            resolution: Some(count),
+            source_cutoff: Cutoff::Hz(400.0),
+            common_cutoff: Cutoff::Hz(100.0),
+            ..Conditioning::default()
+        };
+        let record = condition(&[samples], &conditioning).unwrap();
+        let (law, terms) = (Law::new(LawKind::LuGre), Terms::default());
+        let found = separable(&record, law, &terms, &Settings::default(), &mut Silent).unwrap();
+        let fitted = estimate(&record, law, &terms, &found, count);
+        let error = fitted.fit.relative_error_percent;
+        assert!(error < 0.5, "{seed}: {error} % of the force left");
+        let fixed = fitted.value("static").unwrap();
+        assert!((fixed / 30.0 - 1.0).abs() < 0.02, "{seed}: Fs {fixed}");
+    }
+}

@@ -28,7 +28,7 @@ fn every_limit_holds() {
 }
 
 /// Every recording, with columns and units and no option, ends in a law that may be used and can be exported, and that
-/// leaves at most a tenth more on held-out samples than the best law of the table.
+/// leaves at most a tenth more on held-out samples than the best law of the table that is not held back.
 #[test]
 fn default_runs_end_in_code() {
     let Some(data) = recordings() else {
