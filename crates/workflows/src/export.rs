@@ -94,9 +94,6 @@ pub struct Exported {
     pub trustworthy: bool,
 }
 
-/// Friction that changes with something the compensator does not see.
-const NOT_IN_THE_LAW: [&str; 3] = ["quadratic_viscous", "coulomb_", "sigma2_"];
-
 /// Parameters that need a feedforward of their own, beside that of friction.
 const BESIDE: [&str; 4] = ["mass", "delay", "gravity_", "cogging"];
 
@@ -237,12 +234,6 @@ fn code(read: &ReadModel, options: &ExportOptions) -> Result<Exported, Error> {
 
 fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warning>), Error> {
     let file = &read.model;
-    if let Some(p) = file.parameter.iter().find(|p| out_of_the_law(&p.name)) {
-        let allowed = "the compensator has no such term; identify without it";
-        return Err(read
-            .refuse_parameter(&p.name, p.name.as_str(), allowed)
-            .into());
-    }
     let (friction, lowered) = friction(file, options.cycle_time).map_err(|e| match e {
         Unfit::Law => read.refuse(
             "law",
@@ -315,14 +306,6 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
     Ok((model, warnings))
 }
 
-fn out_of_the_law(name: &str) -> bool {
-    NOT_IN_THE_LAW.iter().any(|stem| name.starts_with(stem))
-        && !matches!(
-            name,
-            "coulomb_pos" | "coulomb_neg" | "sigma2_pos" | "sigma2_neg"
-        )
-}
-
 /// An error with its file and the place in it, if it is about something in that file.
 fn place(source: stiction_export::Error, read: &ReadModel, options: &ExportOptions) -> Error {
     use stiction_export::Error::{ForceUnit, Law, Number, Range};
@@ -393,7 +376,54 @@ fn doubts(file: &ModelFile) -> Vec<Warning> {
             ),
         ));
     }
+    found.extend(at_reference(file));
     found
+}
+
+/// What changes friction and is no input of the code: the code has friction as it is at the reference.
+fn at_reference(file: &ModelFile) -> Option<Warning> {
+    let at = |name: &str| {
+        let found = file.parameter.iter().find(|p| p.name == name);
+        found.map_or("the mean of the log".into(), |p| {
+            format!("{} {}", stiction_number::four_digits(p.value), p.unit)
+        })
+    };
+    let each = file.parameter.iter().filter_map(|p| {
+        let quantity = p.name.parse::<Name>().ok()?.quantity;
+        let held = match quantity {
+            Quantity::CoulombLoad => format!("at a load of {}", at("load_reference")),
+            Quantity::CoulombTemperature | Quantity::Sigma2Temperature => {
+                format!("at {}", at("temperature_reference"))
+            }
+            Quantity::CoulombPosition => {
+                format!("at the position {}", at("position_reference"))
+            }
+            Quantity::CoulombPitch(..) => "in its mean over the pitch".into(),
+            Quantity::CoulombLog(_) | Quantity::Sigma1Log(_) | Quantity::Sigma2Log(_) => {
+                "of the first log".into()
+            }
+            Quantity::QuadraticViscous => {
+                "without the part that grows with the square of the velocity".into()
+            }
+            _ => return None,
+        };
+        Some(format!(
+            "{} = {} {}: {held}",
+            p.name,
+            stiction_number::four_digits(p.value),
+            p.unit
+        ))
+    });
+    let each = each.collect::<Vec<_>>().join("; ");
+    (!each.is_empty()).then(|| {
+        Warning::new(
+            Code::ExportTerms,
+            format!(
+                "friction changes with what the code does not see, so it has friction as it is there ({each}). Where the axis \
+                 works elsewhere it is off by that much: identify the axis as it works"
+            ),
+        )
+    })
 }
 
 /// Where less is used than was identified; `limited` where the limit follows from it.

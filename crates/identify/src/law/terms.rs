@@ -139,26 +139,20 @@ impl Side {
 
 impl Terms {
     /// The same terms with the references of the dependences taken from a record: the mean load and
-    /// temperature, the middle of the stroke, the number of logs.
+    /// temperature, the middle of the stroke, the number of logs. One log has no levels of its own beside those of the others.
     #[must_use]
     pub fn about(&self, record: &Record) -> Self {
-        let dependences = self.dependences.iter().map(|d| d.about(record)).collect();
+        let dependences = self.dependences.iter().map(|d| d.about(record));
+        let dependences = dependences.filter(|d| d.logs() != Some(1)).collect();
         Self {
             dependences,
             ..self.clone()
         }
     }
 
-    /// Refuses a record without a channel that a term needs, and a single log where logs are to have levels of their own.
+    /// Refuses a record without a channel that a term needs.
     pub(crate) fn check(&self, record: &Record) -> Result<(), Error> {
         for dependence in &self.dependences {
-            if let Some(logs @ 0..2) = dependence.logs() {
-                return Err(Error::Setting {
-                    name: dependence.name(),
-                    found: logs as f64,
-                    allowed: "two logs or more in one fit: leave the key out for a single one",
-                });
-            }
             let Some(channel) = dependence.channel() else {
                 continue;
             };

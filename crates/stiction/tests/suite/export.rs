@@ -204,7 +204,7 @@ fn bad_models_are_refused() {
         p
     };
     let no_viscous: Vec<_> = LUGRE.into_iter().filter(|p| p.0 != "sigma2").collect();
-    let cases: [(&str, String, &str, &str); 10] = [
+    let cases: [(&str, String, &str, &str); 9] = [
         ("missing", text("lugre", missing), "bad-config", "no sigma0"),
         (
             "law",
@@ -235,12 +235,6 @@ fn bad_models_are_refused() {
             text("lugre", &with("sigma0", 1e-40)),
             "not-exported",
             "value: sigma0 = 1e-40; allowed",
-        ),
-        (
-            "term",
-            text("lugre", &with("coulomb_load", 0.1)),
-            "bad-config",
-            "coulomb_load",
         ),
         (
             "no sigma2",
@@ -292,6 +286,50 @@ fn bad_models_are_refused() {
         assert_eq!(error.code().as_str(), "not-exported", "{error}");
         assert!(error.to_string().contains(says), "{error}");
         assert_eq!(contents(bench.0.path()).len(), 1);
+    }
+}
+
+/// What the code does not see stays at its reference: the same code but for the warning, which says where that is.
+#[test]
+fn friction_that_changes_is_exported_at_its_reference() {
+    let plain = Bench::new();
+    let code = plain.export(&text("lugre", &LUGRE)).unwrap();
+    for (more, says) in [
+        (
+            vec![
+                ("coulomb_temperature", -0.2, "N/K"),
+                ("temperature_reference", 301.5, "K"),
+            ],
+            "coulomb_temperature = -0.2000 N/K: at 301.5 K",
+        ),
+        (
+            vec![("coulomb_load", 0.1, "N/N"), ("load_reference", 85.0, "N")],
+            "coulomb_load = 0.1000 N/N: at a load of 85.00 N",
+        ),
+        (
+            vec![("coulomb_position", 3.0, "N/m")],
+            "at the position the mean of the log",
+        ),
+        (
+            vec![("quadratic_viscous", 1.0, "N*s^2/m^2")],
+            "without the part that grows with the square",
+        ),
+    ] {
+        let mut parameters = LUGRE.to_vec();
+        parameters.extend(more);
+        let bench = Bench::new();
+        let exported = bench.export(&text("lugre", &parameters)).unwrap();
+        let warned = exported.warnings.iter().find(|w| w.message.contains(says));
+        let warned = warned.unwrap_or_else(|| panic!("{says}: {:?}", exported.warnings));
+        assert_eq!(warned.code.as_str(), "export-terms");
+        assert_eq!(exported.limit, code.limit);
+        let head = String::from_utf8(exported.files[0].bytes.clone()).unwrap();
+        let words: Vec<&str> = head.split_whitespace().filter(|w| *w != "*").collect();
+        assert!(
+            words
+                .join(" ")
+                .contains("friction changes with what the code does not see")
+        );
     }
 }
 
