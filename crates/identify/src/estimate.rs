@@ -49,6 +49,18 @@ pub struct Estimate {
     pub(crate) within: f64,
 }
 
+impl Estimate {
+    /// Leaves parameters open for what this fit does not see: where `why` gives a reason, and they were identified.
+    pub fn doubt(&mut self, why: impl Fn(&Parameter) -> Option<&'static str>) {
+        for p in &mut self.fitted.parameters {
+            if let Some(reason) = why(p).filter(|_| p.identified && p.identifiable) {
+                p.identifiable = false;
+                p.reason = reason.into();
+            }
+        }
+    }
+}
+
 impl Deref for Estimate {
     type Target = FittedLaw;
 

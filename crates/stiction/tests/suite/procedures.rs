@@ -414,6 +414,51 @@ fn terms_that_a_static_map_does_not_count_are_refused_with_their_key() {
 }
 
 /// Less searching than by default, as an axis file asks for it.
+/// Levels that changed between the constant velocities and the motion are named; what was held or found with them is no
+/// constant of the machine, and the motion is identified by itself next.
+#[test]
+fn a_motion_with_another_friction_than_the_map_is_named() {
+    let bench = Bench::new();
+    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap();
+    let (speeds, motion) = (&logs[0], &logs[1]);
+    let text = std::fs::read_to_string(motion).unwrap();
+    for by in [1.03, 1.2, 0.8] {
+        // Everything of the motion but its time and place.
+        let rows = text.lines().map(|row| {
+            let (rest, force) = row.rsplit_once(',').unwrap();
+            match force.parse::<f64>() {
+                Ok(force) => format!("{rest},{}", by * force),
+                Err(_) => row.to_string(),
+            }
+        });
+        let changed = bench.write("changed.csv", &rows.collect::<Vec<_>>().join("\n"));
+        let both = Procedures {
+            statics: vec![speeds.clone()],
+            ..method(Method::StaticThenDynamic)
+        };
+        let result = run(&with(&[&changed], both)).unwrap().result;
+        let named = result
+            .warnings
+            .iter()
+            .find(|w| w.code == Code::LogsDisagree);
+        assert_eq!(named.is_some(), by != 1.03, "{by}: {:?}", result.warnings);
+        let Some(warning) = named else { continue };
+        assert!(
+            warning.message.contains("coulomb is"),
+            "{}",
+            warning.message
+        );
+        assert!(!result.trust.trustworthy);
+        assert_eq!(result.trust.next, stiction::result::Next::LetTheDataChoose);
+        for name in ["coulomb", "static", "sigma0", "sigma1", "mass"] {
+            assert!(
+                result.trust.open.iter().any(|open| open == name),
+                "{by}: {name}"
+            );
+        }
+    }
+}
+
 const SEARCH: &str = "[search.ga]
 population = 20
 generations = 40

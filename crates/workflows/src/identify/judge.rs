@@ -57,7 +57,7 @@ pub(super) fn judge(
     match &fitted.two_steps {
         None => trust::of_force(&evidence, warnings),
         Some(both) => {
-            let mut judged = trust::of_two_steps(&evidence, warnings);
+            let mut judged = trust::of_two_steps(&evidence, both.changed, warnings);
             judged.warnings.extend_from_slice(&both.warnings);
             judged
         }

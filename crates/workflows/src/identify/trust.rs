@@ -192,12 +192,20 @@ pub(super) fn of_force(evidence: &Evidence, mut warnings: Vec<Warning>) -> Judge
     )
 }
 
-/// The same with static parameters found first.
-pub(super) fn of_two_steps(evidence: &Evidence, mut warnings: Vec<Warning>) -> Judged {
+/// The same with static parameters found first; `changed` where the motion has another steady friction than these.
+pub(super) fn of_two_steps(
+    evidence: &Evidence,
+    changed: bool,
+    mut warnings: Vec<Warning>,
+) -> Judged {
     let mut reasons = Reasons::default();
     of_a_search_alone(evidence.law, &mut reasons);
     let compensation = record(evidence, &mut warnings, &mut reasons);
-    if evidence
+    if changed {
+        let text = "the motion has another friction than the static parameters, and one model holds both: see what the motion says by \
+                    itself";
+        reasons.push(text, Next::LetTheDataChoose);
+    } else if evidence
         .law
         .parameter("sigma0")
         .is_some_and(|p| !p.identifiable && p.reason != NO_INTERVAL)

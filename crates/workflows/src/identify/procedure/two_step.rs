@@ -15,16 +15,20 @@ use stiction_files::result::{
 };
 use stiction_files::symbols;
 use stiction_identify as engine;
+use stiction_identify::NOT_CONSTANT;
 use stiction_identify::procedure::{dynamic_conditioned, dynamic_near};
 use stiction_identify::{
     Accelerometer, Delay, Estimate, FittedLaw, Law, LawKind, Observer, Record, Settings, Terms,
 };
 use stiction_log::Motion;
+use stiction_number::Percent;
 use stiction_parameters::{Name, Quantity};
 
 /// Difference of a parameter between the two ways, in standard deviations of the joint fit, above which it is explained:
 /// two, as the 95 % intervals.
 const EXPLAINED_DIFFERENCE: f64 = 2.0;
+/// Standard deviations of a difference that chance explains.
+const CHANCE: f64 = 4.0;
 /// Standard deviations beyond which their number says nothing more.
 const MOST_DEVIATIONS_WRITTEN: f64 = 100.0;
 /// Part of its residual up to which a fit counts as the same, dimensionless: far above rounding.
@@ -48,6 +52,8 @@ pub(in crate::identify) struct TwoStep<'a> {
 /// The joint fit beside the one in two steps, and where the statics come from.
 pub(in crate::identify) struct TwoSteps {
     joint: Estimate,
+    /// Whether the motion has another steady friction than the map.
+    pub changed: bool,
     from: &'static str,
     map: Option<StaticMapEntry>,
     searched: Option<SearchedEntry>,
@@ -144,11 +150,14 @@ pub(in crate::identify) fn two_step(
         let deviation = delay.and_then(|delay| delay.std).unwrap_or(0.0);
         dynamic_conditioned(record, statics, &mut estimate, deviation, observer);
     }
+    let changed = changed(&mut estimate, &joint);
+    warnings.extend(disagree(&changed, parts.sources));
     if known.interrupted || step.as_ref().is_some_and(|step| step.interrupted) {
         estimate = estimate.interrupted();
     }
     let beside = TwoSteps {
         joint,
+        changed: !changed.is_empty(),
         from: known.from,
         map: known.map,
         searched: step.map(|step| step.entry),
@@ -157,6 +166,67 @@ pub(in crate::identify) fn two_step(
         has_acceleration: sources.iter().any(|s| s.log.acceleration.is_some()),
     };
     Ok((estimate, beside))
+}
+
+/// A parameter of the steady curve that the motion has differently from the map: its name, and the two values.
+type Changed = (Name, [f64; 2]);
+
+/// What of the steady curve the joint fit of the motion has by a tenth or more differently, beyond chance. It is no constant of
+/// the machine, and neither is what was found with it held.
+fn changed(estimate: &mut Estimate, joint: &Estimate) -> Vec<Changed> {
+    let levels = [Quantity::Coulomb, Quantity::Static, Quantity::Sigma2];
+    let mut found = Vec::new();
+    for p in &joint.parameters {
+        if !(levels.contains(&p.name.quantity) && p.identifiable) {
+            continue;
+        }
+        let Some(held) = estimate.parameter(p.name).filter(|p| p.identifiable) else {
+            continue;
+        };
+        let difference = p.value - held.value;
+        let deviation = p.std.unwrap_or(0.0).hypot(held.std.unwrap_or(0.0));
+        if difference.abs() >= NOT_CONSTANT * held.value && difference.abs() > CHANCE * deviation {
+            found.push((p.name, [held.value, p.value]));
+        }
+    }
+    if found.is_empty() {
+        return found;
+    }
+    estimate.doubt(|p| {
+        if found.iter().any(|(name, _)| p.name == *name) {
+            return Some(
+                "this motion has it by a tenth or more differently from the static parameters",
+            );
+        }
+        let follows = [Quantity::Sigma0, Quantity::Sigma1, Quantity::Mass];
+        follows
+            .contains(&p.name.quantity)
+            .then_some("was found with static parameters that this motion has not")
+    });
+    found
+}
+
+fn disagree(changed: &[Changed], sources: &[Source]) -> Option<Warning> {
+    let log = &sources.first()?.log;
+    let each: Vec<String> = changed
+        .iter()
+        .map(|(name, [held, here])| {
+            let unit = symbols::unit(name.dimension(), log.motion, &log.force_unit, "");
+            let [held_, here_] = [*held, *here].map(stiction_number::four_digits);
+            let apart = Percent::error(100.0 * (here / held - 1.0)).signed(0);
+            format!("{name} is {here_} {unit} here and {held_} {unit} there, {apart}")
+        })
+        .collect();
+    (!each.is_empty()).then(|| {
+        Warning::new(
+            Code::LogsDisagree,
+            format!(
+                "this motion has another friction than the static parameters: {}. None of them is a constant of the machine, nor what was found \
+                 with them held. Record the static map and the motion one after the other, as warm and as loaded as the axis works",
+                each.join("; ")
+            ),
+        )
+    })
 }
 
 /// What became of a measured acceleration, in words.
