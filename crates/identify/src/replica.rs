@@ -9,7 +9,7 @@
 use crate::conditioning::record::{Record, Samples, Segment};
 use crate::conditioning::shift::Shift;
 use crate::estimate::Estimate;
-use crate::law::dependence::Factor;
+use crate::law::dependence::{Factor, product};
 use crate::law::terms::{ColumnKind, Delay, LinearTerm, Terms};
 use crate::reaction::{Logging, Reaction};
 use std::borrow::Cow;
@@ -68,7 +68,9 @@ impl<'a> Axis<'a> {
         let beside = linear.iter().zip(fitted.coefficients());
         let others = segments
             .iter()
-            .map(|segment| other(segment, beside.clone()));
+            .zip(&plants)
+            .map(|(segment, plant)| other(segment, plant.law(), beside.clone()))
+            .collect::<Option<_>>()?;
         let answered = Reaction::of(record, logging).and_then(|reaction| {
             let felt = segments.iter().map(|s| reaction.felt(s, logging));
             Some((reaction, felt.collect::<Option<_>>()?))
@@ -80,7 +82,7 @@ impl<'a> Axis<'a> {
             fitted,
             logging,
             stroke: record.stroke(),
-            others: others.collect::<Option<_>>()?,
+            others,
             answered,
         })
     }
@@ -200,9 +202,16 @@ impl<'a> Axis<'a> {
             force,
             valid: segment.valid.clone(),
             at_rest: segment.at_rest.clone(),
+            load: logged(&segment.channels.load),
+            temperature: logged(&segment.channels.temperature),
             ..Samples::default()
         })
     }
+}
+
+/// A channel that the log has.
+fn logged(channel: &[f64]) -> Option<Vec<f64>> {
+    (!channel.is_empty()).then(|| channel.to_vec())
 }
 
 /// Samples by which the force is logged later than it was held. A drive logs the force of this sample or of one before, or
@@ -218,12 +227,23 @@ fn late(fitted: &Estimate, step: f64) -> f64 {
     near.into_iter().find(within).unwrap_or(late)
 }
 
-/// The force beside friction and inertia along a segment; `None` where a term cannot be simulated.
+/// The force beside the friction of the law and inertia along a segment; `None` where a term cannot be simulated. What load,
+/// temperature or place add to friction is taken along the recorded motion, which the simulated one follows.
 fn other<'t>(
     segment: &Segment,
-    terms: impl Iterator<Item = (&'t LinearTerm, &'t f64)>,
+    law: &LuGre<f64>,
+    terms: impl Iterator<Item = (&'t LinearTerm, &'t f64)> + Clone,
 ) -> Option<Vec<f64>> {
     let mut out = vec![0.0; segment.position.len()];
+    let changes = |column: ColumnKind| match column {
+        ColumnKind::LevelTimes(Factor::Log(_), _) => false,
+        ColumnKind::LevelTimes(..) => true,
+        _ => false,
+    };
+    let eta = match terms.clone().any(|(term, _)| changes(term.column)) {
+        true => level(segment, law),
+        false => Vec::new(),
+    };
     for (term, c) in terms {
         match term.column {
             ColumnKind::Level
@@ -244,15 +264,43 @@ fn other<'t>(
                     *y += c * libm::cos(k * x);
                 }
             }
+            ColumnKind::LevelTimes(factor, side) => {
+                let column = product(&eta, &factor.along(segment), side);
+                for (y, x) in out.iter_mut().zip(column) {
+                    *y += c * x;
+                }
+            }
+            ColumnKind::SpeedTimes(factor, side) => {
+                let along = factor.along(segment);
+                for ((y, f), &v) in out.iter_mut().zip(along).zip(&segment.velocity) {
+                    if side.is_none_or(|side| side.selects(v)) {
+                        *y += c * f * v;
+                    }
+                }
+            }
             ColumnKind::Element(_)
             | ColumnKind::Sign(_)
             | ColumnKind::Square(_)
-            | ColumnKind::LevelTimes(..)
-            | ColumnKind::RateTimes(_)
-            | ColumnKind::SpeedTimes(..) => return None,
+            | ColumnKind::RateTimes(_) => return None,
         }
     }
     Some(out)
+}
+
+/// Force of the bristles over the Coulomb level along a segment.
+fn level(segment: &Segment, law: &LuGre<f64>) -> Vec<f64> {
+    let scale = law.stiffness() / law.curve().positive().coulomb;
+    let mut z = 0.0;
+    let mut before = segment.velocity.first().copied().unwrap_or(0.0);
+    segment
+        .velocity
+        .iter()
+        .map(|&v| {
+            z = law.step_record(z, segment.step, before, v);
+            before = v;
+            scale * z
+        })
+        .collect()
 }
 
 /// Plant steps in a sample: the implicit midpoint has a relative error of a twelfth of `(h omega)^2` in

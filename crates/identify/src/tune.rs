@@ -117,6 +117,7 @@ pub fn tune(
         let Ok(record) = condition(logs, &trial) else {
             break;
         };
+        let terms = &terms.about(&record);
         let found = match &last {
             // The law is the same, so the fit of the round before is near.
             Some(start) => follow(start, &record, law, terms, settings, observer)?,

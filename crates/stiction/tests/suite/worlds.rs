@@ -112,7 +112,17 @@ fn a_level_that_follows_a_channel_is_named_after_it() {
         assert!(warning.message.contains(&format!("{term} = true")));
         let axis_file = Axis::parse(&format!("[terms]\n{term} = true\n")).unwrap();
         let taken = identified(&machine, &[log], &axis_file);
-        assert_eq!(named(taken.as_ref().unwrap()), [""; 0], "{axis}, {world:?}");
+        let taken = taken.unwrap();
+        assert_eq!(named(&taken), [""; 0], "{axis}, {world:?}");
+        // What encoder and filters shift is known with the term as well.
+        let mut parameters = taken.result().parameters.iter();
+        let mass = parameters.find(|p| p.name == "mass").unwrap();
+        let off = (mass.value - machine.mass) / mass.std.unwrap();
+        assert!(
+            off.abs() < 3.0,
+            "{axis}: the mass is {off:+.1} deviations off"
+        );
+        assert!(mass.bias.is_some(), "{axis}");
     }
 }
 

@@ -71,7 +71,6 @@ pub(super) fn choose(
     let law = Law::new(LawKind::LuGre);
     let plain = Terms {
         quadratic_viscous: false,
-        dependences: Vec::new(),
         ..terms.clone()
     };
     // What cannot be fitted at all is reported by the fit itself.
