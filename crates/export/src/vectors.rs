@@ -49,6 +49,7 @@ impl<T: Real> Vectors<T> {
                     measured_velocity: T::ZERO,
                     tracking_error: error,
                     enable,
+                    ..Input::default()
                 });
                 Row {
                     velocity,

@@ -4,7 +4,7 @@
 //! gain and the limit, never change; everything that changes is in [`State`].
 //!
 //! ```text
-//! velocity --dead zone--> law --level--> x gain, by its ramp --> saturation --slew limit--> force
+//! velocity --dead zone--> law --levels--> x gain, by its ramp --> saturation --slew limit--> force
 //! ```
 //!
 //! ```
@@ -32,7 +32,7 @@ mod settings;
 mod state;
 mod watchdog;
 
-pub use adaptation::Adaptation;
+pub use adaptation::{Adaptation, Learnt};
 pub use disturbance::{DisturbanceObserver, DisturbanceState};
 pub use friction::{Friction, Source};
 pub use input::Input;
@@ -167,11 +167,6 @@ impl<T: Real> Compensator<T> {
                     self.friction
                         .correct(correction, h, at, pull, self.settings.limit);
             }
-            if let Some(adaptation) = &self.settings.adaptation {
-                let error = input.tracking_error;
-                self.state.level =
-                    adaptation.step(self.state.level, h, error, self.state.law.force);
-            }
             if let Some(watchdog) = &self.settings.watchdog {
                 let through = (self.state.share, self.settings.gain, self.state.output);
                 watchdog.step(&mut self.state.watch, h, &input, through);
@@ -179,7 +174,19 @@ impl<T: Real> Compensator<T> {
         }
         let allowed = self.settings.watchdog.is_none() || self.state.watch.allows();
         let on = good && input.enable && allowed;
-        let wanted = self.state.level * self.state.law.force + self.state.corrected;
+        let mut force = self.state.law.force;
+        if let Some(adaptation) = &self.settings.adaptation {
+            let learnt = &mut self.state.learnt;
+            if good {
+                let limited = self.state.output.abs() >= self.settings.limit;
+                let frozen = limited || self.state.watch.tripped() || !input.learn;
+                adaptation.step(learnt, &self.friction, h, &input, force, frozen);
+            }
+            let offset = self.friction.offset();
+            let level = learnt.level(self.friction.side(&self.state.law));
+            force = level * (force - offset) + offset;
+        }
+        let wanted = self.state.level * force + self.state.corrected;
         self.settings.limit(&mut self.state, h, on, wanted)
     }
 }

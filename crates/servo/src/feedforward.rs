@@ -54,6 +54,9 @@ pub struct RunningFeedforward {
     modelled: f64,
     /// Which of them acted over the period before a sample.
     late: usize,
+    /// The last command, N (N m), and the largest force of the drive.
+    command: f64,
+    peak: f64,
 }
 
 impl Feedforward {
@@ -91,6 +94,8 @@ impl Feedforward {
             modelled: 0.0,
             // The drive was checked: its delay is at most 32 periods.
             late: libm::round(drive.delay / period) as usize,
+            command: 0.0,
+            peak: drive.peak_force(),
         })
     }
 }
@@ -120,6 +125,8 @@ impl RunningFeedforward {
                 measured_velocity: moment.rate,
                 tracking_error: moment.error,
                 enable: true,
+                drive_force: self.command,
+                learn: self.command.abs() < self.peak,
             });
         }
         if let Some(learned) = self.parts.learned.get(moment.index) {
@@ -136,6 +143,7 @@ impl RunningFeedforward {
     /// Records the force that was commanded.
     #[inline]
     pub(crate) fn applied(&mut self, command: f64) {
+        self.command = command;
         if self.parts.observer.is_some() {
             self.newest = (self.newest + 1) % KEPT_COMMANDS;
             self.commands[self.newest] = command - self.modelled;

@@ -261,6 +261,7 @@ pub fn real(what: &str, through: impl Fn(&Model, bool, &[Sample]) -> Vec<[f64; 2
                 measured_velocity: 0.0,
                 tracking_error: input.tracking_error as f32,
                 enable: input.enable,
+                ..Input::default()
             };
             let due = f64::from(compensator.step_in(h as f32, input));
             let off = (force - due).abs() / level(&friction);

@@ -16,7 +16,7 @@ const ALIASES: [(&str, &str); 7] = [
     ("peak_current", "peak_force"),
     ("current_lag", "current_loop"),
     ("resolution", "encoder"),
-    ("adaptation_rate", "rate"),
+    ("adaptation_memory", "memory"),
     ("adaptation_range", "range"),
     ("half_width", "width"),
     ("half_height", "height"),

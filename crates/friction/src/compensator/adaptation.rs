@@ -1,25 +1,104 @@
-//! Adaptation of the friction level while running.
+//! Levels of friction that are found while the axis runs.
 
+use super::friction::Friction;
+use super::input::Input;
 use crate::error::require;
 use crate::{ParamError, Real};
 
-/// A factor on the law's force that follows the tracking error: `level' = rate e F`, within `1 - range` to `1 + range`.
+/// Inertial force over that of friction at standstill below which the mass is held at its given value.
+const HELD_MASS: f64 = 0.02;
+/// Largest mass that is found, in given masses.
+const MOST_MASSES: f64 = 5.0;
+/// Weight of what was identified before anything is learnt, in memories.
+const INITIAL_WEIGHT: f64 = 0.1;
+
+/// A factor on the law's force for each direction of motion, found from the force of the drive.
 ///
-/// An axis that lags behind its reference in the direction of the compensating force is compensated too little, one that
-/// runs ahead too much: the sign of `e F` says which. A gradient rule; that one factor on the whole law is enough to follow
-/// a level that changes with load and temperature is the idea of Canudas de Wit, Lischinsky 1997 (Adaptive friction
-/// compensation with partially known dynamic friction model).
+/// While the axis slides the drive gives `u = offset + level F + M a`, with the law's force F less its offset, and the
+/// acceleration a of the reference. Levels and mass follow by recursive least squares with exponential forgetting (Astrom,
+/// Wittenmark 1995, Adaptive Control, chapter 2), in the form of sums, which cannot wind up: nothing is forgotten while nothing
+/// is learnt. The mass is found beside the levels so that a load does not pass for friction; the compensator does not feed it
+/// forward. A constant force that the law does not know raises one level and lowers the other, and is so compensated while
+/// the axis moves.
+///
+/// Nothing is learnt until the axis itself has moved on by more than its presliding after the reference has turned, at
+/// standstill, while the force is at its limit, while the watchdog has switched off, or where [`Input::learn`] is false. One
+/// sample moves the levels by no more than if the whole friction were missing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Adaptation<T> {
-    /// > 0, 1/(J s) (1/(N m rad s)).
-    pub rate: T,
-    /// How far from 1 the factor may go, > 0 and < 1.
+    /// Time constant of the forgetting, counted in time that is learnt from, > 0, s.
+    pub memory: T,
+    /// How far from 1 the levels may go, > 0 and < 1.
     pub range: T,
+    /// Moving mass, >= 0, kg (kg m^2): what the drive accelerates beside friction. 0: none, or unknown.
+    pub mass: T,
+}
+
+/// What an adaptation has learnt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Learnt<T> {
+    /// Factors on the law's force, less its offset, for motion forward and back.
+    pub levels: [T; 2],
+    /// Mass, kg (kg m^2).
+    pub mass: T,
+    /// For each direction the sums of F^2, F a, a^2, F u and a u over what is remembered, u without the offset.
+    sums: [[T; 5]; 2],
+    /// The sample before, once there is one.
+    before: Option<Before<T>>,
+    /// The reference moves forward.
+    forward: bool,
+    /// How far the axis has moved since the reference turned, m (rad).
+    moved: T,
+}
+
+/// A sample that the force of the drive at the next one was commanded for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Before<T> {
+    /// Reference velocity, and its change from the sample before, m/s and m/s^2 (rad/s, rad/s^2).
+    velocity: T,
+    change: T,
+    /// Tracking error, m (rad).
+    error: T,
+    /// The law's force without the offset, N (N m).
+    dry: T,
+}
+
+impl<T: Real> Default for Adaptation<T> {
+    /// A memory of 0.25 s, levels from 0.5 to 1.5, no mass.
+    fn default() -> Self {
+        Adaptation {
+            memory: T::from_f64(0.25),
+            range: T::from_f64(0.5),
+            mass: T::ZERO,
+        }
+    }
+}
+
+impl<T: Real> Learnt<T> {
+    pub(super) fn nothing() -> Self {
+        Learnt {
+            levels: [T::ONE; 2],
+            mass: T::ZERO,
+            sums: [[T::ZERO; 5]; 2],
+            before: None,
+            forward: true,
+            moved: T::ZERO,
+        }
+    }
+
+    /// The factor between the two directions: `side` is 1 where friction opposes motion forward, -1 for motion back.
+    #[inline]
+    pub(super) fn level(&self, side: T) -> T {
+        let half = T::from_f64(0.5);
+        let [forward, back] = self.levels;
+        half * (forward + back) + half * (forward - back) * side
+    }
 }
 
 impl<T: Real> Adaptation<T> {
     pub(super) fn validate(&self) -> Result<(), ParamError> {
-        ParamError::positive("adaptation_rate", self.rate)?;
+        ParamError::positive("adaptation_memory", self.memory)?;
+        ParamError::not_negative("adaptation_mass", self.mass)?;
         require(
             self.range > T::ZERO && self.range < T::ONE,
             "adaptation_range",
@@ -28,11 +107,103 @@ impl<T: Real> Adaptation<T> {
         )
     }
 
-    #[inline]
-    pub(super) fn step(&self, level: T, h: T, error: T, force: T) -> T {
-        let next = level + h * self.rate * error * force;
-        // A product that overflows to NaN changes nothing.
-        let next = if next.is_finite() { next } else { level };
-        next.max(T::ONE - self.range).min(T::ONE + self.range)
+    /// What is known at the start: the levels as they were identified.
+    fn begin(&self, friction: &Friction<T>) -> [[T; 5]; 2] {
+        let size = friction.scale();
+        let weight = T::from_f64(INITIAL_WEIGHT) * self.memory * size * size;
+        [[weight, T::ZERO, T::ZERO, weight, T::ZERO]; 2]
+    }
+
+    /// Takes a sample: the law's own `force` at the reference velocity, over `h` seconds. `frozen` learns nothing.
+    pub(super) fn step(
+        &self,
+        learnt: &mut Learnt<T>,
+        friction: &Friction<T>,
+        h: T,
+        input: &Input<T>,
+        force: T,
+        frozen: bool,
+    ) {
+        let v = input.reference_velocity;
+        let error = input.tracking_error;
+        if h <= T::ZERO {
+            return;
+        }
+        if h <= T::ZERO {
+            return;
+        }
+        let velocity = learnt.before.map_or(v, |before| before.velocity);
+        let now = Before {
+            velocity: v,
+            change: (v - velocity) / h,
+            error,
+            dry: force - friction.offset(),
+        };
+        let Some(before) = learnt.before.replace(now) else {
+            learnt.sums = self.begin(friction);
+            learnt.mass = self.mass;
+            return;
+        };
+        let forward = v > T::ZERO;
+        if v == T::ZERO || forward != learnt.forward {
+            learnt.forward = forward;
+            learnt.moved = T::ZERO;
+            return;
+        }
+        learnt.moved = learnt.moved + h * v - (error - before.error);
+        let along = if forward { learnt.moved } else { -learnt.moved };
+        let dry = before.dry;
+        let pushes = if forward { dry } else { -dry };
+        let slides = along > friction.sliding() && pushes > T::ZERO;
+        if frozen || !slides {
+            return;
+        }
+        let side = usize::from(!forward);
+        let a = match self.mass > T::ZERO {
+            true => T::from_f64(0.5) * (before.change + now.change),
+            false => T::ZERO,
+        };
+        let known = learnt.levels[side] * dry + learnt.mass * a;
+        let most = dry.abs();
+        let left = (input.drive_force - friction.offset() - known)
+            .max(-most)
+            .min(most);
+        let u = known + left;
+        let fade = T::ONE - (h / self.memory).min(T::ONE);
+        let terms = [dry * dry, dry * a, a * a, dry * u, a * u];
+        let mut sums = learnt.sums[side];
+        for (sum, term) in sums.iter_mut().zip(terms) {
+            *sum = *sum * fade + h * term;
+        }
+        // A sample that overflows changes nothing.
+        if !sums.iter().all(|sum| sum.abs() <= T::MAX) || sums[0] <= T::ZERO {
+            return;
+        }
+        learnt.sums[side] = sums;
+        self.solve(learnt, friction);
+    }
+
+    /// Levels and mass of least squares.
+    fn solve(&self, learnt: &mut Learnt<T>, friction: &Friction<T>) {
+        if self.mass > T::ZERO {
+            let least = T::from_f64(HELD_MASS) * friction.scale() / self.mass;
+            let held = least * least * self.memory;
+            let (mut square, mut product) = (held, held * self.mass);
+            for [ff, fa, aa, fu, au] in learnt.sums {
+                square = square + (aa - fa * (fa / ff));
+                product = product + (au - fa * (fu / ff));
+            }
+            let mass = product / square;
+            if mass.abs() <= T::MAX {
+                let most = T::from_f64(MOST_MASSES) * self.mass;
+                learnt.mass = mass.max(T::ZERO).min(most);
+            }
+        }
+        for (level, [ff, fa, _, fu, _]) in learnt.levels.iter_mut().zip(learnt.sums) {
+            let next = (fu - fa * learnt.mass) / ff;
+            if next.abs() <= T::MAX {
+                *level = next.max(T::ONE - self.range).min(T::ONE + self.range);
+            }
+        }
     }
 }

@@ -9,6 +9,10 @@ use crate::{CoulombViscous, LuGre, ParamError, Real, State, Stribeck};
 const SLOWEST: f64 = 1e-5;
 /// Dead zone of a Stribeck curve, in Stribeck velocities: the level is that at standstill to 1e-4 there.
 const STANDSTILL: f64 = 0.01;
+/// Largest deflections of the bristles that an axis moves before it slides.
+const SLIDING_LENGTHS: f64 = 4.0;
+/// The same for a law without bristles: the way at its Stribeck velocity in this time, s.
+const SLIDING_TIME: f64 = 1e-2;
 
 /// The law whose force is fed forward.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,26 +73,73 @@ impl<T: Real> Source<T> {
 impl<T: Real> Friction<T> {
     pub(super) fn rest(&self) -> State<T> {
         match self {
-            Friction::Coulomb(law) => State {
-                z: T::ZERO,
-                force: law.offset(),
-            },
-            Friction::Stribeck(curve) => State {
-                z: T::ZERO,
-                force: curve.offset(),
-            },
             Friction::LuGre(law) => law.rest(),
+            Friction::Coulomb(_) | Friction::Stribeck(_) => State {
+                z: T::ZERO,
+                force: self.offset(),
+            },
+        }
+    }
+
+    /// Constant force beside friction, N (N m).
+    pub(super) fn offset(&self) -> T {
+        match self {
+            Friction::Coulomb(law) => law.offset(),
+            Friction::Stribeck(curve) => curve.offset(),
+            Friction::LuGre(law) => law.curve().offset(),
+        }
+    }
+
+    /// Largest level at standstill, N (N m).
+    pub(super) fn scale(&self) -> T {
+        match self {
+            Friction::Coulomb(law) => law.coulomb()[0].max(law.coulomb()[1]),
+            Friction::Stribeck(curve) => curve.largest_static_level(),
+            Friction::LuGre(law) => law.curve().largest_static_level(),
+        }
+    }
+
+    /// Way after a reversal from which on the axis slides, m (rad).
+    pub(super) fn sliding(&self) -> T {
+        match self {
+            Friction::Coulomb(_) => T::from_f64(SLIDING_TIME * SLOWEST),
+            Friction::Stribeck(curve) => {
+                let (pos, neg) = (curve.positive(), curve.negative());
+                T::from_f64(SLIDING_TIME) * pos.stribeck_velocity.max(neg.stribeck_velocity)
+            }
+            Friction::LuGre(law) => T::from_f64(SLIDING_LENGTHS) * law.bound(),
+        }
+    }
+
+    /// Which direction of motion friction opposes: 1 forward, -1 back, and between them while bristles turn round.
+    pub(super) fn side(&self, state: &State<T>) -> T {
+        match self {
+            Friction::LuGre(law) => {
+                let curve = law.curve();
+                let slides = match state.z > T::ZERO {
+                    true => curve.positive().coulomb,
+                    false => curve.negative().coulomb,
+                };
+                (law.stiffness() * (state.z / slides))
+                    .max(-T::ONE)
+                    .min(T::ONE)
+            }
+            Friction::Coulomb(_) | Friction::Stribeck(_) => {
+                let dry = state.force - self.offset();
+                if dry > T::ZERO {
+                    T::ONE
+                } else if dry < T::ZERO {
+                    -T::ONE
+                } else {
+                    T::ZERO
+                }
+            }
         }
     }
 
     /// Twice the largest force at standstill, N (N m).
     pub(super) fn usual_limit(&self) -> T {
-        let (level, offset) = match self {
-            Friction::Coulomb(law) => (law.coulomb()[0].max(law.coulomb()[1]), law.offset()),
-            Friction::Stribeck(curve) => (curve.largest_static_level(), curve.offset()),
-            Friction::LuGre(law) => (law.curve().largest_static_level(), law.curve().offset()),
-        };
-        T::from_f64(2.0) * (level + offset.abs())
+        T::from_f64(2.0) * (self.scale() + self.offset().abs())
     }
 
     /// Speeds at which a law without bristles is told from standstill, m/s (rad/s).

@@ -14,6 +14,13 @@ pub struct Input<T> {
     pub tracking_error: T,
     /// Whether to compensate.
     pub enable: bool,
+    /// Force that the drive was given in the cycle before, the compensator's part included, N (N m): its last command, or the
+    /// force that it measured. Only an
+    /// [`Adaptation`](super::Adaptation) looks at it.
+    pub drive_force: T,
+    /// Whether an adaptation may learn: not while the drive is at its limits, or while something else than friction and
+    /// inertia pushes.
+    pub learn: bool,
 }
 
 impl<T: Real> Input<T> {
@@ -21,5 +28,6 @@ impl<T: Real> Input<T> {
         self.reference_velocity.is_finite()
             && self.measured_velocity.is_finite()
             && self.tracking_error.is_finite()
+            && self.drive_force.is_finite()
     }
 }

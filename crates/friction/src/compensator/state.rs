@@ -1,5 +1,6 @@
 //! What a compensator keeps from step to step.
 
+use super::adaptation::Learnt;
 use super::friction::Friction;
 use super::watchdog::Watch;
 use crate::Real;
@@ -15,8 +16,10 @@ pub struct State<T> {
     pub corrected: T,
     /// Share of the friction force that is passed on: 0 when off, at most the gain.
     pub share: T,
-    /// Factor on the law's force, 1 unless adapted or set.
+    /// Factor on the law's force, 1 unless set from outside.
     pub level: T,
+    /// What an adaptation has learnt.
+    pub learnt: Learnt<T>,
     /// The watchdog.
     pub watch: Watch<T>,
     /// The force last returned, N (N m).
@@ -31,6 +34,7 @@ impl<T: Real> State<T> {
             corrected: T::ZERO,
             share: T::ZERO,
             level: T::ONE,
+            learnt: Learnt::nothing(),
             watch: Watch::default(),
             output: T::ZERO,
         }

@@ -16,6 +16,7 @@ fn moving(velocity: f64) -> Input<f64> {
         measured_velocity: velocity,
         tracking_error: 0.0,
         enable: true,
+        ..Input::default()
     }
 }
 
@@ -38,7 +39,7 @@ fn any_settings() -> impl Strategy<Value = Settings<f64>> {
         (1e-5..1e-2, 0.0..=1.0, 0.0..1e-3, 1e-3..1e3),
         prop_oneof![Just(f64::MAX), 1.0..1e6],
         prop_oneof![Just(0.0), 0.0..1.0],
-        prop::option::of((1e-3..1e6, 0.01..0.9)),
+        prop::option::of((1e-3..1e3, 0.01..0.9, prop_oneof![Just(0.0), 1e-3..1e3])),
         prop::option::of((1e-3..1.0, 0.1..10.0)),
     )
         .prop_map(
@@ -49,7 +50,11 @@ fn any_settings() -> impl Strategy<Value = Settings<f64>> {
                 limit,
                 slew,
                 ramp,
-                adaptation: adaptation.map(|(rate, range)| Adaptation { rate, range }),
+                adaptation: adaptation.map(|(memory, range, mass)| Adaptation {
+                    memory,
+                    range,
+                    mass,
+                }),
                 watchdog: watchdog.map(|(window, ratio)| Watchdog { window, ratio }),
             },
         )
@@ -65,13 +70,13 @@ proptest! {
         source in any_source(),
         settings in any_settings(),
         samples in prop::collection::vec(
-            (any::<f64>(), any::<f64>(), any::<f64>(), any::<f64>(), any::<bool>(), any::<bool>()), 1..60),
+            (any::<f64>(), any::<f64>(), any::<f64>(), any::<f64>(), any::<f64>(), any::<bool>(), any::<bool>()), 1..60),
     ) {
         let mut compensator = Compensator::new(Friction::LuGre(law), source, settings).unwrap();
         let mut last = 0.0;
-        for (h, v, w, e, enable, usual) in samples {
+        for (h, v, w, e, u, enable, usual) in samples {
             let (h, v, w, e) = if usual { (settings.cycle_time, v % 1.0, w % 1.0, e % 1e-3) } else { (h, v, w, e) };
-            let input = Input { reference_velocity: v, measured_velocity: w, tracking_error: e, enable };
+            let input = Input { reference_velocity: v, measured_velocity: w, tracking_error: e, enable, drive_force: u, learn: true };
             let force = compensator.step_in(h, input);
             prop_assert!(force.is_finite() && force.abs() <= settings.limit);
             let most = if h.is_finite() && h >= 0.0 { h * settings.slew } else { 0.0 };
@@ -267,36 +272,6 @@ fn the_observer_corrects_by_its_gain() {
         });
     }
     assert_eq!(limited.state().correction, 0.3 / law.stiffness());
-}
-
-/// The level follows the sign of error times force, and stays within its range.
-#[test]
-fn the_level_follows_what_is_missing() {
-    let settings = Settings {
-        adaptation: Some(Adaptation {
-            rate: 1e5,
-            range: 0.3,
-        }),
-        ..Settings::bare(H, 50.0)
-    };
-    let law = Friction::Coulomb(CoulombViscous::symmetric(10.0, 0.0, 0.0).unwrap());
-    for (velocity, error, level) in [(0.1, 1e-5, 1.3), (-0.1, 1e-5, 0.7), (-0.1, -1e-5, 1.3)] {
-        let mut compensator = Compensator::new(law, Source::Reference, settings).unwrap();
-        let input = Input {
-            tracking_error: error,
-            ..moving(velocity)
-        };
-        // 1e5 * 1e-5 * 10 = 10 1/s: 0.3 take 120 samples.
-        for k in 1..=119 {
-            compensator.step(input);
-            let expected = 1.0 + (level - 1.0) / 0.3 * 10.0 * f64::from(k) * H;
-            assert!((compensator.state().level - expected).abs() < 1e-12);
-        }
-        for _ in 0..10 {
-            compensator.step(input);
-        }
-        assert_eq!(compensator.state().level, level);
-    }
 }
 
 /// A reference that turns round every 200 samples.
@@ -651,8 +626,8 @@ fn what_cannot_run_is_named() {
         "ramp"
     );
     let adaptation = Some(Adaptation {
-        rate: 1.0,
         range: 1.0,
+        ..Adaptation::default()
     });
     assert_eq!(name(Settings { adaptation, ..good }), "adaptation_range");
     let watchdog = Some(Watchdog {

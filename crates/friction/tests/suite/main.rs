@@ -1,5 +1,6 @@
 //! The integration tests of `stiction-friction` in one program, which is linked once: a new file is a module here.
 
+mod adaptation;
 mod bound;
 mod c95;
 mod common;

@@ -108,6 +108,7 @@ impl Case {
                 measured_velocity: v,
                 tracking_error: seen,
                 enable: true,
+                ..Input::default()
             });
             let watch = &compensator.state().watch;
             if watch.learned() {

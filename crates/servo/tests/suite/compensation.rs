@@ -1,7 +1,7 @@
 //! Compensators in the loop: what each takes off the error at reversals, on the linear motor stage of the bench set.
 
 use stiction_friction::compensator::{
-    Adaptation, Compensator, DisturbanceObserver, Friction, Settings, Source,
+    Compensator, DisturbanceObserver, Friction, Settings, Source,
 };
 use stiction_friction::{CoulombViscous, Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_servo::axis::{AxisSettings, Sample};
@@ -234,45 +234,6 @@ fn every_method_takes_its_share() {
     );
     assert!(coulomb > 55.0 && stribeck > 55.0 && observed > 80.0);
     assert!(measured > 95.0 && blend > 97.0 && corrected > 95.0 && both > 97.0);
-}
-
-/// A level that is wrong by a quarter is found while running, and the error falls with it.
-#[test]
-fn adaptation_finds_the_level() {
-    let weak = known::corners(&law(), 0.0).next().unwrap();
-    let side = stiction_friction::Direction {
-        coulomb: 9.0,
-        static_friction: 13.5,
-        ..*weak.curve().positive()
-    };
-    let curve = stiction_friction::Stribeck::symmetric(weak.curve().shape(), side, 0.0).unwrap();
-    // Stiffness with it, so that the whole law is a quarter too weak.
-    let weak = LuGre::new(1.5e6, weak.damping(), curve).unwrap();
-    let run_with = |adaptation| {
-        let compensator = Compensator::new(
-            Friction::LuGre(weak),
-            Source::Reference,
-            Settings {
-                adaptation,
-                ..Settings::bare(250e-6, LIMIT)
-            },
-        );
-        let feedforward = Feedforward::compensator(compensator.unwrap(), 1.64);
-        let axis = AxisSettings {
-            feedforward,
-            ..settings(4000.0, 60.0)
-        };
-        let sine = Sine::new(5e-3, 0.5, 20.0).unwrap();
-        let all = run(&axis, &sine).unwrap();
-        Tracking::of(&all[all.len() * 9 / 10..]).reversal_peak
-    };
-    let fixed = run_with(None);
-    let adapted = run_with(Some(Adaptation {
-        rate: 1e4,
-        range: 0.5,
-    }));
-    println!("{fixed:.2e} m, adapted {adapted:.2e} m");
-    assert!(adapted < 0.3 * fixed, "{adapted} {fixed}");
 }
 
 /// Ten passes of learning without any model.

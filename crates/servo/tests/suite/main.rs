@@ -1,5 +1,6 @@
 //! The integration tests of `stiction-servo` in one program, which is linked once: a new file is a module here.
 
+mod adaptation;
 mod any_law;
 mod c95;
 mod closed_loop;

@@ -802,7 +802,7 @@ fn what_is_refused() {
         ),
         (
             "gain     = 1.0",
-            "adaptation = { rate = 50.0, range = 1.0 }",
+            "adaptation = { memory = \"1 s\", range = 1.0 }",
         ),
         ("name     = \"whole\"", "name = \"wh\\u001b[31mole\""),
         (

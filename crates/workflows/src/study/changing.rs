@@ -116,7 +116,10 @@ impl<'a> Changing<'a> {
             } else if self.adapts
                 && let Some(compensator) = axis.feedforward().compensator()
             {
-                course.found_level.push(compensator.state().level);
+                let learnt = &compensator.state().learnt;
+                let [forward, back] = learnt.levels;
+                course.found_level.push(0.5 * (forward + back));
+                course.found_mass.push(learnt.mass);
             }
         }
         course.learning_time = estimator.map(|(estimator, _)| estimator.learning_time());

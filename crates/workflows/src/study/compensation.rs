@@ -2,7 +2,7 @@
 
 use stiction_files::study::{Belief, Machine, ModelKind, ModelScheme, Scheme};
 use stiction_friction::compensator::{
-    Compensator, DisturbanceObserver, Friction, Settings, Source, Watch,
+    Adaptation, Compensator, DisturbanceObserver, Friction, Settings, Source, Watch,
 };
 use stiction_friction::{CoulombViscous, Direction, LuGre, ParamError, Stribeck};
 use stiction_servo::controller::Controller;
@@ -33,7 +33,7 @@ pub(super) fn feedforward(
         Scheme::Observer(bandwidth) => Ok(Feedforward::observer(observer(*bandwidth)?)),
         Scheme::Model(model) => Ok(Feedforward {
             observer: model.observer.map(observer).transpose()?,
-            ..from_law(model, machine, limit, &belief.law, watch)?
+            ..from_law(model, machine, limit, belief, watch)?
         }),
     }
 }
@@ -43,9 +43,10 @@ fn from_law(
     model: &ModelScheme,
     machine: &Machine,
     limit: f64,
-    law: &LuGre<f64>,
+    belief: Belief,
     watch: &Watch<f64>,
 ) -> Result<Feedforward, ParamError> {
+    let law = &belief.law;
     let curve = law.curve();
     let sides = [curve.positive(), curve.negative()];
     let friction = match model.kind {
@@ -72,7 +73,10 @@ fn from_law(
         limit,
         slew: model.slew.unwrap_or(usual.slew),
         ramp: model.ramp,
-        adaptation: model.adaptation,
+        adaptation: model.adaptation.map(|adaptation| Adaptation {
+            mass: belief.mass,
+            ..adaptation
+        }),
         watchdog: model.watchdog,
         ..usual
     };

@@ -96,6 +96,7 @@ pub fn through_rust<T: Real>(
                 measured_velocity: T::ZERO,
                 tracking_error: to(input.tracking_error),
                 enable: input.enable,
+                ..Input::default()
             };
             compensator.step_in(to(*h), input).to_f64()
         })

@@ -153,6 +153,7 @@ pub fn adversarial(samples: usize, wild: bool, random: &mut impl Rng) -> Vec<(f6
                 measured_velocity: 0.0,
                 tracking_error,
                 enable,
+                ..Input::default()
             };
             out.push((h, input));
         }
@@ -196,6 +197,7 @@ pub fn guarded(
             measured_velocity: 0.0,
             tracking_error,
             enable: true,
+            ..Input::default()
         };
         compensator.step(input);
         out.push((h, input));

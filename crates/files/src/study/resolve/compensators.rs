@@ -142,20 +142,31 @@ fn load_estimate(table: &Table<'_>) -> Result<bool, Error> {
     Ok(asked)
 }
 
+/// The mass is that of the axis as it is believed, which only a run knows.
 fn adaptation(table: &Table<'_>) -> Result<Option<Adaptation<f64>>, Error> {
-    let Some(table) = table.table("adaptation")? else {
+    let usual = Adaptation::default();
+    let Some(given) = table.get("adaptation") else {
         return Ok(None);
     };
-    let rate = table.number("rate", 0.0, 1e12)?;
+    let Some(table) = given.as_table() else {
+        let Ok(asked) = given.flag() else {
+            return Err(given
+                .refused("true, false, or a table such as { memory = \"0.25 s\", range = 0.5 }"));
+        };
+        return Ok(asked.then_some(usual));
+    };
     let adaptation = Adaptation {
-        rate: table.required("rate", rate, "a number in 1/(J s)")?,
-        range: table.number("range", 0.0, 1.0)?.unwrap_or(0.5),
+        memory: table
+            .positive("memory", Dimension::TIME)?
+            .unwrap_or(usual.memory),
+        range: table.number("range", 0.0, 1.0)?.unwrap_or(usual.range),
+        ..usual
     };
     table.end()?;
-    let usual = Settings {
+    let settings = Settings {
         adaptation: Some(adaptation),
         ..Settings::new(1.0, 1.0)
     };
-    usual.validate().map_err(|e| table.together(&e))?;
+    settings.validate().map_err(|e| table.together(&e))?;
     Ok(Some(adaptation))
 }

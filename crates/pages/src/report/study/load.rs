@@ -57,7 +57,7 @@ pub(super) fn blocks(outcome: &StudyOutcome, rows: &[ResultRow]) -> Option<(Figu
     };
     let figure = figure.shared_x().caption(
         "The whole run, with the parameters of the axis itself at its beginning. A load estimate learns while the axis \
-         accelerates, an adaptation while the tracking error pulls one way.",
+         accelerates, an adaptation while it slides.",
     );
     Some((figure, table(axis, &looked)))
 }
