@@ -141,12 +141,14 @@ impl<T: Real> Compensator<T> {
     ///
     /// The force is finite and within the limit for any input. A sample with an input that is not finite leaves the
     /// law's state unchanged and counts as not enabled: the force ramps down while such samples last and ramps up
-    /// again afterwards. For an `h` that is negative or not finite the previous force is returned.
+    /// again afterwards. For an `h` that is negative or not finite the previous force is returned, within the limit.
     #[inline]
     pub fn step_in(&mut self, h: T, input: Input<T>) -> T {
         if h >= T::ZERO && h <= T::MAX {
             self.advance(h, input)
         } else {
+            let limit = self.settings.limit;
+            self.state.output = self.state.output.max(-limit).min(limit);
             self.state.output
         }
     }

@@ -486,7 +486,10 @@ int main(void)
     }
     const double before = x_axis_step(&params, &state, &input);
     params.limit = 2.5;
-    (void)printf("%.2f %.2f", before, x_axis_step(&params, &state, &input));
+    const double lowered = x_axis_step(&params, &state, &input);
+    params.limit = 1.5;
+    /* a time that is none */
+    (void)printf("%.2f %.2f %.2f", before, lowered, x_axis_step_in(&params, &state, -1.0, &input));
     return 0;
 }
 "#;
@@ -496,5 +499,5 @@ int main(void)
         &["main.c", "x_axis_friction.c", "-lm"],
         dir.path(),
     );
-    assert_eq!(run("./a.out", &[], dir.path()), "11.25 2.50");
+    assert_eq!(run("./a.out", &[], dir.path()), "11.25 2.50 1.50");
 }

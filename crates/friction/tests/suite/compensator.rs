@@ -506,7 +506,8 @@ fn a_new_gain_comes_by_its_ramp() {
     }
 }
 
-/// A limit that is lowered holds from the next step on, whatever the slew limit; one out of range changes nothing.
+/// A limit that is lowered holds from the next step on, whatever the slew limit and the time of the step; one out of range changes
+/// nothing.
 #[test]
 fn a_lowered_limit_acts_at_once() {
     let settings = Settings {
@@ -522,6 +523,10 @@ fn a_lowered_limit_acts_at_once() {
     assert_eq!(compensator.step(moving(0.1)), 2.5);
     assert_eq!(compensator.set_limit(0.0).unwrap_err().name, "limit");
     assert_eq!(compensator.settings().limit, 2.5);
+    compensator.set_limit(1.5).unwrap();
+    for no_time in [f64::NAN, -1.0, f64::INFINITY] {
+        assert_eq!(compensator.step_in(no_time, moving(0.1)), 1.5);
+    }
 }
 
 /// A set speed that is nothing but rounding gets no force from a law without bristles, and no jump of the reference more

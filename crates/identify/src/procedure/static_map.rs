@@ -31,6 +31,8 @@ pub(crate) const LEAST_VELOCITY_SHARE: f64 = 0.2;
 pub(super) const LEAST_RISE: f64 = 1e-9;
 /// Weight of a point in the robust loss, 0 to 1, below which it lies off the curve.
 const OUTLYING_WEIGHT: f64 = 0.1;
+/// Slow points below the curve from which on friction has not settled: one may be any fault.
+const FEWEST_UNSETTLED: usize = 2;
 /// How far, in standard deviations, the loss must rise towards either end of the range of vs for vs to
 /// count as bounded: somewhere on a whole grid noise alone reaches two or three.
 const BOUNDED_RISE: f64 = 3.5;
@@ -292,6 +294,30 @@ fn scattered(found: &Disagreement, parameters: &mut [Parameter]) {
     }
 }
 
+/// Leaves the rise towards low speeds open where two points or more that are slower than the Stribeck velocity are off the
+/// curve and below it: an axis that has not moved on by some presliding lengths does not have its friction yet, and points that
+/// are less far off for the same reason still bend the curve.
+fn unsettled<'a>(outlying: impl Iterator<Item = &'a Placed<'a>>, parameters: &mut [Parameter]) {
+    let velocities = parameters
+        .iter()
+        .filter(|p| p.name == Quantity::StribeckVelocity);
+    let slow = velocities.fold(0.0, |most: f64, p| most.max(p.value));
+    let below = |p: &&Placed| p.point.velocity.abs() < slow && p.residual * p.friction < 0.0;
+    if outlying.filter(below).count() < FEWEST_UNSETTLED {
+        return;
+    }
+    let rise = [Quantity::Static, Quantity::StribeckVelocity];
+    for p in parameters
+        .iter_mut()
+        .filter(|p| rise.contains(&p.name.quantity) && p.identified && p.identifiable)
+    {
+        p.identifiable = false;
+        p.reason =
+            "the slowest points lie far below the curve: friction had not settled there".into();
+        p.advice = "Record longer strokes at the lowest speeds, so that the axis moves many times its presliding length".into();
+    }
+}
+
 fn standardised<'a>(residual: &'a [f64], block: &'a Block) -> impl Iterator<Item = f64> + 'a {
     residual.iter().zip(&block.deviation).map(|(r, s)| r / s)
 }
@@ -387,6 +413,9 @@ impl Fitted<'_> {
         if let Some(found) = &disagreement {
             scattered(found, &mut parameters);
         }
+        let outlying = placed.iter().zip(&weights);
+        let outlying = outlying.filter_map(|(p, weight)| (*weight < OUTLYING_WEIGHT).then_some(p));
+        unsettled(outlying, &mut parameters);
         StaticMap {
             disagreement,
             settings: *self.settings,

@@ -75,9 +75,13 @@ fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String 
         }
         Cause::Drift => format!(
             "friction changes during the log: {left} is a level that goes from {} of its mean. {counted}; the values are \
-                 means over the log. Record the axis warmed up, or its temperature beside the rest and set \
-                 coulomb_temperature = true under [terms] in the axis file",
-            levels()
+                 means over the log. Record the axis warmed up{}",
+            levels(),
+            match has(law, &Dependence::CoulombTemperature(0.0)) {
+                true => ": the temperature that is logged does not explain it",
+                false =>
+                    ", or its temperature beside the rest and set coulomb_temperature = true under [terms] in the axis file",
+            }
         ),
         Cause::Position => format!(
             "friction changes along the stroke: {left} is a level that goes from {} of its mean. {counted}. Set \
@@ -126,10 +130,15 @@ fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String 
     }
 }
 
+/// Whether a fit has a term like this one.
+fn has(law: &FittedLaw, term: &Dependence) -> bool {
+    let mut dependences = law.terms.dependences.iter();
+    dependences.any(|own| own.name() == term.name())
+}
+
 /// The first of some terms that the fit has not, as a line of the axis file.
 fn untaken(law: &FittedLaw, terms: &[Dependence]) -> String {
-    let taken: Vec<&str> = law.terms.dependences.iter().map(Dependence::name).collect();
-    let open = terms.iter().find(|term| !taken.contains(&term.name()));
+    let open = terms.iter().find(|term| !has(law, term));
     open.map_or(
         "No straight line over it describes that: record within the range that the axis works in"
             .into(),
