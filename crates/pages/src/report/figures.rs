@@ -196,11 +196,11 @@ pub(super) fn low_speed(outcome: &Outcome) -> Option<Figure> {
 pub(super) fn presliding(outcome: &Outcome) -> Option<Figure> {
     let series = &outcome.law().series;
     let length = symbols::length_unit(outcome.motion);
-    let window = reversal(outcome, series);
+    let (turn, window) = reversal(outcome, series);
     if window.len() < FEWEST_SAMPLES_DRAWN || !outcome.law().law.kind.has_bristle() {
         return None;
     }
-    let origin = series.position.get(window.start).copied().unwrap_or(0.0);
+    let origin = series.position.get(turn).copied().unwrap_or(0.0);
     let x: Vec<f64> = series.position[window.clone()]
         .iter()
         .map(|x| x - origin)
@@ -221,8 +221,8 @@ pub(super) fn presliding(outcome: &Outcome) -> Option<Figure> {
     Some(figure.panel(panel).half())
 }
 
-/// Samples around the slowest reversal: from it until the bristle has surely turned over.
-fn reversal(outcome: &Outcome, series: &Series) -> std::ops::Range<usize> {
+/// The slowest reversal, and the samples around it: until the bristle has surely turned over.
+fn reversal(outcome: &Outcome, series: &Series) -> (usize, std::ops::Range<usize>) {
     let n = series.velocity.len();
     let turns = (1..n).filter(|&i| series.velocity[i - 1] * series.velocity[i] < 0.0);
     let values = outcome.law().values();
@@ -246,12 +246,12 @@ fn reversal(outcome: &Outcome, series: &Series) -> std::ops::Range<usize> {
         {
             start -= 1;
         }
-        start..end + 1
+        (turn, start..end + 1)
     };
     turns
         .map(reach)
-        .max_by_key(std::ops::Range::len)
-        .unwrap_or(0..0)
+        .max_by_key(|(_, window)| window.len())
+        .unwrap_or((0, 0..0))
 }
 
 /// Measured, model and residual in time.

@@ -130,9 +130,9 @@ impl<I: Iterator<Item = Place>> Columns<I> {
                 self.put(Some(column.last));
             }
         } else {
-            let middle = column.index + 0.5;
-            self.put(Some((middle, early.1.1)));
-            self.put(Some((middle, late.1.1)));
+            // Where they are: in the middle of the column a steep line would become a staircase.
+            self.put(Some(early.1));
+            self.put(Some(late.1));
         }
         if column.broken {
             self.put(None);
