@@ -235,12 +235,8 @@ fn other<'t>(
     terms: impl Iterator<Item = (&'t LinearTerm, &'t f64)> + Clone,
 ) -> Option<Vec<f64>> {
     let mut out = vec![0.0; segment.position.len()];
-    let changes = |column: ColumnKind| match column {
-        ColumnKind::LevelTimes(Factor::Log(_), _) => false,
-        ColumnKind::LevelTimes(..) => true,
-        _ => false,
-    };
-    let eta = match terms.clone().any(|(term, _)| changes(term.column)) {
+    let changes = |term: &LinearTerm| matches!(term.column, ColumnKind::LevelTimes(factor, _) if !matches!(factor, Factor::Log(_)));
+    let eta = match terms.clone().any(|(term, _)| changes(term)) {
         true => level(segment, law),
         false => Vec::new(),
     };

@@ -129,9 +129,6 @@ impl<T: Real> Adaptation<T> {
         if h <= T::ZERO {
             return;
         }
-        if h <= T::ZERO {
-            return;
-        }
         let velocity = learnt.before.map_or(v, |before| before.velocity);
         let now = Before {
             velocity: v,

@@ -35,17 +35,23 @@ pub(super) fn carried(problem: &mut Problem, p: &[f64], slopes: &[Vec<f64>]) -> 
     &of * known * of.transpose()
 }
 
-/// `K` and `G`.
-fn answer(problem: &mut Problem, p: &[f64], slopes: &[Vec<f64>]) -> (DMatrix<f64>, DMatrix<f64>) {
-    let n = p.len();
-    let known = covariance(problem);
+/// Factors that make the slopes of length 1, and `J^T J` of the slopes so scaled.
+pub(super) fn scaled(slopes: &[Vec<f64>]) -> (Vec<f64>, DMatrix<f64>) {
     let scale: Vec<f64> = slopes
         .iter()
         .map(|s| 1.0 / dot(s, s).sqrt().max(f64::MIN_POSITIVE))
         .collect();
-    let gram = DMatrix::from_fn(n, n, |i, j| {
+    let gram = DMatrix::from_fn(slopes.len(), slopes.len(), |i, j| {
         dot(&slopes[i], &slopes[j]) * scale[i] * scale[j]
     });
+    (scale, gram)
+}
+
+/// `K` and `G`.
+fn answer(problem: &mut Problem, p: &[f64], slopes: &[Vec<f64>]) -> (DMatrix<f64>, DMatrix<f64>) {
+    let n = p.len();
+    let known = covariance(problem);
+    let (scale, gram) = scaled(slopes);
     let mut answer = DMatrix::zeros(n, known.nrows());
     let Some(factor) = gram.cholesky() else {
         return (answer, known);

@@ -5,7 +5,7 @@
 //! count, and sigma1 and the mass follow.
 
 use super::step_fit::Problem;
-use crate::separable::linear::dot;
+use super::step_given::scaled;
 use nalgebra::{DMatrix, DVector};
 
 /// Variance of a rounding that is equally likely everywhere in a count, as a share of the count's square.
@@ -19,13 +19,7 @@ const UNIFORM: f64 = 1.0 / 12.0;
 /// samples at one side of its last count.
 pub(super) fn rounding(problem: &Problem, residual: &[f64], slopes: &[Vec<f64>]) -> DMatrix<f64> {
     let n = slopes.len();
-    let scale: Vec<f64> = slopes
-        .iter()
-        .map(|s| 1.0 / dot(s, s).sqrt().max(f64::MIN_POSITIVE))
-        .collect();
-    let gram = DMatrix::from_fn(n, n, |i, j| {
-        dot(&slopes[i], &slopes[j]) * scale[i] * scale[j]
-    });
+    let (scale, gram) = scaled(slopes);
     let mut scores = DMatrix::zeros(n, n);
     let mut start = 0;
     for response in &problem.responses {

@@ -210,11 +210,11 @@ fn disagree(changed: &[Changed], sources: &[Source]) -> Option<Warning> {
     let log = &sources.first()?.log;
     let each: Vec<String> = changed
         .iter()
-        .map(|(name, [held, here])| {
+        .map(|(name, values)| {
             let unit = symbols::unit(name.dimension(), log.motion, &log.force_unit, "");
-            let [held_, here_] = [*held, *here].map(stiction_number::four_digits);
-            let apart = Percent::error(100.0 * (here / held - 1.0)).signed(0);
-            format!("{name} is {here_} {unit} here and {held_} {unit} there, {apart}")
+            let [held, here] = values.map(stiction_number::four_digits);
+            let apart = Percent::error(100.0 * (values[1] / values[0] - 1.0)).signed(0);
+            format!("{name} is {here} {unit} here and {held} {unit} there, {apart}")
         })
         .collect();
     (!each.is_empty()).then(|| {
