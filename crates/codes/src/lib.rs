@@ -52,6 +52,7 @@ codes! {
     Jitter = "jitter": "samples are not equally spaced",
     MissingCells = "missing-cells": "cells are empty or not numbers",
     ZeroFilled = "zero-filled": "missing samples were written as 0",
+    SensorDropout = "sensor-dropout": "a temperature or a load holds numbers that no sensor measured",
     ShortColumn = "short-column": "a column ends before the others",
     UnitAssumed = "unit-assumed": "a unit is given nowhere and was assumed",
     UnitOverride = "unit-override": "the axis file gives another unit than the recording",

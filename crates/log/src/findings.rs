@@ -14,7 +14,8 @@
 //! | `time-wrap` | a backward step of a full 16-, 31- or 32-bit counter | unwrapped; any other backward step is refused |
 //! | `jitter` | rms of the step above 1 % (note) or 5 % (warning) of its median, gaps apart | time stamps used as recorded |
 //! | `missing-cells` | cells that are not a number, or above 1e30 | up to 5 in a row interpolated linearly and excluded; longer runs dropped; refused above half |
-//! | `zero-filled` | position or force 0 in many samples whose neighbours are far from it | as missing cells |
+//! | `sensor-dropout` | a temperature at or below 0 K, or a temperature or load that steps off its course and back | as missing cells; left out where most of it is |
+//! | `zero-filled` | position, force or load 0 in many samples whose neighbours are far from it | as missing cells |
 //! | `short-column` | a column ends before the others | all cut to the shortest; refused if that costs over 1 % |
 //! | `saturation` | force constant at its extreme for 5 samples or more and not a staircase; or at a given limit | samples excluded |
 //! | `coarse-force` | force in steps of more than a fiftieth of its range | kept |

@@ -10,12 +10,13 @@
 //! 4. the record is cropped, in seconds from its first sample; faults outside the crop do not matter;
 //! 5. rows without a time stamp, and all but the first of equal time stamps, are dropped, each
 //!    refused above 5 % (stamps coarser than the sampling: give the rate instead);
-//! 6. units, scale and sign are applied; zeros that stand for missing samples of position and force
-//!    become missing cells; a position that wraps is unwrapped;
+//! 6. units, scale and sign are applied; zeros that stand for missing samples of position, force and load
+//!    become missing cells, and so do temperatures below 0 K and dropouts of temperature and load; a position that wraps
+//!    is unwrapped;
 //! 7. missing cells of position, velocity and force: up to 5 in a row are interpolated
 //!    linearly in time and excluded; longer runs are dropped with their rows and leave a gap. In
 //!    reference, temperature and load every missing cell is interpolated or held: they vary slowly; so it is in an
-//!    acceleration, which no fit has to rely on;
+//!    acceleration, which no fit has to rely on. A temperature or load without a number for most of the time is left out;
 //! 8. a rate, travel, speed or force that no axis has is refused: its unit is wrong;
 //! 9. the log is inspected (see [`Finding`]).
 //!
@@ -24,6 +25,7 @@
 mod cells;
 mod clock;
 mod credible;
+mod dropout;
 mod filled;
 mod held;
 mod unwrap;
@@ -31,6 +33,7 @@ mod unwrap;
 use crate::findings::{self, Finding, Severity};
 use crate::mapping::{Mapping, Motion, Role, Source, Understood};
 use crate::{Error, Kind, Table};
+use cells::LeftOut;
 use std::ops::Range;
 use stiction_codes::Code;
 
@@ -128,8 +131,9 @@ impl Log {
         let length = common_length(table, &sources, &mut findings)?;
         let clock = clock::read(table, &sources, &mapping, length, &mut findings)?;
         let mut columns = cells::Columns::read(table, &sources, &clock);
-        let mut time = clock.time;
         filled::clear(&mut columns, &mut findings)?;
+        let mut left_out = dropout::clear(&mut columns, table, &sources, &clock, &mut findings);
+        let mut time = clock.time;
         if let Some(wrap) = mapping.wrap {
             let unit = mapping
                 .motion
@@ -153,6 +157,7 @@ impl Log {
         }
         let mended = columns.mend(&mut time)?;
         findings.extend(mended.findings);
+        left_out.extend(mended.left_out);
         if time.len() < MIN_SAMPLES {
             let found = format!("{} left", findings::count(time.len(), "sample"));
             let allowed = format!("at least {MIN_SAMPLES}, and some thousand to identify friction");
@@ -187,7 +192,7 @@ impl Log {
             rests: Vec::new(),
             findings,
             detected,
-            columns: completed.columns,
+            columns: without(completed.columns, &left_out),
             mapping,
         };
         credible::check(&log, table, &sources)?;
@@ -331,6 +336,17 @@ impl Log {
     pub(crate) fn exclude(&mut self, samples: Range<usize>, code: Code) {
         self.excluded.push(Excluded { samples, code });
     }
+}
+
+/// What became of every column, where some channels are no use.
+fn without(mut columns: Vec<Understood>, left_out: &[LeftOut]) -> Vec<Understood> {
+    for LeftOut { role, why } in left_out {
+        for column in columns.iter_mut().filter(|c| c.role == Some(*role)) {
+            column.reason = format!("left out: {why}");
+            column.assumed = None;
+        }
+    }
+    columns
 }
 
 /// Rate of the median step, to nine digits: time stamps are decimal, their differences are not.

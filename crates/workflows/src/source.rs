@@ -165,8 +165,22 @@ impl Source {
         let mut terms = terms.dependences.iter();
         let (name, channel) =
             terms.find_map(|term| Some((term.name(), term.channel().filter(lacks)?)))?;
-        let found = format!("no {channel} column, and [terms] {name} needs one");
-        let allowed = format!("name it in the axis file: [columns] {channel} = \"...\"");
+        // A column that was found and is not in the log is no use, and says why.
+        let mut columns = self.log.columns.iter();
+        let useless = columns.find(|c| c.role.is_some_and(|role| role.name() == channel));
+        let (found, allowed) = match useless {
+            Some(column) => (
+                format!(
+                    "[terms] {name} needs the {channel}, and column {} is {}",
+                    column.column, column.reason
+                ),
+                format!("record it whole, or take {name} out of [terms]"),
+            ),
+            None => (
+                format!("no {channel} column, and [terms] {name} needs one"),
+                format!("name it in the axis file: [columns] {channel} = \"...\""),
+            ),
+        };
         let error = stiction_log::Error::new(stiction_log::Kind::Missing, found, allowed);
         Some((name, error.in_file(&self.path)))
     }

@@ -9,6 +9,7 @@ use crate::mapping::{LARGEST_VALUE, Role, Source};
 use crate::{Error, Kind, Table};
 use std::ops::Range;
 use stiction_codes::Code;
+use stiction_number::Percent;
 
 /// Largest share of missing cells in a column; with more the column is sampled at another rate, or empty.
 pub(super) const MAX_MISSING_SHARE: f64 = 0.5;
@@ -28,10 +29,22 @@ struct Beyond {
     number: String,
 }
 
+/// Stretch without a number that is not filled in as if it were nothing, in a channel that changes slowly, as a part of the
+/// time that the record lasts; and the part of that time in such stretches from which the channel is no use.
+const LONG_HOLE: f64 = 0.125;
+const MAX_HOLES: f64 = 0.5;
+
+/// A channel that is no use, and why.
+pub(super) struct LeftOut {
+    pub role: Role,
+    pub why: String,
+}
+
 /// What was done about missing cells.
 pub(super) struct Mended {
     pub bridged: Vec<Excluded>,
     pub findings: Vec<Finding>,
+    pub left_out: Vec<LeftOut>,
 }
 
 impl Columns {
@@ -84,7 +97,7 @@ impl Columns {
     /// Bridges short runs of missing cells and drops the rows of long ones, with their times.
     pub fn mend(&mut self, time: &mut Vec<f64>) -> Result<Mended, Error> {
         let rows = time.len();
-        let mut findings = Vec::new();
+        let (mut findings, mut left_out) = (Vec::new(), Vec::new());
         let mut drop = vec![false; rows];
         let mut bridged = vec![false; rows];
         for (role, values) in &mut self.columns {
@@ -107,8 +120,25 @@ impl Columns {
             }
             if cells == rows {
                 values.clear();
-                let message = format!("{role} holds no numbers and is left out");
+                let why = format!("{role} holds no numbers");
+                let message = format!("{why} and is left out");
                 findings.push(Finding::new(Code::MissingCells, Severity::Warning, message));
+                left_out.push(LeftOut { role: *role, why });
+                continue;
+            }
+            let slow = matches!(role, Role::Temperature | Role::Load);
+            let holes = if slow { holes(time, &runs) } else { 0.0 };
+            if holes >= MAX_HOLES {
+                values.clear();
+                let why = format!(
+                    "{role}: {cells} of {} missing, in stretches that last {} of the record; less than half of it may be without \
+                     a number for longer than an eighth",
+                    count(rows, "cell"),
+                    Percent::error(100.0 * holes).digits(2)
+                );
+                let message = format!("{why}; it is left out");
+                findings.push(Finding::new(Code::MissingCells, Severity::Warning, message));
+                left_out.push(LeftOut { role: *role, why });
                 continue;
             }
             let (mut short, mut long) = (0, 0);
@@ -127,6 +157,11 @@ impl Columns {
             }
             let done = match (short, long) {
                 (_, 0) if core => "interpolated and excluded".to_string(),
+                (_, 0) if holes > 0.0 => format!(
+                    "bridged by straight lines in time, held at the ends, though {} of the record is without a number for longer \
+                     than an eighth of it",
+                    Percent::error(100.0 * holes).digits(2)
+                ),
                 (_, 0) => "bridged".to_string(),
                 (0, _) => "dropped with their rows".to_string(),
                 (short, long) => {
@@ -140,8 +175,8 @@ impl Columns {
                 first.start + 1,
                 beyond.map_or(String::new(), Beyond::among)
             );
-            let grave =
-                core && (long > 0 || cells as f64 > MISSING_SHARE_FOR_WARNING * rows as f64);
+            let grave = holes > 0.0
+                || core && (long > 0 || cells as f64 > MISSING_SHARE_FOR_WARNING * rows as f64);
             let severity = if grave {
                 Severity::Warning
             } else {
@@ -160,8 +195,19 @@ impl Columns {
         Ok(Mended {
             bridged: runs(&bridged, |b| *b).into_iter().map(excluded).collect(),
             findings,
+            left_out,
         })
     }
+}
+
+/// The part of the time that a record lasts in which a channel has no number for long, 0 to 1.
+fn holes(time: &[f64], missing: &[Range<usize>]) -> f64 {
+    let last = time.len() - 1;
+    let whole = time[last] - time[0];
+    let lasts = |run: &Range<usize>| time[run.end.min(last)] - time[run.start.saturating_sub(1)];
+    let long = missing.iter().map(lasts).filter(|s| *s > LONG_HOLE * whole);
+    // Divided once, so that a hole that is the whole record is one.
+    long.sum::<f64>() / whole
 }
 
 impl Beyond {

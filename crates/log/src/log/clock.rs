@@ -29,6 +29,22 @@ pub(super) struct Clock {
     pub dropped: Vec<usize>,
 }
 
+impl Clock {
+    /// The row of the table that a kept row is, both counted from 0.
+    pub fn row(&self, kept: usize) -> usize {
+        let before = |row: usize| self.dropped.iter().filter(move |d| **d <= row).count();
+        let mut row = self.range.start + kept;
+        // Each row that is dropped before it moves it on by one.
+        loop {
+            let moved = self.range.start + kept + before(row);
+            if moved == row {
+                return row;
+            }
+            row = moved;
+        }
+    }
+}
+
 pub(super) fn read(
     table: &Table,
     sources: &[(Role, Source)],

@@ -28,7 +28,7 @@ const MIN_OUTLYING_SHARE: f64 = 0.2;
 
 /// Turns zeros that an export filled in back into missing cells.
 pub(super) fn clear(columns: &mut Columns, findings: &mut Vec<Finding>) -> Result<(), Error> {
-    for role in [Role::Position, Role::Force] {
+    for role in [Role::Position, Role::Force, Role::Load] {
         let Some(values) = columns.get_mut(role) else {
             continue;
         };
@@ -53,7 +53,8 @@ pub(super) fn clear(columns: &mut Columns, findings: &mut Vec<Finding>) -> Resul
             Percent::error(100.0 * cells as f64 / rows as f64).short(),
             first + 1
         );
-        if cells as f64 > MAX_MISSING_SHARE * rows as f64 {
+        // A load that is no use is no reason to refuse the motion.
+        if role != Role::Load && cells as f64 > MAX_MISSING_SHARE * rows as f64 {
             let allowed = "at most half may be missing; export the column at the rate of the \
                            others, and missing samples as empty cells";
             return Err(Error::new(Kind::Value, found, allowed).in_column(role.name()));

@@ -13,6 +13,7 @@ mod binary;
 mod mapping_codes;
 mod mapping_common;
 mod mapping_detect;
+mod mapping_dropouts;
 mod mapping_faults;
 mod mapping_filled;
 mod mapping_log;

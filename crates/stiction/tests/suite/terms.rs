@@ -190,6 +190,103 @@ fn a_missing_column_is_named() {
     assert!(error.to_string().contains("terms.coulomb_pitch"), "{error}");
 }
 
+/// A log with other temperatures in some of its rows.
+fn with_temperatures(
+    bench: &Bench,
+    name: &str,
+    file: &Path,
+    other: impl Fn(usize) -> Option<&'static str>,
+) -> PathBuf {
+    let text = std::fs::read_to_string(file).unwrap();
+    let mut out = String::new();
+    for (i, line) in text.lines().enumerate() {
+        match i.checked_sub(1).and_then(&other) {
+            Some(cell) => {
+                let kept = line.rsplit_once(',').unwrap().0;
+                let _ = writeln!(out, "{kept},{cell}");
+            }
+            None => {
+                let _ = writeln!(out, "{line}");
+            }
+        }
+    }
+    bench.write(name, &out)
+}
+
+/// Dropouts of the sensor are named, with their place, and do not move the coefficient.
+#[test]
+fn dropouts_of_a_temperature_are_bridged() {
+    let bench = Bench::new();
+    let whole = log(&bench, "log.csv", false);
+    let coefficient = |file: &Path| {
+        let outcome = run(&with_axis(&bench, file, TERMS, LawKind::CoulombViscous));
+        let parameters = &outcome.result.parameters;
+        let p = parameters
+            .iter()
+            .find(|p| p.name == "coulomb_temperature")
+            .unwrap()
+            .clone();
+        (p.value, outcome.result.warnings)
+    };
+    let (clean, _) = coefficient(&whole);
+    let faulty = with_temperatures(&bench, "faulty.csv", &whole, |i| match i {
+        1000 => Some("-273.15"),
+        2000..2030 => Some("850"),
+        _ if i % 500 == 7 => Some("0.0"),
+        _ if i % 3 == 1 => Some(""),
+        _ => None,
+    });
+    let (found, warnings) = coefficient(&faulty);
+    assert!(
+        (found - clean).abs() < 0.002,
+        "{found}, of the whole log {clean}"
+    );
+    let said: Vec<_> = warnings
+        .iter()
+        .filter(|w| w.code.as_str() == "sensor-dropout")
+        .collect();
+    assert_eq!(said.len(), 2, "{warnings:?}");
+    for part in [
+        "faulty.csv",
+        "data row 1001",
+        "Temperature [degC]",
+        "-273.15 degC",
+        "above 0 K",
+    ] {
+        assert!(said[0].message.contains(part), "{}", said[0].message);
+    }
+}
+
+/// A column that is mostly empty is refused where the law asks for it, with the reason, and is no cause elsewhere.
+#[test]
+fn a_column_that_is_mostly_empty_is_not_used() {
+    let bench = Bench::new();
+    let whole = log(&bench, "log.csv", false);
+    let half = with_temperatures(&bench, "half.csv", &whole, |i| (i >= 3500).then_some(""));
+    let axis = "[terms]\ncoulomb_temperature = true\n";
+    let asked = with_axis(&bench, &half, axis, LawKind::CoulombViscous);
+    let error = asked.identify(&mut Silent).unwrap_err();
+    assert_eq!(error.code().as_str(), "log-missing");
+    let message = error.to_string();
+    for part in [
+        "half.csv",
+        "coulomb_temperature",
+        "left out: temperature: 4500 of 8000 cells missing",
+    ] {
+        assert!(message.contains(part), "{message}");
+    }
+    let axis = "[terms]\ncoulomb_load = true\n";
+    let outcome = run(&with_axis(&bench, &half, axis, LawKind::CoulombViscous));
+    let codes: Vec<_> = outcome
+        .result
+        .warnings
+        .iter()
+        .map(|w| w.code.as_str())
+        .collect();
+    assert!(codes.contains(&"missing-cells"), "{codes:?}");
+    assert!(!codes.contains(&"temperature-dependence"), "{codes:?}");
+}
+
 /// A load that does not change cannot tell its coefficient: flagged, and the rest stands.
 #[test]
 fn a_constant_load_is_flagged() {

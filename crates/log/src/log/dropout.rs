@@ -1,0 +1,250 @@
+//! Cells of a temperature or a load that no sensor measured.
+//!
+//! A temperature is above 0 K. Beside that, a sensor that drops out leaves the course of its channel in one row and comes
+//! back to it in another: 0, -999 or the end of a range, for a row or for longer. Such a step is told from those that the
+//! channel makes by itself.
+//!
+//! A temperature cannot make such steps, however long it stays; a load can. So of a load only what comes back after
+//! few rows, on one value where it is more than [`MAX_BRIDGED_SAMPLES`], is a dropout, and only where there is little of it.
+//!
+//! These cells become missing ones, which a slow channel has filled in.
+
+use super::cells::{Columns, LeftOut};
+use super::clock::Clock;
+use crate::Table;
+use crate::findings::{Finding, MAX_BRIDGED_SAMPLES, Severity, count, median, short};
+use crate::mapping::{Role, Source};
+use std::ops::Range;
+use stiction_codes::Code;
+
+/// Least step into a dropout, in the lower quartile of the steps of the channel: as many may be those of dropouts ...
+const USUAL_STEPS: f64 = 40.0;
+/// ... and for a temperature, K: no part of a machine changes by that from row to row ...
+const LEAST_KELVINS: f64 = 5.0;
+/// ... for a load, as a part of the median of its size.
+const LEAST_OF_LOAD: f64 = 0.1;
+/// Steps are taken over so many rows, and the least quartile counts: with a dropout at every second row none is over one.
+const OVER_ROWS: std::ops::RangeInclusive<usize> = 1..=4;
+/// How far from where it left the course the channel comes back to, in least steps.
+const BACK_WITHIN: f64 = 2.0;
+/// A pause, after which a channel may be anywhere: in median times between two of its numbers, and s.
+const PAUSE_IN_STEPS: f64 = 10.0;
+const PAUSE: f64 = 1.0;
+/// Longest dropout of a load, as a part of the rows, and the most of them in all: more is how it is loaded.
+const LONGEST_OF_LOAD: f64 = 0.01;
+const MOST_OF_LOAD: f64 = 0.05;
+/// Part of a temperature that must be on its course: of two equal parts neither is known to be right.
+const LEAST_ON_COURSE: f64 = 0.5;
+
+/// Turns what no sensor measured into missing cells; says what, and which channels are no use.
+pub(super) fn clear(
+    columns: &mut Columns,
+    table: &Table,
+    sources: &[(Role, Source)],
+    clock: &Clock,
+    findings: &mut Vec<Finding>,
+) -> Vec<LeftOut> {
+    let mut left_out = Vec::new();
+    for (role, source) in sources {
+        if ![Role::Temperature, Role::Load].contains(role) {
+            continue;
+        }
+        let Some(values) = columns.get_mut(*role) else {
+            continue;
+        };
+        // What stands in the file, with its place.
+        let cell = |kept: usize| {
+            let row = clock.row(kept);
+            let number = table.columns[source.column].values[row];
+            (row + 1, format!("{} {}", short(number), source.unit))
+        };
+        let of = format!("of column {}", source.place(table));
+        if *role == Role::Temperature {
+            let found = runs_below_zero(values);
+            if let Some(first) = found.first().map(|run| run.start) {
+                let (row, number) = cell(first);
+                let message = format!(
+                    "{role} is at or below 0 K in {} of {}, first in data row {row} {of}: {number}; a temperature is above 0 K \
+                     (-273.15 degC). These cells are taken as missing",
+                    rows(&found),
+                    count(values.len(), "row")
+                );
+                let finding = Finding::new(Code::SensorDropout, Severity::Warning, message);
+                findings.push(finding.at(first));
+                empty(values, &found);
+            }
+        }
+        let least = least_step(values, *role);
+        let found = strays(values, &clock.time, least, *role);
+        let Some(first) = found.first().map(|run| run.start) else {
+            continue;
+        };
+        let (row, number) = cell(first);
+        let whole = (0..values.len()).filter(|i| !values[*i].is_nan()).count();
+        let said = format!(
+            "{role} leaves its course {} for {}, first in data row {row} {of}: {number}",
+            count(found.len(), "time"),
+            count(rows(&found), "row")
+        );
+        if rows(&found) as f64 >= LEAST_ON_COURSE * whole as f64 {
+            values.clear();
+            let why = format!(
+                "{said}; from row to row it may change by {} {}, and at least half of it must be on one course",
+                short(least),
+                source.dimension.si_text()
+            );
+            findings.push(Finding::new(
+                Code::SensorDropout,
+                Severity::Warning,
+                format!("{why}; it is left out"),
+            ));
+            left_out.push(LeftOut { role: *role, why });
+            continue;
+        }
+        let message = format!(
+            "{said}: the sensor dropped out; from row to row it may change by {} {}. These cells are taken \
+             as missing",
+            short(least),
+            source.dimension.si_text()
+        );
+        findings.push(Finding::new(Code::SensorDropout, Severity::Warning, message).at(first));
+        empty(values, &found);
+    }
+    left_out
+}
+
+fn rows(runs: &[Range<usize>]) -> usize {
+    runs.iter().map(Range::len).sum()
+}
+
+fn empty(values: &mut [f64], runs: &[Range<usize>]) {
+    for run in runs {
+        values[run.clone()].fill(f64::NAN);
+    }
+}
+
+fn runs_below_zero(values: &[f64]) -> Vec<Range<usize>> {
+    super::cells::runs(values, |x| *x <= 0.0)
+}
+
+/// The step from which on a channel leaves its course.
+fn least_step(values: &[f64], role: Role) -> f64 {
+    let numbers: Vec<f64> = values.iter().copied().filter(|x| !x.is_nan()).collect();
+    let quartile = |over: usize| {
+        let mut steps: Vec<f64> = numbers
+            .windows(over + 1)
+            .map(|w| (w[over] - w[0]).abs())
+            .collect();
+        let quarter = steps.len() / 4;
+        (quarter > 0).then(|| *steps.select_nth_unstable_by(quarter, f64::total_cmp).1)
+    };
+    let usual = OVER_ROWS.filter_map(quartile).min_by(f64::total_cmp);
+    let least = match role {
+        Role::Temperature => LEAST_KELVINS,
+        _ => {
+            let mut sizes: Vec<f64> = numbers.iter().map(|x| x.abs()).collect();
+            LEAST_OF_LOAD * median(&mut sizes).unwrap_or(0.0)
+        }
+    };
+    least.max(USUAL_STEPS * usual.unwrap_or(0.0))
+}
+
+/// A stretch of the numbers of a channel without a step out of its course: their places among the numbers.
+struct Piece {
+    numbers: Range<usize>,
+    /// Whether a pause lies before it.
+    resumes: bool,
+}
+
+/// Runs of rows off the course of a channel.
+fn strays(values: &[f64], time: &[f64], least: f64, role: Role) -> Vec<Range<usize>> {
+    let at: Vec<usize> = (0..values.len()).filter(|i| !values[*i].is_nan()).collect();
+    let pieces = pieces(values, time, &at, least);
+    let mut numbers: Vec<f64> = at.iter().map(|i| values[*i]).collect();
+    let Some(middle) = median(&mut numbers).filter(|_| pieces.len() > 1) else {
+        return Vec::new();
+    };
+    let value = |number: usize| values[at[number]];
+    let off = |p: &Piece| (value(p.numbers.start) - middle).abs();
+    // The longest is on course; of equally long ones that which is nearest to what the channel mostly is.
+    let longest = (0..pieces.len()).max_by(|&a, &b| {
+        let by_length = pieces[a].numbers.len().cmp(&pieces[b].numbers.len());
+        by_length.then(off(&pieces[b]).total_cmp(&off(&pieces[a])))
+    });
+    let Some(longest) = longest else {
+        return Vec::new();
+    };
+    let mut on_course = vec![true; pieces.len()];
+    let back = BACK_WITHIN * least;
+    let (mut level, mut on) = (value(pieces[longest].numbers.end - 1), true);
+    for i in longest + 1..pieces.len() {
+        let piece = &pieces[i];
+        on = piece.resumes || (!on && (value(piece.numbers.start) - level).abs() <= back);
+        on_course[i] = on;
+        if on {
+            level = value(piece.numbers.end - 1);
+        }
+    }
+    (level, on) = (value(pieces[longest].numbers.start), true);
+    for i in (0..longest).rev() {
+        let piece = &pieces[i];
+        let paused = pieces[i + 1].resumes;
+        on = paused || (!on && (value(piece.numbers.end - 1) - level).abs() <= back);
+        on_course[i] = on;
+        if on {
+            level = value(piece.numbers.start);
+        }
+    }
+    // Rows without a number between two that are off are off, too.
+    let mut found: Vec<Range<usize>> = Vec::new();
+    let mut at_an_end = false;
+    for (i, piece) in pieces.iter().enumerate().filter(|(i, _)| !on_course[*i]) {
+        let run = at[piece.numbers.start]..at[piece.numbers.end - 1] + 1;
+        at_an_end |= i == 0 || i + 1 == pieces.len();
+        match found.last_mut().filter(|_| i > 0 && !on_course[i - 1]) {
+            Some(last) => last.end = run.end,
+            None => found.push(run),
+        }
+    }
+    if role == Role::Temperature {
+        return found;
+    }
+    let longest = (LONGEST_OF_LOAD * values.len() as f64).max(MAX_BRIDGED_SAMPLES as f64);
+    let brief = |run: &Range<usize>| {
+        let first = values[run.start];
+        run.len() <= MAX_BRIDGED_SAMPLES
+            || run.len() as f64 <= longest && values[run.clone()].iter().all(|x| *x == first)
+    };
+    let few = rows(&found) as f64 <= MOST_OF_LOAD * values.len() as f64;
+    match few && !at_an_end && found.iter().all(brief) {
+        true => found,
+        false => Vec::new(),
+    }
+}
+
+/// The numbers of a channel, cut where it steps out of or into its course and at pauses.
+fn pieces(values: &[f64], time: &[f64], at: &[usize], least: f64) -> Vec<Piece> {
+    let spacings = at.windows(2).map(|w| time[w[1]] - time[w[0]]);
+    let usual = median(&mut spacings.collect::<Vec<_>>()).unwrap_or(0.0);
+    let pause = PAUSE.max(PAUSE_IN_STEPS * usual);
+    let mut out = Vec::new();
+    let (mut start, mut resumes) = (0, false);
+    for i in 1..=at.len() {
+        let (steps, paused) = match at.get(i) {
+            None => (true, false),
+            Some(&row) => {
+                let before = at[i - 1];
+                let step = (values[row] - values[before]).abs();
+                (step > least, time[row] - time[before] > pause)
+            }
+        };
+        if steps || paused {
+            out.push(Piece {
+                numbers: start..i,
+                resumes,
+            });
+            (start, resumes) = (i, paused);
+        }
+    }
+    out
+}
