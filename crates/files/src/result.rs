@@ -14,7 +14,7 @@ pub use procedure::{
 pub use searched::{Evaluations, SearchedEntry, SearchedParameter, SearchedPoint};
 use serde::{Deserialize, Serialize};
 use stiction_codes::Code;
-pub use trust::{Compensation, Next, Trust};
+pub use trust::{CauseEntry, Compensation, Cure, Next, Trust};
 
 /// Name of the schema.
 pub const SCHEMA: &str = "stiction.result/1";

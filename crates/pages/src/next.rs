@@ -32,6 +32,44 @@ pub fn why(next: Next) -> &'static str {
     }
 }
 
+/// What takes the cause of what the law leaves into the fit, where a line of the axis file does: what to write, and the
+/// command.
+pub(crate) fn cured(result: &ResultFile, dir: &Path) -> Option<(String, String)> {
+    let cause = result.trust.cause.as_ref()?;
+    let cure = cause.cure.as_ref()?;
+    let dir: &Path = &dir.components().collect::<PathBuf>();
+    let (file, place) = match &result.axis.file {
+        Some(file) => (quoted(file), format!("in {file}, under [{}]", cure.table)),
+        None => {
+            let file = axis_file(&result.inputs.first()?.path);
+            let place = format!("in a new file {file}, under a line [{}]", cure.table);
+            (file, place)
+        }
+    };
+    let write = format!(
+        "{}; take that into the fit: {place}, write\n    {}",
+        cause.text, cure.line
+    );
+    let logs: Vec<String> = result.inputs.iter().map(|i| quoted(&i.path)).collect();
+    let key = cure.line.split(' ').next().unwrap_or_default();
+    let command = format!(
+        "stiction identify {} --axis {file}{} --out {}",
+        logs.join(" "),
+        law(result),
+        quoted(&format!("{}-{key}", dir.display()))
+    );
+    Some((write, command))
+}
+
+/// The law as it was asked for; nothing where the data chose it.
+fn law(result: &ResultFile) -> String {
+    match (result.law_chosen_by.as_str(), result.asymmetric) {
+        ("user", true) => format!(" --law {} --asymmetric", result.law),
+        ("user", false) => format!(" --law {}", result.law),
+        _ => String::new(),
+    }
+}
+
 /// The command that leads on from the result in a folder.
 pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
     // Without a slash or a dot at its end, to which a suffix would be added.
@@ -83,11 +121,7 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
             )
         }
         Next::Again | Next::Finish => {
-            let law = match (result.law_chosen_by.as_str(), result.asymmetric) {
-                ("user", true) => format!(" --law {} --asymmetric", result.law),
-                ("user", false) => format!(" --law {}", result.law),
-                _ => String::new(),
-            };
+            let law = law(result);
             let method = match result.method.as_str() {
                 "separable" => String::new(),
                 other => format!(" --method {other}"),

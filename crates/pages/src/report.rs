@@ -18,7 +18,7 @@ use crate::glossary::explained;
 use crate::inputs;
 use crate::names::{chosen_by, law_of, without_offset};
 use crate::next;
-use crate::trust::{compensation, constants};
+use crate::trust::{compensation, constants, why_not};
 use std::path::Path;
 use stiction_files::compare_file::CompareFile;
 use stiction_files::result::{Input, Next, ResultFile};
@@ -219,14 +219,17 @@ fn verdicts(outcome: &Outcome) -> [Callout; 2] {
     let (use_it, text) = match trust.trustworthy {
         true => (
             Severity::Good,
-            format!("May be used to compensate friction on motion like that of the logs.{seen}"),
+            format!(
+                "May be used to compensate friction on motion like that of the logs{}.{seen}",
+                trust.cause.as_ref().map_or(String::new(), |cause| format!(
+                    ", though {}",
+                    crate::trust::cause(cause)
+                ))
+            ),
         ),
         false => (
             Severity::Error,
-            format!(
-                "Do not compensate with this law: {}.{seen}",
-                trust.reasons.join("; ")
-            ),
+            format!("Do not compensate with this law: {}.{seen}", why_not(trust)),
         ),
     };
     let known = match (trust.constants.is_empty(), trust.open.is_empty()) {
@@ -262,8 +265,21 @@ fn next_step(result: &ResultFile) -> Text {
         Next::Export => ("In the folder of this report", ""),
         _ => ("In the folder it was identified in", "result"),
     };
-    Text::from(format!("Next: {}. {place}: ", next::why(next)))
-        .code(next::command(result, Path::new(dir)))
+    let as_it_is = format!("{}. {place}: ", next::why(next));
+    let command_as_it_is = next::command(result, Path::new(dir));
+    let Some((write, command)) = next::cured(result, Path::new("result")) else {
+        return Text::from(format!("Next: {as_it_is}")).code(command_as_it_is);
+    };
+    let cured = Text::from(format!(
+        "Next: {write}. In the folder it was identified in: "
+    ))
+    .code(command);
+    match result.trust.trustworthy {
+        true => cured
+            .plain(format!(" Or without it: {as_it_is}"))
+            .code(command_as_it_is),
+        false => cured,
+    }
 }
 
 fn key_figures(outcome: &Outcome) -> Vec<KeyFigure> {

@@ -14,7 +14,7 @@ use crate::inputs;
 use crate::names::{chosen_by, force_noise, law_beside, law_of, simulated_runs, without_offset};
 use crate::next;
 pub use crate::next::{axis_file, why};
-use crate::trust::{compensation, constants};
+use crate::trust::{cause, compensation, constants, why_not};
 pub use check::{check, started};
 pub use comparison::comparison;
 pub use export::exported;
@@ -162,9 +162,10 @@ pub fn outcome(outcome: &Outcome) -> String {
 fn verdicts(result: &ResultFile) -> String {
     let trust = &result.trust;
     let mut out = String::new();
-    let use_it = match trust.trustworthy {
-        true => "yes".to_string(),
-        false => format!("NO: {}", trust.reasons.join("; ")),
+    let use_it = match (trust.trustworthy, &trust.cause) {
+        (true, None) => "yes".to_string(),
+        (true, Some(own)) => format!("yes, though {}", cause(own)),
+        (false, _) => format!("NO: {}", why_not(trust)),
     };
     let _ = writeln!(out, "\nfor compensation  {use_it}");
     if let Some(seen) = &trust.compensation {
@@ -212,12 +213,17 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
              the axis file, identify writes one"
         );
     }
-    let _ = writeln!(
-        out,
-        "next: {}\n  {}",
-        next::why(result.trust.next),
-        next::command(result, dir)
-    );
+    let (why, command) = (next::why(result.trust.next), next::command(result, dir));
+    let _ = match next::cured(result, dir) {
+        None => writeln!(out, "next: {why}\n  {command}"),
+        Some((write, cured)) => {
+            let _ = writeln!(out, "next: {write}\n  and\n  {cured}");
+            match result.trust.trustworthy {
+                true => writeln!(out, "or without it: {why}\n  {command}"),
+                false => Ok(()),
+            }
+        }
+    };
     out
 }
 

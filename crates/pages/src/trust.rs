@@ -1,6 +1,6 @@
 //! What a result may be used for, in words that reports and the terminal share.
 
-use stiction_files::result::{Compensation, Next, ResultFile, Trust};
+use stiction_files::result::{CauseEntry, Compensation, Next, ResultFile, Trust};
 use stiction_number::{Percent, four_digits as short};
 
 /// How well the law predicts friction, and on which motion that was seen.
@@ -28,6 +28,18 @@ pub(crate) fn compensation(seen: &Compensation, result: &ResultFile) -> String {
         n => format!(", {n} reversals"),
     });
     out
+}
+
+/// Why a law may not be used: what it leaves and why first, since a cure begins there.
+pub(crate) fn why_not(trust: &Trust) -> String {
+    let reasons = trust.reasons.iter().cloned();
+    let all = trust.cause.iter().map(cause).chain(reasons);
+    all.collect::<Vec<_>>().join("; ")
+}
+
+/// What a law leaves and how much.
+pub(crate) fn cause(cause: &CauseEntry) -> String {
+    format!("{} ({})", cause.text, cause.size)
 }
 
 /// Which parameters are constants of the machine, each called as its name or its symbol.

@@ -1,6 +1,7 @@
 //! What a result may be used for, and what to do next.
 
 use serde::{Deserialize, Serialize};
+use stiction_codes::Code;
 
 /// What a result may be used for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -9,6 +10,9 @@ pub struct Trust {
     pub trustworthy: bool,
     /// Why not; empty if it may.
     pub reasons: Vec<String>,
+    /// What the law leaves systematically, where its cause was found and nothing else has to be set right first.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cause: Option<CauseEntry>,
     /// How well the law predicts friction, and where; absent where the method does not predict the force of a record.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub compensation: Option<Compensation>,
@@ -22,6 +26,29 @@ pub struct Trust {
     /// What to do next.
     #[serde(default)]
     pub next: Next,
+}
+
+/// The strongest cause of what a law leaves systematically.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CauseEntry {
+    /// The code of the warning that tells all of it.
+    pub code: Code,
+    /// What it is, in a part of a sentence.
+    pub text: String,
+    /// How much it is.
+    pub size: String,
+    /// What takes it into the fit; absent where no line of the axis file does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cure: Option<Cure>,
+}
+
+/// A line of the axis file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Cure {
+    /// The table it belongs to, such as `terms`.
+    pub table: String,
+    /// The line, such as `coulomb_temperature = true`.
+    pub line: String,
 }
 
 /// How well a law predicts friction, and on which motion that was seen.

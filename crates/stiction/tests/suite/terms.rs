@@ -287,6 +287,40 @@ fn a_column_that_is_mostly_empty_is_not_used() {
     assert!(!codes.contains(&"temperature-dependence"), "{codes:?}");
 }
 
+/// The cause of what a law leaves leads: in the verdict, among the warnings, and with its cure as what to do next. Taken, it
+/// is gone.
+#[test]
+fn the_cause_of_what_is_left_leads() {
+    let bench = Bench::new();
+    let file = log(&bench, "log.csv", false);
+    let said = |axis: Option<&str>| {
+        let asked = match axis {
+            Some(axis) => with_axis(&bench, &file, axis, LawKind::CoulombViscous),
+            None => options(&[&file], LawKind::CoulombViscous),
+        };
+        let outcome = run(&asked);
+        let text = stiction::commands::text::outcome(&outcome);
+        let verdict = text
+            .lines()
+            .find(|l| l.starts_with("for compensation"))
+            .unwrap();
+        let next = stiction::commands::text::next(&outcome.result, Path::new("out"), None);
+        let first = outcome
+            .result
+            .warnings
+            .first()
+            .map_or("none", |w| w.code.as_str());
+        bench.plain(&format!("{verdict}\nfirst warning: {first}\n{next}"))
+    };
+    let open = said(None);
+    let beside = said(Some("[columns]\nload = \"Normal load\"\n"));
+    let taken = said(Some("[terms]\ncoulomb_load = true\n"));
+    let both = said(Some(TERMS));
+    insta::assert_snapshot!(format!(
+        "nothing taken\n{open}\nwith an axis file\n{beside}\nthe load taken\n{taken}\nboth taken\n{both}"
+    ));
+}
+
 /// A load that does not change cannot tell its coefficient: flagged, and the rest stands.
 #[test]
 fn a_constant_load_is_flagged() {

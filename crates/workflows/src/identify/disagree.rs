@@ -6,6 +6,7 @@ use crate::identify::Method;
 use crate::source::Source;
 use std::fmt::Write;
 use stiction_codes::Code;
+use stiction_files::result::{CauseEntry, Cure};
 use stiction_files::{Warning, shell, symbols};
 use stiction_identify::{Disagreement, NOT_CONSTANT};
 use stiction_log::Motion;
@@ -81,11 +82,7 @@ fn warning(
         false => "It is no constant of the machine",
     };
     // A map of constant velocities has one level.
-    let own_level = match found.name.quantity {
-        Quantity::Coulomb if !of_a_map => Some("coulomb_log"),
-        Quantity::Sigma2 if !of_a_map => Some("sigma2_log"),
-        _ => None,
-    };
+    let own_level = own_level(found).filter(|_| !of_a_map);
     let together = own_level.map_or(String::new(), |key| {
         format!(
             ". Give each log its own in one fit with {key} = true under [terms] in the axis file ({} is then that of the first log)",
@@ -113,6 +110,29 @@ fn warning(
             part(found.deviation / size)
         ),
     )
+}
+
+/// The key of the axis file that gives each log a level of its own.
+fn own_level(found: &Disagreement) -> Option<&'static str> {
+    match found.name.quantity {
+        Quantity::Coulomb => Some("coulomb_log"),
+        Quantity::Sigma2 => Some("sigma2_log"),
+        _ => None,
+    }
+}
+
+/// The first of them as a part of the verdict.
+pub(super) fn cause(found: &[Disagreement]) -> Option<CauseEntry> {
+    let first = found.first()?;
+    Some(CauseEntry {
+        code: Code::LogsDisagree,
+        text: format!("the logs differ in {}", first.name),
+        size: Percent::error(100.0 * first.part).digits(2),
+        cure: own_level(first).map(|key| Cure {
+            table: "terms".into(),
+            line: format!("{key} = true"),
+        }),
+    })
 }
 
 /// The unit of the force of the logs.

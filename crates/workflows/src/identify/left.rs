@@ -2,11 +2,14 @@
 
 use super::coupled;
 use stiction_codes::Code;
-use stiction_files::result::MisfitEntry;
+use stiction_files::result::{CauseEntry, Cure, MisfitEntry};
 use stiction_files::{Warning, symbols};
 use stiction_identify::{Cause, Dependence, Divided, FittedLaw, Misfit};
 use stiction_log::Log;
 use stiction_number::{Percent, four_digits};
+
+/// Part of what a drift leaves from which on a channel of the log that shows it is taken into the fit first.
+const PART_OF_DRIFT: f64 = 0.5;
 
 /// What goes into the result.
 pub(super) fn entry(law: &FittedLaw, force_unit: &str) -> Option<MisfitEntry> {
@@ -56,6 +59,98 @@ pub(super) fn named(law: &FittedLaw, log: &Log, warnings: &mut Vec<Warning>) {
     warnings.push(Warning::new(code(cause), message));
 }
 
+/// The same as a part of the verdict, with the line of the axis file that takes it into the fit.
+pub(super) fn cause(law: &FittedLaw, log: &Log) -> Option<CauseEntry> {
+    let misfit = law.misfit.as_ref()?;
+    let cause = misfit.cause()?;
+    let share = match &misfit.coupling {
+        Some(coupling) => coupling.share,
+        None => misfit.share,
+    };
+    Some(CauseEntry {
+        code: code(cause),
+        text: words(cause).into(),
+        size: of_what_is_left(share, law),
+        cure: cure(misfit, cause, law, log),
+    })
+}
+
+/// What a cause is.
+fn words(cause: Cause) -> &'static str {
+    match cause {
+        Cause::Drift => "friction changes during the log",
+        Cause::Position => "friction changes along the stroke",
+        Cause::Load => "friction changes with the load",
+        Cause::Temperature => "friction changes with the temperature",
+        Cause::Ripple => "a force repeats with the position",
+        Cause::Resonance => "motor and load vibrate against each other",
+        Cause::Backlash => "a gap lies between motor and load",
+        Cause::Shape => "friction or inertia has another shape than this law",
+    }
+}
+
+/// A part of the variance of the residual, and what it is of the force.
+fn of_what_is_left(share: f64, law: &FittedLaw) -> String {
+    let of_force = share.sqrt() * law.fit.relative_error_percent;
+    format!(
+        "{} of what the law leaves, {} of the force",
+        Percent::error(100.0 * share).digits(2),
+        Percent::error(of_force).digits(2)
+    )
+}
+
+/// The line of the axis file that takes a cause into the fit, where there is one that the fit has not.
+fn cure(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> Option<Cure> {
+    let of_terms = |line| Cure {
+        table: "terms".into(),
+        line,
+    };
+    let first_of = |terms: &[Dependence]| {
+        let open = terms.iter().find(|term| !has(law, term))?;
+        Some(of_terms(format!("{} = true", open.name())))
+    };
+    match cause {
+        Cause::Position => first_of(&[Dependence::CoulombPosition(0.0)]),
+        Cause::Load => first_of(&[Dependence::CoulombLoad(0.0)]),
+        Cause::Temperature => first_of(&[
+            Dependence::CoulombTemperature(0.0),
+            Dependence::ViscousTemperature(0.0),
+        ]),
+        Cause::Ripple => {
+            let unit = symbols::length_unit(log.motion);
+            let pitches = law
+                .terms
+                .cogging
+                .iter()
+                .copied()
+                .chain([misfit.ripple?.pitch]);
+            let pitches: Vec<_> = pitches
+                .map(|pitch| format!("\"{} {unit}\"", four_digits(pitch)))
+                .collect();
+            Some(of_terms(format!("cogging = [{}]", pitches.join(", "))))
+        }
+        // Where the level changes with two things, neither explains it by itself.
+        Cause::Drift => {
+            let beside = [
+                (Divided::LevelOverLoad, Dependence::CoulombLoad(0.0)),
+                (
+                    Divided::LevelOverTemperature,
+                    Dependence::CoulombTemperature(0.0),
+                ),
+            ];
+            let beside = beside.map(|(by, term)| (misfit.share_by(by), term));
+            let [load, temperature] = beside;
+            let (share, term) = if load.0 >= temperature.0 {
+                load
+            } else {
+                temperature
+            };
+            first_of(&[term]).filter(|_| share >= PART_OF_DRIFT * misfit.share)
+        }
+        Cause::Resonance | Cause::Backlash | Cause::Shape => None,
+    }
+}
+
 fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String {
     let share = Percent::error(100.0 * misfit.share).digits(2);
     let of_force = misfit.rms / law.fit.rmse * law.fit.relative_error_percent;
@@ -67,59 +162,60 @@ fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String 
         format!("{} to {}", part(low), part(high))
     };
     let counted = "The intervals count it";
+    let what = words(cause);
+    let cure = cure(misfit, cause, law, log);
+    let cured = cure.is_some();
+    let to_do = cure.map_or(
+        "No straight line over it describes that: record within the range that the axis works in"
+            .into(),
+        |cure| format!("Set {} under [{}] in the axis file", cure.line, cure.table),
+    );
     match cause {
         Cause::Resonance | Cause::Backlash => {
             misfit.coupling.as_ref().map_or_else(String::new, |found| {
                 coupled::message(found, law.fit.relative_error_percent, log)
             })
         }
-        Cause::Drift => format!(
-            "friction changes during the log: {left} is a level that goes from {} of its mean. {counted}; the values are \
-                 means over the log. Record the axis warmed up{}",
-            levels(),
-            match has(law, &Dependence::CoulombTemperature(0.0)) {
-                true => ": the temperature that is logged does not explain it",
-                false =>
-                    ", or its temperature beside the rest and set coulomb_temperature = true under [terms] in the axis file",
-            }
-        ),
+        Cause::Drift => {
+            let has_temperature = has(law, &Dependence::CoulombTemperature(0.0));
+            let to_do = match cured {
+                true => format!("{to_do}, which shows much of it"),
+                false if has_temperature => {
+                    "Record the axis warmed up: the temperature that is logged does not explain it".into()
+                }
+                false => "Record the axis warmed up, or its temperature beside the rest and set coulomb_temperature = true under \
+                          [terms] in the axis file"
+                    .into(),
+            };
+            format!(
+                "{what}: {left} is a level that goes from {} of its mean. {counted}; the values are means over the log. {to_do}",
+                levels()
+            )
+        }
         Cause::Position => format!(
-            "friction changes along the stroke: {left} is a level that goes from {} of its mean. {counted}. Set \
-                 coulomb_position = true under [terms] in the axis file",
+            "{what}: {left} is a level that goes from {} of its mean. {counted}. {to_do}",
             levels()
         ),
         Cause::Load => format!(
-            "friction changes with the load: {left} is a level that goes from {} of its mean over the loads of the log. \
-                 {counted}. {}",
-            levels(),
-            untaken(law, &[Dependence::CoulombLoad(0.0)])
+            "{what}: {left} is a level that goes from {} of its mean over the loads of the log. {counted}. {to_do}",
+            levels()
         ),
         Cause::Temperature => format!(
-            "friction changes with the temperature: {left} is a level that goes from {} of its mean over the temperatures of \
-                 the log. {counted}. {}",
-            levels(),
-            untaken(
-                law,
-                &[
-                    Dependence::CoulombTemperature(0.0),
-                    Dependence::ViscousTemperature(0.0)
-                ]
-            )
+            "{what}: {left} is a level that goes from {} of its mean over the temperatures of the log. {counted}. {to_do}",
+            levels()
         ),
         Cause::Ripple => {
-            let unit = symbols::length_unit(log.motion);
             let line = misfit.ripple.map_or(String::new(), |ripple| {
                 format!(
-                    ", most of it a wave of {} {}. Set cogging = [\"{} {unit}\"] under [terms] in the axis file",
+                    ", most of it a wave of {} {}. {to_do}",
                     four_digits(ripple.amplitude),
-                    log.force_unit,
-                    four_digits(ripple.pitch)
+                    log.force_unit
                 )
             });
-            format!("a force repeats with the position: {left}{line}. {counted}")
+            format!("{what}: {left}{line}. {counted}")
         }
         Cause::Shape => format!(
-            "friction or inertia has another shape than this law: {left} {}. {counted}, and what describes that shape is no constant of the machine. Compare the laws \
+            "{what}: {left} {}. {counted}, and what describes that shape is no constant of the machine. Compare the laws \
                  maxwell-slip and elasto-plastic. Neither a load on a spring nor one behind a gap explains it surely; a force logged \
                  late looks alike",
             match misfit.by {
@@ -134,17 +230,4 @@ fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String 
 fn has(law: &FittedLaw, term: &Dependence) -> bool {
     let mut dependences = law.terms.dependences.iter();
     dependences.any(|own| own.name() == term.name())
-}
-
-/// The first of some terms that the fit has not, as a line of the axis file.
-fn untaken(law: &FittedLaw, terms: &[Dependence]) -> String {
-    let open = terms.iter().find(|term| !has(law, term));
-    open.map_or(
-        "No straight line over it describes that: record within the range that the axis works in"
-            .into(),
-        |term| {
-            let name = term.name();
-            format!("Set {name} = true under [terms] in the axis file")
-        },
-    )
 }

@@ -104,11 +104,24 @@ impl Judged {
             trustworthy: reasons.is_empty(),
             next: reasons.first().map_or(use_it, |(_, next)| *next),
             reasons: reasons.into_iter().map(|(text, _)| text).collect(),
+            cause: None,
             compensation,
             constants: names(true),
             open: names(false),
         };
         Judged { trust, warnings }
+    }
+
+    /// The same with the cause of what the law leaves; not where the search has to end, the axis file to be set right or
+    /// another motion to be recorded first, which changes what is left.
+    fn with_cause(mut self, evidence: &Evidence) -> Self {
+        let first = [Next::AxisFile, Next::Again, Next::Finish];
+        if evidence.shows_friction() && !first.contains(&self.trust.next) {
+            let own = left::cause(evidence.law, &evidence.sources[0].log);
+            let between = || disagree::cause(&evidence.law.disagreements);
+            self.trust.cause = own.or_else(between);
+        }
+        self
     }
 }
 
@@ -160,6 +173,11 @@ pub(super) struct Evidence<'a> {
 }
 
 impl Evidence<'_> {
+    /// Whether the motion shows friction at all, without which it is no use to know what else the law leaves.
+    fn shows_friction(&self) -> bool {
+        self.moves_both_ways && !self.law.stays_in_presliding()
+    }
+
     /// What leads on where this law will not do.
     fn another_law(&self) -> Next {
         match self.chosen {
@@ -190,6 +208,7 @@ pub(super) fn of_force(evidence: &Evidence, mut warnings: Vec<Warning>) -> Judge
         reasons,
         warnings,
     )
+    .with_cause(evidence)
 }
 
 /// The same with static parameters found first; `changed` where the motion has another steady friction than these.
@@ -220,6 +239,7 @@ pub(super) fn of_two_steps(
         reasons,
         warnings,
     )
+    .with_cause(evidence)
 }
 
 /// A law that was fitted to the position of a simulated axis.
@@ -270,7 +290,7 @@ pub(super) fn of_position(
             *next = Next::Record;
         }
     });
-    Judged::new(evidence.law, shown, None, reasons, warnings)
+    Judged::new(evidence.law, shown, None, reasons, warnings).with_cause(evidence)
 }
 
 /// A steady curve through points of constant velocity, of which some lie off it.
@@ -386,7 +406,11 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
         reasons.push(text, evidence.another_law());
     }
     systematic(law, warnings);
+    let before = warnings.len();
     left::named(law, &evidence.sources[0].log, warnings);
+    if evidence.shows_friction() && warnings.len() > before {
+        warnings.rotate_right(1);
+    }
     warnings.extend(disagree::named(
         &law.disagreements,
         evidence.sources,
