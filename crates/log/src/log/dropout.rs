@@ -12,7 +12,7 @@
 use super::cells::{Columns, LeftOut};
 use super::clock::Clock;
 use crate::Table;
-use crate::findings::{Finding, MAX_BRIDGED_SAMPLES, Severity, count, median, short};
+use crate::findings::{Finding, MAX_BRIDGED_SAMPLES, Severity, count, full, median, short};
 use crate::mapping::{Role, Source};
 use std::ops::Range;
 use stiction_codes::Code;
@@ -56,7 +56,7 @@ pub(super) fn clear(
         let cell = |kept: usize| {
             let row = clock.row(kept);
             let number = table.columns[source.column].values[row];
-            (row + 1, format!("{} {}", short(number), source.unit))
+            (row + 1, format!("{} {}", full(number), source.unit))
         };
         let of = format!("of column {}", source.place(table));
         if *role == Role::Temperature {
