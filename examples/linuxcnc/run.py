@@ -4,7 +4,7 @@
     linuxcnc -r stage.ini PROGRAM LOG ..
     linuxcnc -r compensated.ini gain=0 PROGRAM LOG gain=1 PROGRAM LOG ..
 
-`gain=` is that of the compensator from there on.
+`gain=` is that of the compensator from there on. What it has learnt is written at the end, as lines of HAL: kept.hal.
 """
 
 import os
@@ -70,7 +70,10 @@ def main(arguments):
         while message := errors.poll():
             print("LinuxCNC says:", message[1])
         if hal.component_exists("x_axis_friction"):
-            pins = {pin: hal.get_value(FRICTION + pin) for pin in ["gain", "learned", "baseline", "tripped", "valid"]}
+            pins = {pin: hal.get_value(FRICTION + pin) for pin in ["gain", "learned", "baseline", "tripped", "valid", "recalled"]}
+            with open("kept.hal", "w") as file:
+                for number in [f"{FRICTION}kept-{k:02}" for k in range(12)]:
+                    file.write(f"setp {number} {hal.get_value(number)!r}\n")
             print("compensator:", ", ".join(f"{pin} {value:.3g}" for pin, value in pins.items()))
 
 

@@ -457,6 +457,9 @@ pub struct Export {
     /// Moving time that the watchdog compares, a cycle of the motion, s; 0: no watchdog [default: 2].
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = seconds)]
     pub window: Option<f64>,
+    /// Levels of friction that follow the machine while it runs, from the force of the drive.
+    #[arg(long)]
+    pub adapt: bool,
     /// Rated force of the motor, in the unit of the model's force; for tf5200.
     #[arg(long, value_name = "FORCE", allow_negative_numbers = true)]
     pub rated_force: Option<f64>,

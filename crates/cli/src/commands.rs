@@ -554,6 +554,7 @@ fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
     options.safety.dead_zone = export.dead_zone;
     options.safety.slew = export.slew;
     options.safety.window = export.window;
+    options.adapt = export.adapt;
     let exported = stiction::export_file(&export.model, &options)?;
     match export.force {
         true => exported.write_over(&export.out)?,

@@ -140,6 +140,7 @@ codes! {
     NotExported = "not-exported": "the target cannot express the model",
     ExportUntrusted = "export-untrusted": "the identification found that the law should not be used to compensate",
     ExportDamping = "export-damping": "micro-damping is limited so that the compensator releases no energy",
+    ExportAdaptation = "export-adaptation": "levels that follow the machine take other forces for friction",
     ExportCycleTime = "export-cycle-time": "the cycle time is too long to resolve a reversal",
     ExportLimit = "export-limit": "the force limit is below the friction to compensate, or reached at speed",
     ExportName = "export-name": "the names in the code do not hold the whole name of the axis",

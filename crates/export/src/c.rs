@@ -77,7 +77,9 @@ fn rows<T: Literal>(vectors: &Vectors<T>) -> String {
         .iter()
         .map(|row| {
             let (v, e, f) = (row.velocity.c(), row.error.c(), row.force.c());
-            format!("    {{ {{ {v}, {e}, {} }}, {f} }}", row.enable)
+            let drive = row.drive.map(|(u, learn)| format!(", {}, {learn}", u.c()));
+            let drive = drive.unwrap_or_default();
+            format!("    {{ {{ {v}, {e}, {}{drive} }}, {f} }}", row.enable)
         })
         .collect();
     rows.join(",\n")
@@ -101,7 +103,9 @@ fn fill<T: Literal>(model: &Model, precision: &Precision) -> Result<Fill, Error>
         .flag("apart", true)
         .set("v_unit", model.speed_unit())
         .set("x_unit", model.length_unit())
-        .set("f_unit", model.force_unit());
+        .set("f_unit", model.force_unit())
+        .set("a_unit", model.acceleration_unit())
+        .set("key", T::from_f64(f64::from(compensator.key())).c());
     law::settings(&mut fill, compensator.settings(), T::c);
     law::fill(&mut fill, compensator.friction(), T::c);
     Ok(fill)

@@ -32,7 +32,15 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         .set("law", c::inside(model)?)
         .set("v_unit", model.speed_unit())
         .set("x_unit", model.length_unit())
-        .set("f_unit", model.force_unit());
+        .set("f_unit", model.force_unit())
+        .set("a_unit", model.acceleration_unit())
+        .set(
+            "drive_pins",
+            match model.settings.adaptation {
+                Some(_) => ", *pins->drive_force, *pins->learn",
+                None => "",
+            },
+        );
     law::fill(&mut fill, compensator.friction(), f64::c);
     let mut test = fill.clone();
     law::settings(&mut fill, compensator.settings(), f64::c);

@@ -100,6 +100,12 @@ fn interface(model: &Model) -> Vec<String> {
             model.force_unit()
         ),
     ];
+    if model.settings.adaptation.is_some() {
+        lines.insert(
+            4,
+            "     Force that the drive was given in the cycle before, with this compensator's part; whether to learn from it.".into(),
+        );
+    }
     lines.extend(other_unit(model));
     lines
 }

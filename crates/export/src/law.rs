@@ -1,7 +1,7 @@
 //! The law and its settings as values for a template; the same keys in every target.
 
 use crate::template::Fill;
-use stiction_friction::compensator::{Friction, Settings};
+use stiction_friction::compensator::{Adaptation, Friction, Settings};
 use stiction_friction::{Direction, Real, Shape};
 
 /// Settings of the compensator, each written by `text`; a window of 0 is no watchdog.
@@ -15,7 +15,18 @@ pub(crate) fn settings<T: Real>(fill: &mut Fill, settings: &Settings<T>, text: f
         .set("slew", text(settings.slew))
         .set("ramp", text(settings.ramp))
         .set("window", text(window))
-        .set("ratio", text(ratio));
+        .set("ratio", text(ratio))
+        .flag("adapt", settings.adaptation.is_some());
+    if let Some(Adaptation {
+        memory,
+        range,
+        mass,
+    }) = settings.adaptation
+    {
+        fill.set("memory", text(memory))
+            .set("range", text(range))
+            .set("mass", text(mass));
+    }
 }
 
 /// The law's numbers, each written by `text`, and flags that say which law and shape it is.
@@ -26,7 +37,8 @@ pub(crate) fn fill<T: Real>(fill: &mut Fill, friction: &Friction<T>, text: fn(T)
         Friction::LuGre(law) => Some(law.curve()),
     };
     fill.flag("lugre", matches!(friction, Friction::LuGre(_)))
-        .flag("curve", curve.is_some());
+        .flag("curve", curve.is_some())
+        .set("sliding", text(friction.sliding()));
     if let Friction::LuGre(law) = friction {
         fill.set("sigma0", text(law.stiffness()))
             .set("sigma1", text(law.damping().at_rest()));

@@ -1,7 +1,9 @@
 //! The model that is exported.
 
 use crate::{Error, range};
-use stiction_friction::compensator::{Compensator, Friction, Settings, Source};
+use stiction_friction::compensator::{
+    Adaptation, Compensator, Friction, Settings, Source, Watchdog,
+};
 use stiction_friction::{Damping, LuGre, Real};
 
 /// Speed, m/s (rad/s), that stands for the limit of zero: the level at it is the static friction to rounding.
@@ -22,7 +24,7 @@ pub struct Model {
     pub force_unit: String,
     /// The law. The micro-damping of bristles is exported capped, whatever form it has here.
     pub friction: Friction<f64>,
-    /// Settings of the compensator; adaptation is not exported.
+    /// Settings of the compensator.
     pub settings: Settings<f64>,
     /// Force that the motor is rated for, in the unit of the force; needed by targets that write per mille of it.
     pub rated_force: Option<f64>,
@@ -104,6 +106,11 @@ impl Model {
     /// Unit of velocity.
     pub(crate) fn speed_unit(&self) -> &'static str {
         if self.rotary { "rad/s" } else { "m/s" }
+    }
+
+    /// Unit of acceleration.
+    pub(crate) fn acceleration_unit(&self) -> &'static str {
+        if self.rotary { "rad/s^2" } else { "m/s^2" }
     }
 
     /// Unit of position.
@@ -197,7 +204,7 @@ fn capped(law: &LuGre<f64>) -> Result<LuGre<f64>, stiction_friction::ParamError>
     law.with_damping(Damping::Capped(law.damping().at_rest()))
 }
 
-/// Settings in another number type, without those that are not exported. An unlimited slew stays unlimited.
+/// Settings in another number type. An unlimited slew stays unlimited.
 pub(crate) fn cast<T: Real>(settings: &Settings<f64>) -> Settings<T> {
     let to = T::from_f64;
     Settings {
@@ -211,12 +218,14 @@ pub(crate) fn cast<T: Real>(settings: &Settings<f64>) -> Settings<T> {
             to(settings.slew)
         },
         ramp: to(settings.ramp),
-        adaptation: None,
-        watchdog: settings
-            .watchdog
-            .map(|w| stiction_friction::compensator::Watchdog {
-                window: to(w.window),
-                ratio: to(w.ratio),
-            }),
+        adaptation: settings.adaptation.map(|a| Adaptation {
+            memory: to(a.memory),
+            range: to(a.range),
+            mass: to(a.mass),
+        }),
+        watchdog: settings.watchdog.map(|w| Watchdog {
+            window: to(w.window),
+            ratio: to(w.ratio),
+        }),
     }
 }

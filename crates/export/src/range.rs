@@ -62,7 +62,12 @@ pub(crate) fn check(
         range,
         number_type,
     };
-    for Number { name, value, small } in law(&model.friction) {
+    let mass = model.settings.adaptation.map(|a| Number {
+        name: "mass",
+        value: a.mass,
+        small: false,
+    });
+    for Number { name, value, small } in law(&model.friction).into_iter().chain(mass) {
         let size = value.abs();
         let least = if small { 0.0 } else { range.parameters.0 };
         let most = match name {

@@ -21,6 +21,13 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         .set("v_unit", model.speed_unit())
         .set("x_unit", model.length_unit())
         .set("f_unit", model.force_unit())
+        .set(
+            "also",
+            match model.settings.adaptation {
+                Some(_) => ", force of the drive and whether to learn",
+                None => "",
+            },
+        )
         .flag("watchdog", model.settings.watchdog.is_some());
     law::fill(&mut fill, compensator.friction(), f64::c);
     let mut test = fill.clone();
@@ -55,7 +62,14 @@ fn rows<T: Literal>(vectors: &Vectors<T>) -> String {
         .iter()
         .map(|row| {
             let (v, e, f) = (plain(row.velocity), plain(row.error), plain(row.force));
-            format!("    ({v}, {e}, {}, {f}),", row.enable)
+            let drive = row
+                .drive
+                .map(|(u, learn)| format!("{}, {learn}, ", plain(u)));
+            format!(
+                "    ({v}, {e}, {}, {}{f}),",
+                row.enable,
+                drive.unwrap_or_default()
+            )
         })
         .collect();
     rows.join("\n")

@@ -99,13 +99,22 @@ fn precision<T: Literal>(model: &Model, precision: &Precision) -> Result<[Unit; 
         .set("series", series(precision.terms))
         .set("v_unit", model.speed_unit())
         .set("x_unit", model.length_unit())
-        .set("f_unit", model.force_unit());
+        .set("f_unit", model.force_unit())
+        .set("a_unit", model.acceleration_unit())
+        .set("key", compensator.key().to_string());
     law::fill(&mut fill, compensator.friction(), T::st);
     let mut test = fill.clone();
     law::settings(&mut fill, &writable(compensator.settings()), T::st);
     law::settings(&mut test, &writable(&cast(&vectors.settings)), T::st);
     let tolerance = T::from_f64(precision.tolerance * vectors.scale(model));
+    let adapting = vectors.settings.adaptation.map_or(String::new(), |a| {
+        let [memory, mass] = [a.memory, a.mass].map(|x| T::from_f64(x).st());
+        format!(
+            ",\n            drive_force := u, learn := wanted_too, memory := {memory}, moving_mass := {mass}"
+        )
+    });
     test.set("rows", rows(&vectors))
+        .set("adapt_inputs", adapting)
         .set("count", vectors.rows.len().to_string())
         .set("tolerance", tolerance.st());
     let (name, suffix) = (&model.identifier, precision.suffix);
@@ -152,8 +161,13 @@ fn rows<T: Literal>(vectors: &Vectors<T>) -> String {
         .enumerate()
         .map(|(i, row)| {
             let (v, x, force) = (row.velocity.st(), row.error.st(), row.force.st());
-            let on = if row.enable { "TRUE" } else { "FALSE" };
-            format!("    {i}: v := {v}; x := {x}; wanted := {on}; due := {force};")
+            let truth = |x| if x { "TRUE" } else { "FALSE" };
+            let drive = row.drive.map(|(u, learn)| {
+                let (u, learn) = (u.st(), truth(learn));
+                format!("u := {u}; wanted_too := {learn}; ")
+            });
+            let (on, drive) = (truth(row.enable), drive.unwrap_or_default());
+            format!("    {i}: v := {v}; x := {x}; wanted := {on}; {drive}due := {force};")
         })
         .collect();
     rows.join("\n")

@@ -5,7 +5,7 @@
 use crate::number::{Literal, short};
 use crate::{Error, Model};
 use stiction_friction::Real;
-use stiction_friction::compensator::{Friction, Input, Settings, Watchdog};
+use stiction_friction::compensator::{Adaptation, Friction, Input, Settings, Watchdog};
 
 /// A sample of the self-test.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +16,8 @@ pub(crate) struct Row<T> {
     pub error: T,
     /// Enable.
     pub enable: bool,
+    /// Force of the drive and whether to learn from it, N (N m): where the compensator adapts.
+    pub drive: Option<(T, bool)>,
     /// The expected force, N (N m).
     pub force: T,
 }
@@ -34,6 +36,10 @@ pub(crate) const SINGLE_TOLERANCE: f64 = 2e-6;
 
 /// Tracking error without compensation in the self-test, m (rad); its size does not matter, only ratios do.
 const TRACKING_ERROR: f64 = 1e-5;
+/// Force of the drive over that of the law in the self-test of one that adapts.
+const DRIVE_SHARE: f64 = 1.3;
+/// Its largest force, over the friction at low speed.
+const LARGEST_DRIVE: f64 = 10.0;
 
 impl<T: Real> Vectors<T> {
     /// Computed with the compensator itself, in the number type of the target.
@@ -44,17 +50,26 @@ impl<T: Real> Vectors<T> {
             .into_iter()
             .map(|(velocity, error, enable)| {
                 let (velocity, error) = (T::from_f64(velocity), T::from_f64(error));
+                // More friction than that of the law, at the sample before.
+                let most = LARGEST_DRIVE * model.scale();
+                let due = DRIVE_SHARE * compensator.state().law.force.to_f64();
+                let due = due.max(-most).min(most);
+                let adapts = settings.adaptation.is_some();
+                let drive = adapts.then_some((T::from_f64(short(due)), enable));
+                let (drive_force, learn) = drive.unwrap_or_default();
                 let force = compensator.step(Input {
                     reference_velocity: velocity,
                     measured_velocity: T::ZERO,
                     tracking_error: error,
                     enable,
-                    ..Input::default()
+                    drive_force,
+                    learn,
                 });
                 Row {
                     velocity,
                     error,
                     enable,
+                    drive,
                     force,
                 }
             })
@@ -77,15 +92,22 @@ impl Vectors<f64> {
             .iter()
             .map(|row| {
                 let (v, e, f) = (row.velocity.c(), row.error.c(), row.force.c());
-                let enable = if row.enable { "True" } else { "False" };
-                format!("    ({v}, {e}, {enable}, {f}),")
+                let truth = |x| if x { "True" } else { "False" };
+                let enable = truth(row.enable);
+                let drive = row
+                    .drive
+                    .map(|(u, learn)| format!("{}, {}, ", u.c(), truth(learn)));
+                format!(
+                    "    ({v}, {e}, {enable}, {}{f}),",
+                    drive.unwrap_or_default()
+                )
             })
             .collect();
         rows.join("\n")
     }
 }
 
-/// Limits that are reached, a ramp of five cycles, a watchdog that learns and trips within the test.
+/// Limits that are reached, a ramp of five cycles, a watchdog that learns and trips within the test, an adaptation that forgets within it.
 fn settings(model: &Model) -> Settings<f64> {
     let h = model.settings.cycle_time;
     let scale = model.scale();
@@ -101,7 +123,16 @@ fn settings(model: &Model) -> Settings<f64> {
         limit,
         slew: short(limit / (4.0 * h)),
         ramp: short(5.0 * h),
-        adaptation: None,
+        adaptation: model.settings.adaptation.map(|given| Adaptation {
+            memory: short(20.0 * h),
+            // With inertial forces like those of friction, whatever the axis: the sums then keep their digits.
+            mass: if given.mass > 0.0 {
+                short(0.1 * scale * h / speed(model)).clamp(1e-9, 1e9)
+            } else {
+                0.0
+            },
+            ..given
+        }),
         watchdog: Some(Watchdog {
             window: short(8.0 * h),
             ratio: 1.0,

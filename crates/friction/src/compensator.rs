@@ -26,6 +26,7 @@ mod adaptation;
 mod disturbance;
 mod friction;
 mod input;
+mod memory;
 mod preview;
 mod safety;
 mod settings;
@@ -36,6 +37,7 @@ pub use adaptation::{Adaptation, Learnt};
 pub use disturbance::{DisturbanceObserver, DisturbanceState};
 pub use friction::{Friction, Source};
 pub use input::Input;
+pub use memory::{ForeignMemory, MEMORY};
 pub use preview::ahead;
 pub use settings::Settings;
 pub use state::State;
@@ -156,7 +158,8 @@ impl<T: Real> Compensator<T> {
     /// `h` is finite and not negative.
     #[inline]
     fn advance(&mut self, h: T, input: Input<T>) -> T {
-        let good = input.is_finite();
+        let adapts = self.settings.adaptation.is_some();
+        let good = input.is_finite() && (!adapts || input.drive_force.is_finite());
         if good {
             let at = self
                 .settings

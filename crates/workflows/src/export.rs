@@ -12,7 +12,7 @@ use stiction_files::model::{Lowered, ReadModel};
 use stiction_files::{write_folder, write_into_folder};
 use stiction_friction::ParamError;
 use stiction_friction::Stribeck;
-use stiction_friction::compensator::{Compensator, Friction, Settings, Watchdog};
+use stiction_friction::compensator::{Adaptation, Compensator, Friction, Settings, Watchdog};
 use stiction_parameters::{FrictionLaw, LawError, LawKind, Name, ParameterSet, Quantity, Side};
 
 pub use stiction_export::{Error as ExportError, File, Target};
@@ -36,6 +36,9 @@ pub struct ExportOptions {
     pub gain: Option<f64>,
     /// Settings of the compensator; not for `mujoco` and `tf5200`, which have none of them.
     pub safety: Safety,
+    /// Levels that follow the machine while it runs ([`Adaptation`]), from the force of the drive; not for `mujoco` and
+    /// `tf5200`.
+    pub adapt: bool,
 }
 
 /// Settings of a compensator; those that are absent follow from the law ([`Settings::for_law`]).
@@ -63,6 +66,7 @@ impl ExportOptions {
             rated_force: None,
             gain: None,
             safety: Safety::default(),
+            adapt: false,
         }
     }
 }
@@ -186,6 +190,12 @@ fn check(options: &ExportOptions) -> Result<(), Error> {
             "it has none",
         ));
     }
+    if none && options.adapt {
+        return Err(Error::usage(
+            format!("levels that follow the machine for the target {target}"),
+            "c, st, tcpou, plcopen, rust, hal and fmu have them",
+        ));
+    }
     Ok(())
 }
 
@@ -261,6 +271,14 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
         settings.limit = seen(&friction, file.source.top_speed);
     }
     let mut warnings = doubts(file);
+    if options.adapt {
+        let mass = known_mass(file);
+        settings.adaptation = Some(Adaptation {
+            mass: mass.unwrap_or(0.0),
+            ..Adaptation::default()
+        });
+        warnings.extend(taken_for_friction(file, mass));
+    }
     warnings.extend(less(&lowered, options.limit.is_none()));
     if options.name.is_none() && !stiction_export::is_whole(&title) {
         warnings.push(Warning::new(
@@ -421,6 +439,39 @@ fn at_reference(file: &ModelFile) -> Option<Warning> {
             format!(
                 "friction changes with what the code does not see, so it has friction as it is there ({each}). Where the axis \
                  works elsewhere it is off by that much: identify the axis as it works"
+            ),
+        )
+    })
+}
+
+/// The mass of the model, unless the log leaves it open.
+fn known_mass(file: &ModelFile) -> Option<f64> {
+    let mass = file.parameter.iter().find(|p| p.name == "mass")?;
+    let known = mass.value > 0.0 && (mass.identifiable || mass.origin == "given");
+    known.then_some(mass.value)
+}
+
+/// What levels that follow the force of the drive would take for friction.
+fn taken_for_friction(file: &ModelFile, mass: Option<f64>) -> Option<Warning> {
+    let has = |stem: &str| file.parameter.iter().any(|p| p.name.starts_with(stem));
+    let taken = [
+        (
+            mass.is_none(),
+            "what accelerates the axis, since the model has no mass that the log determines",
+        ),
+        (has("gravity_"), "gravity"),
+        (has("cogging"), "cogging"),
+    ];
+    let taken: Vec<&str> = taken
+        .into_iter()
+        .filter_map(|(is, what)| is.then_some(what))
+        .collect();
+    (!taken.is_empty()).then(|| {
+        Warning::new(
+            Code::ExportAdaptation,
+            format!(
+                "levels that follow the force of the drive take for friction: {}. Subtract it from the force that goes in, or let them                  learn only where it is small",
+                taken.join("; ")
             ),
         )
     })

@@ -30,7 +30,8 @@ impl Stage {
             let file = file.unwrap();
             let to = dir.join(file.file_name());
             std::fs::copy(file.path(), &to).unwrap();
-            if file.file_name() == "run.py" || file.file_name() == "friction.hal" {
+            if ["run.py", "friction.hal", "adapt.hal"].contains(&file.file_name().to_str().unwrap())
+            {
                 // A name that no machine has: what is installed under it is removed again.
                 let text = std::fs::read_to_string(&to)
                     .unwrap()
@@ -72,15 +73,32 @@ impl Stage {
         said
     }
 
-    /// As `stage.ini`, with the compensator, and the axis otherwise than it is: lines of HAL.
-    fn compensated(&self, otherwise: &str) {
+    /// As `stage.ini`, with the compensator, whose levels follow the axis where asked, and otherwise than it is: lines of HAL.
+    fn compensated(&self, follows: bool, otherwise: &str) {
         let text = std::fs::read_to_string(self.dir.join("stage.ini")).unwrap();
         let text = text.replace(
             "HALFILE = stage.hal\n",
             "HALFILE = stage.hal\nHALFILE = friction.hal\nHALFILE = otherwise.hal\n",
         );
+        let otherwise = match follows {
+            true => {
+                let lines = std::fs::read_to_string(self.dir.join("adapt.hal")).unwrap();
+                format!("{otherwise}{lines}")
+            }
+            false => otherwise.to_string(),
+        };
         std::fs::write(self.dir.join("compensated.ini"), text).unwrap();
         std::fs::write(self.dir.join("otherwise.hal"), otherwise).unwrap();
+    }
+
+    /// Lines of HAL that make the friction of the axis another share of what it is.
+    fn level(&self, share: f64) -> String {
+        ["coulomb", "static", "sigma0"]
+            .map(|name| {
+                let pin = name.replace("static", "static-friction");
+                format!("setp stiction-stage.0.{pin} {}\n", share * self.truth(name))
+            })
+            .concat()
     }
 
     /// A parameter of the axis, as its component has it.
@@ -209,7 +227,7 @@ fn identified() -> (Stage, Log) {
     stage.stiction("check without.txt --axis axis.toml");
     stage.stiction("identify without.txt --axis axis.toml --out result --force");
     stage.stiction(
-        "export result/model.toml --target hal --gain 1 --name stiction_example --out hal --force",
+        "export result/model.toml --target hal --gain 1 --adapt --name stiction_example --out hal --force",
     );
     stage
         .installed
@@ -273,7 +291,7 @@ fn a_compensator_in_the_loop() {
     let (stage, without) = identified();
     assert_found(&stage);
 
-    stage.compensated("");
+    stage.compensated(false, "");
     let said = stage.linuxcnc(
         "compensated.ini gain=0 circles.ngc learn.txt gain=0.5 circles.ngc half.txt gain=1 cycle.ngc with.txt",
     );
@@ -298,6 +316,29 @@ fn a_compensator_in_the_loop() {
         println!("{name}: {moved:.1} um to and fro in the last half second, at rest");
         assert!(moved < 0.15, "{name}: {moved}");
     }
+
+    // Friction that is not any more what was identified is followed.
+    stage.compensated(true, &stage.level(1.3));
+    let said = stage
+        .linuxcnc("compensated.ini gain=0 circles.ngc learn.txt gain=1 cycle.ngc followed.txt");
+    assert_eq!(said.matches("tripped 0, valid 1").count(), 2, "{said}");
+    let (largest, least) = compare(
+        "friction 30 % higher, followed",
+        &without,
+        &log("followed.txt"),
+    );
+    assert!(largest >= 90.0 && least >= 75.0, "{largest} {least}");
+
+    // LinuxCNC is started anew: what was learnt is still there, and compensation comes in at once.
+    let kept = std::fs::read_to_string(stage.dir.join("kept.hal")).unwrap();
+    stage.compensated(true, &(stage.level(1.3) + &kept));
+    let said = stage.linuxcnc("compensated.ini gain=1 circles.ngc recalled.txt");
+    assert!(
+        said.contains("learned 1,") && said.contains("valid 1, recalled 1"),
+        "{said}"
+    );
+    let (largest, _) = compare("the next morning", &log("learn.txt"), &log("recalled.txt"));
+    assert!(largest >= 90.0, "{largest}");
 }
 
 /// The same component otherwise than it should be: less gain, the wrong place in the thread, viscous friction fed forward twice,
@@ -310,26 +351,32 @@ fn otherwise_than_identified() {
         return;
     }
     let (stage, without) = identified();
-    let level = |share: f64| {
-        ["coulomb", "static", "sigma0"]
-            .map(|name| {
-                let pin = name.replace("static", "static-friction");
-                format!(
-                    "setp stiction-stage.0.{pin} {}\n",
-                    share * stage.truth(name)
-                )
-            })
-            .concat()
-    };
     let late = "delf stiction-example-friction.0 servo-thread\naddf stiction-example-friction.0 servo-thread 5\n";
-    for (name, gain, lines, least) in [
-        ("gain 0.75", 0.75, "", 65.0),
-        ("after the motion controller", 1.0, late, 90.0),
-        ("FF1 as before", 1.0, "setp pid.x.FF1 0.03\n", 80.0),
-        ("friction 30 % higher", 1.0, &level(1.3), 50.0),
-        ("friction 30 % lower", 1.0, &level(0.7), 50.0),
+    let [lower, higher] = [0.7, 1.3].map(|share| stage.level(share));
+    for (name, follows, gain, lines, least) in [
+        ("gain 0.75", false, 0.75, "", 65.0),
+        ("after the motion controller", false, 1.0, late, 90.0),
+        ("FF1 as before", false, 1.0, "setp pid.x.FF1 0.03\n", 80.0),
+        ("friction 30 % higher", false, 1.0, &higher, 50.0),
+        ("friction 30 % lower", false, 1.0, &lower, 50.0),
+        ("as it was, followed", true, 1.0, "", 90.0),
+        ("friction 30 % lower, followed", true, 1.0, &lower, 90.0),
+        (
+            "friction 30 % lower, followed, gain 0.75",
+            true,
+            0.75,
+            &lower,
+            65.0,
+        ),
+        (
+            "after the motion controller, followed",
+            true,
+            1.0,
+            late,
+            90.0,
+        ),
     ] {
-        stage.compensated(lines);
+        stage.compensated(follows, lines);
         let said = stage.linuxcnc(&format!(
             "compensated.ini gain=0 circles.ngc learn.txt gain={gain} cycle.ngc otherwise.txt"
         ));

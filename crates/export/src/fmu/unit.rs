@@ -15,10 +15,12 @@ pub(super) enum Unit {
     Stiffness,
     /// Force per speed.
     Damping,
+    /// Force per acceleration.
+    Inertia,
 }
 
 impl Unit {
-    pub(super) const ALL: [Unit; 7] = [
+    pub(super) const ALL: [Unit; 8] = [
         Unit::Time,
         Unit::Length,
         Unit::Speed,
@@ -26,6 +28,7 @@ impl Unit {
         Unit::Slew,
         Unit::Stiffness,
         Unit::Damping,
+        Unit::Inertia,
     ];
 
     /// Its name for a linear or rotary axis whose force is in `force`; empty without unit.
@@ -45,6 +48,7 @@ impl Unit {
             Unit::Slew => format!("{force}/s"),
             Unit::Stiffness => format!("{force}/{length}"),
             Unit::Damping => format!("{force}.s/{length}"),
+            Unit::Inertia => format!("{force}.s2/{length}"),
         }
     }
 
@@ -73,6 +77,7 @@ impl Unit {
             Unit::Slew => over(force, time),
             Unit::Stiffness => over(force, length),
             Unit::Damping => over(force, over(length, time)),
+            Unit::Inertia => over(force, over(over(length, time), time)),
         }
     }
 }

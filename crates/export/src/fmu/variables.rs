@@ -5,7 +5,7 @@ use crate::Model;
 use crate::number::Literal;
 use crate::template::Fill;
 use stiction_friction::Shape;
-use stiction_friction::compensator::{Compensator, Friction};
+use stiction_friction::compensator::{Adaptation, Compensator, Friction};
 
 /// What a variable is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,6 +40,85 @@ pub(super) struct Variable {
 /// All of them; the value reference of the first is 1, since 0 is time.
 #[derive(Clone, Debug)]
 pub(super) struct Variables(Vec<Variable>);
+
+/// What levels that follow the machine take and give, each after the variables of its role.
+fn following(list: &mut Vec<Variable>, adaptation: Adaptation<f64>) {
+    use Role::{Fixed, Input, Output, Tunable};
+    let number = |value, unit| Start::Number(value, unit);
+    let Adaptation {
+        memory,
+        range,
+        mass,
+    } = adaptation;
+    for (name, role, start, at, about) in [
+        (
+            "drive_force",
+            Input,
+            number(0.0, Unit::Force),
+            "drive_force",
+            "that the drive was given in the cycle before, this compensation included",
+        ),
+        (
+            "learn",
+            Input,
+            Start::Flag(false),
+            "learn",
+            "not at the limits of the drive, nor while something else than friction and inertia pushes",
+        ),
+        (
+            "level_forward",
+            Output,
+            number(1.0, Unit::One),
+            "law.levels[0]",
+            "factor on the force of the law without its offset, found for motion forward",
+        ),
+        (
+            "level_back",
+            Output,
+            number(1.0, Unit::One),
+            "law.levels[1]",
+            "the same for motion back",
+        ),
+        (
+            "mass_found",
+            Output,
+            number(0.0, Unit::Inertia),
+            "law.mass_found",
+            "beside the levels",
+        ),
+        (
+            "memory",
+            Tunable,
+            number(memory, Unit::Time),
+            "params.memory",
+            "time constant of what the levels forget, in time that is learnt from",
+        ),
+        (
+            "range",
+            Tunable,
+            number(range, Unit::One),
+            "params.range",
+            "how far the levels may go from 1, above 0 and below 1",
+        ),
+        (
+            "mass",
+            Fixed,
+            number(mass, Unit::Inertia),
+            "params.mass",
+            "moving mass; 0: none",
+        ),
+    ] {
+        let last = list.iter().rposition(|v| v.role == role);
+        let variable = Variable {
+            name,
+            role,
+            start,
+            about,
+            at,
+        };
+        list.insert(last.map_or(0, |i| i + 1), variable);
+    }
+}
 
 impl Variables {
     pub(super) fn of(model: &Model, compensator: &Compensator<f64>) -> Self {
@@ -372,6 +451,9 @@ impl Variables {
             "law.learned",
             "the error without compensation is known: the force may come in",
         );
+        if let Some(adaptation) = s.adaptation {
+            following(&mut list, adaptation);
+        }
         Variables(list)
     }
 
@@ -396,10 +478,7 @@ impl Variables {
         };
         fill.set("numbers", cases(false))
             .set("flags", cases(true))
-            .set("velocity_ref", first(&|v| v.name == "reference_velocity"))
-            .set("error_ref", first(&|v| v.name == "tracking_error"))
-            .set("enable_ref", first(&|v| v.name == "enable"))
-            .set("reset_ref", first(&|v| v.name == "reset"))
+            .set("after_inputs", first(&|v| v.role != Role::Input))
             .set("tunable_from", first(&|v| v.role == Role::Tunable))
             .set("fixed_from", first(&|v| v.role == Role::Fixed))
             .set("end", (self.0.len() + 1).to_string());

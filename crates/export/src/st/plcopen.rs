@@ -55,12 +55,13 @@ fn pou(unit: &Unit, out: &mut String) {
             "VAR_INPUT" => out.push_str("          <inputVars>\n"),
             "VAR_OUTPUT" => out.push_str("          <outputVars>\n"),
             "VAR" => out.push_str("          <localVars>\n"),
+            "VAR RETAIN" => out.push_str("          <localVars retain=\"true\">\n"),
             "END_VAR" => {
                 // Closes what was opened last.
                 let opened = ["inputVars", "outputVars", "localVars"];
                 let last = opened
                     .iter()
-                    .max_by_key(|tag| out.rfind(&format!("<{tag}>")));
+                    .max_by_key(|tag| out.rfind(&format!("<{tag}")));
                 let _ = writeln!(out, "          </{}>", last.unwrap_or(&"localVars"));
             }
             _ => variable(line, out),

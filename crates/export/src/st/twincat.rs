@@ -6,6 +6,10 @@ use crate::guid::guid;
 
 pub(super) fn file(unit: &Unit) -> File {
     // `plain` text has no angle brackets; comparisons in the code are safe inside CDATA.
+    // TwinCAT keeps persistent data without further hardware, retained data not.
+    let declaration = unit
+        .declaration
+        .replace("\nVAR RETAIN\n", "\nVAR PERSISTENT\n");
     let (name, id) = (&unit.name, guid(&unit.text()));
     let text = format!(
         "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n\
@@ -17,7 +21,7 @@ pub(super) fn file(unit: &Unit) -> File {
          \x20   </Implementation>\n\
          \x20 </POU>\n\
          </TcPlcObject>\n",
-        unit.declaration, unit.body
+        declaration, unit.body
     );
     File::text(format!("{name}.TcPOU"), text)
 }

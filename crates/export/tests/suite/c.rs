@@ -1,10 +1,10 @@
 //! The C text: compiled under every warning, its self-test run, and sample by sample against the compensator.
 
 use crate::common::compiled::{agree, drive, gcc, level, passive, run, through_rust, write};
-use crate::common::{adversarial, busy, laws, model, random};
+use crate::common::{adapting, adversarial, busy, following, laws, model, models, random};
 use std::process::{Command, Stdio};
 use stiction_export::{Model, Target, export};
-use stiction_friction::compensator::{Friction, Input, Settings};
+use stiction_friction::compensator::{Adaptation, Friction, Input, Settings};
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 
 /// What the C has to pass; the undefined-behaviour sanitizer on top where it runs.
@@ -14,9 +14,9 @@ const SANITIZE: &str = "-fsanitize=undefined,float-divide-by-zero -fno-sanitize-
 
 #[test]
 fn the_self_test_passes_under_every_warning() {
-    for (name, law) in laws() {
+    for (name, model) in models() {
         let dir = tempfile::tempdir().unwrap();
-        write(&export(&model(law), Target::C).unwrap(), dir.path());
+        write(&export(&model, Target::C).unwrap(), dir.path());
         for file in ["x_axis_friction", "x_axis_friction_f32"] {
             let (source, test) = (format!("{file}.c"), format!("{file}_selftest.c"));
             gcc(&format!("{STRICT} -fanalyzer -c"), &[&source], dir.path());
@@ -121,11 +121,11 @@ fn the_self_test_notices() {
 #[test]
 fn misra() {
     let dir = tempfile::tempdir().unwrap();
-    let found: std::collections::BTreeSet<String> = laws()
+    let found: std::collections::BTreeSet<String> = models()
         .into_iter()
-        .filter(|(name, _)| ["power", "stribeck", "coulomb"].contains(name))
-        .flat_map(|(_, law)| {
-            write(&export(&model(law), Target::C).unwrap(), dir.path());
+        .filter(|(name, model)| *name == "power" || model.settings.adaptation.is_some())
+        .flat_map(|(_, model)| {
+            write(&export(&model, Target::C).unwrap(), dir.path());
             let arguments = "--addon=misra --enable=style,warning,performance,portability --inconclusive --std=c99 \
                  --suppress=missingIncludeSystem --suppress=unusedStructMember --quiet --template={id} x_axis_friction.c x_axis_friction_f32.c";
             let said = run("cppcheck", &arguments.split_whitespace().collect::<Vec<_>>(), dir.path());
@@ -143,18 +143,18 @@ fn misra() {
     }
 }
 
-/// Reads `h, velocity, error, enable` as doubles, writes force and deflection.
+/// Reads `h, velocity, error, enable, drive force, learn` as doubles, writes force and deflection.
 const DRIVER: &str = r#"
 #include "x_axis_friction@F@.h"
 #include <stdio.h>
 int main(void) {
-    double in[4];
+    double in[6];
     x_axis@F@_params_t p;
     x_axis@F@_state_t s;
     x_axis@F@_params(&p);
     if (!x_axis@F@_init(&p, &s)) { return 1; }
     while (fread(in, sizeof in, 1, stdin) == 1) {
-        const x_axis@F@_input_t input = { (@R@)in[1], (@R@)in[2], in[3] != 0.0 };
+        const x_axis@F@_input_t input = { (@R@)in[1], (@R@)in[2], in[3] != 0.0@D@ };
         double out[2];
         out[0] = (double)x_axis@F@_step_in(&p, &s, (@R@)in[0], &input);
         out[1] = @Z@;
@@ -185,6 +185,13 @@ fn through_c(
     };
     let driver = DRIVER
         .replace("@F@", suffix)
+        .replace(
+            "@D@",
+            match model.settings.adaptation {
+                Some(_) => ", (@R@)in[4], in[5] != 0.0",
+                None => "",
+            },
+        )
         .replace("@R@", real)
         .replace("@Z@", deflection);
     std::fs::write(dir.path().join("driver.c"), driver).unwrap();
@@ -214,7 +221,11 @@ fn single_precision_agrees() {
     for (seed, (name, friction)) in laws.into_iter().enumerate() {
         let mut model = model(friction);
         model.settings = busy();
-        let samples = adversarial(each, true, &mut random(100 + seed as u64));
+        let mut samples = adversarial(each, true, &mut random(100 + seed as u64));
+        if seed % 2 == 0 {
+            model.settings = adapting(busy());
+            samples = following(friction, busy(), &mut random(100 + seed as u64));
+        }
         let c = through_c(&model, true, false, &samples);
         let to = |x: [f64; 2]| x.map(|x| x as f32);
         let small: Friction<f32> = match &friction {
@@ -235,6 +246,11 @@ fn single_precision_agrees() {
             dead_zone: s.dead_zone as f32,
             slew: s.slew as f32,
             ramp: s.ramp as f32,
+            adaptation: s.adaptation.map(|a| Adaptation {
+                memory: a.memory as f32,
+                range: a.range as f32,
+                mass: a.mass as f32,
+            }),
             watchdog: Some(stiction_friction::compensator::Watchdog {
                 window: 0.5,
                 ratio: 1.0,
@@ -290,9 +306,9 @@ fn the_stack_is_small() {
     let page =
         std::fs::read_to_string(stiction_testkit::workspace().join("docs/deploy/c.md")).unwrap();
     let mut most = 0;
-    for (_, law) in laws() {
+    for (_, model) in models() {
         let dir = tempfile::tempdir().unwrap();
-        write(&export(&model(law), Target::C).unwrap(), dir.path());
+        write(&export(&model, Target::C).unwrap(), dir.path());
         for file in ["x_axis_friction", "x_axis_friction_f32"] {
             for level in ["-O2", "-O0"] {
                 let flags = format!("-std=c99 {level} -fstack-usage -c");
@@ -459,6 +475,64 @@ int main()
     .concat();
     run("g++", &rest, dir.path());
     run("./a.out", &[], dir.path());
+}
+
+/// What was learnt comes back after the drive was off; what is damaged or of another model does not.
+#[test]
+fn a_memory_is_recalled_or_refused() {
+    let program = r#"
+#include "x_axis_friction.h"
+#include "other_friction.h"
+#include <stdio.h>
+int main(void)
+{
+    x_axis_params_t params;
+    x_axis_state_t state, morning;
+    x_axis_params(&params);
+    params.watchdog_window = 0.1;
+    (void)x_axis_init(&params, &state);
+    for (int k = 0; k < 4000; k++) {
+        /* to and fro in 0.2 s, with a force of the drive of 1.2 times 12 N and 30 N s/m */
+        const bool onward = (k / 100) % 2 == 0;
+        const double v = onward ? 0.05 : -0.05;
+        const x_axis_input_t input = { v, 1e-6, false, (onward ? 1.2 : -1.2) * (12.0 + 1.5), k % 100 > 5 };
+        (void)x_axis_step(&params, &state, &input);
+    }
+    x_axis_memory_t memory = x_axis_memory(&state);
+    (void)x_axis_init(&params, &morning);
+    (void)printf("%d ", x_axis_recall(&params, &morning, &memory));
+    (void)printf("%.2f %.2f %d %d; ", morning.levels[0], morning.levels[1], morning.learned, morning.baseline == state.baseline);
+    int taken = 0;
+    for (int k = 0; k < 12; k++) {
+        x_axis_memory_t damaged = memory;
+        damaged.number[k] *= 1.0 + 1e-15;
+        damaged.number[k] += (damaged.number[k] == memory.number[k]) ? 1e-300 : 0.0;
+        taken += x_axis_recall(&params, &morning, &damaged) ? 1 : 0;
+    }
+    const x_axis_memory_t none = { { 0.0 } };
+    taken += x_axis_recall(&params, &morning, &none) ? 1 : 0;
+    other_params_t strange;
+    other_state_t its;
+    other_params(&strange);
+    (void)other_init(&strange, &its);
+    other_memory_t foreign;
+    for (int k = 0; k < 12; k++) { foreign.number[k] = memory.number[k]; }
+    taken += other_recall(&strange, &its, &foreign) ? 1 : 0;
+    (void)printf("%d", taken);
+    return 0;
+}
+"#;
+    let dir = tempfile::tempdir().unwrap();
+    let mut mine = model(laws().remove(0).1);
+    mine.settings = adapting(mine.settings);
+    write(&export(&mine, Target::C).unwrap(), dir.path());
+    let mut other = model(laws().remove(1).1);
+    other.identifier = "other".into();
+    write(&export(&other, Target::C).unwrap(), dir.path());
+    std::fs::write(dir.path().join("main.c"), program).unwrap();
+    let sources = ["main.c", "x_axis_friction.c", "other_friction.c", "-lm"];
+    gcc("-std=c99 -O2 -Wall -Wextra", &sources, dir.path());
+    assert_eq!(run("./a.out", &[], dir.path()), "1 1.20 1.20 1 1; 0");
 }
 
 /// A limit that is lowered while it runs holds from the next step on, whatever the slew limit.

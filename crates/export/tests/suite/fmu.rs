@@ -2,7 +2,7 @@
 //! standard.
 
 use crate::common::compiled::{Sample, agree, drive, gcc, passive, run, write};
-use crate::common::{laws, model, parts};
+use crate::common::{laws, model, models, parts};
 use std::path::{Path, PathBuf};
 use stiction_export::{File, GCC, Model, fmu};
 
@@ -31,12 +31,11 @@ fn compile(source: &File) -> Option<Vec<u8>> {
 /// FMPy validates both, simulates them over the samples of the self-test, and finds the forces that are due.
 #[test]
 fn fmpy_gives_the_forces_that_are_due() {
-    for (name, law) in laws()
+    for (name, mut model) in models()
         .into_iter()
         .filter(|(name, _)| ["lugre", "power", "coulomb"].contains(name))
     {
         let dir = tempfile::tempdir().unwrap();
-        let mut model = model(law);
         model.rotary = name == "power";
         write(&fmu(&model, &mut compile).unwrap(), dir.path());
         let said = python(&["x_axis_friction_selftest.py"], dir.path());
@@ -99,9 +98,9 @@ fn the_example_runs() {
 
 #[test]
 fn the_source_compiles_under_every_warning() {
-    for (_, law) in laws() {
+    for (_, model) in models() {
         let dir = tempfile::tempdir().unwrap();
-        for archive in &fmu(&model(law), &mut |_| None).unwrap()[..2] {
+        for archive in &fmu(&model, &mut |_| None).unwrap()[..2] {
             write(&parts(archive), dir.path());
             gcc(
                 "-std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wfloat-equal -Wsign-conversion -Wundef -Wcast-qual -O2 -Werror -c -o fmu.o",
@@ -152,14 +151,16 @@ static void *find(const char *name) {
     if (at == NULL) { (void)fprintf(stderr, "no %s\n", name); abort(); }
     return at;
 }
+#define COUNT(list) (sizeof list / sizeof *list)
 #define GET(type, name, arguments) type (*name)arguments = (type (*)arguments)find(#name)
 int main(void) {
-    static const unsigned inputs[] = { 1, 2 }, enable[] = { 3 }, outputs[] = { 5, 12 };
-    double in[4];
+    static const unsigned inputs[] = { @INPUTS@ }, flags[] = { @FLAGS@ }, outputs[] = { @OUTPUTS@ };
+    double in[6];
     library = dlopen("./binaries/@FOLDER@/x_axis_friction.so", RTLD_NOW);
     if (library == NULL) { return 1; }
 @SETUP@
     for (long k = 0; fread(in, sizeof in, 1, stdin) == 1; k++) {
+        const double numbers[] = { in[1], in[2], in[4] };
         double out[2];
 @STEP@
         (void)fwrite(out, sizeof out, 1, stdout);
@@ -184,8 +185,8 @@ const SETUP_2: &str = r#"
 "#;
 
 const STEP_2: &str = r#"
-        const int on[] = { in[3] != 0.0 };
-        if (fmi2SetReal(c, inputs, 2, &in[1]) || fmi2SetBoolean(c, enable, 1, on) || fmi2DoStep(c, (double)k * 1e-3, 1e-3, 1)
+        const int on[] = { in[3] != 0.0, in[5] != 0.0 };
+        if (fmi2SetReal(c, inputs, COUNT(inputs), numbers) || fmi2SetBoolean(c, flags, COUNT(flags), on) || fmi2DoStep(c, (double)k * 1e-3, 1e-3, 1)
             || fmi2GetReal(c, outputs, 2, out)) { return 3; }
 "#;
 
@@ -202,10 +203,10 @@ const SETUP_3: &str = r#"
 "#;
 
 const STEP_3: &str = r#"
-        const bool on[] = { in[3] != 0.0 };
+        const bool on[] = { in[3] != 0.0, in[5] != 0.0 };
         bool event, end, early;
         double last;
-        if (fmi3SetFloat64(c, inputs, 2, &in[1], 2) || fmi3SetBoolean(c, enable, 1, on, 1)
+        if (fmi3SetFloat64(c, inputs, COUNT(inputs), numbers, COUNT(inputs)) || fmi3SetBoolean(c, flags, COUNT(flags), on, COUNT(flags))
             || fmi3DoStep(c, (double)k * 1e-3, 1e-3, true, &event, &end, &early, &last) || fmi3GetFloat64(c, outputs, 2, out, 2)) { return 3; }
 "#;
 
@@ -222,13 +223,29 @@ fn through_fmu(version: usize, model: &Model, bristles: bool, samples: &[Sample]
         ["x86_64-linux", SETUP_3, STEP_3],
     ][version - 2];
     write(&parts, dir.path());
+    // Of those variables that it has.
+    let references = |names: &[&str]| -> String {
+        let found = names.iter().filter_map(|name| {
+            let (_, after) = text.split_once(&format!("name=\"{name}\" valueReference=\""))?;
+            after.split('"').next()
+        });
+        found.collect::<Vec<_>>().join(", ")
+    };
     let driver = DRIVER
         .replace("@FOLDER@", folder)
         .replace("@SETUP@", setup)
         .replace("@STEP@", step)
         .replace("@TOKEN@", token)
+        .replace(
+            "@INPUTS@",
+            &references(&["reference_velocity", "tracking_error", "drive_force"]),
+        )
+        .replace("@FLAGS@", &references(&["enable", "learn"]))
         // Without bristles there is no deflection; the force then stands for it.
-        .replace("{ 5, 9 }", if bristles { "{ 5, 9 }" } else { "{ 5, 5 }" });
+        .replace(
+            "@OUTPUTS@",
+            &references(&["force", if bristles { "deflection" } else { "force" }]),
+        );
     std::fs::write(dir.path().join("driver.c"), driver).unwrap();
     gcc("-std=gnu99 -O2", &["driver.c", "-ldl"], dir.path());
     drive(dir.path(), "./a.out", samples)

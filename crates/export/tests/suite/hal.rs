@@ -1,7 +1,7 @@
 //! The HAL component: built by halcompile, run by LinuxCNC in a real thread, and sample by sample against the compensator.
 
 use crate::common::compiled::{Sample, agree, drive, gcc, passive, run, write};
-use crate::common::{laws, model};
+use crate::common::{laws, model, models};
 use stiction_export::{Model, Target, export};
 use stiction_testkit::hal::{self, Installed};
 
@@ -11,11 +11,10 @@ fn linuxcnc_gives_the_forces_that_are_due() {
     if !hal::may_install() {
         return;
     }
-    for (name, law) in laws()
+    for (name, mut model) in models()
         .into_iter()
         .filter(|(name, _)| ["lugre", "power", "coulomb"].contains(name))
     {
-        let mut model = model(law);
         model.identifier = "Stiction_test".into();
         model.settings.cycle_time = if name == "power" { 250e-6 } else { 1e-3 };
         let dir = tempfile::tempdir().unwrap();
@@ -126,7 +125,7 @@ int rtapi_snprintf(char *to, unsigned long size, const char *format, ...) {
 void rtapi_print_msg(msg_level_t level, const char *format, ...) { (void)level; (void)format; }
 
 int main(void) {
-    double in[4];
+    double in[6];
     if (rtapi_app_main() != 0) { return 1; }
     hal_float_t *velocity = pin("velocity"), *error = pin("error"), *force = pin("force"), *z = @Z@;
     hal_bit_t *enable = pin("enable"), *valid = pin("valid");
@@ -135,6 +134,7 @@ int main(void) {
         *velocity = in[1];
         *error = in[2];
         *enable = in[3] != 0.0;
+        @D@
         function(instance, (long)(in[0] * 1e9 + 0.5));
         if (!*valid) { return 2; }
         out[0] = *force;
@@ -159,9 +159,15 @@ fn through_hal(model: &Model, bristles: bool, samples: &[Sample]) -> Vec<[f64; 2
     } else {
         "force"
     };
+    let fed = match model.settings.adaptation {
+        Some(_) => {
+            "*(hal_float_t *)pin(\"drive-force\") = in[4]; *(hal_bit_t *)pin(\"learn\") = in[5] != 0.0;"
+        }
+        None => "",
+    };
     std::fs::write(
         dir.path().join("driver.c"),
-        DRIVER.replace("@Z@", deflection),
+        DRIVER.replace("@Z@", deflection).replace("@D@", fed),
     )
     .unwrap();
     gcc(

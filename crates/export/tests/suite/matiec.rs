@@ -3,7 +3,7 @@
 
 use crate::common::compiled::{Sample, drive, run};
 use crate::common::matiec::{compile, matiec};
-use crate::common::{laws, model};
+use crate::common::{laws, model, models};
 use crate::st;
 use std::path::Path;
 use stiction_export::{Model, Target, export};
@@ -13,13 +13,14 @@ const BLOCK: &str = r#"
 int main(void)
 {
     static NAME block;
-    double in[4];
+    double in[6];
     NAME_init__(&block, 0);
-    while (fread(in, sizeof *in, 4, stdin) == 4) {
+    while (fread(in, sizeof *in, 6, stdin) == 6) {
         block.CYCLE_TIME.value = (REAL)in[0];
         block.REFERENCE_VELOCITY.value = (REAL)in[1];
         block.TRACKING_ERROR.value = (REAL)in[2];
         block.ENABLE.value = in[3] != 0.0;
+        DRIVE
         NAME_body__(&block);
         const double out[2] = { block.FORCE.value, DEFLECTION };
         (void)fwrite(out, sizeof *out, 2, stdout);
@@ -74,6 +75,15 @@ fn compiled(
     };
     let driver = BLOCK
         .replace("NAME", &name.to_uppercase())
+        .replace(
+            "DRIVE",
+            match model.settings.adaptation {
+                Some(_) => {
+                    "block.DRIVE_FORCE.value = (REAL)in[4]; block.LEARN.value = in[5] != 0.0;"
+                }
+                None => "",
+            },
+        )
         .replace("REAL", real)
         .replace("DEFLECTION }", &format!("{deflection} }}"));
     compile(matiec, &[text], &driver, dir.path(), "block");
@@ -104,9 +114,9 @@ fn the_test_programs_pass() {
     let Some(matiec) = matiec() else {
         return;
     };
-    for (name, law) in laws() {
+    for (name, model) in models() {
         let dir = tempfile::tempdir().unwrap();
-        for pair in texts(&model(law)).chunks(2) {
+        for pair in texts(&model).chunks(2) {
             let [(_, block), (program, test)] = pair else {
                 panic!("a block and its test");
             };

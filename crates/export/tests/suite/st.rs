@@ -3,12 +3,14 @@
 use crate::common;
 use crate::common::compiled::Sample;
 use crate::common::reserved::is_reserved;
-use crate::common::{GUARDED, adversarial, busy, guarded, laws, model, random};
+use crate::common::{
+    GUARDED, adapting, adversarial, busy, following, guarded, laws, model, models, random,
+};
 use std::collections::HashSet;
 use std::path::PathBuf;
 use std::process::Command;
 use stiction_export::{File, Model, Target, export};
-use stiction_friction::compensator::{Compensator, Friction, Input, Settings, Source};
+use stiction_friction::compensator::{Adaptation, Compensator, Friction, Input, Settings, Source};
 use stiction_friction::{CoulombViscous, Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_testkit::st::Library;
 
@@ -33,8 +35,8 @@ fn library(model: &Model) -> Library {
 
 #[test]
 fn the_test_program_passes() {
-    for (name, law) in laws() {
-        let library = library(&model(law));
+    for (name, model) in models() {
+        let library = library(&model);
         for program in ["PRG_x_axis_FrictionTest", "PRG_x_axis_FrictionTest_R"] {
             let mut program = library.instance(program);
             let (done, passed, worst) = (
@@ -67,9 +69,17 @@ fn what_is_exported_is_valid() {
         let law = LuGre::new(end(4, 1e15), Damping::Capped(end(5, 1e15)), curve).unwrap();
         model(Friction::LuGre(law))
     };
-    for k in 0..64 {
+    for k in 0..128 {
         let mut model = corners(k, 1.0);
         model.settings.limit = 1e15;
+        if k >= 64 {
+            model.settings = adapting(model.settings);
+            let mass = [1e-9, 1e9, 0.0][k as usize % 3];
+            model.settings.adaptation = Some(Adaptation {
+                mass,
+                ..Adaptation::default()
+            });
+        }
         let library = library(&model);
         for (suffix, huge) in [("", 1e15), ("_R", 1e12)] {
             let mut program = library.instance(&format!("PRG_x_axis_FrictionTest{suffix}"));
@@ -88,8 +98,18 @@ fn what_is_exported_is_valid() {
             block.set(enable, 1.0);
             for h in [1e-3, 1.001e-7, 10.0] {
                 block.set(time, h);
-                for v in [huge, 1.0, -1e-24, -huge, 1e-9, -1e3, 0.0, 1e-24, huge] {
+                for (i, v) in [huge, 1.0, -1e-24, -huge, 1e-9, -1e3, 0.0, 1e-24, huge]
+                    .into_iter()
+                    .flat_map(|v| [v; 4])
+                    .enumerate()
+                {
                     block.set(velocity, 0.999 * v);
+                    if k >= 64 {
+                        let force = [huge, -1.0, 1e8, -1e-20, -huge][i % 5];
+                        let [drive, learn] = ["drive_force", "learn"].map(|name| block.slot(name));
+                        block.set(drive, force);
+                        block.set(learn, 1.0);
+                    }
                     block.call();
                     assert_eq!(block.get(block.slot("valid")), 1.0, "{k}{suffix} {v} {h}");
                 }
@@ -127,6 +147,7 @@ fn seen(h: f64, input: &Input<f64>, huge: f64) -> (f64, Input<f64>) {
     let input = Input {
         reference_velocity: none(input.reference_velocity),
         tracking_error: none(input.tracking_error),
+        drive_force: none(input.drive_force),
         ..*input
     };
     (h, input)
@@ -152,6 +173,10 @@ pub fn lreal(what: &str, through: impl Fn(&Model, bool, &[Sample]) -> Vec<[f64; 
             let samples = guarded(friction, busy(), *kind, &mut random(seed as u64));
             runs.push((busy(), samples));
         }
+        let samples = following(friction, busy(), &mut random(seed as u64));
+        runs.push((adapting(busy()), samples));
+        let samples = adversarial(each / 2, true, &mut random(100 + seed as u64));
+        runs.push((adapting(model.settings), samples));
         for (settings, samples) in runs {
             model.settings = settings;
             let mut compensator = Compensator::new(friction, Source::Reference, settings).unwrap();
@@ -189,6 +214,8 @@ fn interpreted(model: &Model, name: &str, bristles: bool, samples: &[Sample]) ->
         "enable",
     ];
     let inputs = inputs.map(|n| block.slot(n));
+    let adapts = model.settings.adaptation.is_some();
+    let drive = adapts.then(|| ["drive_force", "learn"].map(|n| block.slot(n)));
     let force = block.slot("force");
     let z = bristles.then(|| block.slot("deflection"));
     let step = |(h, input): &Sample| {
@@ -196,6 +223,10 @@ fn interpreted(model: &Model, name: &str, bristles: bool, samples: &[Sample]) ->
         let values = [*h, input.reference_velocity, input.tracking_error, enable];
         for (slot, x) in inputs.into_iter().zip(values) {
             block.set(slot, x);
+        }
+        if let Some([force, learn]) = drive {
+            block.set(force, input.drive_force);
+            block.set(learn, f64::from(u8::from(input.learn)));
         }
         block.call();
         [block.get(force), z.map_or(0.0, |z| block.get(z))]
@@ -244,29 +275,49 @@ pub fn real(what: &str, through: impl Fn(&Model, bool, &[Sample]) -> Vec<[f64; 2
             Friction::Stribeck(curve) => Friction::Stribeck(curve.cast().unwrap()),
             Friction::LuGre(law) => Friction::LuGre(law.cast().unwrap()),
         };
-        let mut compensator = Compensator::new(law, Source::Reference, small).unwrap();
-        let mut samples = adversarial(150_000, true, &mut random(50 + seed as u64));
-        for (h, input) in &mut samples {
-            // As the controller's REAL inputs hold it.
-            for x in [h, &mut input.reference_velocity, &mut input.tracking_error] {
-                *x = f64::from(*x as f32);
+        let follows = Settings {
+            adaptation: Some(Adaptation {
+                mass: 4.6,
+                ..Adaptation::default()
+            }),
+            ..small
+        };
+        let random = &mut random(50 + seed as u64);
+        let plain = adversarial(150_000, true, random);
+        let followed = following(friction, model.settings, random);
+        for (small, mut samples) in [(small, plain), (follows, followed)] {
+            if small.adaptation.is_some() {
+                model.settings = adapting(model.settings);
             }
-        }
-        let found = through(&model, bristles(&friction).is_some(), &samples);
-        assert_eq!(found.len(), samples.len());
-        for (i, ((h, input), [force, _])) in samples.iter().zip(found).enumerate() {
-            let (h, input) = seen(*h, input, 1e12);
-            let input = Input {
-                reference_velocity: input.reference_velocity as f32,
-                measured_velocity: 0.0,
-                tracking_error: input.tracking_error as f32,
-                enable: input.enable,
-                ..Input::default()
-            };
-            let due = f64::from(compensator.step_in(h as f32, input));
-            let off = (force - due).abs() / level(&friction);
-            worst = worst.max(off);
-            assert!(off <= 2e-6, "{name} {i}: {force} {due} at {h} {input:?}");
+            for (h, input) in &mut samples {
+                // As the controller's REAL inputs hold it.
+                for x in [
+                    h,
+                    &mut input.reference_velocity,
+                    &mut input.tracking_error,
+                    &mut input.drive_force,
+                ] {
+                    *x = f64::from(*x as f32);
+                }
+            }
+            let mut compensator = Compensator::new(law, Source::Reference, small).unwrap();
+            let found = through(&model, bristles(&friction).is_some(), &samples);
+            assert_eq!(found.len(), samples.len());
+            for (i, ((h, input), [force, _])) in samples.iter().zip(found).enumerate() {
+                let (h, input) = seen(*h, input, 1e12);
+                let input = Input {
+                    reference_velocity: input.reference_velocity as f32,
+                    measured_velocity: 0.0,
+                    tracking_error: input.tracking_error as f32,
+                    enable: input.enable,
+                    drive_force: input.drive_force as f32,
+                    learn: input.learn,
+                };
+                let due = f64::from(compensator.step_in(h as f32, input));
+                let off = (force - due).abs() / level(&friction);
+                worst = worst.max(off);
+                assert!(off <= 2e-6, "{name} {i}: {force} {due} at {h} {input:?}");
+            }
         }
     }
     println!("{what}, REAL: largest deviation {worst:.2e} of Fs");
@@ -292,6 +343,64 @@ fn level(friction: &Friction<f64>) -> f64 {
         Friction::Stribeck(curve) => curve.largest_static_level(),
         Friction::LuGre(law) => law.curve().largest_static_level(),
     }
+}
+
+/// What the controller retains comes back at the first call, unless it is damaged, of another model, or reset comes first.
+#[test]
+fn what_is_retained_comes_back() {
+    let mut model = model(laws().remove(0).1);
+    model.settings = adapting(model.settings);
+    let library = library(&model);
+    let kept = ["key", "forward", "back", "square", "peak", "reason"];
+    let kept = kept.map(|name| [format!("kept_{name}"), format!("copy_{name}")]);
+    let kept: Vec<&String> = kept.iter().flatten().collect();
+    let mut evening = library.instance("FB_x_axis_Friction");
+    let slots = [
+        "reference_velocity",
+        "tracking_error",
+        "drive_force",
+        "learn",
+    ];
+    let [velocity, error, force, learn] = slots.map(|name| evening.slot(name));
+    evening.set(evening.slot("watchdog_window"), 0.1);
+    evening.set(error, 1e-6);
+    for k in 0..4000 {
+        let sign = if k / 100 % 2 == 0 { 1.0 } else { -1.0 };
+        evening.set(velocity, sign * 0.05);
+        evening.set(force, sign * 1.2 * 13.5);
+        evening.set(learn, f64::from(u8::from(k % 100 > 5)));
+        evening.call();
+    }
+    assert_eq!(evening.get(evening.slot("learned")), 1.0);
+    let morning = |change: &dyn Fn(&str, f64) -> f64, reset: bool| {
+        let mut morning = library.instance("FB_x_axis_Friction");
+        for name in &kept {
+            let value = evening.get(evening.slot(name));
+            morning.set(morning.slot(name), change(name, value));
+        }
+        morning.set(morning.slot("reset"), f64::from(u8::from(reset)));
+        morning.call();
+        ["recalled", "learned", "level_forward", "level_back"]
+            .map(|name| morning.get(morning.slot(name)))
+    };
+    let [recalled, learned, forward, back] = morning(&|_, value| value, false);
+    assert_eq!([recalled, learned], [1.0, 1.0]);
+    assert!(
+        (forward - 1.2).abs() < 0.02 && (back - 1.2).abs() < 0.02,
+        "{forward} {back}"
+    );
+    let nothing = [0.0, 0.0, 1.0, 1.0];
+    assert_eq!(morning(&|_, value| value, true), nothing);
+    for damaged in &kept {
+        let change = |name: &str, value: f64| if name == *damaged { value + 1.0 } else { value };
+        assert_eq!(morning(&change, false), nothing, "{damaged}");
+    }
+    let other = |name: &str, value: f64| match name {
+        "kept_key" => value + 1.0,
+        "copy_key" => value - 1.0,
+        _ => value,
+    };
+    assert_eq!(morning(&other, false), nothing);
 }
 
 /// Settings out of range, also those that are no number: not valid, no force.
@@ -323,8 +432,7 @@ fn bad_settings_give_no_force() {
 #[test]
 fn no_name_is_reserved() {
     assert!(is_reserved("ramp") && is_reserved("On") && is_reserved("max_int"));
-    for (_, law) in laws() {
-        let model = model(law);
+    for (_, model) in models() {
         for target in [Target::St, Target::TcPou, Target::PlcOpen] {
             for file in export(&model, target).unwrap() {
                 let text = String::from_utf8(file.bytes).unwrap();
@@ -392,12 +500,13 @@ fn blark_reads_it() {
     let python = std::env::var_os("STICTION_PYTHON").map_or(local, PathBuf::from);
     let dir = tempfile::tempdir().unwrap();
     let mut names = Vec::new();
-    for (name, law) in laws()
-        .into_iter()
-        .filter(|(name, _)| ["power", "coulomb"].contains(name))
-    {
+    for (name, model) in models().into_iter().filter(|(name, model)| match *name {
+        "power" => true,
+        "coulomb" => model.settings.adaptation.is_some(),
+        _ => false,
+    }) {
         for target in [Target::St, Target::TcPou] {
-            for file in export(&model(law), target).unwrap() {
+            for file in export(&model, target).unwrap() {
                 let name = format!("{name}_{}", file.path);
                 let text = one_sample_of_each_form(std::str::from_utf8(&file.bytes).unwrap());
                 std::fs::write(dir.path().join(&name), text).unwrap();
@@ -483,7 +592,9 @@ fn wrapped_text_is_the_text() {
             .unwrap();
         assert_eq!(pou.attribute("Name"), Some(name));
         assert_eq!(pou.attribute("Id").unwrap().len(), 38);
-        assert!(squeeze(&text(&plain, &format!("{name}.st"))).starts_with(&squeeze(&whole)));
+        // Retained data need further hardware in TwinCAT, persistent data do not.
+        let retained = squeeze(&whole).replace("VAR PERSISTENT", "VAR RETAIN");
+        assert!(squeeze(&text(&plain, &format!("{name}.st"))).starts_with(&retained));
     }
     let xml = text(
         &export(&model, Target::PlcOpen).unwrap(),

@@ -11,6 +11,12 @@ const HELD_MASS: f64 = 0.02;
 const MOST_MASSES: f64 = 5.0;
 /// Weight of what was identified before anything is learnt, in memories.
 const INITIAL_WEIGHT: f64 = 0.1;
+/// Largest forces and accelerations that are learnt from, in their units: no product of them overflows in single precision.
+const LARGEST: f64 = 1e8;
+/// Least force of the law that is learnt from, relative to its scale.
+const LEAST: f64 = 0.1;
+/// Least integral of the squared acceleration that a mass is found from, m^2/s^3 (rad^2/s^3).
+const LEAST_SQUARE: f64 = 1e-15;
 
 /// A factor on the law's force for each direction of motion, found from the force of the drive.
 ///
@@ -86,6 +92,14 @@ impl<T: Real> Learnt<T> {
         }
     }
 
+    /// Begins anew, with these levels.
+    pub(super) fn recall(&mut self, levels: [T; 2]) {
+        *self = Learnt {
+            levels,
+            ..Learnt::nothing()
+        };
+    }
+
     /// The factor between the two directions: `side` is 1 where friction opposes motion forward, -1 for motion back.
     #[inline]
     pub(super) fn level(&self, side: T) -> T {
@@ -107,11 +121,11 @@ impl<T: Real> Adaptation<T> {
         )
     }
 
-    /// What is known at the start: the levels as they were identified.
-    fn begin(&self, friction: &Friction<T>) -> [[T; 5]; 2] {
+    /// What is known at the start: the levels as they were identified, or as they were kept.
+    fn begin(&self, levels: [T; 2], friction: &Friction<T>) -> [[T; 5]; 2] {
         let size = friction.scale();
         let weight = T::from_f64(INITIAL_WEIGHT) * self.memory * size * size;
-        [[weight, T::ZERO, T::ZERO, weight, T::ZERO]; 2]
+        levels.map(|level| [weight, T::ZERO, T::ZERO, weight * level, T::ZERO])
     }
 
     /// Takes a sample: the law's own `force` at the reference velocity, over `h` seconds. `frozen` learns nothing.
@@ -137,7 +151,7 @@ impl<T: Real> Adaptation<T> {
             dry: force - friction.offset(),
         };
         let Some(before) = learnt.before.replace(now) else {
-            learnt.sums = self.begin(friction);
+            learnt.sums = self.begin(learnt.levels, friction);
             learnt.mass = self.mass;
             return;
         };
@@ -151,7 +165,8 @@ impl<T: Real> Adaptation<T> {
         let along = if forward { learnt.moved } else { -learnt.moved };
         let dry = before.dry;
         let pushes = if forward { dry } else { -dry };
-        let slides = along > friction.sliding() && pushes > T::ZERO;
+        let least = T::from_f64(LEAST) * friction.scale();
+        let slides = along > friction.sliding() && pushes > least;
         if frozen || !slides {
             return;
         }
@@ -166,14 +181,18 @@ impl<T: Real> Adaptation<T> {
             .max(-most)
             .min(most);
         let u = known + left;
+        let largest = T::from_f64(LARGEST);
+        if !(most <= largest && a.abs() <= largest && u.abs() <= largest) {
+            return;
+        }
         let fade = T::ONE - (h / self.memory).min(T::ONE);
         let terms = [dry * dry, dry * a, a * a, dry * u, a * u];
         let mut sums = learnt.sums[side];
         for (sum, term) in sums.iter_mut().zip(terms) {
             *sum = *sum * fade + h * term;
         }
-        // A sample that overflows changes nothing.
-        if !sums.iter().all(|sum| sum.abs() <= T::MAX) || sums[0] <= T::ZERO {
+        // A time that overflows changes nothing.
+        if !sums.iter().all(|sum| sum.is_finite()) {
             return;
         }
         learnt.sums[side] = sums;
@@ -182,25 +201,27 @@ impl<T: Real> Adaptation<T> {
 
     /// Levels and mass of least squares.
     fn solve(&self, learnt: &mut Learnt<T>, friction: &Friction<T>) {
+        // A law without force at low speed knows nothing at the start.
+        let known = learnt.sums.into_iter().filter(|sums| sums[0] > T::ZERO);
         if self.mass > T::ZERO {
             let least = T::from_f64(HELD_MASS) * friction.scale() / self.mass;
             let held = least * least * self.memory;
             let (mut square, mut product) = (held, held * self.mass);
-            for [ff, fa, aa, fu, au] in learnt.sums {
-                square = square + (aa - fa * (fa / ff));
+            for [ff, fa, aa, fu, au] in known {
+                square = square + (aa - fa * (fa / ff)).max(T::ZERO);
                 product = product + (au - fa * (fu / ff));
             }
-            let mass = product / square;
-            if mass.abs() <= T::MAX {
+            if square > T::from_f64(LEAST_SQUARE) {
                 let most = T::from_f64(MOST_MASSES) * self.mass;
-                learnt.mass = mass.max(T::ZERO).min(most);
+                learnt.mass = (product / square).max(T::ZERO).min(most);
             }
         }
         for (level, [ff, fa, _, fu, _]) in learnt.levels.iter_mut().zip(learnt.sums) {
-            let next = (fu - fa * learnt.mass) / ff;
-            if next.abs() <= T::MAX {
-                *level = next.max(T::ONE - self.range).min(T::ONE + self.range);
+            if ff <= T::ZERO {
+                continue;
             }
+            let next = (fu - fa * learnt.mass) / ff;
+            *level = next.max(T::ONE - self.range).min(T::ONE + self.range);
         }
     }
 }

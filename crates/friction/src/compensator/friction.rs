@@ -100,7 +100,7 @@ impl<T: Real> Friction<T> {
     }
 
     /// Way after a reversal from which on the axis slides, m (rad).
-    pub(super) fn sliding(&self) -> T {
+    pub fn sliding(&self) -> T {
         match self {
             Friction::Coulomb(_) => T::from_f64(SLIDING_TIME * SLOWEST),
             Friction::Stribeck(curve) => {

@@ -28,6 +28,5 @@ impl<T: Real> Input<T> {
         self.reference_velocity.is_finite()
             && self.measured_velocity.is_finite()
             && self.tracking_error.is_finite()
-            && self.drive_force.is_finite()
     }
 }

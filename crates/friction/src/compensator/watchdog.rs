@@ -161,6 +161,18 @@ impl<T: Real> Watch<T> {
         }
     }
 
+    /// What was kept: mean square and largest error without compensation, and whether it has switched off.
+    pub(super) fn recalled(without: T, peak_without: T, trip: Option<Trip>) -> Self {
+        Watch {
+            without,
+            peak_without,
+            learnt: [(without, peak_without); 4],
+            windows: LEARNT_WINDOWS,
+            trip,
+            ..Watch::default()
+        }
+    }
+
     /// Begins a window.
     fn clear(&mut self) {
         (self.sum, self.peak, self.time) = (T::ZERO, T::ZERO, T::ZERO);

@@ -7,6 +7,7 @@ mod common;
 mod compensator;
 mod elasto_plastic;
 mod gms;
+mod memory;
 mod order;
 mod parameters;
 mod passivity;

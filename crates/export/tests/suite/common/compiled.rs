@@ -1,6 +1,6 @@
 //! Code of a target, compiled and run beside the compensator.
 
-use super::{GUARDED, adversarial, busy, guarded, laws, model, random};
+use super::{GUARDED, adapting, adversarial, busy, following, guarded, laws, model, random};
 use std::io::{Read, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -41,7 +41,8 @@ pub fn gcc(flags: &str, rest: &[&str], dir: &Path) {
     run("gcc", &arguments, dir);
 }
 
-/// What a compiled program gives that reads `h, velocity, error, enable` as doubles and writes force and deflection.
+/// What a compiled program gives that reads `h, velocity, error, enable, drive force, learn` as doubles and writes force and
+/// deflection.
 pub fn drive(dir: &Path, program: &str, samples: &[Sample]) -> Vec<[f64; 2]> {
     let bytes: Vec<u8> = samples
         .iter()
@@ -51,6 +52,8 @@ pub fn drive(dir: &Path, program: &str, samples: &[Sample]) -> Vec<[f64; 2]> {
                 input.reference_velocity,
                 input.tracking_error,
                 f64::from(u8::from(input.enable)),
+                input.drive_force,
+                f64::from(u8::from(input.learn)),
             ]
         })
         .flat_map(f64::to_le_bytes)
@@ -96,7 +99,8 @@ pub fn through_rust<T: Real>(
                 measured_velocity: T::ZERO,
                 tracking_error: to(input.tracking_error),
                 enable: input.enable,
-                ..Input::default()
+                drive_force: to(input.drive_force),
+                learn: input.learn,
             };
             compensator.step_in(to(*h), input).to_f64()
         })
@@ -117,17 +121,27 @@ pub fn agree(
     for (seed, (name, friction)) in laws.into_iter().enumerate() {
         let mut model = model(friction);
         model.settings = busy();
-        let mut samples = vec![adversarial(each, true, &mut random(seed as u64))];
         if seed % 2 == 1 {
             model.settings.watchdog = None;
         }
         let settings = model.settings;
-        if let Some(kind) = GUARDED.get(seed) {
-            samples.push(guarded(friction, busy(), *kind, &mut random(seed as u64)));
-        }
+        let guarded = GUARDED
+            .get(seed)
+            .map(|kind| guarded(friction, busy(), *kind, &mut random(seed as u64)));
         let bristles = matches!(friction, Friction::LuGre(_));
-        for (run, mut samples) in samples.into_iter().enumerate() {
-            model.settings = if run == 0 { settings } else { busy() };
+        let following = following(friction, busy(), &mut random(seed as u64));
+        let runs = [(settings, adversarial(each, true, &mut random(seed as u64)))]
+            .into_iter()
+            .chain(guarded.map(|samples| (busy(), samples)))
+            .chain([
+                (
+                    adapting(settings),
+                    adversarial(each / 2, true, &mut random(100 + seed as u64)),
+                ),
+                (adapting(busy()), following),
+            ]);
+        for (run, (settings, mut samples)) in runs.enumerate() {
+            model.settings = settings;
             prepare(&mut samples);
             let found = through(&model, bristles, &samples);
             let rust = through_rust(friction, model.settings, &samples);

@@ -10,7 +10,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use std::io::Read;
 use stiction_export::{File, Model, Parameter, Provenance};
 use stiction_friction::compensator::{
-    Compensator, Friction, Input, Settings, Source, Trip, Watchdog,
+    Adaptation, Compensator, Friction, Input, Settings, Source, Trip, Watchdog,
 };
 use stiction_friction::{CoulombViscous, Damping, Direction, LuGre, Shape, Stribeck};
 
@@ -56,6 +56,24 @@ pub fn laws() -> Vec<(&'static str, Friction<f64>)> {
             Friction::Coulomb(CoulombViscous::new([20.0, 14.0], [60.0, 85.0], -3.0).unwrap()),
         ),
     ]
+}
+
+/// The model of every law; some of them a second time with levels that follow the machine.
+pub fn models() -> Vec<(&'static str, Model)> {
+    let following = ["gaussian", "stribeck", "coulomb"];
+    let again = laws()
+        .into_iter()
+        .filter(|(name, _)| following.contains(name))
+        .map(|(name, law)| {
+            let mut model = model(law);
+            model.settings = adapting(model.settings);
+            (name, model)
+        });
+    laws()
+        .into_iter()
+        .map(|(name, law)| (name, model(law)))
+        .chain(again)
+        .collect()
 }
 
 pub fn model(friction: Friction<f64>) -> Model {
@@ -111,6 +129,17 @@ pub fn busy() -> Settings<f64> {
     }
 }
 
+/// The same with levels that follow the machine.
+pub fn adapting(settings: Settings<f64>) -> Settings<f64> {
+    Settings {
+        adaptation: Some(Adaptation {
+            mass: 4.6,
+            ..Adaptation::default()
+        }),
+        ..settings
+    }
+}
+
 pub fn random(seed: u64) -> Xoshiro256PlusPlus {
     Xoshiro256PlusPlus::seed_from_u64(seed)
 }
@@ -126,6 +155,7 @@ pub fn adversarial(samples: usize, wild: bool, random: &mut impl Rng) -> Vec<(f6
         let enable = random.random_range(0..6) != 0;
         let error = 10f64.powf(random.random_range(-7.0..-5.0));
         let varying = random.random_range(0..8) == 0;
+        let force = 10f64.powf(random.random_range(-1.0..3.0));
         for k in 0..random.random_range(1..400) {
             let k = f64::from(k);
             let v = match kind {
@@ -153,7 +183,11 @@ pub fn adversarial(samples: usize, wild: bool, random: &mut impl Rng) -> Vec<(f6
                 measured_velocity: 0.0,
                 tracking_error,
                 enable,
-                ..Input::default()
+                drive_force: match kind {
+                    8 if !varying => f64::from_bits(random.random()),
+                    _ => force * random.random_range(-1.0..1.0),
+                },
+                learn: random.random_range(0..9) != 0,
             };
             out.push((h, input));
         }
@@ -204,6 +238,45 @@ pub fn guarded(
     }
     assert_eq!(compensator.state().watch.trip, trip, "{factor}");
     assert!(compensator.state().watch.learned());
+    out
+}
+
+/// Samples of an axis whose friction is not that of the law: it goes to and fro with a force of the drive that changes by
+/// direction, with its mass, and has faults of the measurement; the levels follow.
+pub fn following(
+    friction: Friction<f64>,
+    settings: Settings<f64>,
+    random: &mut impl Rng,
+) -> Vec<(f64, Input<f64>)> {
+    let h = settings.cycle_time;
+    let settings = Settings {
+        watchdog: None,
+        limit: 1e3,
+        ..settings
+    };
+    let mut axis = Compensator::new(friction, Source::Reference, settings).unwrap();
+    let mut after = Compensator::new(friction, Source::Reference, adapting(settings)).unwrap();
+    let mut out = Vec::new();
+    for k in 0..20_000_usize {
+        let phase = 2.0 * std::f64::consts::PI * k as f64 * h;
+        let level = if phase.sin() > 0.0 { 0.8 } else { 1.3 };
+        let inertia = 5.5 * 0.02 * 2.0 * std::f64::consts::PI * phase.cos();
+        let noise = random.random_range(-1.0..1.0);
+        let fault = if k % 3_111 == 0 { 1e6 } else { 0.0 };
+        let input = Input {
+            reference_velocity: 0.02 * phase.sin(),
+            measured_velocity: 0.0,
+            tracking_error: 1e-7 * noise,
+            enable: true,
+            drive_force: level * axis.state().law.force + inertia + noise + fault,
+            learn: k % 5_000 > 500,
+        };
+        axis.step(input);
+        after.step(input);
+        out.push((h, input));
+    }
+    let [forward, back] = after.state().learnt.levels;
+    assert!(forward < 0.9 && back > 1.2, "{forward} {back}");
     out
 }
 
