@@ -60,10 +60,23 @@ pub enum World {
     CoarseForce,
     /// One row in two hundred is missing, and samples are taken up to a fifth of their distance beside their time stamp.
     Dropped,
+    /// The axis feels the force behind the drive.
+    Driven(Drive),
+}
+
+/// What lies between the force that a controller asks for, which is logged, and the force that the axis feels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drive {
+    /// Whole periods of computing time.
+    pub periods: usize,
+    /// Time constant of the current loop, first order, s; 0 for none.
+    pub lag: f64,
+    /// Every how many periods a row is logged.
+    pub every: usize,
 }
 
 impl World {
-    /// All of them, one of each kind but for the delay.
+    /// All of them but the drives, one of each kind but for the delay.
     pub const ALL: [World; 18] = [
         World::Faithful,
         World::Cogging,
@@ -85,6 +98,16 @@ impl World {
         World::Dropped,
     ];
 
+    /// Digital drives: current loops of 0.3 and 1 ms, one period of computing time, rows at every second and fourth period.
+    pub const DRIVES: [World; 6] = [
+        Drive::behind(0, 3e-4, 1),
+        Drive::behind(0, 1e-3, 1),
+        Drive::behind(1, 0.0, 1),
+        Drive::behind(1, 3e-4, 1),
+        Drive::behind(0, 3e-4, 2),
+        Drive::behind(0, 3e-4, 4),
+    ];
+
     /// Its name in tables.
     pub fn name(self) -> String {
         match self {
@@ -104,6 +127,29 @@ impl World {
             World::Saturation => "saturation".into(),
             World::CoarseForce => "coarse force".into(),
             World::Dropped => "dropped, jitter".into(),
+            World::Driven(drive) => drive.name(),
         }
+    }
+}
+
+impl Drive {
+    const fn behind(periods: usize, lag: f64, every: usize) -> World {
+        World::Driven(Drive {
+            periods,
+            lag,
+            every,
+        })
+    }
+
+    fn name(self) -> String {
+        let lag = format!("current loop {} us", 1e6 * self.lag);
+        let periods = format!("{} computing", self.periods);
+        let every = format!("1 row of {}", self.every);
+        let said = [
+            (self.periods > 0).then_some(periods),
+            (self.lag > 0.0).then_some(lag),
+            (self.every > 1).then_some(every),
+        ];
+        said.into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 }

@@ -16,7 +16,8 @@ pub struct Asked {
 }
 
 impl Asked {
-    /// Reads them; `seeds` are run where no number is given. All of a kind where none is named.
+    /// Reads them; `seeds` are run where no number is given. All of a kind where none is named, of worlds [`World::ALL`];
+    /// `drives` names [`World::DRIVES`].
     pub fn of_arguments(seeds: u64) -> Self {
         let (mut numbers, mut names) = (Vec::new(), Vec::<String>::new());
         for argument in std::env::args().skip(1) {
@@ -29,20 +30,25 @@ impl Asked {
         let seeds = first..first + numbers.first().copied().unwrap_or(seeds);
         let axes: Vec<String> = Machine::all(0).map(|(name, _)| name.to_owned()).to_vec();
         let motions = Motion::ALL.map(|m| m.name().to_owned()).to_vec();
-        let worlds = World::ALL.map(short).to_vec();
+        let all = World::ALL.into_iter().chain(World::DRIVES);
+        let drives = |world: &World| matches!(world, World::Driven(_));
+        let is_named = |world: &World| {
+            names.contains(&short(*world)) || drives(world) && names.iter().any(|n| n == "drives")
+        };
+        let mut worlds: Vec<World> = all.filter(is_named).collect();
+        if worlds.is_empty() {
+            worlds = World::ALL.to_vec();
+        }
         let wanted = |kind: &[String], name: &str| {
             let of_kind = |n: &&String| kind.contains(n);
             let mut asked = names.iter().filter(of_kind).peekable();
             asked.peek().is_none() || asked.any(|n| n == name)
         };
         let mut tasks = Vec::new();
-        for world in World::ALL {
+        for world in worlds {
             for (axis, of) in axes.iter().enumerate() {
                 for motion in Motion::ALL {
-                    if wanted(&worlds, &short(world))
-                        && wanted(&axes, of)
-                        && wanted(&motions, motion.name())
-                    {
+                    if wanted(&axes, of) && wanted(&motions, motion.name()) {
                         tasks.extend(seeds.clone().map(|seed| (world, axis, motion, seed)));
                     }
                 }

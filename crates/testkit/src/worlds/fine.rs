@@ -57,6 +57,8 @@ pub(super) struct Fine {
     reach: f64,
     duration: f64,
     time: f64,
+    /// Force behind the current loop, N.
+    felt: f64,
 }
 
 impl Fine {
@@ -70,6 +72,7 @@ impl Fine {
             reach: path.iter().fold(0.0_f64, |m, p| m.max(p.position.abs())),
             duration: path.len() as f64 / machine.rate,
             time: 0.0,
+            felt: 0.0,
         }
     }
 
@@ -94,22 +97,33 @@ impl Fine {
         }
     }
 
-    /// Advances by `duration` (s) under a constant force (N).
+    /// Advances by `duration` (s) under a constant force (N), which passes the current loop where the world has one.
     pub fn advance(&mut self, force: f64, duration: f64) {
         let steps = (duration / LONGEST).ceil().max(1.0);
         let h = duration / steps;
+        let lag = match self.world {
+            World::Driven(drive) => drive.lag,
+            _ => 0.0,
+        };
         for _ in 0..steps as usize {
-            self.step(force, h);
+            let left = |time: f64| match lag > 0.0 {
+                true => (self.felt - force) * (-time / lag).exp(),
+                false => 0.0,
+            };
+            let forces = [0.0, 0.5 * h, h].map(|time| force + left(time));
+            self.step(forces, h);
+            self.felt = forces[2];
         }
     }
 
-    fn step(&mut self, force: f64, h: f64) {
+    /// The force is given at the beginning, in the middle and at the end.
+    fn step(&mut self, force: [f64; 3], h: f64) {
         let at = |s: &State, k: &State, h: f64| std::array::from_fn(|i| s[i] + h * k[i]);
         let s = self.state;
-        let k1 = self.rate(&s, force);
-        let k2 = self.rate(&at(&s, &k1, 0.5 * h), force);
-        let k3 = self.rate(&at(&s, &k2, 0.5 * h), force);
-        let k4 = self.rate(&at(&s, &k3, h), force);
+        let k1 = self.rate(&s, force[0]);
+        let k2 = self.rate(&at(&s, &k1, 0.5 * h), force[1]);
+        let k3 = self.rate(&at(&s, &k2, 0.5 * h), force[1]);
+        let k4 = self.rate(&at(&s, &k3, h), force[2]);
         self.state =
             std::array::from_fn(|i| s[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
         self.time += h;

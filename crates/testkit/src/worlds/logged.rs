@@ -65,7 +65,11 @@ pub fn record(machine: &Machine, motion: Motion, world: World, seed: u64) -> Rec
         force.push(command);
         lagged += (1.0 - (-0.25_f64).exp()) * (axis.velocity() - lagged);
         velocity.push(lagged);
-        axis.advance(command + hidden.next(h, &mut random), h);
+        let acts = match world {
+            World::Driven(drive) => k.checked_sub(drive.periods).map_or(0.0, |then| force[then]),
+            _ => command,
+        };
+        axis.advance(acts + hidden.next(h, &mut random), h);
     }
     for u in &mut force {
         *u += machine.noise * random.normal();
@@ -141,6 +145,12 @@ fn spoil(
                 .for_each(|u| *u = (*u / step).round() * step);
         }
         World::Dropped => dropped(log, machine, random),
+        World::Driven(drive) => {
+            let rows = |values: &[f64]| values.iter().step_by(drive.every).copied().collect();
+            log.time = rows(&log.time);
+            log.force = rows(&log.force);
+            log.position = log.position.as_deref().map(rows);
+        }
         _ => {}
     }
 }

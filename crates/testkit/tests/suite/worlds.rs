@@ -1,6 +1,6 @@
 //! Simulated logs against closed forms.
 
-use stiction_testkit::worlds::{Machine, Motion, Recording, World, record};
+use stiction_testkit::worlds::{Drive, Machine, Motion, Recording, Running, World, record};
 
 fn positions(log: &Recording) -> &[f64] {
     log.position.as_deref().unwrap()
@@ -82,4 +82,46 @@ fn elements_slip_one_after_another_up_to_the_level_of_one_bristle() {
         (force / expected - 1.0).abs() < 0.02,
         "{force} for {expected}"
     );
+}
+
+#[test]
+fn a_drive_without_anything_is_none_and_rows_are_left_out() {
+    let machine = Machine::joint(3);
+    let log = |drive| record(&machine, Motion::Sine, drive, 3);
+    let driven = |periods, lag, every| {
+        log(World::Driven(Drive {
+            periods,
+            lag,
+            every,
+        }))
+    };
+    let faithful = log(World::Faithful);
+    assert_eq!(positions(&driven(0, 0.0, 1)), positions(&faithful));
+    assert_eq!(driven(0, 0.0, 1).force, faithful.force);
+    let (all, some) = (driven(1, 1e-3, 1), driven(1, 1e-3, 4));
+    let fourth: Vec<f64> = positions(&all).iter().copied().step_by(4).collect();
+    assert_eq!(positions(&some), fourth);
+}
+
+#[test]
+fn a_force_acts_behind_its_current_loop() {
+    // A step F behind a lag of tau: v = F/M (t - tau (1 - exp(-t/tau))).
+    let machine = Machine::joint(3).with_friction(1e-6);
+    let lag = 2e-3;
+    let drive = World::Driven(Drive {
+        periods: 0,
+        lag,
+        every: 1,
+    });
+    let mut axis = Running::after(&machine, Motion::Sine, drive, 3);
+    let force = 1e3 * machine.mass;
+    for k in 1..=5 {
+        let (_, found) = axis.advance(force, 1e-3);
+        let t = 1e-3 * f64::from(k);
+        let expected = force / machine.mass * (t - lag * (1.0 - (-t / lag).exp()));
+        assert!(
+            (found / expected - 1.0).abs() < 1e-2,
+            "{found} for {expected} m/s"
+        );
+    }
 }
