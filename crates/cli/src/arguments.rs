@@ -478,7 +478,7 @@ pub enum Target {
     Tcpou,
     /// The same as PLCopen TC6 XML.
     Plcopen,
-    /// A no_std crate on stiction-friction.
+    /// A no_std crate with the law's own source.
     Rust,
     /// The friction of a joint in MuJoCo 4.
     Mujoco,

@@ -1,11 +1,13 @@
-//! A `no_std` crate with the numbers of the model, on `stiction-friction` itself.
+//! A `no_std` crate with the numbers of the model, on `stiction-friction` itself, which comes with it.
 
 use crate::number::Literal;
 use crate::template::Fill;
 use crate::vectors::{DOUBLE_TOLERANCE, SINGLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, header, law};
+use stiction_friction::source;
 
 const MANIFEST: &str = include_str!("../templates/rust/Cargo.toml.in");
+const FRICTION: &str = include_str!("../templates/rust/friction.toml.in");
 const LIBRARY: &str = include_str!("../templates/rust/lib.rs.in");
 const SELFTEST: &str = include_str!("../templates/rust/selftest.rs.in");
 
@@ -46,14 +48,24 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         .clone()
         .set("header", header::comment(model, "# "))
         .render(MANIFEST);
+    let friction = fill.render(FRICTION);
     let library = fill
         .set("header", header::comment(model, "//! "))
         .render(LIBRARY);
-    Ok(vec![
+    let mut files = vec![
         File::text("Cargo.toml", manifest),
         File::text("src/lib.rs", library),
         File::text("tests/selftest.rs", test.render(SELFTEST)),
-    ])
+        File::text(beside("Cargo.toml"), friction),
+    ];
+    let sources = source::FILES.iter();
+    files.extend(sources.map(|(path, text)| File::text(beside(path), (*text).into())));
+    Ok(files)
+}
+
+/// A path in the folder of the law.
+fn beside(path: &str) -> String {
+    format!("stiction-friction/{path}")
 }
 
 fn rows<T: Literal>(vectors: &Vectors<T>) -> String {

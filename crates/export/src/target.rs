@@ -14,7 +14,7 @@ pub enum Target {
     TcPou,
     /// The same as PLCopen TC6 XML.
     PlcOpen,
-    /// A `no_std` crate on `stiction-friction`.
+    /// A `no_std` crate on `stiction-friction`, whose source comes with it.
     Rust,
     /// The friction of a joint in MuJoCo 4.
     Mujoco,

@@ -121,6 +121,7 @@ mod real;
 mod realtime;
 mod record;
 mod shape;
+pub mod source;
 mod statics;
 mod stribeck;
 mod sweep;

@@ -11,6 +11,7 @@ mod memory;
 mod order;
 mod parameters;
 mod passivity;
+mod source;
 mod sweep;
 mod symmetry;
 mod watchdog;

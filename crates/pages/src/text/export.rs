@@ -30,7 +30,44 @@ pub fn exported(exported: &Exported, dir: &Path) -> String {
         out,
         "written to {}: {}",
         dir.display(),
-        exported.written.join(", ")
+        listed(&exported.written).join(", ")
     );
     out
+}
+
+/// More files than this in a folder are counted, not named.
+const NAMED: usize = 8;
+
+/// The files, a folder with many as one.
+fn listed(paths: &[String]) -> Vec<String> {
+    let mut list: Vec<String> = Vec::new();
+    for path in paths {
+        let folder = path.split_once('/').map(|(folder, _)| format!("{folder}/"));
+        let inside = |folder: &String| paths.iter().filter(|p| p.starts_with(folder)).count();
+        let entry = match folder.map(|folder| (inside(&folder), folder)) {
+            Some((count, folder)) if count > NAMED => format!("{folder} ({count} files)"),
+            _ => path.clone(),
+        };
+        if !list.contains(&entry) {
+            list.push(entry);
+        }
+    }
+    list
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn a_folder_with_many_files_is_one() {
+        let paths = |folder: &str, n| {
+            (0..n)
+                .map(move |k| format!("{folder}/{k}.rs"))
+                .collect::<Vec<_>>()
+        };
+        let all = [vec!["a.toml".into()], paths("src", 2), paths("law", 9)].concat();
+        assert_eq!(
+            super::listed(&all),
+            ["a.toml", "src/0.rs", "src/1.rs", "law/ (9 files)"]
+        );
+    }
 }
