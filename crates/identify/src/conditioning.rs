@@ -18,7 +18,9 @@ use crate::conditioning::grid::Grid;
 use crate::conditioning::losses::Losses;
 use crate::conditioning::record::{Record, Samples, Segment};
 use crate::error::{Error, full};
-use stiction_signal::{Reading, Sos, Thinning, gradient, gradient_sixth_order, noise_deviation};
+use stiction_signal::{
+    Reading, Sos, Thinning, gradient, gradient_sixth_order, noise_deviation, timing_noise,
+};
 
 /// Missing samples up to this many in a row are bridged by a straight line (and do not count in the
 /// fit); longer gaps split the log.
@@ -82,7 +84,12 @@ impl Default for Conditioning {
 pub fn condition(logs: &[Samples], conditioning: &Conditioning) -> Result<Record, Error> {
     let mut record = condition_as(logs, conditioning, 0.0)?;
     let positions = logs.iter().filter_map(|log| log.position.as_deref());
-    record.position_noise = noise_deviation(positions);
+    record.position_noise = noise_deviation(positions.clone());
+    let step = conditioning.resolution.unwrap_or(0.0);
+    if let Some(timing) = timing_noise(positions, step) {
+        record.position_noise = timing.beside;
+        record.timing_noise = timing.samples * record.step();
+    }
     Ok(record)
 }
 
@@ -251,6 +258,7 @@ pub(crate) fn condition_as(
         common: filters.common,
         decimate,
         position_noise,
+        timing_noise: 0.0,
         common_hz,
         notes,
         resolution: conditioning.resolution,

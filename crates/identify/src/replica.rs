@@ -179,7 +179,12 @@ impl<'a> Axis<'a> {
             if error.is_nan() || error.abs() > self.stroke {
                 return None;
             }
-            let reading = encoder.read(motion.position + rest * noise.normal());
+            // Read beside the instant of its stamp.
+            let beside = match record.timing_noise > 0.0 {
+                true => motion.velocity * record.timing_noise * noise.normal(),
+                false => 0.0,
+            };
+            let reading = encoder.read(motion.position + beside + rest * noise.normal());
             position.push(reading);
             let mut applied = drive[k] + spring * error + damper * slip;
             if let Some((reaction, _)) = answered {

@@ -80,6 +80,8 @@ pub struct Record {
     pub decimate: usize,
     /// Standard deviation of the noise of the position as logged, its encoder steps included, m or rad.
     pub position_noise: f64,
+    /// Standard deviation of the instants at which the position was read about its stamps, s; 0 where none can be told.
+    pub timing_noise: f64,
     /// Cut-off of the common filter, Hz.
     pub common_hz: Option<f64>,
     /// How the record was conditioned, as text for the user.
@@ -426,6 +428,7 @@ impl Record {
             common: None,
             decimate: self.decimate / every,
             position_noise: self.position_noise,
+            timing_noise: self.timing_noise,
             common_hz: None,
             notes: Vec::new(),
             resolution: self.resolution,
@@ -475,6 +478,7 @@ impl Record {
             common: None,
             decimate: 1,
             position_noise: self.position_noise,
+            timing_noise: self.timing_noise,
             common_hz: None,
             notes: Vec::new(),
             resolution: self.resolution,
@@ -543,6 +547,7 @@ pub(crate) mod tests {
             common: None,
             decimate: 1,
             position_noise: 0.0,
+            timing_noise: 0.0,
             common_hz: None,
             notes: Vec::new(),
             resolution: None,

@@ -58,6 +58,18 @@ fn the_cause_of_what_a_law_leaves_is_named() {
     }
 }
 
+/// Instants beside their stamps make noise that grows with speed; it is named, and the intervals count it.
+#[test]
+fn jitter_is_named_and_counted() {
+    for axis in ["stage", "screw"] {
+        let found = of(axis, Motion::Commissioning, World::Dropped);
+        assert!(found.codes.contains(&"jitter"), "{axis}: {found}");
+        assert!(!found.is_silent(), "{axis}: {found}");
+        let without = of(axis, Motion::Commissioning, World::Faithful);
+        assert!(!without.codes.contains(&"jitter"), "{axis}: {without}");
+    }
+}
+
 /// A level that changes with something that the log has is named after that, and the term that the message asks for takes it.
 #[test]
 fn a_level_that_follows_a_channel_is_named_after_it() {

@@ -16,10 +16,11 @@ use crate::error::Error;
 use crate::source::{Source, load_all};
 use crate::wording::Setting;
 use std::time::Instant;
-use stiction_files::Axis;
+use stiction_codes::Code;
+use stiction_files::{Axis, Warning};
 use stiction_identify as engine;
 use stiction_identify::{Observer, Record, Series};
-use stiction_number::counted;
+use stiction_number::{counted, four_digits};
 
 /// Reads, conditions, fits, compares laws and validates.
 ///
@@ -100,6 +101,22 @@ pub(crate) fn identify_asked(
     outcome.map_err(|e| e.at_axis(asked.axis))
 }
 
+/// Noise of the position that grows with speed.
+fn beside_stamps(record: &Record) -> Option<Warning> {
+    let (seconds, step) = (record.timing_noise, record.step());
+    (seconds > 0.0).then(|| {
+        Warning::new(
+            Code::Jitter,
+            format!(
+                "the position was read beside the instants of its time stamps, by {} us rms ({:.0} % of a sample): noise that \
+                 grows with speed. The intervals count it; a log with the instants of the readings has smaller ones",
+                four_digits(1e6 * seconds),
+                100.0 * seconds / step
+            ),
+        )
+    })
+}
+
 /// The refusal of a record that is too short, where the split alone makes it so.
 fn of_the_split(asked: Asked, conditioned: &Conditioned, error: Error) -> Error {
     let fitted = conditioned.record.kept();
@@ -132,6 +149,7 @@ fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Resul
     let estimate = fitted.choice.estimate;
     let outside = outside::named(&ranges, &estimate, &loaded.sources[0].log);
     judged.warnings.extend(outside);
+    judged.warnings.extend(beside_stamps(&conditioned.record));
     let notes = conditioned.record.notes.iter().cloned();
     let mut result = assemble::result(Parts {
         asked,
