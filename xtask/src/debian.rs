@@ -62,6 +62,36 @@ const PACKAGES: &[Package] = &[
         program: Some("halcompile"),
         why: "builds exported HAL components",
     },
+    Package {
+        name: "gcc-avr",
+        program: Some("avr-g++"),
+        why: "compiles exported C++ for AVR",
+    },
+    Package {
+        name: "avr-libc",
+        program: None,
+        why: "the C library of AVR",
+    },
+    Package {
+        name: "simavr",
+        program: Some("simavr"),
+        why: "runs what was compiled for AVR",
+    },
+    Package {
+        name: "gcc-arm-none-eabi",
+        program: Some("arm-none-eabi-g++"),
+        why: "compiles exported C++ for ARM",
+    },
+    Package {
+        name: "libnewlib-arm-none-eabi",
+        program: None,
+        why: "the C library of ARM without an operating system",
+    },
+    Package {
+        name: "qemu-user",
+        program: Some("qemu-arm"),
+        why: "runs what was compiled for ARM",
+    },
 ];
 
 /// Installs what is missing as root; otherwise says the command to give.

@@ -472,6 +472,8 @@ pub struct Export {
 pub enum Target {
     /// C99, double and single precision.
     C,
+    /// A header-only C++11 library for Arduino, PlatformIO and others.
+    Cpp,
     /// IEC 61131-3 Structured Text, LREAL and REAL.
     St,
     /// The same as TwinCAT 3 objects.

@@ -536,6 +536,7 @@ fn init_study(file: &Path, model: Option<&Path>, common: &Common) -> Result<Exit
 fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
     let target = match export.target {
         arguments::Target::C => Target::C,
+        arguments::Target::Cpp => Target::Cpp,
         arguments::Target::St => Target::St,
         arguments::Target::Tcpou => Target::TcPou,
         arguments::Target::Plcopen => Target::PlcOpen,

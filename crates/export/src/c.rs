@@ -11,20 +11,20 @@ const SOURCE: &str = include_str!("../templates/c/compensator.c.in");
 const SELFTEST: &str = include_str!("../templates/c/selftest.c.in");
 
 /// A number type of C.
-struct Precision {
+pub(crate) struct Precision {
     /// What is appended to the model's identifier.
     suffix: &'static str,
-    real: &'static str,
+    pub(crate) real: &'static str,
     /// Suffix of a number.
     literal: &'static str,
     /// Suffix of a function of `math.h`.
     function: &'static str,
     max: &'static str,
     /// Largest error of the self-test, relative to [`Vectors::scale`].
-    tolerance: f64,
+    pub(crate) tolerance: f64,
 }
 
-const DOUBLE: Precision = Precision {
+pub(crate) const DOUBLE: Precision = Precision {
     suffix: "",
     real: "double",
     literal: "",
@@ -33,7 +33,7 @@ const DOUBLE: Precision = Precision {
     tolerance: DOUBLE_TOLERANCE,
 };
 
-const FLOAT: Precision = Precision {
+pub(crate) const FLOAT: Precision = Precision {
     suffix: "_f32",
     real: "float",
     literal: "f",
@@ -68,10 +68,24 @@ fn precision<T: Literal>(model: &Model, precision: &Precision) -> Result<Vec<Fil
 pub(crate) fn inside(model: &Model) -> Result<String, Error> {
     let mut fill = fill::<f64>(model, &DOUBLE)?;
     fill.flag("apart", false);
-    Ok(format!("{}\n{}", fill.render(HEADER), fill.render(SOURCE)))
+    Ok(joined(&fill))
 }
 
-fn rows<T: Literal>(vectors: &Vectors<T>) -> String {
+/// The same for a header in C++, in a namespace: functions inline, and what it includes left to the file around it.
+pub(crate) fn inline<T: Literal>(model: &Model, precision: &Precision) -> Result<String, Error> {
+    let mut fill = fill::<T>(model, precision)?;
+    fill.flag("apart", false)
+        .flag("includes", false)
+        .set("own", "inline")
+        .set("shared", "inline ");
+    Ok(joined(&fill))
+}
+
+fn joined(fill: &Fill) -> String {
+    format!("{}\n{}", fill.render(HEADER), fill.render(SOURCE))
+}
+
+pub(crate) fn rows<T: Literal>(vectors: &Vectors<T>) -> String {
     let rows: Vec<String> = vectors
         .rows
         .iter()
@@ -85,7 +99,7 @@ fn rows<T: Literal>(vectors: &Vectors<T>) -> String {
     rows.join(",\n")
 }
 
-fn fill<T: Literal>(model: &Model, precision: &Precision) -> Result<Fill, Error> {
+pub(crate) fn fill<T: Literal>(model: &Model, precision: &Precision) -> Result<Fill, Error> {
     let compensator = model.compensator::<T>(&model.settings, precision.real)?;
     let name = format!("{}{}", model.identifier, precision.suffix);
     let mut fill = Fill::default();
@@ -101,6 +115,9 @@ fn fill<T: Literal>(model: &Model, precision: &Precision) -> Result<Fill, Error>
         .set("m", precision.function)
         .set("MAX", precision.max)
         .flag("apart", true)
+        .flag("includes", true)
+        .set("own", "static")
+        .set("shared", "")
         .set("v_unit", model.speed_unit())
         .set("x_unit", model.length_unit())
         .set("f_unit", model.force_unit())

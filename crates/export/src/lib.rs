@@ -33,6 +33,7 @@
 
 mod c;
 mod check;
+mod cpp;
 mod error;
 mod fmu;
 mod guid;

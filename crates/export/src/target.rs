@@ -1,6 +1,6 @@
 //! The targets and the files of each.
 
-use crate::{Error, Model, c, check, fmu, hal, mujoco, rust, st, tf5200};
+use crate::{Error, Model, c, check, cpp, fmu, hal, mujoco, rust, st, tf5200};
 
 /// A form in which the compensator is exported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -8,6 +8,8 @@ use crate::{Error, Model, c, check, fmu, hal, mujoco, rust, st, tf5200};
 pub enum Target {
     /// C99, in double and single precision.
     C,
+    /// A header-only C++11 library for Arduino, PlatformIO and others.
+    Cpp,
     /// IEC 61131-3 Structured Text, LREAL and REAL.
     St,
     /// The same as TwinCAT 3 objects.
@@ -46,8 +48,9 @@ impl File {
 
 impl Target {
     /// All of them.
-    pub const ALL: [Target; 9] = [
+    pub const ALL: [Target; 10] = [
         Target::C,
+        Target::Cpp,
         Target::St,
         Target::TcPou,
         Target::PlcOpen,
@@ -62,6 +65,7 @@ impl Target {
     pub fn name(self) -> &'static str {
         match self {
             Target::C => "c",
+            Target::Cpp => "cpp",
             Target::St => "st",
             Target::TcPou => "tcpou",
             Target::PlcOpen => "plcopen",
@@ -76,7 +80,7 @@ impl Target {
     /// The name of its number type with the smallest range.
     fn narrowest(self) -> &'static str {
         match self {
-            Target::C => "float",
+            Target::C | Target::Cpp => "float",
             Target::St | Target::TcPou | Target::PlcOpen => "REAL",
             Target::Rust => "f32",
             Target::Mujoco | Target::Hal | Target::Fmu | Target::Tf5200 => "double",
@@ -92,6 +96,7 @@ pub fn export(model: &Model, target: Target) -> Result<Vec<File>, Error> {
     check::check(model, target.narrowest())?;
     match target {
         Target::C => c::files(model),
+        Target::Cpp => cpp::files(model),
         Target::St => st::files(model),
         Target::TcPou => st::twincat(model),
         Target::PlcOpen => st::plcopen(model),

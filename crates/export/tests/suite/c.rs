@@ -1,10 +1,10 @@
 //! The C text: compiled under every warning, its self-test run, and sample by sample against the compensator.
 
-use crate::common::compiled::{agree, drive, gcc, level, passive, run, through_rust, write};
-use crate::common::{adapting, adversarial, busy, following, laws, model, models, random};
+use crate::common::compiled::{agree, agree_single, drive, gcc, passive, run, write};
+use crate::common::{adapting, laws, model, models};
 use std::process::{Command, Stdio};
 use stiction_export::{Model, Target, export};
-use stiction_friction::compensator::{Adaptation, Friction, Input, Settings};
+use stiction_friction::compensator::{Friction, Input};
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 
 /// What the C has to pass; the undefined-behaviour sanitizer on top where it runs.
@@ -215,59 +215,7 @@ fn double_precision_agrees() {
 
 #[test]
 fn single_precision_agrees() {
-    let mut worst = 0.0_f64;
-    let laws = laws();
-    let each = 1_000_000 / laws.len() + 1;
-    for (seed, (name, friction)) in laws.into_iter().enumerate() {
-        let mut model = model(friction);
-        model.settings = busy();
-        let mut samples = adversarial(each, true, &mut random(100 + seed as u64));
-        if seed % 2 == 0 {
-            model.settings = adapting(busy());
-            samples = following(friction, busy(), &mut random(100 + seed as u64));
-        }
-        let c = through_c(&model, true, false, &samples);
-        let to = |x: [f64; 2]| x.map(|x| x as f32);
-        let small: Friction<f32> = match &friction {
-            Friction::Coulomb(law) => Friction::Coulomb(
-                stiction_friction::CoulombViscous::new(
-                    to(law.coulomb()),
-                    to(law.viscous()),
-                    law.offset() as f32,
-                )
-                .unwrap(),
-            ),
-            Friction::Stribeck(curve) => Friction::Stribeck(curve.cast().unwrap()),
-            Friction::LuGre(law) => Friction::LuGre(law.cast().unwrap()),
-        };
-        let s = model.settings;
-        let settings = Settings {
-            gain: s.gain as f32,
-            dead_zone: s.dead_zone as f32,
-            slew: s.slew as f32,
-            ramp: s.ramp as f32,
-            adaptation: s.adaptation.map(|a| Adaptation {
-                memory: a.memory as f32,
-                range: a.range as f32,
-                mass: a.mass as f32,
-            }),
-            watchdog: Some(stiction_friction::compensator::Watchdog {
-                window: 0.5,
-                ratio: 1.0,
-            }),
-            ..Settings::new(s.cycle_time as f32, s.limit as f32)
-        };
-        for (i, ([force, _], due)) in c
-            .into_iter()
-            .zip(through_rust(small, settings, &samples))
-            .enumerate()
-        {
-            let off = (force - due).abs() / level(&friction);
-            worst = worst.max(off);
-            assert!(off <= 2e-6, "{name} {i}: {force} {due} at {:?}", samples[i]);
-        }
-    }
-    println!("single: largest deviation {worst:.2e} of Fs");
+    agree_single("C", |model, samples| through_c(model, true, false, samples));
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod c;
 mod common;
+mod cpp;
 mod fmu;
 mod hal;
 mod matiec;

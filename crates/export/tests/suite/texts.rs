@@ -18,6 +18,14 @@ fn texts() {
             Target::C,
             vec!["x_axis_friction.h", "x_axis_friction_f32.c"],
         ),
+        (
+            Target::Cpp,
+            vec![
+                "src/x_axis_friction.hpp",
+                "library.properties",
+                "library.json",
+            ],
+        ),
         (Target::St, vec!["FB_x_axis_Friction_R.st"]),
         (Target::TcPou, vec!["FB_x_axis_Friction.TcPOU"]),
         (Target::Rust, vec!["Cargo.toml", "src/lib.rs"]),
@@ -58,7 +66,8 @@ fn every_file_says_where_it_came_from() {
             let text = String::from_utf8(file.bytes).unwrap();
             assert!(text.is_ascii(), "{}", file.path);
             // These have the sum of the model, and the source beside them its head; the law of the Rust crate is that of every axis.
-            if file.path.ends_with("Description.xml") || is_the_law(&file.path) {
+            let without = file.path.ends_with("Description.xml") || file.path.ends_with(".json");
+            if without || is_the_law(&file.path) {
                 continue;
             }
             for part in [
@@ -245,7 +254,7 @@ fn a_current_is_no_force() {
                     "{}",
                     file.path
                 );
-                if !file.path.ends_with("Description.xml") {
+                if !file.path.ends_with("Description.xml") && !file.path.ends_with(".json") {
                     assert!(
                         text.contains(&format!("The force is {written}")),
                         "{}",

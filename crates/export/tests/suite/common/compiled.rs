@@ -5,8 +5,10 @@ use std::io::{Read, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use stiction_export::{File, Model};
-use stiction_friction::Real;
-use stiction_friction::compensator::{Compensator, Friction, Input, Settings, Source};
+use stiction_friction::compensator::{
+    Adaptation, Compensator, Friction, Input, Settings, Source, Watchdog,
+};
+use stiction_friction::{CoulombViscous, Real};
 
 /// Time since the sample before, s, and what comes in.
 pub type Sample = (f64, Input<f64>);
@@ -163,6 +165,60 @@ pub fn agree(
         }
     }
     println!("{target}: {identical} identical, largest deviation {worst:.2e} of Fs");
+}
+
+/// The same in single precision, half of the laws with levels that follow: within 2e-6 of the static friction of the
+/// compensator in that precision.
+pub fn agree_single(target: &str, through: impl Fn(&Model, &[Sample]) -> Vec<[f64; 2]>) {
+    let mut worst = 0.0_f64;
+    let laws = laws();
+    let each = 1_000_000 / laws.len() + 1;
+    for (seed, (name, friction)) in laws.into_iter().enumerate() {
+        let mut model = model(friction);
+        model.settings = busy();
+        let mut samples = adversarial(each, true, &mut random(100 + seed as u64));
+        if seed % 2 == 0 {
+            model.settings = adapting(busy());
+            samples = following(friction, busy(), &mut random(100 + seed as u64));
+        }
+        let found = through(&model, &samples);
+        let to = |x: [f64; 2]| x.map(|x| x as f32);
+        let small: Friction<f32> = match &friction {
+            Friction::Coulomb(law) => Friction::Coulomb(
+                CoulombViscous::new(to(law.coulomb()), to(law.viscous()), law.offset() as f32)
+                    .unwrap(),
+            ),
+            Friction::Stribeck(curve) => Friction::Stribeck(curve.cast().unwrap()),
+            Friction::LuGre(law) => Friction::LuGre(law.cast().unwrap()),
+        };
+        let s = model.settings;
+        let settings = Settings {
+            gain: s.gain as f32,
+            dead_zone: s.dead_zone as f32,
+            slew: s.slew as f32,
+            ramp: s.ramp as f32,
+            adaptation: s.adaptation.map(|a| Adaptation {
+                memory: a.memory as f32,
+                range: a.range as f32,
+                mass: a.mass as f32,
+            }),
+            watchdog: Some(Watchdog {
+                window: 0.5,
+                ratio: 1.0,
+            }),
+            ..Settings::new(s.cycle_time as f32, s.limit as f32)
+        };
+        for (i, ([force, _], due)) in found
+            .into_iter()
+            .zip(through_rust(small, settings, &samples))
+            .enumerate()
+        {
+            let off = (force - due).abs() / level(&friction);
+            worst = worst.max(off);
+            assert!(off <= 2e-6, "{name} {i}: {force} {due} at {:?}", samples[i]);
+        }
+    }
+    println!("{target}, single: largest deviation {worst:.2e} of Fs");
 }
 
 /// Work done on the exported law is never less than the energy that its bristles gained: gain 1 and nothing that holds
