@@ -3,10 +3,12 @@
 mod init;
 mod motion;
 mod shows;
+mod tracking;
 
 pub use init::{Started, init};
 pub use motion::Motion;
 pub use shows::Shows;
+pub use tracking::{Peak, Tracking, TrackingChange};
 
 use crate::error::Error;
 use crate::identify::{Asked, Options, Outcome, identify_asked};
@@ -30,6 +32,8 @@ pub struct Check {
     pub axis: Option<PathBuf>,
     /// One entry a log.
     pub logs: Vec<LogCheck>,
+    /// How the following of the reference changed from the first log to each other one that has reversals of a reference.
+    pub tracking: Vec<TrackingChange>,
 }
 
 /// What a check found in one log.
@@ -51,6 +55,8 @@ pub struct LogCheck {
     pub conditioning: Vec<String>,
     /// How the axis moves; `null` where it does not.
     pub motion: Option<Motion>,
+    /// How well it follows its reference; `null` without a reference that turns back.
+    pub tracking: Option<Tracking>,
     /// What that motion can show, from plain facts.
     pub shows: Vec<Shows>,
     /// What the law that the data choose would and would not determine.
@@ -134,10 +140,20 @@ pub fn check(
     for path in logs {
         out.push(one(path, &read, observer)?);
     }
+    let mut followed = out
+        .iter()
+        .filter_map(|log: &LogCheck| log.tracking.as_ref());
+    let tracking = match followed.next() {
+        Some(first) => followed
+            .map(|later| TrackingChange::between(first, later))
+            .collect(),
+        None => Vec::new(),
+    };
     Ok(Check {
         schema: "stiction.check/1".into(),
         axis: axis.map(Path::to_path_buf),
         logs: out,
+        tracking,
     })
 }
 
@@ -165,6 +181,7 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
             .collect(),
         conditioning: Vec::new(),
         motion: Motion::of(log),
+        tracking: Tracking::of(&path.display().to_string(), log),
         shows: Vec::new(),
         parameters: Vec::new(),
         refused: None,

@@ -36,7 +36,7 @@ fn path(log: &Log) -> Option<(Vec<f64>, f64)> {
 }
 
 /// The samples at which a position turns back by more than the shortest movement.
-fn turned(x: &[f64], shortest: f64) -> Vec<usize> {
+pub(crate) fn turned(x: &[f64], shortest: f64) -> Vec<usize> {
     let mut out = Vec::new();
     let (mut low, mut high) = (0, 0);
     let mut rises = None;

@@ -712,3 +712,53 @@ fn unclear_columns_lead_to_an_axis_file() {
         assert!(axis.contains(line), "{line}: {axis}");
     }
 }
+
+/// A log before and after a compensator was put into operation: what improved, and what got worse.
+#[test]
+fn a_log_before_and_one_after() {
+    let bench = Bench::new();
+    let log = |name: &str, seconds: usize, peak: &dyn Fn(usize) -> f64| {
+        let mut text = String::from("Time [s],Reference [mm],Position [mm],Force [N]\n");
+        for i in 0..1000 * seconds {
+            let t = i as f64 * 1e-3;
+            let phase = std::f64::consts::TAU * 0.5 * t;
+            // The error comes up at each turn of the reference, a cosine of 0.5 Hz, and fades in 30 ms.
+            let (stroke, since) = (t.floor(), t.fract());
+            let sign = if stroke % 2.0 == 0.0 { -1.0 } else { 1.0 };
+            let error = sign * 1e-6 * peak(stroke as usize) * (-since / 0.03).exp();
+            let reference = 0.05 * phase.cos();
+            let v = -0.05 * 0.5 * std::f64::consts::TAU * phase.sin();
+            let noise = 0.2 * ((1e4 * t).sin() + (2.3e4 * t).sin());
+            let force = 20.0 * f64::tanh(v / 1e-4) + 60.0 * v - 9.9 * 9.0 * reference + noise;
+            let position = reference - error;
+            let _ = writeln!(
+                text,
+                "{t:.4},{:.6},{:.6},{force:.4}",
+                1e3 * reference,
+                1e3 * position
+            );
+        }
+        std::fs::write(bench.path(name), text).unwrap();
+    };
+    log("before.csv", 10, &|_| 60.0);
+    // One reversal is worse than before.
+    log("after.csv", 10, &|stroke| {
+        if stroke == 6 { 80.0 } else { 6.0 }
+    });
+    let changed = |arguments: &[&str]| {
+        let (code, out, err) = bench.run(arguments);
+        assert_eq!(code, 0, "{err}");
+        let (_, change) = out.split_once("following error of").unwrap();
+        format!("following error of{change}")
+    };
+    insta::assert_snapshot!(changed(&["check", "before.csv", "after.csv"]));
+    log("longer.csv", 14, &|_| 6.0);
+    let said = changed(&["check", "before.csv", "longer.csv"]);
+    assert!(
+        said.contains("the motions differ (reversals, duration)"),
+        "{said}"
+    );
+    // One log has nothing to be compared with.
+    let (_, out, _) = bench.run(&["check", "before.csv"]);
+    assert!(!out.contains("following error of"), "{out}");
+}

@@ -7,13 +7,85 @@ use std::path::Path;
 use stiction_files::shell::quoted;
 use stiction_files::symbols;
 use stiction_number::{counted, four_digits as short, unit};
-use stiction_workflows::check::{Check, Lead, LogCheck, Started};
+use stiction_workflows::check::{Check, Lead, LogCheck, Started, TrackingChange};
 
 /// The outcome of a check.
 pub fn check(check: &Check) -> String {
     let axis = check.axis.as_deref();
+    let kind = check.logs.first().map_or("", |log| log.kind.as_str());
     let logs = check.logs.iter().map(|log| log_check(log, axis));
-    logs.collect::<Vec<_>>().join("\n")
+    let changes = check.tracking.iter().map(|change| tracking(change, kind));
+    logs.chain(changes).collect::<Vec<_>>().join("\n")
+}
+
+/// What changed in how a reference is followed.
+fn tracking(change: &TrackingChange, kind: &str) -> String {
+    let (before, after) = (&change.before, &change.after);
+    let unit = match kind {
+        "rotary" => "urad",
+        _ => "um",
+    };
+    let micro = |x: f64| format!("{} {unit}", short(1e6 * x));
+    let mut out = format!(
+        "following error of {}, against that of {}\n",
+        after.log, before.log
+    );
+    let mut rows = vec![vec![
+        String::new(),
+        "before".into(),
+        "after".into(),
+        String::new(),
+    ]];
+    let reversals = [before, after].map(|log| log.peaks.len().to_string());
+    let [a, b] = reversals;
+    rows.push(vec![
+        "  reversals of the reference".into(),
+        a,
+        b,
+        String::new(),
+    ]);
+    for (name, a, b) in [
+        (
+            "  largest peak at one",
+            before.largest_peak(),
+            after.largest_peak(),
+        ),
+        ("  median peak", before.median_peak(), after.median_peak()),
+        ("  rms error of the motion", before.rms, after.rms),
+        ("  largest error", before.largest, after.largest),
+    ] {
+        let change = 100.0 * (b / a - 1.0);
+        let words = match change {
+            c if !c.is_finite() => String::new(),
+            c if c < 0.0 => format!("{:.1} % less", -c),
+            c => format!("{c:.1} % more"),
+        };
+        rows.push(vec![name.into(), micro(a), micro(b), words]);
+    }
+    out.push_str(&table(&rows, &[false, true, true]));
+    if !change.differs.is_empty() {
+        let _ = writeln!(
+            out,
+            "  the motions differ ({}): the same program before and after shows what changed",
+            change.differs.join(", ")
+        );
+    }
+    match change.grown.first() {
+        Some((time, a, b)) => {
+            let _ = writeln!(
+                out,
+                "  worse at {} of {} reversals, most at {} s: {} before, {} after",
+                change.grown.len(),
+                after.peaks.len(),
+                short(*time),
+                micro(*a),
+                micro(*b)
+            );
+        }
+        None if change.differs.is_empty() => out.push_str("  worse at no reversal\n"),
+        None => {}
+    }
+    out
 }
 
 /// What an axis file was begun with, and what to type next.
