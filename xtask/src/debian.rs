@@ -63,6 +63,11 @@ const PACKAGES: &[Package] = &[
         why: "builds exported HAL components",
     },
     Package {
+        name: "libyaml-cpp-dev",
+        program: None,
+        why: "reads exported parameters of ROS 2",
+    },
+    Package {
         name: "gcc-avr",
         program: Some("avr-g++"),
         why: "compiles exported C++ for AVR",

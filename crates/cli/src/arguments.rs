@@ -474,6 +474,8 @@ pub enum Target {
     C,
     /// A header-only C++11 library for Arduino, PlatformIO and others.
     Cpp,
+    /// The same as a class whose settings are parameters of a node of ROS 2.
+    Ros2,
     /// IEC 61131-3 Structured Text, LREAL and REAL.
     St,
     /// The same as TwinCAT 3 objects.

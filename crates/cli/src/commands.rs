@@ -537,6 +537,7 @@ fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
     let target = match export.target {
         arguments::Target::C => Target::C,
         arguments::Target::Cpp => Target::Cpp,
+        arguments::Target::Ros2 => Target::Ros2,
         arguments::Target::St => Target::St,
         arguments::Target::Tcpou => Target::TcPou,
         arguments::Target::Plcopen => Target::PlcOpen,

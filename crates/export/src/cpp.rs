@@ -18,19 +18,34 @@ const AXIS: &str = include_str!("../templates/cpp/axis.ino.in");
 
 pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     let mut files = header(model)?;
-    files.extend(samples::<f32>(model, &FLOAT)?);
-    files.extend(samples::<f64>(model, &DOUBLE)?);
+    files.push(File::text(
+        "examples/SelfTest/selftest_f32.h",
+        samples::<f32>(model, &FLOAT)?,
+    ));
+    files.push(File::text(
+        "examples/SelfTest/selftest_f64.h",
+        samples::<f64>(model, &DOUBLE)?,
+    ));
     let mut fill = common::<f64>(model, &DOUBLE)?;
     let period = libm::round(model.settings.cycle_time * 1e6);
     fill.set("cycle_us", format!("{period:.0}"));
     for (path, template) in [
         ("examples/SelfTest/SelfTest.ino", SKETCH),
         ("examples/Axis/Axis.ino", AXIS),
-        ("extras/selftest.cpp", SELFTEST),
         ("library.json", JSON),
     ] {
         files.push(File::text(path, fill.render(template)));
     }
+    files.push(File::text(
+        "extras/selftest.cpp",
+        selftest(
+            fill,
+            "src",
+            "extras/selftest.cpp",
+            "../examples/SelfTest/",
+            true,
+        ),
+    ));
     let mut properties = common::<f64>(model, &DOUBLE)?;
     properties.set("header", crate::header::comment(model, "# "));
     files.push(File::text(
@@ -40,8 +55,8 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     Ok(files)
 }
 
-/// The headers alone: what includes all of them, and one for each precision.
-pub(crate) fn header(model: &Model) -> Result<Vec<File>, Error> {
+/// The headers: what includes all of them, and one for each precision.
+fn header(model: &Model) -> Result<Vec<File>, Error> {
     let name = format!("src/{}_friction", model.identifier);
     let library = common::<f64>(model, &DOUBLE)?.render(LIBRARY);
     Ok(vec![
@@ -51,25 +66,41 @@ pub(crate) fn header(model: &Model) -> Result<Vec<File>, Error> {
     ])
 }
 
-fn precision<T: Literal>(model: &Model, precision: &Precision) -> Result<String, Error> {
+/// The header of a precision, with the text of C inside.
+pub(crate) fn precision<T: Literal>(model: &Model, precision: &Precision) -> Result<String, Error> {
     let mut fill = common::<T>(model, precision)?;
     fill.set("law", c::inline::<T>(model, precision)?);
     Ok(fill.render(PRECISION))
 }
 
-fn samples<T: Literal>(model: &Model, precision: &Precision) -> Result<Vec<File>, Error> {
+/// The samples of the self-test with the function that runs them.
+pub(crate) fn samples<T: Literal>(model: &Model, precision: &Precision) -> Result<String, Error> {
     let vectors = Vectors::<T>::new(model, precision.real)?;
     let mut fill = common::<T>(model, precision)?;
     law::settings::<T>(&mut fill, &cast(&vectors.settings), T::c);
     let tolerance = precision.tolerance * vectors.scale(model);
     fill.set("rows", c::rows(&vectors))
         .set("tolerance", T::from_f64(tolerance).c());
-    let path = format!("examples/SelfTest/selftest_{}.h", bits(precision));
-    Ok(vec![File::text(path, fill.render(SAMPLES))])
+    Ok(fill.render(SAMPLES))
+}
+
+/// The program of the self-test, with the folders of the headers and of the samples; in double precision, and where asked in single.
+pub(crate) fn selftest(
+    mut fill: Fill,
+    include: &str,
+    path: &str,
+    samples: &str,
+    single: bool,
+) -> String {
+    fill.set("include", include)
+        .set("test", path)
+        .set("samples", samples)
+        .flag("single", single);
+    fill.render(SELFTEST)
 }
 
 /// The values of the C target, with names of files that both precisions share.
-fn common<T: Literal>(model: &Model, precision: &Precision) -> Result<Fill, Error> {
+pub(crate) fn common<T: Literal>(model: &Model, precision: &Precision) -> Result<Fill, Error> {
     let mut fill = c::fill::<T>(model, precision)?;
     let library = format!("{}_friction", model.identifier);
     fill.set("file", library.clone())

@@ -45,6 +45,7 @@ mod model;
 mod mujoco;
 mod number;
 mod range;
+mod ros2;
 mod rust;
 mod st;
 mod target;

@@ -8,6 +8,14 @@ pub(crate) trait Literal: Real {
     fn c(self) -> String;
     /// As in IEC 61131-3: always with a point, exponent `E`.
     fn st(self) -> String;
+    /// As in YAML 1.1 and later: always with a point, and with a sign in the exponent.
+    fn yaml(self) -> String {
+        let text = self.st();
+        match text.split_once('E') {
+            Some((digits, power)) if !power.starts_with('-') => format!("{digits}e+{power}"),
+            _ => text.replace('E', "e"),
+        }
+    }
 }
 
 impl Literal for f64 {
@@ -50,6 +58,8 @@ mod tests {
         assert_eq!(1e-5_f64.c(), "1e-5");
         assert_eq!(1e-5_f64.st(), "1.0E-5");
         assert_eq!(2e6_f64.c(), "2000000.0");
+        assert_eq!(1e-5_f64.yaml(), "1.0e-5");
+        assert_eq!(1e16_f64.yaml(), "1.0e+16");
         assert_eq!(f64::MAX.st(), "1.7976931348623157E308");
         assert_eq!(f32::MAX.c(), "3.4028235e38f");
     }

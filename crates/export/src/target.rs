@@ -1,6 +1,6 @@
 //! The targets and the files of each.
 
-use crate::{Error, Model, c, check, cpp, fmu, hal, mujoco, rust, st, tf5200};
+use crate::{Error, Model, c, check, cpp, fmu, hal, mujoco, ros2, rust, st, tf5200};
 
 /// A form in which the compensator is exported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -10,6 +10,8 @@ pub enum Target {
     C,
     /// A header-only C++11 library for Arduino, PlatformIO and others.
     Cpp,
+    /// The same as a class whose settings are parameters of a node of ROS 2.
+    Ros2,
     /// IEC 61131-3 Structured Text, LREAL and REAL.
     St,
     /// The same as TwinCAT 3 objects.
@@ -48,9 +50,10 @@ impl File {
 
 impl Target {
     /// All of them.
-    pub const ALL: [Target; 10] = [
+    pub const ALL: [Target; 11] = [
         Target::C,
         Target::Cpp,
+        Target::Ros2,
         Target::St,
         Target::TcPou,
         Target::PlcOpen,
@@ -66,6 +69,7 @@ impl Target {
         match self {
             Target::C => "c",
             Target::Cpp => "cpp",
+            Target::Ros2 => "ros2",
             Target::St => "st",
             Target::TcPou => "tcpou",
             Target::PlcOpen => "plcopen",
@@ -83,7 +87,7 @@ impl Target {
             Target::C | Target::Cpp => "float",
             Target::St | Target::TcPou | Target::PlcOpen => "REAL",
             Target::Rust => "f32",
-            Target::Mujoco | Target::Hal | Target::Fmu | Target::Tf5200 => "double",
+            Target::Mujoco | Target::Hal | Target::Fmu | Target::Tf5200 | Target::Ros2 => "double",
         }
     }
 }
@@ -97,6 +101,7 @@ pub fn export(model: &Model, target: Target) -> Result<Vec<File>, Error> {
     match target {
         Target::C => c::files(model),
         Target::Cpp => cpp::files(model),
+        Target::Ros2 => ros2::files(model),
         Target::St => st::files(model),
         Target::TcPou => st::twincat(model),
         Target::PlcOpen => st::plcopen(model),

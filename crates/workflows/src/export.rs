@@ -193,7 +193,7 @@ fn check(options: &ExportOptions) -> Result<(), Error> {
     if none && options.adapt {
         return Err(Error::usage(
             format!("levels that follow the machine for the target {target}"),
-            "c, cpp, st, tcpou, plcopen, rust, hal and fmu have them",
+            "c, cpp, ros2, st, tcpou, plcopen, rust, hal and fmu have them",
         ));
     }
     Ok(())

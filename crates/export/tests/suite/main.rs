@@ -7,6 +7,7 @@ mod fmu;
 mod hal;
 mod matiec;
 mod mujoco;
+mod ros2;
 mod rust;
 mod st;
 mod texts;

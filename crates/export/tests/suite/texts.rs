@@ -26,6 +26,13 @@ fn texts() {
                 "library.json",
             ],
         ),
+        (
+            Target::Ros2,
+            vec![
+                "include/x_axis_friction_ros2.hpp",
+                "config/x_axis_friction.yaml",
+            ],
+        ),
         (Target::St, vec!["FB_x_axis_Friction_R.st"]),
         (Target::TcPou, vec!["FB_x_axis_Friction.TcPOU"]),
         (Target::Rust, vec!["Cargo.toml", "src/lib.rs"]),
