@@ -190,6 +190,15 @@ fn check(options: &ExportOptions) -> Result<(), Error> {
             "it has none",
         ));
     }
+    if let Some(window) = safety
+        .window
+        .filter(|window| !(*window >= 0.0 && window.is_finite()))
+    {
+        return Err(Error::usage(
+            format!("a window of {window} s"),
+            "above 0, or 0 for no watchdog",
+        ));
+    }
     if none && options.adapt {
         return Err(Error::usage(
             format!("levels that follow the machine for the target {target}"),
@@ -267,6 +276,21 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
         None => stiction_export::identifier(&title),
     };
     let mut settings = settings(&friction, file.source.top_speed, options);
+    if let (Some(zone), Some(top)) = (options.safety.dead_zone, file.source.top_speed)
+        && zone >= top
+    {
+        let speed = match file.kind.as_str() {
+            "rotary" => "rad/s",
+            _ => "m/s",
+        };
+        return Err(Error::usage(
+            format!("a dead zone of {} {speed}", stiction_number::shortest(zone)),
+            format!(
+                "below {} {speed}, the top speed of the log: at and above it nothing would be compensated",
+                stiction_number::four_digits(top)
+            ),
+        ));
+    }
     if options.limit.is_none() && !lowered.is_empty() {
         settings.limit = seen(&friction, file.source.top_speed);
     }
@@ -470,7 +494,8 @@ fn taken_for_friction(file: &ModelFile, mass: Option<f64>) -> Option<Warning> {
         Warning::new(
             Code::ExportAdaptation,
             format!(
-                "levels that follow the force of the drive take for friction: {}. Subtract it from the force that goes in, or let them                  learn only where it is small",
+                "levels that follow the force of the drive take for friction: {}. Subtract it from the force that goes in, or let them \
+                 learn only where it is small",
                 taken.join("; ")
             ),
         )

@@ -501,6 +501,8 @@ fn what_is_said() {
     };
     let good = with(&[]);
     let loose = good.replacen("identifiable = true", "identifiable = false", 1);
+    let heavy = with(&[("mass", 4.6)]);
+    let moved = good.replace("[source]\n", "[source]\ntop_speed = 0.2\n");
     let untrusted = good.replace("trustworthy = true", "trustworthy = false");
     type Change = fn(&mut ExportOptions);
     let cases: Vec<(&str, &str, Change)> = vec![
@@ -536,6 +538,19 @@ fn what_is_said() {
         }),
         ("a motor too small", &good, |o| {
             (o.target, o.rated_force) = (Target::Tf5200, Some(20.0));
+        }),
+        ("a watchdog without time", &good, |o| {
+            o.safety.window = Some(-1.0);
+        }),
+        ("levels that follow in a table", &good, |o| {
+            (o.target, o.rated_force, o.adapt) = (Target::Tf5200, Some(221.0), true);
+        }),
+        ("levels that follow", &good, |o| o.adapt = true),
+        ("levels that follow without a mass", &massless, |o| {
+            o.adapt = true
+        }),
+        ("standstill at every speed", &moved, |o| {
+            o.safety.dead_zone = Some(0.5);
         }),
         ("a limit in MuJoCo", &good, |o| {
             (o.target, o.limit) = (Target::Mujoco, Some(40.0));
