@@ -545,8 +545,8 @@ fn what_is_said() {
         ("levels that follow in a table", &good, |o| {
             (o.target, o.rated_force, o.adapt) = (Target::Tf5200, Some(221.0), true);
         }),
-        ("levels that follow", &good, |o| o.adapt = true),
-        ("levels that follow without a mass", &massless, |o| {
+        ("levels that follow", &heavy, |o| o.adapt = true),
+        ("levels that follow without a mass", &good, |o| {
             o.adapt = true
         }),
         ("standstill at every speed", &moved, |o| {
