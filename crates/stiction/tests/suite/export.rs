@@ -501,7 +501,7 @@ fn what_is_said() {
     };
     let good = with(&[]);
     let loose = good.replacen("identifiable = true", "identifiable = false", 1);
-    let heavy = with(&[("mass", 4.6)]);
+    let heavy = text("lugre", &[&LUGRE[..], &[("mass", 4.6, "kg")]].concat());
     let moved = good.replace("[source]\n", "[source]\ntop_speed = 0.2\n");
     let untrusted = good.replace("trustworthy = true", "trustworthy = false");
     type Change = fn(&mut ExportOptions);
