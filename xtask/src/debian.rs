@@ -68,6 +68,16 @@ const PACKAGES: &[Package] = &[
         why: "reads exported parameters of ROS 2",
     },
     Package {
+        name: "liburdfdom-tools",
+        program: Some("check_urdf"),
+        why: "reads exported URDF",
+    },
+    Package {
+        name: "libsdformat-dev",
+        program: None,
+        why: "reads exported SDFormat",
+    },
+    Package {
         name: "gcc-avr",
         program: Some("avr-g++"),
         why: "compiles exported C++ for AVR",

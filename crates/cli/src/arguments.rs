@@ -486,6 +486,12 @@ pub enum Target {
     Rust,
     /// The friction of a joint in MuJoCo 4.
     Mujoco,
+    /// Coulomb and viscous friction of a joint in URDF.
+    Urdf,
+    /// The same in SDFormat, for Gazebo.
+    Sdf,
+    /// The same, and static friction, of an actuator of Isaac Lab.
+    Isaaclab,
     /// A component of LinuxCNC's HAL.
     Hal,
     /// FMUs for co-simulation, FMI 2.0 and 3.0.

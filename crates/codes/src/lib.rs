@@ -145,6 +145,7 @@ codes! {
     ExportLimit = "export-limit": "the force limit is below the friction to compensate, or reached at speed",
     ExportName = "export-name": "the names in the code do not hold the whole name of the axis",
     ExportRatedForce = "export-rated-force": "the friction table exceeds the rated force",
+    ExportSimplified = "export-simplified": "the joint of a simulation has Coulomb and viscous friction only",
     ExportSupported = "export-supported": "parameters that the log leaves open make no more force than it supports",
     ExportTerms = "export-terms": "terms other than friction are not in the compensator",
     ExportSource = "export-source": "FMUs were written without a binary",

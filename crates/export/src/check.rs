@@ -1,7 +1,7 @@
 //! Advice before the code runs.
 
 use crate::number::short;
-use crate::{Error, Model, Target, check_identifier, hal, mujoco, tf5200};
+use crate::{Error, Model, Target, check_identifier, hal, joint, mujoco, tf5200};
 use stiction_codes::Code;
 use stiction_friction::compensator::Friction;
 use stiction_friction::{Damping, LuGre};
@@ -10,7 +10,7 @@ use stiction_friction::{Damping, LuGre};
 pub(crate) const CYCLE_TIMES: (f64, f64) = (1e-6, 0.1);
 
 /// Fast motion where the speed of the log is not known, in Stribeck velocities.
-const FAST_STRIBECK_VELOCITIES: f64 = 100.0;
+pub(crate) const FAST_STRIBECK_VELOCITIES: f64 = 100.0;
 /// Lower end of the speeds at which the law may turn active, relative to the top speed.
 const SLOWEST: f64 = 1e-15;
 /// Accuracy of that speed, a ratio; messages show four digits.
@@ -40,12 +40,14 @@ pub(crate) fn check(model: &Model, number_type: &'static str) -> Result<(), Erro
 /// Advice on this model in a target at its cycle time.
 pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
     let mut found = Vec::new();
-    if let (Friction::LuGre(law), true) = (&model.friction, target != Target::Tf5200) {
+    let steady = target == Target::Tf5200 || target.is_joint();
+    if let (Friction::LuGre(law), false) = (&model.friction, steady) {
         found.extend(released(model, law, target));
         found.extend(unresolved(model, law, target));
     }
     match target {
         Target::Mujoco => found.extend(shaking(model)),
+        target if target.is_joint() => found.push(joint::simplified(model)),
         Target::Tf5200 => {
             // The table ends at its last speed.
             if tf5200::largest_force(model) > model.settings.limit {

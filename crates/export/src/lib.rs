@@ -40,6 +40,7 @@ mod guid;
 mod hal;
 mod header;
 mod identifier;
+mod joint;
 mod law;
 mod model;
 mod mujoco;

@@ -61,7 +61,7 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
 }
 
 /// A text for a comment in XML, where no two hyphens may stand together.
-fn spaced(text: &str) -> String {
+pub(crate) fn spaced(text: &str) -> String {
     let mut out = text.replace("--", "- -");
     // Of three hyphens the last two are together still.
     while out.contains("--") {

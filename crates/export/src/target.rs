@@ -1,6 +1,6 @@
 //! The targets and the files of each.
 
-use crate::{Error, Model, c, check, cpp, fmu, hal, mujoco, ros2, rust, st, tf5200};
+use crate::{Error, Model, c, check, cpp, fmu, hal, joint, mujoco, ros2, rust, st, tf5200};
 
 /// A form in which the compensator is exported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +22,12 @@ pub enum Target {
     Rust,
     /// The friction of a joint in MuJoCo 4.
     Mujoco,
+    /// Coulomb and viscous friction of a joint in URDF.
+    Urdf,
+    /// The same in SDFormat, for Gazebo.
+    Sdf,
+    /// The same, and static friction, of an actuator of Isaac Lab.
+    IsaacLab,
     /// A component of LinuxCNC's HAL.
     Hal,
     /// Functional Mock-up Units for co-simulation, FMI 2.0 and 3.0.
@@ -50,7 +56,7 @@ impl File {
 
 impl Target {
     /// All of them.
-    pub const ALL: [Target; 11] = [
+    pub const ALL: [Target; 14] = [
         Target::C,
         Target::Cpp,
         Target::Ros2,
@@ -59,6 +65,9 @@ impl Target {
         Target::PlcOpen,
         Target::Rust,
         Target::Mujoco,
+        Target::Urdf,
+        Target::Sdf,
+        Target::IsaacLab,
         Target::Hal,
         Target::Fmu,
         Target::Tf5200,
@@ -75,10 +84,23 @@ impl Target {
             Target::PlcOpen => "plcopen",
             Target::Rust => "rust",
             Target::Mujoco => "mujoco",
+            Target::Urdf => "urdf",
+            Target::Sdf => "sdf",
+            Target::IsaacLab => "isaaclab",
             Target::Hal => "hal",
             Target::Fmu => "fmu",
             Target::Tf5200 => "tf5200",
         }
+    }
+
+    /// Whether it has nothing but steady friction of a simulated joint.
+    pub(crate) fn is_joint(self) -> bool {
+        matches!(self, Target::Urdf | Target::Sdf | Target::IsaacLab)
+    }
+
+    /// Whether it is the friction of a simulated joint: the whole friction, without gain, limit and watchdog.
+    pub fn is_simulated(self) -> bool {
+        self == Target::Mujoco || self.is_joint()
     }
 
     /// The name of its number type with the smallest range.
@@ -87,7 +109,14 @@ impl Target {
             Target::C | Target::Cpp => "float",
             Target::St | Target::TcPou | Target::PlcOpen => "REAL",
             Target::Rust => "f32",
-            Target::Mujoco | Target::Hal | Target::Fmu | Target::Tf5200 | Target::Ros2 => "double",
+            Target::Ros2
+            | Target::Mujoco
+            | Target::Urdf
+            | Target::Sdf
+            | Target::IsaacLab
+            | Target::Hal
+            | Target::Fmu
+            | Target::Tf5200 => "double",
         }
     }
 }
@@ -107,6 +136,9 @@ pub fn export(model: &Model, target: Target) -> Result<Vec<File>, Error> {
         Target::PlcOpen => st::plcopen(model),
         Target::Rust => rust::files(model),
         Target::Mujoco => mujoco::files(model),
+        Target::Urdf => joint::urdf(model),
+        Target::Sdf => joint::sdf(model),
+        Target::IsaacLab => joint::isaac_lab(model),
         Target::Hal => hal::files(model),
         Target::Fmu => fmu::fmu(model, &mut |_| None),
         Target::Tf5200 => tf5200::files(model),

@@ -28,16 +28,16 @@ pub struct ExportOptions {
     /// Time between two calls, s.
     pub cycle_time: f64,
     /// Largest force, in the unit of the model's. If absent: twice the sum of static friction and offset, or for a
-    /// table the largest force that it can hold. Not for `mujoco`.
+    /// table the largest force that it can hold. Not for a simulated joint ([`Target::is_simulated`]).
     pub limit: Option<f64>,
     /// Force that the motor is rated for, in the unit of the model's; for `tf5200`, and for no other target.
     pub rated_force: Option<f64>,
-    /// Share of the friction that is compensated, 0 to 1; 0.75 if absent. Not for `mujoco`.
+    /// Share of the friction that is compensated, 0 to 1; 0.75 if absent. Not for a simulated joint.
     pub gain: Option<f64>,
-    /// Settings of the compensator; not for `mujoco` and `tf5200`, which have none of them.
+    /// Settings of the compensator; not for simulated joints and `tf5200`, which have none of them.
     pub safety: Safety,
-    /// Levels that follow the machine while it runs ([`Adaptation`]), from the force of the drive; not for `mujoco` and
-    /// `tf5200`.
+    /// Levels that follow the machine while it runs ([`Adaptation`]), from the force of the drive; not for
+    /// simulated joints and `tf5200`.
     pub adapt: bool,
 }
 
@@ -163,17 +163,18 @@ fn check(options: &ExportOptions) -> Result<(), Error> {
         let found = format!("a rated force for the target {}", options.target.name());
         return Err(Error::usage(found, "only tf5200 takes one"));
     }
-    if options.limit.is_some() && options.target == Target::Mujoco {
+    let target = options.target.name();
+    let simulated = options.target.is_simulated();
+    if options.limit.is_some() && simulated {
         return Err(Error::usage(
-            "a limit for the target mujoco",
-            "the friction of a joint in MuJoCo is not limited",
+            format!("a limit for the target {target}"),
+            "the friction of a simulated joint is not limited",
         ));
     }
-    let target = options.target.name();
-    if options.gain.is_some() && options.target == Target::Mujoco {
+    if options.gain.is_some() && simulated {
         return Err(Error::usage(
-            "a gain for the target mujoco",
-            "the friction of a joint in MuJoCo is the whole friction",
+            format!("a gain for the target {target}"),
+            "the friction of a simulated joint is the whole friction",
         ));
     }
     let safety = &options.safety;
@@ -183,7 +184,7 @@ fn check(options: &ExportOptions) -> Result<(), Error> {
         ("slew", safety.slew),
         ("window", safety.window),
     ];
-    let none = matches!(options.target, Target::Mujoco | Target::Tf5200);
+    let none = simulated || options.target == Target::Tf5200;
     if let Some((name, _)) = given.iter().find(|(_, value)| none && value.is_some()) {
         return Err(Error::usage(
             format!("a {name} for the target {target}"),

@@ -5,6 +5,7 @@ mod common;
 mod cpp;
 mod fmu;
 mod hal;
+mod joint;
 mod matiec;
 mod mujoco;
 mod ros2;

@@ -7,7 +7,7 @@ use stiction_export::{Error, Target, export};
 use stiction_friction::compensator::Friction;
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 
-fn python(script: &str, arguments: &[&str], dir: &std::path::Path) -> String {
+pub fn python(script: &str, arguments: &[&str], dir: &std::path::Path) -> String {
     let local = stiction_testkit::workspace().join(".venv/bin/python");
     let python = std::env::var_os("STICTION_PYTHON").map_or(local, PathBuf::from);
     let output = Command::new(&python)

@@ -37,6 +37,9 @@ fn texts() {
         (Target::TcPou, vec!["FB_x_axis_Friction.TcPOU"]),
         (Target::Rust, vec!["Cargo.toml", "src/lib.rs"]),
         (Target::Mujoco, vec!["x_axis_friction.xml"]),
+        (Target::Urdf, vec!["x_axis_friction.urdf"]),
+        (Target::Sdf, vec!["x_axis_friction.sdf"]),
+        (Target::IsaacLab, vec!["x_axis_friction.py"]),
         (Target::Hal, vec!["x_axis_friction.comp"]),
         (Target::Fmu, vec!["modelDescription.xml"]),
     ] {
@@ -238,7 +241,7 @@ fn a_current_is_no_force() {
             p.unit = p.unit.replace('N', unit);
         }
         for target in Target::ALL {
-            if target == Target::Mujoco {
+            if target.is_simulated() {
                 let error = export(&model, target).unwrap_err().to_string();
                 assert!(
                     error.contains("needs forces in N") && error.contains(written),

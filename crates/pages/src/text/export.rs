@@ -18,6 +18,7 @@ pub fn exported(exported: &Exported, dir: &Path) -> String {
     let most = format!("force at most {} {unit}", short(exported.limit));
     let what = match exported.target {
         "mujoco" => format!("for a time step of {} s", exported.cycle_time),
+        "urdf" | "sdf" | "isaaclab" => "as friction of a joint".into(),
         "tf5200" => format!("with {most}"),
         _ => format!("for a cycle of {} s, {most}", exported.cycle_time),
     };

@@ -90,6 +90,7 @@ fn the_same_model_gives_the_same_bytes() {
             let (codes, limit): (&[&str], f64) = match target {
                 Target::Mujoco => (&[], 60.0),
                 Target::Tf5200 => (&[], 80.0),
+                target if target.is_simulated() => (&["export-simplified"], 60.0),
                 _ => (&["export-limit"], 60.0),
             };
             let found: Vec<_> = exported.warnings.iter().map(|w| w.code.as_str()).collect();

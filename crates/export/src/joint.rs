@@ -1,0 +1,206 @@
+//! Coulomb and viscous friction of a joint, which is all that URDF, SDFormat and Isaac Lab hold: the numbers nearest to the
+//! law, and how far they are from it.
+
+use crate::check::{Advice, FAST_STRIBECK_VELOCITIES};
+use crate::number::{Literal, short};
+use crate::template::Fill;
+use crate::{Error, File, Model, header, mujoco};
+use stiction_codes::Code;
+use stiction_friction::compensator::Friction;
+
+const URDF: &str = include_str!("../templates/joint/joint.urdf.in");
+const SDF: &str = include_str!("../templates/joint/joint.sdf.in");
+const ISAAC_LAB: &str = include_str!("../templates/joint/isaaclab.py.in");
+
+/// Speeds over which law and joint are compared: the middles of this many equal parts.
+const SPEEDS: u32 = 10_000;
+/// Top speed of a law without a Stribeck velocity where that of the log is not known, m/s (rad/s).
+const TOP_SPEED: f64 = 1.0;
+
+/// The friction of a joint: `sgn(v) friction + damping v`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Joint {
+    /// N (N m).
+    friction: f64,
+    /// N s/m (N m s/rad).
+    damping: f64,
+    /// Mean static friction of the directions, not below `friction`; N (N m).
+    at_rest: f64,
+    /// Speeds went up to this, m/s (rad/s).
+    top: f64,
+    /// Difference from the law over speeds and directions, root of the mean square; N (N m).
+    rms: f64,
+    /// The largest, and at which velocity: 0 for the limit as the speed goes to 0.
+    most: (f64, f64),
+}
+
+impl Joint {
+    /// The least squares over all speeds from 0 to the top speed of the log, each alike, and both directions alike.
+    pub(crate) fn of(model: &Model) -> Self {
+        let top = model.top_speed.filter(|top| *top > 0.0).unwrap_or_else(|| {
+            match model.stribeck_velocity() {
+                0.0 => TOP_SPEED,
+                velocity => FAST_STRIBECK_VELOCITIES * velocity,
+            }
+        });
+        let speed = |k: u32| top * (f64::from(k) + 0.5) / f64::from(SPEEDS);
+        // Half of the way between the directions: the offset is in neither number.
+        let mean = |v: f64| 0.5 * (model.steady(v) - model.steady(-v));
+        let count = f64::from(SPEEDS);
+        let sum = |of: &dyn Fn(f64) -> f64| (0..SPEEDS).map(|k| of(speed(k))).sum::<f64>() / count;
+        let (speeds, forces) = (sum(&|v| v), sum(&mean));
+        let slope = sum(&|v| (v - speeds) * mean(v)) / sum(&|v| (v - speeds) * (v - speeds));
+        let (friction, damping) = match (forces - slope * speeds, slope) {
+            (_, slope) if slope < 0.0 => (forces, 0.0),
+            (level, _) if level < 0.0 => (0.0, sum(&|v| v * mean(v)) / sum(&|v| v * v)),
+            both => both,
+        };
+        let (friction, damping) = (six_digits(friction), six_digits(damping));
+        let off = |v: f64| model.steady(v) - (friction.copysign(v) + damping * v);
+        let square = sum(&|v| 0.5 * (off(v) * off(v) + off(-v) * off(-v)));
+        let mut most = (0.0, 0.0);
+        // Nothing is faster than the top speed, nothing slower than the limit at standstill.
+        let ends = [crate::model::ALMOST_STANDSTILL, top];
+        for v in (0..SPEEDS).map(speed).chain(ends) {
+            for v in [v, -v] {
+                if off(v).abs() > most.0 {
+                    let slowest = v.abs() <= crate::model::ALMOST_STANDSTILL;
+                    most = (off(v).abs(), if slowest { 0.0 } else { v });
+                }
+            }
+        }
+        Joint {
+            friction,
+            damping,
+            at_rest: six_digits(at_rest(&model.friction)).max(friction),
+            top,
+            rms: libm::sqrt(square),
+            most,
+        }
+    }
+}
+
+/// Static friction of a law, the mean of the directions, N (N m).
+fn at_rest(law: &Friction<f64>) -> f64 {
+    let mean = |a: f64, b: f64| 0.5 * (a + b);
+    let of = |curve: &stiction_friction::Stribeck<f64>| {
+        mean(
+            curve.positive().static_friction,
+            curve.negative().static_friction,
+        )
+    };
+    match law {
+        Friction::Coulomb(law) => mean(law.coulomb()[0], law.coulomb()[1]),
+        Friction::Stribeck(curve) => of(curve),
+        Friction::LuGre(law) => of(law.curve()),
+    }
+}
+
+fn six_digits(x: f64) -> f64 {
+    format!("{x:.5e}").parse().unwrap_or(x)
+}
+
+/// How far a joint is from the law.
+pub(crate) fn simplified(model: &Model) -> Advice {
+    let joint = Joint::of(model);
+    let (unit, speed_unit) = (model.force_unit(), model.speed_unit());
+    let share = |force: f64| match model.scale() {
+        scale if scale > 0.0 => {
+            format!(" ({:.1} percent of static friction)", 100.0 * force / scale)
+        }
+        _ => String::new(),
+    };
+    let at = match joint.most.1 {
+        0.0 => "at standstill".into(),
+        v => format!("at {} {speed_unit}", short(v)),
+    };
+    let range = match model.top_speed {
+        Some(top) if top > 0.0 => "those of the log",
+        _ => "assumed, since the model does not have those of its log",
+    };
+    Advice {
+        code: Code::ExportSimplified,
+        message: format!(
+            "the joint has Coulomb and viscous friction only, {} {unit} and {} {unit} per {speed_unit}: against the law they are off by {} {unit} rms{}, \
+             {} {unit} at most, {at}, over speeds of 0 to {} {speed_unit} ({range}), each speed and both directions weighted alike; bristles and offset are left out",
+            short(joint.friction),
+            short(joint.damping),
+            short(joint.rms),
+            share(joint.rms),
+            short(joint.most.0),
+            short(joint.top),
+        ),
+    }
+}
+
+pub(crate) fn urdf(model: &Model) -> Result<Vec<File>, Error> {
+    let fill = fill(model, "urdf")?;
+    let name = format!("{}_friction.urdf", model.identifier);
+    Ok(vec![File::text(name, xml(model, fill, URDF))])
+}
+
+pub(crate) fn sdf(model: &Model) -> Result<Vec<File>, Error> {
+    let fill = fill(model, "sdf")?;
+    let name = format!("{}_friction.sdf", model.identifier);
+    Ok(vec![File::text(name, xml(model, fill, SDF))])
+}
+
+pub(crate) fn isaac_lab(model: &Model) -> Result<Vec<File>, Error> {
+    let mut fill = fill(model, "isaaclab")?;
+    fill.set("header", header::table_comment(&told(model), "# "));
+    let name = format!("{}_friction.py", model.identifier);
+    Ok(vec![File::text(name, fill.render(ISAAC_LAB))])
+}
+
+fn xml(model: &Model, mut fill: Fill, template: &str) -> String {
+    let words = header::table_comment(&told(model), "");
+    fill.set("header", mujoco::spaced(&words)).render(template)
+}
+
+/// The model with the error among its notes.
+fn told(model: &Model) -> Model {
+    let mut told = model.clone();
+    let error = simplified(model).message;
+    if !told.notes.contains(&error) {
+        told.notes.push(error);
+    }
+    told
+}
+
+fn fill(model: &Model, target: &'static str) -> Result<Fill, Error> {
+    if !model.in_newtons() {
+        return Err(Error::ForceUnit {
+            target,
+            found: model.force_unit().into(),
+            allowed: if model.rotary { "N m" } else { "N" },
+        });
+    }
+    let joint = Joint::of(model);
+    let mut fill = Fill::default();
+    fill.set("name", model.identifier.clone())
+        .set("NAME", model.identifier.to_ascii_uppercase())
+        .set("friction", joint.friction.c())
+        .set("damping", joint.damping.c())
+        .set("at_rest", joint.at_rest.c())
+        .set(
+            "type",
+            if model.rotary {
+                "revolute"
+            } else {
+                "prismatic"
+            },
+        )
+        .set(
+            "free",
+            if model.rotary {
+                "continuous"
+            } else {
+                "prismatic"
+            },
+        )
+        .set("axis", if model.rotary { "0 0 1" } else { "1 0 0" })
+        .set("f_unit", model.force_unit())
+        .set("v_unit", model.speed_unit())
+        .flag("linear", !model.rotary);
+    Ok(fill)
+}
