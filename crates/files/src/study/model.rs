@@ -267,6 +267,15 @@ impl Model {
         if !allowed.admits(value) {
             return Err(given.refused(allowed.words()));
         }
+        // A law that does not give its exponent has that of the Gaussian curve.
+        let exponent = quantity == Quantity::StribeckExponent;
+        if exponent && self.parameters.iter().all(|p| p.name.quantity != quantity) {
+            self.parameters.push(Parameter {
+                name: quantity.into(),
+                value,
+                unit: "1".into(),
+            });
+        }
         for parameter in &mut self.parameters {
             if parameter.name.quantity == quantity {
                 parameter.value = value;

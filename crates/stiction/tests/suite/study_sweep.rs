@@ -38,6 +38,28 @@ fn a_spring_is_swept() {
     }
 }
 
+/// An axis that does not give the exponent of its curve has 2, and may be swept over others.
+#[test]
+fn an_exponent_is_swept_that_the_axis_does_not_give() {
+    let desk = Desk::new();
+    let study = together(&[AXIS, SHORT, CASCADE, WHOLE]);
+    let swept = "\n[[sweep]]\nkey = \"law.stribeck_exponent\"\nvalues = [1, 2]\n";
+    let all = desk.run(&together(&[&study, swept]));
+    let errors = &found(&all.sweeps[0], "none")
+        .metric("peak_error")
+        .unwrap()
+        .values;
+    let alone = desk.run(&study);
+    let own = alone
+        .results
+        .iter()
+        .find(|r| r.compensator == "none")
+        .unwrap();
+    let own = own.metrics.iter().find(|m| m.name == "peak_error").unwrap();
+    assert_eq!(errors[1], Some(own.mean));
+    assert_ne!(errors[0], errors[1]);
+}
+
 /// Whatever is swept, the runs are those of a file that has the value.
 #[test]
 fn a_value_of_a_sweep_is_the_study_with_that_value() {
