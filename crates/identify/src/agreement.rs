@@ -104,6 +104,14 @@ impl Between {
         own.map_or(0.0, |(_, variance)| *variance)
     }
 
+    /// The same with more for a parameter.
+    pub fn add(&mut self, name: Name, variance: f64) {
+        match self.0.iter_mut().find(|(own, _)| *own == name) {
+            Some((_, own)) => *own += variance,
+            None => self.0.push((name, variance)),
+        }
+    }
+
     /// Whether they add to none.
     pub fn is_nothing(&self) -> bool {
         self.0.is_empty()

@@ -144,6 +144,14 @@ impl Estimate {
             (Delay::Given(time), _) => time / self.step,
         }
     }
+
+    /// Time constant of the lag of the force, in samples.
+    pub(crate) fn lag_samples(&self) -> f64 {
+        match self.terms.delay {
+            Delay::Fitted => self.terms.lag.time() / self.step,
+            Delay::Given(_) => 0.0,
+        }
+    }
 }
 
 /// Parameters, linear uncertainty and residuals at an optimum.

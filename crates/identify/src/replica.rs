@@ -8,6 +8,7 @@
 
 use crate::conditioning::record::{Record, Samples, Segment};
 use crate::conditioning::shift::Shift;
+use crate::drive::Drive;
 use crate::estimate::Estimate;
 use crate::law::dependence::{Factor, product};
 use crate::law::terms::{ColumnKind, Delay, LinearTerm, Terms};
@@ -46,7 +47,9 @@ pub(crate) struct Axis<'a> {
     /// Of each segment: logs may have levels of their own.
     plants: Vec<Plant>,
     fitted: &'a Estimate,
+    /// How the force was logged, and what it passes before the axis feels it where it has a lag.
     logging: Logging,
+    drive: Drive,
     stroke: f64,
     substeps: u32,
     /// Segment by segment the force beside friction and inertia.
@@ -62,7 +65,16 @@ impl<'a> Axis<'a> {
         let plants = record.segments.iter();
         let plants = plants.map(|segment| of_log(first, fitted, segment.log));
         let plants = plants.collect::<Option<Vec<_>>>()?;
-        let logging = Logging::new(late(fitted, record.step()));
+        let late = late(fitted, record.step());
+        let lag = fitted.lag_samples();
+        // A force that acts a sample late without a lag may as well be one whose rows are a sample off.
+        let (logging, drive) = match lag > 0.0 {
+            true => (
+                Logging::new(late.max(0.0)),
+                Drive::new((-late).max(0.0), lag),
+            ),
+            false => (Logging::new(late), Drive::DIRECT),
+        };
         let segments = &record.segments;
         let linear = fitted.terms.columns(&fitted.law);
         let beside = linear.iter().zip(fitted.coefficients());
@@ -81,6 +93,7 @@ impl<'a> Axis<'a> {
             plants,
             fitted,
             logging,
+            drive,
             stroke: record.stroke(),
             others,
             answered,
@@ -97,7 +110,7 @@ impl<'a> Axis<'a> {
             answered?;
             self.logs(None, force_noise, seed)
         })?;
-        let delay = HELD_DELAY + self.logging.part;
+        let delay = HELD_DELAY + self.logging.part - self.drive.late();
         let mut p = self.fitted.unknowns().to_vec();
         let mut terms = self.fitted.terms.clone();
         match (terms.delay, p.last_mut()) {
@@ -136,7 +149,7 @@ impl<'a> Axis<'a> {
     ) -> Option<Samples> {
         let record = self.record;
         let h = segment.step;
-        let mut integrator = Quick::new(self.substeps).ok()?;
+        let mut integrator = Quick::new(self.drive.substeps(self.substeps)).ok()?;
         let n = segment.position.len();
         let tracking = if answered.is_some() {
             ANSWERED_TRACKING_FREQUENCY
@@ -167,6 +180,8 @@ impl<'a> Axis<'a> {
         };
         let part = self.logging.part;
         let mut before = drive.first().copied().unwrap_or(0.0);
+        let mut behind = before;
+        let mut commands = Vec::with_capacity(n);
         let mut motion = Motion {
             position: segment.position[0],
             velocity: segment.velocity[0],
@@ -198,8 +213,13 @@ impl<'a> Axis<'a> {
             let logged = (1.0 - part) * applied + part * before;
             before = applied;
             force.push(logged + force_noise * noise.normal());
-            let load = Load::force(applied - other);
-            motion = integrator.advance(plant, motion, h, load, 0.0);
+            commands.push(applied);
+            let acts = |part: f64, force: f64| {
+                let load = Load::force(force - other);
+                motion = integrator.advance(plant, motion, part * h, load, 0.0);
+            };
+            self.drive
+                .sample(&commands, self.substeps, &mut behind, acts);
         }
         Some(Samples {
             time: (0..n).map(|k| k as f64 * h).collect(),
@@ -219,12 +239,14 @@ fn logged(channel: &[f64]) -> Option<Vec<f64>> {
     (!channel.is_empty()).then(|| channel.to_vec())
 }
 
-/// Samples by which the force is logged later than it was held. A drive logs the force of this sample or of one before, or
-/// the mean of two: a fitted delay that chance may have moved from there is taken as that.
+/// Samples by which the force is logged later than it was held; negative where it acts later than it was logged. A drive logs
+/// the force of this sample or of one before, or the mean of two: a fitted delay that chance may have moved from there is taken
+/// as that, unless there is a lag.
 fn late(fitted: &Estimate, step: f64) -> f64 {
     let late = fitted.delay_samples() - HELD_DELAY;
     let delay = fitted.parameter(Quantity::Delay).and_then(|p| p.std);
-    let Some(deviation) = delay.filter(|_| fitted.terms.delay == Delay::Fitted) else {
+    let is_sought = fitted.terms.delay == Delay::Fitted && fitted.lag_samples() == 0.0;
+    let Some(deviation) = delay.filter(|_| is_sought) else {
         return late;
     };
     let within = |near: &f64| (late - near).abs() <= CHANCE * deviation / step;

@@ -35,6 +35,8 @@ pub(crate) enum Counts {
     Stated,
     /// What can only be held against the fit of the force.
     Doubted(Doubted),
+    /// Nothing: no axis under the force that was logged makes them.
+    Unexplained,
 }
 
 /// A maximum of the likelihood that is not believed.
@@ -47,10 +49,10 @@ impl Doubted {
     }
 }
 
-/// Flags what rests spoil in a fit of the force, where logs of axes that differ leave no counts of one axis to be asked.
-pub(crate) fn flag_what_rests_spoil(estimate: &mut Estimate) {
+/// Flags what rests spoil in a fit of the force whose counts cannot be asked: why, in words that go on from "their counts".
+pub(crate) fn flag_what_rests_spoil(estimate: &mut Estimate, why: &str) {
     if estimate.law.kind == LawKind::LuGre {
-        state::doubt_all(&mut estimate.fitted.parameters);
+        state::doubt_all(&mut estimate.fitted.parameters, why);
     }
 }
 
@@ -67,8 +69,12 @@ pub(crate) fn ask(
     between: &Between,
     watch: &mut Watch,
 ) -> Counts {
+    if !fit::can_be_asked(record, estimate) {
+        return Counts::NotAsked;
+    }
     match fit::most_likely(record, estimate, watch) {
-        None => Counts::NotAsked,
+        None if watch.stopped => Counts::NotAsked,
+        None => Counts::Unexplained,
         Some(found) if found.against.is_empty() => {
             state::state(estimate, &found, between);
             Counts::Stated

@@ -8,6 +8,8 @@
 //! parameters are known. The best pair is used, and the whole is repeated from the better fit until the
 //! choice no longer changes.
 //!
+//! The fit at the beginning also shows whether the force has a lag, which is then a part of every fit ([`lag`](crate::lag)).
+//!
 //! What encoder steps and filters shift is seen on replicas without force noise, and what that noise adds is
 //! computed, so that no draw of it decides (decision 0048).
 
@@ -16,9 +18,10 @@ use crate::conditioning::{Conditioning, Cutoff, Source, condition, condition_as}
 use crate::error::Error;
 use crate::estimate::fitted::FittedLaw;
 use crate::estimate::{Estimate, estimate};
+use crate::lag::lag;
 use crate::law::Law;
 use crate::law::physical::physical;
-use crate::law::terms::Terms;
+use crate::law::terms::{Lag, Terms};
 use crate::refit::{FirstOrder, first_order, force_noise};
 use crate::replica::{Axis, Replica};
 use crate::separable::settings::Settings;
@@ -75,6 +78,8 @@ pub struct Tuned {
     pub trials: Vec<Trial>,
     /// Evaluations that it took.
     pub counts: Counts,
+    /// The lag of the force, for the fits that follow.
+    pub lag: Lag,
     /// Whether the observer stopped it before the choice was made.
     pub interrupted: bool,
 }
@@ -97,6 +102,7 @@ pub fn tune(
         conditioning: *wanted,
         trials: Vec::new(),
         counts: Counts::default(),
+        lag: Lag::NONE,
         interrupted: false,
     };
     let open = |cutoff| cutoff == Cutoff::Auto;
@@ -117,15 +123,27 @@ pub fn tune(
         let Ok(record) = condition(logs, &trial) else {
             break;
         };
-        let terms = &terms.about(&record);
+        let mut terms = terms.about(&record);
+        terms.lag = tuned.lag;
         let found = match &last {
             // The law is the same, so the fit of the round before is near.
-            Some(start) => follow(start, &record, law, terms, settings, observer)?,
-            None => separable(&record, law, terms, settings, observer)?,
+            Some(start) => follow(start, &record, law, &terms, settings, observer)?,
+            None => {
+                let found = separable(&record, law, &terms, settings, observer)?;
+                match lag(logs, (wanted, &record), &terms, &found, settings, observer)? {
+                    Some((lag, counts)) => {
+                        tuned.counts.add(&counts);
+                        tuned.counts.add(&found.counts);
+                        (tuned.lag, terms.lag) = (lag, lag);
+                        follow(&found.p, &record, law, &terms, settings, observer)?
+                    }
+                    None => found,
+                }
+            }
         };
         last = Some(found.p[..law.nonlinear()].to_vec());
         tuned.counts.add(&found.counts);
-        let fitted = estimate(&record, law, terms, &found, 0.0);
+        let fitted = estimate(&record, law, &terms, &found, 0.0);
         tuned.interrupted = found.status == Status::Interrupted;
         if tuned.interrupted {
             break;

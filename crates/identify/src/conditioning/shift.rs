@@ -33,17 +33,37 @@ impl Shift {
         let (base, part) = split(samples);
         Self {
             first: base - 2,
-            weights: weights(part),
+            weights: derivatives(part, 0),
             whole: (part == 0.0).then_some(base),
         }
     }
 
-    /// The derivative of [`earlier`](Self::earlier) with respect to `samples`.
-    pub fn slope(samples: f64) -> Self {
+    /// What a lag of first order, of the time constant `lag` (samples), makes of the channel that is sought, `samples`
+    /// earlier: a part of `lag` of the time is that of the lag, which is undone, and the rest is a shift.
+    pub fn before_lag(samples: f64, lag: f64) -> Self {
+        if lag == 0.0 {
+            return Self::earlier(samples);
+        }
+        Self::derived(samples + lag, [1.0, lag, 0.0])
+    }
+
+    /// The derivative of [`before_lag`](Self::before_lag) with respect to `samples`.
+    pub fn slope(samples: f64, lag: f64) -> Self {
+        Self::derived(samples + lag, [0.0, -1.0, -lag])
+    }
+
+    /// The derivative of [`before_lag`](Self::before_lag) with respect to the square of the lag.
+    pub fn bend(samples: f64, lag: f64) -> Self {
+        Self::derived(samples + lag, [0.0, 0.0, -0.5])
+    }
+
+    /// A sum of the value and its first two derivatives by the time in samples, `samples` earlier.
+    fn derived(samples: f64, factors: [f64; 3]) -> Self {
         let (base, part) = split(samples);
+        let of = [0, 1, 2].map(|order| derivatives(part, order));
         Self {
             first: base - 2,
-            weights: slopes(part).map(|w| -w),
+            weights: from_fn(|i| (0..3).map(|order| factors[order] * of[order][i]).sum()),
             whole: None,
         }
     }
@@ -156,29 +176,32 @@ fn split(samples: f64) -> (isize, f64) {
     (base as isize, -samples - base)
 }
 
-/// Lagrange weights of the samples at -2..=3 for a point at `t`, 0 <= t < 1.
-fn weights(t: f64) -> [f64; INTERPOLATION_POINTS] {
+/// Lagrange weights of the samples at -2..=3 for a point at `t`, 0 <= t < 1, or their derivatives of that order.
+fn derivatives(t: f64, order: usize) -> [f64; INTERPOLATION_POINTS] {
     from_fn(|i| {
         let node = i as f64 - 2.0;
-        others(node).map(|x| (t - x) / (node - x)).product()
+        product(t, node, order, &mut Vec::new())
     })
 }
 
-/// Derivatives of [`weights`] with respect to `t`.
-fn slopes(t: f64) -> [f64; INTERPOLATION_POINTS] {
-    from_fn(|i| {
-        let node = i as f64 - 2.0;
-        others(node)
-            .map(|left| {
-                others(node)
-                    .map(|x| {
-                        let top = if x == left { 1.0 } else { t - x };
-                        top / (node - x)
-                    })
-                    .product::<f64>()
-            })
-            .sum()
-    })
+/// The polynomial that is 1 at a node and 0 at the others, those of `left` left out, at `t`; its derivative of that order.
+fn product(t: f64, node: f64, order: usize, left: &mut Vec<f64>) -> f64 {
+    if order == 0 {
+        let factor = |x: f64| match left.contains(&x) {
+            true => 1.0 / (node - x),
+            false => (t - x) / (node - x),
+        };
+        return others(node).map(factor).product();
+    }
+    let mut sum = 0.0;
+    for x in others(node) {
+        if !left.contains(&x) {
+            left.push(x);
+            sum += product(t, node, order - 1, left);
+            left.pop();
+        }
+    }
+    sum
 }
 
 fn others(node: f64) -> impl Iterator<Item = f64> {
@@ -194,7 +217,7 @@ mod tests {
         let f = |t: f64| 1.0 + t * (0.5 - t * (0.3 + t * (0.02 - t * (0.01 - 0.002 * t))));
         let full: Vec<f64> = (0..20).map(|i| f(0.3 * f64::from(i))).collect();
         for samples in [-1.7, -0.5, 0.0, 0.25, 2.0, 2.9] {
-            let (value, slope) = (Shift::earlier(samples), Shift::slope(samples));
+            let (value, slope) = (Shift::earlier(samples), Shift::slope(samples, 0.0));
             for at in 6..14 {
                 let t = 0.3 * (at as f64 - samples);
                 let want = (f(t + 1e-5) - f(t - 1e-5)) / 2e-5 * -0.3;
@@ -204,12 +227,36 @@ mod tests {
         }
     }
 
+    #[test]
+    fn a_lag_of_first_order_is_undone() {
+        // In samples: what was c0 + c1 t + c2 t^2 is behind a lag of L, in the steady state,
+        // c0 - c1 L + 2 c2 L^2 + (c1 - 2 c2 L) t + c2 t^2.
+        let before = |t: f64| 1.0 + 0.3 * t - 0.02 * t * t;
+        for (samples, lag) in [(-0.5, 0.0), (-1.7, 0.6), (-2.4, 1.5), (-3.0, 2.5)] {
+            let behind =
+                |t: f64| 1.0 - 0.3 * lag - 0.04 * lag * lag + (0.3 + 0.04 * lag) * t - 0.02 * t * t;
+            let full: Vec<f64> = (0..30).map(|i| behind(f64::from(i))).collect();
+            let at = |samples: f64, lag: f64| Shift::before_lag(samples, lag).at(&full, 12);
+            // The delay is that of the lag and of the rest.
+            let want = before(12.0 - samples - lag);
+            assert!((at(samples, lag) - want).abs() < 1e-10);
+            let h = 1e-5;
+            let slope = (at(samples + h, lag) - at(samples - h, lag)) / (2.0 * h);
+            assert!((Shift::slope(samples, lag).at(&full, 12) - slope).abs() < 1e-7);
+            let lagged = |square: f64| at(samples, libm::sqrt(square));
+            let square = lag * lag + 1.0;
+            let bend = (lagged(square + h) - lagged(square - h)) / (2.0 * h);
+            let found = Shift::bend(samples, libm::sqrt(square)).at(&full, 12);
+            assert!((found - bend).abs() < 1e-7);
+        }
+    }
+
     /// Beyond an end and far from it, for all samples and for some.
     #[test]
     fn many_are_read_like_each() {
         let full: Vec<f64> = (0..40).map(|i| libm::sin(0.7 * f64::from(i))).collect();
         for samples in [-60.0, -3.2, -1.0, 0.0, 0.4, 2.0, 7.9, 60.0] {
-            for shift in [Shift::earlier(samples), Shift::slope(samples)] {
+            for shift in [Shift::earlier(samples), Shift::slope(samples, 0.3)] {
                 for every in [1, 3, 7] {
                     let count = full.len().div_ceil(every);
                     for numbers in [0..count, 1..count, 2..count - 1, 3..3] {

@@ -11,6 +11,7 @@ use crate::estimate::fitted::FittedLaw;
 use crate::estimate::profile::{End, Held, Profile};
 use crate::estimate::sliding::flag_what_the_motion_hides;
 use crate::estimate::{Estimate, advice, levels, optimal};
+use crate::lag;
 use crate::law::physical::physical;
 use crate::misfit::{Divisions, Misfit};
 use crate::parameter::physical::{Physical, propagate};
@@ -54,7 +55,7 @@ pub fn intervals(
     let cause = estimate.misfit.as_ref().and_then(Misfit::cause);
     match before {
         Some(_) if !estimate.disagreements.is_empty() => {
-            state_space::flag_what_rests_spoil(estimate)
+            state_space::flag_what_rests_spoil(estimate, "are not those of one axis")
         }
         Some(before) if cause.is_none() => {
             of_the_counts(record, before, &between, estimate, observer);
@@ -89,11 +90,15 @@ fn of_the_counts(
             *estimate = before;
         }
         Counts::Doubted(doubted) => doubted.flag(estimate),
-        Counts::NotAsked => {}
+        Counts::Unexplained if estimate.lag_samples() > 0.0 => {
+            let why = "are those of a force that lags behind the logged one";
+            state_space::flag_what_rests_spoil(estimate, why);
+        }
+        Counts::Unexplained | Counts::NotAsked => {}
     }
 }
 
-/// The intervals of a fit of the force; gives what logs add to them.
+/// The intervals of a fit of the force; gives what logs and a lag of the force add to them.
 fn of_the_force(
     objective: &Objective,
     optimum: &Optimum,
@@ -122,7 +127,8 @@ fn of_the_force(
     between
 }
 
-/// Counts what the conditioning shifts, what the law leaves systematically, and by how much logs differ; gives the last of these.
+/// Counts what the conditioning shifts, what the law leaves systematically, and by how much logs differ; gives the last of these
+/// with what is open of a lag of the force.
 fn conditioned(
     objective: &Objective,
     optimum: &Optimum,
@@ -167,6 +173,12 @@ fn conditioned(
         between = own.between(raw, replicas, &known);
         let optimum = (objective, &optimum.p[..], at);
         estimate.fitted.disagreements = logs.disagreements(optimum, &own, replicas);
+    }
+    // Counts are read behind the same lag.
+    if let Some(unknowns) = lag::spread(objective, estimate.terms.lag, &optimum.p, at) {
+        for p in raw {
+            between.add(p.name, p.variance(&unknowns));
+        }
     }
     if shift.is_none() && spread.is_none() && between.is_nothing() {
         return between;

@@ -27,6 +27,9 @@ pub struct Terms {
     /// How much later the force was logged than the motion it belongs to. Not linear, but like the
     /// terms above no part of the law.
     pub delay: Delay,
+    /// A lag between the force that was logged and that which the axis feels, as a current loop has one. Its time is a part of a
+    /// delay that is fitted; beside one that is given there is none.
+    pub lag: Lag,
 }
 
 /// What is known of the delay of the force against the motion.
@@ -42,6 +45,42 @@ pub enum Delay {
 impl Delay {
     /// Force and motion of a row belong together.
     pub const NONE: Self = Delay::Given(0.0);
+}
+
+/// What is known of a lag of first order: the square of its time constant, which is what a force shows of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lag {
+    /// The square, s^2, in the mean of what is possible.
+    pub square: f64,
+    /// Its variance, s^4.
+    pub variance: f64,
+}
+
+/// Standard deviations from none from which on a lag is certain; where all from none to the longest are as likely it is 1.7.
+const CERTAIN: f64 = 2.0;
+
+impl Lag {
+    /// No lag.
+    pub const NONE: Self = Self {
+        square: 0.0,
+        variance: 0.0,
+    };
+
+    /// What fits assume of it: one that is not certain is left out, and may be as large as it may.
+    pub(crate) fn assumed(self) -> Self {
+        match self.square * self.square > CERTAIN * CERTAIN * self.variance {
+            true => self,
+            false => Self {
+                square: 0.0,
+                variance: self.variance + self.square * self.square,
+            },
+        }
+    }
+
+    /// The time constant, s.
+    pub fn time(&self) -> f64 {
+        self.square.sqrt()
+    }
 }
 
 /// What is known of the moving mass or inertia.
@@ -63,6 +102,7 @@ impl Default for Terms {
             gravity: false,
             cogging: Vec::new(),
             delay: Delay::NONE,
+            lag: Lag::NONE,
             quadratic_viscous: false,
             dependences: Vec::new(),
         }

@@ -25,6 +25,8 @@ pub struct Objective<'a> {
     law: Law,
     /// What is known of the delay; where it is fitted it is the last nonlinear unknown, in samples.
     delay: Delay,
+    /// The lag of the force behind the log, samples.
+    lag: f64,
     linear: Vec<LinearTerm>,
     nonnegative: Vec<bool>,
     /// Columns that no parameter of the law changes; `None` for those that one does.
@@ -128,6 +130,11 @@ impl<'a> Objective<'a> {
             Delay::Fitted => None,
             Delay::Given(time) => Some(given(time, record)),
         };
+        // That of a delay that is given is no part of it.
+        let lag = match delay {
+            Delay::Fitted => terms.lag.time() / record.step(),
+            Delay::Given(_) => 0.0,
+        };
         let mut kinds: Vec<ColumnKind> = linear.iter().map(|term| term.column).collect();
         if let Mass::Given(_) = terms.mass {
             kinds.push(ColumnKind::Acceleration);
@@ -161,6 +168,7 @@ impl<'a> Objective<'a> {
             record,
             law,
             delay,
+            lag,
             linear,
             nonnegative,
             fixed,
@@ -206,6 +214,11 @@ impl<'a> Objective<'a> {
     /// Number of nonlinear unknowns: those of the law, and the delay where it is one.
     pub fn nonlinear(&self) -> usize {
         self.law.nonlinear() + usize::from(self.delay == Delay::Fitted)
+    }
+
+    /// Whether the delay is an unknown.
+    pub(crate) fn is_delayed(&self) -> bool {
+        self.delay == Delay::Fitted
     }
 
     /// The same objective with one coefficient held at a value.
@@ -364,7 +377,7 @@ impl<'a> Objective<'a> {
     /// By how much earlier in the log the motion is that belongs to a force.
     pub(crate) fn shift(&self, p: &[f64]) -> Shift {
         match (self.delay, p.last()) {
-            (Delay::Fitted, Some(&samples)) => Shift::earlier(samples),
+            (Delay::Fitted, Some(&samples)) => Shift::before_lag(samples, self.lag),
             (Delay::Fitted, None) => Shift::NONE,
             (Delay::Given(time), _) => given(time, self.record),
         }
@@ -396,8 +409,13 @@ impl<'a> Objective<'a> {
         // In the order of `Moved`.
         let mut shifts = vec![self.shift(p)];
         if slopes && self.delay == Delay::Fitted {
-            shifts.push(Shift::slope(p.last().copied().unwrap_or(0.0)));
+            shifts.push(Shift::slope(p.last().copied().unwrap_or(0.0), self.lag));
         }
+        self.traces_at(p, slopes, &shifts)
+    }
+
+    /// The law along the record, its columns read at each of some shifts.
+    fn traces_at(&self, p: &[f64], slopes: bool, shifts: &[Shift]) -> Vec<Run> {
         let p = &p[..self.law.nonlinear()];
         let segments = &self.record.segments;
         // Where the factor of eta is the same for all samples, the kernels weight the derivatives while
@@ -426,7 +444,7 @@ impl<'a> Objective<'a> {
                 };
                 if self.record.common.is_some() {
                     let full: Vec<&[f64]> = run.all().map(Vec::as_slice).collect();
-                    run.kept = Some(self.filtered(&segments[i], &full, &shifts));
+                    run.kept = Some(self.filtered(&segments[i], &full, shifts));
                 }
                 run
             })
@@ -559,7 +577,19 @@ impl<'a> Objective<'a> {
 
     /// Derivative of the model with respect to the delay, per sample.
     fn delay_slope(&self, runs: &mut [Run], p: &[f64], coefficients: &[f64]) -> Vec<f64> {
-        let slope = Shift::slope(p.last().copied().unwrap_or(0.0));
+        let slope = Shift::slope(p.last().copied().unwrap_or(0.0), self.lag);
+        self.derived(runs, slope, coefficients)
+    }
+
+    /// Derivative of the model with respect to the square of the lag, per square of a sample.
+    pub(crate) fn bend(&self, p: &[f64], coefficients: &[f64]) -> Vec<f64> {
+        let bend = Shift::bend(p.last().copied().unwrap_or(0.0), self.lag);
+        let mut runs = self.traces_at(p, false, &[self.shift(p), bend]);
+        self.derived(&mut runs, bend, coefficients)
+    }
+
+    /// The model read by a derivative of its shift.
+    fn derived(&self, runs: &mut [Run], slope: Shift, coefficients: &[f64]) -> Vec<f64> {
         let mut out = vec![0.0; self.force.len()];
         let mut add = |c: f64, column: &[f64]| {
             for (y, x) in out.iter_mut().zip(column) {

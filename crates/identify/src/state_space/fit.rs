@@ -74,8 +74,8 @@ pub(super) struct Likely {
     pub against: &'static str,
 }
 
-/// `None` where the law or the log is not of the kind that is simulated here, or the observer stops it.
-pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch) -> Option<Likely> {
+/// Whether a law and a log are of the kind that is simulated here.
+pub(super) fn can_be_asked(record: &Record, fitted: &Estimate) -> bool {
     let samples: usize = record.segments.iter().map(|s| s.reading.len()).sum();
     let law = &fitted.law;
     let columns = fitted.terms.columns(law);
@@ -83,9 +83,12 @@ pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch)
         && law.exponent == 2.0
         && !law.exponent_fitted
         && columns.iter().all(|term| is_simulated(term.column));
-    if !simulated || samples > MOST_SAMPLES {
-        return None;
-    }
+    simulated && samples <= MOST_SAMPLES
+}
+
+/// `None` where there is no such law, or the observer stops it.
+pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch) -> Option<Likely> {
+    let law = &fitted.law;
     let mut search = Search {
         record,
         fitted,
@@ -130,6 +133,8 @@ pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch)
         "the search for its maximum did not end"
     } else if Left::of(&top, &data).is_beyond(1.0) {
         "something acts on the axis that is not in the law"
+    } else if fitted.terms.lag.square > 0.0 {
+        "the axis is simulated under a force without the lag that this one has"
     } else if beside.is_nan() || beside > BESIDE {
         "the delay of the force is no half of a sample"
     } else {

@@ -118,14 +118,14 @@ pub(super) fn doubt(estimate: &mut Estimate, found: &Likely) {
 }
 
 /// Flags the parameters that rests spoil whatever their interval.
-pub(super) fn doubt_all(parameters: &mut [Parameter]) {
+pub(super) fn doubt_all(parameters: &mut [Parameter], why: &str) {
     let spoiled =
         |p: &&mut Parameter| SPOILED.contains(&p.name.quantity) && p.identified && p.identifiable;
     for parameter in parameters.iter_mut().filter(spoiled) {
         parameter.identifiable = false;
-        parameter.reason = "the axis rests in much of the logs, and their counts, which would say more than the force, are \
-                            not those of one axis"
-            .into();
+        parameter.reason = format!(
+            "the axis rests in much of the logs, and their counts, which would say more than the force, {why}"
+        );
     }
 }
 

@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use stiction_identify::{
-    Conditioning, Control, Cutoff, Delay, Dependence, Law, LawKind, Mass, Observer, Progress,
+    Conditioning, Control, Cutoff, Delay, Dependence, Lag, Law, LawKind, Mass, Observer, Progress,
     Samples, Settings, Source, Terms, condition, cross_validate, estimate, intervals,
     low_speed_bound, predict, separable,
 };
@@ -295,8 +295,15 @@ fn terms() -> impl Strategy<Value = Terms> {
         Just(Delay::Fitted),
         (-9.0..9.0).prop_map(|e: f64| Delay::Given(10f64.powf(e)))
     ];
-    let parts = (mass, flags, pitches, dependences, delay);
-    parts.prop_map(|(mass, flags, cogging, dependences, delay)| Terms {
+    let lag = prop_oneof![
+        Just(Lag::NONE),
+        (-18.0..6.0, -36.0..6.0).prop_map(|(square, variance): (f64, f64)| Lag {
+            square: 10f64.powf(square),
+            variance: 10f64.powf(variance),
+        })
+    ];
+    let parts = (mass, flags, pitches, dependences, delay, lag);
+    parts.prop_map(|(mass, flags, cogging, dependences, delay, lag)| Terms {
         mass,
         offset: flags.0,
         gravity: flags.1,
@@ -304,6 +311,7 @@ fn terms() -> impl Strategy<Value = Terms> {
         quadratic_viscous: flags.2,
         dependences,
         delay,
+        lag,
     })
 }
 

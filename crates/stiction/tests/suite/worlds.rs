@@ -4,7 +4,7 @@ use crate::claims::{Run, judged};
 use crate::common::identified::identified;
 use rayon::prelude::*;
 use stiction::Axis;
-use stiction_testkit::worlds::{Machine, Motion, World, record};
+use stiction_testkit::worlds::{Drive, Machine, Motion, World, record};
 
 const SEED: u64 = 1;
 
@@ -255,6 +255,43 @@ fn a_rise_at_speeds_that_the_motion_does_not_dwell_at_is_open() {
         .iter()
         .filter(|claim| curve.contains(&&claim.0[..]));
     assert_eq!(claimed.count(), 0, "{found}");
+}
+
+/// A lag makes a force smaller too, which a delay does not: a mass that has to make up for it is too large.
+#[test]
+fn behind_a_current_loop_the_mass_is_that_of_the_axis() {
+    let cases = [
+        ("screw", Motion::Commissioning, 0, 1e-3),
+        ("stage", Motion::Commissioning, 1, 3e-4),
+    ];
+    for (axis, motion, periods, lag) in cases {
+        let drive = Drive {
+            periods,
+            lag,
+            every: 1,
+        };
+        let found = of(axis, motion, World::Driven(drive));
+        let mass = found.claims.iter().find(|claim| claim.0 == "mass");
+        assert!(mass.unwrap().2.abs() < 1.0, "{axis}: {found}");
+        assert!(!found.is_silent(), "{axis}: {found}");
+    }
+}
+
+/// No axis under the force that was logged makes the counts of this one: nothing says how far rests spoil the fit of its force.
+#[test]
+fn behind_a_lag_what_rests_spoil_is_open() {
+    let drive = Drive {
+        periods: 0,
+        lag: 3e-4,
+        every: 1,
+    };
+    let found = of("stage", Motion::Trapezoid, World::Driven(drive));
+    let claimed = |name: &str| found.claims.iter().any(|claim| claim.0 == name);
+    for name in ["sigma0", "sigma1", "static", "stribeck_velocity"] {
+        assert!(!claimed(name), "{name}: {found}");
+    }
+    assert!(claimed("mass") && claimed("coulomb"), "{found}");
+    assert!(!found.is_silent(), "{found}");
 }
 
 #[test]

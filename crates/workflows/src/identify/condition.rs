@@ -55,10 +55,11 @@ pub(super) fn condition(
     let Asked { options, axis, .. } = asked;
     let sources = &loaded.sources;
     let terms = |asymmetric| axis.terms_for(&sources[0].log, asymmetric);
-    let (symmetric, asymmetric) = (terms(false)?, terms(true)?);
+    let (mut symmetric, mut asymmetric) = (terms(false)?, terms(true)?);
     let settings = settings(options.seed);
     let wanted = conditioning::wanted(sources, axis);
     let chosen = conditioning::choose(sources, &wanted, &symmetric, &settings, observer)?;
+    (symmetric.lag, asymmetric.lag) = (chosen.lag, chosen.lag);
     // A Maxwell-slip law depends on past motion: it is fitted from where the start no longer has an effect.
     let settle = |record: Record| match options.law.is_some_and(LawKind::has_elements) {
         true => record.settled(),
@@ -131,7 +132,10 @@ pub(crate) fn record_of(
     let chosen = conditioning::choose(&sources, &wanted, &terms, &Settings::default(), observer)?;
     let record = conditioned(&sources, &chosen.conditioning)?;
     refuse_rest(&record, &sources, sources[0].log.motion)?;
-    let terms = terms.about(&record);
+    let terms = Terms {
+        lag: chosen.lag,
+        ..terms.about(&record)
+    };
     Ok((sources, record, terms))
 }
 

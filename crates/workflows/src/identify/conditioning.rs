@@ -5,7 +5,7 @@ use crate::source::Source;
 use stiction_files::Axis;
 use stiction_identify as engine;
 use stiction_identify::{
-    Conditioning, Cutoff, Law, LawKind, Mass, Observer, Record, Settings, Terms, Tuned,
+    Conditioning, Cutoff, Lag, Law, LawKind, Mass, Observer, Record, Settings, Terms, Tuned,
 };
 
 /// Conditions logs together as the axis asks; the encoder step of the log is used where the axis
@@ -34,6 +34,8 @@ pub(super) fn wanted(sources: &[Source], axis: &Axis) -> Conditioning {
 /// The conditioning of a fit.
 pub(super) struct Chosen {
     pub conditioning: Conditioning,
+    /// The lag of the force, for every fit of these logs.
+    pub lag: Lag,
     /// How it was chosen.
     pub note: Option<String>,
     /// Whether the choice was stopped; the conditioning is then the default one.
@@ -44,6 +46,7 @@ impl Chosen {
     fn stated(conditioning: Conditioning) -> Self {
         Self {
             conditioning,
+            lag: Lag::NONE,
             note: None,
             interrupted: false,
         }
@@ -84,9 +87,14 @@ pub(super) fn choose(
         ),
         false => note(&tuned),
     };
+    let lag = (tuned.lag.square > 0.0).then(|| lag_note(&tuned.lag));
     Ok(Chosen {
         conditioning: tuned.conditioning,
-        note,
+        lag: tuned.lag,
+        note: match (note, lag) {
+            (Some(note), Some(lag)) => Some(format!("{note}; {lag}")),
+            (note, lag) => note.or(lag),
+        },
         interrupted: tuned.interrupted,
     })
 }
@@ -109,6 +117,14 @@ fn note(tuned: &Tuned) -> Option<String> {
         tuned.trials.len(),
         stiction_number::Percent::error(100.0 * used.error).decimals(2)
     ))
+}
+
+fn lag_note(lag: &Lag) -> String {
+    format!(
+        "{} ms of the delay of the force are taken for a lag, as of a current loop; what is open of that counts in the \
+         intervals",
+        stiction_number::four_digits(1e3 * lag.time())
+    )
 }
 
 pub(super) fn fail(sources: &[Source], source: engine::Error) -> Error {
