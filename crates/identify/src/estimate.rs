@@ -118,6 +118,16 @@ impl Estimate {
         }
     }
 
+    /// Leaves parameters open that are determined otherwise, for this reason.
+    pub fn leave_open(&mut self, quantities: &[Quantity], reason: &str) {
+        for parameter in &mut self.fitted.parameters {
+            if parameter.identifiable && quantities.contains(&parameter.name.quantity) {
+                parameter.identifiable = false;
+                parameter.reason = reason.into();
+            }
+        }
+    }
+
     /// Adds evaluations that led to it.
     pub fn count(&mut self, more: &Counts) {
         self.fitted.counts.add(more);
@@ -207,7 +217,7 @@ pub fn estimate(
         }
     }
     let covariance = Covariance::new(raw.iter().map(|p| p.name).collect(), &matrix);
-    curve::stays_within(&law, optimum, &mut parameters);
+    curve::stays_within(&law, optimum, record.top_speed(), &mut parameters);
     sliding::flag_what_the_motion_hides(record, &mut parameters);
     advice::explain(&mut parameters, &covariance);
     let series = series(&objective, &optimum.p, c, &at.columns);

@@ -122,8 +122,9 @@ fn of_the_force(
     }
     estimate.fitted.counts.add(&watch.counts);
     flag_what_a_filter_hides(objective.record(), estimate);
+    let top_speed = objective.record().top_speed();
     let fitted = &mut estimate.fitted;
-    stays_within(&fitted.law, optimum, &mut fitted.parameters);
+    stays_within(&fitted.law, optimum, top_speed, &mut fitted.parameters);
     between
 }
 

@@ -167,6 +167,15 @@ pub(super) fn auto(
         .filter(|other| holds_less(&other.law, &before.law))
         .cloned()
         .collect();
+    let passed_over = (0..rungs.len()).any(|i| {
+        let (own, other) = (&rungs[at], &rungs[i]);
+        let (law, fuller) = (&own.estimate.law, &other.estimate.law);
+        law.flat
+            && !fuller.flat
+            && law.kind == fuller.kind
+            && laws[i].held_back.is_some()
+            && other.held_out_error() < own.held_out_error()
+    });
     let rung = rungs.swap_remove(at);
     let held_out_rmse = rung.cross_validated_rmse(ladder);
     let held_back = unfit::unseen_force(&rung.estimate);
@@ -177,6 +186,13 @@ pub(super) fn auto(
     let mut estimate = stated(ladder, &optimum, estimate, observer);
     for freer in &freer {
         estimate.doubt_beside(&before, freer);
+    }
+    if passed_over {
+        // Bristles that end at a lower level than those of the axis are stiffer or softer, to make up for it.
+        estimate.leave_open(
+            &[Quantity::Sigma0, Quantity::Sigma1],
+            "the log asks for a static friction above any force in it, which was left out; the bristles depend on it",
+        );
     }
     if stopped {
         // Not all laws were tried, so even a converged one is only the best so far.

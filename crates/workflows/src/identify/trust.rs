@@ -119,7 +119,11 @@ impl Judged {
         if evidence.shows_friction() && !first.contains(&self.trust.next) {
             let own = left::cause(evidence.law, &evidence.sources[0].log);
             let between = || disagree::cause(&evidence.law.disagreements);
-            self.trust.cause = own.or_else(between);
+            // Levels that differ have a cure; what of another shape is left may be of them.
+            self.trust.cause = match own {
+                Some(own) if own.cure.is_some() => Some(own),
+                own => between().or(own),
+            };
         }
         self
     }
