@@ -217,7 +217,8 @@ pub fn estimate(
         }
     }
     let covariance = Covariance::new(raw.iter().map(|p| p.name).collect(), &matrix);
-    curve::stays_within(&law, optimum, record.top_speed(), &mut parameters);
+    curve::stays_within(&law, optimum, &mut parameters);
+    curve::spans_all_speeds(&law, record.top_speed(), &mut parameters);
     sliding::flag_what_the_motion_hides(record, &mut parameters);
     advice::explain(&mut parameters, &covariance);
     let series = series(&objective, &optimum.p, c, &at.columns);

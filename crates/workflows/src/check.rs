@@ -57,6 +57,8 @@ pub struct LogCheck {
     pub motion: Option<Motion>,
     /// How well it follows its reference; `null` without a reference that turns back.
     pub tracking: Option<Tracking>,
+    /// Why it is not known, or not compared with the first log, in words that complete a sentence.
+    pub not_tracked: Option<String>,
     /// What that motion can show, from plain facts.
     pub shows: Vec<Shows>,
     /// What the law that the data choose would and would not determine.
@@ -140,21 +142,36 @@ pub fn check(
     for path in logs {
         out.push(one(path, &read, observer)?);
     }
-    let mut followed = out
-        .iter()
-        .filter_map(|log: &LogCheck| log.tracking.as_ref());
-    let tracking = match followed.next() {
-        Some(first) => followed
-            .map(|later| TrackingChange::between(first, later))
-            .collect(),
-        None => Vec::new(),
-    };
+    let tracking = changes(&mut out);
     Ok(Check {
         schema: "stiction.check/1".into(),
         axis: axis.map(Path::to_path_buf),
         logs: out,
         tracking,
     })
+}
+
+/// What changed from the first log to each other one that follows a reference of the same kind.
+fn changes(logs: &mut [LogCheck]) -> Vec<TrackingChange> {
+    let Some((first, later)) = logs.split_first_mut() else {
+        return Vec::new();
+    };
+    let Some(before) = &first.tracking else {
+        return Vec::new();
+    };
+    let mut out = Vec::new();
+    for log in later {
+        match &log.tracking {
+            Some(after) if log.kind == first.kind => {
+                out.push(TrackingChange::between(before, after))
+            }
+            Some(_) => {
+                log.not_tracked = Some(format!("it is {}, the first log {}", log.kind, first.kind))
+            }
+            None => {}
+        }
+    }
+    out
 }
 
 fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck, Error> {
@@ -181,12 +198,17 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
             .collect(),
         conditioning: Vec::new(),
         motion: Motion::of(log),
-        tracking: Tracking::of(&path.display().to_string(), log),
+        tracking: None,
+        not_tracked: None,
         shows: Vec::new(),
         parameters: Vec::new(),
         refused: None,
         next: Lead::Record,
     };
+    match Tracking::of(&path.display().to_string(), log) {
+        Ok(tracking) => out.tracking = Some(tracking),
+        Err(why) => out.not_tracked = Some(why.into()),
+    }
     // Without a force nothing shows, whatever the motion.
     if let (Some(motion), true) = (&out.motion, log.force.is_some()) {
         out.shows = shows::shows(log, motion, axis.terms.mass);

@@ -758,6 +758,11 @@ fn a_log_before_and_one_after() {
         said.contains("the motions differ (reversals, duration)"),
         "{said}"
     );
+    // Without a reference there is nothing to compare, and it is said.
+    bench.log("none.csv", 6000);
+    let (_, out, _) = bench.run(&["check", "before.csv", "none.csv"]);
+    let why = "the following error of none.csv is not compared: it has no reference position";
+    assert!(out.contains(why), "{out}");
     // One log has nothing to be compared with.
     let (_, out, _) = bench.run(&["check", "before.csv"]);
     assert!(!out.contains("following error of"), "{out}");

@@ -483,6 +483,57 @@ int main(void)
     assert_eq!(run("./a.out", &[], dir.path()), "1 1.20 1.20 1 1; 0");
 }
 
+/// Settings of the levels, or an offset, that become none while it runs: nothing is learnt from them, the force fades, and it comes
+/// back with good ones.
+#[test]
+fn levels_outlive_settings_that_are_none() {
+    let program = r#"
+#include "x_axis_friction.h"
+#include <math.h>
+#include <stdio.h>
+int main(void)
+{
+    const double bad[] = { (double)NAN, -1.0, 0.0, 1.0, (double)INFINITY, -(double)INFINITY, -2.0 };
+    for (int which = 0; which < 3; which++) {
+        for (int b = 0; b < 7; b++) {
+            x_axis_params_t params;
+            x_axis_state_t state;
+            x_axis_params(&params);
+            params.watchdog_window = 0.0;
+            (void)x_axis_init(&params, &state);
+            double most = 0.0;
+            for (int k = 0; k < 6000; k++) {
+                const bool onward = (k / 100) % 2 == 0;
+                const x_axis_input_t input = { onward ? 0.05 : -0.05, 1e-6, k < 5000, onward ? 16.2 : -16.2, true };
+                x_axis_params_t now = params;
+                if (k >= 2000 && k < 2020) {
+                    *(which == 0 ? &now.range : which == 1 ? &now.memory : &now.offset) = bad[b];
+                }
+                const double force = fabs(x_axis_step(&now, &state, &input));
+                most = (force <= most) ? most : force;
+            }
+            if (!(most < 30.0) || !(fabs(state.levels[0] - 1.2) < 0.05) || state.output != 0.0) {
+                (void)printf("%d %g: %g %g %g; ", which, bad[b], most, state.levels[0], state.output);
+            }
+        }
+    }
+    (void)printf("done");
+    return 0;
+}
+"#;
+    let dir = tempfile::tempdir().unwrap();
+    let mut model = model(laws().remove(0).1);
+    model.settings = adapting(model.settings);
+    write(&export(&model, Target::C).unwrap(), dir.path());
+    std::fs::write(dir.path().join("main.c"), program).unwrap();
+    gcc(
+        "-std=c99 -O2",
+        &["main.c", "x_axis_friction.c", "-lm"],
+        dir.path(),
+    );
+    assert_eq!(run("./a.out", &[], dir.path()), "done");
+}
+
 /// A limit that is lowered while it runs holds from the next step on, whatever the slew limit.
 #[test]
 fn a_lowered_limit_acts_at_once() {

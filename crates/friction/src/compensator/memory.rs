@@ -93,6 +93,8 @@ impl<T: Real> Compensator<T> {
             let held = |level: T| level.max(T::ONE - range).min(T::ONE + range);
             self.state.learnt.recall([held(forward), held(back)]);
         }
+        // One that has switched off since is not armed again.
+        let trip = self.state.watch.trip.or(trip);
         self.state.watch = match known {
             true => Watch::recalled(without, peak, trip),
             false => Watch {

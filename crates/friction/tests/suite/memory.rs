@@ -85,6 +85,9 @@ fn one_that_had_switched_off_still_has() {
     let mut after = Compensator::new(*before.friction(), Source::Reference, settings(0.0)).unwrap();
     after.recall(&before.memory()).unwrap();
     assert_eq!(after.state().watch.trip, before.state().watch.trip);
+    // Nor does an older memory arm it.
+    after.recall(&learnt(false).memory()).unwrap();
+    assert!(after.state().watch.tripped());
     after.reset();
     assert!(!after.state().watch.tripped());
 }

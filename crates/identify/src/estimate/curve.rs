@@ -94,44 +94,53 @@ pub(super) fn rises_unseen(law: &Law, parameters: &mut [Parameter]) {
 /// curve a fiftieth of the rise is left.
 const BEYOND: f64 = 2.0;
 
-/// Flags the curve of a direction whose Stribeck velocity lies near the top speed: the motion stays inside the Stribeck range, so
-/// neither the Coulomb level nor the viscous friction is ever seen separately. A rise over the whole range of speeds may be another
-/// effect, such as backlash, so that static friction and Stribeck velocity are open with them where they are not at the end
-/// of the search, which flags them itself.
-pub(super) fn stays_within(
-    law: &Law,
-    optimum: &Optimum,
-    top_speed: f64,
-    parameters: &mut [Parameter],
-) {
+/// Flags the Coulomb level and the viscous friction of a direction whose Stribeck velocity lies at the
+/// top speed: the motion stays inside the Stribeck range, so neither is ever seen separately.
+pub(super) fn stays_within(law: &Law, optimum: &Optimum, parameters: &mut [Parameter]) {
     let layout = law.layout();
     for side in 0..2 {
         let Some(i) = layout.velocity[side] else {
             continue;
         };
         let (low, high) = (optimum.bounds.low(i), optimum.bounds.high(i));
-        let at_end = optimum.bounds.at_bound(&optimum.p, i) && optimum.p[i] > 0.5 * (low + high);
-        let near = BEYOND * libm::exp(optimum.p[i]) > top_speed;
-        if !(at_end || near) {
+        if !(optimum.bounds.at_bound(&optimum.p, i) && optimum.p[i] > 0.5 * (low + high)) {
             continue;
         }
         let Some(&direction) = Side::all(law.asymmetric).get(side) else {
             continue;
         };
-        let of_the_curve = |p: &&mut Parameter| {
-            let beside = [Quantity::Coulomb, Quantity::Sigma2];
-            let rise = [Quantity::Static, Quantity::StribeckVelocity];
-            let open = beside.contains(&p.name.quantity) || near && rise.contains(&p.name.quantity);
-            open && p.name == Name::new(p.name.quantity, direction)
-        };
-        for p in parameters.iter_mut().filter(of_the_curve) {
+        let names = [Quantity::Coulomb, Quantity::Sigma2].map(|q| Name::new(q, direction));
+        for p in parameters.iter_mut().filter(|p| names.contains(&p.name)) {
             if p.identifiable {
                 p.identifiable = false;
-                p.reason = match at_end {
-                    true => "the motion is not faster than the Stribeck velocity".into(),
-                    false => "the motion is not twice as fast as the Stribeck velocity: friction beyond the rise is not seen"
-                        .into(),
-                };
+                p.reason = "the motion is not faster than the Stribeck velocity".into();
+            }
+        }
+    }
+}
+
+/// Flags the whole curve of a direction whose Stribeck velocity lies near the top speed: friction beyond the rise is not seen,
+/// and a rise over the whole range of speeds may be another effect, such as backlash.
+pub(super) fn spans_all_speeds(law: &Law, top_speed: f64, parameters: &mut [Parameter]) {
+    for &side in Side::all(law.asymmetric) {
+        let name = Name::new(Quantity::StribeckVelocity, side);
+        let near = parameters
+            .iter()
+            .any(|p| p.name == name && p.identified && BEYOND * p.value > top_speed);
+        let curve = [
+            Quantity::Coulomb,
+            Quantity::Static,
+            Quantity::StribeckVelocity,
+            Quantity::Sigma2,
+        ]
+        .map(|quantity| Name::new(quantity, side));
+        for p in parameters
+            .iter_mut()
+            .filter(|p| near && curve.contains(&p.name))
+        {
+            if p.identifiable {
+                p.identifiable = false;
+                p.reason = "the motion is not twice as fast as the Stribeck velocity: friction beyond the rise is not seen".into();
             }
         }
     }

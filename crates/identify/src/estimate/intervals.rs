@@ -5,7 +5,7 @@ use crate::agreement::Between;
 use crate::conditioning::record::Record;
 use crate::estimate::conditioned::shift;
 use crate::estimate::confused::flag_levels_that_take_viscous_friction;
-use crate::estimate::curve::{missing, rises_unseen, stays_within};
+use crate::estimate::curve::{missing, rises_unseen, spans_all_speeds, stays_within};
 use crate::estimate::filtered::flag_what_a_filter_hides;
 use crate::estimate::fitted::FittedLaw;
 use crate::estimate::profile::{End, Held, Profile};
@@ -66,6 +66,7 @@ pub fn intervals(
     flag_what_the_residual_doubts(fitted);
     flag_what_the_motion_hides(record, &mut fitted.parameters);
     rises_unseen(&fitted.law, &mut fitted.parameters);
+    spans_all_speeds(&fitted.law, record.top_speed(), &mut fitted.parameters);
     let at = &optimum.evaluation;
     flag_levels_that_take_viscous_friction(&objective, at, &raw, &mut fitted.parameters);
     advice::explain(&mut fitted.parameters, &fitted.covariance);
@@ -122,9 +123,8 @@ fn of_the_force(
     }
     estimate.fitted.counts.add(&watch.counts);
     flag_what_a_filter_hides(objective.record(), estimate);
-    let top_speed = objective.record().top_speed();
     let fitted = &mut estimate.fitted;
-    stays_within(&fitted.law, optimum, top_speed, &mut fitted.parameters);
+    stays_within(&fitted.law, optimum, &mut fitted.parameters);
     between
 }
 

@@ -15,7 +15,19 @@ pub fn check(check: &Check) -> String {
     let kind = check.logs.first().map_or("", |log| log.kind.as_str());
     let logs = check.logs.iter().map(|log| log_check(log, axis));
     let changes = check.tracking.iter().map(|change| tracking(change, kind));
-    logs.chain(changes).collect::<Vec<_>>().join("\n")
+    // Where one log follows a reference, whoever gives several compares them.
+    let compares = check.logs.len() > 1 && check.logs.iter().any(|log| log.tracking.is_some());
+    let silent = check.logs.iter().filter(|_| compares).filter_map(|log| {
+        let why = log.not_tracked.as_ref()?;
+        Some(format!(
+            "the following error of {} is not compared: {why}\n",
+            log.input.path
+        ))
+    });
+    logs.chain(changes)
+        .chain(silent)
+        .collect::<Vec<_>>()
+        .join("\n")
 }
 
 /// What changed in how a reference is followed.
@@ -63,6 +75,23 @@ fn tracking(change: &TrackingChange, kind: &str) -> String {
         rows.push(vec![name.into(), micro(a), micro(b), words]);
     }
     out.push_str(&table(&rows, &[false, true, true]));
+    for log in [before, after] {
+        if log.offset.abs() > log.largest {
+            let _ = writeln!(
+                out,
+                "  the errors of {} are without their median of {}: an encoder whose zero is elsewhere",
+                log.log,
+                micro(log.offset)
+            );
+        }
+        if log.largest > 0.5 * log.range {
+            let _ = writeln!(
+                out,
+                "  the errors of {} are as large as its motion: look at sign and unit of the reference",
+                log.log
+            );
+        }
+    }
     if !change.differs.is_empty() {
         let _ = writeln!(
             out,

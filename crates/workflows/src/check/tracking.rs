@@ -18,7 +18,10 @@ const GROWN: f64 = 0.1;
 /// Encoder steps by which two errors of the same size may differ.
 const STEPS: f64 = 3.0;
 
-/// How well an axis follows its reference in one log; errors are reference less position, m or rad.
+/// Part of the range that a reference moves in one sample only where it jumps: at a wrap, or between set points.
+const JUMP: f64 = 0.3;
+
+/// How well an axis follows its reference in one log; errors are reference less position and less their median, m or rad.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Tracking {
     /// The log.
@@ -35,6 +38,8 @@ pub struct Tracking {
     pub top_speed: f64,
     /// From its first motion to its last, s.
     pub seconds: f64,
+    /// Median of reference less position, which the errors are without, m or rad.
+    pub offset: f64,
     /// Encoder step, m or rad, where it is known.
     pub step: Option<f64>,
 }
@@ -63,11 +68,26 @@ pub struct TrackingChange {
 }
 
 impl Tracking {
-    /// `None` for a log without position or reference, or whose reference does not turn back.
-    pub(super) fn of(name: &str, log: &Log) -> Option<Self> {
-        let (position, reference) = (log.position.as_ref()?, log.reference.as_ref()?);
-        let error: Vec<f64> = reference.iter().zip(position).map(|(r, x)| r - x).collect();
-        let moving = moving(reference)?;
+    /// Why nothing is said of a log, in words that complete "the following error of ... is not known: ".
+    pub(super) fn of(name: &str, log: &Log) -> Result<Self, &'static str> {
+        let reference = log
+            .reference
+            .as_ref()
+            .ok_or("it has no reference position")?;
+        let position = log.position.as_ref().ok_or("it has no position")?;
+        let ends = |of: fn(f64, f64) -> f64, start| reference.iter().copied().fold(start, of);
+        let range = ends(f64::max, f64::NEG_INFINITY) - ends(f64::min, f64::INFINITY);
+        let jumps = |pair: &[f64]| (pair[1] - pair[0]).abs() > JUMP * range;
+        if reference.windows(2).any(jumps) {
+            return Err("its reference jumps; one that wraps has to be unwrapped in the log");
+        }
+        let mut error: Vec<f64> = reference.iter().zip(position).map(|(r, x)| r - x).collect();
+        let mut sorted = error.clone();
+        let middle = sorted.len() / 2;
+        let (_, median, _) = sorted.select_nth_unstable_by(middle, f64::total_cmp);
+        let offset = *median;
+        error.iter_mut().for_each(|e| *e -= offset);
+        let moving = moving(reference).ok_or("its reference does not move")?;
         let stretches = log.segments.iter().filter_map(|s| reference.get(s.clone()));
         let noise = noise_deviation(stretches);
         let shortest = Travel::shortest_movement(least_step(reference), noise);
@@ -83,35 +103,38 @@ impl Tracking {
         let peaks: Vec<Peak> = turns
             .iter()
             .zip(ends)
-            .map(|(&turn, end)| {
+            .filter_map(|(&turn, end)| {
                 let from = turn.saturating_sub(samples(BEFORE));
                 let to = (turn + samples(AFTER) + 1).min(end).max(turn + 1);
-                Peak {
+                // One beside a gap is not seen.
+                let whole = |s: &Range<usize>| s.start <= from && to <= s.end;
+                log.segments.iter().any(whole).then(|| Peak {
                     time: log.time[turn],
                     error: largest(from..to),
-                }
+                })
             })
             .collect();
         if peaks.is_empty() {
-            return None;
+            return Err("its reference does not turn back");
         }
         let square: f64 = error[moving.clone()].iter().map(|e| e * e).sum();
-        let ends = |of: fn(f64, f64) -> f64, start| reference.iter().copied().fold(start, of);
         let speeds = moving
             .clone()
             .skip(1)
             .map(|i| ((reference[i] - reference[i - 1]) / (log.time[i] - log.time[i - 1])).abs());
         let mut speeds: Vec<f64> = speeds.collect();
         speeds.sort_unstable_by(f64::total_cmp);
-        Some(Self {
+        let last = speeds.len().saturating_sub(1);
+        Ok(Self {
             log: name.into(),
             peaks,
             rms: (square / moving.len() as f64).sqrt(),
             largest: largest(moving.clone()),
-            range: ends(f64::max, f64::NEG_INFINITY) - ends(f64::min, f64::INFINITY),
+            range,
             // A single jump is no speed.
-            top_speed: *speeds.get(speeds.len().saturating_sub(1) * 99 / 100)?,
+            top_speed: speeds.get(last * 99 / 100).copied().unwrap_or(0.0),
             seconds: log.time[moving.end - 1] - log.time[moving.start],
+            offset,
             step: log.quantum,
         })
     }
