@@ -119,7 +119,7 @@ pub(super) fn stays_within(law: &Law, optimum: &Optimum, parameters: &mut [Param
     }
 }
 
-/// Flags the whole curve of a direction whose Stribeck velocity lies near the top speed: friction beyond the rise is not seen,
+/// Flags the curve beyond standstill of a direction whose Stribeck velocity lies near the top speed: friction beyond the rise is not seen,
 /// and a rise over the whole range of speeds may be another effect, such as backlash.
 pub(super) fn spans_all_speeds(law: &Law, top_speed: f64, parameters: &mut [Parameter]) {
     for &side in Side::all(law.asymmetric) {
@@ -129,7 +129,6 @@ pub(super) fn spans_all_speeds(law: &Law, top_speed: f64, parameters: &mut [Para
             .any(|p| p.name == name && p.identified && BEYOND * p.value > top_speed);
         let curve = [
             Quantity::Coulomb,
-            Quantity::Static,
             Quantity::StribeckVelocity,
             Quantity::Sigma2,
         ]

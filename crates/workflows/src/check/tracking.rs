@@ -4,7 +4,7 @@
 use crate::turns::turned;
 use serde::Serialize;
 use std::ops::Range;
-use stiction_log::Log;
+use stiction_log::{Gap, Log};
 use stiction_signal::{Travel, noise_deviation};
 
 /// A peak at a reversal is sought from so long before the reference turns, s.
@@ -107,8 +107,8 @@ impl Tracking {
                 let from = turn.saturating_sub(samples(BEFORE));
                 let to = (turn + samples(AFTER) + 1).min(end).max(turn + 1);
                 // One beside a gap is not seen.
-                let whole = |s: &Range<usize>| s.start <= from && to <= s.end;
-                log.segments.iter().any(whole).then(|| Peak {
+                let gap = |g: &Gap| from <= g.start_index && g.start_index < to;
+                (!log.gaps.iter().any(gap)).then(|| Peak {
                     time: log.time[turn],
                     error: largest(from..to),
                 })
