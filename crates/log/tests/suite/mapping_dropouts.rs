@@ -235,8 +235,9 @@ proptest! {
             let x = from + drift * turn + swing * (9.0 * turn).sin() + noisy * noise(seed * 5000 + own);
             if step > 0.0 { step * (x / step).round() } else { x }
         };
-        // Renewed seldom, a steep drift steps by more than a part of a machine does in a row.
-        prop_assume!(drift.abs() * every as f64 / (ROWS as f64) + 2.0 * noisy < 2.5 || every == 1);
+        // Renewed seldom, a steep drift or swing steps by more than a part of a machine does in a row.
+        let slope = drift.abs() + 9.0 * swing;
+        prop_assume!(slope * every as f64 / (ROWS as f64) + 2.0 * noisy < 2.5 || every == 1);
         let log = read(&temperature(at));
         prop_assert!(!codes(&log).contains(&"sensor-dropout"), "{}", message(&log, "sensor-dropout"));
         prop_assert!(log.temperature.is_some());
