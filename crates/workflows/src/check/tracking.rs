@@ -68,7 +68,7 @@ pub struct TrackingChange {
 }
 
 impl Tracking {
-    /// Why nothing is said of a log, in words that complete "the following error of ... is not known: ".
+    /// How a log follows its reference; else why that is not known, in words that complete "... is not compared: ".
     pub(super) fn of(name: &str, log: &Log) -> Result<Self, &'static str> {
         let reference = log
             .reference

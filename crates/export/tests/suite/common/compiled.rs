@@ -173,14 +173,22 @@ pub fn agree_single(target: &str, through: impl Fn(&Model, &[Sample]) -> Vec<[f6
     let mut worst = 0.0_f64;
     let laws = laws();
     let each = 1_000_000 / laws.len() + 1;
-    for (seed, (name, friction)) in laws.into_iter().enumerate() {
+    // Hostile samples of every law, and a motion of every one whose levels follow.
+    let runs = laws
+        .into_iter()
+        .enumerate()
+        .flat_map(|law| [(law, false), (law, true)]);
+    for ((seed, (name, friction)), follows) in runs {
+        let random = &mut random(100 + seed as u64);
         let mut model = model(friction);
-        model.settings = busy();
-        let mut samples = adversarial(each, true, &mut random(100 + seed as u64));
-        if seed % 2 == 0 {
-            model.settings = adapting(busy());
-            samples = following(friction, busy(), &mut random(100 + seed as u64));
-        }
+        let samples = match follows {
+            true => following(friction, busy(), random),
+            false => adversarial(each, true, random),
+        };
+        model.settings = match follows {
+            true => adapting(busy()),
+            false => busy(),
+        };
         let found = through(&model, &samples);
         let to = |x: [f64; 2]| x.map(|x| x as f32);
         let small: Friction<f32> = match &friction {
