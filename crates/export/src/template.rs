@@ -1,7 +1,40 @@
 //! Templates. The code of a target is kept as that target's own text in `templates`.
 //!
 //! `@key@` is replaced by a value. A line `%if key` keeps what follows up to `%else` or `%end` where the flag is set,
-//! `%if !key` where it is not; conditions nest.
+//! `%if !key` where it is not; conditions nest. A line `%part path` stands for the template of that path, one idea of a
+//! longer text; conditions do not reach across its ends.
+
+macro_rules! parts {
+    ($($path:literal),* $(,)?) => {
+        &[$(($path, include_str!(concat!("../templates/", $path)))),*]
+    };
+}
+
+/// The templates that others are made of.
+const PARTS: &[(&str, &str)] = parts![
+    "c/adaptation.c.in",
+    "c/curve.c.in",
+    "c/law/lugre.c.in",
+    "c/law/steady.c.in",
+    "c/limit.c.in",
+    "c/memory.c.in",
+    "c/numbers.c.in",
+    "c/parameters.c.in",
+    "c/reset.c.in",
+    "c/step.c.in",
+    "c/watchdog.c.in",
+    "c/watchdog_reset.c.in",
+    "st/adaptation.body.in",
+    "st/curve.body.in",
+    "st/keep.body.in",
+    "st/law/lugre.body.in",
+    "st/law/steady.body.in",
+    "st/limit.body.in",
+    "st/range.body.in",
+    "st/recall.body.in",
+    "st/reset.body.in",
+    "st/watchdog.body.in",
+];
 
 /// Values and flags for a template.
 #[derive(Clone, Debug, Default)]
@@ -24,9 +57,14 @@ impl Fill {
     /// The template filled in.
     ///
     /// # Panics
-    /// On a key that was not set: a fault of the template, never of a model.
+    /// On a key that was not set, a part that there is not: a fault of the template, never of a model.
     pub(crate) fn render(&self, template: &str) -> String {
         let mut out = String::with_capacity(template.len() * 2);
+        self.write(template, &mut out);
+        out
+    }
+
+    fn write(&self, template: &str, out: &mut String) {
         // Whether the branch is taken, for each condition that is open.
         let mut open: Vec<bool> = Vec::new();
         for line in template.lines() {
@@ -39,12 +77,15 @@ impl Fill {
             } else if word == "%end" {
                 open.pop().expect("%end without %if");
             } else if open.iter().all(|taken| *taken) {
-                self.line(line, &mut out);
-                out.push('\n');
+                if let Some(path) = word.strip_prefix("%part ") {
+                    self.write(part(path), out);
+                } else {
+                    self.line(line, out);
+                    out.push('\n');
+                }
             }
         }
         assert!(open.is_empty(), "%if without %end");
-        out
     }
 
     fn line(&self, line: &str, out: &mut String) {
@@ -73,9 +114,14 @@ impl Fill {
     }
 }
 
+fn part(path: &str) -> &'static str {
+    let found = PARTS.iter().find(|(name, _)| *name == path);
+    found.unwrap_or_else(|| panic!("no part {path}")).1
+}
+
 #[cfg(test)]
 mod tests {
-    use super::Fill;
+    use super::{Fill, PARTS};
 
     #[test]
     fn values_and_conditions() {
@@ -83,5 +129,22 @@ mod tests {
         fill.set("a", "1").flag("yes", true).flag("no", false);
         let text = "x@a@y@a@\n%if yes\nA\n%if no\nB\n%else\nC\n%end\n%end\n%if !yes\nD\n%end\n";
         assert_eq!(fill.render(text), "x1y1\nA\nC\n");
+    }
+
+    #[test]
+    fn a_part_stands_in_its_place() {
+        let mut fill = Fill::default();
+        for key in ["own", "real", "MAX", "f", "m"] {
+            fill.set(key, "");
+        }
+        let (path, _) = PARTS
+            .iter()
+            .find(|(path, _)| *path == "c/numbers.c.in")
+            .unwrap();
+        let part = fill.render(&format!("%part {path}\n"));
+        assert!(part.starts_with("/* The larger"), "{part}");
+        fill.flag("yes", true);
+        let both = fill.render(&format!("a\n%if yes\n%part {path}\n%end\nb\n"));
+        assert_eq!(both, format!("a\n{part}b\n"));
     }
 }
