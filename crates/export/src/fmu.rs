@@ -50,7 +50,7 @@ pub fn fmu(
     let vectors = Vectors::<f64>::new(model, "double")?;
     let component = format!("{}_friction", model.identifier.to_ascii_lowercase());
     let compensator = model.compensator::<f64>(&model.settings, "double")?;
-    let variables = Variables::of(model, &compensator);
+    let variables = Variables::of(&compensator);
     let mut fill = Fill::default();
     fill.set("name", model.identifier.clone())
         .set("component", component.clone())

@@ -82,7 +82,7 @@ impl<T: Real> Friction<T> {
     }
 
     /// Constant force beside friction, N (N m).
-    pub(super) fn offset(&self) -> T {
+    pub fn offset(&self) -> T {
         match self {
             Friction::Coulomb(law) => law.offset(),
             Friction::Stribeck(curve) => curve.offset(),

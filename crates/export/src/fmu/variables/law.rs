@@ -1,0 +1,116 @@
+//! The variables of the law: what it remembers, and its parameters.
+
+use super::{Role, Unit, Variable};
+use stiction_friction::compensator::Friction;
+use stiction_friction::{Shape, Stribeck};
+
+/// What the law remembers between two samples beside its force.
+pub(super) fn state(friction: &Friction<f64>) -> Vec<Variable> {
+    match friction {
+        Friction::LuGre(_) => vec![Variable::number(
+            "deflection",
+            Role::Local,
+            (0.0, Unit::Length),
+            "law.deflection",
+            "of the bristles",
+        )],
+        Friction::Coulomb(_) | Friction::Stribeck(_) => vec![],
+    }
+}
+
+/// The parameters of the law but its offset.
+pub(super) fn parameters(friction: &Friction<f64>) -> Vec<Variable> {
+    match friction {
+        Friction::Coulomb(law) => {
+            let (coulomb, viscous) = (law.coulomb(), law.viscous());
+            let sides = [0, 1].map(|i| {
+                [
+                    fixed(SIDES[i], COULOMB, coulomb[i]),
+                    fixed(SIDES[i], VISCOUS, viscous[i]),
+                ]
+            });
+            sides.into_iter().flatten().collect()
+        }
+        Friction::Stribeck(steady) => curve(steady),
+        Friction::LuGre(law) => {
+            let stiffness = (law.stiffness(), Unit::Stiffness);
+            let damping = (law.damping().at_rest(), Unit::Damping);
+            let mut list = vec![
+                parameter("sigma0", stiffness, "stiffness of the bristles"),
+                parameter("sigma1", damping, "micro-damping at rest"),
+            ];
+            list.extend(curve(law.curve()));
+            list
+        }
+    }
+}
+
+/// A direction of motion, as names have it and as the C text does.
+const SIDES: [&str; 2] = ["pos", "neg"];
+
+/// Of a parameter that each direction has: its name, the field of the C text, its unit, and what it is for each.
+type Field = (&'static str, &'static str, Unit, [&'static str; 2]);
+
+const COULOMB: Field = (
+    "coulomb",
+    "coulomb",
+    Unit::Force,
+    ["Fc for positive velocity", "Fc for negative velocity"],
+);
+const STATIC: Field = (
+    "static",
+    "static_friction",
+    Unit::Force,
+    ["Fs for positive velocity", "Fs for negative velocity"],
+);
+const VELOCITY: Field = (
+    "stribeck_velocity",
+    "stribeck_velocity",
+    Unit::Speed,
+    ["vs for positive velocity", "vs for negative velocity"],
+);
+const VISCOUS: Field = (
+    "viscous",
+    "viscous",
+    Unit::Damping,
+    [
+        "sigma2 for positive velocity",
+        "sigma2 for negative velocity",
+    ],
+);
+
+fn fixed(side: &str, (name, field, unit, about): Field, value: f64) -> Variable {
+    Variable::number(
+        format!("{name}_{side}"),
+        Role::Fixed,
+        (value, unit),
+        format!("params.{side}.{field}"),
+        about[usize::from(side == SIDES[1])],
+    )
+}
+
+/// A parameter that both directions share.
+fn parameter(name: &str, value: (f64, Unit), about: &'static str) -> Variable {
+    Variable::number(name, Role::Fixed, value, format!("params.{name}"), about)
+}
+
+/// The parameters of the steady curve.
+fn curve(curve: &Stribeck<f64>) -> Vec<Variable> {
+    let mut list = Vec::new();
+    for (name, side) in SIDES.into_iter().zip([curve.positive(), curve.negative()]) {
+        list.push(fixed(name, COULOMB, side.coulomb));
+        list.push(fixed(name, STATIC, side.static_friction));
+        list.push(fixed(name, VELOCITY, side.stribeck_velocity));
+        list.push(fixed(name, VISCOUS, side.viscous));
+    }
+    if let Shape::Power(exponent) = curve.shape() {
+        list.push(Variable::number(
+            "stribeck_exponent",
+            Role::Fixed,
+            (exponent, Unit::One),
+            "params.exponent",
+            "of the Stribeck curve",
+        ));
+    }
+    list
+}
