@@ -64,6 +64,7 @@ impl<T: Real> Vectors<T> {
                     enable,
                     drive_force,
                     learn,
+                    ..Input::default()
                 });
                 Row {
                     velocity,

@@ -4,7 +4,8 @@
 //! gain and the limit, never change; everything that changes is in [`State`].
 //!
 //! ```text
-//! velocity --dead zone--> law --levels--> x gain, by its ramp --> saturation --slew limit--> force
+//! velocity --dead zone--> law --levels--> x gain, by its ramp --+--> saturation --slew limit--> force
+//! position, acceleration --> mass, weight, cogging, by the ramp --+
 //! ```
 //!
 //! ```
@@ -23,6 +24,7 @@
 //! ```
 
 mod adaptation;
+mod beside;
 mod disturbance;
 mod friction;
 mod input;
@@ -31,9 +33,11 @@ mod preview;
 mod safety;
 mod settings;
 mod state;
+mod terms;
 mod watchdog;
 
 pub use adaptation::{Adaptation, Learnt};
+pub use beside::{Beside, Parts};
 pub use disturbance::{DisturbanceObserver, DisturbanceState};
 pub use friction::{Friction, Source};
 pub use input::Input;
@@ -41,6 +45,7 @@ pub use memory::{ForeignMemory, MEMORY};
 pub use preview::ahead;
 pub use settings::Settings;
 pub use state::State;
+pub use terms::{Channel, Channels, Levels, Terms, WAVES, Wave, Weight};
 pub use watchdog::{Trip, Watch, Watchdog};
 
 use crate::{ParamError, Real};
@@ -51,6 +56,7 @@ pub struct Compensator<T> {
     friction: Friction<T>,
     source: Source<T>,
     settings: Settings<T>,
+    terms: Option<Terms<T>>,
     state: State<T>,
 }
 
@@ -67,8 +73,28 @@ impl<T: Real> Compensator<T> {
             friction,
             source,
             settings,
+            terms: None,
             state: State::rest(&friction),
         })
+    }
+
+    /// The same with what friction depends on beside the velocity, and what is fed forward beside it; off and at rest.
+    ///
+    /// The gain is that of friction; the others come in whole, by the same ramp. Limit, slew limit and ramp hold for the sum.
+    /// Watchdog and [`Input::enable`] switch off all of it but the weight, which only the latter takes away: what holds the
+    /// axis must not fall because friction was compensated badly.
+    ///
+    /// # Errors
+    /// Where a number is out of range: a reference outside of its range, a level that changes and is 0 itself, an offset of the
+    /// law beside a weight.
+    pub fn with_terms(mut self, terms: Terms<T>) -> Result<Self, ParamError> {
+        terms.validate(&self.friction)?;
+        self.state = State {
+            beside: Beside::rest(&terms),
+            ..State::rest(&self.friction)
+        };
+        self.terms = Some(terms);
+        Ok(self)
     }
 
     /// As it is after it has been enabled for a while at standstill: with the whole gain, and a watchdog that has learnt what
@@ -76,6 +102,9 @@ impl<T: Real> Compensator<T> {
     #[must_use]
     pub fn running(mut self, watch: &Watch<T>) -> Self {
         self.state.share = self.settings.gain;
+        if self.terms.is_some() {
+            (self.state.beside.rest, self.state.beside.held) = (T::ONE, T::ONE);
+        }
         self.state.watch = watch.knowledge();
         self
     }
@@ -95,14 +124,25 @@ impl<T: Real> Compensator<T> {
         &self.settings
     }
 
+    /// What it knows beside the law.
+    pub fn terms(&self) -> Option<&Terms<T>> {
+        self.terms.as_ref()
+    }
+
     /// Its state.
     pub fn state(&self) -> &State<T> {
         &self.state
     }
 
-    /// Off, at rest, with nothing learnt; a tripped watchdog is armed again.
+    /// Off, at rest, with nothing learnt; a tripped watchdog is armed again. A weight that was passed on still is.
     pub fn reset(&mut self) {
-        self.state = State::rest(&self.friction);
+        let kept = self.state.beside.kept();
+        let limit = self.settings.limit;
+        self.state = State {
+            beside: kept,
+            output: kept.parts.gravity.max(-limit).min(limit),
+            ..State::rest(&self.friction)
+        };
     }
 
     /// Sets the factor on the law's force from outside, for example from an estimate of the load; range 0 to 2. A
@@ -159,7 +199,11 @@ impl<T: Real> Compensator<T> {
     #[inline]
     fn advance(&mut self, h: T, input: Input<T>) -> T {
         let adapts = self.settings.adaptation.is_some();
-        let good = input.is_finite() && (!adapts || input.drive_force.is_finite());
+        let mut good = input.is_finite() && (!adapts || input.drive_force.is_finite());
+        if let Some(terms) = &self.terms {
+            good = good && terms.accepts(&input);
+            terms.look(&mut self.state.beside, &input);
+        }
         if good {
             let at = self
                 .settings
@@ -172,19 +216,39 @@ impl<T: Real> Compensator<T> {
                     self.friction
                         .correct(correction, h, at, pull, self.settings.limit);
             }
+            if let Some(terms) = &self.terms {
+                let law = (&self.state.law, at);
+                let acceleration = input.reference_acceleration;
+                terms.step(&mut self.state.beside, &self.friction, law, acceleration);
+            }
             if let Some(watchdog) = &self.settings.watchdog {
-                let through = (self.state.share, self.settings.gain, self.state.output);
+                let beside = &self.state.beside;
+                let fed = self.terms.as_ref().is_some_and(Terms::feeds);
+                let (output, whole) = match fed {
+                    true => (beside.added, beside.rest == T::ONE),
+                    false => (self.state.output, true),
+                };
+                let through = (self.state.share, self.settings.gain, output, whole);
                 watchdog.step(&mut self.state.watch, h, &input, through);
             }
         }
         let allowed = self.settings.watchdog.is_none() || self.state.watch.allows();
         let on = good && input.enable && allowed;
         let mut force = self.state.law.force;
+        if self.terms.is_some() {
+            force = force + self.state.beside.changed;
+        }
         if let Some(adaptation) = &self.settings.adaptation {
             let learnt = &mut self.state.learnt;
             if good {
                 let limited = self.state.output.abs() >= self.settings.limit;
                 let frozen = limited || self.state.watch.tripped() || !input.learn;
+                let mut input = input;
+                if let Some(terms) = &self.terms {
+                    let beside = &mut self.state.beside;
+                    input.drive_force = beside.without_known(input.drive_force);
+                    terms.keep(beside);
+                }
                 adaptation.step(learnt, &self.friction, h, &input, force, frozen);
             }
             let offset = self.friction.offset();
@@ -192,6 +256,8 @@ impl<T: Real> Compensator<T> {
             force = level * (force - offset) + offset;
         }
         let wanted = self.state.level * force + self.state.corrected;
-        self.settings.limit(&mut self.state, h, on, wanted)
+        let fed = self.terms.as_ref().filter(|terms| terms.feeds());
+        let fed = fed.map(|terms| (terms, input.enable));
+        self.settings.limit(&mut self.state, h, on, wanted, fed)
     }
 }

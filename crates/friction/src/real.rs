@@ -63,6 +63,8 @@ pub trait Real:
     fn ln(self) -> Self;
     /// Sine of an angle in rad.
     fn sin(self) -> Self;
+    /// Cosine of an angle in rad.
+    fn cos(self) -> Self;
     /// Hyperbolic tangent.
     fn tanh(self) -> Self;
     /// Self to the power of `exponent`.
@@ -70,7 +72,7 @@ pub trait Real:
 }
 
 macro_rules! real {
-    ($t:ident, $series_below:literal, $sqrt:ident, $exp:path, $expm1:path, $ln:ident, $sin:ident, $tanh:ident, $pow:ident) => {
+    ($t:ident, $series_below:literal, $sqrt:ident, $exp:path, $expm1:path, $ln:ident, $sin:ident, $cos:ident, $tanh:ident, $pow:ident) => {
         impl Real for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -122,6 +124,10 @@ macro_rules! real {
                 libm::$sin(self)
             }
             #[inline]
+            fn cos(self) -> Self {
+                libm::$cos(self)
+            }
+            #[inline]
             fn tanh(self) -> Self {
                 libm::$tanh(self)
             }
@@ -141,7 +147,8 @@ real!(
     libm::expm1f,
     logf,
     sinf,
+    cosf,
     tanhf,
     powf
 );
-real!(f64, 0.01, sqrt, exp, expm1, log, sin, tanh, pow);
+real!(f64, 0.01, sqrt, exp, expm1, log, sin, cos, tanh, pow);

@@ -127,6 +127,7 @@ impl RunningFeedforward {
                 enable: true,
                 drive_force: self.command,
                 learn: self.command.abs() < self.peak,
+                ..Input::default()
             });
         }
         if let Some(learned) = self.parts.learned.get(moment.index) {

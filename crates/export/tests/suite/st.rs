@@ -312,6 +312,7 @@ pub fn real(what: &str, through: impl Fn(&Model, bool, &[Sample]) -> Vec<[f64; 2
                     enable: input.enable,
                     drive_force: input.drive_force as f32,
                     learn: input.learn,
+                    ..Input::default()
                 };
                 let due = f64::from(compensator.step_in(h as f32, input));
                 let off = (force - due).abs() / level(&friction);

@@ -90,6 +90,40 @@ impl<T: Real> Friction<T> {
         }
     }
 
+    /// Coulomb levels forward and back, N (N m).
+    pub(super) fn coulomb(&self) -> [T; 2] {
+        let of = |curve: &Stribeck<T>| [curve.positive().coulomb, curve.negative().coulomb];
+        match self {
+            Friction::Coulomb(law) => law.coulomb(),
+            Friction::Stribeck(curve) => of(curve),
+            Friction::LuGre(law) => of(law.curve()),
+        }
+    }
+
+    /// Viscous coefficients forward and back, N s/m (N m s/rad).
+    #[inline]
+    pub(super) fn viscous(&self) -> [T; 2] {
+        let of = |curve: &Stribeck<T>| [curve.positive().viscous, curve.negative().viscous];
+        match self {
+            Friction::Coulomb(law) => law.viscous(),
+            Friction::Stribeck(curve) => of(curve),
+            Friction::LuGre(law) => of(law.curve()),
+        }
+    }
+
+    /// The part of the force that changes with the level, N (N m): that of the bristles' deflection, or of a law without them
+    /// what is neither viscous nor offset, at the velocity `v`.
+    #[inline]
+    pub(super) fn dry(&self, state: &State<T>, v: T) -> T {
+        match self {
+            Friction::LuGre(law) => law.stiffness() * state.z,
+            Friction::Coulomb(_) | Friction::Stribeck(_) => {
+                let side = usize::from(v < T::ZERO);
+                (state.force - self.offset()) - self.viscous()[side] * v
+            }
+        }
+    }
+
     /// Largest level at standstill, N (N m).
     pub(super) fn scale(&self) -> T {
         match self {

@@ -21,6 +21,16 @@ pub struct Input<T> {
     /// Whether an adaptation may learn: not while the drive is at its limits, or while something else than friction and
     /// inertia pushes.
     pub learn: bool,
+    /// Acceleration of the reference, at the instant of its velocity, m/s^2 (rad/s^2). This and what follows is looked at where
+    /// [`Terms`](super::Terms) depend on it; an acceleration that is not finite counts as not enabled.
+    pub reference_acceleration: T,
+    /// Position of the reference, or the measured one, m (rad). Where this, the load or the temperature is not finite, what came
+    /// in last counts.
+    pub position: T,
+    /// Normal load, in the unit of the model.
+    pub load: T,
+    /// Temperature, K.
+    pub temperature: T,
 }
 
 impl<T: Real> Input<T> {

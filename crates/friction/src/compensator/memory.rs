@@ -136,6 +136,9 @@ impl<T: Real> Compensator<T> {
         }
         let mass = self.settings.adaptation.map_or(T::ZERO, |a| a.mass);
         hash.numbers([self.friction.offset(), mass]);
+        if let Some(terms) = &self.terms {
+            terms.numbers(&mut |number| hash.numbers([number]));
+        }
         hash.key()
     }
 }

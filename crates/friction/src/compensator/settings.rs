@@ -60,15 +60,24 @@ impl<T: Real> Settings<T> {
     /// nothing but rounding would get the whole friction force, now this way and now that.
     pub fn for_law(friction: &Friction<T>, cycle_time: T) -> Self {
         let limit = friction.usual_limit();
+        Settings {
+            dead_zone: friction.usual_dead_zone(),
+            ..Self::new(cycle_time, limit).reaching(limit)
+        }
+    }
+
+    /// The same with another limit, and the slew limit that goes with it.
+    #[must_use]
+    pub fn reaching(self, limit: T) -> Self {
         let slew = limit / T::from_f64(SLEW_TIME);
         Settings {
+            limit,
             slew: if slew > T::ZERO && slew.is_finite() {
                 slew
             } else {
                 T::MAX
             },
-            dead_zone: friction.usual_dead_zone(),
-            ..Self::new(cycle_time, limit)
+            ..self
         }
     }
 

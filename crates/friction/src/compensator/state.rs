@@ -1,6 +1,7 @@
 //! What a compensator keeps from step to step.
 
 use super::adaptation::Learnt;
+use super::beside::Beside;
 use super::friction::Friction;
 use super::watchdog::Watch;
 use crate::Real;
@@ -20,6 +21,8 @@ pub struct State<T> {
     pub level: T,
     /// What an adaptation has learnt.
     pub learnt: Learnt<T>,
+    /// What friction depends on, and what is fed forward beside it.
+    pub beside: Beside<T>,
     /// The watchdog.
     pub watch: Watch<T>,
     /// The force last returned, N (N m).
@@ -35,6 +38,7 @@ impl<T: Real> State<T> {
             share: T::ZERO,
             level: T::ONE,
             learnt: Learnt::nothing(),
+            beside: Beside::default(),
             watch: Watch::default(),
             output: T::ZERO,
         }

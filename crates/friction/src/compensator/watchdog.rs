@@ -229,18 +229,18 @@ impl<T: Real> Watchdog<T> {
     }
 
     /// Counts a sample of `h` seconds that began with a `share` of the friction applied, of the wanted share `gain`, and gave
-    /// the force `output`.
+    /// the force `output`; what is fed forward beside friction is `whole`.
     #[inline]
     pub(super) fn step(
         &self,
         watch: &mut Watch<T>,
         h: T,
         input: &Input<T>,
-        (share, gain, output): (T, T, T),
+        (share, gain, output, whole): (T, T, T, bool),
     ) {
         let error = watch.usual(input.tracking_error.abs());
         let off = share == T::ZERO && output == T::ZERO;
-        let on = share == gain && share > T::ZERO;
+        let on = share == gain && share > T::ZERO && whole;
         if !(off || on) || on != watch.with {
             // While the force ramps up, down or to another gain: a window must lie entirely with or entirely without
             // compensation, and have one gain.

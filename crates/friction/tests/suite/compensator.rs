@@ -76,7 +76,7 @@ proptest! {
         let mut last = 0.0;
         for (h, v, w, e, u, enable, usual) in samples {
             let (h, v, w, e) = if usual { (settings.cycle_time, v % 1.0, w % 1.0, e % 1e-3) } else { (h, v, w, e) };
-            let input = Input { reference_velocity: v, measured_velocity: w, tracking_error: e, enable, drive_force: u, learn: true };
+            let input = Input { reference_velocity: v, measured_velocity: w, tracking_error: e, enable, drive_force: u, learn: true, ..Input::default() };
             let force = compensator.step_in(h, input);
             prop_assert!(force.is_finite() && force.abs() <= settings.limit);
             let most = if h.is_finite() && h >= 0.0 { h * settings.slew } else { 0.0 };

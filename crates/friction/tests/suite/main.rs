@@ -14,4 +14,5 @@ mod passivity;
 mod source;
 mod sweep;
 mod symmetry;
+mod terms;
 mod watchdog;

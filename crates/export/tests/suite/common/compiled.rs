@@ -103,6 +103,7 @@ pub fn through_rust<T: Real>(
                 enable: input.enable,
                 drive_force: to(input.drive_force),
                 learn: input.learn,
+                ..Input::default()
             };
             compensator.step_in(to(*h), input).to_f64()
         })

@@ -188,6 +188,7 @@ pub fn adversarial(samples: usize, wild: bool, random: &mut impl Rng) -> Vec<(f6
                     _ => force * random.random_range(-1.0..1.0),
                 },
                 learn: random.random_range(0..9) != 0,
+                ..Input::default()
             };
             out.push((h, input));
         }
@@ -270,6 +271,7 @@ pub fn following(
             enable: true,
             drive_force: level * axis.state().law.force + inertia + noise + fault,
             learn: k % 5_000 > 500,
+            ..Input::default()
         };
         axis.step(input);
         after.step(input);

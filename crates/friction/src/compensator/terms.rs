@@ -1,0 +1,261 @@
+//! What friction depends on beside the velocity, and what is fed forward beside friction.
+
+use super::friction::Friction;
+use crate::error::require;
+use crate::{ParamError, Real};
+
+/// Most waves of a kind.
+pub const WAVES: usize = 4;
+
+/// A quantity that comes in with each sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Channel<T> {
+    /// Where the parameters of the law hold; what is taken until a number comes in.
+    pub reference: T,
+    /// Least and largest value that the identification saw: what comes in is held within them.
+    pub range: [T; 2],
+}
+
+/// What comes in beside the motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Channels<T> {
+    /// Normal load, in the unit of the model.
+    pub load: Channel<T>,
+    /// Temperature, K.
+    pub temperature: Channel<T>,
+    /// Position, m (rad).
+    pub position: Channel<T>,
+}
+
+/// A wave along the position, `sine sin(rate x) + cosine cos(rate x)`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Wave<T> {
+    /// 2 pi over the pitch, >= 0, rad/m (1 for a turn of a rotary axis); 0: no wave.
+    pub rate: T,
+    /// The identification saw a whole pitch: the wave goes on beyond the range of the position.
+    pub whole: bool,
+    /// Amplitude of the sine.
+    pub sine: T,
+    /// Amplitude of the cosine.
+    pub cosine: T,
+}
+
+/// Friction that changes with more than the velocity (decision 0013): the level is that of the law times
+/// `1 + sum slope (x - reference) + sum wave(x)`, and never below 0. Static friction and the stiffness of bristles change with it,
+/// micro-damping and the length of presliding stay. For each direction: forward, back.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Levels<T> {
+    /// Part of the level per unit of the load.
+    pub load: [T; 2],
+    /// Part of the level per K.
+    pub temperature: [T; 2],
+    /// Part of the level per m (rad).
+    pub position: [T; 2],
+    /// Waves of the level along the position, their amplitudes parts of it.
+    pub waves: [[Wave<T>; WAVES]; 2],
+    /// Viscous friction per K, N s/m (N m s/rad) per K; sigma2 is never below 0.
+    pub viscous: [T; 2],
+}
+
+/// A weight: what holds the axis where it stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Weight<T> {
+    /// Constant force, N (N m). The law beside it has no offset.
+    pub constant: T,
+    /// What changes with the angle of a rotary axis, amplitudes in N m.
+    pub wave: Wave<T>,
+}
+
+/// What a compensator knows beside the law.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Terms<T> {
+    /// What comes in, as far as anything below depends on it.
+    pub channels: Channels<T>,
+    /// What friction depends on.
+    pub levels: Option<Levels<T>>,
+    /// Mass that is fed forward with the acceleration of the reference, >= 0, kg (kg m^2); 0: none.
+    pub mass: T,
+    /// The weight that is fed forward.
+    pub weight: Option<Weight<T>>,
+    /// Cogging that is fed forward, amplitudes in N (N m).
+    pub cogging: [Wave<T>; WAVES],
+}
+
+/// A position as it came in last, and within the range of the identification, m (rad).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place<T> {
+    pub came: T,
+    pub within: T,
+}
+
+impl<T: Real> Channel<T> {
+    #[inline]
+    pub(super) fn within(&self, x: T) -> T {
+        x.max(self.range[0]).min(self.range[1])
+    }
+
+    fn validate(&self, name: &'static str) -> Result<(), ParamError> {
+        let [low, high] = self.range;
+        let known = low.is_finite() && high.is_finite();
+        let inside = known && low <= self.reference && self.reference <= high;
+        require(inside, name, self.reference, "finite, within its range")
+    }
+
+    /// Farthest way from the reference.
+    fn reach(&self) -> T {
+        let [low, high] = self.range;
+        (high - self.reference).max(self.reference - low)
+    }
+}
+
+impl<T: Real> Wave<T> {
+    /// Its value at a place.
+    #[inline]
+    pub(super) fn at(&self, place: Place<T>) -> T {
+        if self.rate == T::ZERO {
+            return T::ZERO;
+        }
+        let x = match self.whole {
+            true => place.came,
+            false => place.within,
+        };
+        let angle = self.rate * x;
+        self.sine * angle.sin() + self.cosine * angle.cos()
+    }
+
+    /// Its largest value, or more.
+    fn size(&self) -> T {
+        self.sine.abs() + self.cosine.abs()
+    }
+
+    fn validate(&self, name: &'static str) -> Result<(), ParamError> {
+        ParamError::not_negative(name, self.rate)?;
+        ParamError::finite(name, self.sine)?;
+        ParamError::finite(name, self.cosine)
+    }
+}
+
+/// The sum of waves at a place.
+#[inline]
+pub(super) fn sum<T: Real>(waves: &[Wave<T>; WAVES], place: Place<T>) -> T {
+    waves.iter().fold(T::ZERO, |sum, wave| sum + wave.at(place))
+}
+
+impl<T: Real> Levels<T> {
+    /// The factor on the level in a direction, from what the channels are away from their references.
+    #[inline]
+    pub(super) fn factor(&self, side: usize, away: [T; 3], place: Place<T>) -> T {
+        let mut factor = T::ONE;
+        factor = factor + self.load[side] * away[0];
+        factor = factor + self.temperature[side] * away[1];
+        factor = factor + self.position[side] * away[2];
+        for wave in &self.waves[side] {
+            factor = factor + wave.at(place);
+        }
+        factor.max(T::ZERO)
+    }
+
+    fn validate(&self) -> Result<(), ParamError> {
+        for (name, slopes) in [
+            ("load_level", self.load),
+            ("temperature_level", self.temperature),
+            ("position_level", self.position),
+            ("temperature_viscous", self.viscous),
+        ] {
+            ParamError::finite(name, slopes[0])?;
+            ParamError::finite(name, slopes[1])?;
+        }
+        let mut waves = self.waves.iter().flatten();
+        waves.try_for_each(|wave| wave.validate("position_level_wave"))
+    }
+
+    /// The largest factor within the ranges, or more.
+    pub fn largest(&self, channels: &Channels<T>) -> T {
+        let of = |side: usize| {
+            let waves = self.waves[side].iter();
+            waves.fold(T::ONE, |sum, wave| sum + wave.size())
+                + self.load[side].abs() * channels.load.reach()
+                + self.temperature[side].abs() * channels.temperature.reach()
+                + self.position[side].abs() * channels.position.reach()
+        };
+        of(0).max(of(1))
+    }
+
+    /// Whether the level itself changes, not only viscous friction.
+    fn moves_the_level(&self) -> bool {
+        let slopes = [self.load, self.temperature, self.position];
+        let mut waves = self.waves.iter().flatten();
+        slopes.iter().flatten().any(|slope| *slope != T::ZERO)
+            || waves.any(|wave| wave.rate != T::ZERO)
+    }
+}
+
+impl<T: Real> Terms<T> {
+    pub(super) fn validate(&self, friction: &Friction<T>) -> Result<(), ParamError> {
+        self.channels.load.validate("load_reference")?;
+        self.channels
+            .temperature
+            .validate("temperature_reference")?;
+        self.channels.position.validate("position_reference")?;
+        if let Some(levels) = &self.levels {
+            levels.validate()?;
+            let [forward, back] = friction.coulomb();
+            let least = forward.min(back);
+            let has = least > T::ZERO || !levels.moves_the_level();
+            require(has, "coulomb", least, "> 0 for a level that changes")?;
+        }
+        ParamError::not_negative("mass", self.mass)?;
+        if let Some(weight) = &self.weight {
+            ParamError::finite("weight", weight.constant)?;
+            weight.wave.validate("gravity")?;
+            let none = friction.offset() == T::ZERO;
+            let allowed = "0 beside a weight, which has it";
+            require(none, "offset", friction.offset(), allowed)?;
+        }
+        let mut waves = self.cogging.iter();
+        waves.try_for_each(|wave| wave.validate("cogging"))
+    }
+
+    /// Whether anything is fed forward beside friction.
+    #[inline]
+    pub(super) fn feeds(&self) -> bool {
+        self.mass > T::ZERO || self.weight.is_some() || self.cogging[0].rate > T::ZERO
+    }
+
+    /// Largest force beside friction and inertia, or more, N (N m).
+    pub fn largest_beside(&self) -> T {
+        let weight = self.weight.unwrap_or_default();
+        let cogging = self.cogging.iter();
+        cogging.fold(weight.constant.abs() + weight.wave.size(), |sum, wave| {
+            sum + wave.size()
+        })
+    }
+
+    /// Every number, for the key of a memory.
+    pub(super) fn numbers(&self, take: &mut dyn FnMut(T)) {
+        let levels = self.levels.unwrap_or_default();
+        let weight = self.weight.unwrap_or_default();
+        let waves = levels.waves.iter().flatten();
+        for wave in waves.chain(&self.cogging).chain([&weight.wave]) {
+            [wave.rate, wave.sine, wave.cosine]
+                .into_iter()
+                .for_each(&mut *take);
+        }
+        let slopes = [
+            levels.load,
+            levels.temperature,
+            levels.position,
+            levels.viscous,
+        ];
+        slopes.into_iter().flatten().for_each(&mut *take);
+        let c = &self.channels;
+        for Channel { reference, range } in [c.load, c.temperature, c.position] {
+            [reference, range[0], range[1]]
+                .into_iter()
+                .for_each(&mut *take);
+        }
+        [weight.constant, self.mass]
+            .into_iter()
+            .for_each(&mut *take);
+    }
+}
