@@ -6,6 +6,9 @@
 //! [`MIN_DISTANCE_IN_SPREADS`] times their own spread and the smallest step of the signal. Once there is enough
 //! evidence, all zeros of the column are treated as missing cells.
 //!
+//! A signal that leaves a level at a limit for single samples comes close to 0 without a neighbour that shows it, but then it
+//! leaves the level for other values too: 0 is evidence only where more samples stick out to it than to all other values.
+//!
 //! Velocity is not checked: one that is counted from encoder pulses is 0 wherever no pulse came.
 
 use super::cells::{Columns, MAX_MISSING_SHARE, runs};
@@ -89,16 +92,22 @@ fn filled(values: &[f64]) -> Vec<Range<usize>> {
         .map(|w| (values[w[1]] - values[w[0]]).abs())
         .filter(|d| *d > 0.0)
         .fold(f64::INFINITY, f64::min);
-    let sticks_out = |run: &Range<usize>| {
-        let at = rest.partition_point(|&i| i < run.start);
-        let around = &rest[at.saturating_sub(NEIGHBOURS)..(at + NEIGHBOURS).min(rest.len())];
+    // Whether `x` lies nearer to 0, and further from all of these samples than they from each other.
+    let outlying = |x: f64, before: &[usize], after: &[usize]| {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for &i in around {
+        for &i in before.iter().chain(after) {
             low = low.min(values[i]);
             high = high.max(values[i]);
         }
         let spread = high - low;
-        spread > 0.0 && low.max(-high) > MIN_DISTANCE_IN_SPREADS * spread.max(step)
+        let nearest = (low - x.max(0.0)).max(x.min(0.0) - high);
+        spread > 0.0 && nearest > MIN_DISTANCE_IN_SPREADS * spread.max(step)
+    };
+    let before = |at: usize| &rest[at.saturating_sub(NEIGHBOURS)..at];
+    let after = |at: usize| &rest[at..(at + NEIGHBOURS).min(rest.len())];
+    let sticks_out = |run: &Range<usize>| {
+        let at = rest.partition_point(|&i| i < run.start);
+        outlying(0.0, before(at), after(at))
     };
     let short = |run: &&Range<usize>| run.len() <= MAX_BRIDGED_SAMPLES;
     let all = zeros.iter().filter(short).count();
@@ -108,6 +117,12 @@ fn filled(values: &[f64]) -> Vec<Range<usize>> {
         .filter(|run| run.start > 0 && run.end < values.len() && sticks_out(run))
         .count();
     if telling < MIN_OUTLYING_RUNS || (telling as f64) < MIN_OUTLYING_SHARE * all as f64 {
+        return Vec::new();
+    }
+    let to_other_values = (1..rest.len().saturating_sub(1))
+        .filter(|&at| outlying(values[rest[at]], before(at), after(at + 1)))
+        .count();
+    if telling <= to_other_values {
         return Vec::new();
     }
     zeros
