@@ -1,10 +1,9 @@
 //! What the likelihood compares: the force that the axis felt, and what its encoder showed.
 
 use crate::conditioning::record::{Record, Segment};
-use crate::conditioning::shift::Shift;
 use crate::reaction::Logging;
 use crate::state_space::filter::Stretch;
-use crate::state_space::response::{Response, felt};
+use crate::state_space::response::{Felt, Response, felt};
 use std::ops::Range;
 
 /// Samples in a row that may lack a reading; more of them split a stretch.
@@ -17,7 +16,7 @@ const EDGE: f64 = 0.03;
 /// The samples of a record under the force that its axis felt.
 pub(super) struct Data {
     pub stretches: Vec<Stretch>,
-    /// Standard deviation of what the logged force has and the axis did not feel, N (N m).
+    /// Standard deviation of the noise of the force sensor, N (N m), and of what the response misses at this delay.
     pub noise: f64,
     /// Encoder count, m or rad.
     pub count: f64,
@@ -33,27 +32,25 @@ impl Data {
         let analogue = (record.position_noise * record.position_noise - steps).max(0.0);
         let beside = if analogue > steps { analogue } else { 0.0 };
         let edge = EDGE * EDGE * count * count + beside;
-        let earlier = Shift::earlier(-logging.late());
         let mut out = Vec::new();
         let (mut power, mut samples) = (0.0, 0_usize);
         for segment in &record.segments {
             if segment.reading.is_empty() {
                 return None;
             }
-            let felt = felt(segment, logging, response.as_ref());
+            let Felt { force, noise } = felt(segment, logging, response.as_ref());
             let runs = runs(&segment.reading, count);
             let variance = |k: usize| match counts(segment, record.decimate, k) {
                 true => steps * runs[k] + edge,
                 false => f64::INFINITY,
             };
             for range in stretches(segment, record.decimate) {
-                let noise = |k: usize| earlier.at(&segment.drive, k) - felt[k];
-                power += range.clone().map(|k| noise(k) * noise(k)).sum::<f64>();
+                power += noise[range.clone()].iter().map(|x| x * x).sum::<f64>();
                 samples += range.len();
                 let first = segment.reading[range.start];
                 let read = &segment.reading[range.clone()];
                 out.push(Stretch {
-                    force: felt[range.clone()].to_vec(),
+                    force: force[range.clone()].to_vec(),
                     reading: read.iter().map(|x| x - first).collect(),
                     variance: range.clone().map(variance).collect(),
                     velocity: segment.velocity[range.start],

@@ -62,6 +62,9 @@ const LEAST_DAMPING: f64 = 0.2;
 /// Lowest logarithm of a parameter that is zero.
 const NOTHING: f64 = -30.0;
 
+/// Why a top is not believed where more of the force is left than noise.
+const MORE_ACTS: &str = "something acts on the axis that is not in the law";
+
 /// The top of the likelihood.
 pub(super) struct Likely {
     pub at: [f64; UNKNOWNS],
@@ -93,6 +96,7 @@ pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch)
         record,
         fitted,
         free: free(fitted),
+        noise: f64::INFINITY,
         watch,
     };
     let begun = start(fitted)?;
@@ -103,8 +107,14 @@ pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch)
         false => late,
     };
     let first = search.many_starts(&begun, nearest)?;
-    if Left::of(&first.top, &first.data).is_beyond(HOPELESS) {
-        return None;
+    if Left::of(&first.top, search.noise).is_beyond(HOPELESS) {
+        return Some(Likely {
+            sureness: sureness(&first.top, &search.free)?,
+            at: first.top.at,
+            free: search.free,
+            delay: None,
+            against: MORE_ACTS,
+        });
     }
     let (best, delay) = match looked_for {
         true => search.best_delay(first)?,
@@ -131,8 +141,8 @@ pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch)
     let beside = delay.map_or(0.0, |d: Fine| d.beside.abs() / DELAYS_APART);
     let against = if !top.converged {
         "the search for its maximum did not end"
-    } else if Left::of(&top, &data).is_beyond(1.0) {
-        "something acts on the axis that is not in the law"
+    } else if Left::of(&top, search.noise).is_beyond(1.0) {
+        MORE_ACTS
     } else if fitted.terms.lag.square > 0.0 {
         "the axis is simulated under a force without the lag that this one has"
     } else if beside.is_nan() || beside > BESIDE {
@@ -156,8 +166,8 @@ struct Left {
 }
 
 impl Left {
-    fn of(top: &Top, data: &Data) -> Self {
-        let disturbance = exp(top.at[DISTURBANCE]) / data.noise;
+    fn of(top: &Top, noise: f64) -> Self {
+        let disturbance = exp(top.at[DISTURBANCE]) / noise;
         Self {
             disturbance,
             // Of a process of the first order, each side of zero counted.
@@ -192,6 +202,8 @@ struct Search<'a, 'o> {
     record: &'a Record,
     fitted: &'a Estimate,
     free: Vec<usize>,
+    /// Noise of the force sensor, N (N m), at the delay that leaves the least: at others it hides what the response misses.
+    noise: f64,
     watch: &'a mut Watch<'o>,
 }
 
@@ -210,6 +222,7 @@ impl Search<'_, '_> {
         [first, second]: [usize; 2],
     ) -> Option<Tried> {
         let data = Data::of(self.record, late)?;
+        self.noise = self.noise.min(data.noise);
         let parts = parts(&data.stretches, self.record.step());
         let problem = problem(
             &data,

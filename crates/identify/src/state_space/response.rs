@@ -97,9 +97,17 @@ impl Response {
     }
 }
 
+/// A force taken apart.
+pub(super) struct Felt {
+    /// What acted on the axis.
+    pub force: Vec<f64>,
+    /// The noise of the force sensor, at each sample as it was logged.
+    pub noise: Vec<f64>,
+}
+
 /// The force that acted on the axis on a segment: the response to the readings, where one is known, and the rest of the logged
 /// force (reference, integrator) without the noise of the force sensor, which does not act on the axis.
-pub(super) fn felt(segment: &Segment, logging: Logging, response: Option<&Response>) -> Vec<f64> {
+pub(super) fn felt(segment: &Segment, logging: Logging, response: Option<&Response>) -> Felt {
     let samples = 0..segment.drive.len();
     let answer = response.map(|response| response.forces(&segment.reading));
     let rest: Cow<[f64]> = match &answer {
@@ -112,9 +120,12 @@ pub(super) fn felt(segment: &Segment, logging: Logging, response: Option<&Respon
     let smooth = without_noise(&rest, OUTSTANDING);
     let earlier = Shift::earlier(-logging.late());
     let answered = |k: usize| answer.as_ref().map_or(0.0, |answer| answer[k]);
-    samples
-        .map(|k| earlier.at(&smooth, k) + answered(k))
-        .collect()
+    let force = samples.map(|k| earlier.at(&smooth, k) + answered(k));
+    let noise = rest.iter().zip(&smooth).map(|(rest, smooth)| rest - smooth);
+    Felt {
+        force: force.collect(),
+        noise: noise.collect(),
+    }
 }
 
 /// The finest scale of the force and of the reading that is logged with it.
@@ -255,10 +266,18 @@ mod tests {
                 );
             }
             let felt = felt(&record.segments[0], logging, Some(&response));
-            let middle = 200..felt.len() - 200;
-            let square: f64 = middle.clone().map(|k| (felt[k] - held[k]).powi(2)).sum();
-            let off = (square / middle.len() as f64).sqrt();
+            let middle = 200..held.len() - 200;
+            let rms = |of: &dyn Fn(usize) -> f64| {
+                let square: f64 = middle.clone().map(|k| of(k).powi(2)).sum();
+                (square / middle.len() as f64).sqrt()
+            };
+            let off = rms(&|k| felt.force[k] - held[k]);
             assert!(off < 0.3 * NOISE, "late by {late}: off by {off} N");
+            let noise = rms(&|k| felt.noise[k]);
+            assert!(
+                (noise - NOISE).abs() < 0.1 * NOISE,
+                "late by {late}: {noise} N"
+            );
         }
     }
 
