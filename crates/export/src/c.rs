@@ -125,5 +125,12 @@ pub(crate) fn fill<T: Literal>(model: &Model, precision: &Precision) -> Result<F
         .set("key", T::from_f64(f64::from(compensator.key())).c());
     law::settings(&mut fill, compensator.settings(), T::c);
     law::fill(&mut fill, compensator.friction(), T::c);
+    let lines = law::element_lines(compensator.friction(), |k, element| {
+        let (stiffness, share) = (element.stiffness.c(), element.share.c());
+        format!(
+            "    params->element_stiffness[{k}] = {stiffness};\n    params->element_share[{k}] = {share};"
+        )
+    });
+    fill.set("element_lines", lines);
     Ok(fill)
 }

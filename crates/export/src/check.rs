@@ -3,7 +3,6 @@
 use crate::number::short;
 use crate::{Error, Model, Target, check_identifier, hal, joint, mujoco, tf5200};
 use stiction_codes::Code;
-use stiction_friction::compensator::Friction;
 use stiction_friction::{Damping, LuGre};
 
 /// Shortest and longest cycle time, s.
@@ -41,12 +40,17 @@ pub(crate) fn check(model: &Model, number_type: &'static str) -> Result<(), Erro
 pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
     let mut found = Vec::new();
     let steady = target == Target::Tf5200 || target.is_joint();
-    if let (Friction::LuGre(law), false) = (&model.friction, steady) {
-        found.extend(released(model, law, target));
-        found.extend(unresolved(model, law, target));
+    if !steady {
+        let bristle = model.friction.bristle();
+        found.extend(bristle.and_then(|law| released(model, law, target)));
+        let length = model.friction.presliding();
+        found.extend(length.and_then(|length| unresolved(model, length, target)));
     }
     match target {
-        Target::Mujoco => found.extend(shaking(model)),
+        Target::Mujoco => {
+            found.extend(mujoco::simplified(model));
+            found.extend(shaking(model));
+        }
         target if target.is_joint() => found.push(joint::simplified(model)),
         Target::Tf5200 => {
             // The table ends at its last speed.
@@ -193,9 +197,9 @@ fn released(model: &Model, law: &LuGre<f64>, target: Target) -> Option<Advice> {
 }
 
 /// The axis moves farther than the presliding length within a cycle.
-fn unresolved(model: &Model, law: &LuGre<f64>, target: Target) -> Option<Advice> {
+fn unresolved(model: &Model, length: f64, target: Target) -> Option<Advice> {
     // A law whose level does not fall has no Stribeck velocity.
-    let (vs, length) = (model.stribeck_velocity(), law.bound());
+    let vs = model.stribeck_velocity();
     let path = vs * model.settings.cycle_time;
     let cycle = match target {
         Target::Mujoco => "time step",
@@ -227,11 +231,9 @@ fn unresolved(model: &Model, law: &LuGre<f64>, target: Target) -> Option<Advice>
 
 /// A joint in MuJoCo that sticks would not come to rest with the time step that was asked for.
 fn shaking(model: &Model) -> Option<Advice> {
-    let Friction::LuGre(law) = &model.friction else {
-        return None;
-    };
-    let (asked, longest) = (model.settings.cycle_time, mujoco::longest_step(law));
-    let written = mujoco::time_step(law, asked);
+    let law = mujoco::bristle(&model.friction)?;
+    let (asked, longest) = (model.settings.cycle_time, mujoco::longest_step(&law));
+    let written = mujoco::time_step(&law, asked);
     let outcome = if written < asked {
         format!("the file has a timestep of {written} s in place of {asked} s")
     } else {

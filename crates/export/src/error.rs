@@ -64,7 +64,7 @@ pub enum Error {
         /// The target.
         target: &'static str,
         /// The law found.
-        law: &'static str,
+        law: String,
         /// The laws that the target can express.
         allowed: &'static str,
     },

@@ -82,18 +82,11 @@ impl Joint {
 
 /// Static friction of a law, the mean of the directions, N (N m).
 fn at_rest(law: &Friction<f64>) -> f64 {
-    let mean = |a: f64, b: f64| 0.5 * (a + b);
-    let of = |curve: &stiction_friction::Stribeck<f64>| {
-        mean(
-            curve.positive().static_friction,
-            curve.negative().static_friction,
-        )
+    let levels = match law.curve() {
+        Some(curve) => [curve.positive(), curve.negative()].map(|side| side.static_friction),
+        None => law.coulomb(),
     };
-    match law {
-        Friction::Coulomb(law) => mean(law.coulomb()[0], law.coulomb()[1]),
-        Friction::Stribeck(curve) => of(curve),
-        Friction::LuGre(law) => of(law.curve()),
-    }
+    0.5 * (levels[0] + levels[1])
 }
 
 fn six_digits(x: f64) -> f64 {

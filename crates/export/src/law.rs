@@ -2,7 +2,7 @@
 
 use crate::template::Fill;
 use stiction_friction::compensator::{Adaptation, Friction, Settings};
-use stiction_friction::{Direction, Real, Shape};
+use stiction_friction::{Direction, Element, Real, Shape};
 
 /// Settings of the compensator, each written by `text`; a window of 0 is no watchdog.
 pub(crate) fn settings<T: Real>(fill: &mut Fill, settings: &Settings<T>, text: fn(T) -> String) {
@@ -31,17 +31,32 @@ pub(crate) fn settings<T: Real>(fill: &mut Fill, settings: &Settings<T>, text: f
 
 /// The law's numbers, each written by `text`, and flags that say which law and shape it is.
 pub(crate) fn fill<T: Real>(fill: &mut Fill, friction: &Friction<T>, text: fn(T) -> String) {
-    let curve = match friction {
-        Friction::Coulomb(_) => None,
-        Friction::Stribeck(curve) => Some(curve),
-        Friction::LuGre(law) => Some(law.curve()),
+    let curve = friction.curve();
+    let elements = elements(friction);
+    let attraction = match friction {
+        Friction::Gms(law) => Some(law.attraction()),
+        _ => None,
     };
-    fill.flag("lugre", matches!(friction, Friction::LuGre(_)))
+    let finite = attraction.is_some_and(|c| c.is_finite());
+    let bristle = friction.bristle();
+    fill.flag("bristle", bristle.is_some())
+        .flag("elastic", matches!(friction, Friction::ElastoPlastic(_)))
+        .flag("elements", !elements.is_empty())
+        .flag("attraction", finite)
+        .flag("stores", bristle.is_some() || !elements.is_empty())
+        .flag("decays", bristle.is_some() || finite)
         .flag("curve", curve.is_some())
+        .set("count", elements.len().to_string())
         .set("sliding", text(friction.sliding()));
-    if let Friction::LuGre(law) = friction {
+    if let Some(law) = bristle {
         fill.set("sigma0", text(law.stiffness()))
             .set("sigma1", text(law.damping().at_rest()));
+    }
+    if let Friction::ElastoPlastic(law) = friction {
+        fill.set("breakaway", text(law.breakaway()));
+    }
+    if let Some(attraction) = attraction.filter(|_| finite) {
+        fill.set("attraction", text(attraction));
     }
     let flat = |coulomb, viscous| Direction {
         coulomb,
@@ -82,4 +97,22 @@ pub(crate) fn fill<T: Real>(fill: &mut Fill, friction: &Friction<T>, text: fn(T)
             .set(keys[2], text(side.stribeck_velocity))
             .set(keys[3], text(side.viscous));
     }
+}
+
+/// The Maxwell-slip elements of a law that has them.
+pub(crate) fn elements<T: Real>(friction: &Friction<T>) -> &[Element<T>] {
+    match friction {
+        Friction::Gms(law) => law.elements(),
+        _ => &[],
+    }
+}
+
+/// A line for each element; `line` is given the number of the element, from 0.
+pub(crate) fn element_lines<T: Real>(
+    friction: &Friction<T>,
+    line: impl Fn(usize, &Element<T>) -> String,
+) -> String {
+    let lines = elements(friction).iter().enumerate();
+    let lines: Vec<String> = lines.map(|(k, element)| line(k, element)).collect();
+    lines.join("\n")
 }

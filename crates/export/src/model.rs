@@ -4,7 +4,7 @@ use crate::{Error, range};
 use stiction_friction::compensator::{
     Adaptation, Compensator, Friction, Settings, Source, Watchdog,
 };
-use stiction_friction::{Damping, LuGre, Real};
+use stiction_friction::{Damping, ElastoPlastic, LuGre, Real};
 
 /// Speed, m/s (rad/s), that stands for the limit of zero: the level at it is the static friction to rounding.
 pub(crate) const ALMOST_STANDSTILL: f64 = 1e-300;
@@ -78,19 +78,13 @@ impl Model {
         range::check(self, settings.limit, number_type)?;
         let refuse = |e| Error::number(number_type, e);
         let friction = match &self.friction {
-            Friction::Coulomb(law) => {
-                let both = |pair: [f64; 2]| pair.map(T::from_f64);
-                let offset = T::from_f64(law.offset());
-                stiction_friction::CoulombViscous::new(
-                    both(law.coulomb()),
-                    both(law.viscous()),
-                    offset,
-                )
-                .map(Friction::Coulomb)
-            }
-            Friction::Stribeck(curve) => curve.cast().map(Friction::Stribeck),
-            Friction::LuGre(law) => capped(law).and_then(|l| l.cast()).map(Friction::LuGre),
+            Friction::LuGre(law) => capped(law).map(Friction::LuGre),
+            Friction::ElastoPlastic(law) => capped(law.bristle())
+                .and_then(|bristle| ElastoPlastic::new(bristle, law.breakaway()))
+                .map(Friction::ElastoPlastic),
+            law => Ok(*law),
         };
+        let friction = friction.and_then(|law| law.cast());
         let friction = friction.map_err(refuse)?;
         Compensator::new(friction, Source::Reference, cast(settings)).map_err(refuse)
     }
@@ -142,6 +136,9 @@ impl Model {
             Friction::Coulomb(_) => "coulomb-viscous",
             Friction::Stribeck(_) => "stribeck",
             Friction::LuGre(_) => "lugre",
+            Friction::ElastoPlastic(_) => "elasto-plastic",
+            Friction::Gms(law) if law.attraction().is_finite() => "gms",
+            Friction::Gms(_) => "maxwell-slip",
         }
     }
 
@@ -149,8 +146,7 @@ impl Model {
     pub(crate) fn steady(&self, v: f64) -> f64 {
         match &self.friction {
             Friction::Coulomb(law) => law.force(v),
-            Friction::Stribeck(curve) => curve.force(v),
-            Friction::LuGre(law) => law.curve().force(v),
+            _ => self.friction.curve().map_or(0.0, |curve| curve.force(v)),
         }
     }
 
@@ -178,10 +174,8 @@ impl Model {
 
     /// The larger Stribeck velocity, m/s (rad/s); 0 where the level does not fall.
     pub(crate) fn stribeck_velocity(&self) -> f64 {
-        let curve = match &self.friction {
-            Friction::Coulomb(_) => return 0.0,
-            Friction::Stribeck(curve) => curve,
-            Friction::LuGre(law) => law.curve(),
+        let Some(curve) = self.friction.curve() else {
+            return 0.0;
         };
         let falls = [curve.positive(), curve.negative()]
             .into_iter()
@@ -191,11 +185,7 @@ impl Model {
 
     /// Largest force of the law at low speed, in its unit: the scale of its errors.
     pub(crate) fn scale(&self) -> f64 {
-        match &self.friction {
-            Friction::Coulomb(law) => law.coulomb()[0].max(law.coulomb()[1]),
-            Friction::Stribeck(curve) => curve.largest_static_level(),
-            Friction::LuGre(law) => law.curve().largest_static_level(),
-        }
+        self.friction.scale()
     }
 }
 

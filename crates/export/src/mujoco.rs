@@ -7,7 +7,8 @@ use crate::check::{CYCLE_TIMES, two_digits};
 use crate::number::{Literal, short};
 use crate::template::Fill;
 use crate::vectors::Vectors;
-use crate::{Error, File, Model, header, law};
+use crate::{Advice, Error, File, Model, header, law};
+use stiction_codes::Code;
 use stiction_friction::compensator::Friction;
 use stiction_friction::{Damping, LuGre, Shape};
 
@@ -102,22 +103,50 @@ pub(crate) fn longest_step(law: &LuGre<f64>) -> f64 {
     spring.min(4.0 * MASS / (excess + libm::sqrt(root)))
 }
 
-/// The law, if MuJoCo has one.
+/// The bristle of a law, as MuJoCo has one: of Maxwell-slip elements one as stiff as they are while all stick.
+pub(crate) fn bristle(friction: &Friction<f64>) -> Option<LuGre<f64>> {
+    match friction {
+        Friction::Gms(law) => {
+            LuGre::new(law.stiffness(), Damping::Constant(0.0), *law.curve()).ok()
+        }
+        friction => friction.bristle().copied(),
+    }
+}
+
+/// What a law has that the bristle of MuJoCo has not.
+pub(crate) fn simplified(model: &Model) -> Option<Advice> {
+    let message = match &model.friction {
+        Friction::ElastoPlastic(_) => {
+            "the joint has the bristles of LuGre, with the same stiffness and steady friction: they creep below break-away too, so \
+             under a force that oscillates there the joint drifts, where the law does not"
+        }
+        Friction::Gms(_) => {
+            "the joint has one bristle as LuGre has it, as stiff as all elements of the law while they stick, with the same steady \
+             friction: it does not remember reversals inside reversals, and slides after a shorter way than the last element"
+        }
+        _ => return None,
+    };
+    Some(Advice {
+        code: Code::ExportSimplified,
+        message: message.into(),
+    })
+}
+
+/// The bristle of the law, if MuJoCo has one with its steady friction.
 fn simple(model: &Model) -> Result<LuGre<f64>, Error> {
-    let refuse = |law| Error::Law {
+    let refuse = |law: String| Error::Law {
         target: "mujoco",
         law,
-        allowed: "dahl, or lugre with a Stribeck exponent of 2, the same in both directions",
+        allowed: "a law with bristles or elements, with a Stribeck exponent of 2, the same in both directions",
     };
-    let Friction::LuGre(law) = model.friction else {
-        return Err(refuse(model.law()));
-    };
+    let name = model.law();
+    let law = bristle(&model.friction).ok_or_else(|| refuse(name.into()))?;
     let curve = law.curve();
     if curve.positive() != curve.negative() {
-        return Err(refuse("lugre, asymmetric"));
+        return Err(refuse(format!("{name}, asymmetric")));
     }
     if curve.shape() != Shape::Gaussian {
-        return Err(refuse("lugre with another Stribeck exponent"));
+        return Err(refuse(format!("{name} with another Stribeck exponent")));
     }
     Ok(law)
 }

@@ -71,7 +71,7 @@ pub(crate) fn check(
         let size = value.abs();
         let least = if small { 0.0 } else { range.parameters.0 };
         let most = match name {
-            "sigma0" | "sigma1" => range.bristles,
+            "sigma0" | "sigma1" | "element_stiffness" | "attraction" => range.bristles,
             _ => range.parameters.1,
         };
         if size > most || (size > 0.0 && size < least) {
@@ -92,22 +92,31 @@ fn law(friction: &Friction<f64>) -> Vec<Number> {
         stribeck_velocity: 1.0,
         viscous,
     };
-    let (pos, neg, offset) = match friction {
-        Friction::Coulomb(law) => {
+    let (pos, neg, offset) = match (friction, friction.curve()) {
+        (Friction::Coulomb(law), _) => {
             let ([pos, neg], [v_pos, v_neg]) = (law.coulomb(), law.viscous());
             (flat(pos, v_pos), flat(neg, v_neg), law.offset())
         }
-        Friction::Stribeck(curve) => (*curve.positive(), *curve.negative(), curve.offset()),
-        Friction::LuGre(law) => {
-            let curve = law.curve();
-            (*curve.positive(), *curve.negative(), curve.offset())
-        }
+        (_, Some(curve)) => (*curve.positive(), *curve.negative(), curve.offset()),
+        (_, None) => unreachable!("every other law has a curve"),
     };
     let number = |name, value, small| Number { name, value, small };
     let mut numbers = Vec::new();
-    if let Friction::LuGre(law) = friction {
+    if let Some(law) = friction.bristle() {
         numbers.push(number("sigma0", law.stiffness(), false));
         numbers.push(number("sigma1", law.damping().at_rest(), true));
+    }
+    if let Friction::ElastoPlastic(law) = friction {
+        numbers.push(number("breakaway_ratio", law.breakaway(), false));
+    }
+    if let Friction::Gms(law) = friction {
+        for element in law.elements() {
+            numbers.push(number("element_stiffness", element.stiffness, false));
+            numbers.push(number("element_share", element.share, false));
+        }
+        if law.attraction().is_finite() {
+            numbers.push(number("attraction", law.attraction(), false));
+        }
     }
     let names = [
         ["coulomb", "coulomb_pos", "coulomb_neg"],

@@ -4,6 +4,7 @@ use crate::number::Literal;
 use crate::template::Fill;
 use crate::vectors::{DOUBLE_TOLERANCE, SINGLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, header, law};
+use stiction_friction::compensator::Friction;
 use stiction_friction::source;
 
 const MANIFEST: &str = include_str!("../templates/rust/Cargo.toml.in");
@@ -32,6 +33,21 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         )
         .flag("watchdog", model.settings.watchdog.is_some());
     law::fill(&mut fill, compensator.friction(), f64::c);
+    if let Friction::Gms(law) = compensator.friction() {
+        // A literal of infinity there is none.
+        let attraction = match law.attraction() {
+            c if c.is_finite() => c.c(),
+            _ => "f64::INFINITY".into(),
+        };
+        fill.set("attraction", attraction);
+    }
+    let lines = law::element_lines(compensator.friction(), |_, element| {
+        let (stiffness, share) = (element.stiffness.c(), element.share.c());
+        format!(
+            "        Element {{\n            stiffness: n({stiffness}),\n            share: n({share}),\n        }},"
+        )
+    });
+    fill.set("element_lines", lines);
     let mut test = fill.clone();
     law::settings(&mut fill, compensator.settings(), f64::c);
     law::settings(&mut test, &vectors.settings, f64::c);

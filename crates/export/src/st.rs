@@ -10,11 +10,12 @@ use crate::number::Literal;
 use crate::template::Fill;
 use crate::vectors::{DOUBLE_TOLERANCE, SINGLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, header, law};
-use stiction_friction::compensator::Settings;
+use stiction_friction::compensator::{Friction, Settings};
 use unit::Unit;
 
 const DECLARATION: &str = include_str!("../templates/st/block.declaration.in");
 const BODY: &str = include_str!("../templates/st/block.body.in");
+const ELEMENT: &str = include_str!("../templates/st/law/element.body.in");
 const TEST_DECLARATION: &str = include_str!("../templates/st/test.declaration.in");
 const TEST_BODY: &str = include_str!("../templates/st/test.body.in");
 
@@ -103,6 +104,7 @@ fn precision<T: Literal>(model: &Model, precision: &Precision) -> Result<[Unit; 
         .set("a_unit", model.acceleration_unit())
         .set("key", compensator.key().to_string());
     law::fill(&mut fill, compensator.friction(), T::st);
+    elements(&mut fill, compensator.friction());
     let mut test = fill.clone();
     law::settings(&mut fill, &writable(compensator.settings()), T::st);
     law::settings(&mut test, &writable(&cast(&vectors.settings)), T::st);
@@ -134,6 +136,49 @@ fn precision<T: Literal>(model: &Model, precision: &Precision) -> Result<[Unit; 
     ])
 }
 
+/// The Maxwell-slip elements of a law that has them, each written out: not every compiler has arrays and loops.
+fn elements<T: Literal>(fill: &mut Fill, friction: &Friction<T>) {
+    let real = fill.value("REAL").to_string();
+    let (force, length) = (
+        fill.value("f_unit").to_string(),
+        fill.value("x_unit").to_string(),
+    );
+    let steps = law::element_lines(friction, |k, _| {
+        let text = fill.clone().set("k", (k + 1).to_string()).render(ELEMENT);
+        text.trim_end().to_string()
+    });
+    let lines = |line: &dyn Fn(usize, T, T) -> String| {
+        law::element_lines(friction, |k, e| line(k + 1, e.stiffness, e.share))
+    };
+    let parameters = lines(&|k, stiffness, share| {
+        let (stiffness, share) = (stiffness.st(), share.st());
+        format!(
+            "    stiffness_{k} : {real} := {stiffness}; (* of a Maxwell-slip element > 0, {force}/{length} *)\n    \
+             share_{k} : {real} := {share}; (* of the level that it takes > 0; the sum is 1 *)"
+        )
+    });
+    let states = lines(&|k, _, _| {
+        format!(
+            "    element_{k} : {real} := 0.0; (* force of an element, {force} *)\n    \
+             slips_{k} : BOOL := FALSE; (* it slips, else it sticks *)"
+        )
+    });
+    let ranges = lines(&|k, _, _| {
+        format!(
+            "    AND (stiffness_{k} >= 1.0E-9) AND (stiffness_{k} <= 1.0E15) AND (share_{k} >= 1.0E-9) AND (share_{k} <= 1.0)"
+        )
+    });
+    let resets = lines(&|k, _, _| format!("    element_{k} := 0.0;\n    slips_{k} := FALSE;"));
+    let yields =
+        lines(&|k, _, _| format!("        slide := MAX(slide, share_{k} * most / stiffness_{k});"));
+    fill.set("element_steps", steps)
+        .set("element_parameters", parameters)
+        .set("element_states", states)
+        .set("element_ranges", ranges)
+        .set("element_resets", resets)
+        .set("element_yields", yields);
+}
+
 /// The settings as they can be written.
 fn writable<T: Literal>(settings: &Settings<T>) -> Settings<T> {
     Settings {
@@ -144,13 +189,13 @@ fn writable<T: Literal>(settings: &Settings<T>) -> Settings<T> {
 
 /// `exp(-a) - 1 = -a (1 - a/2 (1 - a/3 (...)))`, innermost first.
 fn series(terms: u32) -> String {
-    let mut lines = vec![format!("                e := 1.0 - a / {terms}.0;")];
+    let mut lines = vec![format!("    e := 1.0 - a / {terms}.0;")];
     lines.extend(
         (2..terms)
             .rev()
-            .map(|k| format!("                e := 1.0 - a / {k}.0 * e;")),
+            .map(|k| format!("    e := 1.0 - a / {k}.0 * e;")),
     );
-    lines.push("                e := -a * e;".into());
+    lines.push("    e := -a * e;".into());
     lines.join("\n")
 }
 

@@ -2,7 +2,7 @@
 //!
 //! `@key@` is replaced by a value. A line `%if key` keeps what follows up to `%else` or `%end` where the flag is set,
 //! `%if !key` where it is not; conditions nest. A line `%part path` stands for the template of that path, one idea of a
-//! longer text; conditions do not reach across its ends.
+//! longer text, indented as that line is; conditions do not reach across its ends.
 
 macro_rules! parts {
     ($($path:literal),* $(,)?) => {
@@ -14,8 +14,11 @@ macro_rules! parts {
 const PARTS: &[(&str, &str)] = parts![
     "c/adaptation.c.in",
     "c/curve.c.in",
-    "c/law/lugre.c.in",
+    "c/law/bristle.c.in",
+    "c/law/elastic.c.in",
+    "c/law/elements.c.in",
     "c/law/steady.c.in",
+    "c/law/stored.c.in",
     "c/limit.c.in",
     "c/memory.c.in",
     "c/numbers.c.in",
@@ -27,7 +30,11 @@ const PARTS: &[(&str, &str)] = parts![
     "st/adaptation.body.in",
     "st/curve.body.in",
     "st/keep.body.in",
-    "st/law/lugre.body.in",
+    "st/law/bristle.body.in",
+    "st/law/decay.body.in",
+    "st/law/elastic.body.in",
+    "st/law/elements.body.in",
+    "st/law/pull.body.in",
     "st/law/steady.body.in",
     "st/limit.body.in",
     "st/range.body.in",
@@ -78,7 +85,8 @@ impl Fill {
                 open.pop().expect("%end without %if");
             } else if open.iter().all(|taken| *taken) {
                 if let Some(path) = word.strip_prefix("%part ") {
-                    self.write(part(path), out);
+                    let space = &line[..line.len() - line.trim_start().len()];
+                    out.push_str(&indented(&self.render(part(path)), space));
                 } else {
                     self.line(line, out);
                     out.push('\n');
@@ -99,7 +107,7 @@ impl Fill {
         out.push_str(rest);
     }
 
-    fn value(&self, key: &str) -> &str {
+    pub(crate) fn value(&self, key: &str) -> &str {
         let found = self.values.iter().rev().find(|(name, _)| *name == key);
         found.map_or_else(|| panic!("no value for @{key}@"), |(_, value)| value)
     }
@@ -112,6 +120,15 @@ impl Fill {
         let found = self.flags.iter().rev().find(|(flag, _)| *flag == name);
         found.unwrap_or_else(|| panic!("no flag {name}")).1 == wanted
     }
+}
+
+/// The text behind a space in every line that is not empty.
+fn indented(text: &str, space: &str) -> String {
+    let lines = text.lines().map(|line| match line {
+        "" => "\n".into(),
+        line => format!("{space}{line}\n"),
+    });
+    lines.collect()
 }
 
 fn part(path: &str) -> &'static str {

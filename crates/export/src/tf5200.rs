@@ -11,7 +11,6 @@ use crate::number::{Literal, short};
 use crate::template::Fill;
 use crate::{Error, File, Model, header};
 use stiction_friction::ParamError;
-use stiction_friction::compensator::Friction;
 
 const TABLE: &str = include_str!("../templates/tf5200/table.lis.in");
 const SELFTEST: &str = include_str!("../templates/tf5200/selftest.py.in");
@@ -93,10 +92,7 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         None => format!("at every speed, {at_end}"),
     };
     let (due_error, worst) = largest(all, &|v| held(model, v));
-    let length = match &model.friction {
-        Friction::LuGre(law) => law.bound(),
-        _ => 0.0,
-    };
+    let length = model.friction.presliding().unwrap_or(0.0);
     let delay = libm::round(length / (0.1 * step));
     let scale = model.scale().max(f64::MIN_POSITIVE);
     let file = format!("{}_frict_comp", model.identifier);

@@ -5,7 +5,7 @@
 use crate::number::{Literal, short};
 use crate::{Error, Model};
 use stiction_friction::Real;
-use stiction_friction::compensator::{Adaptation, Friction, Input, Settings, Watchdog};
+use stiction_friction::compensator::{Adaptation, Input, Settings, Watchdog};
 
 /// A sample of the self-test.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -143,20 +143,17 @@ fn settings(model: &Model) -> Settings<f64> {
 
 /// A speed at which the law changes, m/s (rad/s).
 fn speed(model: &Model) -> f64 {
-    match &model.friction {
-        Friction::Coulomb(_) => 0.01,
-        Friction::Stribeck(curve) => curve.positive().stribeck_velocity,
-        Friction::LuGre(law) => law.curve().positive().stribeck_velocity,
-    }
+    let curve = model.friction.curve();
+    curve.map_or(0.01, |curve| curve.positive().stribeck_velocity)
 }
 
 /// Velocity, tracking error, enable.
 fn motion(model: &Model, h: f64) -> Vec<(f64, f64, bool)> {
     let v = speed(model);
     // A cycle of this speed moves the bristles by a part of their length.
-    let small = match &model.friction {
-        Friction::LuGre(law) => v.min(0.3 * law.bound() / h),
-        _ => 0.1 * v,
+    let small = match model.friction.presliding() {
+        Some(length) => v.min(0.3 * length / h),
+        None => 0.1 * v,
     };
     let mut rows = Vec::new();
     let mut add = |n: usize, error: f64, enable: bool, at: &dyn Fn(f64) -> f64| {

@@ -44,7 +44,7 @@ pub use input::Input;
 pub use memory::{ForeignMemory, MEMORY};
 pub use preview::ahead;
 pub use settings::Settings;
-pub use state::State;
+pub use state::{LawState, State};
 pub use terms::{Channel, Channels, Levels, Terms, WAVES, Wave, Weight};
 pub use watchdog::{Trip, Watch, Watchdog};
 

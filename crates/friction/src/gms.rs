@@ -1,11 +1,13 @@
 //! The generalised Maxwell-slip law; its steps are in `record` and `realtime`.
 
+mod maxwell_slip;
 mod realtime;
 mod record;
 
 use crate::error::require;
 use crate::{ParamError, Real, Stribeck};
 
+pub use maxwell_slip::{MOST_ELEMENTS, MaxwellSlip};
 pub use realtime::GmsState;
 
 /// One element of a [`Gms`] law.
@@ -84,36 +86,10 @@ impl<T: Real, const N: usize> Gms<T, N> {
         damping: T,
         curve: Stribeck<T>,
     ) -> Result<Self, ParamError> {
-        require(
-            (1..=10).contains(&N),
-            "elements",
-            T::from_f64(N as f64),
-            "1 to 10",
-        )?;
-        for element in &elements {
-            ParamError::positive("element_stiffness", element.stiffness)?;
-            ParamError::positive("element_share", element.share)?;
-        }
-        require(attraction > T::ZERO, "attraction", attraction, "> 0")?;
-        ParamError::not_negative("sigma1", damping)?;
-        let sum = |of: fn(&Element<T>) -> T| elements.iter().fold(T::ZERO, |sum, e| sum + of(e));
-        let stiffness = sum(|e| e.stiffness);
-        ParamError::positive("sum of element_stiffness", stiffness)?;
-        let shares = sum(|e| e.share);
-        ParamError::positive("sum of element_share", shares)?;
-        // Differences of two forces must not overflow.
-        let level = curve.largest_static_level();
-        require(
-            (level * T::from_f64(4.0)).is_finite(),
-            "static",
-            level,
-            "well within the range of the number type",
-        )?;
+        let mut elements = elements;
+        let stiffness = checked(&mut elements, attraction, damping, &curve)?;
         Ok(Gms {
-            elements: elements.map(|e| Element {
-                share: e.share / shares,
-                ..e
-            }),
+            elements,
             attraction,
             damping,
             curve,
@@ -207,4 +183,43 @@ impl<T: Real, const N: usize> Gms<T, N> {
             + self.curve.direction(v).viscous * v
             + self.curve.offset()
     }
+}
+
+/// Refuses elements, attraction C, micro-damping or a curve that make no law; gives the shares the sum 1, and returns the sum of
+/// the stiffnesses.
+fn checked<T: Real>(
+    elements: &mut [Element<T>],
+    attraction: T,
+    damping: T,
+    curve: &Stribeck<T>,
+) -> Result<T, ParamError> {
+    require(
+        (1..=MOST_ELEMENTS).contains(&elements.len()),
+        "elements",
+        T::from_f64(elements.len() as f64),
+        "1 to 10",
+    )?;
+    for element in elements.iter() {
+        ParamError::positive("element_stiffness", element.stiffness)?;
+        ParamError::positive("element_share", element.share)?;
+    }
+    require(attraction > T::ZERO, "attraction", attraction, "> 0")?;
+    ParamError::not_negative("sigma1", damping)?;
+    let sum = |of: fn(&Element<T>) -> T| elements.iter().fold(T::ZERO, |sum, e| sum + of(e));
+    let stiffness = sum(|e| e.stiffness);
+    ParamError::positive("sum of element_stiffness", stiffness)?;
+    let shares = sum(|e| e.share);
+    ParamError::positive("sum of element_share", shares)?;
+    // Differences of two forces must not overflow.
+    let level = curve.largest_static_level();
+    require(
+        (level * T::from_f64(4.0)).is_finite(),
+        "static",
+        level,
+        "well within the range of the number type",
+    )?;
+    for element in elements {
+        element.share = element.share / shares;
+    }
+    Ok(stiffness)
 }

@@ -130,7 +130,7 @@ pub use dahl::Dahl;
 pub use damping::Damping;
 pub use elasto_plastic::ElastoPlastic;
 pub use error::ParamError;
-pub use gms::{Element, Elements, Gms, GmsState};
+pub use gms::{Element, Elements, Gms, GmsState, MOST_ELEMENTS, MaxwellSlip};
 pub use held::{Held, Pace};
 pub use lugre::LuGre;
 pub use real::Real;

@@ -35,6 +35,7 @@ pub static FILES: &[(&str, &str)] = files![
     "src/explicit.rs",
     "src/exponential.rs",
     "src/gms.rs",
+    "src/gms/maxwell_slip.rs",
     "src/gms/realtime.rs",
     "src/gms/record.rs",
     "src/held.rs",

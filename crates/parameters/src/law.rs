@@ -1,7 +1,6 @@
 //! The law that a set of parameters makes.
 
-use crate::MaxwellSlip;
-use stiction_friction::{CoulombViscous, Damping, ElastoPlastic, LuGre, Stribeck};
+use stiction_friction::{CoulombViscous, Damping, ElastoPlastic, LuGre, MaxwellSlip, Stribeck};
 
 /// A law of `stiction-friction`, whichever it is.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,7 +14,7 @@ pub enum FrictionLaw {
     /// Elasto-plastic.
     ElastoPlastic(ElastoPlastic<f64>),
     /// Maxwell slip and generalised Maxwell slip.
-    MaxwellSlip(MaxwellSlip),
+    MaxwellSlip(MaxwellSlip<f64>),
 }
 
 impl FrictionLaw {

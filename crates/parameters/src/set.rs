@@ -1,8 +1,8 @@
 //! Names with values.
 
-use crate::{FrictionLaw, LawError, LawKind, MaxwellSlip, Name, Quantity, Side};
+use crate::{FrictionLaw, LawError, LawKind, Name, Quantity, Side};
 use stiction_friction::{
-    CoulombViscous, Damping, Direction, ElastoPlastic, Element, LuGre, Shape, Stribeck,
+    CoulombViscous, Damping, Direction, ElastoPlastic, Element, LuGre, MaxwellSlip, Shape, Stribeck,
 };
 
 /// Parameters of a law with their values, SI. What does not belong to the law (mass, delay, cogging, ...) may stand in it
@@ -237,7 +237,7 @@ impl ParameterSet {
     }
 
     /// The yield forces of the elements at rest are those of the positive direction.
-    fn maxwell_slip(&self) -> Result<MaxwellSlip, LawError> {
+    fn maxwell_slip(&self) -> Result<MaxwellSlip<f64>, LawError> {
         let curve = self.curve()?;
         let mut elements = Vec::new();
         for k in 1.. {
@@ -257,6 +257,6 @@ impl ParameterSet {
             LawKind::Gms => self.need(Quantity::Attraction)? * curve.static_level(1.0),
             _ => f64::INFINITY,
         };
-        Ok(MaxwellSlip::new(elements, attraction, curve)?)
+        Ok(MaxwellSlip::new(&elements, attraction, curve)?)
     }
 }

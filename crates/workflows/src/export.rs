@@ -11,9 +11,8 @@ use stiction_files::Warning;
 use stiction_files::model::{Lowered, ReadModel};
 use stiction_files::{write_folder, write_into_folder};
 use stiction_friction::ParamError;
-use stiction_friction::Stribeck;
 use stiction_friction::compensator::{Adaptation, Compensator, Friction, Settings, Watchdog};
-use stiction_parameters::{FrictionLaw, LawError, LawKind, Name, ParameterSet, Quantity, Side};
+use stiction_parameters::{FrictionLaw, LawError, Name, ParameterSet, Quantity, Side};
 
 pub use stiction_export::{Error as ExportError, File, Target};
 
@@ -255,11 +254,7 @@ fn code(read: &ReadModel, options: &ExportOptions) -> Result<Exported, Error> {
 fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warning>), Error> {
     let file = &read.model;
     let (friction, lowered) = friction(file, options.cycle_time).map_err(|e| match e {
-        Unfit::Law => read.refuse(
-            "law",
-            file.law.as_str(),
-            "export coulomb-viscous, stribeck, dahl or lugre; identify with one of them",
-        ),
+        Unfit::Law => read.refuse("law", file.law.as_str(), "a law that stiction identifies"),
         Unfit::Missing(name) => read.refuse(
             "parameter",
             format!("no {name}"),
@@ -528,23 +523,12 @@ fn less(lowered: &[Lowered], limited: bool) -> Option<Warning> {
 /// The largest friction up to the speeds of the log; at standstill where those are not known.
 fn seen(friction: &Friction<f64>, top_speed: Option<f64>) -> f64 {
     let top = top_speed.unwrap_or(0.0);
-    let sides = |curve: &Stribeck<f64>| [*curve.positive(), *curve.negative()];
-    let largest = |statics: [f64; 2], viscous: [f64; 2], coulomb: [f64; 2]| {
-        let of = |i: usize| statics[i].max(coulomb[i] + viscous[i] * top);
-        of(0).max(of(1))
-    };
-    let of_curve = |curve: &Stribeck<f64>| {
-        let [p, n] = sides(curve);
-        let statics = [p.static_friction, n.static_friction];
-        largest(statics, [p.viscous, n.viscous], [p.coulomb, n.coulomb]) + curve.offset().abs()
-    };
-    match friction {
-        Friction::Coulomb(law) => {
-            largest(law.coulomb(), law.viscous(), law.coulomb()) + law.offset().abs()
-        }
-        Friction::Stribeck(curve) => of_curve(curve),
-        Friction::LuGre(law) => of_curve(law.curve()),
-    }
+    let (coulomb, viscous) = (friction.coulomb(), friction.viscous());
+    let statics = friction.curve().map_or(coulomb, |curve| {
+        [curve.positive(), curve.negative()].map(|side| side.static_friction)
+    });
+    let of = |i: usize| statics[i].max(coulomb[i] + viscous[i] * top);
+    of(0).max(of(1)) + friction.offset().abs()
 }
 
 /// Dead zone of a law without a Stribeck velocity, of the top speed of the recordings.
@@ -599,10 +583,6 @@ impl From<LawError> for Unfit {
 /// The law as it was identified, sigma1 constant: the export caps it, and warns where that counts.
 fn friction(file: &ModelFile, cycle_time: f64) -> Result<(Friction<f64>, Vec<Lowered>), Unfit> {
     let (mut values, mut lowered) = file.supported().ok_or(Unfit::Law)?;
-    match values.kind() {
-        LawKind::ElastoPlastic | LawKind::MaxwellSlip | LawKind::Gms => return Err(Unfit::Law),
-        LawKind::CoulombViscous | LawKind::Stribeck | LawKind::Dahl | LawKind::LuGre => {}
-    }
     if let Some(stiffness) = resolved(file, &mut values, cycle_time) {
         // Of one that was lowered before, this is the lower value.
         lowered.retain(|l| l.name != stiffness.name);
@@ -612,7 +592,8 @@ fn friction(file: &ModelFile, cycle_time: f64) -> Result<(Friction<f64>, Vec<Low
         FrictionLaw::CoulombViscous(law) => Friction::Coulomb(law),
         FrictionLaw::Stribeck(curve) => Friction::Stribeck(curve),
         FrictionLaw::LuGre(law) => Friction::LuGre(law),
-        FrictionLaw::ElastoPlastic(_) | FrictionLaw::MaxwellSlip(_) => return Err(Unfit::Law),
+        FrictionLaw::ElastoPlastic(law) => Friction::ElastoPlastic(law),
+        FrictionLaw::MaxwellSlip(law) => Friction::Gms(law),
     };
     Ok((friction, lowered))
 }

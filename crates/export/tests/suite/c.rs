@@ -1,6 +1,6 @@
 //! The C text: compiled under every warning, its self-test run, and sample by sample against the compensator.
 
-use crate::common::compiled::{agree, agree_single, drive, gcc, passive, run, write};
+use crate::common::compiled::{agree, agree_single, drive, gcc, kept, passive, run, write};
 use crate::common::{adapting, laws, model, models};
 use std::process::{Command, Stdio};
 use stiction_export::{Model, Target, export};
@@ -123,7 +123,7 @@ fn misra() {
     let dir = tempfile::tempdir().unwrap();
     let found: std::collections::BTreeSet<String> = models()
         .into_iter()
-        .filter(|(name, model)| *name == "power" || model.settings.adaptation.is_some())
+        .filter(|(name, model)| ["power", "elasto-plastic", "maxwell-slip"].contains(name) || model.settings.adaptation.is_some())
         .flat_map(|(_, model)| {
             write(&export(&model, Target::C).unwrap(), dir.path());
             let arguments = "--addon=misra --enable=style,warning,performance,portability --inconclusive --std=c99 \
@@ -143,7 +143,7 @@ fn misra() {
     }
 }
 
-/// Reads `h, velocity, error, enable, drive force, learn` as doubles, writes force and deflection.
+/// Reads `h, velocity, error, enable, drive force, learn` as doubles, writes force and what is kept.
 const DRIVER: &str = r#"
 #include "x_axis_friction@F@.h"
 #include <stdio.h>
@@ -164,13 +164,8 @@ int main(void) {
 }
 "#;
 
-/// Force and deflection of the compiled C for each sample.
-fn through_c(
-    model: &Model,
-    single: bool,
-    bristles: bool,
-    samples: &[(f64, Input<f64>)],
-) -> Vec<[f64; 2]> {
+/// Force and what is kept of the compiled C for each sample.
+fn through_c(model: &Model, single: bool, samples: &[(f64, Input<f64>)]) -> Vec<[f64; 2]> {
     let dir = tempfile::tempdir().unwrap();
     write(&export(model, Target::C).unwrap(), dir.path());
     let (suffix, real) = if single {
@@ -178,11 +173,9 @@ fn through_c(
     } else {
         ("", "double")
     };
-    let deflection = if bristles {
-        "(double)s.deflection"
-    } else {
-        "0.0"
-    };
+    let kept = kept(&model.friction, "(double)s.deflection", |k| {
+        format!("(double)s.element_force[{k}]")
+    });
     let driver = DRIVER
         .replace("@F@", suffix)
         .replace(
@@ -193,7 +186,7 @@ fn through_c(
             },
         )
         .replace("@R@", real)
-        .replace("@Z@", deflection);
+        .replace("@Z@", &kept);
     std::fs::write(dir.path().join("driver.c"), driver).unwrap();
     let source = format!("x_axis_friction{suffix}.c");
     gcc(
@@ -209,21 +202,19 @@ fn double_precision_agrees() {
     agree(
         "C",
         |_| {},
-        |model, bristles, samples| through_c(model, false, bristles, samples),
+        |model, samples| through_c(model, false, samples),
     );
 }
 
 #[test]
 fn single_precision_agrees() {
-    agree_single("C", |model, samples| through_c(model, true, false, samples));
+    agree_single("C", |model, samples| through_c(model, true, samples));
 }
 
 #[test]
 fn the_exported_law_is_passive() {
     for (single, rounding) in [(false, 1e-12), (true, 1e-5)] {
-        passive(rounding, |model, bristles, samples| {
-            through_c(model, single, bristles, samples)
-        });
+        passive(rounding, |model, samples| through_c(model, single, samples));
     }
 }
 

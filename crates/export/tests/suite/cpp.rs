@@ -1,7 +1,7 @@
 //! The C++ library: compiled under every warning, its self-test run here, on a simulated AVR and a simulated ARM, and sample
 //! by sample against the compensator.
 
-use crate::common::compiled::{agree, agree_single, drive, passive, run, write};
+use crate::common::compiled::{agree, agree_single, drive, kept, passive, run, write};
 use crate::common::{adapting, laws, model, models};
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -94,7 +94,7 @@ fn the_self_test_notices() {
     );
 }
 
-/// Reads `h, velocity, error, enable, drive force, learn` as doubles, writes force and deflection.
+/// Reads `h, velocity, error, enable, drive force, learn` as doubles, writes force and what is kept.
 const DRIVER: &str = r#"
 #include <stdio.h>
 #include <x_axis_friction.hpp>
@@ -116,26 +116,22 @@ int main()
 }
 "#;
 
-/// Force and deflection of the compiled library for each sample.
-fn through_cpp(
-    model: &Model,
-    bits: &str,
-    bristles: bool,
-    samples: &[(f64, Input<f64>)],
-) -> Vec<[f64; 2]> {
+/// Force and what is kept of the compiled library for each sample.
+fn through_cpp(model: &Model, bits: &str, samples: &[(f64, Input<f64>)]) -> Vec<[f64; 2]> {
     let dir = library(model);
     let drive_force = match model.settings.adaptation {
         Some(_) => ", Real(in[4]), in[5] != 0.0",
         None => "",
     };
-    let deflection = match bristles {
-        true => "double(compensator.state().deflection)",
-        false => "0.0",
-    };
+    let kept = kept(
+        &model.friction,
+        "double(compensator.state().deflection)",
+        |k| format!("double(compensator.state().element_force[{k}])"),
+    );
     let driver = DRIVER
         .replace("@B@", bits)
         .replace("@D@", drive_force)
-        .replace("@Z@", deflection);
+        .replace("@Z@", &kept);
     std::fs::write(dir.path().join("driver.cpp"), driver).unwrap();
     let flags = "-std=c++11 -O2 -fno-exceptions -fno-rtti -fsanitize=undefined -fno-sanitize-recover=all -Isrc";
     build("g++", flags, &["driver.cpp"], dir.path());
@@ -147,23 +143,19 @@ fn double_precision_agrees() {
     agree(
         "C++",
         |_| {},
-        |model, bristles, samples| through_cpp(model, "f64", bristles, samples),
+        |model, samples| through_cpp(model, "f64", samples),
     );
 }
 
 #[test]
 fn single_precision_agrees() {
-    agree_single("C++", |model, samples| {
-        through_cpp(model, "f32", false, samples)
-    });
+    agree_single("C++", |model, samples| through_cpp(model, "f32", samples));
 }
 
 #[test]
 fn the_exported_law_is_passive() {
     for (bits, rounding) in [("f64", 1e-12), ("f32", 1e-5)] {
-        passive(rounding, |model, bristles, samples| {
-            through_cpp(model, bits, bristles, samples)
-        });
+        passive(rounding, |model, samples| through_cpp(model, bits, samples));
     }
 }
 
@@ -394,7 +386,7 @@ fn the_time_on_an_avr_is_stated() {
 /// The models whose sizes and times are stated.
 fn sized() -> [(&'static str, Model); 3] {
     let lugre = laws().remove(0).1;
-    let coulomb = laws().remove(6).1;
+    let coulomb = laws().remove(7).1;
     let mut following = model(lugre);
     following.settings = adapting(following.settings);
     [

@@ -1,10 +1,11 @@
 //! The FMUs: validated and simulated by FMPy, and sample by sample against the compensator through the functions of the
 //! standard.
 
-use crate::common::compiled::{Sample, agree, drive, gcc, passive, run, write};
+use crate::common::compiled::{Sample, agree, drive, gcc, kept, passive, run, write};
 use crate::common::{laws, model, models, parts};
 use std::path::{Path, PathBuf};
 use stiction_export::{File, GCC, Model, fmu};
+use stiction_friction::compensator::Friction;
 
 fn python(arguments: &[&str], dir: &Path) -> String {
     let local = stiction_testkit::workspace().join(".venv/bin");
@@ -161,9 +162,10 @@ int main(void) {
 @SETUP@
     for (long k = 0; fread(in, sizeof in, 1, stdin) == 1; k++) {
         const double numbers[] = { in[1], in[2], in[4] };
-        double out[2];
+        double out[@COUNT@];
 @STEP@
-        (void)fwrite(out, sizeof out, 1, stdout);
+        out[1] = @KEPT@;
+        (void)fwrite(out, sizeof *out, 2, stdout);
     }
     return 0;
 }
@@ -187,7 +189,7 @@ const SETUP_2: &str = r#"
 const STEP_2: &str = r#"
         const int on[] = { in[3] != 0.0, in[5] != 0.0 };
         if (fmi2SetReal(c, inputs, COUNT(inputs), numbers) || fmi2SetBoolean(c, flags, COUNT(flags), on) || fmi2DoStep(c, (double)k * 1e-3, 1e-3, 1)
-            || fmi2GetReal(c, outputs, 2, out)) { return 3; }
+            || fmi2GetReal(c, outputs, COUNT(outputs), out)) { return 3; }
 "#;
 
 const SETUP_3: &str = r#"
@@ -207,11 +209,11 @@ const STEP_3: &str = r#"
         bool event, end, early;
         double last;
         if (fmi3SetFloat64(c, inputs, COUNT(inputs), numbers, COUNT(inputs)) || fmi3SetBoolean(c, flags, COUNT(flags), on, COUNT(flags))
-            || fmi3DoStep(c, (double)k * 1e-3, 1e-3, true, &event, &end, &early, &last) || fmi3GetFloat64(c, outputs, 2, out, 2)) { return 3; }
+            || fmi3DoStep(c, (double)k * 1e-3, 1e-3, true, &event, &end, &early, &last) || fmi3GetFloat64(c, outputs, COUNT(outputs), out, COUNT(outputs))) { return 3; }
 "#;
 
 /// Through the library in the FMU of a version.
-fn through_fmu(version: usize, model: &Model, bristles: bool, samples: &[Sample]) -> Vec<[f64; 2]> {
+fn through_fmu(version: usize, model: &Model, samples: &[Sample]) -> Vec<[f64; 2]> {
     let dir = tempfile::tempdir().unwrap();
     let archive = fmu(model, &mut compile).unwrap().remove(version - 2);
     let parts = parts(&archive);
@@ -231,6 +233,17 @@ fn through_fmu(version: usize, model: &Model, bristles: bool, samples: &[Sample]
         });
         found.collect::<Vec<_>>().join(", ")
     };
+    // Without anything to keep the force stands twice.
+    let elements: Vec<String> = (1..=10).map(|k| format!("element_{k}")).collect();
+    let mut outputs = vec!["force"];
+    match &model.friction {
+        Friction::Gms(law) => {
+            outputs.extend(elements[..law.elements().len()].iter().map(String::as_str));
+        }
+        law if law.bristle().is_some() => outputs.push("deflection"),
+        _ => outputs.push("force"),
+    }
+    let kept = kept(&model.friction, "out[1]", |k| format!("out[{}]", k + 1));
     let driver = DRIVER
         .replace("@FOLDER@", folder)
         .replace("@SETUP@", setup)
@@ -241,11 +254,9 @@ fn through_fmu(version: usize, model: &Model, bristles: bool, samples: &[Sample]
             &references(&["reference_velocity", "tracking_error", "drive_force"]),
         )
         .replace("@FLAGS@", &references(&["enable", "learn"]))
-        // Without bristles there is no deflection; the force then stands for it.
-        .replace(
-            "@OUTPUTS@",
-            &references(&["force", if bristles { "deflection" } else { "force" }]),
-        );
+        .replace("@OUTPUTS@", &references(&outputs))
+        .replace("@COUNT@", &outputs.len().to_string())
+        .replace("@KEPT@", &kept);
     std::fs::write(dir.path().join("driver.c"), driver).unwrap();
     gcc("-std=gnu99 -O2", &["driver.c", "-ldl"], dir.path());
     drive(dir.path(), "./a.out", samples)
@@ -258,23 +269,21 @@ fn regular(samples: &mut [Sample]) {
 
 #[test]
 fn fmi_2_agrees() {
-    agree("FMI 2.0", regular, |model, bristles, samples| {
-        through_fmu(2, model, bristles, samples)
+    agree("FMI 2.0", regular, |model, samples| {
+        through_fmu(2, model, samples)
     });
 }
 
 #[test]
 fn fmi_3_agrees() {
-    agree("FMI 3.0", regular, |model, bristles, samples| {
-        through_fmu(3, model, bristles, samples)
+    agree("FMI 3.0", regular, |model, samples| {
+        through_fmu(3, model, samples)
     });
 }
 
 #[test]
 fn both_are_passive() {
     for version in [2, 3] {
-        passive(1e-12, |model, bristles, samples| {
-            through_fmu(version, model, bristles, samples)
-        });
+        passive(1e-12, |model, samples| through_fmu(version, model, samples));
     }
 }

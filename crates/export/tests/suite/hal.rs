@@ -1,6 +1,6 @@
 //! The HAL component: built by halcompile, run by LinuxCNC in a real thread, and sample by sample against the compensator.
 
-use crate::common::compiled::{Sample, agree, drive, gcc, passive, run, write};
+use crate::common::compiled::{Sample, agree, drive, gcc, kept, passive, run, write};
 use crate::common::{laws, model, models};
 use stiction_export::{Model, Target, export};
 use stiction_testkit::hal::{self, Installed};
@@ -127,7 +127,7 @@ void rtapi_print_msg(msg_level_t level, const char *format, ...) { (void)level; 
 int main(void) {
     double in[6];
     if (rtapi_app_main() != 0) { return 1; }
-    hal_float_t *velocity = pin("velocity"), *error = pin("error"), *force = pin("force"), *z = @Z@;
+    hal_float_t *velocity = pin("velocity"), *error = pin("error"), *force = pin("force");
     hal_bit_t *enable = pin("enable"), *valid = pin("valid");
     while (fread(in, sizeof in, 1, stdin) == 1) {
         double out[2];
@@ -138,7 +138,7 @@ int main(void) {
         function(instance, (long)(in[0] * 1e9 + 0.5));
         if (!*valid) { return 2; }
         out[0] = *force;
-        out[1] = *z;
+        out[1] = @Z@;
         (void)fwrite(out, sizeof out, 1, stdout);
     }
     return 0;
@@ -146,7 +146,7 @@ int main(void) {
 "#;
 
 /// The C that halcompile makes of the component, with its pins held by the driver.
-fn through_hal(model: &Model, bristles: bool, samples: &[Sample]) -> Vec<[f64; 2]> {
+fn through_hal(model: &Model, samples: &[Sample]) -> Vec<[f64; 2]> {
     let dir = tempfile::tempdir().unwrap();
     write(&export(model, Target::Hal).unwrap(), dir.path());
     run(
@@ -154,11 +154,10 @@ fn through_hal(model: &Model, bristles: bool, samples: &[Sample]) -> Vec<[f64; 2
         &["--preprocess", "x_axis_friction.comp"],
         dir.path(),
     );
-    let deflection = if bristles {
-        "pin(\"deflection\")"
-    } else {
-        "force"
-    };
+    let number = |name: &str| format!("*(hal_float_t *)pin(\"{name}\")");
+    let kept = kept(&model.friction, &number("deflection"), |k| {
+        number(&format!("element-{k:02}"))
+    });
     let fed = match model.settings.adaptation {
         Some(_) => {
             "*(hal_float_t *)pin(\"drive-force\") = in[4]; *(hal_bit_t *)pin(\"learn\") = in[5] != 0.0;"
@@ -167,7 +166,7 @@ fn through_hal(model: &Model, bristles: bool, samples: &[Sample]) -> Vec<[f64; 2
     };
     std::fs::write(
         dir.path().join("driver.c"),
-        DRIVER.replace("@Z@", deflection).replace("@D@", fed),
+        DRIVER.replace("@Z@", &kept).replace("@D@", fed),
     )
     .unwrap();
     gcc(

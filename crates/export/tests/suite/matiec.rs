@@ -1,14 +1,14 @@
 //! The Structured Text through matiec, the compiler of Beremiz and OpenPLC: all of it is taken, the test programs pass, and
 //! the blocks agree with the compensator.
 
-use crate::common::compiled::{Sample, drive, run};
+use crate::common::compiled::{Sample, drive, kept, run};
 use crate::common::matiec::{compile, matiec};
 use crate::common::{laws, model, models};
 use crate::st;
 use std::path::Path;
 use stiction_export::{Model, Target, export};
 
-/// Steps a block through what comes in, as [`drive`] wants it. NAME, REAL and DEFLECTION are put in their places.
+/// Steps a block through what comes in, as [`drive`] wants it. NAME, REAL and KEPT are put in their places.
 const BLOCK: &str = r#"
 int main(void)
 {
@@ -22,7 +22,7 @@ int main(void)
         block.ENABLE.value = in[3] != 0.0;
         DRIVE
         NAME_body__(&block);
-        const double out[2] = { block.FORCE.value, DEFLECTION };
+        const double out[2] = { block.FORCE.value, KEPT };
         (void)fwrite(out, sizeof *out, 2, stdout);
     }
     return 0;
@@ -53,21 +53,13 @@ fn texts(model: &Model) -> Vec<(String, String)> {
 }
 
 /// What a block gives.
-fn compiled(
-    matiec: &Path,
-    model: &Model,
-    name: &str,
-    bristles: bool,
-    samples: &[Sample],
-) -> Vec<[f64; 2]> {
+fn compiled(matiec: &Path, model: &Model, name: &str, samples: &[Sample]) -> Vec<[f64; 2]> {
     let dir = tempfile::tempdir().unwrap();
     let texts = texts(model);
     let (_, text) = texts.iter().find(|(found, _)| found == name).unwrap();
-    let deflection = if bristles {
-        "block.DEFLECTION.value"
-    } else {
-        "0.0"
-    };
+    let kept = kept(&model.friction, "block.DEFLECTION.value", |k| {
+        format!("(double)block.ELEMENT_{}.value", k + 1)
+    });
     let real = if name.ends_with("_R") {
         "float"
     } else {
@@ -85,7 +77,7 @@ fn compiled(
             },
         )
         .replace("REAL", real)
-        .replace("DEFLECTION }", &format!("{deflection} }}"));
+        .replace("KEPT }", &format!("{kept} }}"));
     compile(matiec, &[text], &driver, dir.path(), "block");
     drive(dir.path(), "block", samples)
 }
@@ -93,8 +85,8 @@ fn compiled(
 #[test]
 fn lreal_agrees() {
     if let Some(matiec) = matiec() {
-        st::lreal("matiec", |model, bristles, samples| {
-            compiled(&matiec, model, "FB_x_axis_Friction", bristles, samples)
+        st::lreal("matiec", |model, samples| {
+            compiled(&matiec, model, "FB_x_axis_Friction", samples)
         });
     }
 }
@@ -102,8 +94,8 @@ fn lreal_agrees() {
 #[test]
 fn real_agrees() {
     if let Some(matiec) = matiec() {
-        st::real("matiec", |model, bristles, samples| {
-            compiled(&matiec, model, "FB_x_axis_Friction_R", bristles, samples)
+        st::real("matiec", |model, samples| {
+            compiled(&matiec, model, "FB_x_axis_Friction_R", samples)
         });
     }
 }

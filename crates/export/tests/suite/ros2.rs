@@ -1,7 +1,7 @@
 //! The class for ROS 2: its self-test, and with parameters that yaml-cpp read from the file beside the compensator with the
 //! same settings. No part of ROS is run.
 
-use crate::common::compiled::{drive, level, run, through_rust, write};
+use crate::common::compiled::{drive, run, through_rust, write};
 use crate::common::{adapting, adversarial, busy, laws, model, models, random};
 use stiction_export::{Target, export};
 use stiction_friction::compensator::Settings;
@@ -130,7 +130,7 @@ fn the_parameters_are_those_of_the_file() {
             assert_eq!(found.len(), due.len(), "{name} {file}");
             for (i, ([force, _], due)) in found.into_iter().zip(due).enumerate() {
                 let allowed =
-                    (4.0 * f64::EPSILON * due.abs().max(level(&friction))).max(1e-12 * due.abs());
+                    (4.0 * f64::EPSILON * due.abs().max(friction.scale())).max(1e-12 * due.abs());
                 assert!(
                     (force - due).abs() <= allowed,
                     "{name} {file} {i}: {force} {due}"

@@ -1,7 +1,7 @@
 //! The Structured Text: parsed by two parsers, its test program run, and executed beside the compensator.
 
 use crate::common;
-use crate::common::compiled::Sample;
+use crate::common::compiled::{Sample, most_stored, stored};
 use crate::common::reserved::is_reserved;
 use crate::common::{
     GUARDED, adapting, adversarial, busy, following, guarded, laws, model, models, random,
@@ -12,7 +12,7 @@ use std::process::Command;
 use stiction_export::{File, Model, Target, export};
 use stiction_friction::compensator::{Adaptation, Compensator, Friction, Input, Settings, Source};
 use stiction_friction::{CoulombViscous, Damping, Direction, LuGre, Shape, Stribeck};
-use stiction_testkit::st::Library;
+use stiction_testkit::st::{Instance, Library};
 
 fn text(files: &[File], name: &str) -> String {
     let file = files
@@ -155,7 +155,7 @@ fn seen(h: f64, input: &Input<f64>, huge: f64) -> (f64, Input<f64>) {
 
 /// A million samples of every kind over all laws, in LREAL: within 1e-12 of the larger of force and static friction.
 /// Deflection within its bound.
-pub fn lreal(what: &str, through: impl Fn(&Model, bool, &[Sample]) -> Vec<[f64; 2]>) {
+pub fn lreal(what: &str, through: impl Fn(&Model, &[Sample]) -> Vec<[f64; 2]>) {
     let mut worst = 0.0_f64;
     let laws = laws();
     let each = 1_000_000 / laws.len() + 1;
@@ -180,17 +180,16 @@ pub fn lreal(what: &str, through: impl Fn(&Model, bool, &[Sample]) -> Vec<[f64; 
         for (settings, samples) in runs {
             model.settings = settings;
             let mut compensator = Compensator::new(friction, Source::Reference, settings).unwrap();
-            let found = through(&model, bristles(&friction).is_some(), &samples);
+            let found = through(&model, &samples);
             assert_eq!(found.len(), samples.len());
             for (i, ((h, input), [force, z])) in samples.iter().zip(found).enumerate() {
                 let (h, input) = seen(*h, input, 1e15);
                 let due = compensator.step_in(h, input);
-                let off = (force - due).abs() / due.abs().max(level(&friction));
+                let off = (force - due).abs() / due.abs().max(friction.scale());
                 worst = worst.max(off);
                 assert!(off <= 1e-12, "{name} {i}: {force} {due} at {h} {input:?}");
-                if let Some(bound) = bristles(&friction) {
-                    assert!(z.abs() <= bound, "{name} {i}");
-                }
+                let most = most_stored(&friction);
+                assert!(stored(&friction, z) <= most * (1.0 + 1e-12), "{name} {i}");
             }
         }
     }
@@ -199,13 +198,13 @@ pub fn lreal(what: &str, through: impl Fn(&Model, bool, &[Sample]) -> Vec<[f64; 
 
 #[test]
 fn lreal_agrees() {
-    lreal("interpreter", |model, bristles, samples| {
-        interpreted(model, "FB_x_axis_Friction", bristles, samples)
+    lreal("interpreter", |model, samples| {
+        interpreted(model, "FB_x_axis_Friction", samples)
     });
 }
 
 /// Force and deflection, where there is one, of a block in the interpreter.
-fn interpreted(model: &Model, name: &str, bristles: bool, samples: &[Sample]) -> Vec<[f64; 2]> {
+fn interpreted(model: &Model, name: &str, samples: &[Sample]) -> Vec<[f64; 2]> {
     let mut block = library(model).instance(name);
     let inputs = [
         "cycle_time",
@@ -217,7 +216,7 @@ fn interpreted(model: &Model, name: &str, bristles: bool, samples: &[Sample]) ->
     let adapts = model.settings.adaptation.is_some();
     let drive = adapts.then(|| ["drive_force", "learn"].map(|n| block.slot(n)));
     let force = block.slot("force");
-    let z = bristles.then(|| block.slot("deflection"));
+    let kept = Kept::of(&model.friction, &block);
     let step = |(h, input): &Sample| {
         let enable = f64::from(u8::from(input.enable));
         let values = [*h, input.reference_velocity, input.tracking_error, enable];
@@ -229,30 +228,31 @@ fn interpreted(model: &Model, name: &str, bristles: bool, samples: &[Sample]) ->
             block.set(learn, f64::from(u8::from(input.learn)));
         }
         block.call();
-        [block.get(force), z.map_or(0.0, |z| block.get(z))]
+        [block.get(force), kept.value(&block)]
     };
     samples.iter().map(step).collect()
 }
 
 #[test]
 fn the_text_is_passive() {
-    common::compiled::passive(1e-12, |model, _, samples| {
+    common::compiled::passive(1e-12, |model, samples| {
         let library = library(model);
         let mut block = library.instance("FB_x_axis_Friction");
-        let names = ["reference_velocity", "enable", "force", "deflection"];
-        let [velocity, enable, force, z] = names.map(|n| block.slot(n));
+        let names = ["reference_velocity", "enable", "force"];
+        let [velocity, enable, force] = names.map(|n| block.slot(n));
+        let kept = Kept::of(&model.friction, &block);
         block.set(enable, 1.0);
         let step = |(_, input): &Sample| {
             block.set(velocity, input.reference_velocity);
             block.call();
-            [block.get(force), block.get(z)]
+            [block.get(force), kept.value(&block)]
         };
         samples.iter().map(step).collect()
     });
 }
 
 /// REAL against the compensator in single precision, on motions as they are.
-pub fn real(what: &str, through: impl Fn(&Model, bool, &[Sample]) -> Vec<[f64; 2]>) {
+pub fn real(what: &str, through: impl Fn(&Model, &[Sample]) -> Vec<[f64; 2]>) {
     let mut worst = 0.0_f64;
     for (seed, (name, friction)) in laws().into_iter().enumerate() {
         let mut model = model(friction);
@@ -266,15 +266,7 @@ pub fn real(what: &str, through: impl Fn(&Model, bool, &[Sample]) -> Vec<[f64; 2
             watchdog: None,
             ..Settings::new(1e-3, 33.0)
         };
-        let to = |x: [f64; 2]| x.map(|x| x as f32);
-        let law: Friction<f32> = match &friction {
-            Friction::Coulomb(law) => Friction::Coulomb(
-                CoulombViscous::new(to(law.coulomb()), to(law.viscous()), law.offset() as f32)
-                    .unwrap(),
-            ),
-            Friction::Stribeck(curve) => Friction::Stribeck(curve.cast().unwrap()),
-            Friction::LuGre(law) => Friction::LuGre(law.cast().unwrap()),
-        };
+        let law = friction.cast::<f32>().unwrap();
         let follows = Settings {
             adaptation: Some(Adaptation {
                 mass: 4.6,
@@ -301,7 +293,7 @@ pub fn real(what: &str, through: impl Fn(&Model, bool, &[Sample]) -> Vec<[f64; 2
                 }
             }
             let mut compensator = Compensator::new(law, Source::Reference, small).unwrap();
-            let found = through(&model, bristles(&friction).is_some(), &samples);
+            let found = through(&model, &samples);
             assert_eq!(found.len(), samples.len());
             for (i, ((h, input), [force, _])) in samples.iter().zip(found).enumerate() {
                 let (h, input) = seen(*h, input, 1e12);
@@ -315,7 +307,7 @@ pub fn real(what: &str, through: impl Fn(&Model, bool, &[Sample]) -> Vec<[f64; 2
                     ..Input::default()
                 };
                 let due = f64::from(compensator.step_in(h as f32, input));
-                let off = (force - due).abs() / level(&friction);
+                let off = (force - due).abs() / friction.scale();
                 worst = worst.max(off);
                 assert!(off <= 2e-6, "{name} {i}: {force} {due} at {h} {input:?}");
             }
@@ -326,23 +318,38 @@ pub fn real(what: &str, through: impl Fn(&Model, bool, &[Sample]) -> Vec<[f64; 2
 
 #[test]
 fn real_agrees() {
-    real("interpreter", |model, bristles, samples| {
-        interpreted(model, "FB_x_axis_Friction_R", bristles, samples)
+    real("interpreter", |model, samples| {
+        interpreted(model, "FB_x_axis_Friction_R", samples)
     });
 }
 
-fn bristles(friction: &Friction<f64>) -> Option<f64> {
-    match friction {
-        Friction::LuGre(law) => Some(law.bound()),
-        _ => None,
-    }
+/// The deflection of a bristle, or the energy of elements, in the interpreter.
+struct Kept {
+    deflection: Option<usize>,
+    /// With their stiffness.
+    elements: Vec<(usize, f64)>,
 }
 
-fn level(friction: &Friction<f64>) -> f64 {
-    match friction {
-        Friction::Coulomb(law) => law.coulomb()[0].max(law.coulomb()[1]),
-        Friction::Stribeck(curve) => curve.largest_static_level(),
-        Friction::LuGre(law) => law.curve().largest_static_level(),
+impl Kept {
+    fn of(friction: &Friction<f64>, block: &Instance) -> Self {
+        let elements = match friction {
+            Friction::Gms(law) => law.elements(),
+            _ => &[],
+        };
+        let elements = elements.iter().enumerate();
+        let elements =
+            elements.map(|(k, e)| (block.slot(&format!("element_{}", k + 1)), e.stiffness));
+        Kept {
+            deflection: friction.bristle().map(|_| block.slot("deflection")),
+            elements: elements.collect(),
+        }
+    }
+
+    fn value(&self, block: &Instance) -> f64 {
+        let energy =
+            |&(slot, stiffness): &(usize, f64)| block.get(slot).powi(2) / (2.0 * stiffness);
+        self.deflection
+            .map_or_else(|| self.elements.iter().map(energy).sum(), |z| block.get(z))
     }
 }
 

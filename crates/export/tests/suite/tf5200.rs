@@ -29,8 +29,7 @@ fn stated(text: &str, words: &str) -> f64 {
 fn steady(friction: &Friction<f64>, v: f64) -> f64 {
     match friction {
         Friction::Coulomb(law) => law.force(v),
-        Friction::Stribeck(curve) => curve.force(v),
-        Friction::LuGre(law) => law.curve().force(v),
+        law => law.curve().unwrap().force(v),
     }
 }
 

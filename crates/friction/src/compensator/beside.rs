@@ -3,8 +3,9 @@
 use super::friction::Friction;
 use super::input::Input;
 use super::settings::Settings;
+use super::state::LawState;
 use super::terms::{Place, Terms, sum};
-use crate::{Real, State};
+use crate::Real;
 
 /// What is known of the forces beside the law.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -127,7 +128,7 @@ impl<T: Real> Terms<T> {
         &self,
         beside: &mut Beside<T>,
         friction: &Friction<T>,
-        (law, v): (&State<T>, T),
+        (law, v): (&LawState<T>, T),
         acceleration: T,
     ) {
         if let Some(levels) = &self.levels {

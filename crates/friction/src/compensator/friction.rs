@@ -1,9 +1,13 @@
 //! The law of a compensator, and the velocity that drives it.
 
 use super::input::Input;
+use super::state::LawState;
 use crate::error::require;
 use crate::record::one_plus_ratio;
-use crate::{CoulombViscous, LuGre, ParamError, Real, State, Stribeck};
+use crate::{
+    CoulombViscous, ElastoPlastic, Elements, GmsState, LuGre, MaxwellSlip, ParamError, Real, State,
+    Stribeck,
+};
 
 /// Dead zone of a law that has no velocity of its own, m/s (rad/s).
 const SLOWEST: f64 = 1e-5;
@@ -11,6 +15,8 @@ const SLOWEST: f64 = 1e-5;
 const STANDSTILL: f64 = 0.01;
 /// Largest deflections of the bristles that an axis moves before it slides.
 const SLIDING_LENGTHS: f64 = 4.0;
+/// The same for Maxwell-slip elements, in yield deflections of the last: from slip one way to slip the other.
+const YIELD_LENGTHS: f64 = 2.0;
 /// The same for a law without bristles: the way at its Stribeck velocity in this time, s.
 const SLIDING_TIME: f64 = 1e-2;
 
@@ -23,6 +29,10 @@ pub enum Friction<T> {
     Stribeck(Stribeck<T>),
     /// With bristles: right in presliding too, while the axis reverses.
     LuGre(LuGre<T>),
+    /// With bristles that do not creep below break-away.
+    ElastoPlastic(ElastoPlastic<T>),
+    /// With Maxwell-slip elements: right in reversals inside reversals too.
+    Gms(MaxwellSlip<T>),
 }
 
 /// The velocity that drives the law.
@@ -71,52 +81,87 @@ impl<T: Real> Source<T> {
 }
 
 impl<T: Real> Friction<T> {
-    pub(super) fn rest(&self) -> State<T> {
-        match self {
-            Friction::LuGre(law) => law.rest(),
-            Friction::Coulomb(_) | Friction::Stribeck(_) => State {
-                z: T::ZERO,
-                force: self.offset(),
-            },
+    pub(super) fn rest(&self) -> LawState<T> {
+        LawState {
+            z: T::ZERO,
+            elements: Elements::default(),
+            force: self.offset(),
         }
+    }
+
+    /// The steady curve; `None` for Coulomb and viscous friction, which has none.
+    pub fn curve(&self) -> Option<&Stribeck<T>> {
+        match self {
+            Friction::Coulomb(_) => None,
+            Friction::Stribeck(curve) => Some(curve),
+            Friction::LuGre(law) => Some(law.curve()),
+            Friction::ElastoPlastic(law) => Some(law.bristle().curve()),
+            Friction::Gms(law) => Some(law.curve()),
+        }
+    }
+
+    /// The bristle, with its stiffness and micro-damping, of a law that has one.
+    pub fn bristle(&self) -> Option<&LuGre<T>> {
+        match self {
+            Friction::LuGre(law) => Some(law),
+            Friction::ElastoPlastic(law) => Some(law.bristle()),
+            Friction::Coulomb(_) | Friction::Stribeck(_) | Friction::Gms(_) => None,
+        }
+    }
+
+    /// The same law in another number type.
+    ///
+    /// # Errors
+    /// Where a number does not survive the change.
+    pub fn cast<U: Real>(&self) -> Result<Friction<U>, ParamError> {
+        let to = |x: T| U::from_f64(x.to_f64());
+        Ok(match self {
+            Friction::Coulomb(law) => {
+                let (coulomb, viscous) = (law.coulomb().map(to), law.viscous().map(to));
+                Friction::Coulomb(CoulombViscous::new(coulomb, viscous, to(law.offset()))?)
+            }
+            Friction::Stribeck(curve) => Friction::Stribeck(curve.cast()?),
+            Friction::LuGre(law) => Friction::LuGre(law.cast()?),
+            Friction::ElastoPlastic(law) => Friction::ElastoPlastic(law.cast()?),
+            Friction::Gms(law) => Friction::Gms(law.cast()?),
+        })
     }
 
     /// Constant force beside friction, N (N m).
     pub fn offset(&self) -> T {
         match self {
             Friction::Coulomb(law) => law.offset(),
-            Friction::Stribeck(curve) => curve.offset(),
-            Friction::LuGre(law) => law.curve().offset(),
+            _ => self.curve().map_or(T::ZERO, Stribeck::offset),
         }
     }
 
     /// Coulomb levels forward and back, N (N m).
-    pub(super) fn coulomb(&self) -> [T; 2] {
+    pub fn coulomb(&self) -> [T; 2] {
         let of = |curve: &Stribeck<T>| [curve.positive().coulomb, curve.negative().coulomb];
         match self {
             Friction::Coulomb(law) => law.coulomb(),
-            Friction::Stribeck(curve) => of(curve),
-            Friction::LuGre(law) => of(law.curve()),
+            _ => self.curve().map_or([T::ZERO; 2], of),
         }
     }
 
     /// Viscous coefficients forward and back, N s/m (N m s/rad).
     #[inline]
-    pub(super) fn viscous(&self) -> [T; 2] {
+    pub fn viscous(&self) -> [T; 2] {
         let of = |curve: &Stribeck<T>| [curve.positive().viscous, curve.negative().viscous];
         match self {
             Friction::Coulomb(law) => law.viscous(),
-            Friction::Stribeck(curve) => of(curve),
-            Friction::LuGre(law) => of(law.curve()),
+            _ => self.curve().map_or([T::ZERO; 2], of),
         }
     }
 
     /// The part of the force that changes with the level, N (N m): that of the bristles' deflection, or of a law without them
     /// what is neither viscous nor offset, at the velocity `v`.
     #[inline]
-    pub(super) fn dry(&self, state: &State<T>, v: T) -> T {
+    pub(super) fn dry(&self, state: &LawState<T>, v: T) -> T {
         match self {
             Friction::LuGre(law) => law.stiffness() * state.z,
+            Friction::ElastoPlastic(law) => law.bristle().stiffness() * state.z,
+            Friction::Gms(law) => law.total(&state.elements),
             Friction::Coulomb(_) | Friction::Stribeck(_) => {
                 let side = usize::from(v < T::ZERO);
                 (state.force - self.offset()) - self.viscous()[side] * v
@@ -125,11 +170,21 @@ impl<T: Real> Friction<T> {
     }
 
     /// Largest level at standstill, N (N m).
-    pub(super) fn scale(&self) -> T {
+    pub fn scale(&self) -> T {
         match self {
             Friction::Coulomb(law) => law.coulomb()[0].max(law.coulomb()[1]),
-            Friction::Stribeck(curve) => curve.largest_static_level(),
-            Friction::LuGre(law) => law.curve().largest_static_level(),
+            _ => self.curve().map_or(T::ZERO, Stribeck::largest_static_level),
+        }
+    }
+
+    /// The way from rest within which the law is still bending, m (rad): the largest deflection of a bristle, the yield
+    /// deflection of the last element; `None` for a law without them.
+    pub fn presliding(&self) -> Option<T> {
+        match self {
+            Friction::LuGre(law) => Some(law.bound()),
+            Friction::ElastoPlastic(law) => Some(law.bound()),
+            Friction::Gms(law) => Some(law.longest_yield()),
+            Friction::Coulomb(_) | Friction::Stribeck(_) => None,
         }
     }
 
@@ -142,22 +197,22 @@ impl<T: Real> Friction<T> {
                 T::from_f64(SLIDING_TIME) * pos.stribeck_velocity.max(neg.stribeck_velocity)
             }
             Friction::LuGre(law) => T::from_f64(SLIDING_LENGTHS) * law.bound(),
+            Friction::ElastoPlastic(law) => T::from_f64(SLIDING_LENGTHS) * law.bound(),
+            Friction::Gms(law) => T::from_f64(YIELD_LENGTHS) * law.longest_yield(),
         }
     }
 
     /// Which direction of motion friction opposes: 1 forward, -1 back, and between them while bristles turn round.
-    pub(super) fn side(&self, state: &State<T>) -> T {
+    pub(super) fn side(&self, state: &LawState<T>) -> T {
+        let [forward, back] = self.coulomb();
+        let of = |bend: T, stiffness: T| {
+            let slides = if bend > T::ZERO { forward } else { back };
+            (stiffness * (bend / slides)).max(-T::ONE).min(T::ONE)
+        };
         match self {
-            Friction::LuGre(law) => {
-                let curve = law.curve();
-                let slides = match state.z > T::ZERO {
-                    true => curve.positive().coulomb,
-                    false => curve.negative().coulomb,
-                };
-                (law.stiffness() * (state.z / slides))
-                    .max(-T::ONE)
-                    .min(T::ONE)
-            }
+            Friction::LuGre(law) => of(state.z, law.stiffness()),
+            Friction::ElastoPlastic(law) => of(state.z, law.bristle().stiffness()),
+            Friction::Gms(law) => of(law.total(&state.elements), T::ONE),
             Friction::Coulomb(_) | Friction::Stribeck(_) => {
                 let dry = state.force - self.offset();
                 if dry > T::ZERO {
@@ -185,19 +240,23 @@ impl<T: Real> Friction<T> {
                 let least = pos.stribeck_velocity.min(neg.stribeck_velocity);
                 T::from_f64(STANDSTILL) * least
             }
-            Friction::LuGre(_) => T::ZERO,
+            Friction::LuGre(_) | Friction::ElastoPlastic(_) | Friction::Gms(_) => T::ZERO,
         }
     }
 
     /// Advances the law by `h` seconds at the velocity `v`.
     #[inline]
-    pub(super) fn step(&self, state: &mut State<T>, h: T, v: T) {
+    pub(super) fn step(&self, state: &mut LawState<T>, h: T, v: T) {
         match self {
             Friction::Coulomb(law) => state.force = finite_or(law.force(v), state.force),
             Friction::Stribeck(curve) => state.force = finite_or(curve.force(v), state.force),
             Friction::LuGre(law) => {
-                law.step(state, h, v);
+                let mut bristle = state.bristle();
+                law.step(&mut bristle, h, v);
+                state.bend(bristle);
             }
+            Friction::ElastoPlastic(law) => step_elasto_plastic(law, state, h, v),
+            Friction::Gms(law) => step_gms(law, state, h, v),
         }
     }
 
@@ -223,6 +282,42 @@ impl<T: Real> Friction<T> {
         *c = next;
         force
     }
+}
+
+impl<T: Real> LawState<T> {
+    #[inline]
+    fn bristle(&self) -> State<T> {
+        State {
+            z: self.z,
+            force: self.force,
+        }
+    }
+
+    #[inline]
+    fn bend(&mut self, State { z, force }: State<T>) {
+        self.z = z;
+        self.force = force;
+    }
+}
+
+/// A function of its own, so that it does not slow down the step of the other laws.
+#[inline(never)]
+fn step_elasto_plastic<T: Real>(law: &ElastoPlastic<T>, state: &mut LawState<T>, h: T, v: T) {
+    let mut bristle = state.bristle();
+    law.step(&mut bristle, h, v);
+    state.bend(bristle);
+}
+
+/// As [`step_elasto_plastic`].
+#[inline(never)]
+fn step_gms<T: Real>(law: &MaxwellSlip<T>, state: &mut LawState<T>, h: T, v: T) {
+    let mut own = GmsState {
+        elements: state.elements,
+        force: state.force,
+    };
+    law.step(&mut own, h, v);
+    state.elements = own.elements;
+    state.force = own.force;
 }
 
 fn finite_or<T: Real>(value: T, other: T) -> T {

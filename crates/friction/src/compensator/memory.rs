@@ -109,16 +109,11 @@ impl<T: Real> Compensator<T> {
     pub fn key(&self) -> u32 {
         let mut hash = Hash::new();
         hash.add(VERSION);
-        let curve = match &self.friction {
-            Friction::Coulomb(law) => {
-                hash.numbers(law.coulomb());
-                hash.numbers(law.viscous());
-                None
-            }
-            Friction::Stribeck(curve) => Some(curve),
-            Friction::LuGre(law) => Some(law.curve()),
-        };
-        if let Some(curve) = curve {
+        if let Friction::Coulomb(law) = &self.friction {
+            hash.numbers(law.coulomb());
+            hash.numbers(law.viscous());
+        }
+        if let Some(curve) = self.friction.curve() {
             for side in [curve.positive(), curve.negative()] {
                 hash.numbers([side.coulomb, side.static_friction]);
                 hash.numbers([side.stribeck_velocity, side.viscous]);
@@ -131,8 +126,18 @@ impl<T: Real> Compensator<T> {
             };
             hash.numbers([exponent]);
         }
-        if let Friction::LuGre(law) = &self.friction {
+        if let Some(law) = self.friction.bristle() {
             hash.numbers([law.stiffness(), law.damping().at_rest()]);
+        }
+        match &self.friction {
+            Friction::ElastoPlastic(law) => hash.numbers([law.breakaway()]),
+            Friction::Gms(law) => {
+                hash.numbers([law.attraction()]);
+                for element in law.elements() {
+                    hash.numbers([element.stiffness, element.share]);
+                }
+            }
+            Friction::Coulomb(_) | Friction::Stribeck(_) | Friction::LuGre(_) => {}
         }
         let mass = self.settings.adaptation.map_or(T::ZERO, |a| a.mass);
         hash.numbers([self.friction.offset(), mass]);

@@ -4,13 +4,13 @@ use super::adaptation::Learnt;
 use super::beside::Beside;
 use super::friction::Friction;
 use super::watchdog::Watch;
-use crate::Real;
+use crate::{Elements, MOST_ELEMENTS, Real};
 
 /// The state of a running compensator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<T> {
-    /// The law's state; only `force` is used by laws without memory.
-    pub law: crate::State<T>,
+    /// The law's state.
+    pub law: LawState<T>,
     /// Correction of the bristles by an observer, m (rad), beside the law's own deflection.
     pub correction: T,
     /// The force of that correction, N (N m).
@@ -27,6 +27,17 @@ pub struct State<T> {
     pub watch: Watch<T>,
     /// The force last returned, N (N m).
     pub output: T,
+}
+
+/// The state of a law, whichever it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LawState<T> {
+    /// Bristle deflection, m (rad); 0 for a law without one.
+    pub z: T,
+    /// Maxwell-slip elements; at rest for a law without them.
+    pub elements: Elements<T, MOST_ELEMENTS>,
+    /// The law's force, N (N m).
+    pub force: T,
 }
 
 impl<T: Real> State<T> {

@@ -1,7 +1,7 @@
 //! The step that runs on the drive, and what a simulation needs.
 
-use super::{Elements, Gms};
-use crate::Real;
+use super::{Element, Elements, Gms};
+use crate::{Real, Stribeck};
 
 /// What a running GMS law remembers between samples. Start from [`Gms::rest`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,6 +10,61 @@ pub struct GmsState<T, const N: usize> {
     pub elements: Elements<T, N>,
     /// The force last returned, N (N m).
     pub force: T,
+}
+
+/// A stretch of time at a held velocity.
+pub(super) struct Way<T> {
+    /// Its length, s.
+    pub h: T,
+    /// m/s (rad/s)
+    pub v: T,
+    /// Attraction C, N/s (N m/s).
+    pub attraction: T,
+    /// Whether an element that slips is loaded no faster than one that sticks.
+    pub passive: bool,
+}
+
+/// Elements after a stretch of time at a held velocity, exactly; all slip with the same exponential.
+pub(super) fn hold<T: Real, const N: usize>(
+    elements: &[Element<T>],
+    curve: &Stribeck<T>,
+    way: &Way<T>,
+    at: &mut Elements<T, N>,
+) {
+    let &Way { h, v, .. } = way;
+    if h <= T::ZERO {
+        return;
+    }
+    let forward = v > T::ZERO;
+    if v == T::ZERO || at.forward != forward {
+        at.slips = [false; N];
+    }
+    if v == T::ZERO {
+        return;
+    }
+    at.forward = forward;
+    let g = curve.level(v);
+    let path = h * v.abs();
+    let e = (-(h * (way.attraction / g))).expm1();
+    let each = at.force.iter_mut().zip(&mut at.slips).zip(elements);
+    for ((force, slips), element) in each {
+        let along = if forward { *force } else { -*force };
+        let limit = element.share * g;
+        let stuck = along + element.stiffness * path;
+        let mut end = stuck;
+        if *slips || along >= limit {
+            // It may begin beyond its limit: where the limit has fallen, or where the other direction has the higher level.
+            *slips = true;
+            end = along + (along - limit) * e;
+            if way.passive {
+                end = end.min(stuck);
+            }
+        } else if stuck >= limit {
+            *slips = true;
+            end = limit;
+        }
+        *force = if forward { end } else { -end };
+    }
 }
 
 impl<T: Real, const N: usize> Gms<T, N> {
@@ -26,7 +81,15 @@ impl<T: Real, const N: usize> Gms<T, N> {
     ///
     /// `h <= 0` leaves the elements as they are, within that bound.
     pub fn step_held(&self, from: Elements<T, N>, h: T, v: T) -> Elements<T, N> {
-        self.clamp(self.step_record(from, h, v, v))
+        let mut to = from;
+        let way = Way {
+            h,
+            v,
+            attraction: self.attraction,
+            passive: false,
+        };
+        hold(&self.elements, &self.curve, &way, &mut to);
+        self.clamp(to)
     }
 
     /// [`step_held`](Self::step_held) without the clamp, as the sum of the spring forces and its derivative with respect

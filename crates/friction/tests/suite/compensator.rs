@@ -6,7 +6,7 @@ use stiction_friction::compensator::{
     Adaptation, Compensator, DisturbanceObserver, DisturbanceState, Friction, Input, Settings,
     Source, Watchdog,
 };
-use stiction_friction::{CoulombViscous, Damping, LuGre};
+use stiction_friction::{CoulombViscous, Damping, ElastoPlastic, Element, LuGre, MaxwellSlip};
 
 const H: f64 = 250e-6;
 
@@ -23,6 +23,25 @@ fn moving(velocity: f64) -> Input<f64> {
 fn bare(law: LuGre<f64>, source: Source<f64>) -> Compensator<f64> {
     let settings = Settings::bare(H, 1e12);
     Compensator::new(Friction::LuGre(law), source, settings).unwrap()
+}
+
+/// Every law, from a LuGre law.
+fn every_law(law: LuGre<f64>) -> [Friction<f64>; 5] {
+    let curve = *law.curve();
+    let sides = [curve.positive(), curve.negative()];
+    let [coulomb, viscous] = [sides.map(|s| s.coulomb), sides.map(|s| s.viscous)];
+    let part = |k: f64, share: f64| Element {
+        stiffness: k * law.stiffness(),
+        share,
+    };
+    let elements = [part(0.6, 0.3), part(0.3, 0.3), part(0.1, 0.4)];
+    [
+        Friction::LuGre(law),
+        Friction::ElastoPlastic(ElastoPlastic::new(law, 0.7).unwrap()),
+        Friction::Gms(MaxwellSlip::new(&elements, 50.0 * sides[0].coulomb, curve).unwrap()),
+        Friction::Stribeck(curve),
+        Friction::Coulomb(CoulombViscous::new(coulomb, viscous, curve.offset()).unwrap()),
+    ]
 }
 
 fn any_source() -> impl Strategy<Value = Source<f64>> {
@@ -67,12 +86,18 @@ proptest! {
     #[test]
     fn limits_hold_whatever_comes_in(
         law in any_law(),
+        which in 0..5usize,
         source in any_source(),
         settings in any_settings(),
         samples in prop::collection::vec(
             (any::<f64>(), any::<f64>(), any::<f64>(), any::<f64>(), any::<f64>(), any::<bool>(), any::<bool>()), 1..60),
     ) {
-        let mut compensator = Compensator::new(Friction::LuGre(law), source, settings).unwrap();
+        let friction = every_law(law)[which];
+        let source = match source {
+            Source::Observer(_) if which > 0 => Source::Measured,
+            source => source,
+        };
+        let mut compensator = Compensator::new(friction, source, settings).unwrap();
         let mut last = 0.0;
         for (h, v, w, e, u, enable, usual) in samples {
             let (h, v, w, e) = if usual { (settings.cycle_time, v % 1.0, w % 1.0, e % 1e-3) } else { (h, v, w, e) };
@@ -81,11 +106,14 @@ proptest! {
             prop_assert!(force.is_finite() && force.abs() <= settings.limit);
             let most = if h.is_finite() && h >= 0.0 { h * settings.slew } else { 0.0 };
             prop_assert!((force - last).abs() <= most * (1.0 + 1e-12) + 1e-12 * settings.limit);
-            prop_assert!(compensator.state().law.z.abs() <= law.bound() * (1.0 + 1e-12));
+            let state = compensator.state();
+            prop_assert!(state.law.z.abs() <= law.bound() * (1.0 + 1e-12));
+            let elements = state.law.elements.force.iter().map(|f| f.abs()).sum::<f64>();
+            prop_assert!(elements <= friction.scale() * (1.0 + 1e-12));
             last = force;
         }
         compensator.reset();
-        prop_assert_eq!(compensator, Compensator::new(Friction::LuGre(law), source, settings).unwrap());
+        prop_assert_eq!(compensator, Compensator::new(friction, source, settings).unwrap());
     }
 
     /// With nothing to hold it back the force is the law's, bit for bit.
@@ -96,6 +124,25 @@ proptest! {
             let mut state = law.rest();
             for &v in &motion {
                 prop_assert_eq!(compensator.step(moving(v)), law.step(&mut state, H, v));
+            }
+        }
+    }
+
+    /// The same for the laws that creep less and remember more.
+    #[test]
+    fn bare_is_every_law(law in any_law(), motion in motion()) {
+        for friction in every_law(law) {
+            let mut compensator = Compensator::new(friction, Source::Reference, Settings::bare(H, 1e12)).unwrap();
+            let (mut bristle, mut elements) = (law.rest(), None);
+            for &v in &motion {
+                let due = match &friction {
+                    Friction::LuGre(law) => law.step(&mut bristle, H, v),
+                    Friction::ElastoPlastic(law) => law.step(&mut bristle, H, v),
+                    Friction::Gms(law) => law.step(elements.get_or_insert(law.rest()), H, v),
+                    Friction::Stribeck(curve) => curve.force(v),
+                    Friction::Coulomb(law) => law.force(v),
+                };
+                prop_assert_eq!(compensator.step(moving(v)), due);
             }
         }
     }

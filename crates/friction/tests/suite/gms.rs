@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use proptest::prelude::*;
-use stiction_friction::{Damping, Element, Elements, Gms, GmsState, Shape, Stribeck};
+use stiction_friction::{Damping, Element, Elements, Gms, GmsState, MaxwellSlip, Shape, Stribeck};
 
 const TAU: f64 = 2.0 * std::f64::consts::PI;
 
@@ -217,6 +217,27 @@ fn sliding_settles_on_the_steady_curve() {
 }
 
 #[test]
+fn a_law_of_counted_elements_is_that_of_its_number() {
+    let law = three(400.0);
+    let counted = MaxwellSlip::new(law.elements(), law.attraction(), *law.curve()).unwrap();
+    assert_eq!(counted.elements().len(), 3);
+    assert_eq!(counted.gms::<3>().unwrap().curve(), law.curve());
+    assert!(counted.gms::<2>().is_none());
+    let none: [Element<f64>; 0] = [];
+    let many = [law.elements()[0]; 11];
+    for wrong in [&none[..], &many[..]] {
+        let refused = MaxwellSlip::new(wrong, 1.0, *law.curve()).unwrap_err();
+        assert_eq!((refused.name, refused.allowed), ("elements", "1 to 10"));
+    }
+    // The last slips where its share of the level is reached.
+    let last = law
+        .elements()
+        .iter()
+        .map(|e| e.share * law.bound() / e.stiffness);
+    assert_eq!(counted.longest_yield(), last.fold(0.0, f64::max));
+}
+
+#[test]
 fn slope_of_the_held_step_matches_differences() {
     let law = three(400.0);
     let mut at = Elements::default();
@@ -407,6 +428,62 @@ proptest! {
             let lost = force * v * h - (stored(&state.elements) - before);
             let scale = force.abs() * v.abs() * h + before + stored(&state.elements);
             prop_assert!(lost >= -1e-12 * scale, "{lost} J of {scale}");
+        }
+    }
+
+    /// A compensator's elements give back no energy, with any curve, attraction and motion, and are those of the law wherever it
+    /// loads none of them without motion.
+    #[test]
+    fn elements_of_a_compensator_are_passive(
+        law in any_gms(),
+        h in 1e-6..1e-2,
+        motion in prop::collection::vec((-7.0..1.0_f64, any::<bool>()), 2..60),
+    ) {
+        let passive = MaxwellSlip::new(law.elements(), law.attraction(), *law.curve()).unwrap();
+        // Made once of shares whose sum is 1 to rounding.
+        let law = passive.gms::<4>().unwrap();
+        let stored = |force: &[f64]| force.iter().zip(law.elements())
+            .map(|(f, e)| 0.5 * f * f / e.stiffness).sum::<f64>();
+        let mut state = passive.rest();
+        for (e, up) in motion {
+            let v = if up { 10f64.powf(e) } else { -10f64.powf(e) };
+            let before = state.elements;
+            let held = law.step_held(
+                Elements { force: before.force[..4].try_into().unwrap(), slips: before.slips[..4].try_into().unwrap(), forward: before.forward },
+                h,
+                v,
+            );
+            let force = passive.step(&mut state, h, v) - law.curve().offset();
+            let after = &state.elements;
+            for (i, element) in law.elements().iter().enumerate() {
+                let most = element.stiffness * h * v.abs();
+                let loaded = v.signum() * (held.force[i] - before.force[i]);
+                let due = if loaded > most { before.force[i] + v.signum() * most } else { held.force[i] };
+                prop_assert!((after.force[i] - due).abs() <= 1e-12 * law.bound());
+            }
+            let [stored_before, stored_after] = [stored(&before.force[..4]), stored(&after.force[..4])];
+            let lost = force * v * h - (stored_after - stored_before);
+            let scale = force.abs() * v.abs() * h + stored_before + stored_after + (law.curve().offset() * v * h).abs();
+            prop_assert!(lost >= -1e-12 * scale, "{lost} J of {scale}");
+        }
+    }
+
+    #[test]
+    fn a_compensator_is_finite_whatever_comes_in(
+        law in any_gms(),
+        force in prop::array::uniform10(any::<f64>()),
+        slips: [bool; 10],
+        forward: bool,
+        last in any::<f64>(),
+        samples in prop::collection::vec((any::<f64>(), any::<f64>()), 1..20),
+    ) {
+        let law = MaxwellSlip::new(law.elements(), law.attraction(), *law.curve()).unwrap();
+        let mut state = GmsState { elements: Elements { force, slips, forward }, force: last };
+        for (h, v) in samples {
+            let out = law.step(&mut state, h, v);
+            prop_assert!(out.is_finite() && out == state.force);
+            prop_assert!(state.elements.force.iter().zip(law.elements())
+                .all(|(f, e)| f.abs() <= e.share * law.bound() * (1.0 + 1e-12)));
         }
     }
 }

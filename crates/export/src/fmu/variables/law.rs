@@ -2,18 +2,31 @@
 
 use super::{Role, Unit, Variable};
 use stiction_friction::compensator::Friction;
-use stiction_friction::{Shape, Stribeck};
+use stiction_friction::{LuGre, Shape, Stribeck};
 
 /// What the law remembers between two samples beside its force.
 pub(super) fn state(friction: &Friction<f64>) -> Vec<Variable> {
     match friction {
-        Friction::LuGre(_) => vec![Variable::number(
+        Friction::LuGre(_) | Friction::ElastoPlastic(_) => vec![Variable::number(
             "deflection",
             Role::Local,
             (0.0, Unit::Length),
             "law.deflection",
             "of the bristles",
         )],
+        Friction::Gms(law) => {
+            let elements = 0..law.elements().len();
+            let list = elements.map(|k| {
+                Variable::number(
+                    format!("element_{}", k + 1),
+                    Role::Local,
+                    (0.0, Unit::Force),
+                    format!("law.element_force[{k}]"),
+                    "force of a Maxwell-slip element",
+                )
+            });
+            list.collect()
+        }
         Friction::Coulomb(_) | Friction::Stribeck(_) => vec![],
     }
 }
@@ -32,17 +45,57 @@ pub(super) fn parameters(friction: &Friction<f64>) -> Vec<Variable> {
             sides.into_iter().flatten().collect()
         }
         Friction::Stribeck(steady) => curve(steady),
-        Friction::LuGre(law) => {
-            let stiffness = (law.stiffness(), Unit::Stiffness);
-            let damping = (law.damping().at_rest(), Unit::Damping);
-            let mut list = vec![
-                parameter("sigma0", stiffness, "stiffness of the bristles"),
-                parameter("sigma1", damping, "micro-damping at rest"),
-            ];
-            list.extend(curve(law.curve()));
+        Friction::LuGre(law) => bristle(law),
+        Friction::ElastoPlastic(law) => {
+            let mut list = bristle(law.bristle());
+            let about = "deflection up to which bristles are elastic, over the steady one, above 0 and below 1";
+            list.push(Variable::number(
+                "breakaway_ratio",
+                Role::Fixed,
+                (law.breakaway(), Unit::One),
+                "params.breakaway",
+                about,
+            ));
+            list
+        }
+        Friction::Gms(law) => {
+            let mut list = curve(law.curve());
+            for (k, element) in law.elements().iter().enumerate() {
+                let stiffness = (element.stiffness, Unit::Stiffness);
+                let share = (element.share, Unit::One);
+                for (name, value, about) in [
+                    ("stiffness", stiffness, "of a Maxwell-slip element"),
+                    ("share", share, "of the level that it takes; the sum is 1"),
+                ] {
+                    list.push(Variable::number(
+                        format!("{name}_{}", k + 1),
+                        Role::Fixed,
+                        value,
+                        format!("params.element_{name}[{k}]"),
+                        about,
+                    ));
+                }
+            }
+            if law.attraction().is_finite() {
+                let rate = (law.attraction(), Unit::Slew);
+                let about = "rate at which elements that slip approach the level";
+                list.push(parameter("attraction", rate, about));
+            }
             list
         }
     }
+}
+
+/// The parameters of a bristle.
+fn bristle(law: &LuGre<f64>) -> Vec<Variable> {
+    let stiffness = (law.stiffness(), Unit::Stiffness);
+    let damping = (law.damping().at_rest(), Unit::Damping);
+    let mut list = vec![
+        parameter("sigma0", stiffness, "stiffness of the bristles"),
+        parameter("sigma1", damping, "micro-damping at rest"),
+    ];
+    list.extend(curve(law.curve()));
+    list
 }
 
 /// A direction of motion, as names have it and as the C text does.

@@ -5,10 +5,10 @@ use std::io::{Read, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use stiction_export::{File, Model};
+use stiction_friction::Real;
 use stiction_friction::compensator::{
     Adaptation, Compensator, Friction, Input, Settings, Source, Watchdog,
 };
-use stiction_friction::{CoulombViscous, Real};
 
 /// Time since the sample before, s, and what comes in.
 pub type Sample = (f64, Input<f64>);
@@ -44,7 +44,7 @@ pub fn gcc(flags: &str, rest: &[&str], dir: &Path) {
 }
 
 /// What a compiled program gives that reads `h, velocity, error, enable, drive force, learn` as doubles and writes force and
-/// deflection.
+/// what is [`kept`].
 pub fn drive(dir: &Path, program: &str, samples: &[Sample]) -> Vec<[f64; 2]> {
     let bytes: Vec<u8> = samples
         .iter()
@@ -78,11 +78,45 @@ pub fn drive(dir: &Path, program: &str, samples: &[Sample]) -> Vec<[f64; 2]> {
         .collect()
 }
 
-pub fn level(friction: &Friction<f64>) -> f64 {
+/// What a driver reads beside the force, in its language: the deflection of a bristle, or the energy of elements; `element` is given the number of an element, from 0.
+pub fn kept(
+    friction: &Friction<f64>,
+    deflection: &str,
+    element: impl Fn(usize) -> String,
+) -> String {
     match friction {
-        Friction::Coulomb(law) => law.coulomb()[0].max(law.coulomb()[1]),
-        Friction::Stribeck(curve) => curve.largest_static_level(),
-        Friction::LuGre(law) => law.curve().largest_static_level(),
+        Friction::Gms(law) => {
+            let elements = law.elements().iter().enumerate();
+            let energies = elements.map(|(k, e)| {
+                let force = element(k);
+                format!("{force} * {force} / (2.0 * {:?})", e.stiffness)
+            });
+            energies.collect::<Vec<_>>().join(" + ")
+        }
+        law if law.bristle().is_some() => deflection.into(),
+        _ => "0.0".into(),
+    }
+}
+
+/// The energy that a law stores, from what was kept.
+pub fn stored(friction: &Friction<f64>, kept: f64) -> f64 {
+    match friction.bristle() {
+        Some(law) => 0.5 * law.stiffness() * kept * kept,
+        None => kept,
+    }
+}
+
+/// The most that it can store.
+pub fn most_stored(friction: &Friction<f64>) -> f64 {
+    match friction {
+        Friction::Gms(law) => {
+            let each = law.elements().iter();
+            let each = each.map(|e| (e.share * law.bound()).powi(2) / (2.0 * e.stiffness));
+            each.sum()
+        }
+        law => law
+            .bristle()
+            .map_or(0.0, |law| stored(friction, law.bound())),
     }
 }
 
@@ -111,12 +145,12 @@ pub fn through_rust<T: Real>(
 }
 
 /// A million samples of every kind over all laws, through code in double precision and through the compensator: within 4
-/// units in the last place of the larger of force and static friction, or 1e-12 of the force; deflection within its
-/// bound. `prepare` takes out of the samples what the target has no form for; `through` is told whether the law has bristles.
+/// units in the last place of the larger of force and static friction, or 1e-12 of the force; what is stored within its
+/// bound. `prepare` takes out of the samples what the target has no form for; `through` gives force and [`kept`].
 pub fn agree(
     target: &str,
     prepare: impl Fn(&mut [Sample]),
-    through: impl Fn(&Model, bool, &[Sample]) -> Vec<[f64; 2]>,
+    through: impl Fn(&Model, &[Sample]) -> Vec<[f64; 2]>,
 ) {
     let (mut identical, mut worst) = (0_usize, 0.0_f64);
     let laws = laws();
@@ -131,7 +165,6 @@ pub fn agree(
         let guarded = GUARDED
             .get(seed)
             .map(|kind| guarded(friction, busy(), *kind, &mut random(seed as u64)));
-        let bristles = matches!(friction, Friction::LuGre(_));
         let following = following(friction, busy(), &mut random(seed as u64));
         let runs = [(settings, adversarial(each, true, &mut random(seed as u64)))]
             .into_iter()
@@ -146,22 +179,24 @@ pub fn agree(
         for (run, (settings, mut samples)) in runs.enumerate() {
             model.settings = settings;
             prepare(&mut samples);
-            let found = through(&model, bristles, &samples);
+            let found = through(&model, &samples);
             let rust = through_rust(friction, model.settings, &samples);
             assert_eq!(found.len(), rust.len());
             for (i, ([force, z], due)) in found.into_iter().zip(rust).enumerate() {
                 let off = (force - due).abs();
-                let allowed = 4.0 * f64::EPSILON * due.abs().max(level(&friction));
+                let allowed = 4.0 * f64::EPSILON * due.abs().max(friction.scale());
                 identical += usize::from(force == due);
-                worst = worst.max(off / level(&friction));
+                worst = worst.max(off / friction.scale());
                 assert!(
                     off <= allowed.max(1e-12 * due.abs()),
                     "{name} {run} {i}: {force} {due} at {:?}",
                     samples[i]
                 );
-                if let Friction::LuGre(law) = friction {
-                    assert!(z.abs() <= law.bound(), "{name} {i}: {z}");
-                }
+                let most = most_stored(&friction);
+                assert!(
+                    stored(&friction, z) <= most * (1.0 + 1e-12),
+                    "{name} {i}: {z}"
+                );
             }
         }
     }
@@ -191,15 +226,7 @@ pub fn agree_single(target: &str, through: impl Fn(&Model, &[Sample]) -> Vec<[f6
             false => busy(),
         };
         let found = through(&model, &samples);
-        let to = |x: [f64; 2]| x.map(|x| x as f32);
-        let small: Friction<f32> = match &friction {
-            Friction::Coulomb(law) => Friction::Coulomb(
-                CoulombViscous::new(to(law.coulomb()), to(law.viscous()), law.offset() as f32)
-                    .unwrap(),
-            ),
-            Friction::Stribeck(curve) => Friction::Stribeck(curve.cast().unwrap()),
-            Friction::LuGre(law) => Friction::LuGre(law.cast().unwrap()),
-        };
+        let small = friction.cast::<f32>().unwrap();
         let s = model.settings;
         let settings = Settings {
             gain: s.gain as f32,
@@ -222,7 +249,7 @@ pub fn agree_single(target: &str, through: impl Fn(&Model, &[Sample]) -> Vec<[f6
             .zip(through_rust(small, settings, &samples))
             .enumerate()
         {
-            let off = (force - due).abs() / level(&friction);
+            let off = (force - due).abs() / friction.scale();
             worst = worst.max(off);
             assert!(off <= 2e-6, "{name} {i}: {force} {due} at {:?}", samples[i]);
         }
@@ -232,24 +259,24 @@ pub fn agree_single(target: &str, through: impl Fn(&Model, &[Sample]) -> Vec<[f6
 
 /// Work done on the exported law is never less than the energy that its bristles gained: gain 1 and nothing that holds
 /// the force back, so that the force is the law's. `rounding` is of all work that was done either way.
-pub fn passive(rounding: f64, through: impl Fn(&Model, bool, &[Sample]) -> Vec<[f64; 2]>) {
+pub fn passive(rounding: f64, through: impl Fn(&Model, &[Sample]) -> Vec<[f64; 2]>) {
     for (name, friction) in laws() {
-        let Friction::LuGre(law) = friction else {
+        if friction.presliding().is_none() {
             continue;
-        };
+        }
         let mut model = model(friction);
         model.settings = Settings::bare(1e-3, 1e12);
         let mut samples = adversarial(100_000, false, &mut random(7));
         for (h, input) in &mut samples {
             (*h, input.enable) = (1e-3, true);
         }
-        let (mut work, mut done) = (0.0, 0.0);
-        for ((h, input), [force, z]) in samples.iter().zip(through(&model, true, &samples)) {
+        let (mut work, mut done): (f64, f64) = (0.0, 0.0);
+        for ((h, input), [force, z]) in samples.iter().zip(through(&model, &samples)) {
             // What the offset does is given back on the way back; it is no part of the law's energy.
-            let power = (force - law.curve().offset()) * input.reference_velocity;
+            let power = (force - friction.offset()) * input.reference_velocity;
             work += power * h;
             done += power.abs() * h;
-            let stored = 0.5 * law.stiffness() * z * z;
+            let stored = stored(&friction, z);
             assert!(
                 work - stored >= -rounding * done.max(stored),
                 "{name}: {work} {stored}"

@@ -12,7 +12,9 @@ use stiction_export::{File, Model, Parameter, Provenance};
 use stiction_friction::compensator::{
     Adaptation, Compensator, Friction, Input, Settings, Source, Trip, Watchdog,
 };
-use stiction_friction::{CoulombViscous, Damping, Direction, LuGre, Shape, Stribeck};
+use stiction_friction::{
+    CoulombViscous, Damping, Direction, ElastoPlastic, Element, LuGre, MaxwellSlip, Shape, Stribeck,
+};
 
 fn side(
     coulomb: f64,
@@ -35,6 +37,33 @@ pub fn lugre(shape: Shape<f64>) -> LuGre<f64> {
     LuGre::new(1.2e5, Damping::Capped(600.0), curve).unwrap()
 }
 
+/// Elements of which each is softer and later to yield than the one before.
+pub fn elements(count: usize) -> Vec<Element<f64>> {
+    let element = |k: usize| Element {
+        stiffness: 8e4 / (1 << k) as f64,
+        share: 0.4 + 0.1 * k as f64,
+    };
+    (0..count).map(element).collect()
+}
+
+/// Bristles that do not creep, with a curve of its own in each direction.
+pub fn elasto_plastic(shape: Shape<f64>) -> Friction<f64> {
+    Friction::ElastoPlastic(ElastoPlastic::new(lugre(shape), 0.7).unwrap())
+}
+
+/// The same with elements that take a hundredth of a second to follow the curve.
+pub fn gms(shape: Shape<f64>, count: usize) -> Friction<f64> {
+    let law = MaxwellSlip::new(&elements(count), 2e3, *lugre(shape).curve());
+    Friction::Gms(law.unwrap())
+}
+
+/// Elements that follow at once, one level for each direction.
+pub fn maxwell_slip(count: usize) -> Friction<f64> {
+    let (pos, neg) = (side(20.0, 20.0, 1.0, 60.0), side(14.0, 14.0, 1.0, 85.0));
+    let curve = Stribeck::new(Shape::Gaussian, pos, neg, -3.0).unwrap();
+    Friction::Gms(MaxwellSlip::new(&elements(count), f64::INFINITY, curve).unwrap())
+}
+
 /// Every law and shape that is exported.
 pub fn laws() -> Vec<(&'static str, Friction<f64>)> {
     let stage = Stribeck::symmetric(Shape::Gaussian, side(12.0, 18.0, 3e-3, 30.0), 0.0).unwrap();
@@ -44,9 +73,10 @@ pub fn laws() -> Vec<(&'static str, Friction<f64>)> {
             Friction::LuGre(LuGre::new(2e6, Damping::Capped(1.5e3), stage).unwrap()),
         ),
         ("gaussian", Friction::LuGre(lugre(Shape::Gaussian))),
-        ("exponential", Friction::LuGre(lugre(Shape::Exponential))),
+        ("elasto-plastic", elasto_plastic(Shape::Exponential)),
         ("power", Friction::LuGre(lugre(Shape::Power(1.3)))),
-        ("lorentzian", Friction::LuGre(lugre(Shape::Lorentzian))),
+        ("gms", gms(Shape::Lorentzian, 4)),
+        ("maxwell-slip", maxwell_slip(3)),
         (
             "stribeck",
             Friction::Stribeck(*lugre(Shape::Gaussian).curve()),
@@ -58,9 +88,34 @@ pub fn laws() -> Vec<(&'static str, Friction<f64>)> {
     ]
 }
 
+/// Every law with every shape, and elements of every number.
+pub fn all_laws() -> Vec<(&'static str, Friction<f64>)> {
+    let mut all = laws();
+    for shape in [
+        Shape::Gaussian,
+        Shape::Exponential,
+        Shape::Power(0.7),
+        Shape::Lorentzian,
+    ] {
+        all.push(("lugre", Friction::LuGre(lugre(shape))));
+        all.push(("elasto-plastic", elasto_plastic(shape)));
+        all.push(("gms", gms(shape, 3)));
+        all.push(("stribeck", Friction::Stribeck(*lugre(shape).curve())));
+    }
+    for count in 1..=10 {
+        all.push(("gms", gms(Shape::Gaussian, count)));
+        all.push(("maxwell-slip", maxwell_slip(count)));
+    }
+    let flat = side(12.0, 12.0, 1.0, 30.0);
+    let flat = Stribeck::symmetric(Shape::Gaussian, flat, 0.0).unwrap();
+    let dahl = LuGre::new(2e6, Damping::Capped(0.0), flat).unwrap();
+    all.push(("dahl", Friction::LuGre(dahl)));
+    all
+}
+
 /// The model of every law; some of them a second time with levels that follow the machine.
 pub fn models() -> Vec<(&'static str, Model)> {
-    let following = ["gaussian", "stribeck", "coulomb"];
+    let following = ["gaussian", "gms", "stribeck", "coulomb"];
     let again = laws()
         .into_iter()
         .filter(|(name, _)| following.contains(name))
