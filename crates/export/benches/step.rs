@@ -1,28 +1,37 @@
 //! Nanoseconds a step: the Rust compensator, and the exported C compiled by gcc with -O2, in the same run along the same
 //! motions. `cargo bench -p stiction-export`. The least of many short batches counts, since the machine may be shared; the
-//! C program takes its own times. A step has no loop, so that the slowest motion is near the worst case.
+//! C program takes its own times. A step has no loop but over elements, so that the slowest motion is near the worst case.
 
 use divan::{Bencher, black_box, counter::ItemsCount};
 use std::path::Path;
 use std::process::Command;
 use stiction_export::{Model, Provenance, Target, export};
 use stiction_friction::compensator::{Compensator, Friction, Input, Settings, Source};
-use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
+use stiction_friction::{
+    Damping, Direction, ElastoPlastic, Element, LuGre, MaxwellSlip, Shape, Stribeck,
+};
 
 /// Steps in a batch: shorter than what a scheduler leaves it.
 const STEPS: usize = 20_000;
 const H: f64 = 250e-6;
 
 fn main() {
-    for suffix in ["", "_f32"] {
-        for motion in MOTIONS {
-            println!("C{suffix} {motion}: {} ns a step", c(motion, suffix));
+    for name in LAWS {
+        for suffix in ["", "_f32"] {
+            for motion in MOTIONS {
+                println!(
+                    "C{suffix} {name} {motion}: {} ns a step",
+                    c(name, motion, suffix)
+                );
+            }
         }
     }
     divan::main();
 }
 
-fn law() -> Friction<f64> {
+const LAWS: [&str; 3] = ["lugre", "elasto-plastic", "gms of 4"];
+
+fn law(name: &str) -> Friction<f64> {
     let both = Direction {
         coulomb: 20.0,
         static_friction: 30.0,
@@ -31,7 +40,24 @@ fn law() -> Friction<f64> {
     };
     let curve = Stribeck::symmetric(Shape::Gaussian, both, 0.0).expect("parameters of the bench");
     let law = LuGre::new(1.2e5, Damping::Capped(600.0), curve).expect("parameters of the bench");
-    Friction::LuGre(law)
+    let element = |stiffness, share| Element { stiffness, share };
+    let elements = [
+        element(6e4, 0.2),
+        element(3e4, 0.3),
+        element(2e4, 0.3),
+        element(1e4, 0.2),
+    ];
+    match name {
+        "lugre" => Friction::LuGre(law),
+        "elasto-plastic" => {
+            let law = ElastoPlastic::new(law, 0.7).expect("parameters of the bench");
+            Friction::ElastoPlastic(law)
+        }
+        _ => {
+            let law = MaxwellSlip::new(&elements, 2e3, curve).expect("parameters of the bench");
+            Friction::Gms(law)
+        }
+    }
 }
 
 /// A sine through its reversals, standstill, creep within the bristles' length, a reversal every sample, jumps.
@@ -52,9 +78,9 @@ fn velocity(motion: &str) -> Vec<f64> {
     (0..1000).map(at).collect()
 }
 
-#[divan::bench(sample_count = 400, sample_size = 1, args = MOTIONS)]
-fn rust(bencher: Bencher, motion: &str) {
-    let ready = Compensator::new(law(), Source::Reference, Settings::new(H, 100.0))
+#[divan::bench(sample_count = 400, sample_size = 1, args = MOTIONS, consts = [0, 1, 2])]
+fn rust<const LAW: usize>(bencher: Bencher, motion: &str) {
+    let ready = Compensator::new(law(LAWS[LAW]), Source::Reference, Settings::new(H, 100.0))
         .expect("parameters of the bench");
     let v = velocity(motion);
     bencher.counter(ItemsCount::new(STEPS)).bench(|| {
@@ -72,9 +98,9 @@ fn rust(bencher: Bencher, motion: &str) {
 }
 
 /// The least of the batches of the exported C, ns a step.
-fn c(motion: &str, suffix: &str) -> String {
+fn c(name: &str, motion: &str, suffix: &str) -> String {
     let dir = tempfile::tempdir().expect("a folder");
-    build(dir.path(), motion, suffix);
+    build(dir.path(), name, motion, suffix);
     let output = Command::new(dir.path().join("a.out"))
         .output()
         .expect("the C to run");
@@ -83,13 +109,13 @@ fn c(motion: &str, suffix: &str) -> String {
 }
 
 /// Compiles the exported C with a loop over the same motion; its start takes a millisecond of the second it runs.
-fn build(dir: &Path, motion: &str, suffix: &str) {
+fn build(dir: &Path, name: &str, motion: &str, suffix: &str) {
     let model = Model {
         title: "bench".into(),
         identifier: "bench".into(),
         rotary: false,
         force_unit: "N".into(),
-        friction: law(),
+        friction: law(name),
         settings: Settings::new(H, 100.0),
         rated_force: None,
         top_speed: None,

@@ -5,16 +5,19 @@ use crate::common::{Bench, options};
 use std::fmt::Write;
 use std::path::PathBuf;
 use stiction::commands::study::result::ResultRow;
-use stiction::{LawKind, Silent, Study, bundle};
+use stiction::{ExportOptions, LawKind, ModelFile, Silent, Study, Target, bundle};
 use stiction_friction::compensator::{Compensator, Friction, Settings, Source};
-use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
-use stiction_servo::axis::AxisSettings;
+use stiction_friction::{
+    Damping, Direction, ElastoPlastic, Element, Gms, Held, LuGre, Shape, Stribeck,
+};
+use stiction_servo::axis::{AxisSettings, Sample};
 use stiction_servo::feedforward::Feedforward;
 use stiction_servo::known;
 use stiction_servo::metrics::Tracking;
 use stiction_servo::motion::Sine;
 use stiction_servo::noise::Noise;
 use stiction_servo::path::Path;
+use stiction_servo::plant::Plant;
 use stiction_servo::run::run;
 
 const RATE: f64 = 4000.0;
@@ -30,13 +33,17 @@ fn stage() -> AxisSettings {
 /// What its drive logs: measured position, commanded force with .5 N of noise.
 fn log(bench: &Bench) -> PathBuf {
     let samples = run(&stage(), &Path::three_segments(0.196, 6.0).unwrap()).unwrap();
+    bench.write("stage.csv", &logged(&samples))
+}
+
+fn logged(samples: &[Sample]) -> String {
     let mut noise = Noise::new(7);
     let mut text = String::from("Time [s],Position [mm],Force [N]\n");
     for s in samples {
         let force = s.command + 0.5 * noise.normal();
         let _ = writeln!(text, "{:.6},{:.5},{force:.3}", s.time, 1e3 * s.measured);
     }
-    bench.write("stage.csv", &text)
+    text
 }
 
 #[test]
@@ -92,6 +99,80 @@ fn what_is_identified_takes_nine_tenths_off_the_reversal_peak() {
     for p in &outcome.result.parameters {
         println!("{} {}", p.name, p.value);
     }
+}
+
+/// A stage of a law that is not LuGre.
+fn stage_of<L: Held<f64>>(law: L) -> AxisSettings<L> {
+    let stage = stage();
+    AxisSettings {
+        plant: Plant::new(stage.plant.mass(), law).unwrap(),
+        drive: stage.drive,
+        encoder: stage.encoder,
+        position_noise: stage.position_noise,
+        cogging: None,
+        disturbance: None,
+        controller: stage.controller,
+        feedforward: Feedforward::default(),
+        rate: stage.rate,
+        substeps: stage.substeps,
+        seed: stage.seed,
+    }
+}
+
+/// What is identified of a law is what compensates it: the log of its stage goes through a file into a model, the model into a
+/// compensator, and that onto the stage. `least` is the share of the reversal peak that is taken off, percent.
+fn compensated<L: Held<f64>>(law: L, kind: LawKind, least: f64) {
+    let stage = stage_of(law);
+    let bench = Bench::new();
+    let samples = run(&stage, &Path::three_segments(0.196, 6.0).unwrap()).unwrap();
+    let log = bench.write("stage.csv", &logged(&samples));
+    let outcome = options(&[&log], kind).identify(&mut Silent).unwrap();
+    let model = ModelFile::from_result(&outcome.result);
+    let mut options = ExportOptions::new(Target::Rust, 1.0 / RATE);
+    options.gain = Some(1.0);
+    options.limit = Some(200.0);
+    options.safety.window = Some(0.0);
+    let compensator = stiction_workflows::export::compensator(&model, &options).unwrap();
+    let with = AxisSettings {
+        feedforward: Feedforward::compensator(compensator, stage.drive.preview(1.0 / RATE)),
+        ..stage.clone()
+    };
+    for (amplitude, frequency) in [(5e-3, 0.5), (1e-3, 0.2), (20e-6, 1.0)] {
+        let peak = |axis: &AxisSettings<L>| {
+            let samples = run(axis, &Sine::new(amplitude, frequency, 3.0).unwrap()).unwrap();
+            Tracking::of(&samples[samples.len() / 3..]).reversal_peak
+        };
+        let (before, after) = (peak(&stage), peak(&with));
+        let less = 100.0 * (1.0 - after / before);
+        println!(
+            "{kind}: {} um, {frequency} Hz: {:.1} um, {:.2} um, {less:.1} % less",
+            1e6 * amplitude,
+            1e6 * before,
+            1e6 * after
+        );
+        assert!(less >= least, "{less}");
+    }
+}
+
+#[test]
+fn an_elasto_plastic_axis_is_compensated_by_its_law() {
+    let bristle = known::find("motor").unwrap().capped_law();
+    let law = ElastoPlastic::new(bristle, 0.7).unwrap();
+    compensated(law, LawKind::ElastoPlastic, 90.0);
+}
+
+#[test]
+fn a_gms_axis_is_compensated_by_its_law() {
+    let curve = *known::find("motor").unwrap().law.curve();
+    let element = |stiffness, share| Element { stiffness, share };
+    let elements = [
+        element(1.2e6, 0.3),
+        element(6e5, 0.3),
+        element(3e5, 0.25),
+        element(1e5, 0.15),
+    ];
+    let law = Gms::new(elements, 2e3, 0.0, curve).unwrap();
+    compensated(law, LawKind::Gms, 80.0);
 }
 
 /// The study that is written beside a model runs as it is.
