@@ -1,7 +1,9 @@
 //! The C text: compiled under every warning, its self-test run, and sample by sample against the compensator.
 
-use crate::common::compiled::{agree, agree_single, drive, gcc, kept, passive, run, write};
-use crate::common::{adapting, laws, model, models};
+use crate::common::compiled::{
+    agree, agree_over, agree_single, drive, gcc, kept, passive, run, write,
+};
+use crate::common::{adapting, all_laws, laws, model, models};
 use std::process::{Command, Stdio};
 use stiction_export::{Model, Target, export};
 use stiction_friction::compensator::{Friction, Input};
@@ -201,6 +203,17 @@ fn through_c(model: &Model, single: bool, samples: &[(f64, Input<f64>)]) -> Vec<
 fn double_precision_agrees() {
     agree(
         "C",
+        |_| {},
+        |model, samples| through_c(model, false, samples),
+    );
+}
+
+#[test]
+#[ignore = "soak: every law with every Stribeck curve and number of elements"]
+fn every_law_and_curve_agrees() {
+    agree_over(
+        "C",
+        all_laws(),
         |_| {},
         |model, samples| through_c(model, false, samples),
     );

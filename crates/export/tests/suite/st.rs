@@ -4,7 +4,7 @@ use crate::common;
 use crate::common::compiled::{Sample, most_stored, stored};
 use crate::common::reserved::is_reserved;
 use crate::common::{
-    GUARDED, adapting, adversarial, busy, following, guarded, laws, model, models, random,
+    GUARDED, adapting, adversarial, all_laws, busy, following, guarded, laws, model, models, random,
 };
 use std::collections::HashSet;
 use std::path::PathBuf;
@@ -156,8 +156,16 @@ fn seen(h: f64, input: &Input<f64>, huge: f64) -> (f64, Input<f64>) {
 /// A million samples of every kind over all laws, in LREAL: within 1e-12 of the larger of force and static friction.
 /// Deflection within its bound.
 pub fn lreal(what: &str, through: impl Fn(&Model, &[Sample]) -> Vec<[f64; 2]>) {
+    lreal_over(what, laws(), through);
+}
+
+/// The same over the laws that are given.
+fn lreal_over(
+    what: &str,
+    laws: Vec<(&'static str, Friction<f64>)>,
+    through: impl Fn(&Model, &[Sample]) -> Vec<[f64; 2]>,
+) {
     let mut worst = 0.0_f64;
-    let laws = laws();
     let each = 1_000_000 / laws.len() + 1;
     for (seed, (name, friction)) in laws.into_iter().enumerate() {
         let mut model = model(friction);
@@ -203,7 +211,15 @@ fn lreal_agrees() {
     });
 }
 
-/// Force and deflection, where there is one, of a block in the interpreter.
+#[test]
+#[ignore = "soak: every law with every Stribeck curve and number of elements"]
+fn every_law_and_curve_agrees() {
+    lreal_over("interpreter", all_laws(), |model, samples| {
+        interpreted(model, "FB_x_axis_Friction", samples)
+    });
+}
+
+/// Force and what is kept of a block in the interpreter.
 fn interpreted(model: &Model, name: &str, samples: &[Sample]) -> Vec<[f64; 2]> {
     let mut block = library(model).instance(name);
     let inputs = [

@@ -20,7 +20,8 @@ impl ModelFile {
     /// The parameters with the least force that the data support, and what is lower than identified. A parameter that the
     /// data bound on no side, or from below alone, takes that bound; without one static friction is the Coulomb level, and
     /// damping, viscous friction and offset are zero. A Stribeck velocity without a bound makes static friction the Coulomb
-    /// level; stiffness without one stays. `None` for a law of no known name.
+    /// level; stiffness and break-away without one stay. A softer Maxwell-slip element yields at the
+    /// same force, so later. `None` for a law of no known name.
     ///
     /// A wide interval does not lower a value: it may be wide because something beside the law is not constant, and held-out
     /// samples have judged the law with its values.
@@ -50,7 +51,17 @@ impl ModelFile {
                         values.insert(rise, level);
                     }
                 }
-                Quantity::Sigma0 if least > 0.0 => values.insert(*name, least),
+                Quantity::Sigma0 | Quantity::BreakawayRatio if least > 0.0 => {
+                    values.insert(*name, least);
+                }
+                Quantity::ElementStiffness(k) if least > 0.0 => {
+                    values.insert(*name, least);
+                    // Softer with the same yield force, so later to yield.
+                    let deflection = Quantity::ElementYield(k);
+                    if let Some(from) = values.get(deflection) {
+                        values.insert(deflection, from * (p.value / least));
+                    }
+                }
                 Quantity::Sigma1 | Quantity::Sigma2 => values.insert(*name, least),
                 Quantity::Offset => values.insert(*name, 0.0),
                 _ => {}
@@ -138,6 +149,28 @@ mod tests {
         assert_eq!(value(Quantity::Offset), 0.0);
         let names: Vec<String> = lowered.iter().map(|l| l.name.to_string()).collect();
         assert_eq!(names, ["sigma0", "sigma1", "static", "offset"]);
+    }
+
+    /// An element that may be softer is, and yields at the same force; a bristle may creep earlier.
+    #[test]
+    fn elements_and_break_away_are_lowered() {
+        let mut file = model(&[
+            ("coulomb", 10.0, Some([9.9, 10.1]), true),
+            ("stiffness_1", 1e6, Some([2.5e5, f64::INFINITY]), false),
+            ("stiffness_2", 1e5, Some([9e4, 1.1e5]), true),
+            ("yield_1", 5e-6, None, false),
+            ("yield_2", 5e-5, None, true),
+        ]);
+        file.law = "maxwell-slip".into();
+        let (values, lowered) = file.supported().unwrap();
+        assert_eq!(values.get(Quantity::ElementStiffness(1)), Some(2.5e5));
+        assert_eq!(values.get(Quantity::ElementYield(1)), Some(2e-5));
+        assert_eq!(values.get(Quantity::ElementYield(2)), Some(5e-5));
+        assert_eq!(lowered.len(), 2);
+        let mut file = model(&[("breakaway_ratio", 0.7, Some([0.4, f64::INFINITY]), false)]);
+        file.law = "elasto-plastic".into();
+        let (values, _) = file.supported().unwrap();
+        assert_eq!(values.get(Quantity::BreakawayRatio), Some(0.4));
     }
 
     /// Each direction has its own level; a Stribeck velocity that may be nothing takes static friction with it.

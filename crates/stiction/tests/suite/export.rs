@@ -211,7 +211,7 @@ fn bad_models_are_refused() {
             "law",
             text("elasto-plastic", &LUGRE),
             "bad-config",
-            "identify with one of them",
+            "no breakaway_ratio",
         ),
         (
             "static",

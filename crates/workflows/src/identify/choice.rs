@@ -10,8 +10,8 @@ use stiction_identify::{
 };
 use stiction_parameters::{Quantity, Side};
 
-/// The families that a compensator can be exported of.
-pub(super) const EXPORTED: [LawKind; 4] = [
+/// The families that the data choose from.
+const FAMILIES: [LawKind; 4] = [
     LawKind::CoulombViscous,
     LawKind::Stribeck,
     LawKind::Dahl,
@@ -120,7 +120,7 @@ pub(super) fn auto(
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<Choice, engine::Error> {
-    let first: Vec<Candidate> = ladder::symmetric(base, &EXPORTED)
+    let first: Vec<Candidate> = ladder::symmetric(base, &FAMILIES)
         .into_iter()
         .map(|law| ladder.usual(law))
         .collect();

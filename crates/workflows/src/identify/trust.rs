@@ -1,6 +1,5 @@
 //! Whether a result may be used: every rule that can say no, in one place. What a process exits with follows from it.
 
-use super::choice::EXPORTED;
 use super::compensation;
 use super::disagree;
 use super::lacking;
@@ -96,13 +95,9 @@ impl Judged {
                 .map(|p| p.name.to_string())
                 .collect()
         };
-        let use_it = match EXPORTED.contains(&law.law.kind) {
-            true => Next::Export,
-            false => Next::LetTheDataChoose,
-        };
         let trust = Trust {
             trustworthy: reasons.is_empty(),
-            next: reasons.first().map_or(use_it, |(_, next)| *next),
+            next: reasons.first().map_or(Next::Export, |(_, next)| *next),
             reasons: reasons.into_iter().map(|(text, _)| text).collect(),
             cause: None,
             compensation,

@@ -152,8 +152,17 @@ pub fn agree(
     prepare: impl Fn(&mut [Sample]),
     through: impl Fn(&Model, &[Sample]) -> Vec<[f64; 2]>,
 ) {
+    agree_over(target, laws(), prepare, through);
+}
+
+/// The same over the laws that are given.
+pub fn agree_over(
+    target: &str,
+    laws: Vec<(&'static str, Friction<f64>)>,
+    prepare: impl Fn(&mut [Sample]),
+    through: impl Fn(&Model, &[Sample]) -> Vec<[f64; 2]>,
+) {
     let (mut identical, mut worst) = (0_usize, 0.0_f64);
-    let laws = laws();
     let each = 1_000_000 / laws.len() + 1;
     for (seed, (name, friction)) in laws.into_iter().enumerate() {
         let mut model = model(friction);
