@@ -3,6 +3,7 @@
 mod misfit;
 mod procedure;
 mod searched;
+mod seen;
 mod trust;
 
 use crate::error::Warning;
@@ -12,6 +13,7 @@ pub use procedure::{
     StaticPointEntry, TwoStepEntry, TwoStepParameter,
 };
 pub use searched::{Evaluations, SearchedEntry, SearchedParameter, SearchedPoint};
+pub use seen::{PitchEntry, RangeEntry};
 use serde::{Deserialize, Serialize};
 use stiction_codes::Code;
 pub use trust::{CauseEntry, Compensation, Cure, Next, Trust};
@@ -86,6 +88,12 @@ pub struct ResultFile {
     /// Largest speed of the samples that were fitted, m/s or rad/s; absent where nothing moved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub top_speed: Option<f64>,
+    /// What the samples that were fitted have seen of position, load, temperature and acceleration.
+    #[serde(default, skip_serializing_if = "RangeEntry::is_empty")]
+    pub range: RangeEntry,
+    /// Pitches of waves along the position; absent without any.
+    #[serde(default, skip_serializing_if = "PitchEntry::is_empty")]
+    pub pitch: PitchEntry,
     /// How the search went.
     pub search: Search,
     /// What a search found before the least squares that end it; absent for other methods.

@@ -29,6 +29,7 @@ mod procedure;
 mod remaining;
 mod run;
 mod searched;
+mod seen;
 mod simulate;
 mod trust;
 mod unfit;

@@ -1,6 +1,8 @@
 //! The form of a model file, and how it is written.
 
-use crate::result::{CovarianceEntry, ParameterEntry, RemainingEntry, ResultFile};
+use crate::result::{
+    CovarianceEntry, ParameterEntry, PitchEntry, RangeEntry, RemainingEntry, ResultFile,
+};
 use serde::Serialize;
 use stiction_parameters::{LawKind, Name, ParameterSet};
 
@@ -26,6 +28,12 @@ pub struct ModelFile {
     pub trustworthy: bool,
     /// Where the numbers came from.
     pub source: SourceEntry,
+    /// What the samples that were fitted have seen of what friction depends on.
+    #[serde(skip_serializing_if = "RangeEntry::is_empty")]
+    pub range: RangeEntry,
+    /// Pitches of waves along the position.
+    #[serde(skip_serializing_if = "PitchEntry::is_empty")]
+    pub pitch: PitchEntry,
     /// Parameters of the law.
     pub parameter: Vec<ModelParameter>,
     /// Covariance of the identified parameters.
@@ -145,6 +153,8 @@ impl ModelFile {
                     })
                     .collect(),
             },
+            range: result.range.clone(),
+            pitch: result.pitch.clone(),
             parameter: (result.parameters.iter())
                 .filter(|p| is_of_the_machine(&p.name))
                 .map(ModelParameter::from)

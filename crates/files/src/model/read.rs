@@ -5,7 +5,7 @@ use super::form::{ModelFile, ModelParameter, SCHEMA, SourceEntry, SourceInput};
 use crate::config::{ANY_COUNT, Given, Places, Source, Table};
 use crate::error::Error;
 use crate::hash::sha256_of;
-use crate::result::{CovarianceEntry, RemainingEntry, ShapeEntry};
+use crate::result::{CovarianceEntry, PitchEntry, RangeEntry, RemainingEntry, ShapeEntry};
 use crate::symbols;
 use std::path::Path;
 use stiction_log::Motion;
@@ -228,6 +228,16 @@ fn model(root: &Table<'_>, faults: &mut Faults) -> Result<ModelFile, Error> {
         None => Ok(None),
     });
     let remaining = faults.take("remaining", remaining).flatten();
+    let range = root.table("range").and_then(|table| match table {
+        Some(table) => self::range(&table),
+        None => Ok(RangeEntry::default()),
+    });
+    let range = faults.take("range", range);
+    let pitch = root.table("pitch").and_then(|table| match table {
+        Some(table) => pitches(&table),
+        None => Ok(PitchEntry::default()),
+    });
+    let pitch = faults.take("pitch", pitch);
     let listed = list(root, "parameter", "tables [[parameter]]");
     let listed = faults.take("parameter", listed).unwrap_or_default();
     let parameter: Vec<_> = (listed.iter().enumerate())
@@ -248,6 +258,8 @@ fn model(root: &Table<'_>, faults: &mut Faults) -> Result<ModelFile, Error> {
         force_unit,
         trustworthy: trustworthy.flatten().unwrap_or(true),
         source: source.unwrap_or_default(),
+        range: range.unwrap_or_default(),
+        pitch: pitch.unwrap_or_default(),
         parameter,
         covariance: covariance.unwrap_or_default(),
         remaining,
@@ -367,6 +379,62 @@ fn covariance(table: &Table<'_>) -> Result<CovarianceEntry, Error> {
     };
     table.end()?;
     Ok(covariance)
+}
+
+/// What the log has seen.
+fn range(table: &Table<'_>) -> Result<RangeEntry, Error> {
+    let ends = |key: &'static str| {
+        let Some(given) = table.get(key) else {
+            return Ok(None);
+        };
+        let allowed = "the least and the largest value, such as [0.0, 0.4]";
+        let ends = match given.as_list().as_deref() {
+            Some([low, high]) => [number(low)?, number(high)?],
+            _ => return Err(given.refused(allowed)),
+        };
+        let known = ends.iter().all(|x| x.abs() <= LARGEST_SEEN) && ends[0] <= ends[1];
+        match known {
+            true => Ok(Some(ends)),
+            false => Err(given.refuse(format!("{ends:?}"), allowed)),
+        }
+    };
+    let acceleration = table.get("acceleration").is_some();
+    let range = RangeEntry {
+        position: ends("position")?,
+        load: ends("load")?,
+        temperature: ends("temperature")?,
+        acceleration: acceleration
+            .then(|| size(table, "acceleration"))
+            .transpose()?,
+    };
+    table.end()?;
+    Ok(range)
+}
+
+/// Largest size of a value that a log has seen, SI.
+const LARGEST_SEEN: f64 = 1e15;
+
+/// Pitches of waves.
+fn pitches(table: &Table<'_>) -> Result<PitchEntry, Error> {
+    let of = |key: &'static str| {
+        let allowed = "a list of at most 4 lengths from 1e-12 to 1e12, such as [0.024]";
+        let Some(given) = table.get(key) else {
+            return Ok(Vec::new());
+        };
+        let listed = given.as_list().ok_or_else(|| given.refused(allowed))?;
+        let numbers: Vec<f64> = listed.iter().map(number).collect::<Result<_, Error>>()?;
+        let good = numbers.len() <= 4 && numbers.iter().all(|x| (1e-12..=1e12).contains(x));
+        match good {
+            true => Ok(numbers),
+            false => Err(given.refuse(format!("{numbers:?}"), allowed)),
+        }
+    };
+    let pitch = PitchEntry {
+        cogging: of("cogging")?,
+        coulomb: of("coulomb")?,
+    };
+    table.end()?;
+    Ok(pitch)
 }
 
 /// Most forces after a reversal that a law leaves.

@@ -5,6 +5,7 @@ use super::left;
 use super::load::Asked;
 use super::method::Method;
 use super::remaining::remaining;
+use super::seen;
 use super::trust::Judged;
 use crate::entries;
 use crate::source::Source;
@@ -119,6 +120,8 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         break_away: Vec::new(),
         elements: elements(estimate),
         top_speed: top_speed(estimate),
+        range: seen::range(sources, &estimate.series),
+        pitch: seen::pitch(&estimate.terms),
         search: Search {
             status: estimate.status.name().into(),
             evaluations: estimate.counts.total(),

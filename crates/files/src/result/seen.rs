@@ -1,0 +1,45 @@
+//! What a log has seen of the quantities that friction and the forces beside it depend on.
+
+use serde::{Deserialize, Serialize};
+
+/// Least and largest values of the samples that were fitted; what no log has is absent.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RangeEntry {
+    /// Position, m or rad.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub position: Option<[f64; 2]>,
+    /// Normal load, in its unit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load: Option<[f64; 2]>,
+    /// Temperature, K.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<[f64; 2]>,
+    /// Largest acceleration, m/s^2 or rad/s^2.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub acceleration: Option<f64>,
+}
+
+/// Pitches of the waves along the position, m or rad: of the first, second, ...
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PitchEntry {
+    /// Of cogging.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cogging: Vec<f64>,
+    /// Of the Coulomb level (`coulomb_pitch`).
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub coulomb: Vec<f64>,
+}
+
+impl RangeEntry {
+    /// Whether nothing is known.
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+impl PitchEntry {
+    /// Whether there is no wave.
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
