@@ -460,6 +460,14 @@ pub struct Export {
     /// Levels of friction that follow the machine while it runs, from the force of the drive.
     #[arg(long)]
     pub adapt: bool,
+    /// What is fed forward: friction, and of mass, gravity and cogging what the model has.
+    #[arg(
+        long,
+        value_name = "PARTS",
+        value_delimiter = ',',
+        default_value = "friction"
+    )]
+    pub feedforward: Vec<String>,
     /// Rated force of the motor, in the unit of the model's force; for tf5200.
     #[arg(long, value_name = "FORCE", allow_negative_numbers = true)]
     pub rated_force: Option<f64>,

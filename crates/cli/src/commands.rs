@@ -19,8 +19,8 @@ use stiction::commands::{
 };
 use stiction::result::Next;
 use stiction::{
-    Axis, Code, CostKind, Error, ExportOptions, LawKind, Method, Options, Procedures, Searching,
-    Study, Target, bundle,
+    Axis, Code, CostKind, Error, ExportOptions, Feedforward, LawKind, Method, Options, Procedures,
+    Searching, Study, Target, bundle,
 };
 
 /// Runs a command; every error is printed here, once.
@@ -560,7 +560,9 @@ fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
     options.safety.slew = export.slew;
     options.safety.window = export.window;
     options.adapt = export.adapt;
-    let exported = stiction::export_file(&export.model, &options)?;
+    let parts = export.feedforward.iter().map(String::as_str);
+    options.feedforward = Feedforward::from_names(parts).map_err(fed_line)?;
+    let exported = stiction::export_file(&export.model, &options).map_err(fed_line)?;
     match export.force {
         true => exported.write_over(&export.out)?,
         false => exported.write(&export.out)?,
@@ -571,6 +573,33 @@ fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
         output::print(&stiction::commands::text::exported(&exported, &export.out))?;
     }
     Ok(exported.verdict().into())
+}
+
+/// An error about what is fed forward, with the line that works.
+fn fed_line(error: Error) -> Error {
+    let Error::NotFed { found, instead } = error else {
+        return error;
+    };
+    let parts = instead.join(",");
+    let given: Vec<String> = std::env::args().skip(1).collect();
+    let mut line = vec!["stiction".to_string()];
+    let mut rest = given.iter();
+    while let Some(word) = rest.next() {
+        if word == "--feedforward" {
+            line.extend([word.clone(), parts.clone()]);
+            rest.next();
+        } else if word.starts_with("--feedforward=") {
+            line.push(format!("--feedforward={parts}"));
+        } else if word.starts_with('-') {
+            line.push(word.clone());
+        } else {
+            line.push(stiction::commands::shell::quoted(word));
+        }
+    }
+    Error::Usage {
+        found: found.into(),
+        allowed: format!("what works: {}", line.join(" ")).into(),
+    }
 }
 
 fn reproduce(reproduce: &arguments::Reproduce, common: &Common) -> Result<Exit, Error> {

@@ -116,6 +116,8 @@ fn build(dir: &Path, name: &str, motion: &str, suffix: &str) {
         rotary: false,
         force_unit: "N".into(),
         friction: law(name),
+        terms: stiction_friction::compensator::Terms::default(),
+        load_unit: String::new(),
         settings: Settings::new(H, 100.0),
         rated_force: None,
         top_speed: None,

@@ -3,6 +3,7 @@
 use crate::model::cast;
 use crate::number::Literal;
 use crate::template::Fill;
+use crate::terms::{self, Syntax};
 use crate::vectors::{DOUBLE_TOLERANCE, SINGLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, header, law};
 
@@ -93,7 +94,11 @@ pub(crate) fn rows<T: Literal>(vectors: &Vectors<T>) -> String {
             let (v, e, f) = (row.velocity.c(), row.error.c(), row.force.c());
             let drive = row.drive.map(|(u, learn)| format!(", {}, {learn}", u.c()));
             let drive = drive.unwrap_or_default();
-            format!("    {{ {{ {v}, {e}, {}{drive} }}, {f} }}", row.enable)
+            let extras: String = row.extras.iter().map(|x| format!(", {}", x.c())).collect();
+            format!(
+                "    {{ {{ {v}, {e}, {}{drive}{extras} }}, {f} }}",
+                row.enable
+            )
         })
         .collect();
     rows.join(",\n")
@@ -122,6 +127,7 @@ pub(crate) fn fill<T: Literal>(model: &Model, precision: &Precision) -> Result<F
         .set("x_unit", model.length_unit())
         .set("f_unit", model.force_unit())
         .set("a_unit", model.acceleration_unit())
+        .set("load_unit", model.load_unit())
         .set("key", T::from_f64(f64::from(compensator.key())).c());
     law::settings(&mut fill, compensator.settings(), T::c);
     law::fill(&mut fill, compensator.friction(), T::c);
@@ -132,5 +138,20 @@ pub(crate) fn fill<T: Literal>(model: &Model, precision: &Precision) -> Result<F
         )
     });
     fill.set("element_lines", lines);
+    let terms = compensator.terms().copied().unwrap_or_default();
+    terms::fill(&mut fill, &terms, &syntax(precision));
     Ok(fill)
+}
+
+/// How C writes what friction depends on.
+pub(crate) fn syntax<T: Literal>(precision: &Precision) -> Syntax<T> {
+    Syntax {
+        number: T::c,
+        functions: match precision.function {
+            "" => ["sin", "cos"],
+            _ => ["sinf", "cosf"],
+        },
+        places: ["s->seen_position", "x"],
+        choose: |forward, back| format!("    factor += forward ? {forward} : {back};"),
+    }
 }

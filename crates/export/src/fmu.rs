@@ -12,6 +12,7 @@ mod version;
 use crate::guid::guid;
 use crate::number::Literal;
 use crate::template::Fill;
+use crate::terms::{self, Extra};
 use crate::vectors::{DOUBLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, c, check, header, law};
 use variables::Variables;
@@ -57,7 +58,18 @@ pub fn fmu(
         .set("law", c::inside(model)?)
         .set("v_unit", model.speed_unit())
         .set("x_unit", model.length_unit())
-        .set("f_unit", model.force_unit());
+        .set("f_unit", model.force_unit())
+        .set("a_unit", model.acceleration_unit())
+        .set("load_unit", model.load_unit());
+    let terms = compensator.terms().copied().unwrap_or_default();
+    terms::fill(&mut fill, &terms, &c::syntax::<f64>(&c::DOUBLE));
+    let extras = Extra::of(&terms);
+    let each = |text: &dyn Fn(&str) -> String| -> String {
+        extras.iter().map(|extra| text(extra.name())).collect()
+    };
+    fill.set("extra_data", each(&|name| format!(", d->{name}")))
+        .set("extra_values", each(&|name| format!(", {name}")))
+        .set("extra_keys", each(&|name| format!(", \"{name}\"")));
     variables.fill(&mut fill);
     let mut files = Vec::new();
     for (version, interface) in [(Version::Two, FMI2), (Version::Three, FMI3)] {

@@ -3,6 +3,7 @@
 use crate::identifier::shortened;
 use crate::number::Literal;
 use crate::template::Fill;
+use crate::terms::{self, Extra};
 use crate::vectors::{DOUBLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, c, header, law};
 
@@ -42,6 +43,22 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
             },
         );
     law::fill(&mut fill, compensator.friction(), f64::c);
+    let terms = compensator.terms().copied().unwrap_or_default();
+    terms::fill(&mut fill, &terms, &c::syntax::<f64>(&c::DOUBLE));
+    let extras = Extra::of(&terms);
+    let pins = extras.iter().map(|extra| match extra {
+        Extra::Acceleration | Extra::Position => format!(", *pins->{} / pins->units", extra.name()),
+        Extra::Load | Extra::Temperature => format!(", *pins->{}", extra.name()),
+    });
+    let first = 3 + 2 * usize::from(model.settings.adaptation.is_some());
+    let nets = extras.iter().zip(first..).map(|(extra, k)| {
+        let (net, pin) = (extra.name().replace('_', "-"), component.replace('_', "-"));
+        format!("net {net} streamer.0.pin.{k} => {pin}.0.{net}\n")
+    });
+    fill.set("load_unit", model.load_unit())
+        .set("extra_pins", pins.collect::<String>())
+        .set("extra_cfg", "f".repeat(extras.len()))
+        .set("extra_nets", nets.collect::<String>());
     let mut test = fill.clone();
     law::settings(&mut fill, compensator.settings(), f64::c);
     law::settings(&mut test, &vectors.settings, f64::c);

@@ -1,6 +1,6 @@
 //! The head of every file: what it is, the parameters with their intervals, and their origin.
 
-use crate::{Model, Parameter};
+use crate::{Model, Parameter, terms};
 
 /// Lines of plain ASCII without anything that could end a comment in a target's language; `code` where the compensator
 /// itself follows: then with its inputs and outputs.
@@ -106,6 +106,10 @@ fn interface(model: &Model) -> Vec<String> {
             "     Force that the drive was given in the cycle before, with this compensator's part; whether to learn from it.".into(),
         );
     }
+    let (inputs, outputs) = terms::interface(model);
+    let out = lines.len() - 1;
+    lines.splice(out..out, inputs);
+    lines.extend(outputs);
     lines.extend(other_unit(model));
     lines
 }

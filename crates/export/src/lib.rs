@@ -19,6 +19,8 @@
 //!     rotary: false,
 //!     force_unit: "N".into(),
 //!     friction: Friction::LuGre(law),
+//!     terms: Default::default(),
+//!     load_unit: String::new(),
 //!     settings: Settings::new(1e-3, 40.0), // 1 kHz, at most 40 N
 //!     rated_force: None,
 //!     top_speed: None,
@@ -51,6 +53,7 @@ mod rust;
 mod st;
 mod target;
 mod template;
+mod terms;
 mod tf5200;
 mod vectors;
 

@@ -1,8 +1,8 @@
 //! The model that is exported.
 
-use crate::{Error, range};
+use crate::{Error, range, terms};
 use stiction_friction::compensator::{
-    Adaptation, Compensator, Friction, Settings, Source, Watchdog,
+    Adaptation, Compensator, Friction, Settings, Source, Terms, Watchdog,
 };
 use stiction_friction::{Damping, ElastoPlastic, LuGre, Real};
 
@@ -24,6 +24,11 @@ pub struct Model {
     pub force_unit: String,
     /// The law. The micro-damping of bristles is exported capped, whatever form it has here.
     pub friction: Friction<f64>,
+    /// What friction depends on beside the velocity, and what is fed forward beside it; of its default nothing. Beside a weight
+    /// the law has no offset.
+    pub terms: Terms<f64>,
+    /// Unit of the load, where friction depends on it.
+    pub load_unit: String,
     /// Settings of the compensator.
     pub settings: Settings<f64>,
     /// Force that the motor is rated for, in the unit of the force; needed by targets that write per mille of it.
@@ -86,7 +91,14 @@ impl Model {
         };
         let friction = friction.and_then(|law| law.cast());
         let friction = friction.map_err(refuse)?;
-        Compensator::new(friction, Source::Reference, cast(settings)).map_err(refuse)
+        let compensator =
+            Compensator::new(friction, Source::Reference, cast(settings)).map_err(refuse)?;
+        match terms::has(&self.terms) {
+            true => compensator
+                .with_terms(terms::cast(&self.terms))
+                .map_err(refuse),
+            false => Ok(compensator),
+        }
     }
 
     /// The compensator that the exported code is, as a Rust value to be stepped once a cycle.
@@ -110,6 +122,14 @@ impl Model {
     /// Unit of position.
     pub(crate) fn length_unit(&self) -> &'static str {
         if self.rotary { "rad" } else { "m" }
+    }
+
+    /// Unit of the load, as it is written.
+    pub(crate) fn load_unit(&self) -> String {
+        match self.load_unit.as_str() {
+            "1" | "" => "the unit of the log".into(),
+            unit => crate::header::plain(unit),
+        }
     }
 
     /// Unit of force, as it is written.

@@ -1,7 +1,7 @@
 //! Numbers that a number type can compute with: far enough from the ends of its range that nothing in the compensator or
 //! the vectors of the self-test overflows or vanishes.
 
-use crate::{Error, Model};
+use crate::{Error, Model, terms};
 use stiction_friction::Direction;
 use stiction_friction::compensator::Friction;
 
@@ -76,6 +76,11 @@ pub(crate) fn check(
         };
         if size > most || (size > 0.0 && size < least) {
             return Err(refuse(name, value, (least, most)));
+        }
+    }
+    for (name, value) in terms::numbers(&model.terms) {
+        if value.abs() > range.parameters.1 {
+            return Err(refuse(name, value, (0.0, range.parameters.1)));
         }
     }
     if limit > range.limit.1 || (limit > 0.0 && limit < range.limit.0) {

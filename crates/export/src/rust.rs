@@ -2,9 +2,10 @@
 
 use crate::number::Literal;
 use crate::template::Fill;
+use crate::terms::{self, Extra};
 use crate::vectors::{DOUBLE_TOLERANCE, SINGLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, header, law};
-use stiction_friction::compensator::Friction;
+use stiction_friction::compensator::{Channel, Friction, Levels, Terms, WAVES, Wave};
 use stiction_friction::source;
 
 const MANIFEST: &str = include_str!("../templates/rust/Cargo.toml.in");
@@ -48,6 +49,18 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         )
     });
     fill.set("element_lines", lines);
+    let terms = compensator.terms().copied().unwrap_or_default();
+    let extras = Extra::of(&terms);
+    let each = |text: &dyn Fn(&str) -> String| -> String {
+        extras.iter().map(|extra| text(extra.name())).collect()
+    };
+    fill.flag("terms", terms::has(&terms))
+        .flag("levels", terms.levels.is_some())
+        .flag("weight", terms.weight.is_some())
+        .set("terms", literal(&terms))
+        .set("extra_names", terms::names(&terms))
+        .set("extra_types", "T, ".repeat(extras.len()))
+        .set("extra_values", each(&|name| format!("{name}, ")));
     let mut test = fill.clone();
     law::settings(&mut fill, compensator.settings(), f64::c);
     law::settings(&mut test, &vectors.settings, f64::c);
@@ -84,6 +97,63 @@ fn beside(path: &str) -> String {
     format!("stiction-friction/{path}")
 }
 
+/// The terms as Rust.
+fn literal(terms: &Terms<f64>) -> String {
+    let number = |x: f64| format!("n({})", x.c());
+    let both = |x: [f64; 2]| format!("[{}, {}]", number(x[0]), number(x[1]));
+    let channel = |c: Channel<f64>| {
+        format!(
+            "Channel {{ reference: {}, range: {} }}",
+            number(c.reference),
+            both(c.range)
+        )
+    };
+    let wave = |w: &Wave<f64>| match w.rate > 0.0 {
+        true => format!(
+            "Wave {{ rate: {}, whole: {}, sine: {}, cosine: {} }}",
+            number(w.rate),
+            w.whole,
+            number(w.sine),
+            number(w.cosine)
+        ),
+        false => "Wave::default()".into(),
+    };
+    let waves = |all: &[Wave<f64>; WAVES]| {
+        let each: Vec<String> = all.iter().map(wave).collect();
+        format!("[{}]", each.join(", "))
+    };
+    let levels = |l: &Levels<f64>| {
+        format!(
+            "Some(Levels {{\n            load: {},\n            temperature: {},\n            position: {},\n            \
+             waves: [{}, {}],\n            viscous: {},\n        }})",
+            both(l.load),
+            both(l.temperature),
+            both(l.position),
+            waves(&l.waves[0]),
+            waves(&l.waves[1]),
+            both(l.viscous)
+        )
+    };
+    let weight = terms.weight.map_or("None".into(), |w| {
+        format!(
+            "Some(Weight {{ constant: {}, wave: {} }})",
+            number(w.constant),
+            wave(&w.wave)
+        )
+    });
+    let c = &terms.channels;
+    format!(
+        "Terms {{\n        channels: Channels {{\n            load: {},\n            temperature: {},\n            position: {},\n        \
+         }},\n        levels: {},\n        mass: {},\n        weight: {weight},\n        cogging: {},\n    }}",
+        channel(c.load),
+        channel(c.temperature),
+        channel(c.position),
+        terms.levels.as_ref().map_or("None".into(), levels),
+        number(terms.mass),
+        waves(&terms.cogging)
+    )
+}
+
 fn rows<T: Literal>(vectors: &Vectors<T>) -> String {
     let rows: Vec<String> = vectors
         .rows
@@ -93,8 +163,13 @@ fn rows<T: Literal>(vectors: &Vectors<T>) -> String {
             let drive = row
                 .drive
                 .map(|(u, learn)| format!("{}, {learn}, ", plain(u)));
+            let extras: String = row
+                .extras
+                .iter()
+                .map(|x| format!("{}, ", plain(*x)))
+                .collect();
             format!(
-                "    ({v}, {e}, {}, {}{f}),",
+                "    ({v}, {e}, {}, {}{extras}{f}),",
                 row.enable,
                 drive.unwrap_or_default()
             )

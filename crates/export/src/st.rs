@@ -8,6 +8,7 @@ mod unit;
 use crate::model::cast;
 use crate::number::Literal;
 use crate::template::Fill;
+use crate::terms::{self, Extra, Syntax};
 use crate::vectors::{DOUBLE_TOLERANCE, SINGLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, header, law};
 use stiction_friction::compensator::{Friction, Settings};
@@ -105,6 +106,20 @@ fn precision<T: Literal>(model: &Model, precision: &Precision) -> Result<[Unit; 
         .set("key", compensator.key().to_string());
     law::fill(&mut fill, compensator.friction(), T::st);
     elements(&mut fill, compensator.friction());
+    let syntax = Syntax {
+        number: T::st,
+        functions: ["SIN", "COS"],
+        places: ["seen_position", "place"],
+        choose: |forward, back| {
+            format!(
+                "        IF dry_part > 0.0 THEN\n            level_factor := level_factor + {forward};\n        ELSE\n            \
+                 level_factor := level_factor + {back};\n        END_IF;"
+            )
+        },
+    };
+    let terms = compensator.terms().copied().unwrap_or_default();
+    terms::fill(&mut fill, &terms, &syntax);
+    fill.set("load_unit", model.load_unit());
     let mut test = fill.clone();
     law::settings(&mut fill, &writable(compensator.settings()), T::st);
     law::settings(&mut test, &writable(&cast(&vectors.settings)), T::st);
@@ -115,7 +130,12 @@ fn precision<T: Literal>(model: &Model, precision: &Precision) -> Result<[Unit; 
             ",\n            drive_force := u, learn := wanted_too, memory := {memory}, moving_mass := {mass}"
         )
     });
-    test.set("rows", rows(&vectors))
+    let extras = Extra::of(&terms);
+    let inputs = extras
+        .iter()
+        .map(|extra| format!(",\n            {} := {}", extra.name(), variable(*extra)));
+    test.set("extra_inputs", inputs.collect::<String>());
+    test.set("rows", rows(&vectors, &extras))
         .set("adapt_inputs", adapting)
         .set("count", vectors.rows.len().to_string())
         .set("tolerance", tolerance.st());
@@ -199,7 +219,17 @@ fn series(terms: u32) -> String {
     lines.join("\n")
 }
 
-fn rows<T: Literal>(vectors: &Vectors<T>) -> String {
+/// Its variable in the test program.
+fn variable(extra: Extra) -> &'static str {
+    match extra {
+        Extra::Acceleration => "a",
+        Extra::Position => "place",
+        Extra::Load => "load",
+        Extra::Temperature => "temperature",
+    }
+}
+
+fn rows<T: Literal>(vectors: &Vectors<T>, extras: &[Extra]) -> String {
     let rows: Vec<String> = vectors
         .rows
         .iter()
@@ -212,7 +242,11 @@ fn rows<T: Literal>(vectors: &Vectors<T>) -> String {
                 format!("u := {u}; wanted_too := {learn}; ")
             });
             let (on, drive) = (truth(row.enable), drive.unwrap_or_default());
-            format!("    {i}: v := {v}; x := {x}; wanted := {on}; {drive}due := {force};")
+            let each = extras.iter().zip(&row.extras);
+            let beside: String = each
+                .map(|(extra, x)| format!("{} := {}; ", variable(*extra), x.st()))
+                .collect();
+            format!("    {i}: v := {v}; x := {x}; wanted := {on}; {drive}{beside}due := {force};")
         })
         .collect();
     rows.join("\n")

@@ -3,12 +3,13 @@
 //! The tolerances of the self-tests are here too; all are relative to the largest force, [`Vectors::scale`].
 
 use crate::number::{Literal, short};
+use crate::terms::Extra;
 use crate::{Error, Model};
 use stiction_friction::Real;
 use stiction_friction::compensator::{Adaptation, Input, Settings, Watchdog};
 
 /// A sample of the self-test.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Row<T> {
     /// Reference velocity, m/s (rad/s).
     pub velocity: T,
@@ -18,6 +19,8 @@ pub(crate) struct Row<T> {
     pub enable: bool,
     /// Force of the drive and whether to learn from it, N (N m): where the compensator adapts.
     pub drive: Option<(T, bool)>,
+    /// What else comes in, in the order of [`Extra`].
+    pub extras: Vec<T>,
     /// The expected force, N (N m).
     pub force: T,
 }
@@ -48,7 +51,8 @@ impl<T: Real> Vectors<T> {
         let mut compensator = model.compensator::<T>(&settings, number_type)?;
         let rows = motion(model, settings.cycle_time)
             .into_iter()
-            .map(|(velocity, error, enable)| {
+            .enumerate()
+            .map(|(k, (velocity, error, enable))| {
                 let (velocity, error) = (T::from_f64(velocity), T::from_f64(error));
                 // More friction than that of the law, at the sample before.
                 let most = LARGEST_DRIVE * model.scale();
@@ -57,7 +61,7 @@ impl<T: Real> Vectors<T> {
                 let adapts = settings.adaptation.is_some();
                 let drive = adapts.then_some((T::from_f64(short(due)), enable));
                 let (drive_force, learn) = drive.unwrap_or_default();
-                let force = compensator.step(Input {
+                let mut input = Input {
                     reference_velocity: velocity,
                     measured_velocity: T::ZERO,
                     tracking_error: error,
@@ -65,12 +69,19 @@ impl<T: Real> Vectors<T> {
                     drive_force,
                     learn,
                     ..Input::default()
-                });
+                };
+                let extras = Extra::of(&model.terms);
+                let extras = extras
+                    .into_iter()
+                    .map(|extra| extra.put(&mut input, T::from_f64(course(model, extra, k))));
+                let extras = extras.collect();
+                let force = compensator.step(input);
                 Row {
                     velocity,
                     error,
                     enable,
                     drive,
+                    extras,
                     force,
                 }
             })
@@ -98,8 +109,9 @@ impl Vectors<f64> {
                 let drive = row
                     .drive
                     .map(|(u, learn)| format!("{}, {}, ", u.c(), truth(learn)));
+                let extras: String = row.extras.iter().map(|x| format!("{}, ", x.c())).collect();
                 format!(
-                    "    ({v}, {e}, {enable}, {}{f}),",
+                    "    ({v}, {e}, {enable}, {}{extras}{f}),",
                     drive.unwrap_or_default()
                 )
             })
@@ -113,7 +125,12 @@ fn settings(model: &Model) -> Settings<f64> {
     let h = model.settings.cycle_time;
     let scale = model.scale();
     let limit = if scale > 0.0 {
-        short(1.1 * scale).min(model.settings.limit)
+        let levels = model
+            .terms
+            .levels
+            .map_or(1.0, |l| l.largest(&model.terms.channels));
+        let most = levels * scale + model.terms.largest_beside();
+        short(1.1 * most).min(model.settings.limit)
     } else {
         model.settings.limit
     };
@@ -139,6 +156,25 @@ fn settings(model: &Model) -> Settings<f64> {
             ratio: 1.0,
         }),
     }
+}
+
+/// What comes in beside the motion at the k-th sample: to and fro within its range and beyond.
+fn course(model: &Model, extra: Extra, k: usize) -> f64 {
+    // Another number of samples for each, so that they are not all at their ends at once.
+    let (cycles, steps) = match extra {
+        Extra::Acceleration => (14.0, 0.3),
+        Extra::Position => (37.0, 0.6),
+        Extra::Load => (53.0, 0.6),
+        Extra::Temperature => (71.0, 0.6),
+    };
+    let wave = steps * libm::sin(2.0 * core::f64::consts::PI * k as f64 / cycles);
+    short(match extra.channel(&model.terms.channels) {
+        Some(channel) => {
+            let [low, high] = channel.range;
+            0.5 * (low + high) + wave * (high - low)
+        }
+        None => wave * model.scale() / model.terms.mass,
+    })
 }
 
 /// A speed at which the law changes, m/s (rad/s).

@@ -256,8 +256,12 @@ impl<T: Real> Compensator<T> {
             force = level * (force - offset) + offset;
         }
         let wanted = self.state.level * force + self.state.corrected;
+        // A level may take the force of a velocity that no machine has beyond the number type.
+        let sound = wanted.is_finite();
+        let wanted = if sound { wanted } else { T::ZERO };
         let fed = self.terms.as_ref().filter(|terms| terms.feeds());
         let fed = fed.map(|terms| (terms, input.enable));
-        self.settings.limit(&mut self.state, h, on, wanted, fed)
+        self.settings
+            .limit(&mut self.state, h, on && sound, wanted, fed)
     }
 }

@@ -120,7 +120,7 @@ pub use stiction_friction::compensator::{Compensator, Input};
 pub use stiction_identify::{Control, LawKind, Observer, Progress, Silent, Stage};
 pub use stiction_parameters::FrictionLaw;
 pub use stiction_workflows::export::{
-    ExportOptions, Exported, Safety, Target, export, export_file,
+    ExportOptions, Exported, Feedforward, Safety, Target, export, export_file,
 };
 pub use stiction_workflows::identify::{CostKind, Method, Prediction, Procedures, Searching};
 pub use stiction_workflows::study::{StudyOutcome, simulate};

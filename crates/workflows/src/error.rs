@@ -44,6 +44,14 @@ pub enum Error {
         /// Why.
         source: stiction_export::Error,
     },
+    /// What is to be fed forward is not in the model.
+    #[error("{found}; it can feed forward: {}", .instead.join(", "))]
+    NotFed {
+        /// What is missing.
+        found: String,
+        /// What of it there is.
+        instead: Vec<&'static str>,
+    },
     /// The options do not go together with each other or with the logs.
     #[error("{found}; {allowed}")]
     Usage {
@@ -87,7 +95,9 @@ impl Error {
                 | Fit::Time { .. } => Code::BadRecord,
             },
             Error::Checkpoint { .. } => Code::BadCheckpoint,
-            Error::Export(_) | Error::ExportModel { .. } => Code::NotExported,
+            Error::Export(_) | Error::ExportModel { .. } | Error::NotFed { .. } => {
+                Code::NotExported
+            }
             Error::Usage { .. } => Code::Usage,
         }
     }

@@ -1,6 +1,7 @@
 //! `stiction export`: a model file to the compensator's code.
 
 mod compile;
+mod terms;
 
 use crate::error::Error;
 use std::path::Path;
@@ -11,10 +12,13 @@ use stiction_files::Warning;
 use stiction_files::model::{Lowered, ReadModel};
 use stiction_files::{write_folder, write_into_folder};
 use stiction_friction::ParamError;
-use stiction_friction::compensator::{Adaptation, Compensator, Friction, Settings, Watchdog};
+use stiction_friction::compensator::{
+    Adaptation, Compensator, Friction, Settings, Terms, Watchdog,
+};
 use stiction_parameters::{FrictionLaw, LawError, Name, ParameterSet, Quantity, Side};
 
 pub use stiction_export::{Error as ExportError, File, Target};
+pub use terms::Feedforward;
 
 /// What code to write, and the settings of the compensator.
 #[derive(Clone, Debug)]
@@ -38,6 +42,8 @@ pub struct ExportOptions {
     /// Levels that follow the machine while it runs ([`Adaptation`]), from the force of the drive; not for
     /// simulated joints and `tf5200`.
     pub adapt: bool,
+    /// What is fed forward beside friction, of what the model has; not for simulated joints and `tf5200`.
+    pub feedforward: Feedforward,
 }
 
 /// Settings of a compensator; those that are absent follow from the law ([`Settings::for_law`]).
@@ -66,6 +72,7 @@ impl ExportOptions {
             gain: None,
             safety: Safety::default(),
             adapt: false,
+            feedforward: Feedforward::default(),
         }
     }
 }
@@ -205,6 +212,12 @@ fn check(options: &ExportOptions) -> Result<(), Error> {
             "c, cpp, ros2, st, tcpou, plcopen, rust, hal and fmu have them",
         ));
     }
+    if none && options.feedforward != Feedforward::default() {
+        return Err(Error::usage(
+            format!("a feedforward beside friction for the target {target}"),
+            "c, cpp, ros2, st, tcpou, plcopen, rust, hal and fmu have one",
+        ));
+    }
     Ok(())
 }
 
@@ -271,7 +284,32 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
         Some(name) => name.clone(),
         None => stiction_export::identifier(&title),
     };
-    let mut settings = settings(&friction, file.source.top_speed, options);
+    let table = options.target.is_simulated() || options.target == Target::Tf5200;
+    let of_law = settings_of_law(&friction, file, &lowered);
+    let (friction, terms, beside) = match table {
+        true => (friction, Terms::default(), None),
+        false => {
+            let beside = terms::beside(read, friction, options.feedforward)?;
+            (beside.friction, beside.terms, Some(beside))
+        }
+    };
+    if let Some(beside) = beside
+        .as_ref()
+        .filter(|b| !b.has_limit() && options.limit.is_none())
+    {
+        return Err(Error::usage(
+            format!(
+                "a mass of {} fed forward without a limit",
+                stiction_number::four_digits(beside.terms.mass)
+            ),
+            "a limit, or the largest acceleration of the log in the model: [range] acceleration = LARGEST",
+        ));
+    }
+    let of_all = match &beside {
+        Some(beside) => beside.settings(of_law, &friction),
+        None => of_law,
+    };
+    let settings = asked(of_all, options);
     if let (Some(zone), Some(top)) = (options.safety.dead_zone, file.source.top_speed)
         && zone >= top
     {
@@ -287,17 +325,15 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
             ),
         ));
     }
-    if options.limit.is_none() && !lowered.is_empty() {
-        settings.limit = seen(&friction, file.source.top_speed);
-    }
-    let mut warnings = doubts(file);
+    let mut settings = settings;
+    let mut warnings = doubts(file, beside.as_ref());
     if options.adapt {
         let mass = known_mass(file);
         settings.adaptation = Some(Adaptation {
             mass: mass.unwrap_or(0.0),
             ..Adaptation::default()
         });
-        warnings.extend(taken_for_friction(file, mass));
+        warnings.extend(taken_for_friction(file, mass, options.feedforward));
     }
     warnings.extend(less(&lowered, options.limit.is_none()));
     if options.name.is_none() && !stiction_export::is_whole(&title) {
@@ -314,6 +350,12 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
         rotary: file.kind == "rotary",
         force_unit: file.force_unit.replace('*', " "),
         friction,
+        terms,
+        load_unit: file
+            .parameter
+            .iter()
+            .find(|p| p.name == "load_reference")
+            .map_or(String::new(), |p| p.unit.replace('*', " ")),
         settings,
         rated_force: options.rated_force,
         top_speed: file.source.top_speed,
@@ -380,7 +422,9 @@ fn place(source: stiction_export::Error, read: &ReadModel, options: &ExportOptio
 }
 
 /// What should not be used, what the log leaves open, and what the code leaves out.
-fn doubts(file: &ModelFile) -> Vec<Warning> {
+fn doubts(file: &ModelFile, beside: Option<&terms::Beside>) -> Vec<Warning> {
+    let taken = beside.map(|b| b.taken.as_slice());
+    let is_taken = |name: &String| taken.is_some_and(|taken| taken.contains(name));
     let mut found = Vec::new();
     if !file.trustworthy {
         found.push(Warning::new(
@@ -388,12 +432,12 @@ fn doubts(file: &ModelFile) -> Vec<Warning> {
             "the identification flagged this model as not trustworthy; a compensation with it may be too strong",
         ));
     }
-    let beside = |name: &str| BESIDE.iter().any(|stem| name.starts_with(stem));
+    let aside = |name: &str| BESIDE.iter().any(|stem| name.starts_with(stem));
     let names = |wanted: &dyn Fn(&stiction_files::model::ModelParameter) -> bool| -> Vec<&str> {
         let chosen = file.parameter.iter().filter(|p| wanted(p));
         chosen.map(|p| p.name.as_str()).collect()
     };
-    let loose = names(&|p| !p.identifiable && p.origin != "given" && !beside(&p.name));
+    let loose = names(&|p| !p.identifiable && p.origin != "given" && !aside(&p.name));
     if !loose.is_empty() {
         found.push(Warning::new(
             Code::NotIdentifiable,
@@ -404,29 +448,45 @@ fn doubts(file: &ModelFile) -> Vec<Warning> {
             ),
         ));
     }
-    let left = names(&|p| beside(&p.name) && p.name != "delay");
+    let left = names(&|p| aside(&p.name) && p.name != "delay" && !is_taken(&p.name));
     if !left.is_empty() {
         found.push(Warning::new(
             Code::ExportTerms,
             format!(
-                "{} is not friction and not in the compensator; feed it forward separately",
-                left.join(", ")
+                "{} is not friction and not in the compensator; feed it forward separately{}",
+                left.join(", "),
+                with_it(&left, taken)
             ),
         ));
     }
-    found.extend(at_reference(file));
+    let lacking = beside.map_or(&[][..], |b| &b.lacking);
+    found.extend(at_reference(file, taken.unwrap_or(&[]), lacking));
     found
 }
 
+/// How the compensator would feed forward what it leaves out.
+fn with_it(left: &[&str], taken: Option<&[String]>) -> String {
+    let Some(taken) = taken else {
+        return String::new();
+    };
+    let parts = ["mass", "gravity", "cogging"].into_iter().filter(|part| {
+        let mine = |name: &str| name.starts_with(part);
+        left.iter().any(|name| mine(name)) || taken.iter().any(|name| mine(name))
+    });
+    let parts: Vec<&str> = std::iter::once("friction").chain(parts).collect();
+    format!(", or with it: --feedforward {}", parts.join(","))
+}
+
 /// What changes friction and is no input of the code: the code has friction as it is at the reference.
-fn at_reference(file: &ModelFile) -> Option<Warning> {
+fn at_reference(file: &ModelFile, taken: &[String], lacking: &[&str]) -> Option<Warning> {
     let at = |name: &str| {
         let found = file.parameter.iter().find(|p| p.name == name);
         found.map_or("the mean of the log".into(), |p| {
             format!("{} {}", stiction_number::four_digits(p.value), p.unit)
         })
     };
-    let each = file.parameter.iter().filter_map(|p| {
+    let left = file.parameter.iter().filter(|p| !taken.contains(&p.name));
+    let each = left.filter_map(|p| {
         let quantity = p.name.parse::<Name>().ok()?.quantity;
         let held = match quantity {
             Quantity::CoulombLoad => format!("at a load of {}", at("load_reference")),
@@ -453,12 +513,19 @@ fn at_reference(file: &ModelFile) -> Option<Warning> {
         ))
     });
     let each = each.collect::<Vec<_>>().join("; ");
+    let cure = match lacking {
+        [] => String::new(),
+        lines => format!(
+            ". With what the log has seen in the model file it is an input of the code: {}",
+            lines.join("; ")
+        ),
+    };
     (!each.is_empty()).then(|| {
         Warning::new(
             Code::ExportTerms,
             format!(
                 "friction changes with what the code does not see, so it has friction as it is there ({each}). Where the axis \
-                 works elsewhere it is off by that much: identify the axis as it works"
+                 works elsewhere it is off by that much: identify the axis as it works{cure}"
             ),
         )
     })
@@ -472,15 +539,15 @@ fn known_mass(file: &ModelFile) -> Option<f64> {
 }
 
 /// What levels that follow the force of the drive would take for friction.
-fn taken_for_friction(file: &ModelFile, mass: Option<f64>) -> Option<Warning> {
+fn taken_for_friction(file: &ModelFile, mass: Option<f64>, fed: Feedforward) -> Option<Warning> {
     let has = |stem: &str| file.parameter.iter().any(|p| p.name.starts_with(stem));
     let taken = [
         (
             mass.is_none(),
             "what accelerates the axis, since the model has no mass that the log determines",
         ),
-        (has("gravity_"), "gravity"),
-        (has("cogging"), "cogging"),
+        (has("gravity_") && !fed.gravity, "gravity"),
+        (has("cogging") && !fed.cogging, "cogging"),
     ];
     let taken: Vec<&str> = taken
         .into_iter()
@@ -534,16 +601,27 @@ fn seen(friction: &Friction<f64>, top_speed: Option<f64>) -> f64 {
 /// Dead zone of a law without a Stribeck velocity, of the top speed of the recordings.
 const SLOW: f64 = 1e-3;
 
-/// What was asked for, and else what follows from the law.
-fn settings(
+/// What follows from the law.
+fn settings_of_law(
     friction: &Friction<f64>,
-    top_speed: Option<f64>,
-    options: &ExportOptions,
+    file: &ModelFile,
+    lowered: &[Lowered],
 ) -> Settings<f64> {
-    let mut settings = Settings::for_law(friction, options.cycle_time);
+    let top_speed = file.source.top_speed;
+    // The cycle time is put in later.
+    let mut settings = Settings::for_law(friction, 1e-3);
     if let (Friction::Coulomb(_), Some(top)) = (friction, top_speed) {
         settings.dead_zone = SLOW * top;
     }
+    if !lowered.is_empty() {
+        settings.limit = seen(friction, top_speed);
+    }
+    settings
+}
+
+/// What was asked for in the place of what follows from the model.
+fn asked(mut settings: Settings<f64>, options: &ExportOptions) -> Settings<f64> {
+    settings.cycle_time = options.cycle_time;
     let safety = &options.safety;
     for (setting, asked) in [
         (&mut settings.limit, options.limit),

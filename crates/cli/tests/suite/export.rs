@@ -139,3 +139,31 @@ fn force_replaces_an_export() {
     let kept = std::fs::read_to_string(dir.path().join("out/notes.txt"));
     assert_eq!(kept.unwrap(), "mine");
 }
+
+/// What the model has not is refused with the whole line that works, and that line works.
+#[test]
+fn what_is_not_fed_forward_is_refused_with_the_line_that_works() {
+    let dir = tempfile::tempdir().unwrap();
+    let refused = export("c", dir.path())
+        .args([
+            "--cycle-time",
+            "0.0005",
+            "--feedforward",
+            "friction,mass,cogging",
+        ])
+        .output()
+        .unwrap();
+    let text = said(&refused);
+    assert_eq!(refused.status.code(), Some(2), "{text}");
+    let line = text.split("what works: stiction ").nth(1).unwrap().trim();
+    assert!(
+        line.ends_with("--cycle-time 0.0005 --feedforward friction"),
+        "{line}"
+    );
+    let works = Command::new(env!("CARGO_BIN_EXE_stiction"))
+        .args(line.split(' '))
+        .current_dir(dir.path())
+        .output()
+        .unwrap();
+    assert!(works.status.success(), "{}", said(&works));
+}

@@ -67,7 +67,7 @@ pub(super) fn xml(
 fn units(model: &Model, out: &mut String) {
     out.push_str("  <UnitDefinitions>\n");
     for unit in Unit::ALL {
-        let exponents: String = ["kg", "m", "s", "A", "rad"]
+        let exponents: String = ["kg", "m", "s", "A", "rad", "K"]
             .into_iter()
             .zip(unit.base(model.rotary, model.force_unit()))
             .filter(|(_, exponent)| *exponent != 0)

@@ -17,10 +17,13 @@ pub(super) enum Unit {
     Damping,
     /// Force per acceleration.
     Inertia,
+    Acceleration,
+    /// Thermodynamic.
+    Temperature,
 }
 
 impl Unit {
-    pub(super) const ALL: [Unit; 8] = [
+    pub(super) const ALL: [Unit; 10] = [
         Unit::Time,
         Unit::Length,
         Unit::Speed,
@@ -29,6 +32,8 @@ impl Unit {
         Unit::Stiffness,
         Unit::Damping,
         Unit::Inertia,
+        Unit::Acceleration,
+        Unit::Temperature,
     ];
 
     /// Its name for a linear or rotary axis whose force is in `force`; empty without unit.
@@ -49,27 +54,29 @@ impl Unit {
             Unit::Stiffness => format!("{force}/{length}"),
             Unit::Damping => format!("{force}.s/{length}"),
             Unit::Inertia => format!("{force}.s2/{length}"),
+            Unit::Acceleration => format!("{length}/s2"),
+            Unit::Temperature => "K".into(),
         }
     }
 
-    /// Exponents of kg, m, s, A and rad.
-    pub(super) fn base(self, rotary: bool, force: &str) -> [i32; 5] {
+    /// Exponents of kg, m, s, A, rad and K.
+    pub(super) fn base(self, rotary: bool, force: &str) -> [i32; 6] {
         let length = if rotary {
-            [0, 0, 0, 0, 1]
+            [0, 0, 0, 0, 1, 0]
         } else {
-            [0, 1, 0, 0, 0]
+            [0, 1, 0, 0, 0, 0]
         };
         let force = match force {
-            "N" => [1, 1, -2, 0, 0],
-            "N m" => [1, 2, -2, 0, 0],
-            "A" => [0, 0, 0, 1, 0],
-            "V" => [1, 2, -3, -1, 0],
-            _ => [0; 5],
+            "N" => [1, 1, -2, 0, 0, 0],
+            "N m" => [1, 2, -2, 0, 0, 0],
+            "A" => [0, 0, 0, 1, 0, 0],
+            "V" => [1, 2, -3, -1, 0, 0],
+            _ => [0; 6],
         };
-        let time = [0, 0, 1, 0, 0];
-        let over = |a: [i32; 5], b: [i32; 5]| [0, 1, 2, 3, 4].map(|i| a[i] - b[i]);
+        let time = [0, 0, 1, 0, 0, 0];
+        let over = |a: [i32; 6], b: [i32; 6]| [0, 1, 2, 3, 4, 5].map(|i| a[i] - b[i]);
         match self {
-            Unit::One => [0; 5],
+            Unit::One => [0; 6],
             Unit::Time => time,
             Unit::Length => length,
             Unit::Speed => over(length, time),
@@ -78,6 +85,8 @@ impl Unit {
             Unit::Stiffness => over(force, length),
             Unit::Damping => over(force, over(length, time)),
             Unit::Inertia => over(force, over(over(length, time), time)),
+            Unit::Acceleration => over(over(length, time), time),
+            Unit::Temperature => [0, 0, 0, 0, 0, 1],
         }
     }
 }

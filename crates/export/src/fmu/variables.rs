@@ -2,6 +2,7 @@
 
 mod adaptation;
 mod law;
+mod terms;
 
 use super::unit::Unit;
 use crate::number::Literal;
@@ -215,6 +216,9 @@ impl Variables {
         ));
         if let Some(adaptation) = s.adaptation {
             adaptation::insert(&mut list, adaptation);
+        }
+        if let Some(terms) = compensator.terms() {
+            terms::insert(&mut list, terms);
         }
         Variables(list)
     }

@@ -1,7 +1,7 @@
 //! The C text: compiled under every warning, its self-test run, and sample by sample against the compensator.
 
 use crate::common::compiled::{
-    agree, agree_over, agree_single, drive, gcc, kept, passive, run, write,
+    agree, agree_over, agree_single, drive, gcc, kept, more_inputs, passive, run, write,
 };
 use crate::common::{adapting, all_laws, laws, model, models};
 use std::process::{Command, Stdio};
@@ -145,12 +145,12 @@ fn misra() {
     }
 }
 
-/// Reads `h, velocity, error, enable, drive force, learn` as doubles, writes force and what is kept.
+/// Reads what [`drive`] writes for a sample, writes force and what is kept.
 const DRIVER: &str = r#"
 #include "x_axis_friction@F@.h"
 #include <stdio.h>
 int main(void) {
-    double in[6];
+    double in[10];
     x_axis@F@_params_t p;
     x_axis@F@_state_t s;
     x_axis@F@_params(&p);
@@ -182,10 +182,9 @@ fn through_c(model: &Model, single: bool, samples: &[(f64, Input<f64>)]) -> Vec<
         .replace("@F@", suffix)
         .replace(
             "@D@",
-            match model.settings.adaptation {
-                Some(_) => ", (@R@)in[4], in[5] != 0.0",
-                None => "",
-            },
+            &more_inputs(model, "(@R@)in[4], in[5] != 0.0", |k| {
+                format!("(@R@)in[{k}]")
+            }),
         )
         .replace("@R@", real)
         .replace("@Z@", &kept);

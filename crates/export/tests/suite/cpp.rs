@@ -1,7 +1,7 @@
 //! The C++ library: compiled under every warning, its self-test run here, on a simulated AVR and a simulated ARM, and sample
 //! by sample against the compensator.
 
-use crate::common::compiled::{agree, agree_single, drive, kept, passive, run, write};
+use crate::common::compiled::{agree, agree_single, drive, kept, more_inputs, passive, run, write};
 use crate::common::{adapting, laws, model, models};
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -94,14 +94,14 @@ fn the_self_test_notices() {
     );
 }
 
-/// Reads `h, velocity, error, enable, drive force, learn` as doubles, writes force and what is kept.
+/// Reads what [`drive`] writes for a sample, writes force and what is kept.
 const DRIVER: &str = r#"
 #include <stdio.h>
 #include <x_axis_friction.hpp>
 namespace axis = x_axis_friction::@B@;
 int main()
 {
-    double in[6];
+    double in[10];
     axis::Compensator compensator;
     if (!compensator.ready()) { return 1; }
     while (fread(in, sizeof in, 1, stdin) == 1) {
@@ -119,10 +119,9 @@ int main()
 /// Force and what is kept of the compiled library for each sample.
 fn through_cpp(model: &Model, bits: &str, samples: &[(f64, Input<f64>)]) -> Vec<[f64; 2]> {
     let dir = library(model);
-    let drive_force = match model.settings.adaptation {
-        Some(_) => ", Real(in[4]), in[5] != 0.0",
-        None => "",
-    };
+    let more = more_inputs(model, "Real(in[4]), in[5] != 0.0", |k| {
+        format!("Real(in[{k}])")
+    });
     let kept = kept(
         &model.friction,
         "double(compensator.state().deflection)",
@@ -130,7 +129,7 @@ fn through_cpp(model: &Model, bits: &str, samples: &[(f64, Input<f64>)]) -> Vec<
     );
     let driver = DRIVER
         .replace("@B@", bits)
-        .replace("@D@", drive_force)
+        .replace("@D@", &more)
         .replace("@Z@", &kept);
     std::fs::write(dir.path().join("driver.cpp"), driver).unwrap();
     let flags = "-std=c++11 -O2 -fno-exceptions -fno-rtti -fsanitize=undefined -fno-sanitize-recover=all -Isrc";

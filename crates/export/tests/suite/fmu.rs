@@ -2,6 +2,7 @@
 //! standard.
 
 use crate::common::compiled::{Sample, agree, drive, gcc, kept, passive, run, write};
+use crate::common::terms::extras;
 use crate::common::{laws, model, models, parts};
 use std::path::{Path, PathBuf};
 use stiction_export::{File, GCC, Model, fmu};
@@ -156,12 +157,12 @@ static void *find(const char *name) {
 #define GET(type, name, arguments) type (*name)arguments = (type (*)arguments)find(#name)
 int main(void) {
     static const unsigned inputs[] = { @INPUTS@ }, flags[] = { @FLAGS@ }, outputs[] = { @OUTPUTS@ };
-    double in[6];
+    double in[10];
     library = dlopen("./binaries/@FOLDER@/x_axis_friction.so", RTLD_NOW);
     if (library == NULL) { return 1; }
 @SETUP@
     for (long k = 0; fread(in, sizeof in, 1, stdin) == 1; k++) {
-        const double numbers[] = { in[1], in[2], in[4] };
+        const double numbers[] = { in[1], in[2]@NUMBERS@ };
         double out[@COUNT@];
 @STEP@
         out[1] = @KEPT@;
@@ -244,15 +245,18 @@ fn through_fmu(version: usize, model: &Model, samples: &[Sample]) -> Vec<[f64; 2
         _ => outputs.push("force"),
     }
     let kept = kept(&model.friction, "out[1]", |k| format!("out[{}]", k + 1));
+    let force = model.settings.adaptation.map(|_| ("drive_force", 4));
+    let more: Vec<_> = force.into_iter().chain(extras(model)).collect();
+    let numbers: String = more.iter().map(|(_, at)| format!(", in[{at}]")).collect();
+    let mut names = vec!["reference_velocity", "tracking_error"];
+    names.extend(more.iter().map(|(name, _)| *name));
     let driver = DRIVER
         .replace("@FOLDER@", folder)
         .replace("@SETUP@", setup)
         .replace("@STEP@", step)
         .replace("@TOKEN@", token)
-        .replace(
-            "@INPUTS@",
-            &references(&["reference_velocity", "tracking_error", "drive_force"]),
-        )
+        .replace("@INPUTS@", &references(&names))
+        .replace("@NUMBERS@", &numbers)
         .replace("@FLAGS@", &references(&["enable", "learn"]))
         .replace("@OUTPUTS@", &references(&outputs))
         .replace("@COUNT@", &outputs.len().to_string())

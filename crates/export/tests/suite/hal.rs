@@ -1,6 +1,7 @@
 //! The HAL component: built by halcompile, run by LinuxCNC in a real thread, and sample by sample against the compensator.
 
 use crate::common::compiled::{Sample, agree, drive, gcc, kept, passive, run, write};
+use crate::common::terms::extras;
 use crate::common::{laws, model, models};
 use stiction_export::{Model, Target, export};
 use stiction_testkit::hal::{self, Installed};
@@ -125,7 +126,7 @@ int rtapi_snprintf(char *to, unsigned long size, const char *format, ...) {
 void rtapi_print_msg(msg_level_t level, const char *format, ...) { (void)level; (void)format; }
 
 int main(void) {
-    double in[6];
+    double in[10];
     if (rtapi_app_main() != 0) { return 1; }
     hal_float_t *velocity = pin("velocity"), *error = pin("error"), *force = pin("force");
     hal_bit_t *enable = pin("enable"), *valid = pin("valid");
@@ -158,15 +159,17 @@ fn through_hal(model: &Model, samples: &[Sample]) -> Vec<[f64; 2]> {
     let kept = kept(&model.friction, &number("deflection"), |k| {
         number(&format!("element-{k:02}"))
     });
-    let fed = match model.settings.adaptation {
-        Some(_) => {
-            "*(hal_float_t *)pin(\"drive-force\") = in[4]; *(hal_bit_t *)pin(\"learn\") = in[5] != 0.0;"
-        }
-        None => "",
-    };
+    let mut fed = String::new();
+    if model.settings.adaptation.is_some() {
+        fed += "*(hal_float_t *)pin(\"drive-force\") = in[4]; *(hal_bit_t *)pin(\"learn\") = in[5] != 0.0;";
+    }
+    for (name, at) in extras(model) {
+        let pin = name.replace('_', "-");
+        fed += &format!("*(hal_float_t *)pin(\"{pin}\") = in[{at}];");
+    }
     std::fs::write(
         dir.path().join("driver.c"),
-        DRIVER.replace("@Z@", &kept).replace("@D@", fed),
+        DRIVER.replace("@Z@", &kept).replace("@D@", &fed),
     )
     .unwrap();
     gcc(

@@ -13,3 +13,4 @@ mod rust;
 mod st;
 mod texts;
 mod tf5200;
+mod weight;

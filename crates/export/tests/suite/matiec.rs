@@ -3,6 +3,7 @@
 
 use crate::common::compiled::{Sample, drive, kept, run};
 use crate::common::matiec::{compile, matiec};
+use crate::common::terms::extras;
 use crate::common::{laws, model, models};
 use crate::st;
 use std::path::Path;
@@ -13,9 +14,9 @@ const BLOCK: &str = r#"
 int main(void)
 {
     static NAME block;
-    double in[6];
+    double in[10];
     NAME_init__(&block, 0);
-    while (fread(in, sizeof *in, 6, stdin) == 6) {
+    while (fread(in, sizeof *in, 10, stdin) == 10) {
         block.CYCLE_TIME.value = (REAL)in[0];
         block.REFERENCE_VELOCITY.value = (REAL)in[1];
         block.TRACKING_ERROR.value = (REAL)in[2];
@@ -65,17 +66,16 @@ fn compiled(matiec: &Path, model: &Model, name: &str, samples: &[Sample]) -> Vec
     } else {
         "double"
     };
+    let mut more = String::new();
+    if model.settings.adaptation.is_some() {
+        more += "block.DRIVE_FORCE.value = (REAL)in[4]; block.LEARN.value = in[5] != 0.0;";
+    }
+    for (name, at) in extras(model) {
+        more += &format!("block.{}.value = (REAL)in[{at}];", name.to_uppercase());
+    }
     let driver = BLOCK
         .replace("NAME", &name.to_uppercase())
-        .replace(
-            "DRIVE",
-            match model.settings.adaptation {
-                Some(_) => {
-                    "block.DRIVE_FORCE.value = (REAL)in[4]; block.LEARN.value = in[5] != 0.0;"
-                }
-                None => "",
-            },
-        )
+        .replace("DRIVE", &more)
         .replace("REAL", real)
         .replace("KEPT }", &format!("{kept} }}"));
     compile(matiec, &[text], &driver, dir.path(), "block");

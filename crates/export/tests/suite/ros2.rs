@@ -4,7 +4,7 @@
 use crate::common::compiled::{drive, run, through_rust, write};
 use crate::common::{adapting, adversarial, busy, laws, model, models, random};
 use stiction_export::{Target, export};
-use stiction_friction::compensator::Settings;
+use stiction_friction::compensator::{Settings, Terms};
 
 const STRICT: &[&str] = &[
     "-std=c++11",
@@ -65,7 +65,7 @@ int main(int, char **argv)
     if (node.asked != node.tree["x_axis_friction"].size()) { return 2; }
     x_axis_friction::ros2::Friction friction;
     if (!friction.configure(parameters)) { return 1; }
-    double in[6];
+    double in[10];
     while (fread(in, sizeof in, 1, stdin) == 1) {
         const x_axis_friction::f64::Input input = { in[1], in[2], in[3] != 0.0, in[4], in[5] != 0.0 };
         const double out[2] = { friction.step(in[0], input), 0.0 };
@@ -126,7 +126,7 @@ fn the_parameters_are_those_of_the_file() {
             std::fs::write(&started, script).unwrap();
             run("chmod", &["+x", file], dir.path());
             let found = drive(dir.path(), file, &samples);
-            let due = through_rust(friction, settings, &samples);
+            let due = through_rust(friction, settings, Terms::default(), &samples);
             assert_eq!(found.len(), due.len(), "{name} {file}");
             for (i, ([force, _], due)) in found.into_iter().zip(due).enumerate() {
                 let allowed =

@@ -1,8 +1,9 @@
 //! The Structured Text: parsed by two parsers, its test program run, and executed beside the compensator.
 
 use crate::common;
-use crate::common::compiled::{Sample, most_stored, stored};
+use crate::common::compiled::{Sample, most_stored, single, stored, surrounded};
 use crate::common::reserved::is_reserved;
+use crate::common::terms::{extras, surround, with_terms};
 use crate::common::{
     GUARDED, adapting, adversarial, all_laws, busy, following, guarded, laws, model, models, random,
 };
@@ -10,7 +11,9 @@ use std::collections::HashSet;
 use std::path::PathBuf;
 use std::process::Command;
 use stiction_export::{File, Model, Target, export};
-use stiction_friction::compensator::{Adaptation, Compensator, Friction, Input, Settings, Source};
+use stiction_friction::compensator::{
+    Adaptation, Compensator, Friction, Input, Settings, Source, Terms,
+};
 use stiction_friction::{CoulombViscous, Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_testkit::st::{Instance, Library};
 
@@ -148,6 +151,10 @@ fn seen(h: f64, input: &Input<f64>, huge: f64) -> (f64, Input<f64>) {
         reference_velocity: none(input.reference_velocity),
         tracking_error: none(input.tracking_error),
         drive_force: none(input.drive_force),
+        reference_acceleration: none(input.reference_acceleration),
+        position: none(input.position),
+        load: none(input.load),
+        temperature: none(input.temperature),
         ..*input
     };
     (h, input)
@@ -185,9 +192,15 @@ fn lreal_over(
         runs.push((adapting(busy()), samples));
         let samples = adversarial(each / 2, true, &mut random(100 + seed as u64));
         runs.push((adapting(model.settings), samples));
-        for (settings, samples) in runs {
+        let runs = runs.into_iter().map(|(settings, samples)| {
             model.settings = settings;
-            let mut compensator = Compensator::new(friction, Source::Reference, settings).unwrap();
+            (model.clone(), samples)
+        });
+        let runs: Vec<_> = runs.collect();
+        for (model, samples) in runs.into_iter().chain(surrounded(friction, seed)) {
+            let friction = model.friction;
+            let compensator = Compensator::new(friction, Source::Reference, model.settings);
+            let mut compensator = compensator.unwrap().with_terms(model.terms).unwrap();
             let found = through(&model, &samples);
             assert_eq!(found.len(), samples.len());
             for (i, ((h, input), [force, z])) in samples.iter().zip(found).enumerate() {
@@ -231,6 +244,8 @@ fn interpreted(model: &Model, name: &str, samples: &[Sample]) -> Vec<[f64; 2]> {
     let inputs = inputs.map(|n| block.slot(n));
     let adapts = model.settings.adaptation.is_some();
     let drive = adapts.then(|| ["drive_force", "learn"].map(|n| block.slot(n)));
+    let more = extras(model).into_iter();
+    let more: Vec<_> = more.map(|(name, at)| (block.slot(name), at)).collect();
     let force = block.slot("force");
     let kept = Kept::of(&model.friction, &block);
     let step = |(h, input): &Sample| {
@@ -242,6 +257,15 @@ fn interpreted(model: &Model, name: &str, samples: &[Sample]) -> Vec<[f64; 2]> {
         if let Some([force, learn]) = drive {
             block.set(force, input.drive_force);
             block.set(learn, f64::from(u8::from(input.learn)));
+        }
+        for &(slot, at) in &more {
+            let came = [
+                input.reference_acceleration,
+                input.position,
+                input.load,
+                input.temperature,
+            ];
+            block.set(slot, came[at - 6]);
         }
         block.call();
         [block.get(force), kept.value(&block)]
@@ -294,9 +318,16 @@ pub fn real(what: &str, through: impl Fn(&Model, &[Sample]) -> Vec<[f64; 2]>) {
         let plain = adversarial(150_000, true, random);
         let followed = following(friction, model.settings, random);
         for (small, mut samples) in [(small, plain), (follows, followed)] {
+            let (mut law, mut terms) = (law, Terms::default());
             if small.adaptation.is_some() {
-                model.settings = adapting(model.settings);
+                let settings = adapting(model.settings);
+                surround(&mut samples, random);
+                model = with_terms(friction, seed);
+                model.settings = settings;
+                law = model.friction.cast::<f32>().unwrap();
+                terms = single(&model.terms);
             }
+            let friction = model.friction;
             for (h, input) in &mut samples {
                 // As the controller's REAL inputs hold it.
                 for x in [
@@ -304,11 +335,16 @@ pub fn real(what: &str, through: impl Fn(&Model, &[Sample]) -> Vec<[f64; 2]>) {
                     &mut input.reference_velocity,
                     &mut input.tracking_error,
                     &mut input.drive_force,
+                    &mut input.reference_acceleration,
+                    &mut input.position,
+                    &mut input.load,
+                    &mut input.temperature,
                 ] {
                     *x = f64::from(*x as f32);
                 }
             }
-            let mut compensator = Compensator::new(law, Source::Reference, small).unwrap();
+            let compensator = Compensator::new(law, Source::Reference, small).unwrap();
+            let mut compensator = compensator.with_terms(terms).unwrap();
             let found = through(&model, &samples);
             assert_eq!(found.len(), samples.len());
             for (i, ((h, input), [force, _])) in samples.iter().zip(found).enumerate() {
@@ -320,7 +356,10 @@ pub fn real(what: &str, through: impl Fn(&Model, &[Sample]) -> Vec<[f64; 2]>) {
                     enable: input.enable,
                     drive_force: input.drive_force as f32,
                     learn: input.learn,
-                    ..Input::default()
+                    reference_acceleration: input.reference_acceleration as f32,
+                    position: input.position as f32,
+                    load: input.load as f32,
+                    temperature: input.temperature as f32,
                 };
                 let due = f64::from(compensator.step_in(h as f32, input));
                 let off = (force - due).abs() / friction.scale();

@@ -127,6 +127,32 @@ impl<T: Real> Friction<T> {
         })
     }
 
+    /// The same law without its constant force.
+    ///
+    /// # Errors
+    /// None: its other numbers have been checked.
+    pub fn without_offset(&self) -> Result<Self, ParamError> {
+        let of = |curve: &Stribeck<T>| {
+            Stribeck::new(curve.shape(), *curve.positive(), *curve.negative(), T::ZERO)
+        };
+        let bristle = |law: &LuGre<T>| LuGre::new(law.stiffness(), law.damping(), of(law.curve())?);
+        Ok(match self {
+            Friction::Coulomb(law) => {
+                Friction::Coulomb(CoulombViscous::new(law.coulomb(), law.viscous(), T::ZERO)?)
+            }
+            Friction::Stribeck(curve) => Friction::Stribeck(of(curve)?),
+            Friction::LuGre(law) => Friction::LuGre(bristle(law)?),
+            Friction::ElastoPlastic(law) => Friction::ElastoPlastic(ElastoPlastic::new(
+                bristle(law.bristle())?,
+                law.breakaway(),
+            )?),
+            Friction::Gms(law) => {
+                let curve = of(law.curve())?;
+                Friction::Gms(MaxwellSlip::new(law.elements(), law.attraction(), curve)?)
+            }
+        })
+    }
+
     /// Constant force beside friction, N (N m).
     pub fn offset(&self) -> T {
         match self {

@@ -3,7 +3,7 @@
 use crate::Real;
 
 /// What the drive knows in a sample.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Input<T> {
     /// Reference velocity, m/s (rad/s); where it is known, that of the instant at which the force will act
     /// ([`ahead`](super::ahead)).
@@ -31,6 +31,25 @@ pub struct Input<T> {
     pub load: T,
     /// Temperature, K.
     pub temperature: T,
+}
+
+impl<T: Real> Default for Input<T> {
+    /// Standstill, not enabled; position, load and temperature not known.
+    fn default() -> Self {
+        let unknown = T::from_f64(f64::NAN);
+        Input {
+            reference_velocity: T::ZERO,
+            measured_velocity: T::ZERO,
+            tracking_error: T::ZERO,
+            enable: false,
+            drive_force: T::ZERO,
+            learn: false,
+            reference_acceleration: T::ZERO,
+            position: unknown,
+            load: unknown,
+            temperature: unknown,
+        }
+    }
 }
 
 impl<T: Real> Input<T> {

@@ -742,3 +742,19 @@ fn no_energy_is_gained_over_closed_cycles() {
     };
     runner.run(&case, cycles).unwrap();
 }
+
+/// A level that takes the force of a velocity that no machine has beyond the number type makes none, least of all while it is
+/// not enabled.
+#[test]
+fn a_force_beyond_the_number_type_is_none() {
+    let law = lopsided(stiction_friction::Shape::Gaussian, Damping::Capped(600.0));
+    let mut compensator = bare(law, Source::Reference);
+    compensator.set_level(2.0);
+    let fast = Input {
+        enable: false,
+        ..moving(2e306)
+    };
+    assert_eq!(compensator.step(fast), 0.0);
+    assert_eq!(compensator.step(moving(2e306)), 0.0);
+    assert!(compensator.step(moving(0.1)) > 0.0);
+}

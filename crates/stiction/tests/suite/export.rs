@@ -1,7 +1,7 @@
 //! `stiction export` from a model file: what is written, what is refused, what is said.
 
 use std::path::{Path, PathBuf};
-use stiction::{Error, ExportOptions, Exported, Target, export_file};
+use stiction::{Error, ExportOptions, Exported, Feedforward, Target, export_file};
 
 const LUGRE: [(&str, f64, &str); 6] = [
     ("sigma0", 1.2e5, "N/m"),
@@ -676,4 +676,143 @@ fn settings_follow_from_the_law_or_are_given() {
     options.target = Target::Mujoco;
     let error = bench.export_to("none", &options).unwrap_err().to_string();
     assert!(error.contains("a ramp for the target mujoco"), "{error}");
+}
+
+/// LuGre with all that friction may depend on, and mass, weight and cogging beside it.
+fn beside() -> Vec<(&'static str, f64, &'static str)> {
+    let more = [
+        ("mass", 4.0, "kg"),
+        ("offset", 6.0, "N"),
+        ("cogging1_sin", 1.5, "N"),
+        ("cogging1_cos", -0.5, "N"),
+        ("coulomb_temperature", -0.4, "N/K"),
+        ("coulomb_position", 8.0, "N/m"),
+        ("coulomb_load", 0.05, "1"),
+        ("sigma2_temperature", -0.5, "N s/(m K)"),
+        ("temperature_reference", 300.0, "K"),
+        ("position_reference", 0.1, "m"),
+        ("load_reference", 100.0, "N"),
+    ];
+    LUGRE.into_iter().chain(more).collect()
+}
+
+const SEEN: &str = "\n[range]\nposition = [0.0, 0.2]\ntemperature = [290.0, 310.0]\nload = [80.0, 150.0]\nacceleration = 5.0\n\n\
+     [pitch]\ncogging = [0.024]\n";
+
+fn file(files: &[stiction::commands::export::File], name: &str) -> String {
+    let found = files.iter().find(|f| f.path.ends_with(name)).unwrap();
+    String::from_utf8(found.bytes.clone()).unwrap()
+}
+
+/// What friction depends on is an input of the code with its unit and range, where the model says over which range; else the
+/// code has it at its reference, and the message has the lines to write.
+#[test]
+fn what_friction_depends_on_is_an_input() {
+    let bench = Bench::new();
+    let model = text("lugre", &beside());
+    let with = bench.export(&(model.clone() + SEEN)).unwrap();
+    let head = file(&with.files, "friction.h");
+    for line in [
+        "position: that of the reference in m, 0 to 0.2000.",
+        "load: in N, 80.00 to 150.0.",
+        "temperature: in K (degrees Celsius + 273.15), 290.0 to 310.0.",
+        "    double temperature;        /* K, 290.0 to 310.0 */",
+        "    double load;               /* N, 80.0 to 150.0 */",
+    ] {
+        assert!(head.contains(line), "{line}: {head}");
+    }
+    let source = file(&with.files, "friction.c");
+    assert!(
+        source.contains("factor += (forward ? (-0.02) : (-0.02)) * temperature;"),
+        "{source}"
+    );
+    assert!(source.contains("factor += (forward ? 0.4 : 0.4) * (x - 0.1);"));
+    let said = |exported: &Exported| -> String {
+        let each = exported.warnings.iter().map(|w| w.message.clone());
+        each.collect::<Vec<_>>().join("\n")
+    };
+    assert!(!said(&with).contains("does not see"), "{}", said(&with));
+    // A tenth of 20 N at 10 K, 4 % at 0.1 m and 12.5 % at 50 N more than at the reference.
+    let most = 1.0 + 0.2 + 0.04 + 0.125;
+    assert!(
+        (with.limit - 2.0 * (30.0 * most + 6.0)).abs() < 1e-9,
+        "{}",
+        with.limit
+    );
+
+    let bench = Bench::new();
+    let without = bench.export(&model).unwrap();
+    assert!(!file(&without.files, "friction.h").contains("double temperature"));
+    assert_eq!(without.limit, 72.0);
+    let said = said(&without);
+    for line in [
+        "coulomb_temperature = -0.4000 N/K: at 300.0 K",
+        "[range] temperature = [LEAST, LARGEST] in K",
+        "[range] position = [LEAST, LARGEST]",
+        "[range] load = [LEAST, LARGEST]",
+    ] {
+        assert!(said.contains(line), "{line}: {said}");
+    }
+}
+
+/// What is asked for beside friction is in the code, with room in its limit; what the model has not is refused, with what it has.
+#[test]
+fn what_is_fed_forward_is_asked_for() {
+    let fed = |names: &str| Feedforward::from_names(names.split(',')).unwrap();
+    let bench = Bench::new();
+    let mut options = bench.options(&(text("lugre", &beside()) + SEEN));
+    options.feedforward = fed("friction,mass,gravity,cogging");
+    let exported = bench.export_to("all", &options).unwrap();
+    let head = file(&exported.files, "friction.h");
+    for line in [
+        "reference_acceleration: that of the reference in m/s^2",
+        "It is the sum of friction, mass, gravity, cogging",
+        "    double part_gravity;",
+    ] {
+        assert!(head.contains(line), "{line}: {head}");
+    }
+    // Once for each: 4 kg at 5 m/s^2, and 1.5 N and 0.5 N of cogging.
+    let of_law = 2.0 * (30.0 * 1.365 + 6.0);
+    assert!(
+        (exported.limit - (of_law + 20.0 + 2.0)).abs() < 1e-9,
+        "{}",
+        exported.limit
+    );
+    let left = exported.warnings.iter().map(|w| w.code.as_str());
+    assert!(!left.collect::<Vec<_>>().contains(&"export-terms"));
+
+    let refusal = |model: &str, names: &str| {
+        let bench = Bench::new();
+        let mut options = bench.options(model);
+        options.feedforward = fed(names);
+        bench.export_to("out", &options).unwrap_err().to_string()
+    };
+    let plain = text("lugre", &LUGRE);
+    assert_eq!(
+        refusal(&plain, "friction,mass"),
+        "the model has no mass that the log determines; it can feed forward: friction"
+    );
+    assert_eq!(
+        refusal(&plain, "friction,gravity"),
+        "the model has no constant force, which on a linear axis is its weight; it can feed forward: friction"
+    );
+    let unseen = text("lugre", &beside());
+    assert_eq!(
+        refusal(&unseen, "friction,gravity,cogging"),
+        "the model has no pitch of its cogging: add [pitch] cogging = [PITCH] in m; it can feed forward: friction, gravity"
+    );
+    assert_eq!(
+        refusal(&unseen, "friction,mass"),
+        "a mass of 4.000 fed forward without a limit; a limit, or the largest acceleration of the log in the model: [range] \
+         acceleration = LARGEST"
+    );
+    assert!(Feedforward::from_names(["mass"]).is_err());
+    assert!(Feedforward::from_names(["friction", "weight"]).is_err());
+    options.target = Target::Tf5200;
+    options.rated_force = Some(200.0);
+    let error = bench.export_to("table", &options).unwrap_err().to_string();
+    assert!(
+        error.contains("a feedforward beside friction for the target tf5200"),
+        "{error}"
+    );
 }

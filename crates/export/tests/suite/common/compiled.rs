@@ -1,5 +1,6 @@
 //! Code of a target, compiled and run beside the compensator.
 
+use super::terms::{extras, surround, with_terms};
 use super::{GUARDED, adapting, adversarial, busy, following, guarded, laws, model, random};
 use std::io::{Read, Write};
 use std::path::Path;
@@ -7,7 +8,8 @@ use std::process::{Command, Stdio};
 use stiction_export::{File, Model};
 use stiction_friction::Real;
 use stiction_friction::compensator::{
-    Adaptation, Compensator, Friction, Input, Settings, Source, Watchdog,
+    Adaptation, Channel, Channels, Compensator, Friction, Input, Levels, Settings, Source, Terms,
+    Watchdog, Wave, Weight,
 };
 
 /// Time since the sample before, s, and what comes in.
@@ -43,8 +45,8 @@ pub fn gcc(flags: &str, rest: &[&str], dir: &Path) {
     run("gcc", &arguments, dir);
 }
 
-/// What a compiled program gives that reads `h, velocity, error, enable, drive force, learn` as doubles and writes force and
-/// what is [`kept`].
+/// What a compiled program gives that reads `h, velocity, error, enable, drive force, learn, acceleration, position, load,
+/// temperature` as doubles and writes force and what is [`kept`].
 pub fn drive(dir: &Path, program: &str, samples: &[Sample]) -> Vec<[f64; 2]> {
     let bytes: Vec<u8> = samples
         .iter()
@@ -56,6 +58,10 @@ pub fn drive(dir: &Path, program: &str, samples: &[Sample]) -> Vec<[f64; 2]> {
                 f64::from(u8::from(input.enable)),
                 input.drive_force,
                 f64::from(u8::from(input.learn)),
+                input.reference_acceleration,
+                input.position,
+                input.load,
+                input.temperature,
             ]
         })
         .flat_map(f64::to_le_bytes)
@@ -123,9 +129,11 @@ pub fn most_stored(friction: &Friction<f64>) -> f64 {
 pub fn through_rust<T: Real>(
     friction: Friction<T>,
     settings: Settings<T>,
+    terms: Terms<T>,
     samples: &[Sample],
 ) -> Vec<f64> {
-    let mut compensator = Compensator::new(friction, Source::Reference, settings).unwrap();
+    let compensator = Compensator::new(friction, Source::Reference, settings).unwrap();
+    let mut compensator = compensator.with_terms(terms).unwrap();
     let to = T::from_f64;
     samples
         .iter()
@@ -137,9 +145,40 @@ pub fn through_rust<T: Real>(
                 enable: input.enable,
                 drive_force: to(input.drive_force),
                 learn: input.learn,
-                ..Input::default()
+                reference_acceleration: to(input.reference_acceleration),
+                position: to(input.position),
+                load: to(input.load),
+                temperature: to(input.temperature),
             };
             compensator.step_in(to(*h), input).to_f64()
+        })
+        .collect()
+}
+
+/// Models of a law with terms, and samples for them: hostile ones, and those that a watchdog and levels that follow learn from.
+pub fn surrounded(friction: Friction<f64>, seed: usize) -> Vec<(Model, Vec<Sample>)> {
+    let random = &mut random(200 + seed as u64);
+    let hostile = adversarial(20_000, true, random);
+    let kind = GUARDED.get(seed).filter(|(_, trip)| trip.is_none());
+    let guarded = kind.map(|kind| guarded(friction, busy(), *kind, random));
+    let followed = following(friction, busy(), random);
+    let unguarded = Settings {
+        watchdog: None,
+        limit: 60.0,
+        ..busy()
+    };
+    let runs = [
+        (unguarded, hostile, 0),
+        (adapting(unguarded), followed, 1 + seed),
+    ];
+    let guarded = guarded.map(|samples| (busy(), samples, 0));
+    runs.into_iter()
+        .chain(guarded)
+        .map(|(settings, mut samples, kind)| {
+            surround(&mut samples, random);
+            let mut model = with_terms(friction, kind);
+            model.settings = settings;
+            (model, samples)
         })
         .collect()
 }
@@ -185,11 +224,15 @@ pub fn agree_over(
                 ),
                 (adapting(busy()), following),
             ]);
-        for (run, (settings, mut samples)) in runs.enumerate() {
+        let runs = runs.map(|(settings, samples)| {
             model.settings = settings;
+            (model.clone(), samples)
+        });
+        for (run, (model, mut samples)) in runs.chain(surrounded(friction, seed)).enumerate() {
             prepare(&mut samples);
+            let friction = model.friction;
             let found = through(&model, &samples);
-            let rust = through_rust(friction, model.settings, &samples);
+            let rust = through_rust(friction, model.settings, model.terms, &samples);
             assert_eq!(found.len(), rust.len());
             for (i, ([force, z], due)) in found.into_iter().zip(rust).enumerate() {
                 let off = (force - due).abs();
@@ -226,10 +269,15 @@ pub fn agree_single(target: &str, through: impl Fn(&Model, &[Sample]) -> Vec<[f6
     for ((seed, (name, friction)), follows) in runs {
         let random = &mut random(100 + seed as u64);
         let mut model = model(friction);
-        let samples = match follows {
+        let mut samples = match follows {
             true => following(friction, busy(), random),
             false => adversarial(each, true, random),
         };
+        if follows {
+            surround(&mut samples, random);
+            model = with_terms(friction, seed);
+        }
+        let friction = model.friction;
         model.settings = match follows {
             true => adapting(busy()),
             false => busy(),
@@ -255,7 +303,12 @@ pub fn agree_single(target: &str, through: impl Fn(&Model, &[Sample]) -> Vec<[f6
         };
         for (i, ([force, _], due)) in found
             .into_iter()
-            .zip(through_rust(small, settings, &samples))
+            .zip(through_rust(
+                small,
+                settings,
+                single(&model.terms),
+                &samples,
+            ))
             .enumerate()
         {
             let off = (force - due).abs() / friction.scale();
@@ -292,4 +345,49 @@ pub fn passive(rounding: f64, through: impl Fn(&Model, &[Sample]) -> Vec<[f64; 2
             );
         }
     }
+}
+
+/// Terms in single precision.
+pub fn single(terms: &Terms<f64>) -> Terms<f32> {
+    let to = |x: f64| x as f32;
+    let both = |x: [f64; 2]| x.map(to);
+    let channel = |c: Channel<f64>| Channel {
+        reference: to(c.reference),
+        range: both(c.range),
+    };
+    let wave = |w: Wave<f64>| Wave {
+        rate: to(w.rate),
+        whole: w.whole,
+        sine: to(w.sine),
+        cosine: to(w.cosine),
+    };
+    Terms {
+        channels: Channels {
+            load: channel(terms.channels.load),
+            temperature: channel(terms.channels.temperature),
+            position: channel(terms.channels.position),
+        },
+        levels: terms.levels.map(|l| Levels {
+            load: both(l.load),
+            temperature: both(l.temperature),
+            position: both(l.position),
+            waves: l.waves.map(|waves| waves.map(wave)),
+            viscous: both(l.viscous),
+        }),
+        mass: to(terms.mass),
+        weight: terms.weight.map(|w| Weight {
+            constant: to(w.constant),
+            wave: wave(w.wave),
+        }),
+        cogging: terms.cogging.map(wave),
+    }
+}
+
+/// What follows `enable` in the input of a model: the `drive` of levels that follow, and each of its [`extras`], written by its
+/// place.
+pub fn more_inputs(model: &Model, drive: &str, extra: impl Fn(usize) -> String) -> String {
+    let drive = model.settings.adaptation.map(|_| drive.to_string());
+    let extras = extras(model).into_iter().map(|(_, at)| extra(at));
+    let each = drive.into_iter().chain(extras);
+    each.map(|text| format!(", {text}")).collect()
 }

@@ -4,6 +4,7 @@
 pub mod compiled;
 pub mod matiec;
 pub mod reserved;
+pub mod terms;
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -128,6 +129,7 @@ pub fn models() -> Vec<(&'static str, Model)> {
         .into_iter()
         .map(|(name, law)| (name, model(law)))
         .chain(again)
+        .chain(terms::models())
         .collect()
 }
 
@@ -138,6 +140,8 @@ pub fn model(friction: Friction<f64>) -> Model {
         rotary: false,
         force_unit: "N".into(),
         friction,
+        terms: stiction_friction::compensator::Terms::default(),
+        load_unit: String::new(),
         settings: Settings::new(1e-3, 60.0),
         rated_force: Some(221.0),
         top_speed: None,

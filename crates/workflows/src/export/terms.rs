@@ -1,0 +1,398 @@
+//! What a model has beside its law: what friction depends on, and what is fed forward beside it.
+
+use crate::error::Error;
+use std::f64::consts::TAU;
+use stiction_files::ModelFile;
+use stiction_files::model::ReadModel;
+use stiction_friction::compensator::{
+    Channel, Friction, Levels, Settings, Terms, WAVES, Wave, Weight,
+};
+use stiction_parameters::{Name, Quantity, Side, Wave as Part};
+
+/// What is fed forward beside friction.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Feedforward {
+    /// Mass times the acceleration of the reference.
+    pub mass: bool,
+    /// The weight: the constant force of the law, and on a rotary axis sine and cosine of its angle.
+    pub gravity: bool,
+    /// Waves of the force along the position.
+    pub cogging: bool,
+}
+
+/// The names of all that can be fed forward beside friction, in their order.
+const BESIDE: [&str; 3] = ["mass", "gravity", "cogging"];
+
+impl Feedforward {
+    /// From the names of its parts, of which one is `friction`.
+    ///
+    /// # Errors
+    /// A name that is none, or where friction is not among them.
+    pub fn from_names<'a>(names: impl IntoIterator<Item = &'a str>) -> Result<Self, Error> {
+        let mut feedforward = Self::default();
+        let mut friction = false;
+        for name in names {
+            match name.trim() {
+                "friction" => friction = true,
+                "mass" => feedforward.mass = true,
+                "gravity" => feedforward.gravity = true,
+                "cogging" => feedforward.cogging = true,
+                other => {
+                    let short: String = other.chars().take(60).collect();
+                    return Err(Error::usage(
+                        format!("a feedforward of {short:?}"),
+                        "friction, and of mass, gravity and cogging what the model has",
+                    ));
+                }
+            }
+        }
+        match friction {
+            true => Ok(feedforward),
+            false => Err(Error::NotFed {
+                found: "a feedforward without friction: the block is that of friction, which everything else stands beside".into(),
+                instead: feedforward.names(),
+            }),
+        }
+    }
+
+    /// The names of its parts.
+    pub fn names(self) -> Vec<&'static str> {
+        let own = [self.mass, self.gravity, self.cogging];
+        let beside = BESIDE.into_iter().zip(own).filter(|(_, own)| *own);
+        let beside = beside.map(|(name, _)| name);
+        std::iter::once("friction").chain(beside).collect()
+    }
+}
+
+/// What a compensator takes of a model beside its law.
+pub(super) struct Beside {
+    pub terms: Terms<f64>,
+    /// The law; beside a weight without its offset.
+    pub friction: Friction<f64>,
+    /// The parameters that are in the terms.
+    pub taken: Vec<String>,
+    /// The lines that would bring in what is left at its reference, such as `[range] temperature = [290.0, 310.0]`.
+    pub lacking: Vec<&'static str>,
+    /// Largest force of mass, weight and cogging within what the log has seen; `None` where that is not known.
+    largest: Option<f64>,
+}
+
+/// What a model has, with the law that its code gets. `fed` is what is asked for beside friction.
+pub(super) fn beside(
+    read: &ReadModel,
+    friction: Friction<f64>,
+    fed: Feedforward,
+) -> Result<Beside, Error> {
+    let file = &read.model;
+    let mut found = Beside {
+        terms: Terms::default(),
+        friction,
+        taken: Vec::new(),
+        lacking: Vec::new(),
+        largest: Some(0.0),
+    };
+    levels(file, &mut found);
+    feed(file, fed, &mut found)?;
+    Ok(found)
+}
+
+impl Beside {
+    /// Settings whose limit has room for the terms, from those for the law.
+    pub fn settings(&self, of_law: Settings<f64>, friction: &Friction<f64>) -> Settings<f64> {
+        let levels = self.terms.levels.map(|l| l.largest(&self.terms.channels));
+        let more =
+            2.0 * friction.scale() * (levels.unwrap_or(1.0) - 1.0) + self.largest.unwrap_or(0.0);
+        match more > 0.0 {
+            true => of_law.reaching(of_law.limit + more),
+            false => of_law,
+        }
+    }
+
+    /// Whether a limit follows from the model.
+    pub fn has_limit(&self) -> bool {
+        self.largest.is_some()
+    }
+}
+
+/// A channel with the reference of the model, within the range that the log saw.
+fn channel(file: &ModelFile, range: Option<[f64; 2]>, reference: &str) -> Option<Channel<f64>> {
+    let [low, high] = range?;
+    let given = file.parameter.iter().find(|p| p.name == reference);
+    let middle = low + 0.5 * (high - low);
+    let reference = given.map_or(middle, |p| p.value);
+    (low <= reference && reference <= high).then_some(Channel {
+        reference,
+        range: [low, high],
+    })
+}
+
+/// A wave of a pitch, whole where the log saw all of it.
+fn wave(pitch: f64, range: [f64; 2]) -> Wave<f64> {
+    Wave {
+        rate: TAU / pitch,
+        whole: range[1] - range[0] >= pitch,
+        ..Wave::default()
+    }
+}
+
+fn put(wave: &mut Wave<f64>, part: Part, value: f64) {
+    match part {
+        Part::Sine => wave.sine = value,
+        Part::Cosine => wave.cosine = value,
+    }
+}
+
+/// What friction depends on, as far as the model says over which range.
+fn levels(file: &ModelFile, found: &mut Beside) {
+    let mut levels = Levels::default();
+    let coulomb = found.friction.coulomb();
+    let place = channel(file, file.range.position, "position_reference");
+    let load = channel(file, file.range.load, "load_reference");
+    let temperature = channel(file, file.range.temperature, "temperature_reference");
+    let mut any = false;
+    for p in &file.parameter {
+        let Ok(name) = p.name.parse::<Name>() else {
+            continue;
+        };
+        let (channel, line) = match name.quantity {
+            Quantity::CoulombLoad => (load, "[range] load = [LEAST, LARGEST]"),
+            Quantity::CoulombTemperature | Quantity::Sigma2Temperature => {
+                (temperature, "[range] temperature = [LEAST, LARGEST] in K")
+            }
+            Quantity::CoulombPosition => (place, "[range] position = [LEAST, LARGEST]"),
+            Quantity::CoulombPitch(k, _) if pitch(&file.pitch.coulomb, k).is_none() => {
+                (None, "[pitch] coulomb = [PITCH]")
+            }
+            Quantity::CoulombPitch(..) => (place, "[range] position = [LEAST, LARGEST]"),
+            _ => continue,
+        };
+        if file.leaves_open(name) {
+            continue;
+        }
+        let Some(channel) = channel else {
+            if !found.lacking.contains(&line) {
+                found.lacking.push(line);
+            }
+            continue;
+        };
+        let sides: &[usize] = match name.side {
+            Side::Both => &[0, 1],
+            Side::Positive => &[0],
+            Side::Negative => &[1],
+        };
+        let viscous = name.quantity == Quantity::Sigma2Temperature;
+        if !viscous && sides.iter().any(|&side| coulomb[side] <= 0.0) {
+            continue;
+        }
+        for &side in sides {
+            let part = p.value / coulomb[side];
+            match name.quantity {
+                Quantity::CoulombLoad => levels.load[side] = part,
+                Quantity::CoulombTemperature => levels.temperature[side] = part,
+                Quantity::CoulombPosition => levels.position[side] = part,
+                Quantity::Sigma2Temperature => levels.viscous[side] = p.value,
+                Quantity::CoulombPitch(k, wave_part) => {
+                    let at = &mut levels.waves[side][k as usize - 1];
+                    if at.rate == 0.0 {
+                        let pitch = pitch(&file.pitch.coulomb, k).unwrap_or(1.0);
+                        *at = wave(pitch, channel.range);
+                    }
+                    put(at, wave_part, part);
+                }
+                _ => {}
+            }
+        }
+        let c = &mut found.terms.channels;
+        match name.quantity {
+            Quantity::CoulombLoad => c.load = channel,
+            Quantity::CoulombTemperature | Quantity::Sigma2Temperature => c.temperature = channel,
+            _ => c.position = channel,
+        }
+        any = true;
+        found.taken.push(p.name.clone());
+    }
+    // Waves of which one was left out move up.
+    for waves in &mut levels.waves {
+        *waves = together(*waves);
+    }
+    found.terms.levels = any.then_some(levels);
+}
+
+/// The waves that there are, first.
+fn together(waves: [Wave<f64>; WAVES]) -> [Wave<f64>; WAVES] {
+    let mut there = waves.into_iter().filter(|w| w.rate > 0.0);
+    std::array::from_fn(|_| there.next().unwrap_or_default())
+}
+
+/// The k-th pitch, counted from 1, of those that a compensator has room for.
+fn pitch(pitches: &[f64], k: u32) -> Option<f64> {
+    let k = k as usize;
+    (1..=WAVES)
+        .contains(&k)
+        .then(|| pitches.get(k - 1))
+        .flatten()
+        .copied()
+}
+
+/// What is asked for beside friction.
+fn feed(file: &ModelFile, fed: Feedforward, found: &mut Beside) -> Result<(), Error> {
+    let place = channel(file, file.range.position, "position_reference");
+    let mut able = fed;
+    let mut why = Vec::new();
+    let mut largest = Some(0.0);
+    if fed.mass {
+        match super::known_mass(file) {
+            Some(mass) => {
+                found.terms.mass = mass;
+                found.taken.push("mass".into());
+                let top = file.range.acceleration;
+                largest = top.map(|a| mass * a);
+            }
+            None => {
+                able.mass = false;
+                why.push("the model has no mass that the log determines".to_string());
+            }
+        }
+    }
+    if fed.gravity {
+        match weight(file, &found.friction, place) {
+            Ok((weight, taken)) => {
+                if weight.wave.rate > 0.0 {
+                    found.terms.channels.position = place.unwrap_or_default();
+                }
+                found.terms.weight = Some(weight);
+                found.friction = found
+                    .friction
+                    .without_offset()
+                    .map_err(|e| Error::usage(format!("{} = {}", e.name, e.value), e.allowed))?;
+                found.taken.extend(taken);
+            }
+            Err(reason) => {
+                able.gravity = false;
+                why.push(reason);
+            }
+        }
+    }
+    if fed.cogging {
+        match cogging(file, place) {
+            Ok((waves, taken)) => {
+                found.terms.channels.position = place.unwrap_or_default();
+                found.terms.cogging = waves;
+                found.taken.extend(taken);
+            }
+            Err(reason) => {
+                able.cogging = false;
+                why.push(reason);
+            }
+        }
+    }
+    why.dedup();
+    // The constant part of the weight is in the limit of the law.
+    let constant = found.terms.weight.map_or(0.0, |w| w.constant.abs());
+    found.largest = largest.map(|mass| mass + found.terms.largest_beside() - constant);
+    match why.is_empty() {
+        true => Ok(()),
+        false => Err(Error::NotFed {
+            found: why.join("; "),
+            instead: able.names(),
+        }),
+    }
+}
+
+/// Waves with the parameters that they are made of.
+type Waves = ([Wave<f64>; WAVES], Vec<String>);
+
+fn cogging(file: &ModelFile, place: Option<Channel<f64>>) -> Result<Waves, String> {
+    let mut waves = [Wave::default(); WAVES];
+    let mut taken = Vec::new();
+    for p in &file.parameter {
+        let Ok(name) = p.name.parse::<Name>() else {
+            continue;
+        };
+        let Quantity::Cogging(k, part) = name.quantity else {
+            continue;
+        };
+        if file.leaves_open(name) {
+            return Err(format!("the log leaves {} open", p.name));
+        }
+        let Some(pitch) = pitch(&file.pitch.cogging, k) else {
+            return Err(format!(
+                "the model has no pitch of its cogging: add [pitch] cogging = [PITCH] in {}",
+                length_unit(file)
+            ));
+        };
+        let range = place
+            .map(|place| place.range)
+            .ok_or_else(|| no_range(file))?;
+        let at = &mut waves[k as usize - 1];
+        if at.rate == 0.0 {
+            *at = wave(pitch, range);
+        }
+        put(at, part, p.value);
+        taken.push(p.name.clone());
+    }
+    match taken.is_empty() {
+        true => Err(
+            "the model has no cogging: name its pitch in the axis file, [terms] cogging = [\"24 mm\"], and identify again"
+                .into(),
+        ),
+        false => Ok((together(waves), taken)),
+    }
+}
+
+fn weight(
+    file: &ModelFile,
+    friction: &Friction<f64>,
+    place: Option<Channel<f64>>,
+) -> Result<(Weight<f64>, Vec<String>), String> {
+    let constant = friction.offset();
+    let mut weight = Weight {
+        constant,
+        ..Weight::default()
+    };
+    let mut taken = Vec::new();
+    for p in &file.parameter {
+        let Ok(name) = p.name.parse::<Name>() else {
+            continue;
+        };
+        let Quantity::Gravity(part) = name.quantity else {
+            continue;
+        };
+        if file.leaves_open(name) {
+            return Err(format!("the log leaves {} open", p.name));
+        }
+        let range = place
+            .map(|place| place.range)
+            .ok_or_else(|| no_range(file))?;
+        if weight.wave.rate == 0.0 {
+            weight.wave = Wave {
+                rate: 1.0,
+                ..wave(TAU, range)
+            };
+        }
+        put(&mut weight.wave, part, p.value);
+        taken.push(p.name.clone());
+    }
+    if taken.is_empty() && constant == 0.0 {
+        return Err(match file.kind.as_str() {
+            "rotary" => "the model has no gravity: [terms] gravity = true in the axis file, and identify again",
+            _ => "the model has no constant force, which on a linear axis is its weight",
+        }
+        .into());
+    }
+    Ok((weight, taken))
+}
+
+fn no_range(file: &ModelFile) -> String {
+    format!(
+        "the model does not say over which positions it holds: add [range] position = [LEAST, LARGEST] in {}",
+        length_unit(file)
+    )
+}
+
+fn length_unit(file: &ModelFile) -> &'static str {
+    match file.kind.as_str() {
+        "rotary" => "rad",
+        _ => "m",
+    }
+}
