@@ -234,9 +234,10 @@ impl<T: Real> Compensator<T> {
         }
         let allowed = self.settings.watchdog.is_none() || self.state.watch.allows();
         let on = good && input.enable && allowed;
-        let mut force = self.state.law.force;
+        let (mut force, mut sound) = (self.state.law.force, true);
         if self.terms.is_some() {
             force = force + self.state.beside.changed;
+            sound = force.is_finite();
         }
         if let Some(adaptation) = &self.settings.adaptation {
             let learnt = &mut self.state.learnt;
@@ -254,11 +255,13 @@ impl<T: Real> Compensator<T> {
             let offset = self.friction.offset();
             let level = learnt.level(self.friction.side(&self.state.law));
             force = level * (force - offset) + offset;
+            // A level may take the force of a velocity that no machine has beyond the number type.
+            sound = force.is_finite();
+        }
+        if !sound {
+            force = T::ZERO;
         }
         let wanted = self.state.level * force + self.state.corrected;
-        // A level may take the force of a velocity that no machine has beyond the number type.
-        let sound = wanted.is_finite();
-        let wanted = if sound { wanted } else { T::ZERO };
         let fed = self.terms.as_ref().filter(|terms| terms.feeds());
         let fed = fed.map(|terms| (terms, input.enable));
         self.settings

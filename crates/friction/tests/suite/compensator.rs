@@ -748,13 +748,22 @@ fn no_energy_is_gained_over_closed_cycles() {
 #[test]
 fn a_force_beyond_the_number_type_is_none() {
     let law = lopsided(stiction_friction::Shape::Gaussian, Damping::Capped(600.0));
-    let mut compensator = bare(law, Source::Reference);
-    compensator.set_level(2.0);
+    let settings = Settings {
+        adaptation: Some(Adaptation::default()),
+        ..Settings::bare(H, 1e12)
+    };
+    let mut compensator =
+        Compensator::new(Friction::LuGre(law), Source::Reference, settings).unwrap();
+    let mut kept = compensator.memory();
+    for (k, level) in [(1, 1.5), (2, 1.5), (7, -1.5), (8, -1.5)] {
+        kept[k] = level;
+    }
+    compensator.recall(&kept).unwrap();
     let fast = Input {
         enable: false,
-        ..moving(2e306)
+        ..moving(2.5e306)
     };
     assert_eq!(compensator.step(fast), 0.0);
-    assert_eq!(compensator.step(moving(2e306)), 0.0);
+    assert_eq!(compensator.step(moving(2.5e306)), 0.0);
     assert!(compensator.step(moving(0.1)) > 0.0);
 }
