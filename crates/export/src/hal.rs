@@ -47,13 +47,13 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     terms::fill(&mut fill, &terms, &c::syntax::<f64>(&c::DOUBLE));
     let extras = Extra::of(&terms);
     let pins = extras.iter().map(|extra| match extra {
-        Extra::Acceleration | Extra::Position => format!(", *pins->{} / pins->units", extra.name()),
-        Extra::Load | Extra::Temperature => format!(", *pins->{}", extra.name()),
+        Extra::Acceleration | Extra::Position => format!(", *pins->{} / pins->units", pin(*extra)),
+        Extra::Load | Extra::Temperature => format!(", *pins->{}", pin(*extra)),
     });
     let first = 3 + 2 * usize::from(model.settings.adaptation.is_some());
     let nets = extras.iter().zip(first..).map(|(extra, k)| {
-        let (net, pin) = (extra.name().replace('_', "-"), component.replace('_', "-"));
-        format!("net {net} streamer.0.pin.{k} => {pin}.0.{net}\n")
+        let (net, own) = (pin(*extra), component.replace('_', "-"));
+        format!("net {net} streamer.0.pin.{k} => {own}.0.{net}\n")
     });
     fill.set("load_unit", model.load_unit())
         .set("extra_pins", pins.collect::<String>())
@@ -74,4 +74,12 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         File::text(format!("{component}.comp"), text),
         File::text(format!("{component}_selftest.py"), test.render(SELFTEST)),
     ])
+}
+
+/// The pin of what comes in: a shorter name than elsewhere, for those of HAL end after 47 characters.
+fn pin(extra: Extra) -> &'static str {
+    match extra {
+        Extra::Acceleration => "acceleration",
+        Extra::Position | Extra::Load | Extra::Temperature => extra.name(),
+    }
 }

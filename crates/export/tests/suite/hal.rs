@@ -164,7 +164,7 @@ fn through_hal(model: &Model, samples: &[Sample]) -> Vec<[f64; 2]> {
         fed += "*(hal_float_t *)pin(\"drive-force\") = in[4]; *(hal_bit_t *)pin(\"learn\") = in[5] != 0.0;";
     }
     for (name, at) in extras(model) {
-        let pin = name.replace('_', "-");
+        let pin = name.trim_start_matches("reference_");
         fed += &format!("*(hal_float_t *)pin(\"{pin}\") = in[{at}];");
     }
     std::fs::write(
