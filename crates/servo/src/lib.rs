@@ -66,6 +66,7 @@ pub mod feedforward;
 pub mod fuzzy;
 pub mod integrator;
 pub mod known;
+pub mod law;
 pub mod learning;
 pub mod load;
 pub mod metrics;

@@ -42,8 +42,8 @@ pub struct Load {
 /// The second difference belongs to the mean of two neighbouring forces exactly; all three then pass the same lags, so
 /// only the drive's delay has to be aligned, which its model does.
 #[derive(Clone, Debug)]
-pub struct LoadEstimator {
-    law: LuGre<f64>,
+pub struct LoadEstimator<L: Held<f64> = LuGre<f64>> {
+    law: L,
     drive: RunningDrive,
     settings: LoadSettings,
     rate: f64,
@@ -53,7 +53,7 @@ pub struct LoadEstimator {
     seen: u32,
     /// Samples that were learnt from.
     learnt: u32,
-    deflection: f64,
+    deflection: L::State,
     /// Mean friction and drive force over the period before.
     friction: f64,
     force: f64,
@@ -93,10 +93,10 @@ pub fn scaled(law: &LuGre<f64>, by: f64) -> Result<LuGre<f64>, ParamError> {
     LuGre::new(by * law.stiffness(), damping, curve)
 }
 
-impl LoadEstimator {
+impl<L: Held<f64>> LoadEstimator<L> {
     /// For a law at its nominal level and a nominal mass (kg, kg m^2), a model of the drive, and a control rate in Hz.
     pub fn new(
-        law: LuGre<f64>,
+        law: L,
         mass: f64,
         drive: Drive,
         rate: f64,
@@ -116,7 +116,7 @@ impl LoadEstimator {
             positions: None,
             seen: 0,
             learnt: 0,
-            deflection: 0.0,
+            deflection: L::State::default(),
             friction: 0.0,
             force: 0.0,
             first: [0.0; 3],
@@ -146,7 +146,7 @@ impl LoadEstimator {
         self.positions = Some([position, newer]);
         let h = 1.0 / self.rate;
         let velocity = (position - newer) * self.rate;
-        let end = self.law.step_held(self.deflection, h, velocity);
+        let end = self.law.hold(self.deflection, h, velocity);
         let friction = self.law.mean_force(self.deflection, end, h, velocity);
         self.deflection = end;
         let acceleration = (position - 2.0 * newer + older) * self.rate * self.rate;

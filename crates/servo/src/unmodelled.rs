@@ -4,7 +4,7 @@ use crate::integrator::Integrator;
 use crate::noise::Noise;
 use crate::plant::{Load, Motion, Plant};
 use std::f64::consts::TAU;
-use stiction_friction::LuGre;
+use stiction_friction::Held;
 
 /// Forces against the motion beside the friction law. All of them are continuous in time.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -111,8 +111,15 @@ impl<I> Beside<I> {
     }
 }
 
-impl<I: Integrator<LuGre<f64>>> Integrator<LuGre<f64>> for Beside<I> {
-    fn advance(&mut self, plant: &Plant, from: Motion, span: f64, load: Load, rate: f64) -> Motion {
+impl<L: Held<f64>, I: Integrator<L>> Integrator<L> for Beside<I> {
+    fn advance(
+        &mut self,
+        plant: &Plant<L>,
+        from: Motion<L::State>,
+        span: f64,
+        load: Load,
+        rate: f64,
+    ) -> Motion<L::State> {
         self.held = self.force(from.position, span);
         let load = Load {
             force: load.force - self.held,

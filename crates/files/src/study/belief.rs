@@ -1,12 +1,12 @@
 //! Wrong parameters: what a compensator is given instead of those of the axis.
 
-use super::model::Model;
+use super::model::{Model, axis_law};
 use crate::model::covariance::root;
 use crate::result::{CovarianceEntry, RemainingEntry};
-use stiction_friction::{Damping, Direction, LuGre, Stribeck};
+use stiction_friction::{Damping, Direction, Stribeck};
 use stiction_number::four_digits as short;
-use stiction_parameters::{Name, Quantity, Side};
-use stiction_servo::known;
+use stiction_parameters::{LawError, Name, ParameterSet, Quantity, Side};
+use stiction_servo::law::AxisLaw;
 use stiction_servo::noise::Noise;
 use stiction_servo::unmodelled::{Shape, Unmodelled, Wandering, Wave};
 
@@ -14,7 +14,7 @@ use stiction_servo::unmodelled::{Shape, Unmodelled, Wandering, Wave};
 #[derive(Clone, Copy, PartialEq)]
 pub struct Belief {
     /// Its friction.
-    pub law: LuGre<f64>,
+    pub law: AxisLaw,
     /// Its mass, kg (kg m^2).
     pub mass: f64,
 }
@@ -76,7 +76,8 @@ impl Family {
 
     /// All 64 sets in which each of sigma0, sigma1, sigma2, Fc, Fs, vs is too small or too large by the part `by`.
     pub fn corners(truth: Belief, by: f64) -> Self {
-        let beliefs = known::corners(&truth.law, by).map(|law| Belief { law, ..truth });
+        let beliefs = truth.law.corners(by).into_iter();
+        let beliefs = beliefs.map(|law| Belief { law, ..truth });
         Family {
             kind: "corners",
             name: format!("±{} %", percent(by)),
@@ -131,11 +132,9 @@ impl Family {
                     values.insert(name, x + off);
                 }
             }
-            let law = values.lugre().and_then(|law| {
-                let same = law.with_damping(like(truth.law.damping(), law.damping().at_rest()));
-                Ok(same?)
-            });
-            let Ok(law) = law else { continue };
+            let Ok(law) = law_of(&values, truth.law.damping()) else {
+                continue;
+            };
             let Some(mass) = mass.or_else(|| values.get(Quantity::Mass)) else {
                 return refused("parameter", "no mass");
             };
@@ -181,11 +180,10 @@ impl Family {
 
 /// What a compensator of a model is made of.
 fn supported(model: &Model, truth: Belief) -> Belief {
-    let law = model.supported.as_ref().and_then(|values| {
-        let law = values.lugre().ok()?;
-        let damping = like(truth.law.damping(), law.damping().at_rest());
-        law.with_damping(damping).ok()
-    });
+    let law = model
+        .supported
+        .as_ref()
+        .and_then(|values| law_of(values, truth.law.damping()).ok());
     Belief {
         law: law.unwrap_or(truth.law),
         ..truth
@@ -206,7 +204,7 @@ fn beside(axis: Belief, remaining: &RemainingEntry, noise: &mut Noise) -> Drawn 
     };
     let sides = [level(curve.positive()), level(curve.negative())];
     let curve = Stribeck::new(curve.shape(), sides[0], sides[1], curve.offset());
-    let law = curve.and_then(|curve| LuGre::new(axis.law.stiffness(), axis.law.damping(), curve));
+    let law = curve.and_then(|curve| axis.law.with_curve(curve));
     let shapes = remaining.shapes.iter().map(|shape| Shape {
         force: shape.force * noise.normal(),
         short: shape.short,
@@ -245,12 +243,13 @@ fn percent(by: f64) -> String {
     }
 }
 
-/// A damping of this value, constant or capped as `form` is.
-fn like(form: Damping<f64>, sigma1: f64) -> Damping<f64> {
-    match form {
-        Damping::Constant(_) => Damping::Constant(sigma1),
+/// The law of parameters, its sigma1 constant or capped as `form` is.
+fn law_of(values: &ParameterSet, form: Option<Damping<f64>>) -> Result<AxisLaw, LawError> {
+    let law = axis_law(values)?;
+    Ok(law.damped_as(|sigma1| match form {
+        Some(Damping::Constant(_)) => Damping::Constant(sigma1),
         _ => Damping::Capped(sigma1),
-    }
+    })?)
 }
 
 /// Refuses a variance that makes nearly every draw absurd, as of a parameter that the data did not determine. The

@@ -10,11 +10,27 @@ use crate::symbols;
 use std::path::Path;
 use stiction_codes::Code;
 use stiction_log::{Dimension, Motion};
-use stiction_parameters::{LawError, LawKind, Name, ParameterSet, Quantity};
+use stiction_parameters::{FrictionLaw, LawError, LawKind, Name, ParameterSet, Quantity};
 use stiction_servo::known::{self, Kind};
+use stiction_servo::law::AxisLaw;
 
-/// Laws that a study simulates.
-pub(super) const SIMULATED: [LawKind; 2] = [LawKind::LuGre, LawKind::Dahl];
+/// Whether a study simulates a law: one that holds an axis at rest.
+pub(super) fn is_simulated_law(kind: LawKind) -> bool {
+    kind.has_bristle()
+}
+
+/// The law of an axis with these parameters, sigma1 constant.
+pub(super) fn axis_law(values: &ParameterSet) -> Result<AxisLaw, LawError> {
+    match values.law()? {
+        FrictionLaw::LuGre(law) => Ok(AxisLaw::LuGre(law)),
+        FrictionLaw::ElastoPlastic(law) => Ok(AxisLaw::ElastoPlastic(law)),
+        FrictionLaw::MaxwellSlip(law) => Ok(AxisLaw::MaxwellSlip(law)),
+        FrictionLaw::CoulombViscous(_) | FrictionLaw::Stribeck(_) => {
+            let kind = values.kind();
+            Err(LawError::NotLuGre { kind })
+        }
+    }
+}
 
 /// Parameters of a law with bristles, and what is known of their errors.
 pub struct Model {
@@ -58,6 +74,11 @@ fn is_simulated(quantity: Quantity) -> bool {
             | Quantity::Offset
             | Quantity::Delay
             | Quantity::StribeckExponent
+            | Quantity::BreakawayRatio
+            | Quantity::Attraction
+            | Quantity::ElementStiffness(_)
+            | Quantity::ElementYield(_)
+            | Quantity::ElementForce(_)
     ) || quantity.is_of_the_steady_curve()
 }
 
@@ -140,9 +161,12 @@ impl Model {
     fn of(read: ReadModel) -> Result<Self, Error> {
         let model = &read.model;
         let kind = match LawKind::from_name(&model.law) {
-            Some(kind) if SIMULATED.contains(&kind) => kind,
+            Some(kind) if is_simulated_law(kind) => kind,
             _ => {
-                let allowed = format!("a study simulates lugre and dahl; {}", lugre(&read));
+                let allowed = format!(
+                    "a study simulates laws with bristles or elements, which hold an axis at rest; {}",
+                    lugre(&read)
+                );
                 return Err(read.refuse("law", format!("{:?}", model.law), &allowed));
             }
         };
@@ -232,7 +256,7 @@ impl Model {
             read: None,
         };
         // If the parameters of a file do not make a law, the error names that file.
-        match found.values().lugre() {
+        match axis_law(&found.values()) {
             Ok(_) => Ok(Model {
                 read: Some(read),
                 ..found

@@ -5,7 +5,6 @@ use super::model::Model;
 use super::result::StudyInput;
 use crate::error::Warning;
 use stiction_codes::Code;
-use stiction_friction::LuGre;
 use stiction_friction::compensator::{Adaptation, Source, Watchdog};
 use stiction_log::Motion;
 use stiction_servo::controller::Controller;
@@ -13,9 +12,9 @@ use stiction_servo::cross_coupling::CrossCoupling;
 use stiction_servo::disturbance::{Cogging, Disturbance};
 use stiction_servo::drive::Drive;
 use stiction_servo::encoder::Encoder;
+use stiction_servo::law::AxisLaw;
 use stiction_servo::learning::Learning;
 use stiction_servo::plane::PlaneMotion;
-use stiction_servo::plant::Plant;
 use stiction_servo::trajectory::Trajectory;
 
 /// A study, resolved: ready to run.
@@ -126,11 +125,13 @@ pub struct Machine {
     /// Its parameters, and where they come from.
     pub model: Model,
     /// The law of the axis, with sigma1 capped unless the file says otherwise.
-    pub law: LuGre<f64>,
+    pub law: AxisLaw,
     /// kg (kg m^2)
     pub mass: f64,
-    /// Both together.
-    pub plant: Plant,
+    /// Damper beside the law, N s/m (N m s/rad).
+    pub viscous: f64,
+    /// Spring to the origin, N/m (N m/rad).
+    pub spring: f64,
     /// Whether the study gives the mass, rather than the model.
     pub given_mass: bool,
     /// Control rate, Hz.
@@ -210,8 +211,8 @@ pub enum ModelKind {
     Stribeck,
     /// The bristles without the Stribeck effect: static friction is Coulomb friction.
     Simplified,
-    /// The whole law with its bristles.
-    LuGre,
+    /// The whole law with its bristles or elements.
+    Whole,
 }
 
 /// The second axis of a study, and what couples both.

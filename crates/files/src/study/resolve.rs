@@ -21,6 +21,7 @@ use super::belief::{Belief, Family, Undrawn};
 use super::plan::{Machine, Named, Study};
 use crate::config::{ANY_COUNT, Source, Table};
 use crate::error::{Error, Warning};
+pub(super) use compensators::whole;
 pub(super) use dimensions::Dimensions;
 use entry::{few, once, seen};
 use inputs::input;

@@ -1,6 +1,7 @@
 //! The study that `simulate --init` begins: every part of a study once, with comments, on an axis that is given or a known one.
 
 use super::model::Model;
+use super::resolve::whole;
 use crate::error::Error;
 use crate::symbols;
 use std::f64::consts::TAU;
@@ -134,11 +135,12 @@ fn text(model: &Model, axis: &str, mass: Option<f64>, file: &Path) -> String {
          [[compensator]]\n\
          kind = \"coulomb\"    # Coulomb and viscous friction of the reference velocity\n\n\
          [[compensator]]\n\
-         kind = \"lugre\"    # the whole law; three quarters of its force\n\n\
+         kind = \"{whole}\"    # the whole law; three quarters of its force\n\n\
          {covariance}\
          # [[parameter_error]]    # parameters that are each 10 % too large or too small\n\
          # kind = \"corners\"\n\
          # by   = \"10 %\"\n",
+        whole = whole(model.kind),
         rate = short(RATE),
         limit = short(limit),
         encoder = short(match motion {

@@ -1,6 +1,7 @@
 //! The study that an identification begins: its axis on motion like that of the log, without and with compensation.
 
-use super::model::SIMULATED;
+use super::model::is_simulated_law;
+use super::resolve::whole;
 use crate::result::ResultFile;
 use crate::symbols;
 use std::f64::consts::TAU;
@@ -55,8 +56,8 @@ pub fn template(result: &ResultFile, shown: &Shown) -> Option<String> {
     let slides = levels.all(|p| p.value > 0.0);
     let unit_fits = result.axis.force_unit == symbols::force_unit(shown.motion);
     let moves = seen.top_speed > 0.0 && shown.force > 0.0 && shown.rate >= LEAST_RATE;
-    let simulated = LawKind::from_name(&result.law).is_some_and(|law| SIMULATED.contains(&law));
-    if !simulated || !unit_fits || !slides || !moves {
+    let law = LawKind::from_name(&result.law).filter(|law| is_simulated_law(*law))?;
+    if !unit_fits || !slides || !moves {
         return None;
     }
     let bandwidth = BANDWIDTH.min(shown.rate / RATE_OVER_BANDWIDTH);
@@ -91,11 +92,12 @@ pub fn template(result: &ResultFile, shown: &Shown) -> Option<String> {
          # the motion that matters.\n\n\
          [axis]\nmodel   = \"model.toml\"\nrate    = \"{} Hz\"\n{encoder}{}{}\n\
          [[controller]]\nkind        = \"cascade\"\nbandwidth   = \"{} Hz\"\nforce_limit = \"{} {force}\"\n\n\
-         [[compensator]]\nkind = \"coulomb\"\n\n[[compensator]]\nkind = \"lugre\"\n",
+         [[compensator]]\nkind = \"coulomb\"\n\n[[compensator]]\nkind = \"{}\"\n",
         short(shown.rate),
         path("as fast as in the log", 1.0),
         path("a tenth of that", 0.1),
         short(bandwidth),
-        short(LIMIT_OVER_FORCE * shown.force)
+        short(LIMIT_OVER_FORCE * shown.force),
+        whole(law)
     ))
 }

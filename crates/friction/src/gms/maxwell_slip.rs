@@ -1,8 +1,8 @@
 //! The law with as many elements as the program finds when it runs, and the step that runs on the drive.
 
-use super::realtime::{Way, hold};
+use super::realtime::{Way, held_slope, hold};
 use super::{Element, Elements, Gms, GmsState, checked};
-use crate::{ParamError, Real, Stribeck};
+use crate::{Held, Pace, ParamError, Real, Stribeck};
 
 /// Most elements of a law.
 pub const MOST_ELEMENTS: usize = 10;
@@ -157,5 +157,49 @@ impl<T: Real> MaxwellSlip<T> {
     pub fn total(&self, at: &Elements<T, MOST_ELEMENTS>) -> T {
         let own = at.force.iter().take(self.count);
         own.fold(T::ZERO, |sum, &force| sum + force)
+    }
+}
+
+/// The law as it is, not that of a compensator: what [`Gms`] does.
+impl<T: Real> Held<T> for MaxwellSlip<T> {
+    type State = Elements<T, MOST_ELEMENTS>;
+
+    fn curve(&self) -> &Stribeck<T> {
+        &self.curve
+    }
+
+    fn hold(&self, mut from: Self::State, h: T, v: T) -> Self::State {
+        let way = Way {
+            h,
+            v,
+            attraction: self.attraction,
+            passive: false,
+        };
+        hold(self.elements(), &self.curve, &way, &mut from);
+        from
+    }
+
+    fn mean_force(&self, from: Self::State, to: Self::State, _: T, v: T) -> T {
+        let mean = T::from_f64(0.5) * (self.total(&from) + self.total(&to));
+        mean + self.curve.direction(v).viscous * v + self.curve.offset()
+    }
+
+    fn mean_force_slope(&self, from: Self::State, &Pace { h, .. }: &Pace<T>, v: T) -> (T, T) {
+        let (end, slope) = held_slope(self.elements(), &self.curve, self.attraction, &from, (h, v));
+        let half = T::from_f64(0.5);
+        let viscous = self.curve.direction(v).viscous;
+        let mean = half * (self.total(&from) + end);
+        (
+            mean + viscous * v + self.curve.offset(),
+            half * slope + viscous,
+        )
+    }
+
+    fn force_now(&self, state: Self::State, v: T) -> T {
+        self.total(&state) + self.curve.direction(v).viscous * v + self.curve.offset()
+    }
+
+    fn reach(&self, _: T) -> T {
+        self.bound()
     }
 }

@@ -67,6 +67,60 @@ pub(super) fn hold<T: Real, const N: usize>(
     }
 }
 
+/// The sum of the spring forces after `h > 0` seconds at the velocity `v`, and its derivative with respect to `v`.
+pub(super) fn held_slope<T: Real, const N: usize>(
+    elements: &[Element<T>],
+    curve: &Stribeck<T>,
+    attraction: T,
+    from: &Elements<T, N>,
+    (h, v): (T, T),
+) -> (T, T) {
+    let forward = v >= T::ZERO;
+    let mut to = *from;
+    let way = Way {
+        h,
+        v,
+        attraction,
+        passive: false,
+    };
+    hold(elements, curve, &way, &mut to);
+    let (g, g_slope) = curve.level_and_slope(v);
+    let sign = if forward { T::ONE } else { -T::ONE };
+    let mut slope = T::ZERO;
+    for (i, element) in elements.iter().enumerate() {
+        let limit = element.share * g;
+        let start = sign * from.force[i];
+        let slipped = from.slips[i] && from.forward == forward;
+        slope = slope
+            + if !to.slips[i] {
+                element.stiffness * h
+            } else {
+                // Where it has reached the limit inside the step it stays there; else it still approaches it.
+                let gap = if slipped || start > limit {
+                    start - limit
+                } else {
+                    T::ZERO
+                };
+                let a = h * (attraction / g);
+                let left = (-a).exp();
+                // Where one of the factors is 0 the derivative is 0 too; a may be infinite there, and the product
+                // NaN.
+                let by_pull = if left == T::ZERO || gap == T::ZERO {
+                    T::ZERO
+                } else {
+                    gap * left * (a * g_slope / g)
+                };
+                let by_limit = if gap == T::ZERO {
+                    T::ONE
+                } else {
+                    T::ONE - left
+                };
+                sign * (element.share * g_slope * by_limit + by_pull)
+            };
+    }
+    (to.total(), slope)
+}
+
 impl<T: Real, const N: usize> Gms<T, N> {
     /// The state at rest: unloaded elements, the offset as force.
     pub fn rest(&self) -> GmsState<T, N> {
@@ -96,44 +150,7 @@ impl<T: Real, const N: usize> Gms<T, N> {
     /// to `v` (N s/m, N m s/rad): what an implicit simulation needs. `h > 0`; where `v` changes sign the derivative is
     /// that from above.
     pub fn total_held_slope(&self, from: &Elements<T, N>, h: T, v: T) -> (T, T) {
-        let forward = v >= T::ZERO;
-        let speed = v.abs();
-        let to = self.one_way(forward, *from, h, speed, speed);
-        let (g, g_slope) = self.curve.level_and_slope(v);
-        let sign = if forward { T::ONE } else { -T::ONE };
-        let mut slope = T::ZERO;
-        for (i, element) in self.elements.iter().enumerate() {
-            let limit = element.share * g;
-            let start = sign * from.force[i];
-            let slipped = from.slips[i] && from.forward == forward;
-            slope = slope
-                + if !to.slips[i] {
-                    element.stiffness * h
-                } else {
-                    // Where it has reached the limit inside the step it stays there; else it still approaches it.
-                    let gap = if slipped || start > limit {
-                        start - limit
-                    } else {
-                        T::ZERO
-                    };
-                    let a = h * (self.attraction / g);
-                    let left = (-a).exp();
-                    // Where one of the factors is 0 the derivative is 0 too; a may be infinite there, and the product
-                    // NaN.
-                    let by_pull = if left == T::ZERO || gap == T::ZERO {
-                        T::ZERO
-                    } else {
-                        gap * left * (a * g_slope / g)
-                    };
-                    let by_limit = if gap == T::ZERO {
-                        T::ONE
-                    } else {
-                        T::ONE - left
-                    };
-                    sign * (element.share * g_slope * by_limit + by_pull)
-                };
-        }
-        (to.total(), slope)
+        held_slope(&self.elements, &self.curve, self.attraction, from, (h, v))
     }
 
     /// One sample of the law in real time: advances `state` by `h` seconds at the velocity `v` (m/s, rad/s) and returns

@@ -1,10 +1,12 @@
 //! The plant with laws other than LuGre: order, energy, closed forms, cost.
 
 use proptest::prelude::*;
+use stiction_friction::compensator::{Compensator, Input, Settings, Source};
 use stiction_friction::{
-    Damping, Direction, ElastoPlastic, Element, Gms, Held, LuGre, Shape, Stribeck,
+    Damping, Direction, ElastoPlastic, Element, Gms, Held, LuGre, MaxwellSlip, Shape, Stribeck,
 };
 use stiction_servo::known;
+use stiction_servo::law::AxisLaw;
 use stiction_servo::plant::{Load, Motion, Plant};
 
 fn elasto_plastic(name: &str, ratio: f64) -> Plant<ElastoPlastic<f64>> {
@@ -43,6 +45,65 @@ fn gms(fs: f64, attraction: f64) -> Plant<Gms<f64, 3>> {
         Gms::new(ELEMENTS, attraction, 600.0, curve(fs)).unwrap(),
     )
     .unwrap()
+}
+
+/// A law whose elements are counted when the program runs moves an axis as that of their number.
+#[test]
+fn counted_elements_move_an_axis_as_known_ones() {
+    for attraction in [300.0, f64::INFINITY] {
+        let counted = MaxwellSlip::new(&ELEMENTS, attraction, curve(30.0)).unwrap();
+        let known = Plant::new(10.0, counted.gms::<3>().unwrap()).unwrap();
+        let counted = Plant::new(10.0, counted).unwrap();
+        let (mut a, mut b) = (Motion::default(), Motion::default());
+        let mut farthest = 0.0_f64;
+        for k in 0..20_000 {
+            let load = Load::force(60.0 * (1e-3 * f64::from(k)).sin());
+            a = known.step(a, 1e-4, load).motion;
+            b = counted.step(b, 1e-4, load).motion;
+            assert!((a.position - b.position).abs() < 1e-12, "{k}");
+            farthest = farthest.max(a.position.abs());
+        }
+        assert!(farthest > 1e-2, "{farthest}");
+    }
+}
+
+/// Scaled friction is that many times as large in whatever state; wrong laws are of the family of the right one.
+#[test]
+fn laws_of_an_axis_are_scaled_and_made_wrong() {
+    let lugre = known::find("motor").unwrap().capped_law();
+    let slip = MaxwellSlip::new(&ELEMENTS, 300.0, curve(30.0)).unwrap();
+    for law in [
+        AxisLaw::LuGre(lugre),
+        AxisLaw::ElastoPlastic(ElastoPlastic::new(lugre, 0.7).unwrap()),
+        AxisLaw::MaxwellSlip(slip),
+    ] {
+        let through = |law: &AxisLaw| -> Vec<f64> {
+            let settings = Settings::bare(1e-4, 1e6);
+            let law = law.friction();
+            let mut law = Compensator::new(law, Source::Reference, settings).unwrap();
+            let at = |k: i32| Input {
+                reference_velocity: 5e-3 * (3e-3 * f64::from(k)).sin(),
+                enable: true,
+                ..Input::default()
+            };
+            (0..6000).map(|k| law.step(at(k))).collect()
+        };
+        let scaled = law.scaled(1.3).unwrap();
+        assert!((scaled.stiffness() / law.stiffness() - 1.3).abs() < 1e-12);
+        for (larger, force) in through(&scaled).into_iter().zip(through(&law)) {
+            assert!((larger - 1.3 * force).abs() < 1e-9, "{larger} {force}");
+        }
+        let corners = law.corners(0.1);
+        assert!(corners.len() == 64 || corners.len() == 32);
+        for corner in corners {
+            assert_eq!(
+                std::mem::discriminant(&corner),
+                std::mem::discriminant(&law)
+            );
+            let off = (corner.stiffness() / law.stiffness() - 1.0).abs();
+            assert!((off - 0.1).abs() < 1e-12);
+        }
+    }
 }
 
 /// The same motion by classical Runge-Kutta on the equations of motion, with steps far below the bristle's time constants.

@@ -137,6 +137,25 @@ fn compensated<L: Held<f64>>(law: L, kind: LawKind, least: f64) {
         feedforward: Feedforward::compensator(compensator, stage.drive.preview(1.0 / RATE)),
         ..stage.clone()
     };
+    // The study beside the model runs as it is.
+    let dir = bench.path("found");
+    bundle::identification(&outcome).write(&dir).unwrap();
+    let study = Study::read(dir.join("study.toml")).unwrap();
+    let file = stiction::simulate(&study, &mut Silent).file;
+    for path in ["as fast as in the log", "a tenth of that"] {
+        let error = |compensator: &str| {
+            let row = file.results.iter().find(|row| {
+                row.path == path && row.compensator == compensator && row.parameters == "exact"
+            });
+            let metrics = &row.unwrap().metrics;
+            metrics
+                .iter()
+                .find(|m| m.name == "reversal_peak")
+                .unwrap()
+                .mean
+        };
+        assert!(error(kind.name()) < 0.5 * error("none"), "{path}");
+    }
     for (amplitude, frequency) in [(5e-3, 0.5), (1e-3, 0.2), (20e-6, 1.0)] {
         let peak = |axis: &AxisSettings<L>| {
             let samples = run(axis, &Sine::new(amplitude, frequency, 3.0).unwrap()).unwrap();

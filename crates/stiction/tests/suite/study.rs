@@ -744,10 +744,13 @@ fn what_is_refused() {
             .replace("\"N", "\"V")
             .replace("\"kg\"", "\"V*s^2/m\""),
     );
-    desk.write(
-        "richer.toml",
-        &model(0.1, 0.1).replace("\"lugre\"", "\"elasto-plastic\""),
-    );
+    let of_a_bristle = |block: &&str| block.contains("\"sigma0\"") || block.contains("\"sigma1\"");
+    let steady = model(0.1, 0.1).replace("\"lugre\"", "\"stribeck\"");
+    let steady: Vec<&str> = steady
+        .split("[[parameter]]")
+        .filter(|block| !of_a_bristle(block))
+        .collect();
+    desk.write("steady.toml", &steady.join("[[parameter]]"));
     desk.write(
         "part.toml",
         &model(0.1, 0.1)
@@ -841,7 +844,7 @@ fn what_is_refused() {
         ("known        = \"motor\"", "known = \"engine\""),
         ("known        = \"motor\"", "model = \"absent.toml\""),
         ("known        = \"motor\"", "model = \"volts.toml\""),
-        ("known        = \"motor\"", "model = \"richer.toml\""),
+        ("known        = \"motor\"", "model = \"steady.toml\""),
         ("known        = \"motor\"", "model = \"part.toml\""),
         ("rate         = \"4 kHz\"", "rate = \"4 MHz\""),
         ("peak_force   = \"1248 N\"", "delay = \"1 s\""),

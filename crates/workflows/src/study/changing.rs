@@ -1,10 +1,11 @@
 //! An axis that changes while it runs, and what is found of it: the load that is estimated, the level that is adapted.
 
 use stiction_files::study::{Belief, Event, Machine, ModelScheme, Scheme, Study};
-use stiction_friction::{LuGre, ParamError};
+use stiction_friction::ParamError;
 use stiction_servo::axis::{Axis, Correction, Sample};
 use stiction_servo::integrator::Integrator;
-use stiction_servo::load::{LoadEstimator, LoadSettings, scaled};
+use stiction_servo::law::{AxisLaw, OfAxis};
+use stiction_servo::load::{LoadEstimator, LoadSettings};
 use stiction_servo::path::Reference;
 
 /// Most points of a course that are kept.
@@ -65,15 +66,15 @@ impl<'a> Changing<'a> {
     }
 
     /// Runs the axis over the references, each with the velocity ahead.
-    pub fn follow<I: Integrator<LuGre<f64>>>(
+    pub fn follow<L: OfAxis, I: Integrator<L>>(
         &self,
-        axis: &mut Axis<LuGre<f64>, I>,
+        axis: &mut Axis<L, I>,
         references: impl ExactSizeIterator<Item = (Reference, f64)>,
     ) -> Result<(Vec<Sample>, LoadCourse), ParamError> {
         let machine = self.machine;
         let mut estimator = match self.estimates {
             Some(share) => {
-                let (law, mass) = (self.belief.law, self.belief.mass);
+                let (law, mass) = (of::<L>(&self.belief.law)?, self.belief.mass);
                 let settings = LoadSettings::default();
                 let made = LoadEstimator::new(law, mass, machine.drive, machine.rate, settings)?;
                 Some((made, share))
@@ -94,7 +95,7 @@ impl<'a> Changing<'a> {
                 }
                 if let Some(new) = event.friction {
                     level = new;
-                    axis.set_law(scaled(&self.axis.law, level)?);
+                    axis.set_law(of(&self.axis.law.scaled(level)?)?);
                 }
             }
             let sample = axis.step(now, ahead, Correction::default());
@@ -125,4 +126,9 @@ impl<'a> Changing<'a> {
         course.learning_time = estimator.map(|(estimator, _)| estimator.learning_time());
         Ok((samples, course))
     }
+}
+
+/// A law as the type that the axis is made of.
+fn of<L: OfAxis>(law: &AxisLaw) -> Result<L, ParamError> {
+    L::of(law).ok_or_else(|| ParamError::new("law", f64::NAN, "that of the model"))
 }

@@ -4,9 +4,10 @@ use stiction_files::study::{Belief, Machine, ModelKind, ModelScheme, Scheme};
 use stiction_friction::compensator::{
     Adaptation, Compensator, DisturbanceObserver, Friction, Settings, Source, Watch,
 };
-use stiction_friction::{CoulombViscous, Direction, LuGre, ParamError, Stribeck};
+use stiction_friction::{CoulombViscous, Direction, ParamError, Stribeck};
 use stiction_servo::controller::Controller;
 use stiction_servo::feedforward::Feedforward;
+use stiction_servo::law::AxisLaw;
 use stiction_servo::trajectory::MAX_PREVIEW;
 
 /// The controller with its mass feedforward scaled from the true mass to the mass that is believed.
@@ -56,8 +57,8 @@ fn from_law(
             curve.offset(),
         )?),
         ModelKind::Stribeck => Friction::Stribeck(*curve),
-        ModelKind::Simplified => Friction::LuGre(without_stribeck(law)?),
-        ModelKind::LuGre => Friction::LuGre(*law),
+        ModelKind::Simplified => without_stribeck(law)?.friction(),
+        ModelKind::Whole => law.friction(),
     };
     let period = 1.0 / machine.rate;
     let limit = model.limit.unwrap_or(limit);
@@ -92,12 +93,12 @@ fn from_law(
 }
 
 /// The law with Coulomb friction for static friction.
-pub(crate) fn without_stribeck(law: &LuGre<f64>) -> Result<LuGre<f64>, ParamError> {
+pub(crate) fn without_stribeck(law: &AxisLaw) -> Result<AxisLaw, ParamError> {
     let curve = law.curve();
     let [positive, negative] = [curve.positive(), curve.negative()].map(|side| Direction {
         static_friction: side.coulomb,
         ..*side
     });
     let curve = Stribeck::new(curve.shape(), positive, negative, curve.offset())?;
-    LuGre::new(law.stiffness(), law.damping(), curve)
+    law.with_curve(curve)
 }

@@ -56,7 +56,7 @@ fn along<I: Integrator<LuGre<f64>>>(
         let controller = believing(plan.controllers[i], machines[i], plan.beliefs[i]);
         // Noise of its own on each axis.
         let seed = study.seed.wrapping_add(i as u64);
-        machine::settings(machines[i], plan.axes[i], controller, seed)
+        machine::settings::<LuGre<f64>>(machines[i], plan.axes[i], controller, seed)
     };
     let settings = [settings(0)?, settings(1)?];
     let follow = |[x, y]: [AxisSettings; 2]| -> Result<_, ParamError> {

@@ -25,7 +25,7 @@ pub fn simulate_on<I: Integrator<LuGre<f64>>>(
         |job: &Job| job.path < study.paths.len() && study.families[job.family].kind == "exact";
     let jobs = study.jobs().into_iter().filter(of_paths);
     jobs.filter_map(|job| {
-        let done = on_path(study, job, None, &learnt, &|| Ok(axis()), &|| true);
+        let done = on_path::<LuGre<f64>, I>(study, job, None, &learnt, &|| Ok(axis()), &|| true);
         let names = metrics(study, job).iter().copied();
         match done {
             Ok(Some(done)) => Some(Ok((job, names.zip(done.metrics).collect()))),

@@ -12,16 +12,23 @@ use stiction_servo::controller::Controller;
 use stiction_servo::disturbance::Disturbance;
 use stiction_servo::drive::Drive;
 use stiction_servo::feedforward::Feedforward;
+use stiction_servo::law::OfAxis;
+use stiction_servo::plant::Plant;
 
 /// The axis with a controller and without compensation, with that law and mass.
-pub(super) fn settings(
+pub(super) fn settings<L: OfAxis>(
     machine: &Machine,
     axis: Belief,
     controller: Controller,
     seed: u64,
-) -> Result<AxisSettings, ParamError> {
+) -> Result<AxisSettings<L>, ParamError> {
+    let other = ParamError::new("law", f64::NAN, "that of the model");
+    let law = L::of(&axis.law).ok_or(other)?;
+    let plant = Plant::new(axis.mass, law)?
+        .with_viscous(machine.viscous)?
+        .with_stiffness(machine.spring)?;
     Ok(AxisSettings {
-        plant: machine.plant.with_law(axis.law).with_mass(axis.mass)?,
+        plant,
         drive: machine.drive,
         encoder: machine.encoder,
         position_noise: machine.position_noise,
@@ -64,8 +71,9 @@ pub(super) fn entry(machine: &Machine) -> SimulatedAxis {
         unit: p.unit.clone(),
     });
     let sigma1 = match machine.law.damping() {
-        Damping::Constant(_) => "constant",
-        _ => "capped",
+        Some(Damping::Constant(_)) => "constant",
+        Some(_) => "capped",
+        None => "",
     };
     SimulatedAxis {
         kind: match machine.motion {
@@ -84,8 +92,8 @@ pub(super) fn entry(machine: &Machine) -> SimulatedAxis {
         peak_force: Some(machine.drive.peak_force()).filter(|f| f.is_finite()),
         encoder: machine.encoder.resolution(),
         position_noise: machine.position_noise,
-        viscous: machine.plant.viscous(),
-        spring: machine.plant.stiffness(),
+        viscous: machine.viscous,
+        spring: machine.spring,
         disturbance: machine.disturbance.as_ref().map(disturbance),
         voltage: voltage(&machine.drive),
     }

@@ -11,9 +11,10 @@ use super::metrics::of_path;
 use super::trace::Trace;
 use stiction_files::study::result::PathEntry;
 use stiction_files::study::{Belief, Job, PathPlan, Scheme, Study};
-use stiction_friction::{LuGre, ParamError};
+use stiction_friction::ParamError;
 use stiction_servo::axis::Axis;
 use stiction_servo::integrator::Integrator;
+use stiction_servo::law::OfAxis;
 use stiction_servo::path::Reference;
 use stiction_servo::run::{follow, follow_sampled, sample_count};
 use stiction_servo::sampled::Sampled;
@@ -35,7 +36,7 @@ pub(super) fn sampled(study: &Study, grids: usize) -> Vec<Option<Sampled>> {
 }
 
 /// Along `sampled`, if it is there, which is the path's own reference; `integrator` moves the axis.
-pub(super) fn on_path<I: Integrator<LuGre<f64>>>(
+pub(super) fn on_path<L: OfAxis, I: Integrator<L>>(
     study: &Study,
     job: Job,
     sampled: Option<&Sampled>,
@@ -44,7 +45,7 @@ pub(super) fn on_path<I: Integrator<LuGre<f64>>>(
     go_on: &dyn Fn() -> bool,
 ) -> Result<Option<Done>, Fault> {
     let path = &study.paths[job.path];
-    let follow = |axis: &mut Axis<LuGre<f64>, I>| match sampled {
+    let follow = |axis: &mut Axis<L, I>| match sampled {
         Some(sampled) => follow_sampled(axis, sampled),
         None => follow(axis, path.trajectory.as_ref()),
     };
@@ -59,7 +60,7 @@ pub(super) fn on_path<I: Integrator<LuGre<f64>>>(
         mass: study.machine.mass,
     };
     let axis = drawn.map_or(own, |d| d.axis);
-    let mut settings = settings(&study.machine, axis, controller, study.seed)?;
+    let mut settings = settings::<L>(&study.machine, axis, controller, study.seed)?;
     let without = || {
         let mut axis = Axis::new(settings.clone(), integrator()?)?;
         Ok(vec![follow(&mut axis)?])
@@ -69,7 +70,7 @@ pub(super) fn on_path<I: Integrator<LuGre<f64>>>(
     settings.feedforward = feedforward(scheme, &study.machine, &controller, belief, &watches[0])?;
     let changing = Changing::of(study, scheme, axis, belief, controller.mass_feedforward());
     let mut load = None;
-    let mut follow = |axis: &mut Axis<LuGre<f64>, I>| {
+    let mut follow = |axis: &mut Axis<L, I>| {
         let Some(changing) = &changing else {
             return follow(axis);
         };

@@ -12,10 +12,11 @@ use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::study::result::{SCHEMA, StudyFile};
 use stiction_files::study::{Job, Study};
-use stiction_friction::ParamError;
+use stiction_friction::{ElastoPlastic, LuGre, MaxwellSlip, ParamError};
 use stiction_number::{four_digits as short, quantity};
 use stiction_search::{Observer, Shared};
-use stiction_servo::integrator::Quick;
+use stiction_servo::integrator::{Integrator, Mid, Quick};
+use stiction_servo::law::{AxisLaw, OfAxis};
 use stiction_servo::sampled::Sampled;
 use stiction_servo::unmodelled::Beside;
 
@@ -140,15 +141,16 @@ impl<'a> Grid<'a> {
         let done = match study.contours.get(job.path.wrapping_sub(study.paths.len())) {
             Some(contour) => Some(contour::on_contour(study, job, contour, &self.learnt)?),
             None => {
-                let sampled = self.sampled[job.path].as_ref();
-                match study.families[job.family].axes.get(job.belief) {
-                    None => {
-                        let axis = || Quick::new(1);
-                        path::on_path(study, job, sampled, &self.learnt, &axis, go_on)?
+                // Both step MID; that of LuGre is faster.
+                match study.machine.law {
+                    AxisLaw::LuGre(_) => {
+                        self.on_path::<LuGre<f64>, _>(job, &|| Quick::new(1), go_on)?
                     }
-                    Some(drawn) => {
-                        let axis = || Ok(Beside::new(Quick::new(1)?, drawn.beside.clone()));
-                        path::on_path(study, job, sampled, &self.learnt, &axis, go_on)?
+                    AxisLaw::ElastoPlastic(_) => {
+                        self.on_path::<ElastoPlastic<f64>, _>(job, &|| Mid::new(1), go_on)?
+                    }
+                    AxisLaw::MaxwellSlip(_) => {
+                        self.on_path::<MaxwellSlip<f64>, _>(job, &|| Mid::new(1), go_on)?
                     }
                 }
             }
@@ -165,6 +167,24 @@ impl<'a> Grid<'a> {
             }
         }
         Ok(done)
+    }
+
+    /// One run along a path, of the axis of the study or of one that is drawn.
+    fn on_path<L: OfAxis, I: Integrator<L>>(
+        &self,
+        job: Job,
+        integrator: &dyn Fn() -> Result<I, ParamError>,
+        go_on: &dyn Fn() -> bool,
+    ) -> Result<Option<Done>, Fault> {
+        let study = self.study;
+        let sampled = self.sampled[job.path].as_ref();
+        match study.families[job.family].axes.get(job.belief) {
+            None => path::on_path(study, job, sampled, &self.learnt, integrator, go_on),
+            Some(drawn) => {
+                let axis = || Ok(Beside::new(integrator()?, drawn.beside.clone()));
+                path::on_path(study, job, sampled, &self.learnt, &axis, go_on)
+            }
+        }
     }
 }
 

@@ -41,7 +41,7 @@ pub fn lugre(shape: Shape<f64>) -> LuGre<f64> {
 /// Elements of which each is softer and later to yield than the one before.
 pub fn elements(count: usize) -> Vec<Element<f64>> {
     let element = |k: usize| Element {
-        stiffness: 8e4 / (1 << k) as f64,
+        stiffness: 8e4 / 1.5_f64.powi(k as i32),
         share: 0.4 + 0.1 * k as f64,
     };
     (0..count).map(element).collect()

@@ -8,17 +8,30 @@ use crate::study::plan::{ModelKind, ModelScheme, Named, Scheme, Study};
 use stiction_friction::compensator::{Adaptation, Settings, Source, Watchdog};
 use stiction_log::Dimension;
 use stiction_number::short;
+use stiction_parameters::LawKind;
+use stiction_servo::law::AxisLaw;
 use stiction_servo::learning::Learning;
 use stiction_servo::trajectory::MAX_PREVIEW;
 
-const KINDS: [&str; 6] = [
+const KINDS: [&str; 9] = [
     "coulomb",
     "stribeck",
     "simplified",
     "lugre",
+    "elasto-plastic",
+    "maxwell-slip",
+    "gms",
     "disturbance-observer",
     "learning",
 ];
+
+/// The kind of a compensator with the whole law of an axis.
+pub(in crate::study) fn whole(law: LawKind) -> &'static str {
+    match law {
+        LawKind::Dahl => LawKind::LuGre.name(),
+        law => law.name(),
+    }
+}
 
 /// What all others are compared with.
 pub(super) fn none() -> Named<Scheme> {
@@ -35,7 +48,14 @@ pub(super) fn compensator(table: &Table<'_>, study: &Study) -> Result<Named<Sche
         "coulomb" => Scheme::Model(model(table, study, ModelKind::Coulomb)?),
         "stribeck" => Scheme::Model(model(table, study, ModelKind::Stribeck)?),
         "simplified" => Scheme::Model(model(table, study, ModelKind::Simplified)?),
-        "lugre" => Scheme::Model(model(table, study, ModelKind::LuGre)?),
+        "lugre" | "elasto-plastic" | "maxwell-slip" | "gms" => {
+            let own = whole(study.machine.model.kind);
+            if kind != own {
+                let allowed = format!("\"{own}\", which the axis has, or a simpler one");
+                return Err(table.refuse("kind", format!("\"{kind}\""), &allowed));
+            }
+            Scheme::Model(model(table, study, ModelKind::Whole)?)
+        }
         "learning" => learning(table, study)?,
         _ => {
             let bandwidth = below_half_the_rate(table, "bandwidth", study.machine.rate)?;
@@ -76,7 +96,7 @@ fn model(table: &Table<'_>, study: &Study, kind: ModelKind) -> Result<ModelSchem
     let usual = Settings::new(1.0 / study.machine.rate, 1.0);
     let scheme = ModelScheme {
         kind,
-        source: source(table, kind)?,
+        source: source(table, matches!(study.machine.law, AxisLaw::LuGre(_)), kind)?,
         gain: table.number("gain", 0.0, 1.0)?.unwrap_or(usual.gain),
         dead_zone: table.not_negative("dead_zone", is.speed)?,
         limit: table.positive("limit", is.force)?,
@@ -110,7 +130,7 @@ fn watchdog(table: &Table<'_>, rate: f64) -> Result<Watchdog<f64>, Error> {
     Ok(Watchdog { window, ..usual })
 }
 
-fn source(table: &Table<'_>, kind: ModelKind) -> Result<Source<f64>, Error> {
+fn source(table: &Table<'_>, bristles: bool, kind: ModelKind) -> Result<Source<f64>, Error> {
     let words = ["reference", "measured", "blend", "observer"];
     match table.choice("source", &words)? {
         None | Some("reference") => Ok(Source::Reference),
@@ -120,7 +140,7 @@ fn source(table: &Table<'_>, kind: ModelKind) -> Result<Source<f64>, Error> {
             let share = table.required("measured_share", share, "a number from 0 to 1")?;
             Ok(Source::Blend(share))
         }
-        Some(_) if !matches!(kind, ModelKind::Simplified | ModelKind::LuGre) => {
+        Some(_) if !(bristles && matches!(kind, ModelKind::Simplified | ModelKind::Whole)) => {
             let allowed = "with kind = \"simplified\" or \"lugre\" only: the others have no bristles to observe";
             Err(table.refuse("source", "\"observer\"".into(), allowed))
         }

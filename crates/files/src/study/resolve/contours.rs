@@ -14,6 +14,7 @@ use stiction_friction::ParamError;
 use stiction_log::Dimension;
 use stiction_number::full;
 use stiction_servo::cross_coupling::CrossCoupling;
+use stiction_servo::law::AxisLaw;
 use stiction_servo::motion::Limits;
 use stiction_servo::plane::{Along, Circle, Curve, FigureEight, FreeForm, PlaneMotion, Polygon};
 
@@ -32,6 +33,13 @@ pub(super) fn second(
     if machine.motion != first.motion {
         let allowed = "linear or rotary, as the first axis";
         return Err(table.refuse("model", "is of the other kind".into(), allowed));
+    }
+    for of in [first, &machine] {
+        if !matches!(of.law, AxisLaw::LuGre(_)) {
+            let found = format!("beside an axis with the law {}", of.model.kind.name());
+            let allowed = "lugre or dahl on both axes: with other laws a study has one axis";
+            return Err(table.refuse("model", found, allowed));
+        }
     }
     Ok(Second {
         machine,

@@ -74,9 +74,7 @@ fn velocities(table: &Table<'_>, motion: Motion) -> Result<Vec<(String, f64)>, E
 
 /// Long enough to break away and go on, as far as a run may have samples.
 fn usual_hold(machine: &Machine, velocity: f64) -> f64 {
-    let curve = machine.law.curve();
-    let levels = [curve.positive(), curve.negative()].map(|side| side.static_friction);
-    let length = levels[0].max(levels[1]) / machine.law.stiffness();
+    let length = machine.law.presliding();
     let longest = (MOST_SAMPLES - 1) as f64 / machine.rate - 2.0 * RAMP;
     (PRESLIDING_LENGTHS * length / velocity)
         .max(LEAST_HOLD)

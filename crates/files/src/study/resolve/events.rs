@@ -64,7 +64,7 @@ pub(super) fn events(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
         mass = event.mass.unwrap_or(mass);
         level = event.friction.unwrap_or(level);
         let machine = &mut study.machine;
-        let stiffness = level * machine.law.stiffness() + machine.plant.stiffness();
+        let stiffness = level * machine.law.stiffness() + machine.spring;
         let (substeps, warning) = plant_steps(stiffness / mass, machine.rate);
         machine.substeps = machine.substeps.max(substeps);
         machine.model.warnings.extend(warning);

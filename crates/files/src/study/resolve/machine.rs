@@ -7,7 +7,7 @@ use super::published::published;
 use crate::config::Table;
 use crate::error::{Error, Warning};
 use crate::model::MODEL;
-use crate::study::model::Model;
+use crate::study::model::{Model, axis_law};
 use crate::study::plan::Machine;
 use std::path::Path;
 use stiction_codes::Code;
@@ -19,7 +19,6 @@ use stiction_parameters::Quantity;
 use stiction_servo::disturbance::Cogging;
 use stiction_servo::encoder::Encoder;
 use stiction_servo::known;
-use stiction_servo::plant::Plant;
 
 /// Least rate at which the plant is stepped, Hz: that of the simulations of Zhang et al. (steps of 1e-4 s).
 const PLANT_RATE: f64 = 1e4;
@@ -71,7 +70,7 @@ pub(super) fn machine(
         _ => None,
     };
     // The law of a model that was read, or of a known axis, is one.
-    let law = model.values().lugre().map_err(|e| {
+    let law = axis_law(&model.values()).map_err(|e| {
         let allowed = "a model whose parameters make a law";
         match swept {
             Some(given) => given.refuse(e.to_string(), allowed),
@@ -80,7 +79,7 @@ pub(super) fn machine(
     })?;
     let law = match table.choice("sigma1", &["capped", "constant"])? {
         Some("constant") => Ok(law),
-        _ => law.with_damping(Damping::Capped(law.damping().at_rest())),
+        _ => law.damped_as(Damping::Capped),
     };
     let law = law.map_err(|e| table.together(&e))?;
     let given = table.positive("mass", is.mass)?;
@@ -106,9 +105,6 @@ pub(super) fn machine(
     let stiffness = Dimensions::per(is.force, is.length);
     let viscous = table.not_negative("viscous", Dimensions::per(is.force, is.speed))?;
     let spring = table.not_negative("spring", stiffness)?.unwrap_or(0.0);
-    let plant = Plant::new(mass, law)
-        .and_then(|plant| plant.with_viscous(viscous.unwrap_or(0.0)))
-        .and_then(|plant| plant.with_stiffness(spring));
     let (substeps, warning) = plant_steps((law.stiffness() + spring) / mass, rate);
     model.warnings.extend(warning);
     let (disturbance, said) = disturbance(table, folder, &is, rate * f64::from(substeps))?;
@@ -139,7 +135,8 @@ pub(super) fn machine(
         motion,
         law,
         mass,
-        plant: plant.map_err(|e| table.together(&e))?,
+        viscous: viscous.unwrap_or(0.0),
+        spring,
         given_mass: given.is_some(),
         rate,
         substeps,

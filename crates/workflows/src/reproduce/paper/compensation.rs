@@ -5,6 +5,7 @@ use stiction_friction::compensator::{Compensator, Friction, Settings, Source};
 use stiction_friction::{CoulombViscous, LuGre, ParamError};
 use stiction_servo::axis::AxisSettings;
 use stiction_servo::feedforward::Feedforward;
+use stiction_servo::law::AxisLaw;
 
 /// Part of the force that is applied where the measured velocity drives the law, dimensionless: below 1, since this
 /// compensation is a positive feedback of friction.
@@ -74,7 +75,7 @@ impl Compensation {
                 Friction::Coulomb(CoulombViscous::new(levels, viscous, curve.offset())?)
             }
             Compensation::Stribeck => Friction::Stribeck(*curve),
-            Compensation::Simplified => Friction::LuGre(without_stribeck(law)?),
+            Compensation::Simplified => without_stribeck(&AxisLaw::LuGre(*law))?.friction(),
             Compensation::Reference | Compensation::Measured => Friction::LuGre(*law),
         };
         let period = 1.0 / settings.rate;
