@@ -44,6 +44,8 @@ pub(super) fn axis(file: &StudyFile, axis: &SimulatedAxis) -> Block {
         ),
         ("Encoder step", quantity(axis.encoder, length)),
     ];
+    // A law of elements has none.
+    facts.retain(|(name, text)| *name != "σ₁" || !text.is_empty());
     if axis.position_noise > 0.0 {
         let noise = quantity(axis.position_noise, length);
         facts.push(("Position noise", format!("{noise} rms")));
