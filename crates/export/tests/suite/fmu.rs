@@ -35,7 +35,7 @@ fn compile(source: &File) -> Option<Vec<u8>> {
 fn fmpy_gives_the_forces_that_are_due() {
     for (name, mut model) in models()
         .into_iter()
-        .filter(|(name, _)| ["lugre", "power", "coulomb"].contains(name))
+        .filter(|(name, _)| ["lugre", "power", "gms", "coulomb"].contains(name))
     {
         let dir = tempfile::tempdir().unwrap();
         model.rotary = name == "power";

@@ -44,7 +44,8 @@ fn the_crate_is_built_and_runs() {
     let workspace = stiction_testkit::workspace();
     for (name, model) in models().into_iter().filter(|(name, model)| {
         let follows = model.settings.adaptation.is_some();
-        ["power", "coulomb"].contains(name) != follows || *name == "stribeck" && follows
+        ["power", "maxwell-slip", "coulomb"].contains(name) != follows
+            || *name == "stribeck" && follows
     }) {
         let dir = tempfile::tempdir().unwrap();
         for file in export(&model, Target::Rust).unwrap() {
