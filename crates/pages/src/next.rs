@@ -1,7 +1,7 @@
 //! What to do next, as commands to type.
 
 use std::path::{Path, PathBuf};
-use stiction_files::result::{Next, ResultFile};
+use stiction_files::result::{Cure, Next, ResultFile};
 use stiction_files::shell::{plain, quoted};
 
 /// What a log that is still to be recorded is called in commands.
@@ -32,33 +32,57 @@ pub fn why(next: Next) -> &'static str {
     }
 }
 
-/// What takes the cause of what the law leaves into the fit, where a line of the axis file does: what to write, and the
-/// command.
-pub(crate) fn cured(result: &ResultFile, dir: &Path) -> Option<(String, String)> {
+/// What takes the cause of what the law leaves into the fit.
+pub(crate) struct Cured {
+    /// The cause, and what to do.
+    pub what: String,
+    /// The line to write into the axis file; none where another law is to be tried.
+    pub line: Option<String>,
+    /// The command that then takes it in.
+    pub command: String,
+}
+
+/// What takes the cause of what the law leaves into the fit, where something does.
+pub(crate) fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
     let cause = result.trust.cause.as_ref()?;
-    let cure = cause.cure.as_ref()?;
     let dir: &Path = &dir.components().collect::<PathBuf>();
-    let (file, place) = match &result.axis.file {
-        Some(file) => (quoted(file), format!("in {file}, under [{}]", cure.table)),
-        None => {
-            let file = axis_file(&result.inputs.first()?.path);
-            let place = format!("in a new file {file}, under a line [{}]", cure.table);
-            (file, place)
-        }
-    };
-    let write = format!(
-        "{}; take that into the fit: {place}, write\n    {}",
-        cause.text, cure.line
-    );
     let logs: Vec<String> = result.inputs.iter().map(|i| quoted(&i.path)).collect();
-    let key = cure.line.split(' ').next().unwrap_or_default();
-    let command = format!(
-        "stiction identify {} --axis {file}{} --out {}",
-        logs.join(" "),
-        law(result),
-        quoted(&format!("{}-{key}", dir.display()))
-    );
-    Some((write, command))
+    let logs = logs.join(" ");
+    let out = |suffix: &str| quoted(&format!("{}-{suffix}", dir.display()));
+    Some(match cause.cure.as_ref()? {
+        Cure::Law { law } => {
+            let axis = axis_option(result);
+            let out = out(law);
+            Cured {
+                what: format!("{}; try the law {law}", cause.text),
+                line: None,
+                command: format!("stiction identify {logs}{axis} --law {law} --out {out}"),
+            }
+        }
+        Cure::Line { table, line } => {
+            let (file, place) = match &result.axis.file {
+                Some(file) => (quoted(file), format!("in {file}, under [{table}]")),
+                None => {
+                    let file = axis_file(&result.inputs.first()?.path);
+                    let place = format!("in a new file {file}, under a line [{table}]");
+                    (file, place)
+                }
+            };
+            let law = law(result);
+            let out = out(line.split(' ').next().unwrap_or_default());
+            Cured {
+                what: format!("{}; take that into the fit: {place}, write", cause.text),
+                line: Some(line.clone()),
+                command: format!("stiction identify {logs} --axis {file}{law} --out {out}"),
+            }
+        }
+    })
+}
+
+/// The axis file as an option, where there is one.
+fn axis_option(result: &ResultFile) -> String {
+    let file = result.axis.file.as_ref();
+    file.map_or(String::new(), |file| format!(" --axis {}", quoted(file)))
 }
 
 /// The law as it was asked for; nothing where the data chose it.
@@ -82,9 +106,7 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
         _ => result.inputs.iter().map(|i| quoted(&i.path)).collect(),
     };
     let mut log = logs.join(" ");
-    if let Some(file) = &result.axis.file {
-        log.push_str(&format!(" --axis {}", quoted(file)));
-    }
+    log.push_str(&axis_option(result));
     match next {
         Next::Export => {
             let model = quoted(&dir.join("model.toml").display().to_string());
@@ -107,8 +129,6 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
         },
         Next::Check => format!("stiction check {log}"),
         Next::Record => {
-            let axis = result.axis.file.as_ref();
-            let axis = axis.map_or(String::new(), |file| format!(" --axis {}", quoted(file)));
             if result.method == "presliding-step" {
                 let out = another("again");
                 return format!(
@@ -116,7 +136,8 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
                 );
             }
             format!(
-                "stiction identify {ANOTHER_LOG}{axis} --out {}",
+                "stiction identify {ANOTHER_LOG}{} --out {}",
+                axis_option(result),
                 another("again")
             )
         }

@@ -267,13 +267,15 @@ fn next_step(result: &ResultFile) -> Text {
     };
     let as_it_is = format!("{}. {place}: ", next::why(next));
     let command_as_it_is = next::command(result, Path::new(dir));
-    let Some((write, command)) = next::cured(result, Path::new("result")) else {
+    let Some(cured) = next::cured(result, Path::new("result")) else {
         return Text::from(format!("Next: {as_it_is}")).code(command_as_it_is);
     };
+    let line = cured.line.map_or(String::new(), |line| format!(" {line}"));
     let cured = Text::from(format!(
-        "Next: {write}. In the folder it was identified in: "
+        "Next: {}{line}. In the folder it was identified in: ",
+        cured.what
     ))
-    .code(command);
+    .code(cured.command);
     match result.trust.trustworthy {
         true => cured
             .plain(format!(" Or without it: {as_it_is}"))

@@ -22,7 +22,7 @@ pub use procedure::procedure_commands;
 pub use reproduction::reproduction;
 use std::fmt::Write;
 use std::path::Path;
-use stiction_files::result::{LawEntry, Next, ResultFile, SimulationEntry};
+use stiction_files::result::{LawEntry, Next, ParameterEntry, ResultFile, SimulationEntry};
 use stiction_number::{Percent, four_digits as short, r_squared, unit};
 use stiction_workflows::identify::Outcome;
 pub use study::{started_study, study};
@@ -116,6 +116,14 @@ pub fn outcome(outcome: &Outcome) -> String {
             unit(&low.fit.unit),
             short(low.bound),
             low.bound_unit
+        );
+    }
+    let of_counts = |p: &ParameterEntry| p.interval.as_deref() == Some("state-space");
+    if result.parameters.iter().any(of_counts) {
+        let _ = writeln!(
+            out,
+            "counts      the axis rests in much of the log: parameters and intervals come from the counts of the encoder, the \
+             errors above from the fit of the force"
         );
     }
     for (i, v) in result.validation.iter().enumerate() {
@@ -216,8 +224,12 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
     let (why, command) = (next::why(result.trust.next), next::command(result, dir));
     let _ = match next::cured(result, dir) {
         None => writeln!(out, "next: {why}\n  {command}"),
-        Some((write, cured)) => {
-            let _ = writeln!(out, "next: {write}\n  and\n  {cured}");
+        Some(cured) => {
+            let _ = writeln!(out, "next: {}", cured.what);
+            if let Some(line) = cured.line {
+                let _ = writeln!(out, "    {line}\n  and");
+            }
+            let _ = writeln!(out, "  {}", cured.command);
             match result.trust.trustworthy {
                 true => writeln!(out, "or without it: {why}\n  {command}"),
                 false => Ok(()),

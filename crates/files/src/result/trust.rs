@@ -37,18 +37,27 @@ pub struct CauseEntry {
     pub text: String,
     /// How much it is.
     pub size: String,
-    /// What takes it into the fit; absent where no line of the axis file does.
+    /// What takes it into the fit; absent where neither a line of the axis file nor another law does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cure: Option<Cure>,
 }
 
-/// A line of the axis file.
+/// What takes the cause of what a law leaves into the fit.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Cure {
-    /// The table it belongs to, such as `terms`.
-    pub table: String,
-    /// The line, such as `coulomb_temperature = true`.
-    pub line: String,
+#[serde(untagged)]
+pub enum Cure {
+    /// A line of the axis file.
+    Line {
+        /// The table it belongs to, such as `terms`.
+        table: String,
+        /// The line, such as `coulomb_temperature = true`.
+        line: String,
+    },
+    /// A law that may have that shape.
+    Law {
+        /// Its name.
+        law: String,
+    },
 }
 
 /// How well a law predicts friction, and on which motion that was seen.

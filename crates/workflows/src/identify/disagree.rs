@@ -128,7 +128,7 @@ pub(super) fn cause(found: &[Disagreement]) -> Option<CauseEntry> {
         code: Code::LogsDisagree,
         text: format!("the logs differ in {}", first.name),
         size: Percent::error(100.0 * first.part).digits(2),
-        cure: own_level(first).map(|key| Cure {
+        cure: own_level(first).map(|key| Cure::Line {
             table: "terms".into(),
             line: format!("{key} = true"),
         }),

@@ -4,7 +4,7 @@ use super::coupled;
 use stiction_codes::Code;
 use stiction_files::result::{CauseEntry, Cure, MisfitEntry};
 use stiction_files::{Warning, symbols};
-use stiction_identify::{Cause, Dependence, Divided, FittedLaw, Misfit};
+use stiction_identify::{Cause, Dependence, Divided, FittedLaw, LawKind, Misfit};
 use stiction_log::Log;
 use stiction_number::{Percent, four_digits};
 
@@ -59,7 +59,7 @@ pub(super) fn named(law: &FittedLaw, log: &Log, warnings: &mut Vec<Warning>) {
     warnings.push(Warning::new(code(cause), message));
 }
 
-/// The same as a part of the verdict, with the line of the axis file that takes it into the fit.
+/// The same as a part of the verdict, with what takes it into the fit.
 pub(super) fn cause(law: &FittedLaw, log: &Log) -> Option<CauseEntry> {
     let misfit = law.misfit.as_ref()?;
     let cause = misfit.cause()?;
@@ -99,9 +99,9 @@ fn of_what_is_left(share: f64, law: &FittedLaw) -> String {
     )
 }
 
-/// The line of the axis file that takes a cause into the fit, where there is one that the fit has not.
+/// What takes a cause into the fit, where there is something that the fit has not.
 fn cure(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> Option<Cure> {
-    let of_terms = |line| Cure {
+    let of_terms = |line| Cure::Line {
         table: "terms".into(),
         line,
     };
@@ -147,6 +147,15 @@ fn cure(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> Option<Cur
             };
             first_of(&[term]).filter(|_| share >= PART_OF_DRIFT * misfit.share)
         }
+        // One bristle is the presliding that several are held against; elements have no levels that depend on anything.
+        Cause::Shape
+            if [LawKind::Dahl, LawKind::LuGre].contains(&law.law.kind)
+                && law.terms.dependences.is_empty() =>
+        {
+            Some(Cure::Law {
+                law: LawKind::MaxwellSlip.name().into(),
+            })
+        }
         Cause::Resonance | Cause::Backlash | Cause::Shape => None,
     }
 }
@@ -168,7 +177,10 @@ fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String 
     let to_do = cure.map_or(
         "No straight line over it describes that: record within the range that the axis works in"
             .into(),
-        |cure| format!("Set {} under [{}] in the axis file", cure.line, cure.table),
+        |cure| match cure {
+            Cure::Line { table, line } => format!("Set {line} under [{table}] in the axis file"),
+            Cure::Law { law } => format!("Try the law {law}"),
+        },
     );
     match cause {
         Cause::Resonance | Cause::Backlash => {
@@ -215,12 +227,16 @@ fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String 
             format!("{what}: {left}{line}. {counted}")
         }
         Cause::Shape => format!(
-            "{what}: {left} {}. {counted}, and what describes that shape is no constant of the machine. Compare the laws \
-                 maxwell-slip and elasto-plastic. Neither a load on a spring nor one behind a gap explains it surely; a force logged \
+            "{what}: {left} {}. {counted}, and what describes that shape is no constant of the machine. Compare {}. \
+                 Neither a load on a spring nor one behind a gap explains it surely; a force logged \
                  late looks alike",
             match misfit.by {
                 Divided::AfterReversals => "lies after reversals, beyond what is left elsewhere",
                 _ => "comes back with speed and travel after each reversal",
+            },
+            match law.law.kind.has_elements() {
+                true => "the law elasto-plastic",
+                false => "the laws maxwell-slip and elasto-plastic",
             }
         ),
     }
