@@ -90,6 +90,25 @@ pub(super) fn rises_unseen(law: &Law, parameters: &mut [Parameter]) {
     }
 }
 
+/// Flags the static friction of a direction whose Stribeck velocity is open, where something else than the law is left of the
+/// force: a curve of another width ends at another static friction.
+pub(super) fn end_of_an_open_curve(law: &Law, parameters: &mut [Parameter]) {
+    for &side in Side::all(law.asymmetric) {
+        let width = Name::new(Quantity::StribeckVelocity, side);
+        let end = Name::new(Quantity::Static, side);
+        let open = |p: &Parameter| p.name == width && p.identified && !p.identifiable;
+        if !parameters.iter().any(open) {
+            continue;
+        }
+        for p in parameters.iter_mut().filter(|p| p.name == end) {
+            if p.identified && p.identifiable {
+                p.identifiable = false;
+                p.reason = "is where a curve ends whose Stribeck velocity is open, in a log that the law does not explain alone".into();
+            }
+        }
+    }
+}
+
 /// Top speed over the Stribeck velocity below which the Coulomb level is not seen: at twice the Stribeck velocity of a Gaussian
 /// curve a fiftieth of the rise is left.
 const BEYOND: f64 = 2.0;

@@ -5,7 +5,9 @@ use crate::agreement::Between;
 use crate::conditioning::record::Record;
 use crate::estimate::conditioned::shift;
 use crate::estimate::confused::flag_levels_that_take_viscous_friction;
-use crate::estimate::curve::{missing, rises_unseen, spans_all_speeds, stays_within};
+use crate::estimate::curve::{
+    end_of_an_open_curve, missing, rises_unseen, spans_all_speeds, stays_within,
+};
 use crate::estimate::filtered::flag_what_a_filter_hides;
 use crate::estimate::fitted::FittedLaw;
 use crate::estimate::profile::{End, Held, Profile};
@@ -63,12 +65,18 @@ pub fn intervals(
         _ => {}
     }
     let fitted = &mut estimate.fitted;
+    if let Some(swing) = fitted.misfit.as_ref().and_then(Misfit::swing) {
+        reach_as_far_as(swing, &mut fitted.parameters);
+    }
     flag_what_the_residual_doubts(fitted);
     flag_what_the_motion_hides(record, &mut fitted.parameters);
     rises_unseen(&fitted.law, &mut fitted.parameters);
     spans_all_speeds(&fitted.law, record.top_speed(), &mut fitted.parameters);
     let at = &optimum.evaluation;
     flag_levels_that_take_viscous_friction(&objective, at, &raw, &mut fitted.parameters);
+    if fitted.misfit.as_ref().and_then(Misfit::cause).is_some() {
+        end_of_an_open_curve(&fitted.law, &mut fitted.parameters);
+    }
     advice::explain(&mut fitted.parameters, &fitted.covariance);
 }
 
@@ -90,11 +98,12 @@ fn of_the_counts(
             before.fitted.counts = estimate.fitted.counts;
             *estimate = before;
         }
-        Counts::Doubted(doubted) => doubted.flag(estimate),
-        Counts::Unexplained if estimate.lag_samples() > 0.0 => {
+        // A maximum that is not believed is no better behind a lag than none.
+        Counts::Doubted(_) | Counts::Unexplained if estimate.lag_samples() > 0.0 => {
             let why = "are those of a force that lags behind the logged one";
             state_space::flag_what_rests_spoil(estimate, why);
         }
+        Counts::Doubted(doubted) => doubted.flag(estimate),
         Counts::Unexplained | Counts::NotAsked => {}
     }
 }
@@ -208,6 +217,20 @@ fn conditioned(
         }
     }
     between
+}
+
+/// Widens the intervals of levels of friction to the levels that the log shows, `swing` being by which parts of their mean the
+/// least and the largest differ from it: the mean over another log is another one.
+fn reach_as_far_as((least, largest): (f64, f64), parameters: &mut [Parameter]) {
+    let levels = [Quantity::Coulomb, Quantity::Static];
+    for p in parameters.iter_mut().filter(|p| p.identified) {
+        if let Some((low, high)) = &mut p.ci95
+            && levels.contains(&p.name.quantity)
+        {
+            *low = low.min(p.value * (1.0 + least));
+            *high = high.max(p.value * (1.0 + largest));
+        }
+    }
 }
 
 /// Flags the parameters that describe a shape which the residual shows to be another one, and those that logs have too

@@ -65,6 +65,11 @@ impl Misfit {
         })
     }
 
+    /// By which parts of its mean the level of friction is least and largest, where its change is the cause.
+    pub(crate) fn swing(&self) -> Option<(f64, f64)> {
+        self.cause().and_then(Cause::level).map(|_| self.levels)
+    }
+
     /// Part of the variance of the residual that comes back in a way of dividing the motion.
     pub fn share_by(&self, by: Divided) -> f64 {
         let own = self.shares.iter().find(|(own, _)| *own == by);

@@ -260,6 +260,7 @@ fn validation_data_do_not_choose() {
     assert_eq!(result.parameters, alone.parameters);
     // The other axis has friction of another kind.
     assert!(!result.trust.trustworthy && result.trust.next == Next::IdentifyTheOther);
+    assert!(!alone.trust.constants.is_empty() && result.trust.constants.is_empty());
     options.asymmetric = true;
     let refused = options.identify(&mut Silent).unwrap_err();
     assert_eq!(refused.code().as_str(), "usage");

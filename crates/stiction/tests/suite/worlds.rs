@@ -119,6 +119,14 @@ fn a_level_that_follows_a_channel_is_named_after_it() {
             codes.filter(|c| causes.contains(&c.as_str())).collect()
         };
         assert_eq!(named(&as_it_is), [cause], "{axis}, {world:?}");
+        // The level goes by 15 % (along the stroke) or 20 % (in time) of its mean.
+        let mut parameters = as_it_is.result().parameters.iter();
+        let coulomb = parameters
+            .find(|p| ["coulomb", "coulomb_pos"].contains(&p.name.as_str()))
+            .unwrap();
+        let [low, high] = coulomb.ci95.unwrap().map(Option::unwrap);
+        let spans = (high - low) / coulomb.value;
+        assert!((0.15..0.45).contains(&spans), "{axis}: {spans:.3}");
         let mut warnings = as_it_is.warnings().iter();
         let warning = warnings.find(|w| w.code.as_str() == cause).unwrap();
         assert!(warning.message.contains(&format!("{term} = true")));

@@ -50,7 +50,7 @@ pub(super) fn judged(evidence: &Evidence, reasons: &mut Reasons) -> Option<Compe
                 true => Next::IdentifyTheOther,
                 false => Next::Check,
             };
-            reasons.push(text, next);
+            reasons.push_elsewhere(text, next);
         }
     }
     if left.is_nan() || left > MOST_FRICTION_LEFT {

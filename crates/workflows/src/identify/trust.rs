@@ -68,7 +68,7 @@ impl Judged {
         law: &FittedLaw,
         motion: Shown,
         compensation: Option<Compensation>,
-        Reasons(reasons): Reasons,
+        Reasons { reasons, elsewhere }: Reasons,
         warnings: Vec<Warning>,
     ) -> Self {
         let names = |determined: bool| -> Vec<String> {
@@ -81,6 +81,7 @@ impl Judged {
             // Nor does a parameter beside an assumed curve, whose error no interval knows.
             let assumed = warnings.iter().any(|w| w.code == Code::StaticsAssumed);
             let holds = law.status == Status::Converged
+                && !elsewhere
                 && !held
                 && !assumed
                 && law.fit.r2 >= LEAST_R2
@@ -137,11 +138,21 @@ enum Shown {
 
 /// Reasons against a result, each with what leads on from it.
 #[derive(Default)]
-pub(super) struct Reasons(Vec<(String, Next)>);
+pub(super) struct Reasons {
+    reasons: Vec<(String, Next)>,
+    /// Whether data that were not fitted contradict the law: what it holds for constants differs there.
+    elsewhere: bool,
+}
 
 impl Reasons {
     pub fn push(&mut self, text: impl Into<String>, next: Next) {
-        self.0.push((text.into(), next));
+        self.reasons.push((text.into(), next));
+    }
+
+    /// Data that were not fitted contradict the law.
+    pub fn push_elsewhere(&mut self, text: String, next: Next) {
+        self.push(text, next);
+        self.elsewhere = true;
     }
 }
 
@@ -284,7 +295,7 @@ pub(super) fn of_position(
         reasons.push(text, Next::Record);
     }
     // What a check has to say has led here.
-    reasons.0.iter_mut().for_each(|(_, next)| {
+    reasons.reasons.iter_mut().for_each(|(_, next)| {
         if *next == Next::Check {
             *next = Next::Record;
         }
