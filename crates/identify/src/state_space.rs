@@ -43,6 +43,11 @@ pub(crate) enum Counts {
 pub(crate) struct Doubted(Box<fit::Likely>);
 
 impl Doubted {
+    /// Whether it hardly explains the counts.
+    pub fn is_hopeless(&self) -> bool {
+        self.0.hopeless
+    }
+
     /// Flags the parameters whose interval does not hold what the counts say.
     pub fn flag(&self, estimate: &mut Estimate) {
         state::doubt(estimate, &self.0);

@@ -92,18 +92,24 @@ fn of_the_counts(
     let mut watch = Watch::new(observer, Stage::Calibration);
     let counts = state_space::ask(record, &mut before, between, &mut watch);
     estimate.fitted.counts.add(&watch.counts);
+    let lags = estimate.lag_samples() > 0.0;
+    let unexplained = |estimate: &mut Estimate| {
+        let why = "are those of a force that lags behind the logged one";
+        state_space::flag_what_rests_spoil(estimate, why);
+    };
     match counts {
         Counts::Stated => {
             before.fitted.misfit = estimate.fitted.misfit.take();
             before.fitted.counts = estimate.fitted.counts;
             *estimate = before;
         }
-        // A maximum that is not believed is no better behind a lag than none.
-        Counts::Doubted(_) | Counts::Unexplained if estimate.lag_samples() > 0.0 => {
-            let why = "are those of a force that lags behind the logged one";
-            state_space::flag_what_rests_spoil(estimate, why);
+        Counts::Doubted(doubted) => {
+            doubted.flag(estimate);
+            if doubted.is_hopeless() && lags {
+                unexplained(estimate);
+            }
         }
-        Counts::Doubted(doubted) => doubted.flag(estimate),
+        Counts::Unexplained if lags => unexplained(estimate),
         Counts::Unexplained | Counts::NotAsked => {}
     }
 }

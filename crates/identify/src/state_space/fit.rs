@@ -73,6 +73,8 @@ pub(super) struct Likely {
     pub sureness: Sureness,
     /// Delay of the force behind the motion, samples, and its 95 % reach, where it was looked for.
     pub delay: Option<[f64; 2]>,
+    /// Whether so much is left on the force that the search was given up.
+    pub hopeless: bool,
     /// Why it is not believed; empty if it is.
     pub against: &'static str,
 }
@@ -113,6 +115,7 @@ pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch)
             at: first.top.at,
             free: search.free,
             delay: None,
+            hopeless: true,
             against: MORE_ACTS,
         });
     }
@@ -155,6 +158,7 @@ pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch)
         sureness: sureness(&top, &free)?,
         free,
         delay: delay.map(|d| [late + HELD_DELAY, d.reach + d.beside.abs()]),
+        hopeless: false,
         against,
     })
 }
