@@ -78,6 +78,11 @@ const PACKAGES: &[Package] = &[
         why: "reads exported SDFormat",
     },
     Package {
+        name: "octave",
+        program: Some("octave-cli"),
+        why: "runs exported functions of MATLAB",
+    },
+    Package {
         name: "gcc-avr",
         program: Some("avr-g++"),
         why: "compiles exported C++ for AVR",

@@ -504,6 +504,8 @@ pub enum Target {
     Hal,
     /// FMUs for co-simulation, FMI 2.0 and 3.0.
     Fmu,
+    /// Functions of MATLAB and Octave, and an S-function of Simulink.
+    Matlab,
     /// The friction table of TwinCAT CNC.
     Tf5200,
 }

@@ -548,6 +548,7 @@ fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
         arguments::Target::Isaaclab => Target::IsaacLab,
         arguments::Target::Hal => Target::Hal,
         arguments::Target::Fmu => Target::Fmu,
+        arguments::Target::Matlab => Target::Matlab,
         arguments::Target::Tf5200 => Target::Tf5200,
     };
     let mut options = ExportOptions::new(target, export.cycle_time);

@@ -65,6 +65,13 @@ fn precision<T: Literal>(model: &Model, precision: &Precision) -> Result<Vec<Fil
     ])
 }
 
+/// Header and source in double precision.
+pub(crate) fn double(model: &Model) -> Result<Vec<File>, Error> {
+    let mut files = precision::<f64>(model, &DOUBLE)?;
+    files.truncate(2);
+    Ok(files)
+}
+
 /// The text of the header and the source in double precision, for a file that holds both.
 pub(crate) fn inside(model: &Model) -> Result<String, Error> {
     let mut fill = fill::<f64>(model, &DOUBLE)?;

@@ -44,6 +44,7 @@ mod header;
 mod identifier;
 mod joint;
 mod law;
+mod matlab;
 mod model;
 mod mujoco;
 mod number;

@@ -1,6 +1,6 @@
 //! The targets and the files of each.
 
-use crate::{Error, Model, c, check, cpp, fmu, hal, joint, mujoco, ros2, rust, st, tf5200};
+use crate::{Error, Model, c, check, cpp, fmu, hal, joint, matlab, mujoco, ros2, rust, st, tf5200};
 
 /// A form in which the compensator is exported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +32,8 @@ pub enum Target {
     Hal,
     /// Functional Mock-up Units for co-simulation, FMI 2.0 and 3.0.
     Fmu,
+    /// Functions of MATLAB and Octave, and an S-function of Simulink.
+    Matlab,
     /// The friction table of TwinCAT CNC.
     Tf5200,
 }
@@ -56,7 +58,7 @@ impl File {
 
 impl Target {
     /// All of them.
-    pub const ALL: [Target; 14] = [
+    pub const ALL: [Target; 15] = [
         Target::C,
         Target::Cpp,
         Target::Ros2,
@@ -70,6 +72,7 @@ impl Target {
         Target::IsaacLab,
         Target::Hal,
         Target::Fmu,
+        Target::Matlab,
         Target::Tf5200,
     ];
 
@@ -89,6 +92,7 @@ impl Target {
             Target::IsaacLab => "isaaclab",
             Target::Hal => "hal",
             Target::Fmu => "fmu",
+            Target::Matlab => "matlab",
             Target::Tf5200 => "tf5200",
         }
     }
@@ -116,6 +120,7 @@ impl Target {
             | Target::IsaacLab
             | Target::Hal
             | Target::Fmu
+            | Target::Matlab
             | Target::Tf5200 => "double",
         }
     }
@@ -141,6 +146,7 @@ pub fn export(model: &Model, target: Target) -> Result<Vec<File>, Error> {
         Target::IsaacLab => joint::isaac_lab(model),
         Target::Hal => hal::files(model),
         Target::Fmu => fmu::fmu(model, &mut |_| None),
+        Target::Matlab => matlab::files(model),
         Target::Tf5200 => tf5200::files(model),
     }
 }

@@ -118,6 +118,28 @@ impl Vectors<f64> {
             .collect();
         rows.join("\n")
     }
+
+    /// The rows of a matrix in MATLAB.
+    pub(crate) fn matrix(&self) -> String {
+        let number = |flag| if flag { "1" } else { "0" };
+        let rows: Vec<String> = self
+            .rows
+            .iter()
+            .map(|row| {
+                let (v, e, f) = (row.velocity.c(), row.error.c(), row.force.c());
+                let drive = row
+                    .drive
+                    .map(|(u, learn)| format!("{}, {}, ", u.c(), number(learn)));
+                let extras: String = row.extras.iter().map(|x| format!("{}, ", x.c())).collect();
+                format!(
+                    "    {v}, {e}, {}, {}{extras}{f}",
+                    number(row.enable),
+                    drive.unwrap_or_default()
+                )
+            })
+            .collect();
+        rows.join("\n")
+    }
 }
 
 /// Limits that are reached, a ramp of five cycles, a watchdog that learns and trips within the test, an adaptation that forgets within it.

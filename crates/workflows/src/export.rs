@@ -209,13 +209,13 @@ fn check(options: &ExportOptions) -> Result<(), Error> {
     if none && options.adapt {
         return Err(Error::usage(
             format!("levels that follow the machine for the target {target}"),
-            "c, cpp, ros2, st, tcpou, plcopen, rust, hal and fmu have them",
+            "c, cpp, ros2, st, tcpou, plcopen, rust, hal, fmu and matlab have them",
         ));
     }
     if none && options.feedforward != Feedforward::default() {
         return Err(Error::usage(
             format!("a feedforward beside friction for the target {target}"),
-            "c, cpp, ros2, st, tcpou, plcopen, rust, hal and fmu have one",
+            "c, cpp, ros2, st, tcpou, plcopen, rust, hal, fmu and matlab have one",
         ));
     }
     Ok(())

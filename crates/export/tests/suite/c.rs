@@ -213,6 +213,7 @@ fn every_law_and_curve_agrees() {
     agree_over(
         "C",
         all_laws(),
+        usize::MAX,
         |_| {},
         |model, samples| through_c(model, false, samples),
     );

@@ -7,6 +7,7 @@ mod fmu;
 mod hal;
 mod joint;
 mod matiec;
+mod matlab;
 mod mujoco;
 mod ros2;
 mod rust;

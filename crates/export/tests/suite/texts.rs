@@ -42,6 +42,14 @@ fn texts() {
         (Target::IsaacLab, vec!["x_axis_friction.py"]),
         (Target::Hal, vec!["x_axis_friction.comp"]),
         (Target::Fmu, vec!["modelDescription.xml"]),
+        (
+            Target::Matlab,
+            vec![
+                "x_axis_step.m",
+                "x_axis_friction_block.m",
+                "x_axis_friction_sfun.c",
+            ],
+        ),
     ] {
         let files = export(&small(), target).unwrap();
         // Of the FMUs the first, FMI 2.0.

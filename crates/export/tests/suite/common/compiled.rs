@@ -191,13 +191,14 @@ pub fn agree(
     prepare: impl Fn(&mut [Sample]),
     through: impl Fn(&Model, &[Sample]) -> Vec<[f64; 2]>,
 ) {
-    agree_over(target, laws(), prepare, through);
+    agree_over(target, laws(), usize::MAX, prepare, through);
 }
 
-/// The same over the laws that are given.
+/// The same over the laws that are given, with the first samples of each run.
 pub fn agree_over(
     target: &str,
     laws: Vec<(&'static str, Friction<f64>)>,
+    first: usize,
     prepare: impl Fn(&mut [Sample]),
     through: impl Fn(&Model, &[Sample]) -> Vec<[f64; 2]>,
 ) {
@@ -229,6 +230,7 @@ pub fn agree_over(
             (model.clone(), samples)
         });
         for (run, (model, mut samples)) in runs.chain(surrounded(friction, seed)).enumerate() {
+            samples.truncate(first);
             prepare(&mut samples);
             let friction = model.friction;
             let found = through(&model, &samples);
