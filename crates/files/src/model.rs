@@ -1,12 +1,14 @@
 //! `model.toml`: a friction law with parameters, units, intervals, and where they came from.
 
 pub(crate) mod covariance;
+pub mod dependences;
 mod fault;
 mod form;
 mod read;
 mod refusal;
 mod supported;
 
+pub use dependences::Dependences;
 pub use form::{ModelFile, ModelParameter, SCHEMA, SourceEntry, SourceInput};
 pub use read::ReadModel;
 pub(crate) use read::{BY_HAND, MODEL};

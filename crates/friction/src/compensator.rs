@@ -45,7 +45,7 @@ pub use memory::{ForeignMemory, MEMORY};
 pub use preview::ahead;
 pub use settings::Settings;
 pub use state::{LawState, State};
-pub use terms::{Channel, Channels, Levels, Terms, WAVES, Wave, Weight};
+pub use terms::{Changes, Channel, Channels, Levels, Terms, WAVES, Wave, Weight};
 pub use watchdog::{Trip, Watch, Watchdog};
 
 use crate::{ParamError, Real};

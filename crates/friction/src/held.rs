@@ -38,6 +38,13 @@ pub trait Held<T: Real>: Copy {
     /// Friction force, N (N m), at a state and the velocity `v` (m/s, rad/s).
     fn force_now(&self, state: Self::State, v: T) -> T;
 
+    /// Force of the deflections alone, N (N m), after `h > 0` seconds at the velocity `v`, and its derivative with respect to `v`
+    /// (N s/m, N m s/rad).
+    fn spring_slope(&self, from: Self::State, h: T, v: T) -> (T, T);
+
+    /// Force of the deflections alone, N (N m).
+    fn spring(&self, state: Self::State) -> T;
+
     /// Upper bound of the mean force over `h > 0` seconds, without the viscous part and the offset, N (N m).
     fn reach(&self, h: T) -> T;
 }
@@ -91,6 +98,15 @@ impl<T: Real> Held<T> for LuGre<T> {
         self.force(state, v)
     }
 
+    fn spring_slope(&self, from: T, h: T, v: T) -> (T, T) {
+        let (end, slope) = self.step_held_slope(from, h, v);
+        (self.stiffness() * end, self.stiffness() * slope)
+    }
+
+    fn spring(&self, state: T) -> T {
+        self.stiffness() * state
+    }
+
     fn reach(&self, h: T) -> T {
         let swing = T::from_f64(2.0) * self.bound();
         // The force of the largest deflection and the largest amount that the correction within a step adds to it.
@@ -126,6 +142,16 @@ impl<T: Real> Held<T> for ElastoPlastic<T> {
         self.force(state, v)
     }
 
+    fn spring_slope(&self, from: T, h: T, v: T) -> (T, T) {
+        let (end, slope) = self.step_held_slope(from, h, v);
+        let stiffness = self.bristle().stiffness();
+        (stiffness * end, stiffness * slope)
+    }
+
+    fn spring(&self, state: T) -> T {
+        self.bristle().spring(state)
+    }
+
     fn reach(&self, h: T) -> T {
         self.bristle().reach(h)
     }
@@ -159,6 +185,14 @@ impl<T: Real, const N: usize> Held<T> for Gms<T, N> {
 
     fn force_now(&self, state: Elements<T, N>, v: T) -> T {
         self.force(&state, v)
+    }
+
+    fn spring_slope(&self, from: Elements<T, N>, h: T, v: T) -> (T, T) {
+        self.total_held_slope(&from, h, v)
+    }
+
+    fn spring(&self, state: Elements<T, N>) -> T {
+        state.total()
     }
 
     fn reach(&self, h: T) -> T {

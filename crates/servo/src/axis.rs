@@ -201,6 +201,7 @@ impl<L: Held<f64>, I: Integrator<L>> Axis<L, I> {
         self.last = Some(measured);
         let compensation = self.feedforward.force(Moment {
             index: self.count as usize,
+            position: reference.position,
             ahead,
             rate,
             error: reference.position - measured,

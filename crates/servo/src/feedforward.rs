@@ -1,6 +1,7 @@
 //! Friction compensation: the force that is added to the controller's.
 
 use crate::drive::Drive;
+use crate::surroundings::Surroundings;
 use stiction_friction::ParamError;
 use stiction_friction::compensator::{Compensator, DisturbanceObserver, DisturbanceState, Input};
 
@@ -22,12 +23,16 @@ pub struct Feedforward {
     pub observer: Option<DisturbanceObserver<f64>>,
     /// A force for each sample of the pass, N (N m).
     pub learned: Vec<f64>,
+    /// What the compensator is told of load, temperature and place; none where it does not depend on them.
+    pub surroundings: Option<Surroundings>,
 }
 
 /// What the compensation sees in a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Moment {
     pub index: usize,
+    /// Reference position, m (rad).
+    pub position: f64,
     /// Reference velocity ahead, m/s (rad/s).
     pub ahead: f64,
     /// Measured velocity, m/s (rad/s).
@@ -120,7 +125,13 @@ impl RunningFeedforward {
     fn sum(&mut self, moment: Moment) -> f64 {
         let mut force = 0.0;
         if let Some(compensator) = &mut self.parts.compensator {
+            let surroundings = self.parts.surroundings;
+            let seen = surroundings.map(|s| s.seen(moment.position));
+            let [load, temperature, position] = seen.unwrap_or([f64::NAN; 3]);
             force += compensator.step(Input {
+                load,
+                temperature,
+                position,
                 reference_velocity: moment.ahead,
                 measured_velocity: moment.rate,
                 tracking_error: moment.error,

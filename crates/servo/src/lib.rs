@@ -17,6 +17,7 @@
 //! | [`feedforward`], [`learning`] | compensation of friction |
 //! | [`axis`], [`run`] | one axis with all of it, along a [`trajectory`], or one [`sampled`] for many runs |
 //! | [`two_axes`], [`cross_coupling`] | two axes along a contour in the [`plane`] |
+//! | [`levelled`], [`surroundings`] | friction that depends on load, temperature and position |
 //! | [`load`] | load estimation: mass and friction level while running |
 //! | [`metrics`] | tracking and contour errors |
 //! | [`closed_loop`] | all of them together at a control rate, recorded |
@@ -68,6 +69,7 @@ pub mod integrator;
 pub mod known;
 pub mod law;
 pub mod learning;
+pub mod levelled;
 pub mod load;
 pub mod metrics;
 pub mod motion;
@@ -79,6 +81,7 @@ pub mod plant;
 pub mod run;
 pub mod sampled;
 pub mod speeds;
+pub mod surroundings;
 pub mod trajectory;
 pub mod two_axes;
 pub mod unmodelled;

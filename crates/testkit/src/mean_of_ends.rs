@@ -35,6 +35,14 @@ impl Held<f64> for MeanOfEnds {
         self.0.force(state, v)
     }
 
+    fn spring_slope(&self, from: f64, h: f64, v: f64) -> (f64, f64) {
+        self.0.spring_slope(from, h, v)
+    }
+
+    fn spring(&self, state: f64) -> f64 {
+        self.0.spring(state)
+    }
+
     fn reach(&self, h: f64) -> f64 {
         self.0.reach(h)
     }

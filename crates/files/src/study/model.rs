@@ -3,12 +3,13 @@
 use super::resolve::Dimensions;
 use crate::config::{Given, LARGEST_SI, Swept};
 use crate::error::{Error, Warning};
-use crate::model::{BY_HAND, ModelParameter, ReadModel};
+use crate::model::{BY_HAND, Dependences, ModelFile, ModelParameter, ReadModel};
 use crate::result::{CovarianceEntry, RemainingEntry};
 use crate::shell::quoted;
 use crate::symbols;
 use std::path::Path;
 use stiction_codes::Code;
+use stiction_friction::Stribeck;
 use stiction_log::{Dimension, Motion};
 use stiction_parameters::{FrictionLaw, LawError, LawKind, Name, ParameterSet, Quantity};
 use stiction_servo::known::{self, Kind};
@@ -107,6 +108,43 @@ fn lugre(read: &ReadModel) -> String {
     format!(
         "identify it, with the axis file if there was one: stiction identify {logs} --law lugre --out {out}"
     )
+}
+
+/// Coulomb levels forward and back, N (N m).
+fn levels(curve: &Stribeck<f64>) -> [f64; 2] {
+    [curve.positive(), curve.negative()].map(|side| side.coulomb)
+}
+
+/// What is said of the parameters of a model that a study leaves out.
+fn left_out(model: &ModelFile, curve: &Stribeck<f64>) -> Option<Warning> {
+    let depends = model.dependences(levels(curve));
+    let references = [
+        Quantity::LoadReference,
+        Quantity::TemperatureReference,
+        Quantity::PositionReference,
+    ];
+    let out = |p: &&ModelParameter| {
+        let name = p.name.parse::<Name>().map(|name| name.quantity);
+        let stands = |q| is_simulated(q) || references.contains(&q);
+        !name.is_ok_and(stands) && !depends.taken.contains(&p.name)
+    };
+    let names: Vec<&str> = model
+        .parameter
+        .iter()
+        .filter(out)
+        .map(|p| p.name.as_str())
+        .collect();
+    if names.is_empty() {
+        return None;
+    }
+    let names = names.join(", ");
+    let mut message = format!("the model has {names}, which a study does not simulate");
+    if !depends.lacking.is_empty() {
+        let lines = depends.lacking.join(" and ");
+        message =
+            format!("the model has {names}, and does not say over which range: add {lines} to it");
+    }
+    Some(Warning::new(Code::NotInStudy, message))
 }
 
 impl Model {
@@ -221,13 +259,6 @@ impl Model {
                 format!("the log did not determine {unknown}: what depends on it is a guess"),
             ));
         }
-        let left_out = listed(&|p| !simulated(&p.name));
-        if !left_out.is_empty() {
-            warnings.push(Warning::new(
-                Code::NotInStudy,
-                format!("the model has {left_out}, which a study does not simulate"),
-            ));
-        }
         // Every parameter name was checked when the model was read.
         let parameters = model.parameter.iter().filter_map(|p| {
             Some(Parameter {
@@ -257,10 +288,15 @@ impl Model {
         };
         // If the parameters of a file do not make a law, the error names that file.
         match axis_law(&found.values()) {
-            Ok(_) => Ok(Model {
-                read: Some(read),
-                ..found
-            }),
+            Ok(law) => {
+                let warning = left_out(&read.model, law.curve());
+                let mut found = found;
+                found.warnings.extend(warning);
+                Ok(Model {
+                    read: Some(read),
+                    ..found
+                })
+            }
             Err(LawError::Value(e)) => {
                 let found = format!("{} = {}", e.name, stiction_number::four_digits(e.value));
                 Err(read.refuse_parameter(e.name, found, e.allowed))
@@ -335,6 +371,21 @@ impl Model {
     pub fn values(&self) -> ParameterSet {
         let values = self.parameters.iter().map(|p| (p.name, p.value));
         ParameterSet::of(self.kind, values)
+    }
+
+    /// What friction depends on beside the velocity, as parts of the levels of a curve.
+    pub(super) fn dependences(&self, curve: &Stribeck<f64>) -> Dependences {
+        let read = self.read.as_ref();
+        read.map_or_else(Dependences::default, |read| {
+            read.model.dependences(levels(curve))
+        })
+    }
+
+    /// The unit of a parameter of the model; that of a plain number where it has none.
+    pub(super) fn unit_of(&self, name: Quantity) -> &str {
+        let mut all = self.parameters.iter();
+        let found = all.find(|p| p.name == name);
+        found.map_or("1", |p| &p.unit)
     }
 
     /// Largest speed of the logs that it was identified from, m/s (rad/s), where that is known.

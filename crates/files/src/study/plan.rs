@@ -14,6 +14,7 @@ use stiction_servo::drive::Drive;
 use stiction_servo::encoder::Encoder;
 use stiction_servo::law::AxisLaw;
 use stiction_servo::learning::Learning;
+use stiction_servo::levelled::Depends;
 use stiction_servo::plane::PlaneMotion;
 use stiction_servo::trajectory::Trajectory;
 
@@ -126,6 +127,8 @@ pub struct Machine {
     pub model: Model,
     /// The law of the axis, with sigma1 capped unless the file says otherwise.
     pub law: AxisLaw,
+    /// What its friction depends on beside the velocity; none where on nothing.
+    pub depends: Option<Depends>,
     /// kg (kg m^2)
     pub mass: f64,
     /// Damper beside the law, N s/m (N m s/rad).
@@ -196,6 +199,8 @@ pub struct ModelScheme {
     pub watchdog: Option<Watchdog<f64>>,
     /// How far ahead the reference is read, samples; `None`: what the drive needs, for the reference velocity.
     pub preview: Option<f64>,
+    /// Whether it is told load, temperature and position, where friction depends on them.
+    pub inputs: bool,
     /// Whether mass and level of friction are estimated while running, and fed forward.
     pub load_estimate: bool,
     /// Bandwidth of a disturbance observer beside it, Hz.

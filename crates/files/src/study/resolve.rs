@@ -4,6 +4,7 @@ mod compensators;
 mod contours;
 mod controllers;
 mod crawl;
+mod depends;
 mod dimensions;
 mod disturbance;
 mod drive;

@@ -164,6 +164,15 @@ pub struct SimulatedAxis {
     /// Force on the axis over time, where there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub disturbance: Option<DisturbanceEntry>,
+    /// Load, in the unit of the model, where friction depends on it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load: Option<f64>,
+    /// K, where friction depends on it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<f64>,
+    /// Where the origin of the axis lies in the log of the model, m (rad), where friction depends on the position.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub position: Option<f64>,
     /// Amplifier and motor, where the command is a voltage.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub voltage: Option<VoltageEntry>,

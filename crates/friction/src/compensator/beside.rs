@@ -115,11 +115,7 @@ impl<T: Real> Terms<T> {
 
     #[inline]
     fn place(&self, beside: &Beside<T>) -> Place<T> {
-        let came = beside.seen[2];
-        Place {
-            came,
-            within: self.channels.position.within(came),
-        }
+        self.channels.place(beside.seen[2])
     }
 
     /// Takes a sample that counts, after the law: with the state of that and the velocity `v` that it was stepped with.
@@ -132,19 +128,13 @@ impl<T: Real> Terms<T> {
         acceleration: T,
     ) {
         if let Some(levels) = &self.levels {
-            let c = &self.channels;
-            let [load, temperature, _] = beside.seen;
+            let away = self.channels.away(beside.seen);
             let place = self.place(beside);
-            let away = [
-                c.load.within(load) - c.load.reference,
-                c.temperature.within(temperature) - c.temperature.reference,
-                place.within - c.position.reference,
-            ];
             let dry = friction.dry(law, v);
             // The sign of the deflection, unlike that of the velocity, does not make the force jump at a reversal.
             let factor = levels.factor(usize::from(dry <= T::ZERO), away, place);
             let side = usize::from(v < T::ZERO);
-            let viscous = (levels.viscous[side] * away[1]).max(-friction.viscous()[side]);
+            let viscous = levels.thinner(side, away, friction.viscous());
             let changed = (factor - T::ONE) * dry + viscous * v;
             if changed.is_finite() {
                 beside.changed = changed;

@@ -57,6 +57,25 @@ pub struct Levels<T> {
     pub viscous: [T; 2],
 }
 
+/// What load, temperature and position make of friction, for each direction: forward, back.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Changes<T> {
+    /// Factor on the level, >= 0.
+    pub level: [T; 2],
+    /// Added to sigma2, N s/m (N m s/rad), which with it is not below 0.
+    pub viscous: [T; 2],
+}
+
+impl<T: Real> Changes<T> {
+    /// Nothing is changed.
+    pub fn none() -> Self {
+        Changes {
+            level: [T::ONE; 2],
+            viscous: [T::ZERO; 2],
+        }
+    }
+}
+
 /// A weight: what holds the axis where it stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Weight<T> {
@@ -101,10 +120,38 @@ impl<T: Real> Channel<T> {
         require(inside, name, self.reference, "finite, within its range")
     }
 
+    /// How far a value within the range is from the reference.
+    #[inline]
+    fn away(&self, x: T) -> T {
+        self.within(x) - self.reference
+    }
+
     /// Farthest way from the reference.
     fn reach(&self) -> T {
         let [low, high] = self.range;
         (high - self.reference).max(self.reference - low)
+    }
+}
+
+impl<T: Real> Channels<T> {
+    /// Where the axis is.
+    #[inline]
+    pub(super) fn place(&self, came: T) -> Place<T> {
+        Place {
+            came,
+            within: self.position.within(came),
+        }
+    }
+
+    /// How far load, temperature and position are from their references.
+    #[inline]
+    pub(super) fn away(&self, seen: [T; 3]) -> [T; 3] {
+        let [load, temperature, position] = seen;
+        [
+            self.load.away(load),
+            self.temperature.away(temperature),
+            self.position.away(position),
+        ]
     }
 }
 
@@ -153,6 +200,23 @@ impl<T: Real> Levels<T> {
             factor = factor + wave.at(place);
         }
         factor.max(T::ZERO)
+    }
+
+    /// What viscous friction of `sigma2` in a direction, N s/m (N m s/rad), gains with what the channels are away.
+    #[inline]
+    pub(super) fn thinner(&self, side: usize, away: [T; 3], sigma2: [T; 2]) -> T {
+        (self.viscous[side] * away[1]).max(-sigma2[side])
+    }
+
+    /// What friction is where load, temperature and position are `seen`, with viscous friction `sigma2` forward and back,
+    /// N s/m (N m s/rad).
+    pub fn changes(&self, channels: &Channels<T>, seen: [T; 3], sigma2: [T; 2]) -> Changes<T> {
+        let away = channels.away(seen);
+        let place = channels.place(seen[2]);
+        Changes {
+            level: [0, 1].map(|side| self.factor(side, away, place)),
+            viscous: [0, 1].map(|side| self.thinner(side, away, sigma2)),
+        }
     }
 
     fn validate(&self) -> Result<(), ParamError> {

@@ -199,6 +199,14 @@ impl<T: Real> Held<T> for MaxwellSlip<T> {
         self.total(&state) + self.curve.direction(v).viscous * v + self.curve.offset()
     }
 
+    fn spring_slope(&self, from: Self::State, h: T, v: T) -> (T, T) {
+        held_slope(self.elements(), &self.curve, self.attraction, &from, (h, v))
+    }
+
+    fn spring(&self, state: Self::State) -> T {
+        self.total(&state)
+    }
+
     fn reach(&self, _: T) -> T {
         self.bound()
     }

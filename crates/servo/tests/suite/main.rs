@@ -8,6 +8,7 @@ mod compensation;
 mod drive;
 mod forces;
 mod integrators;
+mod levelled;
 mod load;
 mod metrics;
 mod mid;

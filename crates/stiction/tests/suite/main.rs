@@ -22,6 +22,7 @@ mod several_logs;
 mod simulation;
 mod study;
 mod study_axis;
+mod study_depends;
 mod study_events;
 mod study_examples;
 mod study_sweep;

@@ -4,10 +4,9 @@ use crate::error::Error;
 use std::f64::consts::TAU;
 use stiction_files::ModelFile;
 use stiction_files::model::ReadModel;
-use stiction_friction::compensator::{
-    Channel, Friction, Levels, Settings, Terms, WAVES, Wave, Weight,
-};
-use stiction_parameters::{Name, Quantity, Side, Wave as Part};
+use stiction_files::model::dependences::{pitch, put, together, wave};
+use stiction_friction::compensator::{Channel, Friction, Settings, Terms, WAVES, Wave, Weight};
+use stiction_parameters::{Name, Quantity};
 
 /// What is fed forward beside friction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -84,14 +83,18 @@ pub(super) fn beside(
     fed: Feedforward,
 ) -> Result<Beside, Error> {
     let file = &read.model;
+    let depends = file.dependences(friction.coulomb());
     let mut found = Beside {
-        terms: Terms::default(),
+        terms: Terms {
+            channels: depends.channels,
+            levels: depends.levels,
+            ..Terms::default()
+        },
         friction,
-        taken: Vec::new(),
-        lacking: Vec::new(),
+        taken: depends.taken,
+        lacking: depends.lacking,
         largest: Some(0.0),
     };
-    levels(file, &mut found);
     feed(file, fed, &mut found)?;
     Ok(found)
 }
@@ -114,129 +117,9 @@ impl Beside {
     }
 }
 
-/// A channel with the reference of the model, within the range that the log saw.
-fn channel(file: &ModelFile, range: Option<[f64; 2]>, reference: &str) -> Option<Channel<f64>> {
-    let [low, high] = range?;
-    let given = file.parameter.iter().find(|p| p.name == reference);
-    let middle = low + 0.5 * (high - low);
-    let reference = given.map_or(middle, |p| p.value);
-    (low <= reference && reference <= high).then_some(Channel {
-        reference,
-        range: [low, high],
-    })
-}
-
-/// A wave of a pitch, whole where the log saw all of it.
-fn wave(pitch: f64, range: [f64; 2]) -> Wave<f64> {
-    Wave {
-        rate: TAU / pitch,
-        whole: range[1] - range[0] >= pitch,
-        ..Wave::default()
-    }
-}
-
-fn put(wave: &mut Wave<f64>, part: Part, value: f64) {
-    match part {
-        Part::Sine => wave.sine = value,
-        Part::Cosine => wave.cosine = value,
-    }
-}
-
-/// What friction depends on, as far as the model says over which range.
-fn levels(file: &ModelFile, found: &mut Beside) {
-    let mut levels = Levels::default();
-    let coulomb = found.friction.coulomb();
-    let place = channel(file, file.range.position, "position_reference");
-    let load = channel(file, file.range.load, "load_reference");
-    let temperature = channel(file, file.range.temperature, "temperature_reference");
-    let mut any = false;
-    for p in &file.parameter {
-        let Ok(name) = p.name.parse::<Name>() else {
-            continue;
-        };
-        let (channel, line) = match name.quantity {
-            Quantity::CoulombLoad => (load, "[range] load = [LEAST, LARGEST]"),
-            Quantity::CoulombTemperature | Quantity::Sigma2Temperature => {
-                (temperature, "[range] temperature = [LEAST, LARGEST] in K")
-            }
-            Quantity::CoulombPosition => (place, "[range] position = [LEAST, LARGEST]"),
-            Quantity::CoulombPitch(k, _) if pitch(&file.pitch.coulomb, k).is_none() => {
-                (None, "[pitch] coulomb = [PITCH]")
-            }
-            Quantity::CoulombPitch(..) => (place, "[range] position = [LEAST, LARGEST]"),
-            _ => continue,
-        };
-        if file.leaves_open(name) {
-            continue;
-        }
-        let Some(channel) = channel else {
-            if !found.lacking.contains(&line) {
-                found.lacking.push(line);
-            }
-            continue;
-        };
-        let sides: &[usize] = match name.side {
-            Side::Both => &[0, 1],
-            Side::Positive => &[0],
-            Side::Negative => &[1],
-        };
-        let viscous = name.quantity == Quantity::Sigma2Temperature;
-        if !viscous && sides.iter().any(|&side| coulomb[side] <= 0.0) {
-            continue;
-        }
-        for &side in sides {
-            let part = p.value / coulomb[side];
-            match name.quantity {
-                Quantity::CoulombLoad => levels.load[side] = part,
-                Quantity::CoulombTemperature => levels.temperature[side] = part,
-                Quantity::CoulombPosition => levels.position[side] = part,
-                Quantity::Sigma2Temperature => levels.viscous[side] = p.value,
-                Quantity::CoulombPitch(k, wave_part) => {
-                    let at = &mut levels.waves[side][k as usize - 1];
-                    if at.rate == 0.0 {
-                        let pitch = pitch(&file.pitch.coulomb, k).unwrap_or(1.0);
-                        *at = wave(pitch, channel.range);
-                    }
-                    put(at, wave_part, part);
-                }
-                _ => {}
-            }
-        }
-        let c = &mut found.terms.channels;
-        match name.quantity {
-            Quantity::CoulombLoad => c.load = channel,
-            Quantity::CoulombTemperature | Quantity::Sigma2Temperature => c.temperature = channel,
-            _ => c.position = channel,
-        }
-        any = true;
-        found.taken.push(p.name.clone());
-    }
-    // Waves of which one was left out move up.
-    for waves in &mut levels.waves {
-        *waves = together(*waves);
-    }
-    found.terms.levels = any.then_some(levels);
-}
-
-/// The waves that there are, first.
-fn together(waves: [Wave<f64>; WAVES]) -> [Wave<f64>; WAVES] {
-    let mut there = waves.into_iter().filter(|w| w.rate > 0.0);
-    std::array::from_fn(|_| there.next().unwrap_or_default())
-}
-
-/// The k-th pitch, counted from 1, of those that a compensator has room for.
-fn pitch(pitches: &[f64], k: u32) -> Option<f64> {
-    let k = k as usize;
-    (1..=WAVES)
-        .contains(&k)
-        .then(|| pitches.get(k - 1))
-        .flatten()
-        .copied()
-}
-
 /// What is asked for beside friction.
 fn feed(file: &ModelFile, fed: Feedforward, found: &mut Beside) -> Result<(), Error> {
-    let place = channel(file, file.range.position, "position_reference");
+    let place = file.place();
     let mut able = fed;
     let mut why = Vec::new();
     let mut largest = Some(0.0);

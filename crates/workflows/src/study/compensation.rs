@@ -2,7 +2,7 @@
 
 use stiction_files::study::{Belief, Machine, ModelKind, ModelScheme, Scheme};
 use stiction_friction::compensator::{
-    Adaptation, Compensator, DisturbanceObserver, Friction, Settings, Source, Watch,
+    Adaptation, Compensator, DisturbanceObserver, Friction, Settings, Source, Terms, Watch,
 };
 use stiction_friction::{CoulombViscous, Direction, ParamError, Stribeck};
 use stiction_servo::controller::Controller;
@@ -85,11 +85,19 @@ fn from_law(
         Source::Reference => machine.drive.preview(period).min(MAX_PREVIEW),
         _ => 0.0,
     });
-    let compensator = Compensator::new(friction, model.source, settings)?;
-    Ok(Feedforward::compensator(
-        compensator.running(watch),
-        preview,
-    ))
+    let mut compensator = Compensator::new(friction, model.source, settings)?;
+    let depends = machine.depends.as_ref().filter(|_| model.inputs);
+    if let Some(depends) = depends {
+        compensator = compensator.with_terms(Terms {
+            channels: depends.channels,
+            levels: Some(depends.levels),
+            ..Terms::default()
+        })?;
+    }
+    Ok(Feedforward {
+        surroundings: depends.map(|depends| depends.surroundings),
+        ..Feedforward::compensator(compensator.running(watch), preview)
+    })
 }
 
 /// The law with Coulomb friction for static friction.

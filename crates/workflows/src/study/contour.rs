@@ -9,12 +9,14 @@ use super::learnt::Learnt;
 use super::machine::{self, largest_force};
 use super::metrics::feed;
 use stiction_files::study::result::PathEntry;
-use stiction_files::study::{Belief, ContourPlan, Job, Scheme, Second, Study};
+use stiction_files::study::{Belief, ContourPlan, Drawn, Job, Scheme, Second, Study};
 use stiction_friction::{LuGre, ParamError};
 use stiction_servo::axis::{Axis, AxisSettings, Sample};
 use stiction_servo::controller::Controller;
 use stiction_servo::cross_coupling::CrossCoupling;
-use stiction_servo::integrator::{Integrator, Quick};
+use stiction_servo::integrator::{Integrator, Mid, Quick};
+use stiction_servo::law::OfAxis;
+use stiction_servo::levelled::{Depending, Levelled};
 use stiction_servo::metrics::{Contour, Feed, Tracking, circular_deviation, share_at_limit};
 use stiction_servo::two_axes::{PlaneSample, follow};
 use stiction_servo::unmodelled::Beside;
@@ -41,7 +43,7 @@ struct Ran {
     pub counted: usize,
 }
 
-fn along<I: Integrator<LuGre<f64>>>(
+fn along<L: OfAxis, I: Integrator<L>>(
     study: &Study,
     second: &Second,
     plan: &Plan,
@@ -56,10 +58,10 @@ fn along<I: Integrator<LuGre<f64>>>(
         let controller = believing(plan.controllers[i], machines[i], plan.beliefs[i]);
         // Noise of its own on each axis.
         let seed = study.seed.wrapping_add(i as u64);
-        machine::settings::<LuGre<f64>>(machines[i], plan.axes[i], controller, seed)
+        machine::settings::<L>(machines[i], plan.axes[i], controller, seed)
     };
     let settings = [settings(0)?, settings(1)?];
-    let follow = |[x, y]: [AxisSettings; 2]| -> Result<_, ParamError> {
+    let follow = |[x, y]: [AxisSettings<L>; 2]| -> Result<_, ParamError> {
         let mut axes = [Axis::new(x, integrator(0)?)?, Axis::new(y, integrator(1)?)?];
         let samples = follow(&mut axes, plan.coupling.as_ref(), contour.motion.as_ref())?;
         Ok((axes, samples))
@@ -172,13 +174,15 @@ pub(super) fn on_contour(
         own: drawn[0].is_none(),
         coupling: coupling.map(|c| c.above(controllers.each_ref())),
     };
-    let ran = match drawn {
-        [Some(x), Some(y)] => {
-            let beside = [&x.beside, &y.beside];
-            let integrator = |i: usize| Ok(Beside::new(Quick::new(1)?, beside[i].clone()));
-            along(study, second, &plan, job, before, &integrator)?
+    let run = (study, second, &plan, job, before);
+    let depends = [&study.machine, &second.machine].map(|machine| machine.depends.clone());
+    let ran = match depends {
+        [None, None] => moved::<LuGre<f64>, _>(run, drawn, &|_| Quick::new(1))?,
+        depends => {
+            let depends = depends.map(Option::unwrap_or_default);
+            let axis = |i: usize| Ok(Depending::new(Mid::new(1)?, depends[i].clone()));
+            moved::<Levelled<LuGre<f64>>, _>(run, drawn, &axis)?
         }
-        _ => along(study, second, &plan, job, before, &|_| Quick::new(1))?,
     };
     let names = study.names(job);
     let exact = family.kind == "exact" && study.keeps_courses;
@@ -198,6 +202,22 @@ pub(super) fn on_contour(
         },
         contour: exact.then(|| ContourTrace::of(names, job.coupled, &ran.samples[ran.counted..])),
     })
+}
+
+/// One run, of the axes of the study or of those that are drawn.
+fn moved<L: OfAxis, I: Integrator<L>>(
+    (study, second, plan, job, before): (&Study, &Second, &Plan, Job, &Learnt),
+    drawn: [Option<&Drawn>; 2],
+    integrator: &dyn Fn(usize) -> Result<I, ParamError>,
+) -> Result<Ran, Fault> {
+    match drawn {
+        [Some(x), Some(y)] => {
+            let beside = [&x.beside, &y.beside];
+            let integrator = |i: usize| Ok(Beside::new(integrator(i)?, beside[i].clone()));
+            along(study, second, plan, job, before, &integrator)
+        }
+        _ => along(study, second, plan, job, before, integrator),
+    }
 }
 
 /// A contour as it goes into `study.json`.

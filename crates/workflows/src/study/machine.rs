@@ -13,6 +13,7 @@ use stiction_servo::disturbance::Disturbance;
 use stiction_servo::drive::Drive;
 use stiction_servo::feedforward::Feedforward;
 use stiction_servo::law::OfAxis;
+use stiction_servo::levelled::Depends;
 use stiction_servo::plant::Plant;
 
 /// The axis with a controller and without compensation, with that law and mass.
@@ -75,7 +76,12 @@ pub(super) fn entry(machine: &Machine) -> SimulatedAxis {
         Some(_) => "capped",
         None => "",
     };
+    let depends = machine.depends.as_ref();
+    let at = |on: fn(&Depends) -> Option<f64>| depends.and_then(on);
     SimulatedAxis {
+        load: at(|d| d.on_load().then_some(d.surroundings.load)),
+        temperature: at(|d| d.on_temperature().then_some(d.surroundings.temperature)),
+        position: at(|d| d.on_position().then_some(d.surroundings.origin)),
         kind: match machine.motion {
             Motion::Linear => "linear",
             Motion::Rotary => "rotary",

@@ -17,6 +17,7 @@ use stiction_number::{four_digits as short, quantity};
 use stiction_search::{Observer, Shared};
 use stiction_servo::integrator::{Integrator, Mid, Quick};
 use stiction_servo::law::{AxisLaw, OfAxis};
+use stiction_servo::levelled::{Depending, Levelled};
 use stiction_servo::sampled::Sampled;
 use stiction_servo::unmodelled::Beside;
 
@@ -143,15 +144,12 @@ impl<'a> Grid<'a> {
             None => {
                 // Both step MID; that of LuGre is faster.
                 match study.machine.law {
-                    AxisLaw::LuGre(_) => {
+                    AxisLaw::LuGre(_) if study.machine.depends.is_none() => {
                         self.on_path::<LuGre<f64>, _>(job, &|| Quick::new(1), go_on)?
                     }
-                    AxisLaw::ElastoPlastic(_) => {
-                        self.on_path::<ElastoPlastic<f64>, _>(job, &|| Mid::new(1), go_on)?
-                    }
-                    AxisLaw::MaxwellSlip(_) => {
-                        self.on_path::<MaxwellSlip<f64>, _>(job, &|| Mid::new(1), go_on)?
-                    }
+                    AxisLaw::LuGre(_) => self.stepped::<LuGre<f64>>(job, go_on)?,
+                    AxisLaw::ElastoPlastic(_) => self.stepped::<ElastoPlastic<f64>>(job, go_on)?,
+                    AxisLaw::MaxwellSlip(_) => self.stepped::<MaxwellSlip<f64>>(job, go_on)?,
                 }
             }
         };
@@ -167,6 +165,21 @@ impl<'a> Grid<'a> {
             }
         }
         Ok(done)
+    }
+
+    /// One run along a path with the plain step, the level of friction where it depends on more than the velocity.
+    fn stepped<L: OfAxis>(
+        &self,
+        job: Job,
+        go_on: &dyn Fn() -> bool,
+    ) -> Result<Option<Done>, Fault> {
+        match &self.study.machine.depends {
+            None => self.on_path::<L, _>(job, &|| Mid::new(1), go_on),
+            Some(depends) => {
+                let axis = || Ok(Depending::new(Mid::new(1)?, depends.clone()));
+                self.on_path::<Levelled<L>, _>(job, &axis, go_on)
+            }
+        }
     }
 
     /// One run along a path, of the axis of the study or of one that is drawn.

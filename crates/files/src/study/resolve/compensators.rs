@@ -109,6 +109,7 @@ fn model(table: &Table<'_>, study: &Study, kind: ModelKind) -> Result<ModelSchem
             Some(false) => None,
             _ => Some(watchdog(table, study.machine.rate)?),
         },
+        inputs: inputs(table, study)?,
         load_estimate: load_estimate(table)?,
         preview: table.number("preview", 0.0, MAX_PREVIEW)?,
         observer: below_half_the_rate(table, "observer_bandwidth", study.machine.rate)?,
@@ -150,6 +151,20 @@ fn source(table: &Table<'_>, bristles: bool, kind: ModelKind) -> Result<Source<f
             Ok(Source::Observer(gain))
         }
     }
+}
+
+/// Whether the compensator is told what friction depends on.
+fn inputs(table: &Table<'_>, study: &Study) -> Result<bool, Error> {
+    let asked = table.flag("inputs")?;
+    let second = study.second.iter().map(|second| &second.machine);
+    let depends = std::iter::once(&study.machine)
+        .chain(second)
+        .any(|machine| machine.depends.is_some());
+    if asked.is_some() && !depends {
+        let allowed = "only with a model whose friction depends on load, temperature or position";
+        return Err(table.refused("inputs", allowed));
+    }
+    Ok(asked.unwrap_or(true))
 }
 
 /// Whether the load is estimated; it sets the level that an adaptation would.

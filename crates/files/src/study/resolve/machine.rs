@@ -1,5 +1,6 @@
 //! `[axis]` and `[second_axis]`
 
+use super::depends::depends;
 use super::dimensions::Dimensions;
 use super::disturbance::disturbance;
 use super::drive::drive;
@@ -82,6 +83,7 @@ pub(super) fn machine(
         _ => law.damped_as(Damping::Capped),
     };
     let law = law.map_err(|e| table.together(&e))?;
+    let depends = depends(table, &model, &law)?;
     let given = table.positive("mass", is.mass)?;
     let of_model = model.value(Quantity::Mass);
     if given.is_none() && of_model.is_some_and(|mass| mass <= 0.0) {
@@ -134,6 +136,7 @@ pub(super) fn machine(
     let machine = Machine {
         motion,
         law,
+        depends,
         mass,
         viscous: viscous.unwrap_or(0.0),
         spring,
