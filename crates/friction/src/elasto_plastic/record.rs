@@ -39,7 +39,7 @@ impl<T: Real> ElastoPlastic<T> {
         let ga = curve.level_on(positive, speed_a);
         let gb = curve.level_on(positive, speed_b);
         let way = Way {
-            path: h * (half * (speed_a + speed_b)),
+            path: h * (half * speed_a + half * speed_b),
             stretched: h * (stiffness * (half * (speed_a / ga + speed_b / gb))),
             from: ga / stiffness,
             to: gb / stiffness,
@@ -54,6 +54,8 @@ impl<T: Real> ElastoPlastic<T> {
     /// Change of the deflection over a distance, both counted in the direction of motion.
     #[inline]
     pub(super) fn along(&self, start: T, mut way: Way<T>) -> T {
+        // A speed beyond any machine's may take it to infinity, which times a pull of 0 is no number.
+        way.stretched = way.stretched.min(T::MAX);
         let (begin, end) = (self.breakaway * way.from, self.breakaway * way.to);
         let mut z = start;
         if z <= begin {

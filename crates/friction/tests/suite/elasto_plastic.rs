@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use proptest::prelude::*;
-use stiction_friction::{Damping, ElastoPlastic, LuGre, Shape, State};
+use stiction_friction::{Damping, Direction, ElastoPlastic, LuGre, Shape, State, Stribeck};
 
 const TAU: f64 = 2.0 * std::f64::consts::PI;
 
@@ -197,6 +197,30 @@ fn the_ratio_is_checked() {
         "breakaway_ratio",
         "1 in single precision"
     );
+}
+
+/// Speeds that no machine has, in a step that is next to nothing, on an axis that is 460 000 times stiffer one way.
+#[test]
+fn the_largest_speeds_leave_a_deflection() {
+    let side = |coulomb: f64, most: f64| Direction {
+        coulomb,
+        static_friction: most,
+        stribeck_velocity: 1.0,
+        viscous: 0.0,
+    };
+    let (slack, tight) = (side(1.2e-3, 3.6e-3), side(556.9, 556.9));
+    let curve = Stribeck::new(Shape::Gaussian, slack, tight, 0.0).unwrap();
+    let bristle = LuGre::new(9.3, Damping::Constant(0.0), curve).unwrap();
+    let law = ElastoPlastic::new(bristle, 0.999_999_999_999).unwrap();
+    let record = [0.0, f64::MAX, -f64::MAX, 0.0, f64::MAX];
+    for h in [f64::MIN_POSITIVE, 1e-300, 1e-4, 1e300] {
+        let (mut z, mut held) = (0.0, 0.0);
+        for ends in record.windows(2) {
+            z = law.step_record(z, h, ends[0], ends[1]);
+            held = law.step_held(held, h, ends[1]);
+            assert!(inside(&law, z) && inside(&law, held), "{h:e}: {z} {held}");
+        }
+    }
 }
 
 proptest! {
