@@ -508,4 +508,6 @@ pub enum Target {
     Matlab,
     /// The friction table of TwinCAT CNC.
     Tf5200,
+    /// Numbers for the friction compensation that drives have built in.
+    DriveTable,
 }

@@ -550,6 +550,7 @@ fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
         arguments::Target::Fmu => Target::Fmu,
         arguments::Target::Matlab => Target::Matlab,
         arguments::Target::Tf5200 => Target::Tf5200,
+        arguments::Target::DriveTable => Target::DriveTable,
     };
     let mut options = ExportOptions::new(target, export.cycle_time);
     options.name.clone_from(&export.name);

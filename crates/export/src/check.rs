@@ -1,7 +1,7 @@
 //! Advice before the code runs.
 
 use crate::number::short;
-use crate::{Error, Model, Target, check_identifier, hal, joint, mujoco, tf5200};
+use crate::{Error, Model, Target, check_identifier, drive_table, hal, joint, mujoco, tf5200};
 use stiction_codes::Code;
 use stiction_friction::{Damping, LuGre};
 
@@ -39,7 +39,7 @@ pub(crate) fn check(model: &Model, number_type: &'static str) -> Result<(), Erro
 /// Advice on this model in a target at its cycle time.
 pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
     let mut found = Vec::new();
-    let steady = target == Target::Tf5200 || target.is_joint();
+    let steady = matches!(target, Target::Tf5200 | Target::DriveTable) || target.is_joint();
     if !steady {
         let bristle = model.friction.bristle();
         found.extend(bristle.and_then(|law| released(model, law, target)));
@@ -52,6 +52,7 @@ pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
             found.extend(shaking(model));
         }
         target if target.is_joint() => found.push(joint::simplified(model)),
+        Target::DriveTable => found.extend(drive_table::simplified(model)),
         Target::Tf5200 => {
             // The table ends at its last speed.
             if tf5200::largest_force(model) > model.settings.limit {

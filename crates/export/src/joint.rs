@@ -21,47 +21,86 @@ const TOP_SPEED: f64 = 1.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Joint {
     /// N (N m).
-    friction: f64,
+    pub(crate) friction: f64,
     /// N s/m (N m s/rad).
-    damping: f64,
+    pub(crate) damping: f64,
     /// Mean static friction of the directions, not below `friction`; N (N m).
     at_rest: f64,
-    /// Speeds went up to this, m/s (rad/s).
-    top: f64,
-    /// Difference from the law over speeds and directions, root of the mean square; N (N m).
-    rms: f64,
-    /// The largest, and at which velocity: 0 for the limit as the speed goes to 0.
-    most: (f64, f64),
+    /// Its difference from the law.
+    pub(crate) error: Difference,
 }
 
 impl Joint {
     /// The least squares over all speeds from 0 to the top speed of the log, each alike, and both directions alike.
     pub(crate) fn of(model: &Model) -> Self {
-        let top = model.top_speed.filter(|top| *top > 0.0).unwrap_or_else(|| {
-            match model.stribeck_velocity() {
-                0.0 => TOP_SPEED,
-                velocity => FAST_STRIBECK_VELOCITIES * velocity,
-            }
-        });
-        let speed = |k: u32| top * (f64::from(k) + 0.5) / f64::from(SPEEDS);
+        let speeds = Speeds::of(model);
         // Half of the way between the directions: the offset is in neither number.
         let mean = |v: f64| 0.5 * (model.steady(v) - model.steady(-v));
-        let count = f64::from(SPEEDS);
-        let sum = |of: &dyn Fn(f64) -> f64| (0..SPEEDS).map(|k| of(speed(k))).sum::<f64>() / count;
-        let (speeds, forces) = (sum(&|v| v), sum(&mean));
-        let slope = sum(&|v| (v - speeds) * mean(v)) / sum(&|v| (v - speeds) * (v - speeds));
-        let (friction, damping) = match (forces - slope * speeds, slope) {
+        let (middle, forces) = (speeds.mean(&|v| v), speeds.mean(&mean));
+        let slope = speeds.mean(&|v| (v - middle) * mean(v))
+            / speeds.mean(&|v| (v - middle) * (v - middle));
+        let (friction, damping) = match (forces - slope * middle, slope) {
             (_, slope) if slope < 0.0 => (forces, 0.0),
-            (level, _) if level < 0.0 => (0.0, sum(&|v| v * mean(v)) / sum(&|v| v * v)),
+            (level, _) if level < 0.0 => {
+                (0.0, speeds.mean(&|v| v * mean(v)) / speeds.mean(&|v| v * v))
+            }
             both => both,
         };
         let (friction, damping) = (six_digits(friction), six_digits(damping));
-        let off = |v: f64| model.steady(v) - (friction.copysign(v) + damping * v);
-        let square = sum(&|v| 0.5 * (off(v) * off(v) + off(-v) * off(-v)));
+        Joint {
+            friction,
+            damping,
+            at_rest: six_digits(at_rest(&model.friction)).max(friction),
+            error: speeds.error(model, &|v| friction.copysign(v) + damping * v),
+        }
+    }
+}
+
+/// The speeds over which a law and something simpler are compared, all alike and both directions alike.
+pub(crate) struct Speeds {
+    /// From 0 to this, m/s (rad/s).
+    pub(crate) top: f64,
+}
+
+/// How far something simpler is from a law over [`Speeds`], in the unit of its force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Difference {
+    top: f64,
+    /// Root of the mean square.
+    rms: f64,
+    /// The largest, and at which velocity: 0 for the limit as the speed goes to 0.
+    most: (f64, f64),
+}
+
+impl Speeds {
+    /// Those of the log, where the model has them.
+    pub(crate) fn of(model: &Model) -> Self {
+        let top = model.top_speed.filter(|top| *top > 0.0);
+        Self {
+            top: top.unwrap_or_else(|| match model.stribeck_velocity() {
+                0.0 => TOP_SPEED,
+                velocity => FAST_STRIBECK_VELOCITIES * velocity,
+            }),
+        }
+    }
+
+    fn each(&self) -> impl Iterator<Item = f64> + '_ {
+        (0..SPEEDS).map(|k| self.top * (f64::from(k) + 0.5) / f64::from(SPEEDS))
+    }
+
+    /// The mean of a function of the speed.
+    pub(crate) fn mean(&self, of: &dyn Fn(f64) -> f64) -> f64 {
+        self.each().map(of).sum::<f64>() / f64::from(SPEEDS)
+    }
+
+    /// How far a force by velocity is from the law.
+    pub(crate) fn error(&self, model: &Model, force: &dyn Fn(f64) -> f64) -> Difference {
+        let off = |v: f64| model.steady(v) - force(v);
+        let square = self.mean(&|v| 0.5 * (off(v) * off(v) + off(-v) * off(-v)));
         let mut most = (0.0, 0.0);
         // Nothing is faster than the top speed, nothing slower than the limit at standstill.
-        let ends = [crate::model::ALMOST_STANDSTILL, top];
-        for v in (0..SPEEDS).map(speed).chain(ends) {
+        let ends = [crate::model::ALMOST_STANDSTILL, self.top];
+        for v in self.each().chain(ends) {
             for v in [v, -v] {
                 if off(v).abs() > most.0 {
                     let slowest = v.abs() <= crate::model::ALMOST_STANDSTILL;
@@ -69,14 +108,41 @@ impl Joint {
                 }
             }
         }
-        Joint {
-            friction,
-            damping,
-            at_rest: six_digits(at_rest(&model.friction)).max(friction),
-            top,
+        Difference {
+            top: self.top,
             rms: libm::sqrt(square),
             most,
         }
+    }
+}
+
+impl Difference {
+    /// In words, behind `off by`.
+    pub(crate) fn words(&self, model: &Model) -> String {
+        let (unit, speed_unit) = (model.force_unit(), model.speed_unit());
+        let share = match model.scale() {
+            scale if scale > 0.0 => {
+                format!(
+                    " ({:.1} percent of static friction)",
+                    100.0 * self.rms / scale
+                )
+            }
+            _ => String::new(),
+        };
+        let at = match self.most.1 {
+            0.0 => "at standstill".into(),
+            v => format!("at {} {speed_unit}", short(v)),
+        };
+        let range = match model.top_speed {
+            Some(top) if top > 0.0 => "those of the log",
+            _ => "assumed, since the model does not have those of its log",
+        };
+        format!(
+            "{} {unit} rms{share}, {} {unit} at most, {at}, over speeds of 0 to {} {speed_unit} ({range}), each speed and both directions weighted alike",
+            short(self.rms),
+            short(self.most.0),
+            short(self.top),
+        )
     }
 }
 
@@ -89,7 +155,7 @@ fn at_rest(law: &Friction<f64>) -> f64 {
     0.5 * (levels[0] + levels[1])
 }
 
-fn six_digits(x: f64) -> f64 {
+pub(crate) fn six_digits(x: f64) -> f64 {
     format!("{x:.5e}").parse().unwrap_or(x)
 }
 
@@ -97,31 +163,14 @@ fn six_digits(x: f64) -> f64 {
 pub(crate) fn simplified(model: &Model) -> Advice {
     let joint = Joint::of(model);
     let (unit, speed_unit) = (model.force_unit(), model.speed_unit());
-    let share = |force: f64| match model.scale() {
-        scale if scale > 0.0 => {
-            format!(" ({:.1} percent of static friction)", 100.0 * force / scale)
-        }
-        _ => String::new(),
-    };
-    let at = match joint.most.1 {
-        0.0 => "at standstill".into(),
-        v => format!("at {} {speed_unit}", short(v)),
-    };
-    let range = match model.top_speed {
-        Some(top) if top > 0.0 => "those of the log",
-        _ => "assumed, since the model does not have those of its log",
-    };
     Advice {
         code: Code::ExportSimplified,
         message: format!(
-            "the joint has Coulomb and viscous friction only, {} {unit} and {} {unit} per {speed_unit}: against the law they are off by {} {unit} rms{}, \
-             {} {unit} at most, {at}, over speeds of 0 to {} {speed_unit} ({range}), each speed and both directions weighted alike; bristles and offset are left out",
+            "the joint has Coulomb and viscous friction only, {} {unit} and {} {unit} per {speed_unit}: against the law they are off by {}; \
+             bristles and offset are left out",
             short(joint.friction),
             short(joint.damping),
-            short(joint.rms),
-            share(joint.rms),
-            short(joint.most.0),
-            short(joint.top),
+            joint.error.words(model),
         ),
     }
 }

@@ -36,6 +36,7 @@
 mod c;
 mod check;
 mod cpp;
+mod drive_table;
 mod error;
 mod fmu;
 mod guid;

@@ -1,6 +1,9 @@
 //! The targets and the files of each.
 
-use crate::{Error, Model, c, check, cpp, fmu, hal, joint, matlab, mujoco, ros2, rust, st, tf5200};
+use crate::{
+    Error, Model, c, check, cpp, drive_table, fmu, hal, joint, matlab, mujoco, ros2, rust, st,
+    tf5200,
+};
 
 /// A form in which the compensator is exported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,6 +39,8 @@ pub enum Target {
     Matlab,
     /// The friction table of TwinCAT CNC.
     Tf5200,
+    /// Numbers for the friction compensation that drives have built in.
+    DriveTable,
 }
 
 /// A file of an export.
@@ -58,7 +63,7 @@ impl File {
 
 impl Target {
     /// All of them.
-    pub const ALL: [Target; 15] = [
+    pub const ALL: [Target; 16] = [
         Target::C,
         Target::Cpp,
         Target::Ros2,
@@ -74,6 +79,7 @@ impl Target {
         Target::Fmu,
         Target::Matlab,
         Target::Tf5200,
+        Target::DriveTable,
     ];
 
     /// Name as typed.
@@ -94,6 +100,7 @@ impl Target {
             Target::Fmu => "fmu",
             Target::Matlab => "matlab",
             Target::Tf5200 => "tf5200",
+            Target::DriveTable => "drive-table",
         }
     }
 
@@ -121,7 +128,8 @@ impl Target {
             | Target::Hal
             | Target::Fmu
             | Target::Matlab
-            | Target::Tf5200 => "double",
+            | Target::Tf5200
+            | Target::DriveTable => "double",
         }
     }
 }
@@ -148,5 +156,6 @@ pub fn export(model: &Model, target: Target) -> Result<Vec<File>, Error> {
         Target::Fmu => fmu::fmu(model, &mut |_| None),
         Target::Matlab => matlab::files(model),
         Target::Tf5200 => tf5200::files(model),
+        Target::DriveTable => drive_table::files(model),
     }
 }

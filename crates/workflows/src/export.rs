@@ -31,18 +31,18 @@ pub struct ExportOptions {
     /// Time between two calls, s.
     pub cycle_time: f64,
     /// Largest force, in the unit of the model's. If absent: twice the sum of static friction and offset, or for a
-    /// table the largest force that it can hold. Not for a simulated joint ([`Target::is_simulated`]).
+    /// table the largest force that it can hold. Not for a simulated joint ([`Target::is_simulated`]) or `drive-table`.
     pub limit: Option<f64>,
     /// Force that the motor is rated for, in the unit of the model's; for `tf5200`, and for no other target.
     pub rated_force: Option<f64>,
-    /// Share of the friction that is compensated, 0 to 1; 0.75 if absent. Not for a simulated joint.
+    /// Share of the friction that is compensated, 0 to 1; 0.75 if absent. Not for a simulated joint or `drive-table`.
     pub gain: Option<f64>,
-    /// Settings of the compensator; not for simulated joints and `tf5200`, which have none of them.
+    /// Settings of the compensator; not for simulated joints, `tf5200` and `drive-table`, which have none of them.
     pub safety: Safety,
     /// Levels that follow the machine while it runs ([`Adaptation`]), from the force of the drive; not for
-    /// simulated joints and `tf5200`.
+    /// simulated joints, `tf5200` and `drive-table`.
     pub adapt: bool,
-    /// What is fed forward beside friction, of what the model has; not for simulated joints and `tf5200`.
+    /// What is fed forward beside friction, of what the model has; not for simulated joints, `tf5200` and `drive-table`.
     pub feedforward: Feedforward,
 }
 
@@ -171,6 +171,18 @@ fn check(options: &ExportOptions) -> Result<(), Error> {
     }
     let target = options.target.name();
     let simulated = options.target.is_simulated();
+    let numbers = options.target == Target::DriveTable;
+    if numbers && (options.limit.is_some() || options.gain.is_some()) {
+        let what = if options.limit.is_some() {
+            "limit"
+        } else {
+            "gain"
+        };
+        return Err(Error::usage(
+            format!("a {what} for the target {target}"),
+            "it has the whole friction; write a share of the numbers into the drive, and let the drive limit its torque",
+        ));
+    }
     if options.limit.is_some() && simulated {
         return Err(Error::usage(
             format!("a limit for the target {target}"),
@@ -190,7 +202,7 @@ fn check(options: &ExportOptions) -> Result<(), Error> {
         ("slew", safety.slew),
         ("window", safety.window),
     ];
-    let none = simulated || options.target == Target::Tf5200;
+    let none = simulated || numbers || options.target == Target::Tf5200;
     if let Some((name, _)) = given.iter().find(|(_, value)| none && value.is_some()) {
         return Err(Error::usage(
             format!("a {name} for the target {target}"),
@@ -284,7 +296,8 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
         Some(name) => name.clone(),
         None => stiction_export::identifier(&title),
     };
-    let table = options.target.is_simulated() || options.target == Target::Tf5200;
+    let table = options.target.is_simulated()
+        || matches!(options.target, Target::Tf5200 | Target::DriveTable);
     let of_law = settings_of_law(&friction, file, &lowered);
     let (friction, terms, beside) = match table {
         true => (friction, Terms::default(), None),

@@ -3,6 +3,7 @@
 mod c;
 mod common;
 mod cpp;
+mod drive_table;
 mod fmu;
 mod hal;
 mod joint;

@@ -20,6 +20,7 @@ pub fn exported(exported: &Exported, dir: &Path) -> String {
         "mujoco" => format!("for a time step of {} s", exported.cycle_time),
         "urdf" | "sdf" | "isaaclab" => "as friction of a joint".into(),
         "tf5200" => format!("with {most}"),
+        "drive-table" => "as numbers of drives".into(),
         _ => format!("for a cycle of {} s, {most}", exported.cycle_time),
     };
     let _ = writeln!(

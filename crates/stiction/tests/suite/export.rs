@@ -90,7 +90,9 @@ fn the_same_model_gives_the_same_bytes() {
             let (codes, limit): (&[&str], f64) = match target {
                 Target::Mujoco => (&[], 60.0),
                 Target::Tf5200 => (&[], 80.0),
-                target if target.is_simulated() => (&["export-simplified"], 60.0),
+                target if target == Target::DriveTable || target.is_simulated() => {
+                    (&["export-simplified"], 60.0)
+                }
                 _ => (&["export-limit"], 60.0),
             };
             let found: Vec<_> = exported.warnings.iter().map(|w| w.code.as_str()).collect();
@@ -552,6 +554,12 @@ fn what_is_said() {
         }),
         ("standstill at every speed", &moved, |o| {
             o.safety.dead_zone = Some(0.5);
+        }),
+        ("numbers of drives with a gain", &good, |o| {
+            (o.target, o.gain) = (Target::DriveTable, Some(0.5));
+        }),
+        ("numbers of drives with a watchdog", &good, |o| {
+            (o.target, o.safety.window) = (Target::DriveTable, Some(2.0));
         }),
         ("a limit in MuJoCo", &good, |o| {
             (o.target, o.limit) = (Target::Mujoco, Some(40.0));
