@@ -494,6 +494,8 @@ pub enum Target {
     Rust,
     /// The friction of a joint in MuJoCo 4.
     Mujoco,
+    /// The law as a differential equation in Modelica, for simulation.
+    Modelica,
     /// Coulomb and viscous friction of a joint in URDF.
     Urdf,
     /// The same in SDFormat, for Gazebo.

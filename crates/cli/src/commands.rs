@@ -543,6 +543,7 @@ fn export(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
         arguments::Target::Plcopen => Target::PlcOpen,
         arguments::Target::Rust => Target::Rust,
         arguments::Target::Mujoco => Target::Mujoco,
+        arguments::Target::Modelica => Target::Modelica,
         arguments::Target::Urdf => Target::Urdf,
         arguments::Target::Sdf => Target::Sdf,
         arguments::Target::Isaaclab => Target::IsaacLab,

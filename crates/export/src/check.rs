@@ -40,7 +40,7 @@ pub(crate) fn check(model: &Model, number_type: &'static str) -> Result<(), Erro
 pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
     let mut found = Vec::new();
     let steady = matches!(target, Target::Tf5200 | Target::DriveTable) || target.is_joint();
-    if !steady {
+    if !steady && target != Target::Modelica {
         let bristle = model.friction.bristle();
         found.extend(bristle.and_then(|law| released(model, law, target)));
         let length = model.friction.presliding();
@@ -51,6 +51,8 @@ pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
             found.extend(mujoco::simplified(model));
             found.extend(shaking(model));
         }
+        // A solver chooses its steps, and the micro-damping is limited.
+        Target::Modelica => {}
         target if target.is_joint() => found.push(joint::simplified(model)),
         Target::DriveTable => found.extend(drive_table::simplified(model)),
         Target::Tf5200 => {

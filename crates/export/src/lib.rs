@@ -47,6 +47,7 @@ mod joint;
 mod law;
 mod matlab;
 mod model;
+mod modelica;
 mod mujoco;
 mod number;
 mod range;

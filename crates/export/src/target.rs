@@ -1,8 +1,8 @@
 //! The targets and the files of each.
 
 use crate::{
-    Error, Model, c, check, cpp, drive_table, fmu, hal, joint, matlab, mujoco, ros2, rust, st,
-    tf5200,
+    Error, Model, c, check, cpp, drive_table, fmu, hal, joint, matlab, modelica, mujoco, ros2,
+    rust, st, tf5200,
 };
 
 /// A form in which the compensator is exported.
@@ -25,6 +25,8 @@ pub enum Target {
     Rust,
     /// The friction of a joint in MuJoCo 4.
     Mujoco,
+    /// The law as a differential equation in Modelica.
+    Modelica,
     /// Coulomb and viscous friction of a joint in URDF.
     Urdf,
     /// The same in SDFormat, for Gazebo.
@@ -63,7 +65,7 @@ impl File {
 
 impl Target {
     /// All of them.
-    pub const ALL: [Target; 16] = [
+    pub const ALL: [Target; 17] = [
         Target::C,
         Target::Cpp,
         Target::Ros2,
@@ -72,6 +74,7 @@ impl Target {
         Target::PlcOpen,
         Target::Rust,
         Target::Mujoco,
+        Target::Modelica,
         Target::Urdf,
         Target::Sdf,
         Target::IsaacLab,
@@ -93,6 +96,7 @@ impl Target {
             Target::PlcOpen => "plcopen",
             Target::Rust => "rust",
             Target::Mujoco => "mujoco",
+            Target::Modelica => "modelica",
             Target::Urdf => "urdf",
             Target::Sdf => "sdf",
             Target::IsaacLab => "isaaclab",
@@ -111,7 +115,7 @@ impl Target {
 
     /// Whether it is the friction of a simulated joint: the whole friction, without gain, limit and watchdog.
     pub fn is_simulated(self) -> bool {
-        self == Target::Mujoco || self.is_joint()
+        matches!(self, Target::Mujoco | Target::Modelica) || self.is_joint()
     }
 
     /// The name of its number type with the smallest range.
@@ -122,6 +126,7 @@ impl Target {
             Target::Rust => "f32",
             Target::Ros2
             | Target::Mujoco
+            | Target::Modelica
             | Target::Urdf
             | Target::Sdf
             | Target::IsaacLab
@@ -149,6 +154,7 @@ pub fn export(model: &Model, target: Target) -> Result<Vec<File>, Error> {
         Target::PlcOpen => st::plcopen(model),
         Target::Rust => rust::files(model),
         Target::Mujoco => mujoco::files(model),
+        Target::Modelica => modelica::files(model),
         Target::Urdf => joint::urdf(model),
         Target::Sdf => joint::sdf(model),
         Target::IsaacLab => joint::isaac_lab(model),

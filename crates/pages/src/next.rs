@@ -15,7 +15,7 @@ const SAME_RATE_WITHIN: f64 = 0.01;
 pub fn why(next: Next) -> &'static str {
     match next {
         Next::Export => {
-            "the compensator as C; also cpp, ros2, st, tcpou, plcopen, rust, mujoco, urdf, sdf, isaaclab, hal, fmu, matlab, tf5200 and drive-table"
+            "the compensator as C; also cpp, ros2, st, tcpou, plcopen, rust, mujoco, modelica, urdf, sdf, isaaclab, hal, fmu, matlab, tf5200 and drive-table"
         }
         Next::LetTheDataChoose => "let the data choose the law",
         Next::IdentifyTheOther => "what the other log says by itself, to compare the parameters",

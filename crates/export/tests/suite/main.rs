@@ -9,6 +9,7 @@ mod hal;
 mod joint;
 mod matiec;
 mod matlab;
+mod modelica;
 mod mujoco;
 mod ros2;
 mod rust;

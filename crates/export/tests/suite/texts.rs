@@ -41,6 +41,7 @@ fn texts() {
         (Target::Sdf, vec!["x_axis_friction.sdf"]),
         (Target::IsaacLab, vec!["x_axis_friction.py"]),
         (Target::Hal, vec!["x_axis_friction.comp"]),
+        (Target::Modelica, vec!["x_axis_friction.mo"]),
         (Target::Fmu, vec!["modelDescription.xml"]),
         (
             Target::Matlab,

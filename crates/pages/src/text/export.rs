@@ -19,6 +19,7 @@ pub fn exported(exported: &Exported, dir: &Path) -> String {
     let what = match exported.target {
         "mujoco" => format!("for a time step of {} s", exported.cycle_time),
         "urdf" | "sdf" | "isaaclab" => "as friction of a joint".into(),
+        "modelica" => "as friction between two flanges".into(),
         "tf5200" => format!("with {most}"),
         "drive-table" => "as numbers of drives".into(),
         _ => format!("for a cycle of {} s, {most}", exported.cycle_time),
