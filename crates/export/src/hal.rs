@@ -48,7 +48,9 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     let extras = Extra::of(&terms);
     let pins = extras.iter().map(|extra| match extra {
         Extra::Acceleration | Extra::Position => format!(", *pins->{} / pins->units", pin(*extra)),
-        Extra::Load | Extra::Temperature => format!(", *pins->{}", pin(*extra)),
+        Extra::Load | Extra::Temperature | Extra::Transmitted => {
+            format!(", *pins->{}", pin(*extra))
+        }
     });
     let first = 3 + 2 * usize::from(model.settings.adaptation.is_some());
     let nets = extras.iter().zip(first..).map(|(extra, k)| {
@@ -80,6 +82,6 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
 fn pin(extra: Extra) -> &'static str {
     match extra {
         Extra::Acceleration => "acceleration",
-        Extra::Position | Extra::Load | Extra::Temperature => extra.name(),
+        Extra::Position | Extra::Load | Extra::Temperature | Extra::Transmitted => extra.name(),
     }
 }

@@ -124,11 +124,13 @@ fn literal(terms: &Terms<f64>) -> String {
     };
     let levels = |l: &Levels<f64>| {
         format!(
-            "Some(Levels {{\n            load: {},\n            temperature: {},\n            position: {},\n            \
+            "Some(Levels {{\n            load: {},\n            temperature: {},\n            position: {},\n            transmitted: {},\n            driven: {},\n            \
              waves: [{}, {}],\n            viscous: {},\n        }})",
             both(l.load),
             both(l.temperature),
             both(l.position),
+            both(l.transmitted),
+            both(l.driven),
             waves(&l.waves[0]),
             waves(&l.waves[1]),
             both(l.viscous)
@@ -143,11 +145,12 @@ fn literal(terms: &Terms<f64>) -> String {
     });
     let c = &terms.channels;
     format!(
-        "Terms {{\n        channels: Channels {{\n            load: {},\n            temperature: {},\n            position: {},\n        \
+        "Terms {{\n        channels: Channels {{\n            load: {},\n            temperature: {},\n            position: {},\n            transmitted: {},\n        \
          }},\n        levels: {},\n        mass: {},\n        weight: {weight},\n        cogging: {},\n    }}",
         channel(c.load),
         channel(c.temperature),
         channel(c.position),
+        channel(c.transmitted),
         terms.levels.as_ref().map_or("None".into(), levels),
         number(terms.mass),
         waves(&terms.cogging)

@@ -226,6 +226,7 @@ fn variable(extra: Extra) -> &'static str {
         Extra::Position => "place",
         Extra::Load => "load",
         Extra::Temperature => "temperature",
+        Extra::Transmitted => "transmitted",
     }
 }
 

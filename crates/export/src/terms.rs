@@ -15,14 +15,16 @@ pub(crate) enum Extra {
     Position,
     Load,
     Temperature,
+    Transmitted,
 }
 
 impl Extra {
-    const ALL: [Extra; 4] = [
+    const ALL: [Extra; 5] = [
         Extra::Acceleration,
         Extra::Position,
         Extra::Load,
         Extra::Temperature,
+        Extra::Transmitted,
     ];
 
     /// Those that the terms look at, in the order of every target.
@@ -43,6 +45,7 @@ impl Extra {
             }
             Extra::Load => some(levels.load),
             Extra::Temperature => some(levels.temperature) || some(levels.viscous),
+            Extra::Transmitted => some(levels.transmitted) || some(levels.driven),
         }
     }
 
@@ -53,6 +56,7 @@ impl Extra {
             Extra::Position => "position",
             Extra::Load => "load",
             Extra::Temperature => "temperature",
+            Extra::Transmitted => "transmitted",
         }
     }
 
@@ -63,6 +67,7 @@ impl Extra {
             Extra::Position => &mut input.position,
             Extra::Load => &mut input.load,
             Extra::Temperature => &mut input.temperature,
+            Extra::Transmitted => &mut input.transmitted,
         } = value;
         value
     }
@@ -74,6 +79,7 @@ impl Extra {
             Extra::Position => Some(channels.position),
             Extra::Load => Some(channels.load),
             Extra::Temperature => Some(channels.temperature),
+            Extra::Transmitted => Some(channels.transmitted),
         }
     }
 }
@@ -113,11 +119,14 @@ pub(crate) fn cast<T: Real>(terms: &Terms<f64>) -> Terms<T> {
             load: channel(&terms.channels.load),
             temperature: channel(&terms.channels.temperature),
             position: channel(&terms.channels.position),
+            transmitted: channel(&terms.channels.transmitted),
         },
         levels: terms.levels.map(|l| Levels {
             load: both(l.load),
             temperature: both(l.temperature),
             position: both(l.position),
+            transmitted: both(l.transmitted),
+            driven: both(l.driven),
             waves: l.waves.map(|waves| waves.map(wave)),
             viscous: both(l.viscous),
         }),
@@ -140,6 +149,7 @@ pub(crate) fn numbers(terms: &Terms<f64>) -> Vec<(&'static str, f64)> {
         ("load_reference", c.load),
         ("temperature_reference", c.temperature),
         ("position_reference", c.position),
+        ("transmitted_reference", c.transmitted),
     ] {
         let [low, high] = channel.range;
         all.extend([channel.reference, low, high].map(|x| (name, x)));
@@ -148,6 +158,8 @@ pub(crate) fn numbers(terms: &Terms<f64>) -> Vec<(&'static str, f64)> {
         ("coulomb_load", levels.load),
         ("coulomb_temperature", levels.temperature),
         ("coulomb_position", levels.position),
+        ("coulomb_transmitted", levels.transmitted),
+        ("coulomb_driven", levels.driven),
         ("sigma2_temperature", levels.viscous),
     ] {
         all.extend(slopes.map(|x| (name, x)));
@@ -215,6 +227,8 @@ pub(crate) fn fill<T: Literal>(fill: &mut Fill, terms: &Terms<T>, syntax: &Synta
         .flag("by_load", some(levels.load))
         .flag("by_temperature", some(levels.temperature))
         .flag("by_position", some(levels.position))
+        .flag("by_transmitted", some(levels.transmitted))
+        .flag("by_driven", some(levels.driven))
         .flag("viscous_by_temperature", some(levels.viscous))
         .flag("waves", levels.waves[0][0].rate > T::ZERO)
         .flag("feeds_mass", fed.contains(&"mass"))
@@ -227,6 +241,7 @@ pub(crate) fn fill<T: Literal>(fill: &mut Fill, terms: &Terms<T>, syntax: &Synta
         ("position_in", Extra::Position),
         ("load_in", Extra::Load),
         ("temperature_in", Extra::Temperature),
+        ("transmitted_in", Extra::Transmitted),
     ] {
         fill.flag(flag, extras.contains(&extra));
     }
@@ -245,6 +260,14 @@ pub(crate) fn fill<T: Literal>(fill: &mut Fill, terms: &Terms<T>, syntax: &Synta
             ["position_reference", "position_low", "position_high"],
             c.position,
         ),
+        (
+            [
+                "transmitted_reference",
+                "transmitted_low",
+                "transmitted_high",
+            ],
+            c.transmitted,
+        ),
     ] {
         let [low, high] = channel.range;
         for (key, x) in keys.into_iter().zip([channel.reference, low, high]) {
@@ -255,6 +278,8 @@ pub(crate) fn fill<T: Literal>(fill: &mut Fill, terms: &Terms<T>, syntax: &Synta
         (["load_pos", "load_neg"], levels.load),
         (["temperature_pos", "temperature_neg"], levels.temperature),
         (["position_pos", "position_neg"], levels.position),
+        (["transmitted_pos", "transmitted_neg"], levels.transmitted),
+        (["driven_pos", "driven_neg"], levels.driven),
         (
             ["viscous_temperature_pos", "viscous_temperature_neg"],
             levels.viscous,
@@ -327,6 +352,13 @@ pub(crate) fn interface(model: &Model) -> (Vec<String>, Vec<String>) {
             Extra::Temperature => format!(
                 "     {}: in K (degrees Celsius + 273.15), {}.",
                 extra.name(),
+                ends(*extra)
+            ),
+            Extra::Transmitted => format!(
+                "     {}: the weight and what else the load asks of the motor beside friction and inertia, in {}, positive where the motor has to \
+                 push towards positive positions; its size from {}.",
+                extra.name(),
+                model.force_unit(),
                 ends(*extra)
             ),
         })

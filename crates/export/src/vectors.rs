@@ -188,9 +188,12 @@ fn course(model: &Model, extra: Extra, k: usize) -> f64 {
         Extra::Position => (37.0, 0.6),
         Extra::Load => (53.0, 0.6),
         Extra::Temperature => (71.0, 0.6),
+        Extra::Transmitted => (59.0, 1.2),
     };
     let wave = steps * libm::sin(2.0 * core::f64::consts::PI * k as f64 / cycles);
     short(match extra.channel(&model.terms.channels) {
+        // Of either sign.
+        Some(channel) if extra == Extra::Transmitted => wave * channel.range[1],
         Some(channel) => {
             let [low, high] = channel.range;
             0.5 * (low + high) + wave * (high - low)

@@ -304,6 +304,7 @@ pub(crate) fn check(number: usize, log: &Samples) -> Result<(), Error> {
         ("load", log.load.as_ref()),
         ("acceleration", log.acceleration.as_ref()),
         ("temperature", log.temperature.as_ref()),
+        ("external", log.external.as_ref()),
     ];
     if log.position.is_none() && log.velocity.is_none() {
         return Err(Error::NoMotionChannel { log: number });
@@ -509,6 +510,7 @@ impl Filters {
                 },
                 load: samples.load.as_ref().map_or_else(Vec::new, on_grid),
                 temperature: samples.temperature.as_ref().map_or_else(Vec::new, on_grid),
+                external: samples.external.as_ref().map_or_else(Vec::new, on_grid),
                 acceleration: match &samples.acceleration {
                     Some(measured) => smooth(on_grid(measured), &self.source)?,
                     None => Vec::new(),

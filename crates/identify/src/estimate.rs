@@ -24,6 +24,7 @@ use crate::law::Law;
 use crate::law::dependence::Dependence;
 use crate::law::physical::physical;
 use crate::law::terms::{ColumnKind, Delay, Mass, Terms};
+use crate::law::transmitted;
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
 use crate::parameter::physical::{Physical, propagate};
@@ -220,6 +221,7 @@ pub fn estimate(
     curve::stays_within(&law, optimum, &mut parameters);
     curve::spans_all_speeds(&law, record.top_speed(), &mut parameters);
     sliding::flag_what_the_motion_hides(record, &mut parameters);
+    transmitted::flag_parts_of_an_open_weight(terms, &mut parameters);
     advice::explain(&mut parameters, &covariance);
     let series = series(&objective, &optimum.p, c, &at.columns);
     let residual = at.residual();

@@ -11,11 +11,17 @@ use crate::separable::settings::Settings;
 use crate::separable::{follow, separable};
 use stiction_search::{Observer, Status};
 
+/// Part of the weight by which what is transmitted may differ from the fitted one.
+const SAME_WEIGHT: f64 = 1e-6;
+/// Most renewals of what is transmitted; each leaves about the part of it that is friction, some tenths, of the difference.
+const MOST_WEIGHTS: usize = 12;
+
 /// Fits a law by the separable method and states its parameters, with intervals that count what encoder, filters and a
 /// curved cost do ([`intervals`]). An interrupted search gives the best found so far, with linear intervals.
 ///
 /// A fitted delay that reaches the end of its range is no delay but some other effect that the law does
-/// not explain: it is set to zero and the law is fitted again, as the terms of the estimate then say.
+/// not explain: it is set to zero and the law is fitted again, as the terms of the estimate then say. Where friction depends on
+/// what is transmitted and the weight is fitted, it is fitted again with that weight until both are one.
 ///
 /// # Errors
 /// Those of [`separable`].
@@ -47,9 +53,16 @@ pub fn fit_law(
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<(Estimate, Optimum), Error> {
-    stated(record, law, terms, low_speed_bound, |terms| {
-        separable(record, law, terms, settings, observer)
-    })
+    stated(
+        record,
+        law,
+        terms,
+        low_speed_bound,
+        |terms, from| match from {
+            None => separable(record, law, terms, settings, observer),
+            Some(from) => follow(from, record, law, terms, settings, observer),
+        },
+    )
 }
 
 /// [`fit_law`] by least squares from the end point of another search.
@@ -68,31 +81,46 @@ pub fn fit_law_from(
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<(Estimate, Optimum), Error> {
-    stated(record, law, terms, low_speed_bound, |terms| {
-        follow(start, record, law, terms, settings, observer)
+    stated(record, law, terms, low_speed_bound, |terms, from| {
+        follow(
+            from.unwrap_or(start),
+            record,
+            law,
+            terms,
+            settings,
+            observer,
+        )
     })
 }
 
+/// Fits with `fit`, which begins anew or from the end of another fit, until all that the terms assume is what comes out.
 fn stated(
     record: &Record,
     law: Law,
     terms: &Terms,
     low_speed_bound: f64,
-    mut fit: impl FnMut(&Terms) -> Result<Optimum, Error>,
+    mut fit: impl FnMut(&Terms, Option<&[f64]>) -> Result<Optimum, Error>,
 ) -> Result<(Estimate, Optimum), Error> {
-    let mut optimum = fit(terms)?;
-    let still = Terms {
-        delay: Delay::NONE,
-        ..terms.clone()
-    };
-    let mut used = terms;
+    let mut optimum = fit(terms, None)?;
+    let mut used = terms.clone();
     if terms.delay == Delay::Fitted
         && optimum.delay_at_bound()
         && optimum.status != Status::Interrupted
     {
-        optimum = fit(&still)?;
-        used = &still;
+        used.delay = Delay::NONE;
+        optimum = fit(&used, None)?;
     }
-    let estimate = estimate(record, law, used, &optimum, low_speed_bound);
+    for _ in 0..MOST_WEIGHTS {
+        let c = &optimum.evaluation.solution.coefficients;
+        let renewed = used.weighing(record, &optimum.law, c, SAME_WEIGHT);
+        let Some(renewed) = renewed.filter(|_| optimum.status != Status::Interrupted) else {
+            break;
+        };
+        let mut next = fit(&renewed, Some(&optimum.p))?;
+        next.counts.add(&optimum.counts);
+        next.iterations += optimum.iterations;
+        (optimum, used) = (next, renewed);
+    }
+    let estimate = estimate(record, law, &used, &optimum, low_speed_bound);
     Ok((estimate, optimum))
 }

@@ -3,6 +3,7 @@
 pub(crate) mod dependence;
 pub(crate) mod physical;
 pub(crate) mod terms;
+pub(crate) mod transmitted;
 
 pub use stiction_parameters::LawKind;
 

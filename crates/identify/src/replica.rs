@@ -229,6 +229,7 @@ impl<'a> Axis<'a> {
             at_rest: segment.at_rest.clone(),
             load: logged(&segment.channels.load),
             temperature: logged(&segment.channels.temperature),
+            external: logged(&segment.channels.external),
             ..Samples::default()
         })
     }
@@ -288,7 +289,7 @@ fn other<'t>(
                 }
             }
             ColumnKind::LevelTimes(factor, side) => {
-                let column = product(&eta, &factor.along(segment), side);
+                let column = product(&eta, (&factor, &factor.along(segment)), side);
                 for (y, x) in out.iter_mut().zip(column) {
                     *y += c * x;
                 }

@@ -84,6 +84,8 @@ pub struct Log {
     pub load: Option<Vec<f64>>,
     /// SI unit of the load.
     pub load_unit: String,
+    /// Force that acts on the axis from outside in `force_unit`, positive where it drives towards positive position.
+    pub external: Option<Vec<f64>>,
     /// Rate of the median time step, Hz, to nine digits.
     pub rate_hz: f64,
     /// Encoder step, m or rad: as given, or as detected in the data.
@@ -128,6 +130,7 @@ impl Log {
                 sources.push((role, source));
             }
         }
+        same_force(&sources)?;
         let length = common_length(table, &sources, &mut findings)?;
         let clock = clock::read(table, &sources, &mapping, length, &mut findings)?;
         let mut columns = cells::Columns::read(table, &sources, &clock);
@@ -150,8 +153,10 @@ impl Log {
             .and_then(|position| held::period(&time, position));
         if let Some((rows, first)) = held {
             findings.push(held::finding(rows, rate(&time)));
-            if let Some(force) = columns.get_mut(Role::Force) {
-                *force = held::meaned(force, rows);
+            for role in [Role::Force, Role::External] {
+                if let Some(force) = columns.get_mut(role) {
+                    *force = held::meaned(force, rows);
+                }
             }
             columns.keep(&mut time, |row| row % rows == first);
         }
@@ -186,6 +191,7 @@ impl Log {
             temperature: columns.take(Role::Temperature),
             load: columns.take(Role::Load),
             load_unit: unit(Role::Load),
+            external: columns.take(Role::External),
             quantum: None,
             gaps: Vec::new(),
             excluded: mended.bridged,
@@ -355,6 +361,23 @@ fn rate(time: &[f64]) -> f64 {
     let step = findings::median(&mut steps).unwrap_or(1.0);
     let rate = 1.0 / step;
     format!("{rate:.8e}").parse().unwrap_or(rate)
+}
+
+/// What acts from outside adds to the force, and so is in its unit.
+fn same_force(sources: &[(Role, Source)]) -> Result<(), Error> {
+    let of = |role| sources.iter().find(|(own, _)| *own == role);
+    let (Some((_, force)), Some((_, external))) = (of(Role::Force), of(Role::External)) else {
+        return Ok(());
+    };
+    if force.dimension == external.dimension {
+        return Ok(());
+    }
+    let (own, wanted) = (external.dimension.si_text(), force.dimension.si_text());
+    let found = format!("external is in {own} and the force in {wanted}");
+    let allowed = format!(
+        "both in one unit, such as external = {{ column = \"...\", scale = \"0.1 {wanted}/{own}\" }}"
+    );
+    Err(Error::new(Kind::Unit, found, allowed).in_column(Role::External.name()))
 }
 
 /// The length of the shortest column in use, if that costs little.

@@ -98,6 +98,8 @@ pub struct Mapping {
     pub temperature: Option<Channel>,
     /// Column of the normal load.
     pub load: Option<Channel>,
+    /// Force or torque that acts on the axis from outside, towards positive position.
+    pub external: Option<Channel>,
     /// Where the position wraps.
     pub wrap: Option<Wrap>,
     /// First and last second to keep, counted from the first sample of the file.
@@ -122,6 +124,7 @@ impl Mapping {
             Role::Reference => self.reference.as_ref(),
             Role::Temperature => self.temperature.as_ref(),
             Role::Load => self.load.as_ref(),
+            Role::External => self.external.as_ref(),
         }
     }
 
@@ -135,6 +138,7 @@ impl Mapping {
             Role::Reference => &mut self.reference,
             Role::Temperature => &mut self.temperature,
             Role::Load => &mut self.load,
+            Role::External => &mut self.external,
         }
     }
 

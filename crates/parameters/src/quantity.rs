@@ -59,6 +59,10 @@ pub enum Quantity {
     CoulombPosition,
     /// Wave of the Coulomb level of the first, second, ... pitch.
     CoulombPitch(u32, Wave),
+    /// Coulomb level per transmitted force or torque.
+    CoulombTransmitted,
+    /// What is added to that while the load drives the axis.
+    CoulombDriven,
     /// Viscous friction per temperature.
     Sigma2Temperature,
     /// Coulomb level of the second, third, ... log beyond that of the first.
@@ -73,10 +77,12 @@ pub enum Quantity {
     TemperatureReference,
     /// Position at which the parameters hold.
     PositionReference,
+    /// Transmitted force or torque at which the parameters hold.
+    TransmittedReference,
 }
 
 /// Quantities with one fixed name, that name, their symbol and what they are in words.
-const PLAIN: [(Quantity, &str, &str, &str); 20] = [
+const PLAIN: [(Quantity, &str, &str, &str); 23] = [
     (Quantity::Sigma0, "sigma0", "σ₀", "bristle stiffness"),
     (Quantity::Sigma1, "sigma1", "σ₁", "micro-damping"),
     (Quantity::Sigma2, "sigma2", "σ₂", "viscous friction"),
@@ -139,6 +145,18 @@ const PLAIN: [(Quantity, &str, &str, &str); 20] = [
         "Coulomb friction along the stroke",
     ),
     (
+        Quantity::CoulombTransmitted,
+        "coulomb_transmitted",
+        "Kt",
+        "Coulomb friction per transmitted force",
+    ),
+    (
+        Quantity::CoulombDriven,
+        "coulomb_driven",
+        "Kd",
+        "the same where the load drives, beyond that",
+    ),
+    (
         Quantity::Sigma2Temperature,
         "sigma2_temperature",
         "∂σ₂/∂T",
@@ -161,6 +179,12 @@ const PLAIN: [(Quantity, &str, &str, &str); 20] = [
         "position_reference",
         "x₀",
         "middle of the stroke",
+    ),
+    (
+        Quantity::TransmittedReference,
+        "transmitted_reference",
+        "τ₀",
+        "mean transmitted force",
     ),
 ];
 
@@ -283,9 +307,13 @@ impl Quantity {
             | Quantity::Gravity(_)
             | Quantity::Cogging(..)
             | Quantity::CoulombPitch(..)
-            | Quantity::CoulombLog(_) => Dimension::Force,
+            | Quantity::CoulombLog(_)
+            | Quantity::TransmittedReference => Dimension::Force,
             Quantity::StribeckVelocity => Dimension::Speed,
-            Quantity::StribeckExponent | Quantity::BreakawayRatio => Dimension::One,
+            Quantity::StribeckExponent
+            | Quantity::BreakawayRatio
+            | Quantity::CoulombTransmitted
+            | Quantity::CoulombDriven => Dimension::One,
             Quantity::Attraction => Dimension::Rate,
             Quantity::Mass => Dimension::Inertia,
             Quantity::Delay => Dimension::Time,
@@ -349,6 +377,8 @@ impl Quantity {
                     | Quantity::CoulombTemperature
                     | Quantity::CoulombPosition
                     | Quantity::CoulombPitch(..)
+                    | Quantity::CoulombTransmitted
+                    | Quantity::CoulombDriven
                     | Quantity::Sigma2Temperature
             )
     }

@@ -83,6 +83,8 @@ pub enum Metric {
     FitPercent,
     /// Residual on the last validation, in the unit of the force.
     HeldOutRms,
+    /// The same over that with another axis file in `validation/`.
+    HeldOutOver(&'static str),
     /// Position error of the simulation, percent of the rms position from the origin of the encoder.
     PositionPercent,
     /// Force error of the simulated controller, percent.
@@ -243,6 +245,62 @@ pub const CASES: &[Case] = &[
         law: "coulomb-viscous",
         asymmetric: false,
         limits: &[most(Metric::OffPercent("mass", 0.0194), 10.0)],
+    },
+    Case {
+        name: "XL330",
+        axis: "xl330.toml",
+        logs: &["xl330/sin_sin.json"],
+        validate: &["xl330/up_and_down.json"],
+        split: None,
+        method: "separable",
+        law: "coulomb-viscous",
+        asymmetric: false,
+        limits: &[
+            most(Metric::HeldOutRms, 0.018),
+            most(Metric::HeldOutOver("xl330_without.toml"), 0.45),
+        ],
+    },
+    Case {
+        name: "XL330",
+        axis: "xl330.toml",
+        logs: &["xl330/sin_sin.json"],
+        validate: &["xl330/up_and_down.json"],
+        split: None,
+        method: "separable",
+        law: "stribeck",
+        asymmetric: false,
+        limits: &[
+            most(Metric::HeldOutRms, 0.018),
+            most(Metric::HeldOutOver("xl330_without.toml"), 0.45),
+        ],
+    },
+    Case {
+        name: "XL330",
+        axis: "xl330.toml",
+        logs: &["xl330/sin_sin.json"],
+        validate: &["xl330/up_and_down.json"],
+        split: None,
+        method: "separable",
+        law: "lugre",
+        asymmetric: false,
+        limits: &[
+            most(Metric::HeldOutRms, 0.016),
+            most(Metric::HeldOutOver("xl330_without.toml"), 0.7),
+        ],
+    },
+    Case {
+        name: "XL330, weight as stated",
+        axis: "xl330_known.toml",
+        logs: &["xl330/sin_sin.json"],
+        validate: &["xl330/up_and_down.json"],
+        split: None,
+        method: "separable",
+        law: "coulomb-viscous",
+        asymmetric: false,
+        limits: &[
+            most(Metric::HeldOutRms, 0.015),
+            most(Metric::HeldOutOver("xl330_without.toml"), 0.4),
+        ],
     },
     Case {
         name: "EMPS, simulated in closed loop",

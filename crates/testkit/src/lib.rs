@@ -1,5 +1,6 @@
 //! For tests only: where measured recordings are, what must hold on them, an interpreter of Structured Text, LinuxCNC, the plain
-//! midpoint step, and simulated logs of worlds that an identification does, or does not, assume ([`worlds`]).
+//! midpoint step, simulated logs of worlds that an identification does, or does not, assume ([`worlds`]), and joints behind gears
+//! ([`geared`]).
 //!
 //! Start with [`recordings`] for a test on measured data, and with [`st::Library`] for one that runs Structured Text:
 //!
@@ -16,10 +17,12 @@
 //! ```
 
 mod cases;
+pub mod geared;
 #[cfg(unix)]
 pub mod hal;
 mod mean_of_ends;
 mod pages;
+mod random;
 pub mod st;
 pub mod worlds;
 

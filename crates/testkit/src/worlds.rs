@@ -17,7 +17,6 @@ mod fine;
 mod logged;
 mod machine;
 mod motion;
-mod random;
 mod running;
 
 pub use logged::{Recording, record};

@@ -298,6 +298,7 @@ fn ranges(source: &source::Source) -> Vec<String> {
         ("reference", &log.reference, length),
         ("temperature", &log.temperature, "K"),
         ("load", &log.load, log.load_unit.as_str()),
+        ("external", &log.external, log.force_unit.as_str()),
     ];
     channels
         .iter()

@@ -506,6 +506,10 @@ fn at_reference(file: &ModelFile, taken: &[String], lacking: &[&str]) -> Option<
             Quantity::CoulombTemperature | Quantity::Sigma2Temperature => {
                 format!("at {}", at("temperature_reference"))
             }
+            Quantity::CoulombTransmitted => {
+                format!("where {} is transmitted", at("transmitted_reference"))
+            }
+            Quantity::CoulombDriven => "as where the motor drives".into(),
             Quantity::CoulombPosition => {
                 format!("at the position {}", at("position_reference"))
             }

@@ -160,11 +160,12 @@ impl Source {
         let lacks = |channel: &&str| match *channel {
             "load" => self.log.load.is_none(),
             "temperature" => self.log.temperature.is_none(),
+            "external" => self.log.external.is_none(),
             _ => self.log.position.is_none(),
         };
-        let mut terms = terms.dependences.iter();
+        let mut each = terms.dependences.iter();
         let (name, channel) =
-            terms.find_map(|term| Some((term.name(), term.channel().filter(lacks)?)))?;
+            each.find_map(|term| Some((term.name(), terms.channel(term).filter(lacks)?)))?;
         // A column that was found and is not in the log is no use, and says why.
         let mut columns = self.log.columns.iter();
         let useless = columns.find(|c| c.role.is_some_and(|role| role.name() == channel));
@@ -175,6 +176,11 @@ impl Source {
                     column.column, column.reason
                 ),
                 format!("record it whole, or take {name} out of [terms]"),
+            ),
+            None if channel == "external" => (
+                format!("no external column, and [terms] {name} needs the torque that is transmitted"),
+                "set gravity = true under [terms], or name a column of what acts from outside: [columns] external = \"...\""
+                    .into(),
             ),
             None => (
                 format!("no {channel} column, and [terms] {name} needs one"),
@@ -213,6 +219,7 @@ impl Source {
             &mut samples.acceleration,
             &mut samples.load,
             &mut samples.temperature,
+            &mut samples.external,
         ];
         others.into_iter().flatten().for_each(cut);
         for mask in [&mut samples.valid, &mut samples.at_rest] {
@@ -245,11 +252,14 @@ impl Source {
             );
             Error::from(error.in_file(&self.path))
         };
-        let force = self
+        let mut force = self
             .log
             .force
             .clone()
             .ok_or_else(|| missing("force", "force"))?;
+        for (force, external) in force.iter_mut().zip(self.log.external.iter().flatten()) {
+            *force += external;
+        }
         if self.log.position.is_none() && self.log.velocity.is_none() {
             return Err(missing("position or velocity", "position"));
         }
@@ -261,6 +271,7 @@ impl Source {
             force,
             load: self.log.load.clone(),
             temperature: self.log.temperature.clone(),
+            external: self.log.external.clone(),
             valid: self.log.valid(),
             at_rest: Vec::new(),
             breaks: self.log.segments.iter().skip(1).map(|s| s.start).collect(),

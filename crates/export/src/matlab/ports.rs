@@ -72,6 +72,7 @@ fn inputs(model: &Model, terms: &Terms<f64>) -> Vec<Port> {
             Extra::Position => format!("of the reference, {x}"),
             Extra::Load => model.load_unit(),
             Extra::Temperature => "K".into(),
+            Extra::Transmitted => format!("what the load asks of the motor, {f}"),
         };
         let value = format!("input_at(S, {})", all.len());
         all.push(port(extra.name(), what, value));

@@ -8,7 +8,7 @@ static SimStruct block;
 
 int main(int count, char **arguments)
 {
-    double in[10];
+    double in[11];
     SimStruct *S = &block;
     for (int k = 0; k < 2; k++) {
         S->parameter[k].count = 1;

@@ -150,7 +150,7 @@ const DRIVER: &str = r#"
 #include "x_axis_friction@F@.h"
 #include <stdio.h>
 int main(void) {
-    double in[10];
+    double in[11];
     x_axis@F@_params_t p;
     x_axis@F@_state_t s;
     x_axis@F@_params(&p);

@@ -101,7 +101,7 @@ const DRIVER: &str = r#"
 namespace axis = x_axis_friction::@B@;
 int main()
 {
-    double in[10];
+    double in[11];
     axis::Compensator compensator;
     if (!compensator.ready()) { return 1; }
     while (fread(in, sizeof in, 1, stdin) == 1) {

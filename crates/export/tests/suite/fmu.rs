@@ -157,7 +157,7 @@ static void *find(const char *name) {
 #define GET(type, name, arguments) type (*name)arguments = (type (*)arguments)find(#name)
 int main(void) {
     static const unsigned inputs[] = { @INPUTS@ }, flags[] = { @FLAGS@ }, outputs[] = { @OUTPUTS@ };
-    double in[10];
+    double in[11];
     library = dlopen("./binaries/@FOLDER@/x_axis_friction.so", RTLD_NOW);
     if (library == NULL) { return 1; }
 @SETUP@

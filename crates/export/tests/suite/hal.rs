@@ -126,7 +126,7 @@ int rtapi_snprintf(char *to, unsigned long size, const char *format, ...) {
 void rtapi_print_msg(msg_level_t level, const char *format, ...) { (void)level; (void)format; }
 
 int main(void) {
-    double in[10];
+    double in[11];
     if (rtapi_app_main() != 0) { return 1; }
     hal_float_t *velocity = pin("velocity"), *error = pin("error"), *force = pin("force");
     hal_bit_t *enable = pin("enable"), *valid = pin("valid");

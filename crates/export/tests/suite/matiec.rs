@@ -14,9 +14,9 @@ const BLOCK: &str = r#"
 int main(void)
 {
     static NAME block;
-    double in[10];
+    double in[11];
     NAME_init__(&block, 0);
-    while (fread(in, sizeof *in, 10, stdin) == 10) {
+    while (fread(in, sizeof *in, 11, stdin) == 11) {
         block.CYCLE_TIME.value = (REAL)in[0];
         block.REFERENCE_VELOCITY.value = (REAL)in[1];
         block.TRACKING_ERROR.value = (REAL)in[2];

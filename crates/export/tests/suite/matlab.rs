@@ -49,7 +49,7 @@ fn miss_hit_reads_it_as_matlab() {
 
 /// Reads the samples of the other targets' drivers from a file, and writes what they write.
 const DRIVER: &str = "
-file = fopen('in.bin'); in = fread(file, [10, Inf], 'double'); fclose(file);
+file = fopen('in.bin'); in = fread(file, [11, Inf], 'double'); fclose(file);
 params = x_axis_params(); state = x_axis_init(params);
 out = zeros(2, size(in, 2));
 for k = 1:size(in, 2)
@@ -79,6 +79,7 @@ fn through_octave(model: &Model, samples: &[Sample]) -> Vec<[f64; 2]> {
                 input.position,
                 input.load,
                 input.temperature,
+                input.transmitted,
             ]
         })
         .flat_map(f64::to_le_bytes)

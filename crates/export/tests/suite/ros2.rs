@@ -65,7 +65,7 @@ int main(int, char **argv)
     if (node.asked != node.tree["x_axis_friction"].size()) { return 2; }
     x_axis_friction::ros2::Friction friction;
     if (!friction.configure(parameters)) { return 1; }
-    double in[10];
+    double in[11];
     while (fread(in, sizeof in, 1, stdin) == 1) {
         const x_axis_friction::f64::Input input = { in[1], in[2], in[3] != 0.0, in[4], in[5] != 0.0 };
         const double out[2] = { friction.step(in[0], input), 0.0 };

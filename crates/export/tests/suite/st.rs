@@ -155,6 +155,7 @@ fn seen(h: f64, input: &Input<f64>, huge: f64) -> (f64, Input<f64>) {
         position: none(input.position),
         load: none(input.load),
         temperature: none(input.temperature),
+        transmitted: none(input.transmitted),
         ..*input
     };
     (h, input)
@@ -264,6 +265,7 @@ fn interpreted(model: &Model, name: &str, samples: &[Sample]) -> Vec<[f64; 2]> {
                 input.position,
                 input.load,
                 input.temperature,
+                input.transmitted,
             ];
             block.set(slot, came[at - 6]);
         }
@@ -339,6 +341,7 @@ pub fn real(what: &str, through: impl Fn(&Model, &[Sample]) -> Vec<[f64; 2]>) {
                     &mut input.position,
                     &mut input.load,
                     &mut input.temperature,
+                    &mut input.transmitted,
                 ] {
                     *x = f64::from(*x as f32);
                 }
@@ -360,6 +363,7 @@ pub fn real(what: &str, through: impl Fn(&Model, &[Sample]) -> Vec<[f64; 2]>) {
                     position: input.position as f32,
                     load: input.load as f32,
                     temperature: input.temperature as f32,
+                    transmitted: input.transmitted as f32,
                 };
                 let due = f64::from(compensator.step_in(h as f32, input));
                 let off = (force - due).abs() / friction.scale();

@@ -28,6 +28,7 @@ fn due() -> [f64; 5] {
         position: 0.1,
         load: 120.0,
         temperature: 301.5,
+        transmitted: 6.0,
         ..Input::default()
     };
     let mut steps = |n, v, enable| (0..n).fold(0.0, |_, _| compensator.step(input(v, enable)));
@@ -62,7 +63,7 @@ static x_axis_params_t p;
 static x_axis_state_t s;
 static double steps(int n, double v, bool enable)
 {
-    const x_axis_input_t input = { v, 0.0, enable, 0.0, 0.1, 120.0, 301.5 };
+    const x_axis_input_t input = { v, 0.0, enable, 0.0, 0.1, 120.0, 301.5, 6.0 };
     double force = 0.0;
     for (int i = 0; i < n; i++) { force = x_axis_step(&p, &s, &input); }
     return force;

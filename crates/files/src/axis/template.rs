@@ -141,7 +141,7 @@ pub fn template(
                     Role::Position | Role::Reference => length.to_string(),
                     Role::Velocity => format!("{length}/s"),
                     Role::Acceleration => format!("{length}/s^2"),
-                    Role::Force => format!("A\", scale = \"{}", words.scale),
+                    Role::Force | Role::External => format!("A\", scale = \"{}", words.scale),
                     Role::Temperature => "degC".to_string(),
                     Role::Load => "N".to_string(),
                 };
@@ -185,7 +185,8 @@ pub fn template(
          # gravity = true           # rotary axis: sin q and cos q\n\
          # delay = \"none\"            # \"fit\" (default), \"none\" or a time: force after motion\n\
          # cogging = [\"{travel}\"]    # pitch of each cogging wave\n\
-         # coulomb_load = true      # friction that changes with the load column\n\n\
+         # coulomb_load = true      # friction that changes with the load column\n\
+         # coulomb_transmitted = true   # friction that grows with the torque that a gear passes on\n\n\
          [report]\n\
          # low_speed = \"1 {length}/s\"   # what counts as near zero speed\n\n\
          # For the method output-error, where the control law is known; else leave it out.\n\

@@ -18,6 +18,29 @@ pub struct Dependences {
     pub lacking: Vec<&'static str>,
 }
 
+impl Dependences {
+    /// The same at the reference of what is transmitted: a simulated axis has no weight.
+    #[must_use]
+    pub fn without_transmitted(mut self) -> Self {
+        let levels = self.levels.map(|levels| Levels {
+            transmitted: [0.0; 2],
+            driven: [0.0; 2],
+            ..levels
+        });
+        self.levels = levels.filter(|levels| *levels != Levels::default());
+        self.channels.transmitted = Channel::default();
+        self.lacking.retain(|line| !line.contains("transmitted"));
+        self.taken.retain(|name| {
+            let name = name.parse::<Name>().map(|name| name.quantity);
+            !matches!(
+                name,
+                Ok(Quantity::CoulombTransmitted | Quantity::CoulombDriven)
+            )
+        });
+        self
+    }
+}
+
 impl ModelFile {
     /// What friction depends on beside the velocity, for the Coulomb levels forward and back, N (N m), of which levels are parts.
     /// Parameters that the log leaves open are left out.
@@ -27,6 +50,7 @@ impl ModelFile {
         let place = self.place();
         let load = self.channel(self.range.load, "load_reference");
         let temperature = self.channel(self.range.temperature, "temperature_reference");
+        let transmitted = self.channel(self.range.transmitted, "transmitted_reference");
         let mut any = false;
         for p in &self.parameter {
             let Ok(name) = p.name.parse::<Name>() else {
@@ -38,6 +62,9 @@ impl ModelFile {
                     (temperature, "[range] temperature = [LEAST, LARGEST] in K")
                 }
                 Quantity::CoulombPosition => (place, "[range] position = [LEAST, LARGEST]"),
+                Quantity::CoulombTransmitted | Quantity::CoulombDriven => {
+                    (transmitted, "[range] transmitted = [LEAST, LARGEST]")
+                }
                 Quantity::CoulombPitch(k, _) if pitch(&self.pitch.coulomb, k).is_none() => {
                     (None, "[pitch] coulomb = [PITCH]")
                 }
@@ -68,6 +95,8 @@ impl ModelFile {
                     Quantity::CoulombLoad => levels.load[side] = part,
                     Quantity::CoulombTemperature => levels.temperature[side] = part,
                     Quantity::CoulombPosition => levels.position[side] = part,
+                    Quantity::CoulombTransmitted => levels.transmitted[side] = part,
+                    Quantity::CoulombDriven => levels.driven[side] = part,
                     Quantity::Sigma2Temperature => levels.viscous[side] = p.value,
                     Quantity::CoulombPitch(k, wave_part) => {
                         let at = &mut levels.waves[side][k as usize - 1];
@@ -83,6 +112,7 @@ impl ModelFile {
             let c = &mut found.channels;
             match name.quantity {
                 Quantity::CoulombLoad => c.load = channel,
+                Quantity::CoulombTransmitted | Quantity::CoulombDriven => c.transmitted = channel,
                 Quantity::CoulombTemperature | Quantity::Sigma2Temperature => {
                     c.temperature = channel;
                 }

@@ -403,6 +403,7 @@ fn range(table: &Table<'_>) -> Result<RangeEntry, Error> {
         position: ends("position")?,
         load: ends("load")?,
         temperature: ends("temperature")?,
+        transmitted: ends("transmitted")?,
         acceleration: acceleration
             .then(|| size(table, "acceleration"))
             .transpose()?,

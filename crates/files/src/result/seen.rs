@@ -14,6 +14,9 @@ pub struct RangeEntry {
     /// Temperature, K.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub temperature: Option<[f64; 2]>,
+    /// Size of what is transmitted to the load, in the unit of the force.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub transmitted: Option<[f64; 2]>,
     /// Largest acceleration, m/s^2 or rad/s^2.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub acceleration: Option<f64>,

@@ -117,11 +117,12 @@ fn levels(curve: &Stribeck<f64>) -> [f64; 2] {
 
 /// What is said of the parameters of a model that a study leaves out.
 fn left_out(model: &ModelFile, curve: &Stribeck<f64>) -> Option<Warning> {
-    let depends = model.dependences(levels(curve));
+    let depends = model.dependences(levels(curve)).without_transmitted();
     let references = [
         Quantity::LoadReference,
         Quantity::TemperatureReference,
         Quantity::PositionReference,
+        Quantity::TransmittedReference,
     ];
     let out = |p: &&ModelParameter| {
         let name = p.name.parse::<Name>().map(|name| name.quantity);
@@ -377,7 +378,7 @@ impl Model {
     pub(super) fn dependences(&self, curve: &Stribeck<f64>) -> Dependences {
         let read = self.read.as_ref();
         read.map_or_else(Dependences::default, |read| {
-            read.model.dependences(levels(curve))
+            read.model.dependences(levels(curve)).without_transmitted()
         })
     }
 

@@ -10,9 +10,9 @@ use crate::Real;
 /// What is known of the forces beside the law.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Beside<T> {
-    /// Load, temperature and position as they came in last.
-    pub seen: [T; 3],
-    /// What load, temperature and position add to the force of the law, N (N m).
+    /// Load, temperature, position and what is transmitted as they came in last.
+    pub seen: [T; 4],
+    /// What these add to the force of the law, N (N m).
     pub changed: T,
     /// Share of mass and cogging that is passed on: 0 when off, else 1.
     pub rest: T,
@@ -51,6 +51,7 @@ impl<T: Real> Beside<T> {
             c.load.reference,
             c.temperature.reference,
             c.position.reference,
+            c.transmitted.reference,
         ];
         Beside {
             seen,
@@ -87,10 +88,15 @@ impl<T: Real> Terms<T> {
         self.mass == T::ZERO || input.reference_acceleration.is_finite()
     }
 
-    /// Takes load, temperature and position; what is not finite counts as what came in last.
+    /// Takes load, temperature, position and what is transmitted; what is not finite counts as what came in last.
     #[inline]
     pub(super) fn look(&self, beside: &mut Beside<T>, input: &Input<T>) {
-        let came = [input.load, input.temperature, input.position];
+        let came = [
+            input.load,
+            input.temperature,
+            input.position,
+            input.transmitted,
+        ];
         for (seen, came) in beside.seen.iter_mut().zip(came) {
             if came.is_finite() {
                 *seen = came;
@@ -132,9 +138,9 @@ impl<T: Real> Terms<T> {
             let place = self.place(beside);
             let dry = friction.dry(law, v);
             // The sign of the deflection, unlike that of the velocity, does not make the force jump at a reversal.
-            let factor = levels.factor(usize::from(dry <= T::ZERO), away, place);
+            let factor = levels.factor(usize::from(dry <= T::ZERO), &away, place);
             let side = usize::from(v < T::ZERO);
-            let viscous = levels.thinner(side, away, friction.viscous());
+            let viscous = levels.thinner(side, &away, friction.viscous());
             let changed = (factor - T::ONE) * dry + viscous * v;
             if changed.is_finite() {
                 beside.changed = changed;

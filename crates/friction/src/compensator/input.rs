@@ -24,17 +24,20 @@ pub struct Input<T> {
     /// Acceleration of the reference, at the instant of its velocity, m/s^2 (rad/s^2). This and what follows is looked at where
     /// [`Terms`](super::Terms) depend on it; an acceleration that is not finite counts as not enabled.
     pub reference_acceleration: T,
-    /// Position of the reference, or the measured one, m (rad). Where this, the load or the temperature is not finite, what came
-    /// in last counts.
+    /// Position of the reference, or the measured one, m (rad). Where this or what follows is not finite, what came in last
+    /// counts.
     pub position: T,
     /// Normal load, in the unit of the model.
     pub load: T,
     /// Temperature, K.
     pub temperature: T,
+    /// Force (torque) that the transmission passes on to the load, N (N m): positive where the motor has to push towards positive
+    /// positions.
+    pub transmitted: T,
 }
 
 impl<T: Real> Default for Input<T> {
-    /// Standstill, not enabled; position, load and temperature not known.
+    /// Standstill, not enabled; position, load, temperature and what is transmitted not known.
     fn default() -> Self {
         let unknown = T::from_f64(f64::NAN);
         Input {
@@ -48,6 +51,7 @@ impl<T: Real> Default for Input<T> {
             position: unknown,
             load: unknown,
             temperature: unknown,
+            transmitted: unknown,
         }
     }
 }

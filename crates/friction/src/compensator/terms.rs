@@ -25,6 +25,8 @@ pub struct Channels<T> {
     pub temperature: Channel<T>,
     /// Position, m (rad).
     pub position: Channel<T>,
+    /// Size of the force (torque) that the transmission passes on to the load, N (N m).
+    pub transmitted: Channel<T>,
 }
 
 /// A wave along the position, `sine sin(rate x) + cosine cos(rate x)`.
@@ -51,6 +53,10 @@ pub struct Levels<T> {
     pub temperature: [T; 2],
     /// Part of the level per m (rad).
     pub position: [T; 2],
+    /// Part of the level per N (N m) that is transmitted.
+    pub transmitted: [T; 2],
+    /// What is added to that for each N (N m) while the load drives the axis.
+    pub driven: [T; 2],
     /// Waves of the level along the position, their amplitudes parts of it.
     pub waves: [[Wave<T>; WAVES]; 2],
     /// Viscous friction per K, N s/m (N m s/rad) per K; sigma2 is never below 0.
@@ -100,6 +106,17 @@ pub struct Terms<T> {
     pub cogging: [Wave<T>; WAVES],
 }
 
+/// What the channels are away from their references.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Away<T> {
+    pub load: T,
+    pub temperature: T,
+    pub position: T,
+    pub transmitted: T,
+    /// What is transmitted where the load drives the axis, else 0: for friction against motion forward and back.
+    pub driven: [T; 2],
+}
+
 /// A position as it came in last, and within the range of the identification, m (rad).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place<T> {
@@ -143,15 +160,23 @@ impl<T: Real> Channels<T> {
         }
     }
 
-    /// How far load, temperature and position are from their references.
+    /// How far load, temperature, position and what is transmitted are from their references.
     #[inline]
-    pub(super) fn away(&self, seen: [T; 3]) -> [T; 3] {
-        let [load, temperature, position] = seen;
-        [
-            self.load.away(load),
-            self.temperature.away(temperature),
-            self.position.away(position),
-        ]
+    pub(super) fn away(&self, seen: [T; 4]) -> Away<T> {
+        let [load, temperature, position, transmitted] = seen;
+        let size = self.transmitted.within(transmitted.abs());
+        // Against friction it is what moves the axis.
+        let driven = match transmitted < T::ZERO {
+            true => [size, T::ZERO],
+            false => [T::ZERO, size],
+        };
+        Away {
+            load: self.load.away(load),
+            temperature: self.temperature.away(temperature),
+            position: self.position.away(position),
+            transmitted: size - self.transmitted.reference,
+            driven,
+        }
     }
 }
 
@@ -191,11 +216,13 @@ pub(super) fn sum<T: Real>(waves: &[Wave<T>; WAVES], place: Place<T>) -> T {
 impl<T: Real> Levels<T> {
     /// The factor on the level in a direction, from what the channels are away from their references.
     #[inline]
-    pub(super) fn factor(&self, side: usize, away: [T; 3], place: Place<T>) -> T {
+    pub(super) fn factor(&self, side: usize, away: &Away<T>, place: Place<T>) -> T {
         let mut factor = T::ONE;
-        factor = factor + self.load[side] * away[0];
-        factor = factor + self.temperature[side] * away[1];
-        factor = factor + self.position[side] * away[2];
+        factor = factor + self.load[side] * away.load;
+        factor = factor + self.temperature[side] * away.temperature;
+        factor = factor + self.position[side] * away.position;
+        factor = factor + self.transmitted[side] * away.transmitted;
+        factor = factor + self.driven[side] * away.driven[side];
         for wave in &self.waves[side] {
             factor = factor + wave.at(place);
         }
@@ -204,18 +231,22 @@ impl<T: Real> Levels<T> {
 
     /// What viscous friction of `sigma2` in a direction, N s/m (N m s/rad), gains with what the channels are away.
     #[inline]
-    pub(super) fn thinner(&self, side: usize, away: [T; 3], sigma2: [T; 2]) -> T {
-        (self.viscous[side] * away[1]).max(-sigma2[side])
+    pub(super) fn thinner(&self, side: usize, away: &Away<T>, sigma2: [T; 2]) -> T {
+        (self.viscous[side] * away.temperature).max(-sigma2[side])
     }
 
-    /// What friction is where load, temperature and position are `seen`, with viscous friction `sigma2` forward and back,
+    /// What friction is where load, temperature and position are `seen` and what is transmitted is as at the reference, with viscous friction `sigma2` forward and back,
     /// N s/m (N m s/rad).
     pub fn changes(&self, channels: &Channels<T>, seen: [T; 3], sigma2: [T; 2]) -> Changes<T> {
-        let away = channels.away(seen);
+        let [load, temperature, position] = seen;
+        let away = Away {
+            driven: [T::ZERO; 2],
+            ..channels.away([load, temperature, position, channels.transmitted.reference])
+        };
         let place = channels.place(seen[2]);
         Changes {
-            level: [0, 1].map(|side| self.factor(side, away, place)),
-            viscous: [0, 1].map(|side| self.thinner(side, away, sigma2)),
+            level: [0, 1].map(|side| self.factor(side, &away, place)),
+            viscous: [0, 1].map(|side| self.thinner(side, &away, sigma2)),
         }
     }
 
@@ -224,6 +255,8 @@ impl<T: Real> Levels<T> {
             ("load_level", self.load),
             ("temperature_level", self.temperature),
             ("position_level", self.position),
+            ("transmitted_level", self.transmitted),
+            ("driven_level", self.driven),
             ("temperature_viscous", self.viscous),
         ] {
             ParamError::finite(name, slopes[0])?;
@@ -241,13 +274,21 @@ impl<T: Real> Levels<T> {
                 + self.load[side].abs() * channels.load.reach()
                 + self.temperature[side].abs() * channels.temperature.reach()
                 + self.position[side].abs() * channels.position.reach()
+                + self.transmitted[side].abs() * channels.transmitted.reach()
+                + self.driven[side].abs() * channels.transmitted.range[1].abs()
         };
         of(0).max(of(1))
     }
 
     /// Whether the level itself changes, not only viscous friction.
     fn moves_the_level(&self) -> bool {
-        let slopes = [self.load, self.temperature, self.position];
+        let slopes = [
+            self.load,
+            self.temperature,
+            self.position,
+            self.transmitted,
+            self.driven,
+        ];
         let mut waves = self.waves.iter().flatten();
         slopes.iter().flatten().any(|slope| *slope != T::ZERO)
             || waves.any(|wave| wave.rate != T::ZERO)
@@ -261,6 +302,11 @@ impl<T: Real> Terms<T> {
             .temperature
             .validate("temperature_reference")?;
         self.channels.position.validate("position_reference")?;
+        self.channels
+            .transmitted
+            .validate("transmitted_reference")?;
+        let least = self.channels.transmitted.range[0];
+        ParamError::not_negative("transmitted", least)?;
         if let Some(levels) = &self.levels {
             levels.validate()?;
             let [forward, back] = friction.coulomb();
@@ -310,10 +356,12 @@ impl<T: Real> Terms<T> {
             levels.temperature,
             levels.position,
             levels.viscous,
+            levels.transmitted,
+            levels.driven,
         ];
         slopes.into_iter().flatten().for_each(&mut *take);
         let c = &self.channels;
-        for Channel { reference, range } in [c.load, c.temperature, c.position] {
+        for Channel { reference, range } in [c.load, c.temperature, c.position, c.transmitted] {
             [reference, range[0], range[1]]
                 .into_iter()
                 .for_each(&mut *take);

@@ -22,6 +22,7 @@ fn channels() -> Channels<f64> {
         load: channel(100.0, 20.0, 300.0),
         temperature: channel(300.0, 290.0, 320.0),
         position: channel(0.1, 0.0, 0.2),
+        transmitted: channel(5.0, 1.0, 10.0),
     }
 }
 
@@ -44,6 +45,7 @@ fn levels() -> Levels<f64> {
         position: [0.5, 0.7],
         waves: [waves(wave(0.1, 0.05)), waves(wave(0.02, 0.1))],
         viscous: [-0.5, -1.0],
+        ..Levels::default()
     }
 }
 
@@ -151,6 +153,46 @@ fn presliding_is_that_of_the_law_times_the_level() {
         most = most.max(of_law.abs());
     }
     assert!(most > 28.0, "near the static level of 30 N: {most}");
+}
+
+/// Friction of a gear: what is transmitted counts by its size, within its range, and otherwise where it drives the axis
+/// (decision 0077).
+#[test]
+fn the_level_is_that_of_what_is_transmitted() {
+    let [forward, back] = [(20.0, 0.12, -0.05), (14.0, 0.2, 0.04)];
+    let part = |of: fn((f64, f64, f64)) -> f64| [of(forward) / forward.0, of(back) / back.0];
+    let terms = Terms {
+        channels: channels(),
+        levels: Some(Levels {
+            transmitted: part(|side| side.1),
+            driven: part(|side| side.2),
+            ..Levels::default()
+        }),
+        ..Terms::default()
+    };
+    let mut compensator = bare(terms);
+    let mut slide = |v: f64, transmitted: f64| {
+        let input = Input {
+            transmitted,
+            ..at(v, 0.0, 0.0, 0.0)
+        };
+        (0..400).fold(0.0, |_, _| compensator.step(input))
+    };
+    let due = |v: f64, transmitted: f64| {
+        let (coulomb, all, driven) = if v > 0.0 { forward } else { back };
+        let size = transmitted.abs().clamp(1.0, 10.0);
+        let drives = if transmitted * v < 0.0 { driven } else { 0.0 };
+        (coulomb + all * (size - 5.0) + drives * size) * v.signum() + 30.0 * v
+    };
+    // Before anything came in it is the reference.
+    assert!((slide(0.2, f64::NAN) - due(0.2, 5.0)).abs() < 1e-9);
+    for transmitted in [-12.0, -7.0, -0.1, 0.3, 4.0, 9.0, 1e9] {
+        for v in [0.2, -0.2] {
+            let (force, due) = (slide(v, transmitted), due(v, transmitted));
+            assert!((force - due).abs() < 1e-9, "{transmitted}: {force} {due}");
+        }
+    }
+    assert!((slide(-0.2, f64::INFINITY) - due(-0.2, 10.0)).abs() < 1e-9);
 }
 
 /// What is not a number counts as what came in last, and as the reference before anything came in.

@@ -10,6 +10,8 @@ pub struct Channels {
     pub load: Vec<f64>,
     /// Temperature, K.
     pub temperature: Vec<f64>,
+    /// What acts on the axis from outside, in the unit of the force.
+    pub external: Vec<f64>,
     /// Acceleration as it was measured (source filter passed), m/s^2 or rad/s^2.
     pub acceleration: Vec<f64>,
 }
@@ -22,6 +24,7 @@ impl Channels {
             position: pick(&self.position),
             load: pick(&self.load),
             temperature: pick(&self.temperature),
+            external: pick(&self.external),
             acceleration: pick(&self.acceleration),
         }
     }

@@ -18,12 +18,15 @@ pub struct Samples {
     pub velocity: Option<Vec<f64>>,
     /// Measured acceleration, m/s^2 or rad/s^2.
     pub acceleration: Option<Vec<f64>>,
-    /// Force (torque, current, voltage) that drives the axis.
+    /// Force (torque, current, voltage) that drives the axis; with `external`, the sum of both.
     pub force: Vec<f64>,
     /// Normal load, in any unit.
     pub load: Option<Vec<f64>>,
     /// Temperature, K.
     pub temperature: Option<Vec<f64>>,
+    /// The part of the force that does not come from the motor, in its unit, for friction that depends on what the
+    /// transmission passes on.
+    pub external: Option<Vec<f64>>,
     /// Which samples may be used; empty means all.
     pub valid: Vec<bool>,
     /// Which samples are at rest: filters and laws go on through them, and they are not fitted, since the force of an axis

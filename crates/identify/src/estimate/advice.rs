@@ -57,6 +57,13 @@ fn cure(quantity: Quantity) -> &'static str {
         Quantity::Attraction => "Record changes of speed while the axis slides slowly",
         Quantity::QuadraticViscous => "Record speeds from slow to the top speed of the axis",
         Quantity::CoulombLoad => "Record several loads, each in both directions",
+        Quantity::CoulombTransmitted => {
+            "Record the axis under little and much load, each in both directions"
+        }
+        Quantity::CoulombDriven => {
+            "A weight that is fitted takes up what differs between driving and being driven: give what the load asks for as a \
+             column of its own ([columns] external) and leave gravity out of [terms]"
+        }
         Quantity::CoulombTemperature | Quantity::Sigma2Temperature => {
             "Record the axis cold and warm, at the same speeds"
         }

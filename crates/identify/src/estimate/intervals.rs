@@ -15,6 +15,7 @@ use crate::estimate::sliding::flag_what_the_motion_hides;
 use crate::estimate::{Estimate, advice, levels, optimal};
 use crate::lag;
 use crate::law::physical::physical;
+use crate::law::transmitted::flag_parts_of_an_open_weight;
 use crate::misfit::{Divisions, Misfit};
 use crate::parameter::physical::{Physical, propagate};
 use crate::parameter::{IntervalKind, Parameter, quantile};
@@ -70,6 +71,7 @@ pub fn intervals(
     }
     flag_what_the_residual_doubts(fitted);
     flag_what_the_motion_hides(record, &mut fitted.parameters);
+    flag_parts_of_an_open_weight(&fitted.terms, &mut fitted.parameters);
     rises_unseen(&fitted.law, &mut fitted.parameters);
     spans_all_speeds(&fitted.law, record.top_speed(), &mut fitted.parameters);
     let at = &optimum.evaluation;

@@ -1,4 +1,5 @@
-//! Friction that changes with more than the velocity: normal load, temperature, place on the stroke, from log to log.
+//! Friction that changes with more than the velocity: normal load, what is transmitted, temperature, place on the stroke,
+//! from log to log.
 //!
 //! The level of friction becomes `Fc + sum c_k f_k(t)` with a known factor `f_k` of another channel.
 //! In the separable form `Fc eta` becomes `(Fc + sum c_k f_k) eta`, so each `c_k` is one more linear
@@ -8,6 +9,7 @@
 use crate::conditioning::channels::Channels;
 use crate::conditioning::record::{Record, Segment};
 use crate::law::terms::Side;
+use crate::law::transmitted::Transmitted;
 use std::f64::consts::TAU;
 use stiction_parameters::{Quantity, Wave};
 
@@ -28,6 +30,10 @@ pub enum Dependence {
     CoulombPosition(f64),
     /// Coulomb level with `sin` and `cos` of `2 pi x / pitch`, m or rad.
     CoulombPitch(f64),
+    /// Coulomb level, linear in the size of what the transmission passes on to the load. Its coefficient is a part of that.
+    CoulombTransmitted(Transmitted),
+    /// The same for what is added while the load drives the axis.
+    CoulombDriven(Transmitted),
     /// Viscous friction, linear in the temperature about this one, K.
     ViscousTemperature(f64),
     /// Coulomb level and micro-damping of each of so many logs; the parameters hold in the first.
@@ -46,6 +52,10 @@ pub(crate) enum Factor {
     /// `sin` of a rate times position, 1/m or 1/rad.
     Sine(f64),
     Cosine(f64),
+    /// Size of what is transmitted minus its reference.
+    Transmitted(Transmitted),
+    /// That size where it points against friction, so that the load drives the axis; else 0.
+    Driven(Transmitted),
     /// 1 in this log, counted from 0, and 0 in the others.
     Log(usize),
 }
@@ -58,20 +68,23 @@ impl Dependence {
             Dependence::CoulombTemperature(_) => "coulomb_temperature",
             Dependence::CoulombPosition(_) => "coulomb_position",
             Dependence::CoulombPitch(_) => "coulomb_pitch",
+            Dependence::CoulombTransmitted(_) => "coulomb_transmitted",
+            Dependence::CoulombDriven(_) => "coulomb_driven",
             Dependence::ViscousTemperature(_) => "sigma2_temperature",
             Dependence::CoulombLog(_) => "coulomb_log",
             Dependence::ViscousLog(_) => "sigma2_log",
         }
     }
 
-    /// The channel of the log that it needs, if any.
-    pub fn channel(&self) -> Option<&'static str> {
+    /// The channel of the log that it needs, if any; [`Terms::channel`](crate::Terms::channel) counts a weight that is fitted.
+    pub(crate) fn channel(&self) -> Option<&'static str> {
         match self {
             Dependence::CoulombLoad(_) => Some("load"),
             Dependence::CoulombTemperature(_) | Dependence::ViscousTemperature(_) => {
                 Some("temperature")
             }
             Dependence::CoulombPosition(_) | Dependence::CoulombPitch(_) => Some("position"),
+            Dependence::CoulombTransmitted(_) | Dependence::CoulombDriven(_) => Some("external"),
             Dependence::CoulombLog(_) | Dependence::ViscousLog(_) => None,
         }
     }
@@ -92,9 +105,13 @@ impl Dependence {
                 Some((Quantity::TemperatureReference, x))
             }
             Dependence::CoulombPosition(x) => Some((Quantity::PositionReference, x)),
-            Dependence::CoulombPitch(_) | Dependence::CoulombLog(_) | Dependence::ViscousLog(_) => {
-                None
+            Dependence::CoulombTransmitted(of) => {
+                Some((Quantity::TransmittedReference, of.reference))
             }
+            Dependence::CoulombDriven(_)
+            | Dependence::CoulombPitch(_)
+            | Dependence::CoulombLog(_)
+            | Dependence::ViscousLog(_) => None,
         }
     }
 
@@ -119,6 +136,10 @@ impl Dependence {
             Dependence::CoulombPosition(x) => {
                 vec![(Quantity::CoulombPosition, Factor::Position(x))]
             }
+            Dependence::CoulombTransmitted(of) => {
+                vec![(Quantity::CoulombTransmitted, Factor::Transmitted(of))]
+            }
+            Dependence::CoulombDriven(of) => vec![(Quantity::CoulombDriven, Factor::Driven(of))],
             Dependence::CoulombPitch(pitch) => {
                 let wave = |part| Quantity::CoulombPitch(pitches_before as u32 + 1, part);
                 vec![
@@ -162,7 +183,10 @@ impl Dependence {
                     0.0
                 })
             }
-            Dependence::CoulombPitch(_) => self,
+            // What is transmitted follows from all terms.
+            Dependence::CoulombTransmitted(_)
+            | Dependence::CoulombDriven(_)
+            | Dependence::CoulombPitch(_) => self,
             Dependence::CoulombLog(_) => Dependence::CoulombLog(logs(record)),
             Dependence::ViscousLog(_) => Dependence::ViscousLog(logs(record)),
         }
@@ -188,16 +212,25 @@ impl Factor {
             Factor::Load(_) => &channels.load,
             Factor::Temperature(_) => &channels.temperature,
             Factor::Position(_) | Factor::Sine(_) | Factor::Cosine(_) => &channels.position,
-            Factor::Log(_) => &[],
+            Factor::Log(_) | Factor::Transmitted(_) | Factor::Driven(_) => &[],
         }
     }
 
     /// The factor at the full rate of a segment; zero (as at the reference) where the channel is
-    /// missing, which a fit refuses.
+    /// missing, which a fit refuses. One that depends on the sign of the deflection keeps its own sign here
+    /// ([`of`](Self::of)).
     pub fn along(&self, segment: &Segment) -> Vec<f64> {
         if let Factor::Log(log) = *self {
             let own = f64::from(u8::from(segment.log == log));
             return vec![own; segment.velocity.len()];
+        }
+        match *self {
+            Factor::Transmitted(of) => {
+                let along = of.along(segment).into_iter();
+                return along.map(|tau| tau.abs() - of.reference).collect();
+            }
+            Factor::Driven(of) => return of.along(segment),
+            _ => {}
         }
         let values = self.channel(&segment.channels);
         if values.len() != segment.velocity.len() {
@@ -209,9 +242,23 @@ impl Factor {
             | Factor::Position(reference) => x - reference,
             Factor::Sine(rate) => libm::sin(rate * x),
             Factor::Cosine(rate) => libm::cos(rate * x),
-            Factor::Log(_) => 0.0,
+            Factor::Log(_) | Factor::Transmitted(_) | Factor::Driven(_) => 0.0,
         };
         values.iter().map(|&x| at(x)).collect()
+    }
+
+    /// What multiplies `eta` where the factor is `along` there: nothing in the other direction than `side`, and of what the load
+    /// drives nothing where the motor drives.
+    #[inline]
+    pub fn of(&self, along: f64, eta: f64, side: Option<Side>) -> f64 {
+        if side.is_some_and(|side| !side.selects(eta)) {
+            return 0.0;
+        }
+        match self {
+            Factor::Driven(_) if along * eta >= 0.0 => 0.0,
+            Factor::Driven(_) => along.abs(),
+            _ => along,
+        }
     }
 
     /// Range over which the factor is used, at least: what the log spans, but never less than the mean
@@ -226,7 +273,8 @@ impl Factor {
         match self {
             Factor::Load(reference) => largest.max(reference.abs()),
             Factor::Temperature(_) => largest.max(USUAL_SPAN),
-            Factor::Position(_) => largest,
+            Factor::Position(_) | Factor::Driven(_) => largest,
+            Factor::Transmitted(of) => largest.max(of.reference),
             Factor::Sine(_) | Factor::Cosine(_) | Factor::Log(_) => 1.0,
         }
     }
@@ -234,12 +282,12 @@ impl Factor {
 
 /// `eta` times a factor, in one direction of the deflection or both. It goes through zero with `eta`,
 /// so the force stays continuous where the direction changes.
-pub(crate) fn product(eta: &[f64], factor: &[f64], side: Option<Side>) -> Vec<f64> {
-    eta.iter()
-        .zip(factor)
-        .map(|(&eta, &f)| match side {
-            Some(side) if !side.selects(eta) => 0.0,
-            _ => eta * f,
-        })
+pub(crate) fn product(
+    eta: &[f64],
+    (factor, along): (&Factor, &[f64]),
+    side: Option<Side>,
+) -> Vec<f64> {
+    let each = eta.iter().zip(along);
+    each.map(|(&eta, &f)| eta * factor.of(f, eta, side))
         .collect()
 }

@@ -2,7 +2,7 @@
 
 use crate::gms;
 use crate::law::terms::{ColumnKind, LinearTerm, Side};
-use crate::law::{Law, share_of_odds};
+use crate::law::{Law, share_of_odds, transmitted};
 use crate::parameter::physical::Physical;
 use stiction_parameters::{Name, Quantity};
 
@@ -113,6 +113,7 @@ pub(crate) fn physical(
             None,
         );
     }
+    let weight = transmitted::weight_of(linear);
     for (i, term) in linear.iter().enumerate() {
         let own = term.name == Quantity::Coulomb || term.name == Quantity::Sigma1;
         if own || matches!(term.name.quantity, Quantity::ElementForce(_)) {
@@ -129,7 +130,17 @@ pub(crate) fn physical(
         if let Some(at) = ratio {
             slope[at] = scale * c[i];
         }
-        push(term.name, scale * c[i], slope, None, Some(i));
+        let mut value = scale * c[i];
+        // A part of what is transmitted, which is as large as the weight that is fitted.
+        if let (Some(of), Some(weight)) = (transmitted::of(term.column), weight) {
+            let (larger, by) = of.scale(weight.map(|j| c[j]));
+            value /= larger;
+            slope.iter_mut().for_each(|x| *x /= larger);
+            for (j, by) in weight.into_iter().zip(by) {
+                slope[k + j] -= value * by / larger;
+            }
+        }
+        push(term.name, value, slope, None, Some(i));
     }
     if k > layout.count {
         let delay = k - 1;

@@ -184,22 +184,34 @@ impl Terms {
     pub fn about(&self, record: &Record) -> Self {
         let dependences = self.dependences.iter().map(|d| d.about(record));
         let dependences = dependences.filter(|d| d.logs() != Some(1)).collect();
-        Self {
+        let about = Self {
             dependences,
             ..self.clone()
+        };
+        about.transmitting(record)
+    }
+
+    /// The channel of the log that a dependence needs beside these terms, if any.
+    pub fn channel(&self, dependence: &Dependence) -> Option<&'static str> {
+        match dependence {
+            Dependence::CoulombTransmitted(_) | Dependence::CoulombDriven(_) if self.gravity => {
+                Some("position")
+            }
+            other => other.channel(),
         }
     }
 
     /// Refuses a record without a channel that a term needs.
     pub(crate) fn check(&self, record: &Record) -> Result<(), Error> {
         for dependence in &self.dependences {
-            let Some(channel) = dependence.channel() else {
+            let Some(channel) = self.channel(dependence) else {
                 continue;
             };
             let missing = record.segments.iter().find(|s| {
                 let channel = match channel {
                     "load" => &s.channels.load,
                     "temperature" => &s.channels.temperature,
+                    "external" => &s.channels.external,
                     _ => &s.channels.position,
                 };
                 channel.is_empty()

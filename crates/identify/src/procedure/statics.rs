@@ -150,6 +150,8 @@ impl Statics {
                 | Quantity::CoulombTemperature
                 | Quantity::CoulombPosition
                 | Quantity::CoulombPitch(..)
+                | Quantity::CoulombTransmitted
+                | Quantity::CoulombDriven
                 | Quantity::Sigma2
                 | Quantity::Sigma2Temperature
         )

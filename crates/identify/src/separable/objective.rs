@@ -5,7 +5,7 @@ use crate::conditioning::shift::Shift;
 use crate::conditioning::thinning;
 use crate::gms;
 use crate::law::Law;
-use crate::law::dependence::product;
+use crate::law::dependence::{Factor, product};
 use crate::law::terms::{ColumnKind, Delay, LinearTerm, Mass, Side, Terms};
 use crate::separable::fixed::{Column, Fixed, fixed_columns};
 use crate::separable::in_lanes::InLanes;
@@ -56,6 +56,8 @@ struct Varying {
     linear: usize,
     of: Varied,
     side: Option<Side>,
+    factor: Factor,
+    /// The factor at the full rate of each segment.
     factors: Vec<Vec<f64>>,
 }
 
@@ -157,6 +159,7 @@ impl<'a> Objective<'a> {
                     linear: i,
                     of,
                     side,
+                    factor,
                     factors: record.segments.iter().map(|s| factor.along(s)).collect(),
                 })
             })
@@ -432,9 +435,12 @@ impl<'a> Objective<'a> {
             .into_iter()
             .enumerate()
             .map(|(i, trace)| {
-                let times = |v: &Varying| match v.of {
-                    Varied::Level => product(&trace.eta, &v.factors[i], v.side),
-                    Varied::Rate => product(&trace.rate, &v.factors[i], v.side),
+                let times = |v: &Varying| {
+                    let of = match v.of {
+                        Varied::Level => &trace.eta,
+                        Varied::Rate => &trace.rate,
+                    };
+                    product(of, (&v.factor, &v.factors[i]), v.side)
                 };
                 let varying: Vec<Vec<f64>> = self.varying.iter().map(times).collect();
                 let mut run = Run {
@@ -621,9 +627,7 @@ impl<'a> Objective<'a> {
         for varying in all {
             let factors = &varying.factors[segment];
             for ((out, f), &eta) in out.iter_mut().zip(factors).zip(eta) {
-                if varying.side.is_none_or(|side| side.selects(eta)) {
-                    *out += c[varying.linear] * f;
-                }
+                *out += c[varying.linear] * varying.factor.of(*f, eta, varying.side);
             }
         }
         Some(out)

@@ -4,7 +4,7 @@
 use proptest::prelude::*;
 use stiction_identify::{
     Conditioning, Control, Cutoff, Delay, Dependence, Lag, Law, LawKind, Mass, Observer, Progress,
-    Samples, Settings, Source, Terms, condition, cross_validate, estimate, intervals,
+    Samples, Settings, Source, Terms, Transmitted, condition, cross_validate, estimate, intervals,
     low_speed_bound, predict, separable,
 };
 
@@ -92,6 +92,8 @@ impl Case {
             velocity: Some(v.iter().map(|v| v * (length / time)).collect()),
             load: Some((0..self.n).map(|i| force * (2.0 + noise(7, i))).collect()),
             temperature: (self.seed & 1 == 0).then(|| vec![300.0; self.n]),
+            external: (self.seed & 2 == 0)
+                .then(|| (0..self.n).map(|i| force * noise(11, i)).collect()),
             ..Samples::default()
         }
     }
@@ -281,6 +283,8 @@ fn terms() -> impl Strategy<Value = Terms> {
     let pitches = prop::collection::vec((-9.0..9.0).prop_map(|e: f64| 10f64.powf(e)), 0..3);
     let dependence = prop_oneof![
         Just(Dependence::CoulombLoad(0.0)),
+        Just(Dependence::CoulombTransmitted(Transmitted::default())),
+        Just(Dependence::CoulombDriven(Transmitted::default())),
         Just(Dependence::CoulombTemperature(0.0)),
         Just(Dependence::CoulombPosition(0.0)),
         (-9.0..9.0).prop_map(|e: f64| Dependence::CoulombPitch(10f64.powf(e))),

@@ -24,4 +24,5 @@ mod static_map;
 mod step;
 mod stretches;
 mod terms;
+mod transmitted;
 mod watched;

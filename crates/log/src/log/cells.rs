@@ -106,7 +106,10 @@ impl Columns {
                 continue;
             };
             let cells: usize = runs.iter().map(Range::len).sum();
-            let core = matches!(role, Role::Position | Role::Velocity | Role::Force);
+            let core = matches!(
+                role,
+                Role::Position | Role::Velocity | Role::Force | Role::External
+            );
             if core && cells as f64 > MAX_MISSING_SHARE * rows as f64 {
                 if let Some(beyond) = self.beyond.iter().find(|b| b.role == *role)
                     && 2 * beyond.cells > cells

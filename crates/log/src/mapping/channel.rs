@@ -74,11 +74,13 @@ pub enum Role {
     Temperature,
     /// Normal load, in whatever unit.
     Load,
+    /// Force or torque that acts on the axis from outside.
+    External,
 }
 
 impl Role {
     /// Every role, in the order of a log.
-    pub const ALL: [Role; 8] = [
+    pub const ALL: [Role; 9] = [
         Role::Time,
         Role::Position,
         Role::Velocity,
@@ -87,6 +89,7 @@ impl Role {
         Role::Reference,
         Role::Temperature,
         Role::Load,
+        Role::External,
     ];
 
     /// The role's name, as its key in the axis file.
@@ -100,6 +103,7 @@ impl Role {
             Role::Reference => "reference",
             Role::Temperature => "temperature",
             Role::Load => "load",
+            Role::External => "external",
         }
     }
 

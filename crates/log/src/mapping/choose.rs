@@ -274,7 +274,7 @@ impl<'a> Scan<'a> {
 
     /// The one column without a telling name that is in a unit of this role.
     fn pick_by_unit(&self, role: Role) -> Result<Option<usize>, Error> {
-        if matches!(role, Role::Reference | Role::Load) {
+        if matches!(role, Role::Reference | Role::Load | Role::External) {
             return Ok(None);
         }
         let telling = |unit: &Unit| {
@@ -483,7 +483,7 @@ fn allows(role: Role, dimension: Dimension) -> bool {
         Role::Velocity => [Dimension::LENGTH, Dimension::ANGLE, Dimension::COUNTS]
             .into_iter()
             .any(per_second),
-        Role::Force => is_force(dimension),
+        Role::Force | Role::External => is_force(dimension),
         Role::Temperature => dimension == Dimension::TEMPERATURE,
         Role::Load => true,
     }

@@ -187,6 +187,8 @@ fn assume_units(
         .iter()
         .find(|p| p.role == Role::Position)
         .and_then(|p| p.unit.clone());
+    let force = parts.iter().find(|p| p.role == Role::Force);
+    let force = force.and_then(|p| p.unit.clone());
     let mut told = Vec::new();
     for part in parts.iter_mut().filter(|p| p.unit.is_none()) {
         let name = &table.columns[part.column].name;
@@ -202,6 +204,7 @@ fn assume_units(
                 .unwrap_or_else(|| Unit::si(kind.position())),
             Role::Temperature => Unit::parse("degC")?,
             Role::Load => Unit::si(Dimension::ONE),
+            Role::External => force.clone().unwrap_or_else(|| Unit::si(kind.force())),
         };
         told.push(format!("{} {unit}", part.role));
         part.unit = Some(unit);

@@ -125,7 +125,7 @@ impl Source {
             Role::Position | Role::Reference => self.dimension == motion.position(),
             Role::Velocity => self.dimension == motion.velocity(),
             Role::Acceleration => self.dimension == motion.acceleration(),
-            Role::Force => is_force(self.dimension),
+            Role::Force | Role::External => is_force(self.dimension),
             Role::Temperature => self.dimension == Dimension::TEMPERATURE,
             Role::Load => true,
         };
@@ -136,7 +136,7 @@ impl Source {
             Role::Position | Role::Reference => motion.position(),
             Role::Velocity => motion.velocity(),
             Role::Acceleration => motion.acceleration(),
-            Role::Force => motion.force(),
+            Role::Force | Role::External => motion.force(),
             Role::Temperature => Dimension::TEMPERATURE,
             Role::Time | Role::Load => Dimension::TIME,
         };
@@ -164,7 +164,7 @@ impl Source {
             _ => "it has to be".to_string(),
         };
         let also = match (role, motion) {
-            (Role::Force, _) => ", A, V or %",
+            (Role::Force | Role::External, _) => ", A, V or %",
             (Role::Acceleration, Motion::Linear) => ", or g and mg of standard gravity",
             _ => "",
         };

@@ -80,6 +80,14 @@ pub(super) fn lines(outcome: &Outcome, side: &str) -> Vec<Math> {
                 level.extend(signed(p.value / coulomb));
                 level.push(distance("T", *about));
             }
+            Dependence::CoulombTransmitted(of) => {
+                level.extend(signed(p.value / coulomb));
+                level.push(distance("|τ|", of.reference));
+            }
+            Dependence::CoulombDriven(_) => {
+                level.extend(signed(p.value / coulomb));
+                level.push(sub(id("|τ|"), id("driven")));
+            }
             Dependence::CoulombPosition(about) => {
                 level.extend(signed(p.value / coulomb));
                 level.push(distance("x", *about));

@@ -27,10 +27,13 @@ fn all() -> Vec<Quantity> {
         Quantity::CoulombLoad,
         Quantity::CoulombTemperature,
         Quantity::CoulombPosition,
+        Quantity::CoulombTransmitted,
+        Quantity::CoulombDriven,
         Quantity::Sigma2Temperature,
         Quantity::LoadReference,
         Quantity::TemperatureReference,
         Quantity::PositionReference,
+        Quantity::TransmittedReference,
     ];
     for wave in [Wave::Sine, Wave::Cosine] {
         out.extend([

@@ -46,6 +46,7 @@ fn depends() -> Depends {
             load: channel(100.0, [0.0, 200.0]),
             temperature: channel(300.0, [290.0, 320.0]),
             position: channel(0.5, [0.0, 1.0]),
+            ..Channels::default()
         },
         surroundings: Surroundings {
             load: 150.0,

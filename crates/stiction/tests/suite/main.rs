@@ -9,6 +9,7 @@ mod compare;
 mod compare_logs;
 mod contours;
 mod export;
+mod geared;
 mod library;
 mod measure;
 mod model;

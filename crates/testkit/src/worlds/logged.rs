@@ -1,8 +1,8 @@
 //! The axis under its controller, and what is logged of it.
 
 use super::fine::Fine;
-use super::random::Random;
 use super::{Machine, Motion, World};
+use crate::random::Random;
 use std::f64::consts::TAU;
 
 /// Part of the fine instants of a sample that jitter moves it by, at most.

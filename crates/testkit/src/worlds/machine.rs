@@ -1,6 +1,6 @@
 //! Axes with parameters of their own for every seed.
 
-use super::random::Random;
+use crate::random::Random;
 
 /// Part of its value by which a parameter is at most above or below that of its kind of axis, as a logarithm.
 const SPREAD: f64 = 0.2;

@@ -2,8 +2,8 @@
 
 use super::fine::Fine;
 use super::logged::Hidden;
-use super::random::Random;
 use super::{Machine, Motion, World};
+use crate::random::Random;
 
 /// An axis at rest at the origin of its motion, as warm as the log has left it.
 pub struct Running {

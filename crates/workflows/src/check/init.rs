@@ -197,6 +197,7 @@ fn names(role: Role) -> &'static [&'static str] {
         Role::Reference => &["reference"],
         Role::Temperature => &["temperature"],
         Role::Load => &["load"],
+        Role::External => &["external"],
     }
 }
 

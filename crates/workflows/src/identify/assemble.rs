@@ -120,7 +120,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         break_away: Vec::new(),
         elements: elements(estimate),
         top_speed: top_speed(estimate),
-        range: seen::range(sources, &estimate.series),
+        range: seen::range(sources, &estimate.series, &estimate.terms),
         pitch: seen::pitch(&estimate.terms),
         search: Search {
             status: estimate.status.name().into(),
@@ -260,6 +260,7 @@ fn term_names(estimate: &FittedLaw, motion: Motion) -> Vec<String> {
                 | Quantity::LoadReference
                 | Quantity::TemperatureReference
                 | Quantity::PositionReference
+                | Quantity::TransmittedReference
         )
     };
     estimate

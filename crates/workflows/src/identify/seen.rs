@@ -9,7 +9,7 @@ use stiction_log::Log;
 const GOES_ON: f64 = 1.5;
 
 /// What the samples that were fitted have seen.
-pub(super) fn range(sources: &[Source], series: &Series) -> RangeEntry {
+pub(super) fn range(sources: &[Source], series: &Series, terms: &Terms) -> RangeEntry {
     let of = |column: fn(&Log) -> Option<&Vec<f64>>| {
         let logs = sources.iter().map(|source| &source.log);
         let values = logs.flat_map(|log| column(log).into_iter().flat_map(|x| fitted(log, x)));
@@ -22,8 +22,27 @@ pub(super) fn range(sources: &[Source], series: &Series) -> RangeEntry {
         position: of(|log| log.position.as_ref()),
         load: of(|log| log.load.as_ref()),
         temperature: of(|log| log.temperature.as_ref()),
+        transmitted: transmitted(sources, terms),
         acceleration: acceleration(series),
     }
+}
+
+/// The size of what is transmitted, where friction depends on it.
+fn transmitted(sources: &[Source], terms: &Terms) -> Option<[f64; 2]> {
+    let of = terms.transmitted()?;
+    let along = |log: &Log| {
+        let [position, external] = [&log.position, &log.external].map(|x| x.as_deref());
+        of.of(position.unwrap_or_default(), external.unwrap_or_default())
+    };
+    let mut range: Option<[f64; 2]> = None;
+    for source in sources {
+        let along = along(&source.log);
+        for tau in fitted(&source.log, &along).map(f64::abs) {
+            let [low, high] = range.unwrap_or([tau, tau]);
+            range = Some([low.min(tau), high.max(tau)]);
+        }
+    }
+    range
 }
 
 /// A column where nothing excludes it.

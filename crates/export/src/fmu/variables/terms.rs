@@ -22,6 +22,11 @@ pub(super) fn insert(list: &mut Vec<Variable>, terms: &Terms<f64>) {
                 "normal load, in the unit of the model; not finite: as it came in last",
             ),
             Extra::Temperature => (Unit::Temperature, "not finite: as it came in last"),
+            Extra::Transmitted => (
+                Unit::Force,
+                "what the load asks of the motor beside friction and inertia, positive where the motor has to push towards \
+                 positive positions; not finite: as it came in last",
+            ),
         };
         let start = (reference, unit);
         add(

@@ -46,7 +46,7 @@ pub fn gcc(flags: &str, rest: &[&str], dir: &Path) {
 }
 
 /// What a compiled program gives that reads `h, velocity, error, enable, drive force, learn, acceleration, position, load,
-/// temperature` as doubles and writes force and what is [`kept`].
+/// temperature, transmitted` as doubles and writes force and what is [`kept`].
 pub fn drive(dir: &Path, program: &str, samples: &[Sample]) -> Vec<[f64; 2]> {
     let bytes: Vec<u8> = samples
         .iter()
@@ -62,6 +62,7 @@ pub fn drive(dir: &Path, program: &str, samples: &[Sample]) -> Vec<[f64; 2]> {
                 input.position,
                 input.load,
                 input.temperature,
+                input.transmitted,
             ]
         })
         .flat_map(f64::to_le_bytes)
@@ -149,6 +150,7 @@ pub fn through_rust<T: Real>(
                 position: to(input.position),
                 load: to(input.load),
                 temperature: to(input.temperature),
+                transmitted: to(input.transmitted),
             };
             compensator.step_in(to(*h), input).to_f64()
         })
@@ -368,11 +370,14 @@ pub fn single(terms: &Terms<f64>) -> Terms<f32> {
             load: channel(terms.channels.load),
             temperature: channel(terms.channels.temperature),
             position: channel(terms.channels.position),
+            transmitted: channel(terms.channels.transmitted),
         },
         levels: terms.levels.map(|l| Levels {
             load: both(l.load),
             temperature: both(l.temperature),
             position: both(l.position),
+            transmitted: both(l.transmitted),
+            driven: both(l.driven),
             waves: l.waves.map(|waves| waves.map(wave)),
             viscous: both(l.viscous),
         }),

@@ -1,4 +1,4 @@
-//! Models whose friction depends on load, temperature and place, with forces beside it, and what comes in for them.
+//! Models whose friction depends on load, temperature, place and what is transmitted, with forces beside it, and what comes in for them.
 
 use super::compiled::Sample;
 use super::{adapting, laws, model};
@@ -37,11 +37,14 @@ pub fn depends() -> Terms<f64> {
             load: channel(120.0, 40.0, 200.0),
             temperature: channel(301.5, 290.0, 318.0),
             position: channel(0.05, -0.1, 0.2),
+            transmitted: channel(6.0, 0.5, 15.0),
         },
         levels: Some(Levels {
             load: [2e-3, 1e-3],
             temperature: [-0.02, -0.025],
             position: [0.7, -0.4],
+            transmitted: [0.03, 0.02],
+            driven: [-0.012, 0.008],
             waves: [
                 waves(&[wave(0.02, true, 0.08, 0.03), wave(0.9, false, -0.05, 0.02)]),
                 waves(&[wave(0.02, true, 0.02, -0.06), wave(0.9, false, 0.04, 0.01)]),
@@ -126,13 +129,25 @@ pub fn extras(model: &Model) -> Vec<(&'static str, usize)> {
         ("position", 7, place),
         ("load", 8, conditions),
         ("temperature", 9, conditions),
+        ("transmitted", 10, conditions),
     ]
     .into_iter()
     .filter_map(|(name, at, there)| there.then_some((name, at)))
     .collect()
 }
 
-/// Puts load, temperature, place and acceleration into samples: within their ranges and beyond, huge, and none.
+/// What is transmitted where no sensor or model has a number for it, or one that is none.
+const HOSTILE: [f64; 7] = [
+    f64::NAN,
+    f64::NEG_INFINITY,
+    -1e300,
+    1e20,
+    -0.0,
+    5e-324,
+    -5e-324,
+];
+
+/// Puts load, temperature, place, acceleration and what is transmitted into samples: within their ranges and beyond, huge, and none.
 pub fn surround(samples: &mut [Sample], random: &mut impl Rng) {
     let [mut x, mut load, mut temperature] = [0.0_f64, 120.0, 300.0];
     for (k, (_, input)) in samples.iter_mut().enumerate() {
@@ -144,6 +159,10 @@ pub fn surround(samples: &mut [Sample], random: &mut impl Rng) {
         input.position = x;
         input.load = load;
         input.temperature = temperature;
+        input.transmitted = match k % 23 {
+            0 => HOSTILE[k / 23 % HOSTILE.len()],
+            _ => 20.0 * (7e-3 * k as f64).sin() + 2.0 * (0.9 * k as f64).sin(),
+        };
         input.reference_acceleration = random.random_range(-3.0..3.0);
         if k % 17 == 0 {
             let hostile = [

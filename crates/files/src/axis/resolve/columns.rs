@@ -17,6 +17,7 @@ pub(super) fn columns(root: &Table<'_>, mapping: &mut Mapping) -> Result<(), Err
     mapping.reference = channel("reference")?;
     mapping.temperature = channel("temperature")?;
     mapping.load = channel("load")?;
+    mapping.external = channel("external")?;
     // One column under any of three names.
     let mut taken: Option<Given<'_>> = None;
     for key in ["force", "torque", "current"] {

@@ -4,7 +4,7 @@ use super::resolver::{LENGTHS, Resolver};
 use crate::axis::values::Axis;
 use crate::config::{Given, Table};
 use crate::error::Error;
-use stiction_identify::{Delay, Dependence, GMS_FEWEST, GMS_MOST, Mass};
+use stiction_identify::{Delay, Dependence, GMS_FEWEST, GMS_MOST, Mass, Transmitted};
 use stiction_log::Dimension;
 use stiction_log::mapping::WRAPS;
 use stiction_parameters::Quantity;
@@ -63,6 +63,14 @@ impl Resolver {
             ("coulomb_load", Dependence::CoulombLoad(0.0)),
             ("coulomb_temperature", Dependence::CoulombTemperature(0.0)),
             ("coulomb_position", Dependence::CoulombPosition(0.0)),
+            (
+                "coulomb_transmitted",
+                Dependence::CoulombTransmitted(Transmitted::default()),
+            ),
+            (
+                "coulomb_driven",
+                Dependence::CoulombDriven(Transmitted::default()),
+            ),
             ("sigma2_temperature", Dependence::ViscousTemperature(0.0)),
             ("coulomb_log", Dependence::CoulombLog(0)),
             ("sigma2_log", Dependence::ViscousLog(0)),

@@ -1,6 +1,8 @@
 //! Identifies a measured recording as its case says and measures what must hold.
 
-use std::path::Path;
+mod xl330;
+
+use std::path::{Path, PathBuf};
 use stiction::commands::{Files, Outcome, identify};
 use stiction::result::{LawEntry, ResultFile};
 use stiction::{LawKind, Method, Options, Silent};
@@ -21,14 +23,15 @@ impl Measured {
 
 /// Identifies the recordings of a case below `data`.
 pub fn run(case: &Case, data: &Path) -> Outcome {
-    with_law(case, data, case.law)
+    with(case, data, case.axis, case.law)
 }
 
-fn with_law(case: &Case, data: &Path, law: &str) -> Outcome {
+fn with(case: &Case, data: &Path, axis: &str, law: &str) -> Outcome {
+    let made = tempfile::tempdir().expect("a temporary folder");
     let files = Files {
-        logs: case.logs.iter().map(|log| data.join(log)).collect(),
-        axis: Some(workspace().join("validation").join(case.axis)),
-        validate: case.validate.iter().map(|log| data.join(log)).collect(),
+        logs: readable(case.logs, data, made.path()),
+        axis: Some(workspace().join("validation").join(axis)),
+        validate: readable(case.validate, data, made.path()),
     };
     let mut options = Options::default();
     options.law = Some(LawKind::from_name(law).expect("a law of the cases exists"));
@@ -38,6 +41,19 @@ fn with_law(case: &Case, data: &Path, law: &str) -> Outcome {
     options.procedures.method =
         Method::from_name(case.method).expect("a method of the cases exists");
     identify(&files, &options, &mut Silent).unwrap_or_else(|e| panic!("{}: {e}", case.name))
+}
+
+/// Logs as stiction reads them: what is in a form of its own is written as a table to `made`.
+fn readable(logs: &[&str], data: &Path, made: &Path) -> Vec<PathBuf> {
+    let one = |log: &&str| match log.strip_prefix("xl330/") {
+        None => data.join(log),
+        Some(name) => {
+            let path = made.join(name).with_extension("csv");
+            std::fs::write(&path, xl330::table(&data.join(log))).expect("a table");
+            path
+        }
+    };
+    logs.iter().map(one).collect()
 }
 
 /// Identifies a recording with no option.
@@ -92,6 +108,17 @@ pub fn measure(case: &Case, limit: &Limit, outcome: &Outcome, data: &Path) -> Me
             format!("residual on unseen data ({unit} rms)"),
             held_out.expect("validation").fit.rmse,
         ),
+        Metric::HeldOutOver(axis) => {
+            let other = with(case, data, axis, case.law);
+            let unseen = |o: &Outcome| o.result.validation.last().expect("validation").fit.rmse;
+            (
+                format!(
+                    "residual on unseen data over that with `{axis}` ({:.4} {unit} rms)",
+                    unseen(&other)
+                ),
+                unseen(outcome) / unseen(&other),
+            )
+        }
         Metric::PositionPercent => {
             let simulation = result.simulation.as_ref().expect("a simulation");
             let position = &simulation.position;
@@ -116,12 +143,12 @@ pub fn measure(case: &Case, limit: &Limit, outcome: &Outcome, data: &Path) -> Me
             result.validation.iter().fold(0.0, |m, v| v.fit.rmse.max(m)),
         ),
         Metric::LowSpeedOver(law) => {
-            let other = with_law(case, data, law);
+            let other = with(case, data, case.axis, law);
             let slow = |o: &Outcome| o.result.low_speed.as_ref().expect("slow samples").fit.rmse;
             (low_speed_words(result, law), slow(outcome) / slow(&other))
         }
         Metric::HeldOutLowSpeedOver(law) => {
-            let other = with_law(case, data, law);
+            let other = with(case, data, case.axis, law);
             let slow = |o: &Outcome| {
                 let last = o.result.validation.last().expect("validation");
                 last.low_speed.as_ref().expect("slow samples").fit.rmse

@@ -382,6 +382,8 @@ impl TwoSteps {
                         | Quantity::CoulombTemperature
                         | Quantity::CoulombPosition
                         | Quantity::CoulombPitch(..)
+                        | Quantity::CoulombTransmitted
+                        | Quantity::CoulombDriven
                         | Quantity::Sigma2Temperature
                 )
         };

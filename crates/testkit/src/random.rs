@@ -1,7 +1,7 @@
 //! Random numbers, the same on every machine.
 
 /// A stream from SplitMix64 (Steele, Lea, Flood 2014, doi 10.1145/2660193.2660195).
-pub(super) struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
     pub fn new(seed: u64) -> Self {
