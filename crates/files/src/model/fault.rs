@@ -1,40 +1,20 @@
 //! Checks a model file that parsed: whether its numbers, units and names fit its law.
 
+mod directions;
+mod elements;
+mod range;
+mod units;
+
 use super::covariance;
 use super::form::{ModelFile, ModelParameter};
 use super::refusal::Fault;
-use crate::symbols;
 use stiction_log::{Motion, Unit};
 use stiction_parameters::{LawKind, Name, Quantity, Side};
+pub(super) use units::same_unit;
 
 /// Largest magnitude of a number of a model, in its SI unit, and the inverse of the smallest above 0. No machine comes near;
 /// products of three of them stay finite (below 1e308).
 const LARGEST_NUMBER: f64 = 1e100;
-/// What an asymmetric model has for each direction.
-const SIDED: [Quantity; 4] = [
-    Quantity::Coulomb,
-    Quantity::Static,
-    Quantity::StribeckVelocity,
-    Quantity::Sigma2,
-];
-
-/// Whether unit and value of a parameter are checked: those of the law, and those that any axis has. Of the terms
-/// beside the law only the name is checked.
-fn is_checked(quantity: Quantity) -> bool {
-    quantity.is_of_the_steady_curve()
-        || matches!(
-            quantity,
-            Quantity::Sigma0
-                | Quantity::Sigma1
-                | Quantity::StribeckExponent
-                | Quantity::Mass
-                | Quantity::Offset
-                | Quantity::Delay
-                | Quantity::ElementStiffness(_)
-                | Quantity::ElementYield(_)
-        )
-}
-
 /// What is wrong with a name: what was found, what is allowed.
 fn stranger(name: &str) -> Option<(String, String)> {
     let Some(known) = parameter_of(name) else {
@@ -60,57 +40,9 @@ fn parameter_of(name: &str) -> Option<Name> {
     (!matches!(known.quantity, Quantity::ElementForce(_))).then_some(known)
 }
 
-/// Whether two texts are one unit, however written.
-pub(super) fn same_unit(found: &str, wanted: &str) -> bool {
-    let parsed = |text| Unit::parse(text).map(|unit| (unit.dimension(), unit.factor()));
-    found == wanted || matches!((parsed(found), parsed(wanted)), (Ok(a), Ok(b)) if a == b)
-}
-
-/// What is wrong with the directions: place, what was found, what is allowed.
-fn directions(model: &ModelFile) -> Option<Fault> {
-    let has = |name: &str| model.parameter.iter().any(|p| p.name == name);
-    let mut sided = None;
-    for quantity in SIDED {
-        let stem = quantity.stem();
-        let names = [
-            stem.to_string(),
-            format!("{stem}_pos"),
-            format!("{stem}_neg"),
-        ];
-        match names.each_ref().map(|name| has(name)) {
-            [_, false, false] => {}
-            [false, true, true] => sided = Some(names[1].clone()),
-            _ => {
-                let present: Vec<_> = names
-                    .iter()
-                    .map(String::as_str)
-                    .filter(|n| has(n))
-                    .collect();
-                let allowed = format!("{stem}, or {stem}_pos and {stem}_neg");
-                return Some(("parameter".into(), present.join(" and "), allowed));
-            }
-        }
-    }
-    match (model.asymmetric, sided) {
-        (false, Some(name)) => Some((
-            "asymmetric".into(),
-            format!("false beside {name}"),
-            "true".into(),
-        )),
-        (true, None) if SIDED.into_iter().any(|q| has(&q.stem())) => {
-            let found = "true, and no parameter has a direction".into();
-            Some((
-                "asymmetric".into(),
-                found,
-                "coulomb_pos and coulomb_neg and so on, or false".into(),
-            ))
-        }
-        _ => None,
-    }
-}
-
-/// Everything that is wrong with a model, in its order.
-pub(super) fn faults(model: &ModelFile) -> Vec<Fault> {
+/// Everything that is wrong with a model, in its order. What its parameters have to be together is looked at where all of
+/// them could be read (`whole`).
+pub(super) fn faults(model: &ModelFile, whole: bool) -> Vec<Fault> {
     let mut all = Vec::new();
     let law = LawKind::from_name(&model.law);
     if law.is_none() {
@@ -134,6 +66,7 @@ pub(super) fn faults(model: &ModelFile) -> Vec<Fault> {
     let motion = motion.filter(|_| unit.is_none());
     all.extend(unit);
     all.extend(top_speed(model));
+    all.extend(range::cold(model));
     let before = all.len();
     for i in 0..model.parameter.len() {
         let own = parameter(model, law, motion, i);
@@ -141,7 +74,11 @@ pub(super) fn faults(model: &ModelFile) -> Vec<Fault> {
         all.extend(contradiction(model, i).filter(|_| own.is_empty()));
         all.extend(own);
     }
-    all.extend(directions(model));
+    if whole {
+        all.extend(directions::faults(model));
+        all.extend(law.into_iter().flat_map(|law| elements::faults(model, law)));
+        all.extend(range::references(model));
+    }
     if all.len() == before {
         all.extend(covariance::fault(model));
     }
@@ -205,16 +142,13 @@ fn parameter(
     let Some(quantity) = parameter_of(name).map(|name| name.quantity) else {
         return all;
     };
-    if !is_checked(quantity) {
-        return all;
-    }
     if let Some(motion) = motion {
-        let unit = symbols::unit(quantity.dimension(), motion, &model.force_unit, "");
-        if !same_unit(&p.unit, &unit) {
-            let short: String = p.unit.chars().take(60).collect();
-            let found = format!("{name} in {short:?}");
-            all.push((key("unit"), found, format!("{unit:?}, with its value")));
-        }
+        all.extend(units::fault(model, motion, quantity, i));
+    }
+    if model.kind == "linear" && matches!(quantity, Quantity::Gravity(_)) {
+        let found = format!("{name} on a linear axis");
+        let allowed = "none: the weight of a linear axis is its offset".into();
+        all.push((key("name"), found, allowed));
     }
     if let Some(law) = law.filter(|law| !law.has(quantity)) {
         let found = format!("{name} in a model of {law}");

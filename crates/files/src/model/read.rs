@@ -86,12 +86,11 @@ impl ReadModel {
         places: Places,
         mut faults: Faults,
     ) -> Result<Self, Error> {
-        for (key, found, allowed) in fault::faults(&model) {
+        let of_a_parameter = |key: &String| key.starts_with("parameter");
+        let whole = !faults.unread.iter().any(of_a_parameter);
+        for (key, found, allowed) in fault::faults(&model, whole) {
             // What could not be read has no value that could be wrong.
-            let unread = |unread: &String| {
-                let together = ["parameter", "asymmetric"].contains(&key.as_str());
-                key.starts_with(unread) || together && unread.starts_with("parameter")
-            };
+            let unread = |unread: &String| key.starts_with(unread);
             if !faults.unread.iter().any(unread) {
                 faults.errors.push(places.refuse(&key, found, &allowed));
             }

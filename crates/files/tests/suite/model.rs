@@ -326,3 +326,110 @@ fn what_a_law_leaves_has_limits() {
         assert!(message.contains(place), "{message}");
     }
 }
+
+/// A model of two Maxwell-slip elements by hand: 4 N at 4 um and 4 N at 10 um.
+const ELEMENTS: &str = r#"law = "maxwell-slip"
+parameter = [
+    { name = "sigma2", value = 30, unit = "N*s/m" },
+    { name = "coulomb", value = 8, unit = "N" },
+    { name = "sigma0", value = 1.4e6, unit = "N/m" },
+    { name = "stiffness_1", value = 1e6, unit = "N/m" },
+    { name = "yield_1", value = 4e-6, unit = "m" },
+    { name = "stiffness_2", value = 4e5, unit = "N/m" },
+    { name = "yield_2", value = 1e-5, unit = "m" },
+]
+"#;
+
+/// Terms beside a law, with the ranges that a log has seen.
+const TERMS: &str = r#"law = "coulomb-viscous"
+parameter = [
+    { name = "coulomb_pos", value = 8, unit = "N" },
+    { name = "coulomb_neg", value = 9, unit = "N" },
+    { name = "sigma2", value = 30, unit = "N*s/m" },
+    { name = "coulomb_load_pos", value = 0.01, unit = "N/kg" },
+    { name = "coulomb_load_neg", value = 0.01, unit = "N/kg" },
+    { name = "load_reference", value = 30, unit = "kg" },
+    { name = "coulomb_temperature_pos", value = -0.12, unit = "N/K" },
+    { name = "coulomb_temperature_neg", value = -0.12, unit = "N/K" },
+    { name = "temperature_reference", value = 305, unit = "K" },
+    { name = "cogging1_sin", value = 5, unit = "N" },
+    { name = "cogging1_cos", value = 0, unit = "N" },
+    { name = "position_reference", value = 0.2, unit = "m" },
+]
+
+[range]
+load = [10, 50]
+temperature = [290, 320]
+position = [0, 0.4]
+"#;
+
+/// What a model has beside its law is held to its units, directions, elements and ranges as the law is.
+#[test]
+fn terms_and_elements_are_refused_where_they_are_wrong() {
+    for good in [ELEMENTS, TERMS] {
+        ModelFile::parse(good).unwrap();
+    }
+    // As four digits have them.
+    ModelFile::parse(&ELEMENTS.replace("value = 1.4e6", "value = 1.401e6")).unwrap();
+    // Identified at 77 K.
+    let cold = "[source]\nversion = \"0\"\nmethod = \"separable\"\nseed = 0\ninputs = []\n[range]";
+    let cold = TERMS
+        .replace("[range]", cold)
+        .replace("[290, 320]", "[70, 320]");
+    ModelFile::parse(&cold).unwrap();
+    let gravity = "    { name = \"gravity_sin\", value = 5, unit = \"N\" },\n]";
+    let eleventh = "    { name = \"stiffness_11\", value = 1, unit = \"N/m\" },\n]";
+    let load = "    { name = \"load_reference\", value = 30, unit = \"kg\" },\n";
+    let backwards = "    { name = \"coulomb_load_neg\", value = 0.01, unit = \"N/kg\" },\n";
+    let mut said = String::new();
+    for (good, from, to) in [
+        (
+            TERMS,
+            "-0.12, unit = \"N/K\" },\n    { name = \"coulomb_temperature_neg",
+            "-120, unit = \"mN/K\" },\n    { name = \"coulomb_temperature_neg",
+        ),
+        (
+            TERMS,
+            "0.01, unit = \"N/kg\" },\n    { name = \"coulomb_load_neg",
+            "0.01, unit = \"1\" },\n    { name = \"coulomb_load_neg",
+        ),
+        (TERMS, "unit = \"kg\"", "unit = \"banana\""),
+        (TERMS, "5, unit = \"N\"", "5000, unit = \"mN\""),
+        (TERMS, "305, unit = \"K\"", "32, unit = \"degC\""),
+        (TERMS, "]\n\n[range]", &format!("{gravity}\n\n[range]")),
+        (TERMS, load, ""),
+        (TERMS, "[290, 320]", "[15, 45]"),
+        (TERMS, "value = 0.2", "value = 0.9"),
+        (TERMS, backwards, ""),
+        (
+            TERMS,
+            "coulomb_pos\", value = 8, unit = \"N\" },\n    { name = \"coulomb_neg\", value = 9",
+            "coulomb\", value = 8",
+        ),
+        (
+            ELEMENTS,
+            "    { name = \"stiffness_1\", value = 1e6, unit = \"N/m\" },\n",
+            "",
+        ),
+        (
+            ELEMENTS,
+            "    { name = \"yield_2\", value = 1e-5, unit = \"m\" },\n",
+            "",
+        ),
+        (
+            ELEMENTS,
+            "_2\", value = 4e5, unit = \"N/m\" },\n    { name = \"yield_2",
+            "_3\", value = 4e5, unit = \"N/m\" },\n    { name = \"yield_3",
+        ),
+        (ELEMENTS, "]\n", &format!("{eleventh}\n")),
+        (ELEMENTS, "value = 8,", "value = 20,"),
+        (ELEMENTS, "value = 1.4e6", "value = 20"),
+        (ELEMENTS, "value = 4e-6", "value = 0"),
+        (ELEMENTS, "value = 4e-6", "value = 1e-5"),
+        (ELEMENTS, "value = 4e5", "value = \"4e5\""),
+    ] {
+        assert_eq!(good.matches(from).count(), 1, "{from}");
+        let _ = writeln!(said, "{}\n", refusal(&good.replace(from, to)));
+    }
+    insta::assert_snapshot!(said);
+}

@@ -266,16 +266,15 @@ fn what_is_refused_of_an_edited_model() {
         parameter.unwrap().name = to.into();
         refused(to, &model);
     }
-    // Names of terms beside the law, some for each direction.
+    // Terms beside the law, in their units.
     let mut model = good.clone();
-    for name in [
-        "gravity_sin",
-        "cogging2_cos",
-        "quadratic_viscous_neg",
-        "coulomb_pitch1_sin_pos",
+    for (name, unit) in [
+        ("cogging2_cos", "N"),
+        ("quadratic_viscous", "N*s^2/m^2"),
+        ("coulomb_pitch1_sin", "N"),
     ] {
         let mut parameter = good.parameter[0].clone();
-        parameter.name = name.into();
+        (parameter.name, parameter.unit) = (name.into(), unit.into());
         model.parameter.push(parameter);
     }
     assert_eq!(read(&model).unwrap(), model);
