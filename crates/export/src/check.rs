@@ -1,7 +1,9 @@
 //! Advice before the code runs.
 
 use crate::number::short;
-use crate::{Error, Model, Target, check_identifier, drive_table, hal, joint, mujoco, tf5200};
+use crate::{
+    Error, Model, Target, check_identifier, drive_table, hal, joint, mujoco, terms, tf5200,
+};
 use stiction_codes::Code;
 use stiction_friction::{Damping, LuGre};
 
@@ -62,6 +64,7 @@ pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
             }
             found.extend(rated(model));
         }
+        _ if terms::has(&model.terms) => found.extend(limited_sum(model)),
         _ => found.extend(limited(model, model.settings.gain, &|v| model.larger(v))),
     }
     let short = hal::component(model);
@@ -127,6 +130,47 @@ fn limited(model: &Model, gain: f64, force: &dyn Fn(f64) -> f64) -> Option<Advic
     Some(Advice {
         code: Code::ExportLimit,
         message,
+    })
+}
+
+/// The same of friction that changes with more than velocity, with weight and cogging beside it: the limit is that of the sum.
+fn limited_sum(model: &Model) -> Option<Advice> {
+    let gain = model.settings.gain;
+    let (unit, speed_unit) = (model.force_unit(), model.speed_unit());
+    let whole = model.saturates_from(&|v| model.largest(1.0, v))?;
+    if model.top_speed.is_some_and(|top| whole > top) {
+        return None;
+    }
+    let reached = |from: f64, gain: f64| match from {
+        0.0 => format!(
+            "at standstill with a gain of {gain} ({} {unit})",
+            short(model.largest(gain, 0.0))
+        ),
+        v => format!("at {} {speed_unit} with a gain of {gain}", short(v)),
+    };
+    let by_gain = model.saturates_from(&|v| model.largest(gain, v));
+    let by_gain = by_gain.filter(|_| gain < 1.0);
+    let by_gain = by_gain.map_or(String::new(), |v| format!(", {}", reached(v, gain)));
+    let until = match model.top_speed {
+        Some(top) if whole > 0.0 => format!(
+            ", and the log goes to {} {speed_unit}: give a higher limit, or stay below that speed",
+            short(top)
+        ),
+        None if whole > 0.0 => ": if the axis moves faster, give a higher limit".into(),
+        _ => ": the rest stays uncompensated; give a higher limit".into(),
+    };
+    let mass = match model.terms.mass > 0.0 {
+        true => ". What the mass needs comes on top",
+        false => "",
+    };
+    let what = model.what_is_largest();
+    Some(Advice {
+        code: Code::ExportLimit,
+        message: format!(
+            "the force is limited to {} {unit}, which {what}, where most of it adds up, goes beyond {}{by_gain}{until}{mass}",
+            short(model.settings.limit),
+            reached(whole, 1.0),
+        ),
     })
 }
 

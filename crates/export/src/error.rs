@@ -19,7 +19,7 @@ pub enum Error {
     #[error(
         "{name} = {}; allowed: from {} to {}{}",
         shortest(*value),
-        shortest(range.0),
+        shortest(if *value < 0.0 { -range.1 } else { range.0 }),
         shortest(range.1),
         written_as(*number_type)
     )]

@@ -44,6 +44,7 @@ mod hal;
 mod header;
 mod identifier;
 mod joint;
+mod largest;
 mod law;
 mod matlab;
 mod model;

@@ -155,11 +155,11 @@ pub(crate) fn numbers(terms: &Terms<f64>) -> Vec<(&'static str, f64)> {
         all.extend([channel.reference, low, high].map(|x| (name, x)));
     }
     for (name, slopes) in [
-        ("coulomb_load", levels.load),
-        ("coulomb_temperature", levels.temperature),
-        ("coulomb_position", levels.position),
-        ("coulomb_transmitted", levels.transmitted),
-        ("coulomb_driven", levels.driven),
+        ("coulomb_load / coulomb", levels.load),
+        ("coulomb_temperature / coulomb", levels.temperature),
+        ("coulomb_position / coulomb", levels.position),
+        ("coulomb_transmitted / coulomb", levels.transmitted),
+        ("coulomb_driven / coulomb", levels.driven),
         ("sigma2_temperature", levels.viscous),
     ] {
         all.extend(slopes.map(|x| (name, x)));

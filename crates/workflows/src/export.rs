@@ -104,6 +104,9 @@ pub struct Exported {
     pub trustworthy: bool,
 }
 
+/// Longest ramp and window, and longest time in which the slew limit lets friction at standstill through, s.
+const LONGEST: f64 = 3600.0;
+
 /// Parameters that need a feedforward of their own, beside that of friction.
 const BESIDE: [&str; 4] = ["mass", "delay", "gravity_", "cogging"];
 
@@ -209,14 +212,21 @@ fn check(options: &ExportOptions) -> Result<(), Error> {
             "it has none",
         ));
     }
-    if let Some(window) = safety
-        .window
-        .filter(|window| !(*window >= 0.0 && window.is_finite()))
-    {
-        return Err(Error::usage(
-            format!("a window of {window} s"),
-            "above 0, or 0 for no watchdog",
-        ));
+    let window = safety.window.filter(|window| *window != 0.0);
+    for (name, value, least, allowed) in [
+        (
+            "window",
+            window,
+            options.cycle_time,
+            "from the cycle time to 3600 s, or 0 for no watchdog",
+        ),
+        ("ramp", safety.ramp, 0.0, "from 0 to 3600 s"),
+    ] {
+        // A block that needs longer to learn, or to come in, never compensates.
+        if let Some(value) = value.filter(|value| !(*value >= least && *value <= LONGEST)) {
+            let found = format!("a {name} of {} s", stiction_number::shortest(value));
+            return Err(Error::usage(found, allowed));
+        }
     }
     if none && options.adapt {
         return Err(Error::usage(
@@ -323,6 +333,19 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
         None => of_law,
     };
     let settings = asked(of_all, options);
+    if let Some(slew) = options.safety.slew {
+        let least = friction.scale() / LONGEST;
+        if slew.is_nan() || slew < least {
+            let unit = file.force_unit.replace('*', " ");
+            return Err(Error::usage(
+                format!("a slew of {} {unit}/s", stiction_number::shortest(slew)),
+                format!(
+                    "at least {} {unit}/s, with which the force reaches friction at standstill within an hour",
+                    stiction_number::four_digits(least)
+                ),
+            ));
+        }
+    }
     if let (Some(zone), Some(top)) = (options.safety.dead_zone, file.source.top_speed)
         && zone >= top
     {
@@ -337,6 +360,9 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
                 stiction_number::four_digits(top)
             ),
         ));
+    }
+    if let Some(limit) = options.limit {
+        holds(limit, &terms, file)?;
     }
     let mut settings = settings;
     let mut warnings = doubts(file, beside.as_ref());
@@ -399,9 +425,42 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
     Ok((model, warnings))
 }
 
+/// Refuses a limit that the weight alone exceeds: an axis that is held by less falls.
+fn holds(limit: f64, terms: &Terms<f64>, file: &ModelFile) -> Result<(), Error> {
+    let Some(weight) = terms.weight else {
+        return Ok(());
+    };
+    let wave = libm::hypot(weight.wave.sine, weight.wave.cosine);
+    let most = weight.constant.abs() + wave;
+    if limit.is_nan() || limit >= most {
+        return Ok(());
+    }
+    let unit = file.force_unit.replace('*', " ");
+    let [limit, most] = [limit, most].map(stiction_number::four_digits);
+    Err(Error::usage(
+        format!("a limit of {limit} {unit} below the weight that is fed forward"),
+        format!(
+            "above {most} {unit}, which hold the axis, with room for friction; or --feedforward without gravity"
+        ),
+    ))
+}
+
 /// An error with its file and the place in it, if it is about something in that file.
 fn place(source: stiction_export::Error, read: &ReadModel, options: &ExportOptions) -> Error {
     use stiction_export::Error::{ForceUnit, Law, Number, Range};
+    // On the target a Dahl law is a LuGre law; in the file it is not.
+    let source = match source {
+        Law {
+            target,
+            law,
+            allowed,
+        } if read.model.law == "dahl" => Law {
+            target,
+            law: law.replacen("lugre", "dahl", 1),
+            allowed,
+        },
+        other => other,
+    };
     let place = match &source {
         Law { .. } => read.place("law"),
         ForceUnit { .. } => read.place("force_unit"),
@@ -423,7 +482,9 @@ fn place(source: stiction_export::Error, read: &ReadModel, options: &ExportOptio
             if asked || of_no_parameter.contains(name) {
                 return source.into();
             }
-            read.place_of_parameter(name)
+            // Of a level that changes the part of it: the parameter comes first.
+            let parameter = name.split(" / ").next().unwrap_or(name);
+            read.place_of_parameter(parameter)
         }
         _ => return source.into(),
     };

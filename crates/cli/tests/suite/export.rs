@@ -140,6 +140,62 @@ fn force_replaces_an_export() {
     assert_eq!(kept.unwrap(), "mine");
 }
 
+/// A limit that lets the axis fall, and settings with which a block never compensates, are refused as they were typed, whatever the
+/// target.
+#[test]
+fn settings_that_make_no_compensator_are_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    let model = std::fs::read_to_string(examples().join("model.toml")).unwrap();
+    let offset = "[[parameter]]\nname = \"offset\"\nvalue = -50\nunit = \"N\"\n";
+    let head = model.find("[[parameter]]").unwrap();
+    let hanging = format!("{}{offset}\n{}", &model[..head], &model[head..]);
+    std::fs::write(dir.path().join("hanging.toml"), hanging).unwrap();
+    for (typed, says) in [
+        (
+            "--feedforward friction,gravity --limit 40",
+            "a limit of 40.00 N below the weight that is fed forward; above 50.00 N",
+        ),
+        ("--slew 1e-300", "a slew of 1e-300 N/s; at least "),
+        (
+            "--window 1e-300",
+            "a window of 1e-300 s; from the cycle time",
+        ),
+        ("--ramp 1e300", "a ramp of 1e300 s; from 0 to 3600 s"),
+    ] {
+        for target in ["c", "st", "rust", "hal"] {
+            let output = Command::new(env!("CARGO_BIN_EXE_stiction"))
+                .args(["export", "hanging.toml", "--out", "out", "--target", target])
+                .args(typed.split(' '))
+                .current_dir(dir.path())
+                .output()
+                .unwrap();
+            let text = said(&output);
+            assert_eq!(output.status.code(), Some(2), "{text}");
+            assert!(text.contains(says), "{text}");
+        }
+    }
+}
+
+/// A law is refused by the name that it has in the file.
+#[test]
+fn a_law_that_a_target_has_not_is_named() {
+    let dir = tempfile::tempdir().unwrap();
+    let model = "law = \"dahl\"\nparameter = [\n\
+                 { name = \"sigma0\", value = 2e6, unit = \"N/m\" },\n\
+                 { name = \"sigma2\", value = 30, unit = \"N*s/m\" },\n\
+                 { name = \"coulomb_pos\", value = 12, unit = \"N\" },\n\
+                 { name = \"coulomb_neg\", value = 13, unit = \"N\" },\n]\n";
+    std::fs::write(dir.path().join("dahl.toml"), model).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_stiction"))
+        .args(["export", "dahl.toml", "--out", "out", "--target", "mujoco"])
+        .current_dir(dir.path())
+        .output()
+        .unwrap();
+    let text = said(&output);
+    assert_eq!(output.status.code(), Some(2), "{text}");
+    assert!(text.contains("the law dahl, asymmetric"), "{text}");
+}
+
 /// What the model has not is refused with the whole line that works, and that line works.
 #[test]
 fn what_is_not_fed_forward_is_refused_with_the_line_that_works() {

@@ -3,7 +3,7 @@
 use crate::common;
 use crate::common::{laws, model};
 use stiction_export::{Advice, Model, Target, advice, export};
-use stiction_friction::compensator::Friction;
+use stiction_friction::compensator::{Channel, Friction, Levels, Weight};
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 
 /// The friction of the bench stage.
@@ -237,6 +237,52 @@ fn advice_is_given_where_it_applies() {
             .map(|a| format!("{}: {}\n", a.code, a.message))
             .collect::<String>()
     );
+}
+
+/// With a weight beside friction, and friction that changes, the limit is that of all of it: 50 N + 12 N + 30 N s/m v.
+#[test]
+fn a_limit_is_held_against_the_sum() {
+    let mut model = small();
+    model.friction = model.friction.without_offset().unwrap();
+    model.terms.weight = Some(Weight {
+        constant: -50.0,
+        ..Weight::default()
+    });
+    model.terms.mass = 4.6;
+    let said = |model: &Model| match advice(model, Target::C).as_slice() {
+        [one] => one.message.clone(),
+        other => format!("{other:?}"),
+    };
+    model.settings.limit = 70.0;
+    let text = said(&model);
+    let at = "friction and weight, where most of it adds up, goes beyond at 0.2667 m/s with a gain of 1, at 0.4889 m/s with a \
+              gain of 0.75";
+    assert!(
+        text.contains(at) && text.contains("What the mass needs"),
+        "{text}"
+    );
+    // Half as much friction again at 290 K.
+    model.terms.channels.temperature = Channel {
+        reference: 300.0,
+        range: [290.0, 304.0],
+    };
+    model.terms.levels = Some(Levels {
+        temperature: [-0.05, -0.05],
+        ..Levels::default()
+    });
+    let text = said(&model);
+    assert!(
+        text.contains("at standstill with a gain of 1 (77 N)"),
+        "{text}"
+    );
+    model.settings.limit = 80.0;
+    assert!(
+        said(&model).contains("goes beyond at 0.4 m/s with a gain of 1"),
+        "{}",
+        said(&model)
+    );
+    model.top_speed = Some(0.39);
+    assert_eq!(said(&model), "[]");
 }
 
 /// A model whose force is a current says so wherever a force is named, and no target calls it N; one that takes forces
