@@ -14,7 +14,7 @@ use stiction::commands::number::full;
 use stiction::commands::reproduce::{Budget, OwnAxis, canudas_1995, zhang_2025, zhang_2025_on};
 use stiction::commands::shell::quoted;
 use stiction::commands::{
-    Bundle, CompareOptions, Cost, Excitation, FileError, Files, Input, Outcome, Scheme,
+    Bundle, CompareOptions, Cost, Excitation, FileError, Files, Input, Kept, Outcome, Scheme,
     check_folder, check_folder_of, check_inputs, compare_file, write_atomic,
 };
 use stiction::result::Next;
@@ -105,7 +105,11 @@ fn next(error: &Error, command: &Command) -> Option<String> {
         error.code(),
         Code::LogMissing | Code::LogAmbiguous | Code::LogUnit
     );
-    let log = logs.first().filter(|_| unclear && axis.is_none())?;
+    // The error begins with the log that it is about.
+    let message = wording::message(error);
+    let faulty = |log: &&PathBuf| message.starts_with(&format!("{}:", log.display()));
+    let log = logs.iter().find(faulty).or(logs.first());
+    let log = log.filter(|_| unclear && axis.is_none())?;
     Some(format!(
         "next, for an axis file with the columns that are clear filled in: stiction check {} --init {}",
         typed(log),
@@ -236,13 +240,26 @@ fn demo(demo: &arguments::Demo, common: &Common) -> Result<Exit, Error> {
         return procedure_logs(demo, common);
     }
     let mut bar = Bar::new(common.json || common.quiet);
-    let outcome = stiction::demo::demo(&demo.out, demo.seed, &mut bar);
+    let done = stiction::demo::demo(&demo.out, demo.seed, &mut bar);
     bar.finish();
-    finish(&outcome?, &demo.out, common)
+    let (outcome, kept) = done?;
+    say_kept(kept);
+    finish(&outcome, &demo.out, common)
+}
+
+/// Says which files that the demo did not write are kept.
+fn say_kept(kept: impl IntoIterator<Item = Kept>) {
+    for (from, to) in kept {
+        let (from, to) = (from.display(), to.display());
+        let line = format!("{from} is not what is written now: it is kept as {to}");
+        // With standard error closed there is nowhere to say it.
+        let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&line));
+    }
 }
 
 fn procedure_logs(demo: &arguments::Demo, common: &Common) -> Result<Exit, Error> {
-    let written = stiction::demo::procedures(&demo.out, demo.seed)?;
+    let (written, kept) = stiction::demo::procedures(&demo.out, demo.seed)?;
+    say_kept(kept);
     if common.json {
         let paths: Vec<_> = written.iter().map(|p| p.to_string_lossy()).collect();
         output::json(&serde_json::json!({ "written": paths }))?;

@@ -38,6 +38,6 @@ pub use error::{Error, Remedy, Warning};
 pub use hash::{sha256, sha256_of};
 pub use model::ModelFile;
 pub use output::{
-    Bundle, check_folder, check_folder_of, check_inputs, check_writable, write_atomic,
-    write_folder, write_into_folder,
+    Bundle, Kept, check_folder, check_folder_of, check_inputs, check_writable, write_atomic,
+    write_folder, write_into_folder, write_keeping,
 };

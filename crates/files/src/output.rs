@@ -225,6 +225,33 @@ pub fn write_atomic(path: impl AsRef<Path>, content: &[u8]) -> Result<(), Error>
     publish(stage(path, content)?, path)
 }
 
+/// A file that was kept: its name, and the one that it has now.
+pub type Kept = (PathBuf, PathBuf);
+
+/// [`write_atomic`], but a file of that name with other content is kept under another name, such as `demo-1.csv`.
+///
+/// # Errors
+/// As [`write_atomic`].
+pub fn write_keeping(path: impl AsRef<Path>, content: &[u8]) -> Result<Option<Kept>, Error> {
+    let path = path.as_ref();
+    if path.is_dir() {
+        let what = "is a folder; a file of this name is to be written";
+        return Err(Error::output(path, what));
+    }
+    let staged = stage(path, content)?;
+    let there = path.symlink_metadata().is_ok();
+    let same = || path.is_file() && fs::read(path).is_ok_and(|there| there == content);
+    let kept = match (there && !same(), path.parent(), path.file_name()) {
+        (true, Some(dir), Some(name)) => Some(free(dir, &name.to_string_lossy())),
+        _ => None,
+    };
+    if let Some(other) = &kept {
+        fs::rename(path, other).map_err(|e| Error::output(path, describe(&e)))?;
+    }
+    publish(staged, path)?;
+    Ok(kept.map(|other| (path.to_path_buf(), other)))
+}
+
 /// The content under a temporary name beside `path`; it vanishes unless it is published.
 fn stage(path: &Path, content: &[u8]) -> Result<NamedTempFile, Error> {
     let fail = |e: std::io::Error| Error::output(path, describe(&e));

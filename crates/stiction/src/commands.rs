@@ -3,7 +3,7 @@
 
 /// Forms of files, and how they are written.
 pub use stiction_files::{
-    Bundle, Error as FileError, Remedy, axis, check_folder, check_folder_of, check_inputs,
+    Bundle, Error as FileError, Kept, Remedy, axis, check_folder, check_folder_of, check_inputs,
     compare_file, reproduce_file, shell, study, write_atomic,
 };
 /// Integration steps of a simulated candidate.

@@ -8,13 +8,14 @@ use crate::identify::{self, Files, Options, Outcome};
 use axis::{AXIS, csv, simulate};
 pub use procedures::procedures;
 use std::path::{Path, PathBuf};
-use stiction_files::write_atomic;
+use stiction_files::{Kept, write_atomic, write_keeping};
 use stiction_identify::Observer;
 use stiction_servo::known::{self, KnownAxis};
 
 /// Name of the log that the demo writes.
 pub const LOG: &str = "demo.csv";
-/// Simulates the axis, writes its log into `dir`, and identifies it from that file.
+/// Simulates the axis, writes its log into `dir`, and identifies it from that file. Another file that had the name of the log
+/// is kept.
 ///
 /// # Errors
 /// When the folder cannot be written.
@@ -22,12 +23,12 @@ pub fn demo(
     dir: impl AsRef<Path>,
     seed: u64,
     observer: &mut dyn Observer,
-) -> Result<Outcome, Error> {
+) -> Result<(Outcome, Option<Kept>), Error> {
     let dir = dir.as_ref();
     let axis = known::find(AXIS).expect("the demo axis is in the library");
     std::fs::create_dir_all(dir).map_err(|e| stiction_files::Error::output(dir, e.to_string()))?;
     let log: PathBuf = dir.join(LOG);
-    write_log(&log, seed)?;
+    let kept = write_keeping(&log, text(seed).as_bytes())?;
     let files = Files {
         logs: vec![log],
         ..Files::default()
@@ -39,7 +40,7 @@ pub fn demo(
     let mut outcome = identify::identify(&files, &options, observer)?;
     outcome.result.axis.name = Some("a simulated machine axis".into());
     outcome.truth = truth(&axis);
-    Ok(outcome)
+    Ok((outcome, kept))
 }
 
 /// Simulates the axis of the demo, 9 s at 4 kHz in closed loop, and writes its log to a file: time, reference and position
@@ -48,9 +49,14 @@ pub fn demo(
 /// # Errors
 /// When the file cannot be written.
 pub fn write_log(file: impl AsRef<Path>, seed: u64) -> Result<(), Error> {
+    Ok(write_atomic(file.as_ref(), text(seed).as_bytes())?)
+}
+
+/// The log as text.
+fn text(seed: u64) -> String {
     let axis = known::find(AXIS).expect("the demo axis is in the library");
     let record = simulate(&axis, seed).expect("the demo settings are valid");
-    Ok(write_atomic(file.as_ref(), csv(&record).as_bytes())?)
+    csv(&record)
 }
 
 /// Names and values of the parameters of the axis that the demo simulates.

@@ -138,7 +138,7 @@ fn drawn_from(model: &Path, bench: &Bench) {
 #[test]
 fn the_logs_of_the_demo() {
     let bench = Bench::new();
-    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap();
+    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap().0;
     let log = |name: &str| {
         let found = logs.iter().find(|p| p.ends_with(name));
         found.unwrap_or_else(|| panic!("no {name}")).clone()
@@ -419,7 +419,7 @@ fn terms_that_a_static_map_does_not_count_are_refused_with_their_key() {
 #[test]
 fn a_motion_with_another_friction_than_the_map_is_named() {
     let bench = Bench::new();
-    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap();
+    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap().0;
     let (speeds, motion) = (&logs[0], &logs[1]);
     let text = std::fs::read_to_string(motion).unwrap();
     for by in [1.03, 1.2, 0.8] {
@@ -482,7 +482,7 @@ stribeck_velocity = [\"0.1 mm/s\", \"100 mm/s\"]
 #[test]
 fn both_steps_by_a_search() {
     let bench = Bench::new();
-    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap();
+    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap().0;
     let (speeds, motion) = (&logs[0], &logs[1]);
     let axis = bench.write("axis.toml", SEARCH);
     for name in ["ga", "adaptive-ga", "annealing-ga", "niched-ga"] {
@@ -529,7 +529,7 @@ fn both_steps_by_a_search() {
 #[test]
 fn a_search_alone() {
     let bench = Bench::new();
-    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap();
+    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap().0;
     let (speeds, motion) = (&logs[0], &logs[1]);
     let in_steps = Procedures {
         statics: vec![speeds.clone()],
@@ -593,7 +593,7 @@ fn a_search_alone() {
 #[test]
 fn a_box_off_the_truth_does_not_decide() {
     let bench = Bench::new();
-    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap();
+    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap().0;
     let alone = run(&with(&[&logs[0]], method(Method::Static))).unwrap();
     for range in [
         "sigma2 = [\"600 N s/m\", \"6000 N s/m\"]",
@@ -633,7 +633,7 @@ fn a_box_off_the_truth_does_not_decide() {
 #[test]
 fn searches_of_steps_are_refused_elsewhere() {
     let bench = Bench::new();
-    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap();
+    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap().0;
     let refused = |method_: Method, change: &dyn Fn(&mut Asked)| {
         let mut asked = with(&[&logs[0]], method(method_));
         change(&mut asked);

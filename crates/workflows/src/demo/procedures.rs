@@ -4,7 +4,7 @@ use super::axis::{AXIS, ENCODER_COUNT, FORCE_NOISE, RATE, csv, simulate};
 use crate::error::Error;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use stiction_files::write_atomic;
+use stiction_files::{Kept, write_keeping};
 use stiction_friction::ParamError;
 use stiction_servo::cascade::{Cascade, CascadeState};
 use stiction_servo::encoder::Encoder;
@@ -26,11 +26,12 @@ const STEP_RATE: f64 = 10_000.0;
 /// Noise of the force where the drive applies it in open loop, N rms.
 const OPEN_LOOP_FORCE_NOISE: f64 = 0.05;
 
-/// Writes a log of constant speeds, one of motion, two force steps and three force ramps into `dir`.
+/// Writes a log of constant speeds, one of motion, two force steps and three force ramps into `dir`; other files that had
+/// their names are kept.
 ///
 /// # Errors
 /// When the folder cannot be written.
-pub fn procedures(dir: impl AsRef<Path>, seed: u64) -> Result<Vec<PathBuf>, Error> {
+pub fn procedures(dir: impl AsRef<Path>, seed: u64) -> Result<(Vec<PathBuf>, Vec<Kept>), Error> {
     let dir = dir.as_ref();
     let axis = known::find(AXIS).expect("the demo axis is in the library");
     let mut logs = vec![
@@ -63,14 +64,14 @@ pub fn procedures(dir: impl AsRef<Path>, seed: u64) -> Result<Vec<PathBuf>, Erro
         logs.push((format!("ramp_{}.csv", k + 1), log));
     }
     std::fs::create_dir_all(dir).map_err(|e| stiction_files::Error::output(dir, e.to_string()))?;
-    let mut written = Vec::new();
+    let (mut written, mut kept) = (Vec::new(), Vec::new());
     for (name, log) in logs {
         let path = dir.join(name);
         let text = log.expect("the demo settings are valid");
-        write_atomic(&path, text.as_bytes())?;
+        kept.extend(write_keeping(&path, text.as_bytes())?);
         written.push(path);
     }
-    Ok(written)
+    Ok((written, kept))
 }
 
 /// Twelve speeds each way in closed loop, from a tenth of the Stribeck velocity up.
