@@ -162,9 +162,10 @@ fn changes(logs: &mut [LogCheck]) -> Vec<TrackingChange> {
     let mut out = Vec::new();
     for log in later {
         match &log.tracking {
-            Some(after) if log.kind == first.kind => {
-                out.push(TrackingChange::between(before, after))
-            }
+            Some(after) if log.kind == first.kind => match TrackingChange::between(before, after) {
+                Ok(change) => out.push(change),
+                Err(why) => log.not_tracked = Some(why),
+            },
             Some(_) => {
                 log.not_tracked = Some(format!("it is {}, the first log {}", log.kind, first.kind))
             }

@@ -306,6 +306,30 @@ fn a_folder_of_others_is_kept() {
     assert_eq!(bench.names("own"), FOUR);
 }
 
+/// A log of that name which the demo did not write is kept, whether it is older or newer than the result beside it.
+#[test]
+fn the_demo_keeps_a_log_of_others() {
+    let bench = Bench::new();
+    assert_eq!(bench.run(&["demo", "--out", "d"]).0, 0);
+    let ours = std::fs::read(bench.path("d/demo.csv")).unwrap();
+    let (code, _, err) = bench.run(&["demo", "--out", "d"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert_eq!(bench.names("d").len(), 6);
+    std::fs::write(bench.path("d/demo.csv"), "mine").unwrap();
+    let file = std::fs::File::options()
+        .write(true)
+        .open(bench.path("d/demo.csv"));
+    file.unwrap().set_modified(std::time::UNIX_EPOCH).unwrap();
+    let (code, _, err) = bench.run(&["demo", "--out", "d"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(err.contains("it is kept as d/demo-1.csv"), "{err}");
+    let read = |name: &str| std::fs::read(bench.path(name)).unwrap();
+    assert_eq!(
+        (read("d/demo-1.csv"), read("d/demo.csv")),
+        (b"mine".to_vec(), ours)
+    );
+}
+
 #[test]
 fn init_keeps_a_file_and_leads_on() {
     let bench = Bench::new();
@@ -752,6 +776,89 @@ fn a_log_before_and_one_after() {
         format!("following error of{change}")
     };
     insta::assert_snapshot!(changed(&["check", "before.csv", "after.csv"]));
+    // The same recording with fewer rows, none of them at a reversal: what both show is the same.
+    let rows = |path: &str| -> Vec<Vec<String>> {
+        let text = std::fs::read_to_string(bench.path(path)).unwrap();
+        // Without the force, which makes no difference here.
+        let cells = |row: &str| row.split(',').take(3).map(str::to_string).collect();
+        text.lines().map(cells).collect()
+    };
+    let head = "Time [s],Reference [mm],Position [mm]\n";
+    let whole: Vec<Vec<String>> = rows("before.csv").split_off(1);
+    let put = |name: &str, rows: &[Vec<String>]| {
+        let rows: Vec<String> = rows.iter().map(|row| row.join(",") + "\n").collect();
+        std::fs::write(bench.path(name), head.to_string() + &rows.concat()).unwrap();
+    };
+    let every = |n: usize, first: usize| -> Vec<Vec<String>> {
+        whole.iter().skip(first).step_by(n).cloned().collect()
+    };
+    put("whole.csv", &whole);
+    let compared = |name: &str| bench.run(&["check", "whole.csv", name]).1;
+    let peaks = |name: &str| {
+        let (_, out, _) = bench.run(&["check", "whole.csv", name, "--json"]);
+        let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+        ["before", "after"].map(|log| {
+            let peaks = &json["tracking"][0][log]["peaks"];
+            peaks[3]["error"].as_f64().unwrap()
+        })
+    };
+    put("thin.csv", &every(8, 4));
+    let [a, b] = peaks("thin.csv");
+    assert!((a / b - 1.0).abs() < 0.03 && b < 55e-6, "{a} {b}");
+    let said = compared("thin.csv");
+    assert!(
+        said.contains("the rates differ, 1000 and 125.0 Hz"),
+        "{said}"
+    );
+    put("slow.csv", &every(100, 50));
+    let why = "slow.csv is not compared: it has 10 Hz and the first log 1000 Hz";
+    let said = compared("slow.csv");
+    assert!(said.contains(why) && said.contains("from 100 Hz"), "{said}");
+    // Rows that were not measured show nothing of a reversal.
+    let mut frozen = whole.clone();
+    let stopped = frozen[2950].clone();
+    for row in &mut frozen[2950..3150] {
+        row[1..3].clone_from_slice(&stopped[1..3]);
+    }
+    put("frozen.csv", &frozen);
+    let said = compared("frozen.csv");
+    assert!(
+        said.contains("1 of 9 reversals of frozen.csv are left out"),
+        "{said}"
+    );
+    assert!(said.contains("worse at no reversal"), "{said}");
+    let mut holes = whole.clone();
+    let turns = |i: usize| i % 1000 < 100;
+    (holes.iter_mut().enumerate()).for_each(|(i, row)| {
+        if turns(i) {
+            row[2].clear()
+        }
+    });
+    put("holes.csv", &holes);
+    let said = compared("holes.csv");
+    assert!(
+        said.contains("every reversal of its reference lies beside a gap"),
+        "{said}"
+    );
+    let mut copied = whole.clone();
+    copied.iter_mut().for_each(|row| row[2] = row[1].clone());
+    put("copied.csv", &copied);
+    let said = compared("copied.csv");
+    assert!(
+        said.contains("its position is its reference, row by row"),
+        "{said}"
+    );
+    let mut coarse = whole.clone();
+    for row in &mut coarse {
+        let x: f64 = row[2].parse().unwrap();
+        row[2] = format!("{:.1}", (x / 0.2).round() * 0.2);
+    }
+    put("coarse.csv", &coarse);
+    let said = compared("coarse.csv");
+    assert!(
+        said.contains("the encoder of coarse.csv has steps of 200.0 um, larger than its peaks"),
+        "{said}"
+    );
     log("longer.csv", 14, &|_| 6.0);
     let said = changed(&["check", "before.csv", "longer.csv"]);
     assert!(

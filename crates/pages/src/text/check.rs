@@ -75,6 +75,15 @@ fn tracking(change: &TrackingChange, kind: &str) -> String {
         rows.push(vec![name.into(), micro(a), micro(b), words]);
     }
     out.push_str(&table(&rows, &[false, true, true]));
+    if let Some(rate) = change.thinned_to_hz {
+        let _ = writeln!(
+            out,
+            "  the rates differ, {} and {} Hz: peaks and largest error of the finer log are those at the rows that {} Hz show",
+            short(before.rate_hz),
+            short(after.rate_hz),
+            short(rate)
+        );
+    }
     for log in [before, after] {
         if log.offset.abs() > log.largest {
             let _ = writeln!(
@@ -82,6 +91,23 @@ fn tracking(change: &TrackingChange, kind: &str) -> String {
                 "  the errors of {} are without their median of {}: an encoder whose zero is elsewhere",
                 log.log,
                 micro(log.offset)
+            );
+        }
+        if log.left_out > 0 {
+            let _ = writeln!(
+                out,
+                "  {} of {} reversals of {} are left out: beside a gap, or in rows that are frozen or missing",
+                log.left_out,
+                log.left_out + log.peaks.len(),
+                log.log
+            );
+        }
+        if let Some(step) = log.step.filter(|step| *step > log.largest_peak()) {
+            let _ = writeln!(
+                out,
+                "  the encoder of {} has steps of {}, larger than its peaks: they limit what the figures show",
+                log.log,
+                micro(step)
             );
         }
         if log.largest > 0.5 * log.range {

@@ -4,6 +4,7 @@
 use crate::turns::turned;
 use serde::Serialize;
 use std::ops::Range;
+use stiction_codes::Code;
 use stiction_log::{Gap, Log};
 use stiction_signal::{Travel, noise_deviation};
 
@@ -17,6 +18,11 @@ const SAME: f64 = 0.05;
 const GROWN: f64 = 0.1;
 /// Encoder steps by which two errors of the same size may differ.
 const STEPS: f64 = 3.0;
+
+/// Rates that differ by no more than this part see the same of a peak.
+const SAME_RATE: f64 = 0.1;
+/// Least rate at which a log can be compared with a finer one, Hz: the error at a reversal comes and goes in some ten milliseconds.
+const LEAST_RATE: f64 = 100.0;
 
 /// Part of the range that a reference moves in one sample only where it jumps: at a wrap, or between set points.
 const JUMP: f64 = 0.3;
@@ -42,6 +48,19 @@ pub struct Tracking {
     pub offset: f64,
     /// Encoder step, m or rad, where it is known.
     pub step: Option<f64>,
+    /// Rows in a second; of a position that is held over some rows those that renew it.
+    pub rate_hz: f64,
+    /// Reversals that are left out: beside a gap, or with rows that are frozen or bridged.
+    pub left_out: usize,
+    /// Of each peak the number of its reversal, of all that the reference has, counted from 0.
+    #[serde(skip)]
+    numbers: Vec<usize>,
+    /// Of each peak time from its reversal, s, and error.
+    #[serde(skip)]
+    about: Vec<Vec<(f64, f64)>>,
+    /// Time and error of the motion.
+    #[serde(skip)]
+    course: Vec<(f64, f64)>,
 }
 
 /// The error at a reversal.
@@ -60,6 +79,9 @@ pub struct TrackingChange {
     pub before: Tracking,
     /// The later one.
     pub after: Tracking,
+    /// The lower rate of the two, Hz, to which the finer log was thinned; absent where the rates are the same.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thinned_to_hz: Option<f64>,
     /// In what the motions differ, for people; empty where they are the same.
     pub differs: Vec<String>,
     /// The reversals at which the error has grown, largest growth first: time in the later log, error before and after. Only
@@ -88,6 +110,12 @@ impl Tracking {
         let offset = *median;
         error.iter_mut().for_each(|e| *e -= offset);
         let moving = moving(reference).ok_or("its reference does not move")?;
+        if moving.clone().all(|i| reference[i] == position[i]) {
+            return Err(
+                "its position is its reference, row by row: the position of the encoder has to be logged",
+            );
+        }
+        let seen = seen(log);
         let stretches = log.segments.iter().filter_map(|s| reference.get(s.clone()));
         let noise = noise_deviation(stretches);
         let shortest = Travel::shortest_movement(least_step(reference), noise);
@@ -100,24 +128,45 @@ impl Tracking {
             .skip(1)
             .map(|next| next.saturating_sub(samples(BEFORE)));
         let ends = ends.chain([error.len()]);
-        let peaks: Vec<Peak> = turns
-            .iter()
-            .zip(ends)
-            .filter_map(|(&turn, end)| {
-                let from = turn.saturating_sub(samples(BEFORE));
-                let to = (turn + samples(AFTER) + 1).min(end).max(turn + 1);
-                // One beside a gap is not seen.
-                let gap = |g: &Gap| from <= g.start_index && g.start_index < to;
-                (!log.gaps.iter().any(gap)).then(|| Peak {
-                    time: log.time[turn],
-                    error: largest(from..to),
-                })
-            })
-            .collect();
-        if peaks.is_empty() {
+        if turns.is_empty() {
             return Err("its reference does not turn back");
         }
-        let square: f64 = error[moving.clone()].iter().map(|e| e * e).sum();
+        let all = turns
+            .iter()
+            .zip(ends)
+            .enumerate()
+            .filter_map(|(number, (&turn, end))| {
+                let from = turn.saturating_sub(samples(BEFORE));
+                let to = (turn + samples(AFTER) + 1).min(end).max(turn + 1);
+                // One beside a gap is not seen, nor one in rows that were not measured.
+                let gap = |g: &Gap| from <= g.start_index && g.start_index < to;
+                let whole = seen[from..to].iter().all(|seen| *seen);
+                (whole && !log.gaps.iter().any(gap)).then(|| {
+                    let peak = Peak {
+                        time: log.time[turn],
+                        error: largest(from..to),
+                    };
+                    let turned = instant(&log.time, reference, turn);
+                    let since = |i: usize| (log.time[i] - turned, error[i]);
+                    (number, peak, (from..to).map(since).collect::<Vec<_>>())
+                })
+            });
+        let (mut numbers, mut peaks, mut about) = (Vec::new(), Vec::new(), Vec::new());
+        for (number, peak, rows) in all {
+            numbers.push(number);
+            peaks.push(peak);
+            about.push(rows);
+        }
+        if peaks.is_empty() {
+            return Err(
+                "every reversal of its reference lies beside a gap, or in rows that are frozen or missing",
+            );
+        }
+        let course: Vec<(f64, f64)> = (moving.clone())
+            .filter(|&i| seen[i])
+            .map(|i| (log.time[i], error[i]))
+            .collect();
+        let square: f64 = course.iter().map(|(_, e)| e * e).sum();
         let speeds = moving
             .clone()
             .skip(1)
@@ -127,9 +176,14 @@ impl Tracking {
         let last = speeds.len().saturating_sub(1);
         Ok(Self {
             log: name.into(),
+            left_out: turns.len() - peaks.len(),
             peaks,
-            rms: (square / moving.len() as f64).sqrt(),
-            largest: largest(moving.clone()),
+            numbers,
+            about,
+            rms: (square / course.len().max(1) as f64).sqrt(),
+            largest: course.iter().fold(0.0, |most, (_, e)| e.abs().max(most)),
+            course,
+            rate_hz: log.rate_hz,
             range,
             // A single jump is no speed.
             top_speed: speeds.get(last * 99 / 100).copied().unwrap_or(0.0),
@@ -137,6 +191,36 @@ impl Tracking {
             offset,
             step: log.quantum,
         })
+    }
+
+    /// As a log of a lower rate would show it: the error at the places where that has its rows, after the same reversal where
+    /// they have as many.
+    fn as_seen_by(&self, coarse: &Self) -> Self {
+        let mut thin = self.clone();
+        let same = self.reversals() == coarse.reversals();
+        for (i, (peak, about)) in thin.peaks.iter_mut().zip(&self.about).enumerate() {
+            let there = coarse.numbers.binary_search(&self.numbers[i]);
+            let rows = &coarse.about[there.ok().filter(|_| same).unwrap_or(0)];
+            let places = rows.iter().map(|(place, _)| *place);
+            peak.error = places
+                .filter_map(|place| nearest(about, place, 1.0 / self.rate_hz))
+                .fold(0.0, |most: f64, e| most.max(e.abs()));
+        }
+        // Elsewhere on the rows that go on from those.
+        let begin = self.peaks[0].time + coarse.about[0].first().map_or(0.0, |(place, _)| *place);
+        let half = 0.5 * coarse.rate_hz / self.rate_hz;
+        let has_a_row = |t: f64| {
+            let rows = (t - begin) * coarse.rate_hz;
+            (rows - rows.round()).abs() < half
+        };
+        let rows = self.course.iter().filter(|(t, _)| has_a_row(*t));
+        thin.largest = rows.fold(thin.largest_peak(), |most, (_, e)| e.abs().max(most));
+        thin
+    }
+
+    /// Reversals of the reference, with those that are left out.
+    fn reversals(&self) -> usize {
+        self.peaks.len() + self.left_out
     }
 
     /// The largest error at a reversal, m or rad.
@@ -155,10 +239,28 @@ impl Tracking {
 }
 
 impl TrackingChange {
-    pub(super) fn between(before: &Tracking, after: &Tracking) -> Self {
+    /// What changed; else why that is not known, in words that complete "... is not compared: ".
+    pub(super) fn between(before: &Tracking, after: &Tracking) -> Result<Self, String> {
+        let lower = before.rate_hz.min(after.rate_hz);
+        let apart = before.rate_hz.max(after.rate_hz) > (1.0 + SAME_RATE) * lower;
+        if apart && lower < LEAST_RATE {
+            let hz = |x: f64| stiction_number::full(libm::round(10.0 * x) / 10.0);
+            return Err(format!(
+                "it has {} Hz and the first log {} Hz, and an error that comes and goes at a reversal is seen from {} Hz; record \
+                 both at the same rate",
+                hz(after.rate_hz),
+                hz(before.rate_hz),
+                hz(LEAST_RATE)
+            ));
+        }
+        let coarser = |one: &Tracking, other: &Tracking| match apart && one.rate_hz > lower {
+            true => one.as_seen_by(other),
+            false => one.clone(),
+        };
+        let (before, after) = (&coarser(before, after), &coarser(after, before));
         let other = |a: f64, b: f64| (a - b).abs() > SAME * a.max(b);
         let mut differs = Vec::new();
-        if before.peaks.len() != after.peaks.len() {
+        if before.reversals() != after.reversals() {
             differs.push("reversals".into());
         }
         for (name, a, b) in [
@@ -173,20 +275,65 @@ impl TrackingChange {
         let slack = STEPS * before.step.unwrap_or(0.0).max(after.step.unwrap_or(0.0));
         let mut grown = Vec::new();
         if differs.is_empty() {
-            for (a, b) in before.peaks.iter().zip(&after.peaks) {
+            for (number, b) in after.numbers.iter().zip(&after.peaks) {
+                let Ok(there) = before.numbers.binary_search(number) else {
+                    continue;
+                };
+                let a = before.peaks[there];
                 if b.error > (1.0 + GROWN) * a.error && b.error > a.error + slack {
                     grown.push((b.time, a.error, b.error));
                 }
             }
             grown.sort_by(|x, y| (y.2 - y.1).total_cmp(&(x.2 - x.1)));
         }
-        Self {
+        Ok(Self {
             before: before.clone(),
             after: after.clone(),
+            thinned_to_hz: apart.then_some(lower),
             differs,
             grown,
-        }
+        })
     }
+}
+
+/// When a reference turns at a sample, s: between samples too, as the parabola through three of them has it. Of one that rested
+/// before, the last sample of its rest.
+fn instant(time: &[f64], reference: &[f64], turn: usize) -> f64 {
+    let Some(&[a, b, c]) = turn.checked_sub(1).and_then(|i| reference.get(i..i + 3)) else {
+        return time[turn];
+    };
+    let rested = a == b && turn >= 2 && reference[turn - 2] == b;
+    let bend = a - 2.0 * b + c;
+    if rested || bend == 0.0 {
+        return time[turn];
+    }
+    let rows = (0.5 * (a - c) / bend).clamp(-1.0, 1.0);
+    time[turn] + rows * (time[turn + 1] - time[turn])
+}
+
+/// Which samples have a measured position and reference: a force beyond its limit or a temperature without a sensor does not
+/// change them.
+fn seen(log: &Log) -> Vec<bool> {
+    let mut seen = vec![true; log.time.len()];
+    let spoilt = |code: Code| {
+        matches!(
+            code,
+            Code::MissingCells | Code::StuckEncoder | Code::PositionJump | Code::ZeroFilled
+        )
+    };
+    for part in log.excluded.iter().filter(|part| spoilt(part.code)) {
+        seen[part.samples.clone()].fill(false);
+    }
+    seen
+}
+
+/// The error at the row nearest to a place after a reversal, where one is within a row of it.
+fn nearest(about: &[(f64, f64)], place: f64, row: f64) -> Option<f64> {
+    let after = about.partition_point(|(t, _)| *t < place);
+    let near = about.get(after.saturating_sub(1)..(after + 1).min(about.len()))?;
+    let away = |t: f64| (t - place).abs();
+    let (t, e) = near.iter().min_by(|a, b| away(a.0).total_cmp(&away(b.0)))?;
+    (away(*t) <= row).then_some(*e)
 }
 
 /// From the first sample at which a reference moves to the last.
