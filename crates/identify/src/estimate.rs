@@ -253,6 +253,7 @@ pub fn estimate(
             low_speed_bound,
             misfit: None,
             disagreements: Vec::new(),
+            likelier_exponent: None,
             series,
             status: optimum.status,
             counts: optimum.counts,

@@ -25,6 +25,9 @@ use crate::law::LawKind;
 use crate::watch::Watch;
 
 /// Part of the samples at rest from which the counts are asked, dimensionless.
+const SOME_REST: f64 = 0.05;
+/// The part from which they are stated wherever they can be believed, dimensionless. Below, a fit of the force that they agree
+/// with is the more accurate (decision 0060).
 pub const MUCH_REST: f64 = 0.15;
 
 /// What the counts of a log say of a fit.
@@ -43,6 +46,11 @@ pub(crate) enum Counts {
 pub(crate) struct Doubted(Box<fit::Likely>);
 
 impl Doubted {
+    /// The Stribeck exponent that is likelier than that of the law, where there is one.
+    pub fn exponent(&self) -> Option<f64> {
+        self.0.exponent
+    }
+
     /// Whether it hardly explains the counts.
     pub fn is_hopeless(&self) -> bool {
         self.0.hopeless
@@ -61,9 +69,19 @@ pub(crate) fn flag_what_rests_spoil(estimate: &mut Estimate, why: &str) {
     }
 }
 
-/// Whether an axis rests in so much of a record that its counts are asked.
+/// Whether an axis rests in so much of a record that its counts are stated wherever they can be believed.
 pub fn rests_much(record: &Record) -> bool {
     rests::share(record) >= MUCH_REST
+}
+
+/// Whether it rests in enough of it for its counts to be asked at all.
+pub(crate) fn rests_some(record: &Record) -> bool {
+    rests::share(record) >= SOME_REST
+}
+
+/// Whether a fit of the force agrees with the counts: its intervals hold their values.
+pub(crate) fn agrees(force: &Estimate, counts: &Estimate) -> bool {
+    state::agree(&force.fitted.parameters, &counts.fitted.parameters)
 }
 
 /// Asks the counts of a record in which the axis [rests much](rests_much) about the fit of its force; states what they say where

@@ -36,6 +36,8 @@ pub struct FittedLaw {
     pub misfit: Option<Misfit>,
     /// Parameters that logs have differently; known once intervals are.
     pub disagreements: Vec<Disagreement>,
+    /// The Stribeck exponent that the counts of an axis that rests are likelier with, where that of the law is doubted.
+    pub likelier_exponent: Option<f64>,
     /// Signals at the kept samples.
     pub series: Series,
     /// How the search ended.

@@ -196,6 +196,7 @@ pub(crate) fn describe(
         low_speed_bound: 0.02 * top,
         misfit: None,
         disagreements: Vec::new(),
+        likelier_exponent: None,
         series: Series {
             log: signals.log.clone(),
             time: signals.time.clone(),

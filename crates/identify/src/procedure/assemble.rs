@@ -42,6 +42,7 @@ fn fitted_law(
         low_speed_bound: 0.0,
         misfit: None,
         disagreements: Vec::new(),
+        likelier_exponent: None,
         series,
         status,
         counts,

@@ -8,6 +8,8 @@ use crate::state_space::unknowns::{
     VELOCITY, VISCOUS, WHITE,
 };
 
+/// Stribeck exponent of the Gaussian curve.
+pub(super) const GAUSSIAN: f64 = 2.0;
 /// Most Newton iterations of a step.
 const MOST_ITERATIONS: usize = 12;
 /// Change of the mean velocity, as parts of the Stribeck velocity and of itself, after which an iteration is the last:
@@ -44,6 +46,8 @@ struct Body<T> {
 pub(super) struct Axis {
     sides: [Side<Sensitive>; 2],
     body: Body<Sensitive>,
+    /// Stribeck exponent.
+    exponent: f64,
     /// Length of a substep, s.
     substep: f64,
     substeps: u32,
@@ -77,6 +81,8 @@ struct Moment {
     /// Which direction, and its sign.
     side: usize,
     sign: f64,
+    /// Its size in Stribeck velocities to the Stribeck exponent, and the derivative of that by them.
+    power: [f64; 2],
     /// Part of the rise of static over Coulomb friction that is left at the mean velocity.
     bell: f64,
     relaxation: Relaxation,
@@ -98,8 +104,15 @@ struct Terms {
 }
 
 impl Axis {
-    /// Axis at the unknowns `at`, with samples `step` seconds apart; `directed` where each direction has its own.
-    pub fn at(at: &[f64; UNKNOWNS], directed: bool, step: f64, substeps: u32) -> Self {
+    /// Axis at the unknowns `at` with a Stribeck exponent, and samples `step` seconds apart; `directed` where each direction has
+    /// its own unknowns.
+    pub fn at(
+        at: &[f64; UNKNOWNS],
+        exponent: f64,
+        directed: bool,
+        step: f64,
+        substeps: u32,
+    ) -> Self {
         let substep = step / f64::from(substeps);
         let unknown = |value: f64, slope: f64, own: usize, k: usize| Tangent {
             value,
@@ -131,6 +144,7 @@ impl Axis {
                 mobility: Sensitive::of(|k| log(MASS, k).inverse().scaled(0.5 * substep)),
                 offset: Sensitive::of(|k| unknown(at[OFFSET], 1.0, OFFSET, k)),
             },
+            exponent,
             substep,
             substeps,
             white: Sensitive::of(|k| log(WHITE, k).times(log(WHITE, k))),
@@ -287,7 +301,8 @@ impl Axis {
             ramp,
         } = moment.relaxation;
         let turn = mean.times(side.inverse_velocity);
-        let bell = turn.mapped(moment.bell, -2.0 * turn.value * moment.bell);
+        let [power, power_slope] = moment.power;
+        let bell = turn.mapped(moment.bell, -power_slope * moment.bell);
         let left = side.rise.times(bell);
         let slower = side.coulomb.plus(left).inverse();
         let per_speed = body
@@ -296,8 +311,8 @@ impl Axis {
             .scaled(self.substep * moment.sign);
         let length = per_speed.times(mean);
         // Its derivative by the mean velocity: the level falls as well.
-        let falls = left.times(slower).times(turn).times(turn);
-        let longer = per_speed.plus_product(per_speed, falls.scaled(2.0));
+        let falls = left.times(slower).times(turn.mapped(power, power_slope));
+        let longer = per_speed.plus_product(per_speed, falls.scaled(self.exponent));
         let [end, end_slope] = derived(length, end);
         let [average, average_slope] = derived(length, average);
         let [ramp, ramp_slope] = derived(length, ramp);
@@ -352,16 +367,31 @@ impl Axis {
         let side = &self.sides[index];
         let sign = if index == 0 { 1.0 } else { -1.0 };
         let turn = mean * side.inverse_velocity.value;
-        let bell = exp(-turn * turn);
+        let power = self.power(turn);
+        let bell = exp(-power[0]);
         let level = side.coulomb.value + side.rise.value * bell;
         let length = self.body.stiffness.value * self.substep * mean.abs() / level;
         Moment {
             mean,
             side: index,
             sign,
+            power,
             bell,
             relaxation: Relaxation::of(length),
         }
+    }
+
+    /// A velocity in Stribeck velocities, its size to the Stribeck exponent, and the derivative of that.
+    #[inline(always)]
+    fn power(&self, turn: f64) -> [f64; 2] {
+        if self.exponent == GAUSSIAN {
+            return [turn * turn, 2.0 * turn];
+        }
+        if turn == 0.0 {
+            return [0.0; 2];
+        }
+        let power = exp(self.exponent * libm::log(turn.abs()));
+        [power, self.exponent * power / turn]
     }
 
     /// Balance of the forces at a mean velocity, and its derivative.
@@ -376,11 +406,10 @@ impl Axis {
             ..
         } = &self.body;
         let relaxation = at.relaxation;
-        let turn = mean * side.inverse_velocity.value;
         let left = side.rise.value * at.bell;
         let slower = 1.0 / (side.coulomb.value + left);
         let longer = stiffness.value * self.substep * slower * at.sign;
-        let longer = longer * (1.0 + 2.0 * left * slower * turn * turn);
+        let longer = longer * (1.0 + self.exponent * left * slower * at.power[0]);
         let way = self.substep * mean;
         let middle = deflection * relaxation.mean[0] + way * relaxation.ramp[0];
         let last = deflection * relaxation.end[0] + way * relaxation.mean[0];

@@ -36,6 +36,8 @@ pub(super) struct Problem<'a> {
     pub substeps: u32,
     /// Whether each direction of motion has unknowns of its own.
     pub directed: bool,
+    /// Stribeck exponent.
+    pub exponent: f64,
     /// Standard deviation of the noise of the logged force, N (N m).
     pub noise: f64,
     /// Parts that sums are kept of.
@@ -62,7 +64,7 @@ impl Problem<'_> {
     }
 
     pub fn evaluate(&self, at: &[f64; UNKNOWNS]) -> (Vec<Sums>, Sums) {
-        let axis = Axis::at(at, self.directed, self.step, self.substeps);
+        let axis = Axis::at(at, self.exponent, self.directed, self.step, self.substeps);
         let blocks = likelihood(
             &axis,
             self.stretches,

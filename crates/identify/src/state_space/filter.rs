@@ -288,6 +288,7 @@ fn correct(state: &mut State, spread: &mut Spread, reading: f64, variance: f64, 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::state_space::axis::GAUSSIAN;
     use crate::state_space::unknowns::UNKNOWNS;
 
     const STEP: f64 = 5e-4;
@@ -346,7 +347,11 @@ mod tests {
     }
 
     fn sums(at: &[f64; UNKNOWNS], set: InstructionSet) -> Sums {
-        let axis = Axis::at(at, true, STEP, 2);
+        sums_of(at, GAUSSIAN, set)
+    }
+
+    fn sums_of(at: &[f64; UNKNOWNS], exponent: f64, set: InstructionSet) -> Sums {
+        let axis = Axis::at(at, exponent, true, STEP, 2);
         let start = Start {
             velocity: COUNT / STEP,
             deflection: 2e-6,
@@ -359,14 +364,17 @@ mod tests {
     #[test]
     fn the_score_is_the_slope_of_the_likelihood() {
         let best = InstructionSet::best();
-        let own = sums(&unknowns(), best);
-        for lane in 0..UNKNOWNS {
+        for (exponent, lane) in [GAUSSIAN, 0.7, 3.0]
+            .into_iter()
+            .flat_map(|exponent| (0..UNKNOWNS).map(move |lane| (exponent, lane)))
+        {
+            let own = sums_of(&unknowns(), exponent, best);
             // The mean speed of a step is found to a part of itself, so a shorter way sees no slope.
             let h = 1e-5;
             let moved = |by: f64| {
                 let mut at = unknowns();
                 at[lane] += by;
-                sums(&at, best).value
+                sums_of(&at, exponent, best).value
             };
             let slope = (moved(h) - moved(-h)) / (2.0 * h);
             let off = (own.score.0[lane] - slope).abs();

@@ -6,6 +6,7 @@ use crate::exponential::exp;
 use crate::law::LawKind;
 use crate::law::terms::{ColumnKind, Delay};
 use crate::replica::HELD_DELAY;
+use crate::state_space::axis::GAUSSIAN;
 use crate::state_space::climb::{Problem, Top};
 use crate::state_space::covariance::{Sureness, sureness};
 use crate::state_space::data::Data;
@@ -45,6 +46,7 @@ const START_BRISTLES: [[f64; 2]; 2] = [[1.25, 0.5], [0.8, 2.0]];
 const FIRST_STEPS: usize = 3;
 const SECOND_STEPS: usize = 15;
 const DELAY_STEPS: usize = 15;
+const CURVE_STEPS: usize = 15;
 const LAST_STEPS: usize = 30;
 /// Rise of the log likelihood in a step after which nothing is left to gain, on a part of the samples and on all of them.
 const LEAST_RISES: [f64; 2] = [0.3, 0.02];
@@ -59,6 +61,11 @@ const LEAST_NOISE: f64 = 1e-9;
 /// Least damping that is started from, in parts of sqrt(sigma0 M): a fit of the force spoiled by rests may end without any, where
 /// no slope leads back.
 const LEAST_DAMPING: f64 = 0.2;
+/// Stribeck exponent that a Gaussian curve is held against: that of an exponential one.
+const EXPONENTIAL: f64 = 1.0;
+/// Difference of the log likelihood, on a part of the samples, within which both curves are as likely. On 16 logs of axes that
+/// rest the exponential curve had -72 to -1 where the Gaussian was right, 2 to 121 where the exponent was 0.5 to 1.
+const AS_LIKELY: f64 = 3.0;
 /// Lowest logarithm of a parameter that is zero.
 const NOTHING: f64 = -30.0;
 
@@ -73,6 +80,10 @@ pub(super) struct Likely {
     pub sureness: Sureness,
     /// Delay of the force behind the motion, samples, and its 95 % reach, where it was looked for.
     pub delay: Option<[f64; 2]>,
+    /// The top with a Stribeck curve of another shape, where that is about as likely, or likelier.
+    pub other: Option<[f64; UNKNOWNS]>,
+    /// The Stribeck exponent that is likelier than that of the law, where there is one.
+    pub exponent: Option<f64>,
     /// Whether so much is left on the force that the search was given up.
     pub hopeless: bool,
     /// Why it is not believed; empty if it is.
@@ -116,6 +127,8 @@ pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch)
             free: search.free,
             delay: None,
             hopeless: true,
+            other: None,
+            exponent: None,
             against: MORE_ACTS,
         });
     }
@@ -124,6 +137,7 @@ pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch)
         false => (first, None),
     };
     let Tried { late, data, top } = best;
+    let other = search.with_another_curve(&data, &top)?;
     let problem = problem(
         &data,
         &data.stretches,
@@ -142,6 +156,9 @@ pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch)
     };
     let free: Vec<usize> = search.free.into_iter().filter(known).collect();
     let beside = delay.map_or(0.0, |d: Fine| d.beside.abs() / DELAYS_APART);
+    let other = other.filter(|other| other.gain >= -AS_LIKELY);
+    let likelier = other.as_ref().is_some_and(|other| other.gain > AS_LIKELY);
+    let other = other.map(|other| other.at);
     let against = if !top.converged {
         "the search for its maximum did not end"
     } else if Left::of(&top, search.noise).is_beyond(1.0) {
@@ -150,6 +167,8 @@ pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch)
         "the axis is simulated under a force without the lag that this one has"
     } else if beside.is_nan() || beside > BESIDE {
         "the delay of the force is no half of a sample"
+    } else if likelier {
+        "with another Stribeck exponent they are likelier"
     } else {
         ""
     };
@@ -159,6 +178,8 @@ pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch)
         free,
         delay: delay.map(|d| [late + HELD_DELAY, d.reach + d.beside.abs()]),
         hopeless: false,
+        other,
+        exponent: likelier.then_some(EXPONENTIAL),
         against,
     })
 }
@@ -192,6 +213,13 @@ struct Tried {
     late: f64,
     data: Data,
     top: Top,
+}
+
+/// The top with another Stribeck exponent.
+struct Other {
+    at: [f64; UNKNOWNS],
+    /// By how much its log likelihood, on a part of the samples, is higher.
+    gain: f64,
 }
 
 /// What the likelihood says of the delay beside the best one that was tried, samples.
@@ -287,6 +315,27 @@ impl Search<'_, '_> {
             start
         }));
         self.climbed(&starts, late, [FIRST_STEPS, SECOND_STEPS])
+    }
+
+    /// The top with an exponential Stribeck curve, climbed to on a part of the samples from that with a Gaussian one; nothing for
+    /// a law without a curve.
+    fn with_another_curve(&mut self, data: &Data, top: &Top) -> Option<Option<Other>> {
+        if !self.free.contains(&VELOCITY) {
+            return Some(None);
+        }
+        let step = self.record.step();
+        let parts = parts(&data.stretches, step);
+        let own = problem(data, &parts, &top.at, step, self.fitted.law.asymmetric);
+        let other = Problem {
+            exponent: EXPONENTIAL,
+            ..own
+        };
+        let found = other.climb(&top.at, &self.free, CURVE_STEPS, LEAST_RISES[0]);
+        self.asked(&found)?;
+        Some(Some(Other {
+            at: found.at,
+            gain: found.whole.value - top.whole.value,
+        }))
     }
 
     /// The delay at which the likelihood is higher than at its neighbours, from the first one that was tried.
@@ -416,6 +465,7 @@ fn problem<'a>(
         step,
         substeps: (step * frequency / 0.1).ceil().clamp(2.0, 4.0) as u32,
         directed,
+        exponent: GAUSSIAN,
         blocks: BLOCKS,
         noise: data.noise.max(LEAST_NOISE * exp(at[COULOMB])),
     }

@@ -7,7 +7,7 @@ use crate::parameter::{
     IDENTIFIABLE, IntervalKind, NORMAL_Q95, Parameter, WIDEST_INTERVAL, too_uncertain,
 };
 use crate::state_space::fit::Likely;
-use crate::state_space::unknowns::lanes;
+use crate::state_space::unknowns::{UNKNOWNS, lanes};
 use crate::student;
 use nalgebra::{DMatrix, DVector};
 use stiction_parameters::{Name, Quantity};
@@ -94,9 +94,25 @@ const SPOILED: [Quantity; 4] = [
     Quantity::StribeckVelocity,
 ];
 
+/// Whether the intervals of a fit of the force hold all that counts say.
+pub(super) fn agree(force: &[Parameter], counts: &[Parameter]) -> bool {
+    let claimed = |p: &&Parameter| p.identified && p.identifiable;
+    force.iter().filter(claimed).all(|own| {
+        let said = |p: &&Parameter| p.name == own.name && p.interval == IntervalKind::StateSpace;
+        let held = |(low, high): (f64, f64), other: &Parameter| (low..=high).contains(&other.value);
+        let other = counts.iter().find(said);
+        other.is_none_or(|other| own.ci95.is_some_and(|interval| held(interval, other)))
+    })
+}
+
 /// Flags the parameters that rests spoil where their interval does not hold what the likelihood says, which is not believed
-/// either.
+/// either; where another curve is likelier, all that a curve of another shape moves.
 pub(super) fn doubt(estimate: &mut Estimate, found: &Likely) {
+    if found.exponent.is_some() {
+        let moved = |q: Quantity| ![Quantity::Mass, Quantity::Offset].contains(&q);
+        let why = "are likelier with another Stribeck exponent";
+        flag(&mut estimate.fitted.parameters, moved, why);
+    }
     for parameter in &mut estimate.fitted.parameters {
         if !SPOILED.contains(&parameter.name.quantity) || !parameter.identified {
             continue;
@@ -119,9 +135,12 @@ pub(super) fn doubt(estimate: &mut Estimate, found: &Likely) {
 
 /// Flags the parameters that rests spoil whatever their interval.
 pub(super) fn doubt_all(parameters: &mut [Parameter], why: &str) {
-    let spoiled =
-        |p: &&mut Parameter| SPOILED.contains(&p.name.quantity) && p.identified && p.identifiable;
-    for parameter in parameters.iter_mut().filter(spoiled) {
+    flag(parameters, |q| SPOILED.contains(&q), why);
+}
+
+fn flag(parameters: &mut [Parameter], spoiled: impl Fn(Quantity) -> bool, why: &str) {
+    let claimed = |p: &&mut Parameter| spoiled(p.name.quantity) && p.identified && p.identifiable;
+    for parameter in parameters.iter_mut().filter(claimed) {
         parameter.identifiable = false;
         parameter.reason = format!(
             "the axis rests in much of the logs, and their counts, which would say more than the force, {why}"
@@ -139,12 +158,16 @@ fn own(name: Name, found: &Likely) -> Option<Own> {
             .map(|lane| f64::from(u8::from(lanes.contains(lane)))),
     );
     let deviation = |m: &DMatrix<f64>| weights.dot(&(m * &weights)).max(0.0).sqrt();
+    let sum = |at: &[f64; UNKNOWNS]| -> f64 { lanes.iter().map(|&lane| at[lane]).sum() };
+    let value = sum(&found.at);
+    let other = found.other.as_ref().map_or(value, sum);
     let sureness = &found.sureness;
     let quantile = student::quantile(sureness.freedom(&weights));
     let seen = WIDER * quantile * deviation(&sureness.seen);
     Some(Own {
-        value: lanes.iter().map(|&lane| found.at[lane]).sum(),
-        reach: seen.max(NORMAL_Q95 * deviation(&sureness.stated)),
+        value,
+        // Where another curve is as likely, the interval reaches as far as it has the parameter.
+        reach: seen.max(NORMAL_Q95 * deviation(&sureness.stated)) + (other - value).abs(),
         weights,
     })
 }

@@ -302,6 +302,21 @@ fn behind_a_lag_what_rests_spoil_is_open() {
     assert!(!found.is_silent(), "{found}");
 }
 
+/// Where an axis rests its counts tell an exponential Stribeck curve from a Gaussian one; the line that has the exponent fitted is
+/// what to do next.
+#[test]
+fn another_curve_shows_where_an_axis_rests() {
+    let found = of("stage", Motion::Trapezoid, World::Exponent);
+    assert!(found.codes.contains(&"law-shape"), "{found}");
+    let claimed = |name: &str| found.claims.iter().any(|claim| claim.0 == name);
+    for name in ["sigma0", "static", "stribeck_velocity"] {
+        assert!(!claimed(name), "{name}: {found}");
+    }
+    assert!(claimed("mass") && !found.is_silent(), "{found}");
+    let gaussian = of("stage", Motion::Trapezoid, World::Faithful);
+    assert!(!gaussian.codes.contains(&"law-shape"), "{gaussian}");
+}
+
 #[test]
 fn what_a_recorder_did_is_named() {
     let cases = [

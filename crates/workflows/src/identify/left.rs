@@ -11,6 +11,10 @@ use stiction_number::{Percent, four_digits};
 /// Part of what a drift leaves from which on a channel of the log that shows it is taken into the fit first.
 const PART_OF_DRIFT: f64 = 0.5;
 
+/// What counts say of a curve that they are likelier with another exponent of, and the line that has it fitted.
+const ANOTHER_CURVE: &str = "the Stribeck curve falls off in another way than that of this law";
+const FIT_EXPONENT: &str = "stribeck_exponent = \"fit\"";
+
 /// What goes into the result.
 pub(super) fn entry(law: &FittedLaw, force_unit: &str) -> Option<MisfitEntry> {
     let misfit = law.misfit.as_ref()?;
@@ -51,8 +55,16 @@ fn code(cause: Cause) -> Code {
     }
 }
 
-/// Names the likely cause of what the residual leaves systematically.
+/// Names the likely cause of what the residual leaves systematically, and a curve that counts make likelier.
 pub(super) fn named(law: &FittedLaw, log: &Log, warnings: &mut Vec<Warning>) {
+    if let Some(exponent) = law.likelier_exponent {
+        let message = format!(
+            "{ANOTHER_CURVE}: where the axis rests, the counts of its encoder are likelier with an exponent of {exponent} than \
+             with that of a Gaussian, 2. What describes the curve is no constant of the machine. Set {FIT_EXPONENT} under \
+             [terms] in the axis file"
+        );
+        warnings.push(Warning::new(Code::LawShape, message));
+    }
     let Some(misfit) = &law.misfit else { return };
     let Some(cause) = misfit.cause() else { return };
     let message = message(misfit, cause, law, log);
@@ -61,6 +73,17 @@ pub(super) fn named(law: &FittedLaw, log: &Log, warnings: &mut Vec<Warning>) {
 
 /// The same as a part of the verdict, with what takes it into the fit.
 pub(super) fn cause(law: &FittedLaw, log: &Log) -> Option<CauseEntry> {
+    if let Some(exponent) = law.likelier_exponent {
+        return Some(CauseEntry {
+            code: Code::LawShape,
+            text: ANOTHER_CURVE.into(),
+            size: format!("an exponent of {exponent} is likelier than 2"),
+            cure: Some(Cure::Line {
+                table: "terms".into(),
+                line: FIT_EXPONENT.into(),
+            }),
+        });
+    }
     let misfit = law.misfit.as_ref()?;
     let cause = misfit.cause()?;
     let share = match &misfit.coupling {
