@@ -25,7 +25,7 @@ use crate::law::LawKind;
 use crate::watch::Watch;
 
 /// Part of the samples at rest from which the counts are asked, dimensionless.
-const SOME_REST: f64 = 0.05;
+const SOME_REST: f64 = 0.15;
 /// The part from which they are stated wherever they can be believed, dimensionless. Below, a fit of the force that they agree
 /// with is the more accurate (decision 0060).
 pub const MUCH_REST: f64 = 0.15;

@@ -469,7 +469,7 @@ mod tests {
         for body in [
             "y := 1.0;",
             "x := ;",
-            "x := SIN(1.0);",
+            "x := TAN(1.0);",
             "WHILE b DO x := 1.0; END_WHILE",
             "x := z.a;",
         ] {
