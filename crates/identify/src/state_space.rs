@@ -25,9 +25,6 @@ use crate::law::LawKind;
 use crate::watch::Watch;
 
 /// Part of the samples at rest from which the counts are asked, dimensionless.
-const SOME_REST: f64 = 0.15;
-/// The part from which they are stated wherever they can be believed, dimensionless. Below, a fit of the force that they agree
-/// with is the more accurate (decision 0060).
 pub const MUCH_REST: f64 = 0.15;
 
 /// What the counts of a log say of a fit.
@@ -69,19 +66,9 @@ pub(crate) fn flag_what_rests_spoil(estimate: &mut Estimate, why: &str) {
     }
 }
 
-/// Whether an axis rests in so much of a record that its counts are stated wherever they can be believed.
+/// Whether an axis rests in so much of a record that its counts are asked.
 pub fn rests_much(record: &Record) -> bool {
     rests::share(record) >= MUCH_REST
-}
-
-/// Whether it rests in enough of it for its counts to be asked at all.
-pub(crate) fn rests_some(record: &Record) -> bool {
-    rests::share(record) >= SOME_REST
-}
-
-/// Whether a fit of the force agrees with the counts: its intervals hold their values.
-pub(crate) fn agrees(force: &Estimate, counts: &Estimate) -> bool {
-    state::agree(&force.fitted.parameters, &counts.fitted.parameters)
 }
 
 /// Asks the counts of a record in which the axis [rests much](rests_much) about the fit of its force; states what they say where

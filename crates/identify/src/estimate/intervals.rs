@@ -52,7 +52,7 @@ pub fn intervals(
         &optimum.p,
         c,
     );
-    let before = state_space::rests_some(record).then(|| estimate.clone());
+    let before = state_space::rests_much(record).then(|| estimate.clone());
     let between = of_the_force(&objective, optimum, &raw, estimate, observer);
     // Counts say more than the force of the one axis that the law describes; of another they are as wrong, and surer.
     let cause = estimate.misfit.as_ref().and_then(Misfit::cause);
@@ -83,7 +83,7 @@ pub fn intervals(
 }
 
 /// Asks the counts of an axis that rests: states what they say, starting from the estimate `before` its intervals, or flags
-/// what they doubt. Where it rests in little of the log the fit of the force stands as long as they agree with it.
+/// what they doubt.
 fn of_the_counts(
     record: &Record,
     mut before: Estimate,
@@ -100,8 +100,6 @@ fn of_the_counts(
         state_space::flag_what_rests_spoil(estimate, why);
     };
     match counts {
-        Counts::Stated
-            if !state_space::rests_much(record) && state_space::agrees(estimate, &before) => {}
         Counts::Stated => {
             before.fitted.misfit = estimate.fitted.misfit.take();
             before.fitted.counts = estimate.fitted.counts;

@@ -94,17 +94,6 @@ const SPOILED: [Quantity; 4] = [
     Quantity::StribeckVelocity,
 ];
 
-/// Whether the intervals of a fit of the force hold all that counts say.
-pub(super) fn agree(force: &[Parameter], counts: &[Parameter]) -> bool {
-    let claimed = |p: &&Parameter| p.identified && p.identifiable;
-    force.iter().filter(claimed).all(|own| {
-        let said = |p: &&Parameter| p.name == own.name && p.interval == IntervalKind::StateSpace;
-        let held = |(low, high): (f64, f64), other: &Parameter| (low..=high).contains(&other.value);
-        let other = counts.iter().find(said);
-        other.is_none_or(|other| own.ci95.is_some_and(|interval| held(interval, other)))
-    })
-}
-
 /// Flags the parameters that rests spoil where their interval does not hold what the likelihood says, which is not believed
 /// either; where another curve is likelier, all that a curve of another shape moves.
 pub(super) fn doubt(estimate: &mut Estimate, found: &Likely) {
