@@ -382,6 +382,10 @@ pub struct Simulate {
         conflicts_with = "study"
     )]
     pub model: Option<PathBuf>,
+    /// Compiles the C in this folder, which stiction export --target c wrote, with gcc and runs it beside the compensator of the
+    /// model.
+    #[arg(long, value_name = "DIR", conflicts_with = "init")]
+    pub exported_c: Option<PathBuf>,
     /// Write into a folder that holds something else.
     #[arg(long)]
     pub force: bool,

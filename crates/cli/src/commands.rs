@@ -14,8 +14,9 @@ use stiction::commands::number::full;
 use stiction::commands::reproduce::{Budget, OwnAxis, canudas_1995, zhang_2025, zhang_2025_on};
 use stiction::commands::shell::quoted;
 use stiction::commands::{
-    Bundle, CompareOptions, Cost, Excitation, FileError, Files, Input, Kept, Outcome, Scheme,
-    check_folder, check_folder_of, check_inputs, compare_file, write_atomic,
+    Bundle, CompareOptions, Cost, Excitation, ExportedC, FileError, Files, Input, Kept, Outcome,
+    Scheme, check_folder, check_folder_of, check_inputs, compare_exported, compare_file,
+    write_atomic,
 };
 use stiction::result::Next;
 use stiction::{
@@ -521,9 +522,15 @@ fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Err
     let study = Study::read(study)?;
     let inputs: Vec<PathBuf> = study.inputs().map(PathBuf::from).collect();
     check_inputs(dir, &inputs)?;
+    let exported = simulate.exported_c.as_deref();
+    let exported = exported.map(|dir| ExportedC::open(dir, &study));
+    let exported = exported.transpose()?;
     let mut bar = Bar::new(common.json || common.quiet);
-    let outcome = stiction::simulate(&study, &mut bar);
+    let mut outcome = stiction::simulate(&study, &mut bar);
     bar.finish();
+    if let Some(exported) = exported.filter(|_| !interrupt::asked()) {
+        compare_exported(&mut outcome, &study, &exported)?;
+    }
     let schema = stiction::commands::study::result::SCHEMA;
     let (dir, written) = put(&bundle::study(&outcome), dir, schema)?;
     if common.json {

@@ -149,6 +149,7 @@ codes! {
     ExportSupported = "export-supported": "parameters that the log leaves open make no more force than it supports",
     ExportTerms = "export-terms": "terms other than friction are not in the compensator",
     ExportSource = "export-source": "FMUs were written without a binary",
+    ExportedDiffers = "exported-differs": "exported C gives another force than the compensator of its model",
     LongSteps = "long-steps": "the bristles are too stiff for the steps of the simulation",
 }
 

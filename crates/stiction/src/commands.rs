@@ -20,6 +20,8 @@ pub use stiction_workflows::compare::{
 pub use stiction_workflows::identify::{Files, Outcome, Simulated, identify};
 /// Logs with the files they came from.
 pub use stiction_workflows::source::{Source, load, table};
+/// Exported C beside the compensator of a study's model.
+pub use stiction_workflows::study::{ExportedC, compare_exported};
 /// How an error names options.
 pub use stiction_workflows::{Part, Setting, Wording};
 /// Further workflows, and what an outcome is worth.

@@ -1,8 +1,8 @@
 //! `stiction export`: a model file to the compensator's code.
 
-mod compile;
 mod terms;
 
+use crate::compile;
 use crate::error::Error;
 use std::path::Path;
 use stiction_codes::Code;
@@ -160,10 +160,16 @@ pub fn export_file(file: impl AsRef<Path>, options: &ExportOptions) -> Result<Ex
 /// # Errors
 /// As [`export`].
 pub fn compensator(model: &ModelFile, options: &ExportOptions) -> Result<Compensator<f64>, Error> {
-    let read = ReadModel::of(model)?;
-    let (model, _) = resolve(&read, options)?;
-    let placed = |e| place(e, &read, options);
-    model.in_rust().map_err(placed)
+    compensator_of(&ReadModel::of(model)?, options)
+}
+
+/// The same of a model that was read.
+pub(crate) fn compensator_of(
+    read: &ReadModel,
+    options: &ExportOptions,
+) -> Result<Compensator<f64>, Error> {
+    let (model, _) = resolve(read, options)?;
+    model.in_rust().map_err(|e| place(e, read, options))
 }
 
 /// Refuses options that the target has no use for.

@@ -37,6 +37,7 @@
 
 pub mod check;
 pub mod compare;
+mod compile;
 pub mod demo;
 mod entries;
 mod error;

@@ -44,10 +44,12 @@ impl Check {
 }
 
 impl StudyOutcome {
-    /// Whether runs were made; warnings name those that were not.
+    /// Whether runs were made, and exported C gave the force of its model; warnings name what was not so.
     pub fn verdict(&self) -> Verdict {
         let any = !self.file.results.is_empty();
-        Verdict::new(self.file.status == "interrupted", any)
+        let exported = self.file.exported_c.as_ref();
+        let same = exported.is_none_or(|c| !c.runs.iter().any(|run| run.differs));
+        Verdict::new(self.file.status == "interrupted", any && same)
     }
 }
 

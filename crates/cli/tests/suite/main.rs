@@ -2,6 +2,7 @@
 
 mod cli;
 mod export;
+mod exported;
 #[cfg(unix)]
 mod linuxcnc;
 mod paper;

@@ -187,6 +187,11 @@ impl Model {
         })
     }
 
+    /// The file that it was read from; none for a known axis, and for parameters that the study gives itself.
+    pub fn file(&self) -> Option<&ReadModel> {
+        self.read.as_ref()
+    }
+
     /// A model file as identification wrote it.
     pub fn read(file: &Path) -> Result<Self, Error> {
         Self::of(ReadModel::read(file)?)

@@ -42,8 +42,77 @@ pub struct StudyFile {
     /// The same over the values of a key.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sweeps: Vec<SweepEntry>,
+    /// Exported C beside the compensator that it was written from, where it was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub exported_c: Option<ExportedEntry>,
     /// What to beware of.
     pub warnings: Vec<Warning>,
+}
+
+/// Exported C beside the compensator that it was written from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ExportedEntry {
+    /// Folder of the C.
+    pub folder: String,
+    /// Header and source.
+    pub files: Vec<StudyInput>,
+    /// Whether it was written from the model file of the study.
+    pub same_model: bool,
+    /// Largest difference of the forces that is allowed, of the larger of force and static friction.
+    pub allowed_difference: f64,
+    /// One for each path under each controller.
+    pub runs: Vec<ExportedRow>,
+}
+
+/// A path under a controller without compensation, with the compensator in Rust and with the C.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ExportedRow {
+    /// Name of the path.
+    pub path: String,
+    /// Name of the controller.
+    pub controller: String,
+    /// `rms_error`, `peak_error` and `reversal_peak`.
+    pub metrics: Vec<ExportedValue>,
+    /// Largest difference of the forces of both on the inputs of the run with the C.
+    pub force_difference: f64,
+    /// Its unit.
+    pub force_unit: String,
+    /// When it was, s from the beginning of the run; negative at the standstill before it.
+    pub at_s: f64,
+    /// Largest difference of the position between the run with the C and that in Rust, m or rad.
+    pub position_difference: f64,
+    /// Whether the difference of the forces is beyond what is allowed.
+    pub differs: bool,
+    /// Whether the watchdog of the C switched off.
+    pub switched_off: bool,
+}
+
+/// A metric of the three runs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ExportedValue {
+    /// Name, such as `peak_error`.
+    pub name: String,
+    /// SI unit.
+    pub unit: String,
+    /// Without compensation.
+    pub without: f64,
+    /// With the compensator in Rust.
+    pub rust: f64,
+    /// With the C.
+    pub c: f64,
+    /// By how much the error in Rust is below that without.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rust_reduction_percent: Option<f64>,
+    /// The same with the C.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub c_reduction_percent: Option<f64>,
+}
+
+impl ExportedRow {
+    /// A metric by its name.
+    pub fn metric(&self, name: &str) -> Option<&ExportedValue> {
+        self.metrics.iter().find(|m| m.name == name)
+    }
 }
 
 /// What compensation leaves of the largest error, as far as the identification of the axis tells.

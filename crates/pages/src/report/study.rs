@@ -2,6 +2,7 @@
 
 mod axis;
 mod contour;
+pub(crate) mod exported;
 mod load;
 pub(crate) mod promise;
 pub(crate) mod rates;
@@ -94,6 +95,12 @@ pub fn study(outcome: &StudyOutcome) -> Document {
                 document = document.block(figure).block(table);
             }
         }
+    }
+    if file.exported_c.is_some() {
+        document = document.heading(2, "The exported C");
+        document = exported::blocks(outcome)
+            .into_iter()
+            .fold(document, |d, block| d.block(block));
     }
     document = sweep::sections(document, file)
         .heading(2, "The axis")

@@ -1,6 +1,7 @@
 //! A study on the terminal.
 
 use super::table::table;
+use crate::report::study::exported::exported_rows;
 use crate::report::study::promise::{best, lacking, left, said};
 use crate::report::study::rates::columns;
 use crate::report::study::rows::{judged, kind, less, tabled};
@@ -79,6 +80,7 @@ pub fn study(outcome: &StudyOutcome) -> String {
             out.push_str(&table(&lines, &vec![true; lines[0].len()]));
         }
     }
+    out.push_str(&exported(file));
     if !file.results.is_empty() {
         let several = results.iter().any(|row| row.runs > 1);
         let worst = |line: &&str| several || !line.starts_with("worst:");
@@ -129,6 +131,21 @@ fn bare_and_best(rows: &[ResultRow]) -> impl Iterator<Item = &ResultRow> {
     let best = exact().min_by(|a, b| left(a).total_cmp(&left(b)));
     let best = best.filter(|best| bare.is_none_or(|bare| !std::ptr::eq(*best, bare)));
     bare.into_iter().chain(best)
+}
+
+/// Exported C beside the compensator of the model.
+fn exported(file: &StudyFile) -> String {
+    let Some(exported) = &file.exported_c else {
+        return String::new();
+    };
+    let mut out = format!(
+        "\nexported C in {}, compiled and run, beside the same compensator in Rust: largest error\n",
+        exported.folder
+    );
+    let lines = exported_rows(exported);
+    let right: Vec<bool> = (0..lines[0].len()).map(|c| c >= 2).collect();
+    out.push_str(&table(&lines, &right));
+    out
 }
 
 /// What compensation is promised to leave, before everything else.

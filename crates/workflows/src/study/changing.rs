@@ -28,6 +28,9 @@ pub struct LoadCourse {
     pub learning_time: Option<f64>,
 }
 
+/// What moves an axis by a period, given its reference and the velocity ahead.
+pub(super) type Step<'a, L, I> = &'a mut dyn FnMut(&mut Axis<L, I>, Reference, f64) -> Sample;
+
 /// What changes in a run and is looked for.
 pub(super) struct Changing<'a> {
     events: &'a [Event],
@@ -71,6 +74,18 @@ impl<'a> Changing<'a> {
         axis: &mut Axis<L, I>,
         references: impl ExactSizeIterator<Item = (Reference, f64)>,
     ) -> Result<(Vec<Sample>, LoadCourse), ParamError> {
+        self.follow_by(axis, references, &mut |axis, now, ahead| {
+            axis.step(now, ahead, Correction::default())
+        })
+    }
+
+    /// The same with a step of the caller's.
+    pub fn follow_by<L: OfAxis, I: Integrator<L>>(
+        &self,
+        axis: &mut Axis<L, I>,
+        references: impl ExactSizeIterator<Item = (Reference, f64)>,
+        step: Step<L, I>,
+    ) -> Result<(Vec<Sample>, LoadCourse), ParamError> {
         let machine = self.machine;
         let mut estimator = match self.estimates {
             Some(share) => {
@@ -98,7 +113,7 @@ impl<'a> Changing<'a> {
                     axis.set_law(of(&self.axis.law.scaled(level)?)?);
                 }
             }
-            let sample = axis.step(now, ahead, Correction::default());
+            let sample = step(axis, now, ahead);
             if let Some((estimator, share)) = &mut estimator {
                 let load = estimator.sample(sample.measured, sample.command);
                 axis.set_mass_feedforward(*share * load.mass)?;

@@ -69,7 +69,11 @@ impl Learnt {
 }
 
 /// Passes of a motion without compensation, one after the other, until the watchdog knows what is normal.
-fn learn(watchdog: Watchdog<f64>, samples: &[Sample], rate: f64) -> Result<Watch<f64>, ParamError> {
+pub(super) fn learn(
+    watchdog: Watchdog<f64>,
+    samples: &[Sample],
+    rate: f64,
+) -> Result<Watch<f64>, ParamError> {
     // Only its watchdog is asked, which knows nothing of the law.
     let law = Friction::Coulomb(CoulombViscous::new([1.0; 2], [0.0; 2], 0.0)?);
     let settings = Settings {

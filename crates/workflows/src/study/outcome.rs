@@ -14,6 +14,9 @@ pub struct StudyOutcome {
     pub contours: Vec<ContourTrace>,
     /// `trajectories.csv` and `contours.csv`; empty without a path, without a contour.
     pub courses: [String; 2],
+    /// Courses without compensation, with the compensator in Rust and with the exported C, of each path under each controller, where
+    /// there is exported C.
+    pub exported_traces: Vec<Trace>,
 }
 
 impl StudyOutcome {

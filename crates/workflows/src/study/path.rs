@@ -127,7 +127,7 @@ pub(super) fn on_path<L: OfAxis, I: Integrator<L>>(
 }
 
 /// The references of a path that is not sampled for all runs.
-fn along(
+pub(super) fn along(
     path: &PathPlan,
     rate: f64,
     preview: f64,

@@ -107,6 +107,7 @@ pub fn simulate(study: &Study, observer: &mut dyn Observer) -> StudyOutcome {
                 .chain(study.contours.iter().map(contour::entry))
                 .collect(),
             events: study.events.iter().map(machine::event).collect(),
+            exported_c: None,
             promise,
             not_promised: study.not_promised.clone().or(lacking),
             results,
@@ -116,6 +117,7 @@ pub fn simulate(study: &Study, observer: &mut dyn Observer) -> StudyOutcome {
         traces,
         contours,
         courses,
+        exported_traces: Vec::new(),
     }
 }
 

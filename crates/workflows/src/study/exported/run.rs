@@ -1,0 +1,412 @@
+//! The runs with exported C: the axis of the study under each controller along each path, without compensation, with the
+//! compensator in Rust and with the C.
+
+use super::ExportedC;
+use super::process::Process;
+use crate::error::Error;
+use crate::study::changing::Changing;
+use crate::study::course;
+use crate::study::diverged::{Fault, stayed};
+use crate::study::learnt::learn;
+use crate::study::machine::{self, largest_force};
+use crate::study::metrics::{metrics, of_path};
+use crate::study::outcome::StudyOutcome;
+use crate::study::path::along;
+use crate::study::trace::Trace;
+use stiction_codes::Code;
+use stiction_files::Warning;
+use stiction_files::study::result::{ExportedEntry, ExportedRow, ExportedValue};
+use stiction_files::study::{Belief, Job, Scheme, Study};
+use stiction_friction::compensator::{Compensator, Input, Watch};
+use stiction_friction::{ElastoPlastic, LuGre, MaxwellSlip, ParamError};
+use stiction_number::{four_digits, quantity};
+use stiction_servo::axis::{Axis, Correction, Sample};
+use stiction_servo::controller::Controller;
+use stiction_servo::integrator::{Integrator, Mid, Quick};
+use stiction_servo::law::{AxisLaw, OfAxis};
+use stiction_servo::levelled::{Depending, Levelled};
+use stiction_servo::path::Reference;
+use stiction_servo::trajectory::MAX_PREVIEW;
+
+/// What the runs are called in tables, figures and `trajectories.csv`.
+const NAMES: [&str; 3] = ["none", "in Rust", "exported C"];
+
+/// Largest difference of the forces on the same inputs, of the larger of force and static friction: that which is allowed of
+/// exported C in double precision.
+const ALLOWED: f64 = 1e-12;
+
+/// Time at standstill in which compensation comes in before a run, beyond its ramp, s.
+const SETTLED: f64 = 0.01;
+
+/// Metrics that stand beside each other.
+const METRICS: [&str; 3] = ["rms_error", "peak_error", "reversal_peak"];
+
+/// One run: its samples, and whether the watchdog has switched off.
+type Ran = (Vec<Sample>, bool);
+
+/// Puts the runs with exported C beside an outcome: their metrics, courses and the largest difference of the force. C that gives
+/// another force is warned of.
+///
+/// # Errors
+/// Where the program ends before its inputs do.
+pub fn compare_exported(
+    outcome: &mut StudyOutcome,
+    study: &Study,
+    exported: &ExportedC,
+) -> Result<(), Error> {
+    let mut rows = Vec::new();
+    for path in 0..study.paths.len() {
+        for controller in 0..study.controllers.len() {
+            let job = Job {
+                path,
+                controller,
+                compensator: 0,
+                coupled: false,
+                family: 0,
+                belief: 0,
+            };
+            match on_path(study, job, exported) {
+                Ok(compared) => rows.push(compared.told(outcome, study, job)),
+                Err(Failed::Program(found)) => {
+                    return Err(Error::usage(
+                        format!("--exported-c {}: {found}", exported.folder),
+                        "C as stiction export --target c writes it",
+                    ));
+                }
+                // The study itself says of the run without compensation why it cannot be made.
+                Err(Failed::Run(fault)) => outcome.file.warnings.push(Warning::new(
+                    Code::NotRun,
+                    format!(
+                        "{}, {} was not run with the exported C: {}",
+                        study.path_name(job),
+                        study.controllers[controller].name,
+                        reason(&fault)
+                    ),
+                )),
+            }
+        }
+    }
+    let entry = ExportedEntry {
+        folder: exported.folder.clone(),
+        files: exported.files.clone(),
+        same_model: exported.same_model,
+        allowed_difference: ALLOWED,
+        runs: rows,
+    };
+    outcome
+        .file
+        .warnings
+        .extend(differing(&entry, study, exported));
+    outcome.file.exported_c = Some(entry);
+    Ok(())
+}
+
+fn reason(fault: &Fault) -> String {
+    match fault {
+        Fault::Refused(e) => format!("{} = {}; allowed: {}", e.name, e.value, e.allowed),
+        Fault::Diverged(time) => format!("it left its path at {} s", four_digits(*time)),
+    }
+}
+
+/// What is said of C that gives another force.
+fn differing(entry: &ExportedEntry, study: &Study, exported: &ExportedC) -> Option<Warning> {
+    let beyond = entry.runs.iter().filter(|row| row.differs);
+    let worst = beyond.max_by(|a, b| a.force_difference.total_cmp(&b.force_difference))?;
+    let model = exported.rust.friction();
+    let why = match (
+        exported.same_model,
+        exported.settled.key == f64::from(exported.rust.key()),
+    ) {
+        (_, false) => "it has another law than this version exports of the model of the study",
+        (false, true) => "it was written from another model file, whose law is the same",
+        (true, true) => {
+            "it was written from the model of the study and has its law: the code was changed, or the compiler does \
+                         not keep to IEEE 754"
+        }
+    };
+    Some(Warning::new(
+        Code::ExportedDiffers,
+        format!(
+            "the C in {} gives another force than the compensator of the model: by up to {} on the same inputs, at {} s of {}, {} \
+             ({} % of static friction); {why}",
+            entry.folder,
+            quantity(worst.force_difference, &worst.force_unit),
+            four_digits(worst.at_s),
+            worst.path,
+            worst.controller,
+            four_digits(100.0 * worst.force_difference / model.scale()),
+        ) + &format!(
+            ". Export again, into a new folder: stiction export {} --target c --cycle-time {} --out {}",
+            stiction_files::shell::quoted(
+                &study
+                    .machine
+                    .model
+                    .file()
+                    .map_or("MODEL.toml".into(), |read| read
+                        .file()
+                        .display()
+                        .to_string())
+            ),
+            stiction_number::shortest(1.0 / study.machine.rate),
+            stiction_files::shell::quoted(&format!("{}-new", entry.folder.trim_end_matches('/'))),
+        ),
+    ))
+}
+
+/// Why a run gives nothing.
+enum Failed {
+    Program(String),
+    Run(Fault),
+}
+
+impl From<ParamError> for Failed {
+    fn from(e: ParamError) -> Self {
+        Failed::Run(Fault::Refused(e))
+    }
+}
+
+/// The three runs of a path under a controller.
+struct Compared {
+    runs: [Ran; 3],
+    /// Largest difference of the forces of C and Rust on the inputs of the run with C, N (N m), and when, s.
+    difference: f64,
+    at: f64,
+    /// Whether somewhere it is more than is allowed.
+    differs: bool,
+}
+
+fn on_path(study: &Study, job: Job, exported: &ExportedC) -> Result<Compared, Failed> {
+    match study.machine.law {
+        AxisLaw::LuGre(_) if study.machine.depends.is_none() => {
+            moved::<LuGre<f64>, _>(study, job, exported, &|| Quick::new(1))
+        }
+        AxisLaw::LuGre(_) => stepped::<LuGre<f64>>(study, job, exported),
+        AxisLaw::ElastoPlastic(_) => stepped::<ElastoPlastic<f64>>(study, job, exported),
+        AxisLaw::MaxwellSlip(_) => stepped::<MaxwellSlip<f64>>(study, job, exported),
+    }
+}
+
+fn stepped<L: OfAxis>(study: &Study, job: Job, exported: &ExportedC) -> Result<Compared, Failed> {
+    match &study.machine.depends {
+        None => moved::<L, _>(study, job, exported, &|| Mid::new(1)),
+        Some(depends) => moved::<Levelled<L>, _>(study, job, exported, &|| {
+            Ok(Depending::new(Mid::new(1)?, depends.clone()))
+        }),
+    }
+}
+
+fn moved<L: OfAxis, I: Integrator<L>>(
+    study: &Study,
+    job: Job,
+    exported: &ExportedC,
+    integrator: &dyn Fn() -> Result<I, ParamError>,
+) -> Result<Compared, Failed> {
+    let machine = &study.machine;
+    let own = Belief {
+        law: machine.law,
+        mass: machine.mass,
+    };
+    let controller = study.controllers[job.controller].value;
+    let coming_in = exported.settled.ramp + SETTLED;
+    let run = |controller: Controller, force: Force| -> Result<Vec<Sample>, Failed> {
+        let settings = machine::settings::<L>(machine, own, controller, study.seed)?;
+        let samples = follow(
+            study,
+            job,
+            Axis::new(settings, integrator()?)?,
+            own,
+            (coming_in, force),
+        )?;
+        stayed(samples.iter().map(|s| [s])).map_err(Failed::Run)?;
+        Ok(samples)
+    };
+    let without = run(controller, &mut |_| 0.0)?;
+    let watch = match exported.rust.settings().watchdog {
+        Some(watchdog) => learn(watchdog, &without, machine.rate)?,
+        None => Watch::default(),
+    };
+    // Where the block feeds the mass forward the controller does not.
+    let controller = match exported.source.feeds("mass") {
+        true => controller.with_mass_feedforward(0.0),
+        false => controller,
+    };
+    let mut rust = ready(&exported.rust, &watch);
+    let alone = run(controller, &mut |input| rust.step(input))?;
+    let alone = (alone, rust.state().watch.tripped());
+    let mut beside = ready(&exported.rust, &watch);
+    let (mut process, _) =
+        Process::start(&exported.place, Some(&watch)).map_err(Failed::Program)?;
+    let scale = exported.rust.friction().scale();
+    let mut ended = None;
+    let (mut difference, mut at, mut differs, mut tripped) = (0.0_f64, 0.0, false, false);
+    let mut count = 0_u64;
+    let with = run(controller, &mut |input| {
+        let expected = beside.step(input);
+        match process.step(&input) {
+            _ if ended.is_some() => 0.0,
+            Err(found) => {
+                ended = Some(found);
+                0.0
+            }
+            Ok((force, off)) => {
+                let apart = (force - expected).abs();
+                if apart.is_nan() || apart > difference {
+                    (difference, at) = (apart, count as f64 / machine.rate - coming_in);
+                }
+                let within = apart <= ALLOWED * scale.max(expected.abs());
+                differs |= !within;
+                tripped = off;
+                count += 1;
+                force
+            }
+        }
+    });
+    if let Some(found) = ended {
+        return Err(Failed::Program(found));
+    }
+    Ok(Compared {
+        runs: [(without, false), alone, (with?, tripped)],
+        difference,
+        at,
+        differs,
+    })
+}
+
+/// The compensator with what its watchdog has learnt, as C takes it.
+fn ready(compensator: &Compensator<f64>, watch: &Watch<f64>) -> Compensator<f64> {
+    let mut compensator = *compensator;
+    if watch.without >= 0.0 {
+        let mut memory = compensator.memory();
+        (memory[3], memory[4]) = (watch.without, watch.peak_without);
+        (memory[9], memory[10]) = (-watch.without, -watch.peak_without);
+        // It is its own memory.
+        let _ = compensator.recall(&memory);
+    }
+    compensator
+}
+
+/// What gives the force of a sample.
+type Force<'a> = &'a mut dyn FnMut(Input<f64>) -> f64;
+
+/// Runs the axis along a path with a force that is given from outside; before, the compensation is enabled at standstill for as
+/// long as it takes to come in.
+fn follow<L: OfAxis, I: Integrator<L>>(
+    study: &Study,
+    job: Job,
+    mut axis: Axis<L, I>,
+    own: Belief,
+    (coming_in, force): (f64, Force),
+) -> Result<Vec<Sample>, Failed> {
+    let machine = &study.machine;
+    let path = &study.paths[job.path];
+    let period = 1.0 / machine.rate;
+    let preview = machine.drive.preview(period).min(MAX_PREVIEW);
+    let peak = machine.drive.peak_force();
+    let told = |reference: Reference| {
+        let surroundings = machine.depends.as_ref().map(|d| d.surroundings);
+        let [load, temperature, position] = match surroundings {
+            Some(surroundings) => surroundings.seen(reference.position),
+            None => [f64::NAN, f64::NAN, reference.position],
+        };
+        Input {
+            load,
+            temperature,
+            position,
+            enable: true,
+            ..Input::default()
+        }
+    };
+    for _ in 0..(coming_in * machine.rate) as usize {
+        force(told(path.trajectory.at(0.0)));
+    }
+    let mut command = 0.0_f64;
+    let mut count = 0_u64;
+    let mut step = |axis: &mut Axis<L, I>, reference: Reference, ahead: f64| {
+        let measured = axis.measure();
+        let instant = (count as f64 + preview) * period;
+        count += 1;
+        let given = force(Input {
+            reference_velocity: ahead,
+            tracking_error: reference.position - measured,
+            reference_acceleration: path.trajectory.at(instant).acceleration,
+            drive_force: command,
+            learn: command.abs() < peak,
+            ..told(reference)
+        });
+        let correction = Correction {
+            force: given,
+            ..Correction::default()
+        };
+        let sample = axis.step(reference, ahead, correction);
+        command = sample.command;
+        Sample {
+            compensation: given,
+            ..sample
+        }
+    };
+    let references = along(path, machine.rate, preview)?;
+    let samples = match Changing::of(study, &Scheme::None, own, own, own.mass) {
+        Some(changing) => changing.follow_by(&mut axis, references, &mut step)?.0,
+        None => references
+            .map(|(now, ahead)| step(&mut axis, now, ahead))
+            .collect(),
+    };
+    Ok(samples)
+}
+
+impl Compared {
+    /// The row of a path under a controller; its courses go into the outcome.
+    fn told(self, outcome: &mut StudyOutcome, study: &Study, job: Job) -> ExportedRow {
+        let [path, controller, _] = study.names(job);
+        let skip = study.paths[job.path].skip;
+        let largest = largest_force(&study.machine, &study.controllers[job.controller].value);
+        let names = metrics(study, job);
+        let mut values: [Vec<f64>; 3] = Default::default();
+        for (i, (samples, _)) in self.runs.iter().enumerate() {
+            let counted = &samples[samples.partition_point(|s| s.time < skip)..];
+            let all = of_path(counted, largest, None);
+            let of = |name: &&str| names.iter().position(|n| n == name).map(|k| all[k]);
+            values[i] = METRICS.iter().filter_map(of).collect();
+            let called = [path, controller, NAMES[i]];
+            if study.keeps_courses {
+                outcome.exported_traces.push(Trace::of(called, counted));
+                // Without compensation it is there already.
+                if i > 0 {
+                    let most = course::rows_of_a_run(study);
+                    outcome.courses[0].push_str(&course::rows(called, samples, most));
+                }
+            }
+        }
+        let [none, rust, c] = &values;
+        let less = |without: f64, with: f64| {
+            let percent = 100.0 * (1.0 - with / without);
+            percent.is_finite().then_some(percent)
+        };
+        let [_, (rust_samples, _), (c_samples, tripped)] = &self.runs;
+        let apart = rust_samples.iter().zip(c_samples);
+        let apart = apart.map(|(a, b)| (a.position - b.position).abs());
+        ExportedRow {
+            path: path.into(),
+            controller: controller.into(),
+            metrics: METRICS
+                .iter()
+                .enumerate()
+                .map(|(k, name)| ExportedValue {
+                    name: (*name).into(),
+                    unit: machine::unit(&study.machine, name),
+                    without: none[k],
+                    rust: rust[k],
+                    c: c[k],
+                    rust_reduction_percent: less(none[k], rust[k]),
+                    c_reduction_percent: less(none[k], c[k]),
+                })
+                .collect(),
+            force_difference: self.difference,
+            force_unit: stiction_files::symbols::force_unit(study.machine.motion).into(),
+            at_s: self.at,
+            position_difference: apart.fold(0.0, f64::max),
+            differs: self.differs,
+            switched_off: *tripped,
+        }
+    }
+}
