@@ -113,7 +113,7 @@ pub struct Demo {
 
 #[derive(Clone, Debug, Args)]
 pub struct Check {
-    /// Logs: text, MATLAB, HDF5, NumPy or Parquet.
+    /// Logs: text, MATLAB, HDF5, Parquet, JSON and others.
     #[arg(required = true, value_name = "LOG")]
     pub logs: Vec<PathBuf>,
     /// What is known of the axis and its columns.
@@ -126,7 +126,7 @@ pub struct Check {
 
 #[derive(Clone, Debug, Args)]
 pub struct Identify {
-    /// Logs of one axis, fitted together: text, MATLAB, HDF5, NumPy or Parquet.
+    /// Logs of one axis, fitted together: text, MATLAB, HDF5, Parquet, JSON and others.
     #[arg(required_unless_present = "break_away", value_name = "LOG")]
     pub logs: Vec<PathBuf>,
     /// What is known of the axis and its columns.

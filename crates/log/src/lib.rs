@@ -19,17 +19,13 @@
 //! # Ok::<(), stiction_log::Error>(())
 //! ```
 
-#[cfg(any(
-    feature = "matlab",
-    feature = "hdf5",
-    feature = "numpy",
-    feature = "parquet"
-))]
 mod binary;
 mod error;
 pub mod findings;
 #[cfg(feature = "hdf5")]
 mod hdf5;
+#[cfg(feature = "json")]
+mod json;
 pub mod log;
 pub mod mapping;
 #[cfg(feature = "matlab")]

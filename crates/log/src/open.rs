@@ -38,7 +38,7 @@ pub struct ReadOptions {
     pub limits: Limits,
 }
 
-/// Reads a recording: MATLAB (versions 4, 5 and 7.3), HDF5, NumPy (NPY and NPZ), Parquet or text.
+/// Reads a recording in any of the formats that the features of this crate name, or text.
 ///
 /// The format is recognised by the first bytes of the file, never by its name. Columns are in the order
 /// of the file; HDF5 keeps no order, so its columns are sorted by name.
@@ -80,15 +80,7 @@ fn read(path: &Path, options: &ReadOptions) -> Result<Table, Error> {
     let mut file = File::open(path).map_err(io)?;
     let format = sniff(&mut file, bytes).map_err(io)?;
     file.rewind().map_err(io)?;
-    #[cfg_attr(
-        not(any(
-            feature = "matlab",
-            feature = "hdf5",
-            feature = "numpy",
-            feature = "parquet"
-        )),
-        expect(unused_variables)
-    )]
+    #[cfg_attr(not(feature = "all"), allow(unused_variables))]
     let limits = options.limits;
     let mut table: Table = match format {
         Format::Text => return text::read_file(path, &options.text),
@@ -105,12 +97,9 @@ fn read(path: &Path, options: &ReadOptions) -> Result<Table, Error> {
         Format::Npz => crate::numpy::read_npz(file, limits),
         #[cfg(feature = "parquet")]
         Format::Parquet => crate::parquet::read(file, bytes, limits),
-        #[cfg(not(all(
-            feature = "matlab",
-            feature = "hdf5",
-            feature = "numpy",
-            feature = "parquet"
-        )))]
+        #[cfg(feature = "json")]
+        Format::Json => crate::json::read(file, limits),
+        #[cfg(not(feature = "all"))]
         other => Err(Error::new(
             Kind::Format,
             format!("this build has no {} reader", other.words()),

@@ -12,6 +12,7 @@ pub(crate) enum Format {
     Npy,
     Npz,
     Parquet,
+    Json,
     /// A known format that is not read, and what to do instead.
     Foreign(&'static str, &'static str),
     Text,
@@ -27,19 +28,24 @@ impl Format {
             Format::Npy => "NumPy NPY",
             Format::Npz => "NumPy NPZ",
             Format::Parquet => "Parquet",
+            Format::Json => "JSON",
             Format::Foreign(what, _) => what,
             Format::Text => "text",
         }
     }
 }
 
-/// An object with a quoted key, or a list of objects; no text table begins like that.
+/// An object with a quoted key, or a list of objects, lists, texts or of several numbers; no text table begins like that.
 fn is_json(start: &[u8]) -> bool {
+    let start = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
     let mut bytes = start.iter().filter(|byte| !byte.is_ascii_whitespace());
-    matches!(
-        (bytes.next(), bytes.next()),
-        (Some(b'{'), Some(b'"')) | (Some(b'['), Some(b'{'))
-    )
+    let opening = (bytes.next(), bytes.next());
+    let next = bytes.find(|byte| matches!(byte, b',' | b']'));
+    match opening {
+        (Some(b'{'), Some(b'"')) | (Some(b'['), Some(b'{' | b'[')) => true,
+        (Some(b'['), Some(b'"' | b'-' | b'0'..=b'9')) => next == Some(&b','),
+        _ => false,
+    }
 }
 
 /// The format of a file of this many bytes.
@@ -83,10 +89,7 @@ pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
             Format::Foreign("an old Excel workbook", "save the sheet as CSV")
         }
         _ if is_matlab4(&start) => Format::Matlab4,
-        _ if is_json(&start) => Format::Foreign(
-            "a JSON file",
-            "write its samples as a table, such as CSV with a header and one sample in each row",
-        ),
+        _ if is_json(&start) => Format::Json,
         _ => Format::Text,
     })
 }
@@ -127,6 +130,9 @@ mod tests {
             "{\"mass\": 0.49, \"entries\": [",
             "{\n  \"t\": [0",
             " [ {\"t\": 0}",
+            "[[0.0, 1.0],\n",
+            "[1, 2]\n[3, 4]\n",
+            "\u{feff}{\"t\": 0}",
         ] {
             assert!(is_json(text.as_bytes()), "{text}");
         }
@@ -135,7 +141,7 @@ mod tests {
             "[header]\n0 1\n",
             "{name}\n0 1\n",
             "\"t\",\"x\"\n0,1\n",
-            "[1, 2]\n",
+            "[1] 0.5, 2\n",
         ] {
             assert!(!is_json(text.as_bytes()), "{text}");
         }

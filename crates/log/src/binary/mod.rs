@@ -2,15 +2,7 @@
 //! limits, integer time stamps, and the boundary around third-party decoders.
 
 // A build with only some of the formats leaves parts of this unused.
-#![cfg_attr(
-    not(all(
-        feature = "matlab",
-        feature = "hdf5",
-        feature = "numpy",
-        feature = "parquet"
-    )),
-    allow(dead_code, unused_imports)
-)]
+#![cfg_attr(not(feature = "all"), allow(dead_code, unused_imports))]
 
 mod collect;
 mod guard;

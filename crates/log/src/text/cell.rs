@@ -5,7 +5,7 @@ use super::options::Decimal;
 
 /// What a cell holds, and for a number which decimal mark it shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Cell {
+pub(crate) enum Cell {
     /// Nothing but blanks.
     Empty,
     /// A mark for a missing value.
@@ -35,7 +35,7 @@ const LONGEST_NUMBER: usize = 2048;
 
 /// Understands a cell without knowing the decimal mark: `1,5` and `1.5` are numbers, `1.234,5` and
 /// `1,234,567` are not.
-pub(super) fn classify(cell: &[u8]) -> Cell {
+pub(crate) fn classify(cell: &[u8]) -> Cell {
     let cell = cell.trim_ascii();
     if cell.is_empty() {
         return Cell::Empty;

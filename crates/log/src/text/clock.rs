@@ -2,7 +2,7 @@
 
 /// A point in time: nanoseconds since 1970-01-01 for a date, since midnight for a time of day.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Moment {
+pub(crate) struct Moment {
     /// Nanoseconds since the epoch (or midnight); times with a zone are converted to UTC.
     pub ns: i64,
     /// Whether a date is part of it.

@@ -105,7 +105,7 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
 }
 
 /// Lets times of day run on over midnight; whether there was one.
-fn unwrap_midnight(values: &mut [f64]) -> bool {
+pub(crate) fn unwrap_midnight(values: &mut [f64]) -> bool {
     let (mut days, mut last) = (0.0, f64::NEG_INFINITY);
     for value in values.iter_mut().filter(|v| !v.is_nan()) {
         if *value < last - HALF_DAY {

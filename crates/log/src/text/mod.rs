@@ -58,6 +58,12 @@ mod twincat;
 mod unit;
 mod utf16;
 
+#[cfg(feature = "json")]
+pub(crate) use cell::{Cell, classify};
+#[cfg(feature = "json")]
+pub(crate) use clock::Moment;
+#[cfg(feature = "json")]
+pub(crate) use column::unwrap_midnight;
 pub use limits::{MAX_COLUMNS, MAX_PREAMBLE_LINES, MAX_ROW_BYTES, MAX_SAMPLES};
 pub use options::{Decimal, Separator, TextOptions};
 

@@ -27,7 +27,7 @@ const SAMPLES: u64 = 1 << 17;
 const MEMORY_BOUND: usize = 8 << 20;
 
 /// First bytes of the formats; the last of these lead to the text reader.
-const STARTS: [&[u8]; 9] = [
+const STARTS: [&[u8]; 12] = [
     b"\x89HDF\r\n\x1a\n",
     b"\x93NUMPY\x01\x00",
     b"\x93NUMPY\x02\x00",
@@ -35,6 +35,9 @@ const STARTS: [&[u8]; 9] = [
     b"PAR1",
     b"\x00\x00\x00\x00\x02\x00\x00\x00\x01\x00\x00\x00\x00\x00\x00\x00\x02\x00\x00\x00q\x00",
     b"\x1f\x8b",
+    b"{\"t\": [",
+    b"[[",
+    b"[{\"q\":",
     b"time;force\n",
     b"",
 ];

@@ -5,6 +5,7 @@ Usage: python write_small.py FOLDER
 Small files, so that most damage hits the structure of the file and not its samples.
 """
 
+import json
 import pathlib
 import sys
 
@@ -80,3 +81,9 @@ pq.write_table(table, folder / "none.parquet", compression="none", data_page_ver
 flat = table.select(["t", "n"])
 pq.write_table(flat, folder / "encoded.parquet", use_dictionary=False, column_encoding={
     "t": "BYTE_STREAM_SPLIT", "n": "DELTA_BINARY_PACKED"})
+
+samples = [{"t": float(a), "yaw": {"q": float(b), "v": [1, 2.5]}, "at": "2026-08-01T12:00:00Z", "name": "x"}
+           for a, b in zip(t, q)]
+(folder / "records.json").write_text(json.dumps({"kt": 2.0, "entries": samples}))
+(folder / "columns.json").write_text(json.dumps({"t": t.tolist(), "m": matrix.tolist(), "runs": [{"q": [1, 2]}, {"q": [3]}]}))
+(folder / "lines.json").write_text("\n".join(map(json.dumps, samples)))

@@ -3,12 +3,7 @@
 // The errors are those of the crate, which carry the place and the words.
 #![allow(clippy::result_large_err)]
 
-#[cfg(all(
-    feature = "matlab",
-    feature = "hdf5",
-    feature = "numpy",
-    feature = "parquet"
-))]
+#[cfg(feature = "all")]
 mod binary;
 mod mapping_codes;
 mod mapping_common;

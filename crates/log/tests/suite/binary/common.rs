@@ -28,6 +28,7 @@ pub fn written(script: &str) -> tempfile::TempDir {
     let status = Command::new(python())
         .arg(scripts.join(script))
         .arg(folder.path())
+        .env("PYTHONDONTWRITEBYTECODE", "1")
         .status()
         .unwrap();
     assert!(status.success(), "{script} failed");

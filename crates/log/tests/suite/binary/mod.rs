@@ -1,6 +1,7 @@
 //! What reads files of every format: only where all readers are built.
 
 mod common;
+mod json;
 mod mapping_recordings;
 mod recordings;
 mod roundtrip;

@@ -167,3 +167,36 @@ fn ur10e() {
         }
     }
 }
+
+#[test]
+fn xl330() {
+    let Some(folder) = recordings() else { return };
+    for (file, samples) in [("sin_sin", 1116), ("up_and_down", 1120)] {
+        let table = table(folder.join(format!("xl330/{file}.json")));
+        let names = [
+            "position",
+            "speed",
+            "load",
+            "input_volts",
+            "temp",
+            "timestamp",
+            "goal_position",
+            "torque_enable",
+        ]
+        .map(|name| format!("entries.{name}"));
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        columns(&table, &names, samples);
+        let scalars: Vec<(&str, f64)> = table
+            .scalars
+            .iter()
+            .map(|s| (s.name.as_str(), s.value))
+            .collect();
+        assert_eq!(
+            scalars,
+            [("mass", 0.49), ("length", 0.1), ("kp", 200.0), ("vin", 7.4)]
+        );
+        // 4096 counts a turn.
+        let step = std::f64::consts::TAU / 4096.0;
+        assert!(off_grid(&table.columns[0].values, step) < 1e-6);
+    }
+}

@@ -26,10 +26,10 @@ fn detects(table: &Table, what: &str) -> bool {
     table.detected.iter().any(|line| line.contains(what))
 }
 
-#[test]
-fn every_writer_comes_back_bit_for_bit() {
-    let folder = written("write_binary.py");
-    let mut files = 0;
+/// Reads every file of a script that has a truth beside it, under its own name and another, and compares.
+fn come_back(script: &str) -> Vec<(String, Table)> {
+    let folder = written(script);
+    let mut tables = Vec::new();
     for path in recordings(folder.path()) {
         let name = path.file_name().unwrap().to_str().unwrap();
         let Some(truth) = Truth::beside(&path) else {
@@ -38,22 +38,30 @@ fn every_writer_comes_back_bit_for_bit() {
         let table = read_table(&path, &ReadOptions::default())
             .unwrap_or_else(|error| panic!("{name}: {error}"));
         compare(name, &Truth::of(&table), &truth);
-        files += 1;
 
         // The name of a file says nothing: the same bytes under another one read the same.
         let disguised = path.with_extension("csv");
         std::fs::rename(&path, &disguised).unwrap();
         let again = read_table(&disguised, &ReadOptions::default()).unwrap();
         assert_eq!(Truth::of(&again), Truth::of(&table), "{name} as CSV");
+        tables.push((name.to_owned(), table));
+    }
+    tables
+}
 
-        let has = |column: &str| truth.columns.iter().any(|(name, _)| name == column);
+#[test]
+fn every_writer_comes_back_bit_for_bit() {
+    let tables = come_back("write_binary.py");
+    assert_eq!(tables.len(), 20);
+    for (name, table) in &tables {
+        let has = |column: &str| table.columns.iter().any(|c| c.name == column);
         assert_eq!(
-            detects(&table, "beyond 2^53"),
+            detects(table, "beyond 2^53"),
             has("i_int64") || name.starts_with("encodings"),
             "{name}: {:?}",
             table.detected
         );
-        match name {
+        match name.as_str() {
             "plain.h5" => {
                 let torque = table.columns.iter().find(|c| c.name == "g.torque").unwrap();
                 assert_eq!(torque.unit.as_deref(), Some("N m"));
@@ -62,7 +70,7 @@ fn every_writer_comes_back_bit_for_bit() {
                 let stamp = table.columns.iter().find(|c| c.name.starts_with("stamp"));
                 assert_eq!(stamp.unwrap().unit.as_deref(), Some("s"));
                 assert!(
-                    detects(&table, "seconds from the first"),
+                    detects(table, "seconds from the first"),
                     "{:?}",
                     table.detected
                 );
@@ -70,7 +78,21 @@ fn every_writer_comes_back_bit_for_bit() {
             _ => {}
         }
     }
-    assert_eq!(files, 20);
+}
+
+#[test]
+fn json_comes_back_bit_for_bit() {
+    let tables = come_back("write_json.py");
+    assert_eq!(tables.len(), 13);
+    for (name, table) in &tables {
+        let wide = name == "columns.json" || name == "indented.json";
+        assert_eq!(detects(table, "beyond 2^53"), wide, "{name}");
+        let dated = table.columns.iter().find(|c| c.name.ends_with("at"));
+        if let Some(column) = dated {
+            assert_eq!(column.unit.as_deref(), Some("s"));
+            assert!(detects(table, "dates with time"), "{name}");
+        }
+    }
 }
 
 #[test]

@@ -1,0 +1,425 @@
+//! The numbers of a JSON text by where they stand: a path of keys, and the lists around them.
+
+use std::borrow::Cow;
+
+use crate::binary::{Collector, Order, Values};
+use crate::text::{Moment, unwrap_midnight};
+use crate::{Error, Kind};
+
+/// How many lists of one signal each are columns of their own, when they are not the rows of a matrix.
+const MAX_LISTS: usize = 64;
+
+/// One place: a path of keys without the indices of lists.
+#[derive(Debug, Default)]
+pub(super) struct Node {
+    key: String,
+    parent: usize,
+    /// Whether it is the element of a list, which has no key.
+    element: bool,
+    children: Vec<usize>,
+    /// Which of the children was asked for last: records have their keys in the same order.
+    last: usize,
+    /// Lists around it, without the one that lines make.
+    lists: usize,
+    /// Lengths of the lists that stand here, by the index of the list around them.
+    lengths: Vec<u64>,
+    samples: Samples,
+}
+
+/// The numbers at one place.
+#[derive(Debug, Default)]
+struct Samples {
+    values: Values,
+    /// Where the numbers of each outer element begin, within two lists.
+    starts: Vec<usize>,
+    /// How a text began that is no number, and in which line.
+    text: Option<(String, u64)>,
+    /// The first date or time of day among texts.
+    first: Option<Moment>,
+    /// A number was here.
+    number: bool,
+    null: bool,
+}
+
+/// All places, the root first.
+pub(super) struct Tree {
+    nodes: Vec<Node>,
+    /// Whether every line is a value of its own: the elements of a list around them all.
+    pub(super) lines: bool,
+    /// Indices of the lists around the value that is being read.
+    pub(super) at: Vec<u64>,
+    pub(super) collector: Collector,
+}
+
+impl Tree {
+    pub(super) fn new(collector: Collector) -> Self {
+        Self {
+            nodes: vec![Node::default()],
+            lines: false,
+            at: Vec::new(),
+            collector,
+        }
+    }
+
+    /// Makes the value that was read the first of many, each in a line.
+    pub(super) fn begin_lines(&mut self, documents: u64) {
+        if !self.lines {
+            for node in &mut self.nodes {
+                match node.lists {
+                    0 => continue,
+                    1 => node.samples.starts = vec![0],
+                    _ => node.samples.values = Values::default(),
+                }
+                node.lengths = Vec::new();
+            }
+        }
+        self.lines = true;
+        self.at = vec![documents];
+    }
+
+    /// The child of this key, or the element of a list.
+    pub(super) fn child(&mut self, node: usize, key: Option<&[u8]>) -> Result<usize, Error> {
+        let (key, element) = match key {
+            Some(key) => (String::from_utf8_lossy(key), false),
+            None => (Cow::Borrowed(""), true),
+        };
+        let nodes = &self.nodes;
+        let here = &nodes[node];
+        let is = |&child: &usize| nodes[child].element == element && nodes[child].key == key;
+        let count = here.children.len();
+        let next = (here.last + 1) % count.max(1);
+        let likely = here
+            .children
+            .get(next)
+            .filter(|child| is(child))
+            .map(|_| next);
+        let found = likely.or_else(|| here.children.iter().position(is));
+        if let Some(index) = found {
+            self.nodes[node].last = index;
+            return Ok(self.nodes[node].children[index]);
+        }
+        self.collector.entry()?;
+        let lists = here.lists + usize::from(element);
+        let made = self.nodes.len();
+        self.nodes.push(Node {
+            key: key.into_owned(),
+            parent: node,
+            element,
+            lists,
+            ..Node::default()
+        });
+        let parent = &mut self.nodes[node];
+        parent.last = parent.children.len();
+        parent.children.push(made);
+        Ok(made)
+    }
+
+    /// `keys.of.the.path`; of elements only, where they are told apart, by the index given for them.
+    pub(super) fn path(&self, node: usize) -> String {
+        self.path_with(node, None)
+    }
+
+    fn path_with(&self, mut node: usize, outer: Option<usize>) -> String {
+        let mut parts: Vec<Cow<'_, str>> = Vec::new();
+        let mut index = String::new();
+        while node != 0 {
+            let here = &self.nodes[node];
+            if here.element {
+                if let Some(outer) = outer.filter(|_| here.lists + usize::from(self.lines) == 1) {
+                    index = format!("{{{}}}", outer + 1);
+                }
+            } else {
+                parts.push(Cow::Owned(format!(
+                    "{}{}",
+                    here.key,
+                    std::mem::take(&mut index)
+                )));
+            }
+            node = here.parent;
+        }
+        if let (Some(outer), true) = (outer, self.lines) {
+            index = format!("{{{}}}", outer + 1);
+        }
+        if !index.is_empty() {
+            parts.push(Cow::Owned(index));
+        }
+        parts.reverse();
+        parts.join(".")
+    }
+
+    /// A list ends that stands at this place.
+    pub(super) fn end_list(&mut self, node: usize, length: u64) -> Result<(), String> {
+        let lists = self.nodes[node].lists + usize::from(self.lines);
+        let row = match lists {
+            0 => 0,
+            1 => self.at[0] as usize,
+            _ => return Ok(()),
+        };
+        let lengths = &mut self.nodes[node].lengths;
+        if lengths.len() > row {
+            return Err("a second value of the same key".to_owned());
+        }
+        lengths.resize(row, 0);
+        lengths.push(length);
+        Ok(())
+    }
+
+    /// The next element of the innermost list has this index.
+    pub(super) fn index(&mut self, index: u64) {
+        if let Some(last) = self.at.last_mut() {
+            *last = index;
+        }
+    }
+
+    /// A number at this place.
+    pub(super) fn number(&mut self, node: usize, value: f64, rounded: bool) -> Result<(), Error> {
+        self.nodes[node].samples.number = true;
+        self.nodes[node].samples.values.rounded |= rounded;
+        self.push(node, value)
+    }
+
+    pub(super) fn null(&mut self, node: usize) {
+        self.nodes[node].samples.null = true;
+    }
+
+    /// A date or time of day at this place.
+    pub(super) fn moment(&mut self, node: usize, moment: Moment) -> Result<(), Error> {
+        let first = *self.nodes[node].samples.first.get_or_insert(moment);
+        let ns = i128::from(moment.ns) - i128::from(first.ns);
+        self.push(node, ns as f64 / 1e9)
+    }
+
+    /// A text that is nothing of these: the place is no signal.
+    pub(super) fn word(&mut self, node: usize, row: u64, text: &[u8]) {
+        let samples = &mut self.nodes[node].samples;
+        if samples.text.is_none() {
+            let text = String::from_utf8_lossy(text).chars().take(20).collect();
+            samples.text = Some((text, row));
+            samples.values.samples = Vec::new();
+            samples.starts = Vec::new();
+        }
+    }
+
+    fn push(&mut self, node: usize, value: f64) -> Result<(), Error> {
+        if self.nodes[node].samples.text.is_some() {
+            return Ok(());
+        }
+        match self.at[..] {
+            [] => self.fill(node, 0)?,
+            [row] => self.fill(node, row)?,
+            [outer, inner] => {
+                self.rows_before(node, outer as usize + 1)?;
+                let begin = self.nodes[node].samples.starts[outer as usize];
+                self.fill(node, begin as u64 + inner)?;
+            }
+            _ => return Ok(()),
+        }
+        self.collector.reserve("", &[1])?;
+        self.nodes[node].samples.values.samples.push(value);
+        Ok(())
+    }
+
+    /// Fills up with NaN to this many numbers; more of them are two values of one key.
+    fn fill(&mut self, node: usize, count: u64) -> Result<(), Error> {
+        let have = self.nodes[node].samples.values.samples.len() as u64;
+        if have > count {
+            return Err(Error::new(
+                Kind::Format,
+                "a second value of the same key",
+                "every key once in an object",
+            ));
+        }
+        self.collector.reserve("", &[count - have])?;
+        let samples = &mut self.nodes[node].samples.values.samples;
+        samples.resize(count as usize, f64::NAN);
+        Ok(())
+    }
+
+    /// Begins this many outer elements of a place within two lists, and fills up those before.
+    fn rows_before(&mut self, node: usize, count: usize) -> Result<(), Error> {
+        let list = self.list_around(node);
+        while self.nodes[node].samples.starts.len() < count {
+            let rows = self.nodes[node].samples.starts.len();
+            if let Some(last) = rows.checked_sub(1) {
+                let begin = self.nodes[node].samples.starts[last] as u64;
+                let length = self.nodes[list].lengths.get(last).copied().unwrap_or(0);
+                self.fill(node, begin + length)?;
+            }
+            self.collector.reserve("", &[1])?;
+            let samples = &mut self.nodes[node].samples;
+            samples.starts.push(samples.values.samples.len());
+        }
+        Ok(())
+    }
+
+    /// The place of the innermost list around this one.
+    fn list_around(&self, mut node: usize) -> usize {
+        while node != 0 {
+            let here = &self.nodes[node];
+            node = here.parent;
+            if here.element {
+                break;
+            }
+        }
+        node
+    }
+
+    /// Makes columns and scalars, in the order in which the places came first.
+    pub(super) fn finish(mut self, documents: u64) -> Result<Collector, Error> {
+        let mut stack = vec![0];
+        while let Some(node) = stack.pop() {
+            self.column(node, documents)
+                .map_err(|error| error.in_column(self.path(node)))?;
+            stack.extend(self.nodes[node].children.iter().rev());
+        }
+        Ok(self.collector)
+    }
+
+    fn column(&mut self, node: usize, documents: u64) -> Result<(), Error> {
+        let lists = self.nodes[node].lists + usize::from(self.lines);
+        let name = self.path(node);
+        let here = &self.nodes[node];
+        if let Some((text, row)) = &here.samples.text {
+            let why = format!("text such as {text} in line {row}");
+            match lists {
+                1 => self.collector.skip_column(&name, &why),
+                _ => self.collector.skip(&name, &why),
+            }
+            return Ok(());
+        }
+        if !here.samples.number && here.samples.first.is_none() {
+            let leaf = here.children.is_empty();
+            if here.samples.null && leaf {
+                match lists {
+                    1 => self.collector.skip_column(&name, "no number in any row"),
+                    _ => self.collector.skip(&name, "no number in any row"),
+                }
+            } else if leaf && here.lengths.iter().all(|&n| n == 0) && !here.lengths.is_empty() {
+                self.collector.skip(&name, "empty");
+            }
+            return Ok(());
+        }
+        if here.samples.number && here.samples.first.is_some() {
+            self.collector.skip(&name, "numbers and dates at one place");
+            return Ok(());
+        }
+        match lists {
+            0 => self.give(node, &name, &[]),
+            1 => {
+                let rows = self.rows(self.list_around(node), documents);
+                self.fill(node, rows)?;
+                self.give(node, &name, &[rows, 1]);
+            }
+            2 => self.matrix(node, &name, documents)?,
+            _ => self.collector.skip(
+                &name,
+                "lists nested deeper than two: make every signal one list",
+            ),
+        }
+        Ok(())
+    }
+
+    /// Length of the outermost list: the one that stands here, or that of the lines.
+    fn rows(&self, list: usize, documents: u64) -> u64 {
+        match self.lines {
+            true => documents,
+            false => self.nodes[list].lengths.first().copied().unwrap_or(0),
+        }
+    }
+
+    /// Numbers within two lists: the rows of a matrix, or a few lists of a signal each.
+    fn matrix(&mut self, node: usize, name: &str, documents: u64) -> Result<(), Error> {
+        let list = self.list_around(node);
+        let outer = self.rows(self.list_around(list), documents);
+        let rows = outer as usize;
+        self.rows_before(node, rows)?;
+        let lengths = &self.nodes[list].lengths;
+        let last = lengths.get(rows.wrapping_sub(1)).copied().unwrap_or(0);
+        let mut filled = lengths.iter().copied().filter(|&n| n > 0);
+        let one = filled.next().unwrap_or(0);
+        let other = filled.find(|&length| length != one);
+        let end = self.nodes[node].samples.starts.last().copied().unwrap_or(0) as u64 + last;
+        self.fill(node, end)?;
+        if other.is_none() && one <= outer {
+            self.rectangle(node, one, outer)?;
+            self.give(node, name, &[outer, one]);
+        } else if rows <= MAX_LISTS {
+            let samples = std::mem::take(&mut self.nodes[node].samples);
+            let ends = samples.starts.iter().skip(1).copied().chain([end as usize]);
+            let bounds: Vec<_> = samples.starts.iter().copied().zip(ends).collect();
+            for (row, (begin, end)) in bounds.into_iter().enumerate() {
+                let name = self.path_with(node, Some(row));
+                if begin == end {
+                    self.collector.skip(&name, "empty");
+                    continue;
+                }
+                let part = Samples {
+                    values: Values {
+                        samples: samples.values.samples[begin..end].to_vec(),
+                        rounded: samples.values.rounded,
+                    },
+                    first: samples.first,
+                    ..Samples::default()
+                };
+                self.nodes[node].samples = part;
+                self.give(node, &name, &[(end - begin) as u64, 1]);
+            }
+        } else {
+            let why = match other {
+                Some(other) => format!("lists of different lengths, {one} and {other}"),
+                None => format!("{outer} lists of {one} numbers: signals have to be columns"),
+            };
+            self.collector.skip(name, &why);
+        }
+        Ok(())
+    }
+
+    /// Makes the rows where the list is missing or empty rows of NaN.
+    fn rectangle(&mut self, node: usize, columns: u64, rows: u64) -> Result<(), Error> {
+        let (rows, columns) = (rows as usize, columns as usize);
+        let have = self.nodes[node].samples.values.samples.len();
+        let missing = (rows * columns).saturating_sub(have);
+        if missing == 0 {
+            return Ok(());
+        }
+        self.collector.reserve("", &[missing as u64])?;
+        let samples = &mut self.nodes[node].samples;
+        let mut whole = vec![f64::NAN; rows * columns];
+        let ends = samples.starts.iter().skip(1).copied().chain([have]);
+        for (row, (&begin, end)) in samples.starts.iter().zip(ends).enumerate() {
+            whole[row * columns..][..end - begin]
+                .copy_from_slice(&samples.values.samples[begin..end]);
+        }
+        samples.values.samples = whole;
+        Ok(())
+    }
+
+    fn give(&mut self, node: usize, name: &str, dims: &[u64]) {
+        let mut samples = std::mem::take(&mut self.nodes[node].samples);
+        let mut unit = None;
+        if let Some(first) = samples.first {
+            let sort = if first.dated {
+                "dates with time"
+            } else {
+                "times of day"
+            };
+            let run_on = !first.dated && dims.len() == 2 && dims[1] == 1;
+            let midnight = if run_on && unwrap_midnight(&mut samples.values.samples) {
+                ", with a day added after each midnight"
+            } else {
+                ""
+            };
+            self.collector.detected(format!(
+                "{name}: {sort}, converted to seconds from the first{midnight}"
+            ));
+            unit = Some("s".to_owned());
+        }
+        match dims {
+            // A list of one number is a column, as a file of one row has columns.
+            [1, 1] => self.collector.column(name, unit, samples.values.samples),
+            dims => self
+                .collector
+                .array(name, unit, dims, Order::Row, samples.values),
+        }
+    }
+}
