@@ -19,6 +19,8 @@
 //! # Ok::<(), stiction_log::Error>(())
 //! ```
 
+#[cfg(feature = "arrow")]
+mod arrow;
 mod binary;
 mod error;
 pub mod findings;

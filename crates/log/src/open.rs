@@ -99,6 +99,8 @@ fn read(path: &Path, options: &ReadOptions) -> Result<Table, Error> {
         Format::Parquet => crate::parquet::read(file, bytes, limits),
         #[cfg(feature = "json")]
         Format::Json => crate::json::read(file, limits),
+        #[cfg(feature = "arrow")]
+        Format::Arrow => crate::arrow::read(file, bytes, limits),
         #[cfg(not(feature = "all"))]
         other => Err(Error::new(
             Kind::Format,

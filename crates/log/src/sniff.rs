@@ -13,6 +13,7 @@ pub(crate) enum Format {
     Npz,
     Parquet,
     Json,
+    Arrow,
     /// A known format that is not read, and what to do instead.
     Foreign(&'static str, &'static str),
     Text,
@@ -29,6 +30,7 @@ impl Format {
             Format::Npz => "NumPy NPZ",
             Format::Parquet => "Parquet",
             Format::Json => "JSON",
+            Format::Arrow => "Arrow IPC",
             Format::Foreign(what, _) => what,
             Format::Text => "text",
         }
@@ -65,6 +67,9 @@ pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
     if starts(b"PAR1") || starts(b"PARE") {
         return Ok(Format::Parquet);
     }
+    if starts(b"ARROW1\0\0") || is_arrow_stream(&start) {
+        return Ok(Format::Arrow);
+    }
     if let Some([0, 1, b'I', b'M'] | [1, 0, b'M', b'I']) = start.get(124..128) {
         return Ok(Format::Matlab5);
     }
@@ -88,10 +93,25 @@ pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
         _ if starts(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1") => {
             Format::Foreign("an old Excel workbook", "save the sheet as CSV")
         }
+        _ if starts(b"FEA1") => Format::Foreign(
+            "a Feather file of version 1",
+            "write it again with version 2, as pyarrow and pandas do by themselves",
+        ),
         _ if is_matlab4(&start) => Format::Matlab4,
         _ if is_json(&start) => Format::Json,
         _ => Format::Text,
     })
+}
+
+/// Whether a message of Arrow IPC begins here: its mark, and a length of metadata that is a multiple of 8.
+fn is_arrow_stream(start: &[u8]) -> bool {
+    match start.first_chunk() {
+        Some(&[0xff, 0xff, 0xff, 0xff, a, b, c, d]) => {
+            let length = u32::from_le_bytes([a, b, c, d]);
+            length > 0 && length.is_multiple_of(8) && length < 1 << 26
+        }
+        _ => false,
+    }
 }
 
 /// Whether these bytes are the header of a variable in a MAT file of version 4, which has no magic:

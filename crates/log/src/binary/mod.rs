@@ -9,9 +9,13 @@ mod guard;
 mod number;
 mod record;
 mod ticks;
+#[cfg(feature = "arrow")]
+mod unpack;
 
 pub(crate) use collect::{Collector, Layout, Order};
 pub(crate) use guard::guard;
-pub(crate) use number::{ByteOrder, Class, Number, Values, half, read_numbers};
+pub(crate) use number::{ByteOrder, Class, Number, Values, decimal, half, read_numbers};
 pub(crate) use record::{Cell, Field, Record};
 pub(crate) use ticks::{Clock, Period, seconds};
+#[cfg(feature = "arrow")]
+pub(crate) use unpack::{lz4, zstd};

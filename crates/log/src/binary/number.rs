@@ -118,6 +118,12 @@ pub(crate) fn half(bits: u16) -> f64 {
     }
 }
 
+/// A decimal number of so many places, at most 38: correctly rounded up to 2^53 and 22 places, both operands being exact; else
+/// within 1 in 2^52.
+pub(crate) fn decimal(integer: i128, scale: u32) -> f64 {
+    integer as f64 / 10u128.pow(scale) as f64
+}
+
 /// Reads `count` numbers; memory grows with the bytes that really arrive, not with `count`.
 pub(crate) fn read_numbers(
     reader: &mut (impl Read + ?Sized),

@@ -6,7 +6,7 @@ use parquet::data_type::{DataType, Int96};
 use parquet::errors::ParquetError;
 use parquet::schema::types::ColumnDescriptor;
 
-use crate::binary::{Clock, Period, Values, half};
+use crate::binary::{Clock, Period, Values, decimal, half};
 
 /// What the stored values of a column are.
 #[derive(Clone, Debug, PartialEq)]
@@ -217,11 +217,6 @@ fn big_endian(bytes: &[u8]) -> Option<i128> {
     let sign = if first >= 0x80 { -1 } else { 0 };
     let fold = |n: i128, &byte: &u8| n << 8 | i128::from(byte);
     (bytes.len() <= 16).then(|| bytes.iter().fold(sign, fold))
-}
-
-/// Correctly rounded up to 2^53 and 22 places, both operands being exact; else within 1 in 2^52.
-fn decimal(integer: i128, scale: u32) -> f64 {
-    integer as f64 / 10u128.pow(scale) as f64
 }
 
 #[cfg(test)]

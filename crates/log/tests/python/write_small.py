@@ -12,6 +12,7 @@ import sys
 import h5py
 import numpy as np
 import pyarrow as pa
+import pyarrow.ipc
 import pyarrow.parquet as pq
 import scipy.io
 
@@ -87,3 +88,9 @@ samples = [{"t": float(a), "yaw": {"q": float(b), "v": [1, 2.5]}, "at": "2026-08
 (folder / "records.json").write_text(json.dumps({"kt": 2.0, "entries": samples}))
 (folder / "columns.json").write_text(json.dumps({"t": t.tolist(), "m": matrix.tolist(), "runs": [{"q": [1, 2]}, {"q": [3]}]}))
 (folder / "lines.json").write_text("\n".join(map(json.dumps, samples)))
+
+for compression in [None, "lz4", "zstd"]:
+    options = pa.ipc.IpcWriteOptions(compression=compression)
+    for end, new in [("arrow", pa.ipc.new_file), ("arrows", pa.ipc.new_stream)]:
+        with new(folder / f"{compression}.{end}", table.schema, options=options) as writer:
+            writer.write_table(table, max_chunksize=17)

@@ -3,7 +3,7 @@
 use stiction_log::{Kind, ReadOptions, read_table};
 
 /// Whether the reader is there, how its files begin, what they are called.
-const FORMATS: [(bool, &[u8], &str); 5] = [
+const FORMATS: [(bool, &[u8], &str); 6] = [
     (
         cfg!(feature = "matlab"),
         b"MATLAB 5.0 MAT-file, of nothing",
@@ -13,6 +13,7 @@ const FORMATS: [(bool, &[u8], &str); 5] = [
     (cfg!(feature = "numpy"), b"\x93NUMPY\x01\x00", "NumPy"),
     (cfg!(feature = "parquet"), b"PAR1", "Parquet"),
     (cfg!(feature = "json"), b"{\"t\": [0, 1]", "JSON"),
+    (cfg!(feature = "arrow"), b"ARROW1\0\0", "Arrow"),
 ];
 
 #[test]

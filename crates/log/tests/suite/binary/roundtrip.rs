@@ -96,6 +96,26 @@ fn json_comes_back_bit_for_bit() {
 }
 
 #[test]
+fn arrow_comes_back_bit_for_bit() {
+    let tables = come_back("write_arrow.py");
+    assert_eq!(tables.len(), 17);
+    for (name, table) in &tables {
+        if name == "one_row.arrow" {
+            assert_eq!(table.columns[0].unit.as_deref(), Some("mm"));
+            assert_eq!(table.columns[1].unit, None);
+        }
+        let stamp = table.columns.iter().find(|c| c.name == "stamp_ns");
+        assert!(stamp.is_none_or(|column| column.unit.as_deref() == Some("s")));
+        assert_eq!(
+            detects(table, "beyond 2^53"),
+            stamp.is_some(),
+            "{name}: {:?}",
+            table.detected
+        );
+    }
+}
+
+#[test]
 fn a_codec_that_is_not_built_in_is_named() {
     let folder = written("write_binary.py");
     let error = read_table(
