@@ -112,6 +112,21 @@ const PACKAGES: &[Package] = &[
         program: Some("qemu-arm"),
         why: "runs what was compiled for ARM",
     },
+    Package {
+        name: "gcc-aarch64-linux-gnu",
+        program: Some("aarch64-linux-gnu-gcc"),
+        why: "compiles exported FMUs for 64-bit ARM",
+    },
+    Package {
+        name: "libc6-dev-arm64-cross",
+        program: None,
+        why: "the C library of 64-bit ARM",
+    },
+    Package {
+        name: "gcc-mingw-w64-x86-64-win32",
+        program: Some("x86_64-w64-mingw32-gcc"),
+        why: "compiles exported FMUs for Windows",
+    },
 ];
 
 /// Installs what is missing as root; otherwise says the command to give.

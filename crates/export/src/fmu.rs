@@ -1,10 +1,11 @@
 //! Functional Mock-up Units for co-simulation, FMI 2.0 and 3.0: the C text behind the interface of the standard, with a
-//! binary where a compiler is available.
+//! binary for each platform that a compiler is available for.
 //!
 //! Standards: FMI 2.0.4 and FMI 3.0.1, Modelica Association, fmi-standard.org.
 
 mod archive;
 mod description;
+mod platform;
 mod unit;
 mod variables;
 mod version;
@@ -15,6 +16,7 @@ use crate::template::Fill;
 use crate::terms::{self, Extra};
 use crate::vectors::{DOUBLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, c, check, header, law};
+pub use platform::Platform;
 use variables::Variables;
 use version::{Version, escape};
 
@@ -24,28 +26,14 @@ const FMI3: &str = include_str!("../templates/fmu/fmi3.c.in");
 const SELFTEST: &str = include_str!("../templates/fmu/selftest.py.in");
 const PAGE: &str = include_str!("../templates/fmu/index.html.in");
 
-/// Options of gcc that make the binary from a source; the same source and compiler give the same bytes. The names of the
-/// output and the source come after them.
-pub const GCC: [&str; 9] = [
-    "-std=c99",
-    "-O2",
-    "-ffp-contract=off",
-    "-fPIC",
-    "-shared",
-    "-fvisibility=hidden",
-    "-s",
-    "-Wl,--build-id=none",
-    "-o",
-];
-
-/// The FMUs of a model and their self-test. `compile` gives the shared library for x86-64 Linux of a C source ([`GCC`]), or
-/// nothing where there is no compiler for it: the FMU then holds its source only, and a tool has to compile it.
+/// The FMUs of a model and their self-test. `compile` gives the shared library of a C source for a platform
+/// ([`Platform::arguments`]), or nothing where there is no compiler for it: there a tool has to compile the source.
 ///
 /// # Errors
 /// As [`export`](crate::export).
 pub fn fmu(
     model: &Model,
-    compile: &mut dyn FnMut(&File) -> Option<Vec<u8>>,
+    compile: &mut dyn FnMut(&File, Platform) -> Option<Vec<u8>>,
 ) -> Result<Vec<File>, Error> {
     check::check(model, "double")?;
     let vectors = Vectors::<f64>::new(model, "double")?;
@@ -93,9 +81,14 @@ pub fn fmu(
             "modelDescription.xml",
             description::xml(model, version, &component, &token, &variables),
         )];
-        if let Some(bytes) = compile(&source) {
-            let path = format!("{}/{component}.so", version.binaries());
-            parts.push(File { path, bytes });
+        for platform in Platform::ALL {
+            let Some(folder) = version.folder(platform) else {
+                continue;
+            };
+            if let Some(bytes) = compile(&source, platform) {
+                let path = format!("binaries/{folder}/{component}.{}", platform.extension());
+                parts.push(File { path, bytes });
+            }
         }
         parts.push(File::text("documentation/index.html", page));
         parts.push(source);

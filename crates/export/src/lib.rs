@@ -63,7 +63,7 @@ mod vectors;
 
 pub use check::{Advice, advice};
 pub use error::Error;
-pub use fmu::{GCC, fmu};
+pub use fmu::{Platform, fmu};
 pub use identifier::{IDENTIFIER_LENGTH, check_identifier, identifier, is_whole};
 pub use model::{Model, Parameter, Provenance};
 pub use target::{File, Target, export};

@@ -139,7 +139,7 @@ impl Target {
     }
 }
 
-/// The files of a model for a target; FMUs with their source only, [`fmu`](crate::fmu) makes those with a binary.
+/// The files of a model for a target; FMUs with their source only, [`fmu`](crate::fmu) makes those with binaries.
 ///
 /// # Errors
 /// If the target cannot express the model: its names, numbers or law.
@@ -159,7 +159,7 @@ pub fn export(model: &Model, target: Target) -> Result<Vec<File>, Error> {
         Target::Sdf => joint::sdf(model),
         Target::IsaacLab => joint::isaac_lab(model),
         Target::Hal => hal::files(model),
-        Target::Fmu => fmu::fmu(model, &mut |_| None),
+        Target::Fmu => fmu::fmu(model, &mut |_, _| None),
         Target::Matlab => matlab::files(model),
         Target::Tf5200 => tf5200::files(model),
         Target::DriveTable => drive_table::files(model),

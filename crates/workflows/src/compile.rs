@@ -1,23 +1,29 @@
-//! C sources through the C compiler of this machine: the binary of an FMU, an exported compensator as a program.
+//! C sources through the C compilers of this machine: the binaries of an FMU, an exported compensator as a program.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
-use stiction_export::File;
+use stiction_export::{File, Platform};
 
-/// The shared library of a source; nothing where there is no gcc, or another machine than the FMU is for.
-pub(crate) fn shared_library(source: &File) -> Option<Vec<u8>> {
-    if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
-        return None;
-    }
+/// The shared library of a source; nothing where there is no compiler for the platform, or it failed.
+pub(crate) fn shared_library(source: &File, platform: Platform) -> Option<Vec<u8>> {
+    let own = match platform {
+        Platform::LinuxX86_64 => cfg!(all(target_os = "linux", target_arch = "x86_64")),
+        Platform::LinuxAarch64 => cfg!(all(target_os = "linux", target_arch = "aarch64")),
+        Platform::WindowsX86_64 => false,
+    };
+    let mut compilers = own.then_some("gcc").into_iter().chain([platform.gcc()]);
+    compilers.find_map(|compiler| compiled(source, platform, compiler))
+}
+
+fn compiled(source: &File, platform: Platform, compiler: &str) -> Option<Vec<u8>> {
     let dir = tempfile::tempdir().ok()?;
-    // By its plain name in the folder itself, so that no path of this machine reaches the binary.
-    let name = Path::new(&source.path).file_name()?;
+    let source_path = Path::new(&source.path);
+    let name = source_path.file_name()?.to_str()?;
+    let stem = source_path.file_stem()?.to_str()?;
+    let library = format!("{stem}.{}", platform.extension());
     std::fs::write(dir.path().join(name), &source.bytes).ok()?;
-    let status = Command::new("gcc")
-        .args(stiction_export::GCC)
-        .arg("fmu.so")
-        .arg(name)
-        .arg("-lm")
+    let status = Command::new(compiler)
+        .args(platform.arguments(name, &library))
         .current_dir(dir.path())
         .stdin(Stdio::null())
         .stdout(Stdio::null())
@@ -27,7 +33,7 @@ pub(crate) fn shared_library(source: &File) -> Option<Vec<u8>> {
     if !status.success() {
         return None;
     }
-    std::fs::read(dir.path().join("fmu.so")).ok()
+    std::fs::read(dir.path().join(&library)).ok()
 }
 
 /// Options of gcc for a program: those with which the exported C is tested.

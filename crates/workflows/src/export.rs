@@ -17,7 +17,7 @@ use stiction_friction::compensator::{
 };
 use stiction_parameters::{FrictionLaw, LawError, Name, ParameterSet, Quantity, Side};
 
-pub use stiction_export::{Error as ExportError, File, Target};
+pub use stiction_export::{Error as ExportError, File, Platform, Target};
 pub use terms::Feedforward;
 
 /// What code to write, and the settings of the compensator.
@@ -93,6 +93,9 @@ pub struct Exported {
     pub limit: f64,
     /// Unit of the force.
     pub force_unit: String,
+    /// Platforms that FMUs have a binary for, by their names in FMI 3.0.
+    #[serde(serialize_with = "names", skip_serializing_if = "Vec::is_empty")]
+    pub binaries: Vec<Platform>,
     /// Paths of the files, relative to their folder.
     pub written: Vec<String>,
     /// The files.
@@ -258,19 +261,19 @@ fn code(read: &ReadModel, options: &ExportOptions) -> Result<Exported, Error> {
     let found = stiction_export::advice(&model, options.target);
     warnings.extend(found.into_iter().map(|a| Warning::new(a.code, a.message)));
     model.notes = warnings.iter().map(|w| w.message.clone()).collect();
+    let mut tried = Vec::new();
     let files = match options.target {
         Target::Fmu => {
-            let mut whole = true;
-            let files = stiction_export::fmu(&model, &mut |source| {
-                let library = compile::shared_library(source);
-                whole &= library.is_some();
+            let files = stiction_export::fmu(&model, &mut |source, platform| {
+                let library = compile::shared_library(source, platform);
+                tried.push((platform, library.is_some()));
                 library
             })
             .map_err(|e| place(e, read, options))?;
-            if !whole {
+            if !tried.iter().any(|(_, is_made)| *is_made) {
                 warnings.push(Warning::new(
                     Code::ExportSource,
-                    "gcc for x86-64 Linux was not found or failed: the FMUs hold their C source and no binary; a tool that runs them has to compile it, \
+                    "no C compiler of this machine makes a binary: the FMUs hold their C source only; a tool that runs them has to compile it, \
                      or install gcc and export again",
                 ));
             }
@@ -285,11 +288,24 @@ fn code(read: &ReadModel, options: &ExportOptions) -> Result<Exported, Error> {
         cycle_time: model.settings.cycle_time,
         limit: model.settings.limit,
         force_unit: model.force_unit,
+        binaries: inside(&tried),
         written: files.iter().map(|f| f.path.clone()).collect(),
         files,
         trustworthy: read.model.trustworthy,
         warnings,
     })
+}
+
+/// Platforms for which every binary that was tried was made.
+fn inside(tried: &[(Platform, bool)]) -> Vec<Platform> {
+    let of = |platform| tried.iter().filter(move |(p, _)| *p == platform);
+    let all = Platform::ALL.into_iter();
+    all.filter(|p| of(*p).next().is_some() && of(*p).all(|(_, is_made)| *is_made))
+        .collect()
+}
+
+fn names<S: serde::Serializer>(platforms: &[Platform], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(platforms.iter().map(|platform| platform.name()))
 }
 
 fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warning>), Error> {

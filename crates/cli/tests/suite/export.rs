@@ -78,12 +78,39 @@ fn no_compiler() {
     let text = said(&output);
     assert!(output.status.success(), "{text}");
     assert!(
-        text.contains("warning [export-source]: gcc for x86-64 Linux was not found or failed"),
+        text.contains("warning [export-source]: no C compiler of this machine makes a binary"),
         "{text}"
     );
+    let lacks = "no binary inside; with the compiler on the PATH when exporting also for x86_64-linux (x86_64-linux-gnu-gcc), ";
+    assert!(text.contains(lacks), "{text}");
     let bytes = std::fs::read(dir.path().join("out/x_axis_friction_fmi2.fmu")).unwrap();
     let holds = |name: &[u8]| bytes.windows(name.len()).any(|w| w == name);
     assert!(holds(b"sources/x_axis_friction.c") && !holds(b"binaries/"));
+}
+
+/// What is said to be inside is inside: a binary for each compiler that is there.
+#[test]
+fn platforms_of_an_fmu() {
+    let dir = tempfile::tempdir().unwrap();
+    let output = export("fmu", dir.path()).output().unwrap();
+    let text = said(&output);
+    let bytes = std::fs::read(dir.path().join("out/x_axis_friction_fmi3.fmu")).unwrap();
+    let mut stated = Vec::new();
+    for (platform, gcc) in [
+        ("x86_64-linux", "gcc"),
+        ("aarch64-linux", "aarch64-linux-gnu-gcc"),
+        ("x86_64-windows", "x86_64-w64-mingw32-gcc"),
+    ] {
+        let name = format!("binaries/{platform}/x_axis_friction.");
+        let is_inside = bytes.windows(name.len()).any(|w| w == name.as_bytes());
+        assert_eq!(
+            is_inside,
+            Command::new(gcc).arg("--version").output().is_ok()
+        );
+        stated.extend(is_inside.then_some(platform));
+    }
+    let stated = format!("binaries inside for {}", stated.join(", "));
+    assert!(text.contains(&stated), "{text}");
 }
 
 /// A time with a unit is told what is meant.

@@ -1,5 +1,7 @@
 //! The versions of the interface, and text in XML.
 
+use super::Platform;
+
 /// A version of the standard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Version {
@@ -15,11 +17,11 @@ impl Version {
         }
     }
 
-    /// Folder of the binary for x86-64 Linux.
-    pub(super) fn binaries(self) -> &'static str {
+    /// Folder of the binary for a platform in `binaries`, where the standard names one.
+    pub(super) fn folder(self, platform: Platform) -> Option<&'static str> {
         match self {
-            Version::Two => "binaries/linux64",
-            Version::Three => "binaries/x86_64-linux",
+            Version::Two => platform.name_in_2(),
+            Version::Three => Some(platform.name()),
         }
     }
 }

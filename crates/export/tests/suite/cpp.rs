@@ -1,10 +1,12 @@
 //! The C++ library: compiled under every warning, its self-test run here, on a simulated AVR and a simulated ARM, and sample
 //! by sample against the compensator.
 
-use crate::common::compiled::{agree, agree_single, drive, kept, more_inputs, passive, run, write};
+use crate::common::compiled::{
+    agree, agree_single, drive, have, kept, more_inputs, passive, run, write,
+};
 use crate::common::{adapting, laws, model, models};
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Command;
 use stiction_export::{Model, Target, export};
 use stiction_friction::compensator::Input;
 
@@ -21,24 +23,6 @@ fn build(compiler: &str, flags: &str, rest: &[&str], dir: &Path) {
     let mut arguments: Vec<&str> = flags.split_whitespace().collect();
     arguments.extend(rest);
     run(compiler, &arguments, dir);
-}
-
-/// Whether programs of the set-up are here. Without them a test says so and passes over; with `CI=true` that is a failure.
-fn have(programs: &[&str]) -> bool {
-    for program in programs {
-        let asked = Command::new(program)
-            .arg("--version")
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .status();
-        if let Err(e) = asked {
-            let message = format!("SKIPPED: {program}: {e}; install with: cargo xtask setup");
-            assert!(std::env::var("CI").as_deref() != Ok("true"), "{message}");
-            eprintln!("{message}");
-            return false;
-        }
-    }
-    true
 }
 
 /// The page of the target.

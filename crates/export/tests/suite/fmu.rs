@@ -1,11 +1,13 @@
 //! The FMUs: validated and simulated by FMPy, and sample by sample against the compensator through the functions of the
 //! standard.
 
-use crate::common::compiled::{Sample, agree, drive, gcc, kept, passive, run, write};
+use crate::common::compiled::{
+    Sample, agree, agree_over, drive, gcc, have, kept, passive, run, write,
+};
 use crate::common::terms::extras;
 use crate::common::{laws, model, models, parts};
 use std::path::{Path, PathBuf};
-use stiction_export::{File, GCC, Model, fmu};
+use stiction_export::{File, Model, Platform, fmu};
 use stiction_friction::compensator::Friction;
 
 fn python(arguments: &[&str], dir: &Path) -> String {
@@ -22,12 +24,21 @@ fn python(arguments: &[&str], dir: &Path) -> String {
 }
 
 /// With the compiler and the flags of the export.
-fn compile(source: &File) -> Option<Vec<u8>> {
+fn compile_for(source: &File, platform: Platform) -> Vec<u8> {
     let dir = tempfile::tempdir().unwrap();
     let name = source.path.rsplit('/').next().unwrap();
     std::fs::write(dir.path().join(name), &source.bytes).unwrap();
-    gcc(&GCC.join(" "), &["fmu.so", name, "-lm"], dir.path());
-    std::fs::read(dir.path().join("fmu.so")).ok()
+    run(
+        platform.gcc(),
+        &platform.arguments(name, "fmu.library"),
+        dir.path(),
+    );
+    std::fs::read(dir.path().join("fmu.library")).unwrap()
+}
+
+/// For this machine only.
+fn compile(source: &File, platform: Platform) -> Option<Vec<u8>> {
+    (platform == Platform::LinuxX86_64).then(|| compile_for(source, platform))
 }
 
 /// FMPy validates both, simulates them over the samples of the self-test, and finds the forces that are due.
@@ -53,7 +64,7 @@ fn fmpy_gives_the_forces_that_are_due() {
 #[test]
 fn the_source_is_enough() {
     let dir = tempfile::tempdir().unwrap();
-    let files = fmu(&model(laws().remove(0).1), &mut |_| None).unwrap();
+    let files = fmu(&model(laws().remove(0).1), &mut |_, _| None).unwrap();
     for archive in &files[..2] {
         assert!(!parts(archive).iter().any(|f| f.path.ends_with(".so")));
     }
@@ -102,7 +113,7 @@ fn the_example_runs() {
 fn the_source_compiles_under_every_warning() {
     for (_, model) in models() {
         let dir = tempfile::tempdir().unwrap();
-        for archive in &fmu(&model, &mut |_| None).unwrap()[..2] {
+        for archive in &fmu(&model, &mut |_, _| None).unwrap()[..2] {
             write(&parts(archive), dir.path());
             gcc(
                 "-std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wfloat-equal -Wsign-conversion -Wundef -Wcast-qual -O2 -Werror -c -o fmu.o",
@@ -130,7 +141,7 @@ fn the_same_model_gives_the_same_bytes() {
 #[test]
 fn another_model_has_another_token() {
     let token = |model: &Model| {
-        let archive = fmu(model, &mut |_| None).unwrap().remove(0);
+        let archive = fmu(model, &mut |_, _| None).unwrap().remove(0);
         let text = String::from_utf8(parts(&archive).remove(0).bytes).unwrap();
         text.split("guid=\"").nth(1).unwrap()[..38].to_string()
     };
@@ -215,15 +226,21 @@ const STEP_3: &str = r#"
 
 /// Through the library in the FMU of a version.
 fn through_fmu(version: usize, model: &Model, samples: &[Sample]) -> Vec<[f64; 2]> {
+    through(Platform::LinuxX86_64, version, model, samples)
+}
+
+/// The same on a platform, which is emulated where it is not this machine.
+fn through(platform: Platform, version: usize, model: &Model, samples: &[Sample]) -> Vec<[f64; 2]> {
     let dir = tempfile::tempdir().unwrap();
-    let archive = fmu(model, &mut compile).unwrap().remove(version - 2);
+    let mut made = |source: &File, p: Platform| (p == platform).then(|| compile_for(source, p));
+    let archive = fmu(model, &mut made).unwrap().remove(version - 2);
     let parts = parts(&archive);
     let text = String::from_utf8(parts[0].bytes.clone()).unwrap();
     let key = ["guid=\"", "instantiationToken=\""][version - 2];
     let token = &text.split(key).nth(1).unwrap()[..38];
     let [folder, setup, step] = [
         ["linux64", SETUP_2, STEP_2],
-        ["x86_64-linux", SETUP_3, STEP_3],
+        [platform.name(), SETUP_3, STEP_3],
     ][version - 2];
     write(&parts, dir.path());
     // Of those variables that it has.
@@ -262,8 +279,16 @@ fn through_fmu(version: usize, model: &Model, samples: &[Sample]) -> Vec<[f64; 2
         .replace("@COUNT@", &outputs.len().to_string())
         .replace("@KEPT@", &kept);
     std::fs::write(dir.path().join("driver.c"), driver).unwrap();
-    gcc("-std=gnu99 -O2", &["driver.c", "-ldl"], dir.path());
-    drive(dir.path(), "./a.out", samples)
+    let arguments = ["-std=gnu99", "-O2", "driver.c", "-ldl"];
+    run(platform.gcc(), &arguments, dir.path());
+    if platform == Platform::LinuxX86_64 {
+        return drive(dir.path(), "./a.out", samples);
+    }
+    // Where Debian's cross compiler has its libraries.
+    let emulated = "#!/bin/sh\nexec qemu-aarch64 -L /usr/aarch64-linux-gnu ./a.out\n";
+    std::fs::write(dir.path().join("emulated"), emulated).unwrap();
+    run("chmod", &["+x", "emulated"], dir.path());
+    drive(dir.path(), "./emulated", samples)
 }
 
 /// A fixed cycle, as the FMU samples.
@@ -283,6 +308,131 @@ fn fmi_3_agrees() {
     agree("FMI 3.0", regular, |model, samples| {
         through_fmu(3, model, samples)
     });
+}
+
+/// The compilers of all platforms.
+fn compilers() -> bool {
+    have(&Platform::ALL.map(Platform::gcc))
+}
+
+/// The binary for ARM under QEMU: two laws and the first samples of every run, since a step takes some ten times as long.
+#[test]
+fn fmi_3_agrees_on_arm() {
+    if !(compilers() && have(&["qemu-aarch64"])) {
+        return;
+    }
+    let mut some = laws();
+    some.retain(|(name, _)| ["lugre", "gms"].contains(name));
+    assert_eq!(some.len(), 2);
+    agree_over(
+        "FMI 3.0 on aarch64",
+        some,
+        5000,
+        regular,
+        |model, samples| through(Platform::LinuxAarch64, 3, model, samples),
+    );
+}
+
+/// What FMPy finds of a binary for each platform. It lists none for aarch64 on Linux, whatever an FMU holds.
+#[test]
+fn fmpy_lists_the_platforms() {
+    if !compilers() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let mut all = |source: &File, platform: Platform| Some(compile_for(source, platform));
+    let files = fmu(&model(laws().remove(0).1), &mut all).unwrap();
+    write(&files, dir.path());
+    let script = "import sys, fmpy, fmpy.validation\n\
+         for f in sys.argv[1:]: print(*fmpy.supported_platforms(f), *fmpy.validation.validate_fmu(f))";
+    let names = ["x_axis_friction_fmi2.fmu", "x_axis_friction_fmi3.fmu"];
+    let said = python(&[&["-c", script], &names[..]].concat(), dir.path());
+    assert_eq!(said, "c-code linux64 win64\n".repeat(2));
+    let inside = |archive: &File| -> Vec<String> {
+        let parts = parts(archive).into_iter().map(|part| part.path);
+        parts.filter(|path| path.starts_with("binaries/")).collect()
+    };
+    assert_eq!(
+        inside(&files[0]),
+        ["linux64/x_axis_friction.so", "win64/x_axis_friction.dll"]
+            .map(|p| format!("binaries/{p}"))
+    );
+    assert_eq!(
+        inside(&files[1]),
+        [
+            "x86_64-linux/x_axis_friction.so",
+            "aarch64-linux/x_axis_friction.so",
+            "x86_64-windows/x_axis_friction.dll"
+        ]
+        .map(|p| format!("binaries/{p}"))
+    );
+}
+
+/// Each binary has the functions of the standard and no others, and that for Windows needs nothing that Windows has not.
+#[test]
+fn every_platform_has_the_functions() {
+    if !compilers() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let source_only = fmu(&model(laws().remove(0).1), &mut |_, _| None).unwrap();
+    for (version, archive) in ["fmi2", "fmi3"].into_iter().zip(&source_only) {
+        let source = parts(archive)
+            .into_iter()
+            .find(|part| part.path.ends_with(".c"))
+            .unwrap();
+        for platform in Platform::ALL {
+            let bytes = compile_for(&source, platform);
+            write(
+                &[File {
+                    path: platform.name().into(),
+                    bytes,
+                }],
+                dir.path(),
+            );
+        }
+        let defined = |nm: &str, platform: Platform| -> Vec<String> {
+            let said = run(nm, &["-D", "--defined-only", platform.name()], dir.path());
+            let names = said
+                .lines()
+                .filter_map(|line| Some(line.split_once(" T ")?.1.to_string()));
+            names.collect()
+        };
+        let linux = defined("nm", Platform::LinuxX86_64);
+        assert!(
+            linux.iter().all(|name| name.starts_with(version)),
+            "{linux:?}"
+        );
+        assert!(linux.contains(&format!("{version}DoStep")), "{linux:?}");
+        assert_eq!(
+            defined("aarch64-linux-gnu-nm", Platform::LinuxAarch64),
+            linux
+        );
+        let said = run(
+            "x86_64-w64-mingw32-objdump",
+            &["-p", Platform::WindowsX86_64.name()],
+            dir.path(),
+        );
+        let (_, table) = said.split_once("[Ordinal/Name Pointer] Table").unwrap();
+        let names = table
+            .lines()
+            .skip(1)
+            .take_while(|line| !line.trim().is_empty());
+        let windows: Vec<&str> = names
+            .filter_map(|line| line.split_whitespace().last())
+            .collect();
+        assert_eq!(windows, linux);
+        let needs = said
+            .lines()
+            .filter_map(|line| line.trim().strip_prefix("DLL Name: "));
+        let needs: Vec<&str> = needs.collect();
+        assert!(
+            needs
+                .iter()
+                .all(|dll| ["KERNEL32.dll", "msvcrt.dll"].contains(dll)),
+            "{needs:?}"
+        );
+    }
 }
 
 #[test]

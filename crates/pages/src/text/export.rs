@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 use stiction_number::four_digits as short;
-use stiction_workflows::export::Exported;
+use stiction_workflows::export::{Exported, Platform};
 
 /// The files of an export, what it assumed, and what to know before it runs.
 pub fn exported(exported: &Exported, dir: &Path) -> String {
@@ -35,7 +35,28 @@ pub fn exported(exported: &Exported, dir: &Path) -> String {
         dir.display(),
         listed(&exported.written).join(", ")
     );
+    if exported.target == "fmu" {
+        let _ = writeln!(out, "{}", binaries(&exported.binaries));
+    }
     out
+}
+
+/// Which platforms an FMU runs on as it is, and what is needed for the others.
+fn binaries(inside: &[Platform]) -> String {
+    let names: Vec<&str> = inside.iter().map(|platform| platform.name()).collect();
+    let has = match names.as_slice() {
+        [] => "no binary inside".into(),
+        names => format!("binaries inside for {}", names.join(", ")),
+    };
+    let lacks = Platform::ALL.into_iter().filter(|p| !inside.contains(p));
+    let lacks = lacks.map(|p| format!("{} ({})", p.name(), p.gcc()));
+    match lacks.collect::<Vec<_>>().as_slice() {
+        [] => has,
+        lacks => format!(
+            "{has}; with the compiler on the PATH when exporting also for {}",
+            lacks.join(", ")
+        ),
+    }
 }
 
 /// More files than this in a folder are counted, not named.

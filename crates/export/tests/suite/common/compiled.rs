@@ -39,6 +39,24 @@ pub fn run(program: &str, arguments: &[&str], dir: &Path) -> String {
     text
 }
 
+/// Whether programs of the set-up are here. Without them a test says so and passes over; with `CI=true` that is a failure.
+pub fn have(programs: &[&str]) -> bool {
+    for program in programs {
+        let asked = Command::new(program)
+            .arg("--version")
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .status();
+        if let Err(e) = asked {
+            let message = format!("SKIPPED: {program}: {e}; install with: cargo xtask setup");
+            assert!(std::env::var("CI").as_deref() != Ok("true"), "{message}");
+            eprintln!("{message}");
+            return false;
+        }
+    }
+    true
+}
+
 pub fn gcc(flags: &str, rest: &[&str], dir: &Path) {
     let mut arguments: Vec<&str> = flags.split_whitespace().collect();
     arguments.extend(rest);
