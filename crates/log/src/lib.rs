@@ -34,6 +34,8 @@ pub mod mapping;
 mod matlab4;
 #[cfg(feature = "matlab")]
 mod matlab5;
+#[cfg(feature = "mcap")]
+mod mcap;
 #[cfg(feature = "numpy")]
 mod numpy;
 mod open;

@@ -101,6 +101,8 @@ fn read(path: &Path, options: &ReadOptions) -> Result<Table, Error> {
         Format::Json => crate::json::read(file, limits),
         #[cfg(feature = "arrow")]
         Format::Arrow => crate::arrow::read(file, bytes, limits),
+        #[cfg(feature = "mcap")]
+        Format::Mcap => crate::mcap::read(file, limits),
         #[cfg(not(feature = "all"))]
         other => Err(Error::new(
             Kind::Format,

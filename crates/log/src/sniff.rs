@@ -14,6 +14,7 @@ pub(crate) enum Format {
     Parquet,
     Json,
     Arrow,
+    Mcap,
     /// A known format that is not read, and what to do instead.
     Foreign(&'static str, &'static str),
     Text,
@@ -31,6 +32,7 @@ impl Format {
             Format::Parquet => "Parquet",
             Format::Json => "JSON",
             Format::Arrow => "Arrow IPC",
+            Format::Mcap => "MCAP",
             Format::Foreign(what, _) => what,
             Format::Text => "text",
         }
@@ -66,6 +68,9 @@ pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
     }
     if starts(b"PAR1") || starts(b"PARE") {
         return Ok(Format::Parquet);
+    }
+    if starts(b"\x89MCAP0\r\n") {
+        return Ok(Format::Mcap);
     }
     if starts(b"ARROW1\0\0") || is_arrow_stream(&start) {
         return Ok(Format::Arrow);

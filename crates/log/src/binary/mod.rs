@@ -9,7 +9,9 @@ mod guard;
 mod number;
 mod record;
 mod ticks;
-#[cfg(feature = "arrow")]
+#[cfg(any(feature = "json", feature = "mcap"))]
+mod tree;
+#[cfg(any(feature = "arrow", feature = "mcap"))]
 mod unpack;
 
 pub(crate) use collect::{Collector, Layout, Order};
@@ -17,5 +19,7 @@ pub(crate) use guard::guard;
 pub(crate) use number::{ByteOrder, Class, Number, Values, decimal, half, read_numbers};
 pub(crate) use record::{Cell, Field, Record};
 pub(crate) use ticks::{Clock, Period, seconds};
-#[cfg(feature = "arrow")]
+#[cfg(any(feature = "json", feature = "mcap"))]
+pub(crate) use tree::Tree;
+#[cfg(any(feature = "arrow", feature = "mcap"))]
 pub(crate) use unpack::{lz4, zstd};

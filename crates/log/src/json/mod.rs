@@ -8,14 +8,12 @@
 //! become seconds from the first; text is named in [`Table::skipped`]. The text is never held as a whole.
 
 mod token;
-mod tree;
 
 use std::fs::File;
 
 use token::{Token, Tokens};
-use tree::Tree;
 
-use crate::binary::Collector;
+use crate::binary::{Collector, Tree};
 use crate::text::{Cell, classify};
 use crate::{Error, Limits, Table};
 
@@ -75,7 +73,10 @@ impl Reader {
         match classify(self.tokens.text()) {
             Cell::Number(_, Some(crate::text::Decimal::Comma)) | Cell::Text => {
                 let row = self.tokens.row();
-                self.tree.word(node, row, self.tokens.text());
+                let text = String::from_utf8_lossy(self.tokens.text());
+                let text: String = text.chars().take(20).collect();
+                self.tree
+                    .refuse(node, format!("text such as {text} in line {row}"));
                 Ok(())
             }
             Cell::Number(value, _) => self.tree.number(node, value, false),

@@ -60,9 +60,9 @@ mod utf16;
 
 #[cfg(feature = "json")]
 pub(crate) use cell::{Cell, classify};
-#[cfg(feature = "json")]
+#[cfg(any(feature = "json", feature = "mcap"))]
 pub(crate) use clock::Moment;
-#[cfg(feature = "json")]
+#[cfg(any(feature = "json", feature = "mcap"))]
 pub(crate) use column::unwrap_midnight;
 pub use limits::{MAX_COLUMNS, MAX_PREAMBLE_LINES, MAX_ROW_BYTES, MAX_SAMPLES};
 pub use options::{Decimal, Separator, TextOptions};

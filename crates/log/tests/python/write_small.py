@@ -15,6 +15,8 @@ import pyarrow as pa
 import pyarrow.ipc
 import pyarrow.parquet as pq
 import scipy.io
+from mcap.writer import CompressionType
+from mcap_ros2.writer import Writer
 
 folder = pathlib.Path(sys.argv[1])
 t = np.linspace(0.0, 1.0, 40)
@@ -94,3 +96,26 @@ for compression in [None, "lz4", "zstd"]:
     for end, new in [("arrow", pa.ipc.new_file), ("arrows", pa.ipc.new_stream)]:
         with new(folder / f"{compression}.{end}", table.schema, options=options) as writer:
             writer.write_table(table, max_chunksize=17)
+
+joint_state = """std_msgs/Header header
+string[] name
+float64[] position
+float64[] effort
+===
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+===
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+"""
+for compression in CompressionType:
+    with open(folder / f"{compression.name}.mcap", "wb") as file:
+        writer = Writer(file, chunk_size=700, compression=compression)
+        schema = writer.register_msgdef("sensor_msgs/msg/JointState", joint_state)
+        for i in range(20):
+            message = {"header": {"stamp": {"sec": 5, "nanosec": 1000 * i}, "frame_id": ""}, "name": ["a", "b"],
+                       "position": [float(q[i]), 1.0], "effort": [2.0, float(i)]}
+            writer.write_message("/joint_states", schema, message, log_time=5 * 10**9 + 1000 * i)
+        writer.finish()

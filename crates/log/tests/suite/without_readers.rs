@@ -3,7 +3,7 @@
 use stiction_log::{Kind, ReadOptions, read_table};
 
 /// Whether the reader is there, how its files begin, what they are called.
-const FORMATS: [(bool, &[u8], &str); 6] = [
+const FORMATS: [(bool, &[u8], &str); 7] = [
     (
         cfg!(feature = "matlab"),
         b"MATLAB 5.0 MAT-file, of nothing",
@@ -14,6 +14,7 @@ const FORMATS: [(bool, &[u8], &str); 6] = [
     (cfg!(feature = "parquet"), b"PAR1", "Parquet"),
     (cfg!(feature = "json"), b"{\"t\": [0, 1]", "JSON"),
     (cfg!(feature = "arrow"), b"ARROW1\0\0", "Arrow"),
+    (cfg!(feature = "mcap"), b"\x89MCAP0\r\n", "MCAP"),
 ];
 
 #[test]

@@ -116,6 +116,22 @@ fn arrow_comes_back_bit_for_bit() {
 }
 
 #[test]
+fn mcap_comes_back_bit_for_bit() {
+    let tables = come_back("write_mcap.py");
+    assert_eq!(tables.len(), 5);
+    for (name, table) in &tables {
+        let stamps = table
+            .columns
+            .iter()
+            .filter(|c| c.name.ends_with("stamp") || c.name.ends_with("log_time"));
+        assert!(stamps.clone().next().is_some(), "{name}");
+        for stamp in stamps {
+            assert_eq!(stamp.unit.as_deref(), Some("s"), "{name}");
+        }
+    }
+}
+
+#[test]
 fn a_codec_that_is_not_built_in_is_named() {
     let folder = written("write_binary.py");
     let error = read_table(

@@ -1,8 +1,8 @@
-//! The numbers of a JSON text by where they stand: a path of keys, and the lists around them.
+//! Numbers by where they stand in a tree of objects and lists (JSON, messages): a path of keys, and the lists around them.
 
 use std::borrow::Cow;
 
-use crate::binary::{Collector, Order, Values};
+use super::{Collector, Order, Values};
 use crate::text::{Moment, unwrap_midnight};
 use crate::{Error, Kind};
 
@@ -11,7 +11,7 @@ const MAX_LISTS: usize = 64;
 
 /// One place: a path of keys without the indices of lists.
 #[derive(Debug, Default)]
-pub(super) struct Node {
+pub(crate) struct Node {
     key: String,
     parent: usize,
     /// Whether it is the element of a list, which has no key.
@@ -32,8 +32,8 @@ struct Samples {
     values: Values,
     /// Where the numbers of each outer element begin, within two lists.
     starts: Vec<usize>,
-    /// How a text began that is no number, and in which line.
-    text: Option<(String, u64)>,
+    /// Why they are no signal.
+    refused: Option<String>,
     /// The first date or time of day among texts.
     first: Option<Moment>,
     /// A number was here.
@@ -42,27 +42,30 @@ struct Samples {
 }
 
 /// All places, the root first.
-pub(super) struct Tree {
+pub(crate) struct Tree {
     nodes: Vec<Node>,
     /// Whether every line is a value of its own: the elements of a list around them all.
-    pub(super) lines: bool,
+    pub(crate) lines: bool,
     /// Indices of the lists around the value that is being read.
-    pub(super) at: Vec<u64>,
-    pub(super) collector: Collector,
+    pub(crate) at: Vec<u64>,
+    pub(crate) collector: Collector,
+    /// What time stamps are counted from, where all places of a file have that in common.
+    pub(crate) origin: Option<Moment>,
 }
 
 impl Tree {
-    pub(super) fn new(collector: Collector) -> Self {
+    pub(crate) fn new(collector: Collector) -> Self {
         Self {
             nodes: vec![Node::default()],
             lines: false,
             at: Vec::new(),
             collector,
+            origin: None,
         }
     }
 
     /// Makes the value that was read the first of many, each in a line.
-    pub(super) fn begin_lines(&mut self, documents: u64) {
+    pub(crate) fn begin_lines(&mut self, documents: u64) {
         if !self.lines {
             for node in &mut self.nodes {
                 match node.lists {
@@ -78,7 +81,7 @@ impl Tree {
     }
 
     /// The child of this key, or the element of a list.
-    pub(super) fn child(&mut self, node: usize, key: Option<&[u8]>) -> Result<usize, Error> {
+    pub(crate) fn child(&mut self, node: usize, key: Option<&[u8]>) -> Result<usize, Error> {
         let (key, element) = match key {
             Some(key) => (String::from_utf8_lossy(key), false),
             None => (Cow::Borrowed(""), true),
@@ -115,7 +118,7 @@ impl Tree {
     }
 
     /// `keys.of.the.path`; of elements only, where they are told apart, by the index given for them.
-    pub(super) fn path(&self, node: usize) -> String {
+    pub(crate) fn path(&self, node: usize) -> String {
         self.path_with(node, None)
     }
 
@@ -148,7 +151,7 @@ impl Tree {
     }
 
     /// A list ends that stands at this place.
-    pub(super) fn end_list(&mut self, node: usize, length: u64) -> Result<(), String> {
+    pub(crate) fn end_list(&mut self, node: usize, length: u64) -> Result<(), String> {
         let lists = self.nodes[node].lists + usize::from(self.lines);
         let row = match lists {
             0 => 0,
@@ -165,43 +168,45 @@ impl Tree {
     }
 
     /// The next element of the innermost list has this index.
-    pub(super) fn index(&mut self, index: u64) {
+    pub(crate) fn index(&mut self, index: u64) {
         if let Some(last) = self.at.last_mut() {
             *last = index;
         }
     }
 
     /// A number at this place.
-    pub(super) fn number(&mut self, node: usize, value: f64, rounded: bool) -> Result<(), Error> {
+    pub(crate) fn number(&mut self, node: usize, value: f64, rounded: bool) -> Result<(), Error> {
         self.nodes[node].samples.number = true;
         self.nodes[node].samples.values.rounded |= rounded;
         self.push(node, value)
     }
 
-    pub(super) fn null(&mut self, node: usize) {
+    pub(crate) fn null(&mut self, node: usize) {
         self.nodes[node].samples.null = true;
     }
 
     /// A date or time of day at this place.
-    pub(super) fn moment(&mut self, node: usize, moment: Moment) -> Result<(), Error> {
-        let first = *self.nodes[node].samples.first.get_or_insert(moment);
+    pub(crate) fn moment(&mut self, node: usize, moment: Moment) -> Result<(), Error> {
+        let first = *self.nodes[node]
+            .samples
+            .first
+            .get_or_insert(self.origin.unwrap_or(moment));
         let ns = i128::from(moment.ns) - i128::from(first.ns);
         self.push(node, ns as f64 / 1e9)
     }
 
-    /// A text that is nothing of these: the place is no signal.
-    pub(super) fn word(&mut self, node: usize, row: u64, text: &[u8]) {
+    /// The place is no signal, for this reason: text, or a list without end.
+    pub(crate) fn refuse(&mut self, node: usize, why: String) {
         let samples = &mut self.nodes[node].samples;
-        if samples.text.is_none() {
-            let text = String::from_utf8_lossy(text).chars().take(20).collect();
-            samples.text = Some((text, row));
+        if samples.refused.is_none() {
+            samples.refused = Some(why);
             samples.values.samples = Vec::new();
             samples.starts = Vec::new();
         }
     }
 
     fn push(&mut self, node: usize, value: f64) -> Result<(), Error> {
-        if self.nodes[node].samples.text.is_some() {
+        if self.nodes[node].samples.refused.is_some() {
             return Ok(());
         }
         match self.at[..] {
@@ -265,7 +270,7 @@ impl Tree {
     }
 
     /// Makes columns and scalars, in the order in which the places came first.
-    pub(super) fn finish(mut self, documents: u64) -> Result<Collector, Error> {
+    pub(crate) fn finish(mut self, documents: u64) -> Result<Collector, Error> {
         let mut stack = vec![0];
         while let Some(node) = stack.pop() {
             self.column(node, documents)
@@ -279,11 +284,10 @@ impl Tree {
         let lists = self.nodes[node].lists + usize::from(self.lines);
         let name = self.path(node);
         let here = &self.nodes[node];
-        if let Some((text, row)) = &here.samples.text {
-            let why = format!("text such as {text} in line {row}");
+        if let Some(why) = &here.samples.refused {
             match lists {
-                1 => self.collector.skip_column(&name, &why),
-                _ => self.collector.skip(&name, &why),
+                1 => self.collector.skip_column(&name, why),
+                _ => self.collector.skip(&name, why),
             }
             return Ok(());
         }

@@ -1,0 +1,352 @@
+//! MCAP recordings of ROS 2, as rosbag2 writes them: messages in CDR with their definition (`ros2msg`).
+//!
+//! Format: <https://mcap.dev/spec>. Each topic is a list of records: `joint_states.header.stamp`, and where a message has names
+//! beside lists, as JointState has, `joint_states.elbow.position`. Lists of one length are `topic.field(:,1)`. Time stamps become
+//! seconds from the first of the file; `topic.log_time`, when the message was recorded, stands where it has no stamp of its own.
+//! Topics in other encodings are named in [`Table::skipped`].
+
+mod cdr;
+mod definition;
+mod message;
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, BufReader, Read};
+
+use cdr::Cdr;
+use definition::{Definitions, Kind as Of};
+use flate2::Crc;
+use message::{Trouble, moment};
+
+use crate::binary::{Collector, Tree, guard, lz4, zstd};
+use crate::{Error, Kind, Limits, Table};
+
+/// Largest message, schema or other record that is kept, in bytes.
+const MAX_RECORD: u64 = 64 << 20;
+
+/// Most schemas and channels.
+const MAX_CHANNELS: usize = 4096;
+
+/// Reads the numbers of every message.
+pub(crate) fn read(file: File, limits: Limits) -> Result<Table, Error> {
+    guard("MCAP", || {
+        let mut reader = Reader {
+            tree: Tree::new(Collector::new(limits)),
+            schemas: BTreeMap::new(),
+            channels: BTreeMap::new(),
+            topics: BTreeMap::new(),
+            at: 0,
+            ended: false,
+        };
+        let mut file = BufReader::with_capacity(1 << 16, file);
+        let mut magic = [0; 8];
+        file.read_exact(&mut magic)
+            .map_err(|error| reader.cut(error))?;
+        reader.at = 8;
+        reader.records(&mut file, false)?;
+        if !reader.ended {
+            return Err(
+                reader.bad("the file ends before the record that ends its data; was it cut off?")
+            );
+        }
+        reader.finish()
+    })
+}
+
+/// What messages of a channel are.
+enum Channel {
+    /// Messages with these definitions.
+    Read {
+        schema: u16,
+        topic: String,
+        stamped: bool,
+    },
+    Skipped,
+}
+
+struct Reader {
+    tree: Tree,
+    schemas: BTreeMap<u16, Result<Definitions, String>>,
+    channels: BTreeMap<u16, Channel>,
+    /// Place of each topic in the tree, and how many messages it has.
+    topics: BTreeMap<String, (usize, u64)>,
+    /// Where the record begins that is read, in the file.
+    at: u64,
+    ended: bool,
+}
+
+impl Reader {
+    fn bad(&self, found: impl Into<String>) -> Error {
+        let allowed = "a whole MCAP file; `mcap recover` saves what a broken one holds";
+        Error::new(Kind::Format, found, allowed).at_byte(self.at)
+    }
+
+    fn cut(&self, error: io::Error) -> Error {
+        match error.kind() {
+            io::ErrorKind::UnexpectedEof => {
+                self.bad("the file ends within a record; was it cut off?")
+            }
+            _ => self.bad(format!("the data are damaged ({error})")),
+        }
+    }
+
+    /// Reads records to the end of the data, or of a chunk.
+    fn records(&mut self, stream: &mut dyn Read, in_chunk: bool) -> Result<(), Error> {
+        loop {
+            let mut head = [0; 9];
+            // Nothing more is the end of a chunk; the file has to say its own.
+            if stream
+                .read(&mut head[..1])
+                .map_err(|error| self.cut(error))?
+                == 0
+            {
+                return Ok(());
+            }
+            stream
+                .read_exact(&mut head[1..])
+                .map_err(|error| self.cut(error))?;
+            let [kind, length @ ..] = head;
+            let length = u64::from_le_bytes(length);
+            let mut record = stream.take(length);
+            match kind {
+                6 if !in_chunk => self.chunk(&mut record)?,
+                3..=5 => {
+                    if length > MAX_RECORD {
+                        return Err(self.bad(format!(
+                            "a record of {length} bytes, more than {MAX_RECORD}"
+                        )));
+                    }
+                    let mut bytes = Vec::new();
+                    record
+                        .read_to_end(&mut bytes)
+                        .map_err(|error| self.cut(error))?;
+                    if bytes.len() as u64 != length {
+                        return Err(self.cut(io::ErrorKind::UnexpectedEof.into()));
+                    }
+                    let known = match kind {
+                        3 => self.schema(&bytes),
+                        4 => self.channel(&bytes)?,
+                        _ => self.message(&bytes)?,
+                    };
+                    known.ok_or_else(|| self.bad("a damaged record"))?;
+                }
+                15 if !in_chunk => {
+                    self.ended = true;
+                    return Ok(());
+                }
+                _ => {}
+            }
+            io::copy(&mut record, &mut io::sink()).map_err(|error| self.cut(error))?;
+            if record.limit() > 0 {
+                return Err(self.cut(io::ErrorKind::UnexpectedEof.into()));
+            }
+            if !in_chunk {
+                self.at += 9 + length;
+            }
+        }
+    }
+
+    fn chunk(&mut self, record: &mut dyn Read) -> Result<(), Error> {
+        let mut head = [0; 32];
+        record
+            .read_exact(&mut head)
+            .map_err(|error| self.cut(error))?;
+        let (_, rest) = head.split_at(16);
+        let mut rest = rest;
+        let size = long(&mut rest).unwrap_or(0);
+        let crc = word(&mut rest).unwrap_or(0);
+        let length = word(&mut rest).unwrap_or(0);
+        let mut name = vec![0; length.min(64) as usize];
+        record
+            .read_exact(&mut name)
+            .map_err(|error| self.cut(error))?;
+        // The length of what follows, which is the rest of the record.
+        record
+            .read_exact(&mut [0; 8])
+            .map_err(|error| self.cut(error))?;
+        let unpacked: Box<dyn Read> = match &name[..] {
+            b"" => Box::new(record),
+            b"lz4" => Box::new(lz4(record)),
+            b"zstd" => {
+                Box::new(zstd(record, size.min(MAX_RECORD)).map_err(|error| self.cut(error))?)
+            }
+            other => {
+                let other = other.escape_ascii().to_string();
+                return Err(self.bad(format!(
+                    "a chunk compressed with {other}, which is neither lz4 nor zstd"
+                )));
+            }
+        };
+        let mut unpacked = Summed {
+            stream: unpacked.take(size),
+            crc: Crc::new(),
+        };
+        self.records(&mut unpacked, true)?;
+        if unpacked.stream.limit() > 0 {
+            return Err(self.cut(io::ErrorKind::UnexpectedEof.into()));
+        }
+        let sum = unpacked.crc.sum();
+        if crc != 0 && crc != sum {
+            return Err(self.bad("a chunk whose checksum is wrong"));
+        }
+        Ok(())
+    }
+
+    fn schema(&mut self, mut bytes: &[u8]) -> Option<()> {
+        let id = half(&mut bytes)?;
+        let name = text(&mut bytes)?;
+        let encoding = text(&mut bytes)?;
+        let length = word(&mut bytes)? as usize;
+        let data = String::from_utf8_lossy(bytes.get(..length)?);
+        if self.schemas.len() < MAX_CHANNELS {
+            self.schemas.entry(id).or_insert_with(|| match &*encoding {
+                "ros2msg" => Definitions::new(&name, &data),
+                other => Err(format!("a definition in {other}, not in ros2msg")),
+            });
+        }
+        Some(())
+    }
+
+    fn channel(&mut self, mut bytes: &[u8]) -> Result<Option<()>, Error> {
+        let bytes = &mut bytes;
+        let (Some(id), Some(schema), Some(topic), Some(encoding)) =
+            (half(bytes), half(bytes), text(bytes), text(bytes))
+        else {
+            return Ok(None);
+        };
+        if self.channels.contains_key(&id) {
+            return Ok(Some(()));
+        }
+        if self.channels.len() >= MAX_CHANNELS {
+            return Err(Error::new(
+                Kind::Limit,
+                format!("more than {MAX_CHANNELS} channels"),
+                "record the topics that matter",
+            ));
+        }
+        let name = topic.trim_matches('/').replace('/', ".");
+        let why = match self.schemas.get(&schema) {
+            _ if encoding != "cdr" => Some(format!("messages encoded as {encoding}, not as cdr")),
+            None => Some("messages without a definition".to_owned()),
+            Some(Err(why)) => Some(why.clone()),
+            Some(Ok(_)) => None,
+        };
+        let channel = match (why, self.schemas.get(&schema)) {
+            (None, Some(Ok(definitions))) => Channel::Read {
+                schema,
+                topic: name,
+                stamped: definitions.0[0].iter().any(|field| match field.kind {
+                    Of::Message(inner) => definitions.0[inner]
+                        .iter()
+                        .any(|field| field.kind == Of::Time),
+                    kind => kind == Of::Time,
+                }),
+            },
+            (why, _) => {
+                self.tree.collector.skip(&name, &why.unwrap_or_default());
+                Channel::Skipped
+            }
+        };
+        self.channels.insert(id, channel);
+        Ok(Some(()))
+    }
+
+    fn message(&mut self, mut bytes: &[u8]) -> Result<Option<()>, Error> {
+        let bytes = &mut bytes;
+        let (Some(id), Some(_), Some(time), Some(_)) =
+            (half(bytes), word(bytes), long(bytes), long(bytes))
+        else {
+            return Ok(None);
+        };
+        let (schema, topic, stamped) = match self.channels.get(&id) {
+            None => return Ok(None),
+            Some(Channel::Skipped) => return Ok(Some(())),
+            Some(Channel::Read {
+                schema,
+                topic,
+                stamped,
+            }) => (*schema, topic.clone(), *stamped),
+        };
+        let Some(Ok(definitions)) = self.schemas.get(&schema) else {
+            return Ok(None);
+        };
+        let time = i64::try_from(time).unwrap_or(i64::MAX);
+        self.tree.origin.get_or_insert(moment(time));
+        let (node, row) = match self.topics.get(&topic) {
+            Some(&there) => there,
+            None => (self.tree.child(0, Some(topic.as_bytes()))?, 0),
+        };
+        self.topics.insert(topic.clone(), (node, row + 1));
+        let element = self.tree.child(node, None)?;
+        self.tree.at = vec![row];
+        let mut cdr = match Cdr::new(bytes) {
+            Some(cdr) => cdr,
+            None => return Ok(None),
+        };
+        if !stamped {
+            let child = self.tree.child(element, Some(b"log_time"))?;
+            self.tree.moment(child, moment(time))?;
+        }
+        let read = message::read(definitions, &mut cdr, element, &mut self.tree);
+        read.map_err(|trouble| match trouble {
+            Trouble::Short => self
+                .bad("a message that does not fit its definition")
+                .at_row(row + 1),
+            Trouble::Error(error) => error.at_byte(self.at),
+        })
+        .map_err(|error| match error.place.column {
+            None => error.in_column(topic),
+            Some(_) => error,
+        })?;
+        Ok(Some(()))
+    }
+
+    fn finish(mut self) -> Result<Table, Error> {
+        self.tree.at.clear();
+        for (node, rows) in std::mem::take(&mut self.topics).into_values() {
+            self.tree
+                .end_list(node, rows)
+                .map_err(|found| self.bad(found))?;
+        }
+        Ok(self.tree.finish(0)?.finish())
+    }
+}
+
+/// A stream whose checksum is taken while it is read.
+struct Summed<R> {
+    stream: R,
+    crc: Crc,
+}
+
+impl<R: Read> Read for Summed<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.stream.read(buffer)?;
+        self.crc.update(&buffer[..count]);
+        Ok(count)
+    }
+}
+
+fn part<const N: usize>(bytes: &mut &[u8]) -> Option<[u8; N]> {
+    let (first, rest) = bytes.split_first_chunk()?;
+    *bytes = rest;
+    Some(*first)
+}
+
+fn half(bytes: &mut &[u8]) -> Option<u16> {
+    part(bytes).map(u16::from_le_bytes)
+}
+
+fn word(bytes: &mut &[u8]) -> Option<u32> {
+    part(bytes).map(u32::from_le_bytes)
+}
+
+fn long(bytes: &mut &[u8]) -> Option<u64> {
+    part(bytes).map(u64::from_le_bytes)
+}
+
+fn text(bytes: &mut &[u8]) -> Option<String> {
+    let length = word(bytes)? as usize;
+    let text = bytes.get(..length)?;
+    *bytes = &bytes[length..];
+    Some(String::from_utf8_lossy(text).into_owned())
+}
