@@ -39,6 +39,8 @@ pub enum Command {
     Check(Check),
     /// Identify a friction law from logs of one axis.
     Identify(Identify),
+    /// The motion to record, within the limits of an axis, with the intervals to expect of its log.
+    Plan(Plan),
     /// Searches beside each other, many seeds of each, on a log or a problem with a known answer.
     Compare(Compare),
     /// Simulate an axis with and without compensation, over paths, controllers and wrong parameters.
@@ -59,6 +61,17 @@ fn whole(text: &str) -> Result<u64, String> {
     number.map_err(|_| format!("a whole number from 0 to {} is allowed", u64::MAX))
 }
 
+/// A time with or without its unit, in seconds.
+fn duration(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("", 1.0)];
+    let split = units
+        .iter()
+        .find_map(|(unit, by)| Some((text.strip_suffix(unit)?, by)));
+    let parsed = split.and_then(|(number, by)| Some(by * number.trim().parse::<f64>().ok()?));
+    parsed.ok_or_else(|| "a time is allowed, such as 9s or 0.5min".into())
+}
+
 /// A time in seconds.
 fn seconds(text: &str) -> Result<f64, String> {
     let number = text.trim().parse();
@@ -68,10 +81,11 @@ fn seconds(text: &str) -> Result<f64, String> {
 }
 
 /// The names of all commands.
-pub const COMMANDS: [&str; 9] = [
+pub const COMMANDS: [&str; 10] = [
     "demo",
     "check",
     "identify",
+    "plan",
     "compare",
     "simulate",
     "reproduce",
@@ -403,6 +417,25 @@ pub struct Reproduce {
     #[arg(long, value_name = "AXIS.toml", requires = "model")]
     pub axis: Option<PathBuf>,
     /// Folder for reproduce.json and report.html.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Write into a folder that holds something else.
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct Plan {
+    /// What is known of the axis, with its [limits].
+    #[arg(value_name = "AXIS.toml")]
+    pub axis: PathBuf,
+    /// Longest motion, from rest to rest.
+    #[arg(long, value_name = "TIME", default_value = "9s", allow_negative_numbers = true, value_parser = duration)]
+    pub time: f64,
+    /// Seed of the axes that it is planned for.
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole)]
+    pub seed: u64,
+    /// Folder for plan.toml and setpoints.csv.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Write into a folder that holds something else.

@@ -15,8 +15,8 @@ use stiction::commands::reproduce::{Budget, OwnAxis, canudas_1995, zhang_2025, z
 use stiction::commands::shell::quoted;
 use stiction::commands::{
     Bundle, CompareOptions, Cost, Excitation, ExportedC, FileError, Files, Input, Kept, Outcome,
-    Scheme, check_folder, check_folder_of, check_inputs, compare_exported, compare_file,
-    write_atomic,
+    PlanOptions, Scheme, check_folder, check_folder_of, check_inputs, compare_exported,
+    compare_file, plan_motion, write_atomic,
 };
 use stiction::result::Next;
 use stiction::{
@@ -35,6 +35,7 @@ pub fn run(arguments: &Arguments) -> Exit {
         Command::Demo(demo) => self::demo(demo, common),
         Command::Check(check) => self::check(check, common),
         Command::Identify(identify) => self::identify(identify, common),
+        Command::Plan(plan) => self::plan(plan, common),
         Command::Compare(compare) => self::compare(compare, common),
         Command::Simulate(simulate) => self::simulate(simulate, common),
         Command::Reproduce(reproduce) => self::reproduce(reproduce, common),
@@ -506,6 +507,38 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
         return Ok(Exit::Interrupted);
     }
     Ok(outcome.verdict().into())
+}
+
+fn plan(plan: &arguments::Plan, common: &Common) -> Result<Exit, Error> {
+    let schema = stiction::commands::plan::SCHEMA;
+    check_folder_of(&plan.out, schema, plan.force)?;
+    check_inputs(&plan.out, [&plan.axis])?;
+    let options = PlanOptions {
+        time: plan.time,
+        seed: plan.seed,
+    };
+    let mut bar = Bar::new(common.json || common.quiet);
+    let planned = plan_motion(&plan.axis, &options, &mut bar);
+    bar.finish();
+    let Some(planned) = planned? else {
+        // With standard error closed there is nowhere to say it.
+        let _ = writeln!(
+            std::io::stderr(),
+            "stiction: stopped before there was a motion; nothing is written"
+        );
+        return Ok(Exit::Interrupted);
+    };
+    let (dir, written) = put(&bundle::plan(&planned), &plan.out, schema)?;
+    if common.json {
+        output::json(&planned.file)?;
+    } else if !common.quiet {
+        let text = stiction::commands::text::planned(&planned, &plan.axis, &dir);
+        output::print(&format!("{text}\n{}", written_to(&dir, &written)))?;
+    }
+    Ok(match planned.file.status.as_str() {
+        "complete" => Exit::Done,
+        _ => Exit::Interrupted,
+    })
 }
 
 fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Error> {

@@ -3,6 +3,7 @@
 mod controller;
 mod extend;
 mod gain;
+mod limits;
 mod resolve;
 mod search;
 mod template;
@@ -10,5 +11,6 @@ mod tied;
 mod values;
 
 pub use extend::{Addition, extend};
+pub use limits::AxisLimits;
 pub use template::{Found, entry, template};
 pub use values::Axis;

@@ -27,6 +27,7 @@ mod error;
 mod hash;
 pub mod model;
 mod output;
+pub mod plan;
 pub mod reproduce_file;
 pub mod result;
 pub mod shell;

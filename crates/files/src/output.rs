@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 /// Files that mark a folder as one that stiction wrote and may replace, each written last.
-const MARKS: [&str; 4] = [
+const MARKS: [&str; 5] = [
     "result.json",
     "compare.json",
     "study.json",
     "reproduce.json",
+    "plan.toml",
 ];
 
 /// Files to be written together.
@@ -38,7 +39,7 @@ impl Bundle {
         let dir = dir.as_ref();
         let mark = self.files.iter().find(|(name, _)| MARKS.contains(name));
         let Some((mark, _)) = mark.filter(|(name, _)| {
-            let kind = name.trim_end_matches(".json");
+            let kind = name.trim_end_matches(".json").trim_end_matches(".toml");
             is_ours(&dir.join(name), kind)
         }) else {
             return Vec::new();
@@ -295,7 +296,7 @@ fn temporary_beside(path: &Path) -> std::io::Result<NamedTempFile> {
 }
 
 /// Names of the files that are written.
-const WRITTEN: [&str; 9] = [
+const WRITTEN: [&str; 11] = [
     "result.json",
     "compare.json",
     "model.toml",
@@ -305,6 +306,8 @@ const WRITTEN: [&str; 9] = [
     "contours.csv",
     "study.json",
     "reproduce.json",
+    "plan.toml",
+    "setpoints.csv",
 ];
 
 /// Refuses an output folder whose files would take the place of an input, or of a file that is going to be
@@ -374,7 +377,10 @@ pub fn check_folder_of(dir: impl AsRef<Path>, schema: &str, force: bool) -> Resu
     }
     let mut entries = fs::read_dir(dir).map_err(|e| Error::output(dir, describe(&e)))?;
     let empty = entries.next().is_none();
-    if empty || force || is_ours(&dir.join(format!("{kind}.json")), kind) {
+    let mut marks = MARKS
+        .iter()
+        .filter(|mark| mark.split('.').next() == Some(kind));
+    if empty || force || marks.any(|mark| is_ours(&dir.join(mark), kind)) {
         return Ok(());
     }
     Err(Error::taken(

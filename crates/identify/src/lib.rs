@@ -53,6 +53,7 @@
 //! Nothing here prints, sleeps or reads a clock; an [`Observer`] sees progress and may stop a run.
 
 mod agreement;
+mod along;
 #[cfg(test)]
 mod answered;
 pub mod candidates;
@@ -86,6 +87,7 @@ mod tune;
 mod watch;
 
 pub use agreement::{Disagreement, NOT_CONSTANT};
+pub use along::{Along, lugre_along};
 pub use choice::{NEVER_EQUAL_RATIO, Standing, choose};
 pub use conditioning::accelerometer::Accelerometer;
 pub use conditioning::channels::Channels;

@@ -3,6 +3,7 @@
 mod check;
 mod comparison;
 mod export;
+mod plan;
 mod procedure;
 mod reproduction;
 mod searched;
@@ -18,6 +19,7 @@ use crate::trust::{cause, compensation, constants, why_not};
 pub use check::{check, started};
 pub use comparison::comparison;
 pub use export::exported;
+pub use plan::planned;
 pub use procedure::procedure_commands;
 pub use reproduction::reproduction;
 use std::fmt::Write;

@@ -1,6 +1,7 @@
 //! What goes into an output folder: the outcome of a workflow as files, with its report.
 
 use crate::fit_csv::fit_csv;
+use crate::setpoints::setpoints_csv;
 use serde::Serialize;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -9,6 +10,7 @@ use stiction_files::study::template::{Shown, template};
 use stiction_files::{Bundle, ModelFile, check_folder_of};
 use stiction_pages::report;
 use stiction_workflows::identify::Outcome;
+use stiction_workflows::plan::Planned;
 use stiction_workflows::reproduce::Reproduction;
 use stiction_workflows::study::StudyOutcome;
 
@@ -62,6 +64,14 @@ pub fn study(outcome: &StudyOutcome) -> Bundle {
         }
     }
     bundle.add("study.json", json(&outcome.file));
+    bundle
+}
+
+/// The files of a plan: `plan.toml` and `setpoints.csv`.
+pub fn plan(planned: &Planned) -> Bundle {
+    let mut bundle = Bundle::default();
+    bundle.add("setpoints.csv", setpoints_csv(planned));
+    bundle.add("plan.toml", planned.file.to_toml());
     bundle
 }
 

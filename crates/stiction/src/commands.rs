@@ -4,7 +4,7 @@
 /// Forms of files, and how they are written.
 pub use stiction_files::{
     Bundle, Error as FileError, Kept, Remedy, axis, check_folder, check_folder_of, check_inputs,
-    compare_file, reproduce_file, shell, study, write_atomic,
+    compare_file, plan, reproduce_file, shell, study, write_atomic,
 };
 /// Integration steps of a simulated candidate.
 pub use stiction_identify::candidates::Scheme;
@@ -18,6 +18,8 @@ pub use stiction_workflows::compare::{
 };
 /// An identification from paths.
 pub use stiction_workflows::identify::{Files, Outcome, Simulated, identify};
+/// A planned motion, from an axis file.
+pub use stiction_workflows::plan::{PlanOptions, Planned, plan as plan_motion};
 /// Logs with the files they came from.
 pub use stiction_workflows::source::{Source, load, table};
 /// Exported C beside the compensator of a study's model.

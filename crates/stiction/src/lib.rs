@@ -108,6 +108,7 @@ mod fit_csv;
 mod identify;
 mod log;
 mod parameter;
+mod setpoints;
 
 pub use fit::Fit;
 pub use identify::{Options, identify, identify_observed, identify_validated};

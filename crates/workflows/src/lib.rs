@@ -5,6 +5,7 @@
 //! - [`simulate`](study::simulate): a study of compensations on a simulated axis.
 //! - [`compare`](compare::compare): search methods beside each other.
 //! - [`reproduce`]: published experiments run again.
+//! - [`plan`](plan::plan): the motion to record, within the limits of an axis.
 //! - [`export`](export::export): a model as code for a target.
 //! - [`demo`](demo::demo): a known axis, simulated, identified and held against the truth.
 //!
@@ -43,6 +44,7 @@ mod entries;
 mod error;
 pub mod export;
 pub mod identify;
+pub mod plan;
 pub mod reproduce;
 pub mod source;
 mod spread;

@@ -6,6 +6,7 @@ mod exported;
 #[cfg(unix)]
 mod linuxcnc;
 mod paper;
+mod plan;
 mod procedures;
 mod searches;
 mod study;

@@ -4,7 +4,7 @@ use super::gain::Gain;
 use super::values::Axis;
 use crate::error::Error;
 use stiction_identify::Controller;
-use stiction_log::{Dimension, Log, Unit};
+use stiction_log::{Dimension, Log, Motion, Unit, Value};
 
 impl Axis {
     /// The controller in the units of a log: gains in the unit of its force after scaling.
@@ -15,16 +15,37 @@ impl Axis {
     /// # Errors
     /// Where a unit fits neither.
     pub fn controller_for(&self, log: &Log) -> Result<Option<Controller>, Error> {
+        let force = Unit::parse(&log.force_unit).map_or(Dimension::ONE, |u| u.dimension());
+        let channel = log.mapping.force.as_ref();
+        let scale = channel.and_then(|c| c.scale.as_ref());
+        self.controller_in(log.motion, force, scale)
+    }
+
+    /// The controller of an axis without a log, in N (N m); a scale of the force column converts its gains.
+    ///
+    /// # Errors
+    /// Where a unit fits neither.
+    pub fn controller_of(&self, motion: Motion) -> Result<Option<Controller>, Error> {
+        let channel = self.mapping.force.as_ref();
+        let scale = channel.and_then(|c| c.scale.as_ref());
+        self.controller_in(motion, motion.force(), scale)
+    }
+
+    fn controller_in(
+        &self,
+        motion: Motion,
+        force: Dimension,
+        scale: Option<&Value>,
+    ) -> Result<Option<Controller>, Error> {
         let Some(values) = &self.controller else {
             return Ok(None);
         };
-        let force = Unit::parse(&log.force_unit).map_or(Dimension::ONE, |u| u.dimension());
-        let convert = |gain: &Gain, below: Dimension| self.gain(gain, log, force, below);
+        let convert = |gain: &Gain, below: Dimension| self.gain(gain, scale, force, below);
         let optional = |gain: &Option<Gain>, below| match gain {
             Some(gain) => convert(gain, below),
             None => Ok(0.0),
         };
-        let (length, speed) = (log.motion.position(), log.motion.velocity());
+        let (length, speed) = (motion.position(), motion.velocity());
         let acceleration = speed.per(Dimension::TIME).unwrap_or(speed);
         Ok(Some(Controller {
             position_gain: values.position_gain,
@@ -44,7 +65,7 @@ impl Axis {
     pub(super) fn gain(
         &self,
         gain: &Gain,
-        log: &Log,
+        scale: Option<&Value>,
         force: Dimension,
         below: Dimension,
     ) -> Result<f64, Error> {
@@ -57,16 +78,12 @@ impl Axis {
         if found == wanted || inertia {
             return Ok(gain.value.si());
         }
-        let channel = log.mapping.force.as_ref();
-        if let Some(scale) = channel.and_then(|c| c.scale.as_ref())
+        if let Some(scale) = scale
             && scale.unit.dimension().times(found) == Some(wanted)
         {
             return Ok(scale.si().abs() * gain.value.si());
         }
-        let raw = channel.and_then(|c| {
-            let scale = c.scale.as_ref()?.unit.dimension();
-            wanted.per(scale)
-        });
+        let raw = scale.and_then(|scale| wanted.per(scale.unit.dimension()));
         let other = raw.map_or(String::new(), |raw| {
             format!(
                 ", or in {}, the unit of the log before scaling",

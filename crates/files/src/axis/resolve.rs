@@ -1,6 +1,7 @@
 //! From the axis file as typed to SI values that the libraries take.
 
 mod columns;
+mod limits;
 mod resolver;
 mod search;
 mod simulation;
@@ -76,6 +77,7 @@ impl Resolver {
         self.terms(root, axis)?;
         self.simulation(root, axis)?;
         self.controller(root, axis)?;
+        axis.limits = limits::limits(root, axis.mapping.motion)?;
         axis.search = search::search(root)?;
         if let Some(table) = root.table("report")? {
             axis.low_speed = self.positive(table.get("low_speed"), &SPEEDS)?;

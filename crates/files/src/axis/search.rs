@@ -44,6 +44,7 @@ impl Axis {
     /// Where a unit does not fit the log.
     pub fn search_box(&self, log: &Log) -> Result<[Option<[f64; 2]>; 6], Error> {
         let force = Unit::parse(&log.force_unit).map_or(Dimension::ONE, |u| u.dimension());
+        let scale = log.mapping.force.as_ref().and_then(|c| c.scale.as_ref());
         let (length, speed) = (log.motion.position(), log.motion.velocity());
         let below = [
             Some(length),
@@ -59,7 +60,7 @@ impl Axis {
             let mut si = [0.0; 2];
             for (si, end) in si.iter_mut().zip(ends) {
                 *si = match below {
-                    Some(below) => self.gain(end, log, force, below)?,
+                    Some(below) => self.gain(end, scale, force, below)?,
                     None => self.speed(end, speed)?,
                 };
             }

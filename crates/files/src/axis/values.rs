@@ -1,6 +1,7 @@
 //! What an axis file says, in SI units and the types of the log and the engine.
 
 use super::gain::ControllerValues;
+use super::limits::AxisLimits;
 use super::search::SearchValues;
 use super::tied::Tied;
 use crate::config::Places;
@@ -37,6 +38,10 @@ pub struct Axis {
     pub hold: Hold,
     /// Longest stretch that is simulated from one free start in open loop, s; `None` for whole runs.
     pub segment: Option<f64>,
+    /// What the axis may do.
+    pub limits: Option<AxisLimits>,
+    /// Bandwidth of the speed loop of a controller whose gains are not known, Hz.
+    pub bandwidth: Option<f64>,
     /// The controller as typed; its units are known with the log.
     pub(super) controller: Option<ControllerValues>,
     /// Settings and boxes of searches as typed, likewise.
@@ -69,6 +74,8 @@ impl Default for Axis {
             low_speed: None,
             hold: Hold::Held,
             segment: None,
+            limits: None,
+            bandwidth: None,
             controller: None,
             search: SearchValues::default(),
             offset: None,

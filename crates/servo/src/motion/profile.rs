@@ -115,6 +115,32 @@ impl Profile {
         }
     }
 
+    /// The jerk `t` seconds after the start, m/s^3 (rad/s^3); 0 before and after. Where it steps, the later value.
+    pub fn jerk_at(&self, t: f64) -> f64 {
+        let (left, tj, ta) = (self.duration() - t, self.rounding, self.ramp);
+        if t < 0.0 || left <= 0.0 {
+            return 0.0;
+        }
+        let ramp = |t: f64| match t {
+            t if t < tj => self.jerk,
+            t if t < ta - tj => 0.0,
+            t if t < ta => -self.jerk,
+            _ => 0.0,
+        };
+        // The second half is the first backwards, and jerk keeps its sign under that.
+        self.distance.signum() * ramp(t.min(left))
+    }
+
+    /// Largest speed of the move, m/s (rad/s).
+    pub fn peak_speed(&self) -> f64 {
+        self.jerk * self.rounding * (self.ramp - self.rounding)
+    }
+
+    /// Largest acceleration of the move, either way, m/s^2 (rad/s^2).
+    pub fn peak_acceleration(&self) -> f64 {
+        self.jerk * self.rounding
+    }
+
     /// Up to half time, towards positive positions.
     fn rising(&self, t: f64) -> Reference {
         let (j, tj, ta) = (self.jerk, self.rounding, self.ramp);

@@ -30,6 +30,14 @@ impl Resolver {
         let Some(table) = root.table("controller")? else {
             return Ok(());
         };
+        if let Some(given) = table.get("bandwidth") {
+            axis.bandwidth = Some(given.positive(&[Dimension::FREQUENCY])?.0);
+            if table.find("kind").is_some() {
+                let allowed = "either bandwidth, for a controller whose gains are not known, or kind with its gains";
+                return Err(given.refused(allowed));
+            }
+            return table.end();
+        }
         let integral = match (kind(&table)?, table.get("integral_gain")) {
             ("p-p", None) => None,
             ("p-p", Some(given)) => {
@@ -69,7 +77,6 @@ fn kind<'a>(table: &Table<'a>) -> Result<&'a str, Error> {
     }
 }
 
-/// A value above 0 whose unit can be judged only with the log.
 /// A value above 0 whose unit is checked with the log.
 pub(super) fn gain(given: &Given<'_>) -> Result<Gain, Error> {
     let value = given.quantity("\"300 N s/m\"")?;

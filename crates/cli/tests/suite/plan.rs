@@ -1,0 +1,205 @@
+//! `plan` as a user meets it.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// A small axis: slow logs are simulated fast.
+const AXIS: &str = r#"
+kind = "linear"
+rate = "500 Hz"
+
+[limits]
+stroke       = ["-20 mm", "30 mm"]
+speed        = "0.1 m/s"
+acceleration = "2 m/s2"
+rated_force  = "40 N"
+peak_force   = "60 N"
+mass         = "4 kg"
+
+[controller]
+bandwidth = "20 Hz"
+"#;
+
+fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_stiction"))
+        .args(arguments)
+        .current_dir(folder)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (
+        output.status.code().unwrap_or(-1),
+        text(output.stdout),
+        text(output.stderr),
+    )
+}
+
+fn folder(axis: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("axis.toml"), axis).unwrap();
+    folder
+}
+
+/// The rows of a file of set points.
+fn rows(folder: &Path, file: &str) -> Vec<[f64; 4]> {
+    let text = std::fs::read_to_string(folder.join(file)).unwrap();
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("t [s],x [m],v [m/s],a [m/s2]"));
+    let row = |line: &str| {
+        let numbers: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
+        numbers.try_into().unwrap()
+    };
+    lines.map(row).collect()
+}
+
+#[test]
+fn a_plan_is_written_with_set_points_within_the_limits_and_the_same_on_any_thread_count() {
+    let folder = folder(AXIS);
+    let at = folder.path();
+    let command = ["plan", "axis.toml", "--time", "4s", "--out"];
+    let with = |out: &str, threads: &str| {
+        let mut all = command.to_vec();
+        all.extend([out, "--threads", threads]);
+        run(at, &all)
+    };
+    let (code, out, err) = with("one", "1");
+    assert_eq!((code, err.as_str()), (0, ""));
+    for said in [
+        "limits.jerk = 400 m/s",
+        "limits.force_noise = 0.2 N",
+        "stiction identify LOG.csv --axis axis.toml --out one/identified",
+        "written to one: setpoints.csv, plan.toml",
+    ] {
+        assert!(out.contains(said), "{said}\n{out}");
+    }
+    let rows = rows(at, "one/setpoints.csv");
+    let [first, last] = [rows[0], rows[rows.len() - 1]];
+    assert_eq!(first, [0.0; 4]);
+    assert_eq!(last[1..], [0.0; 3]);
+    assert!(last[0] > 2.0 && last[0] <= 4.0 + 2.1e-3, "{last:?}");
+    for [_, x, v, a] in &rows {
+        assert!((-0.0175..=0.0275).contains(x) && v.abs() <= 0.1 && a.abs() <= 2.0);
+    }
+    // The numbers of a row belong together: v is the slope of x.
+    for pair in rows.windows(3) {
+        let slope = (pair[2][1] - pair[0][1]) / (pair[2][0] - pair[0][0]);
+        assert!((slope - pair[1][2]).abs() < 2e-3, "{pair:?}");
+    }
+    let (code, ..) = with("two", "2");
+    assert_eq!(code, 0);
+    for file in ["plan.toml", "setpoints.csv"] {
+        let read = |dir: &str| std::fs::read(at.join(dir).join(file)).unwrap();
+        assert!(read("one") == read("two"), "{file}");
+    }
+    // A plan of ours may be replaced, an input may not.
+    assert_eq!(with("one", "2").0, 0);
+    std::fs::create_dir(at.join("mine")).unwrap();
+    std::fs::write(at.join("mine/notes.txt"), "").unwrap();
+    assert_eq!(with("mine", "2").0, 2);
+}
+
+#[test]
+fn without_limits_every_missing_key_is_named() {
+    let folder = folder("kind = \"rotary\"\n[limits]\nspeed = \"3000 rpm\"\n");
+    let (code, out, err) = run(folder.path(), &["plan", "axis.toml", "--out", "out"]);
+    assert_eq!((code, out.as_str()), (2, ""));
+    for key in ["stroke", "acceleration", "rated_force", "mass"] {
+        assert!(
+            err.contains(&format!("axis.toml: limits.{key}: is missing")),
+            "{err}"
+        );
+    }
+    assert!(!err.contains("limits.speed"), "{err}");
+    assert!(err.contains("5 kg cm2"), "{err}");
+    assert!(!folder.path().join("out").exists());
+}
+
+#[test]
+fn limits_that_are_none_are_refused_with_their_line() {
+    let refused = [
+        (
+            AXIS.replace("\"-20 mm\"", "\"20 mm\""),
+            "line 6, column 16, limits.stroke",
+        ),
+        (
+            AXIS.replace("\"0.1 m/s\"", "\"0.1 m\""),
+            "line 7, column 16, limits.speed",
+        ),
+        (
+            AXIS.replace("\"60 N\"", "\"30 N\""),
+            "line 10, column 16, limits.peak_force",
+        ),
+        (
+            AXIS.replace("\"40 N\"", "\"40 A\""),
+            "line 9, column 16, limits.rated_force",
+        ),
+        (
+            AXIS.replace("\"20 Hz\"", "\"20 Hz\"\nkind = \"p-p\""),
+            "line 14, column 13, controller.bandwidth",
+        ),
+        (
+            AXIS.replace("mass  ", "masse "),
+            "line 11, column 1, limits.masse",
+        ),
+        (
+            AXIS.replace("\"20 Hz\"", "\"20 kHz\""),
+            "line 14, column 13, controller.bandwidth",
+        ),
+    ];
+    for (axis, place) in refused {
+        let folder = folder(&axis);
+        let (code, _, err) = run(folder.path(), &["plan", "axis.toml", "--out", "out"]);
+        assert_eq!(code, 2, "{err}");
+        assert!(err.contains(place), "{place}\n{err}");
+    }
+    let folder = folder(AXIS);
+    for time in ["0.1s", "1h", "-3", "nan"] {
+        let (code, _, err) = run(
+            folder.path(),
+            &["plan", "axis.toml", "--time", time, "--out", "out"],
+        );
+        assert_eq!(code, 2, "{time} {err}");
+    }
+}
+
+/// A stroke that the encoder hardly sees leaves no motion, and that is said.
+#[test]
+fn an_axis_that_cannot_show_anything_is_refused() {
+    let axis = AXIS.replace("[\"-20 mm\", \"30 mm\"]", "[\"-0.4 um\", \"0.4 um\"]");
+    let folder = folder(&axis);
+    let (code, _, err) = run(
+        folder.path(),
+        &["plan", "axis.toml", "--time", "3s", "--out", "out"],
+    );
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("stroke"), "{err}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_plan_that_is_interrupted_says_so_and_writes_nothing_half() {
+    let folder = folder(&AXIS.replace("500 Hz", "10 kHz"));
+    let mut child = Command::new(env!("CARGO_BIN_EXE_stiction"))
+        .args(["plan", "axis.toml", "--out", "out"])
+        .current_dir(folder.path())
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    assert!(
+        child.try_wait().unwrap().is_none(),
+        "too short to interrupt"
+    );
+    let id = child.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-INT", &id])
+            .status()
+            .unwrap()
+            .success()
+    );
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(!folder.path().join("out/plan.toml").exists());
+}

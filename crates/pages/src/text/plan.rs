@@ -1,0 +1,146 @@
+//! A planned motion as a terminal shows it.
+
+use super::table::table;
+use std::fmt::Write;
+use std::path::Path;
+use stiction_files::plan::PlanFile;
+use stiction_files::shell::quoted;
+use stiction_number::{Percent, four_digits as short, unit};
+use stiction_workflows::plan::Planned;
+
+/// The interval above which a parameter is said to stay open on some axes, percent.
+const OPEN: f64 = 20.0;
+
+/// What was planned, what its log can be expected to show, and what to type next. `written` is the folder of the set points.
+pub fn planned(planned: &Planned, axis: &Path, written: &Path) -> String {
+    let file = &planned.file;
+    let mut out = format!(
+        "{} s from rest to rest in {} pieces, {}; pieces simulated on {} axes that the nameplate allows, the whole on {} others\n",
+        short(file.duration),
+        file.atom.len(),
+        match file.motion.as_str() {
+            "designed" => "designed".to_string(),
+            other => format!("{other}: nothing designed was better"),
+        },
+        file.axes[0],
+        file.axes[1],
+    );
+    if !file.assumed.is_empty() {
+        out.push_str("\nassumed, since the axis file does not give them:\n");
+        for assumed in &file.assumed {
+            let with = match assumed.unit.as_str() {
+                "1" => String::new(),
+                name => format!(" {}", unit(name)),
+            };
+            let _ = writeln!(out, "    {} = {}{with}", assumed.key, short(assumed.value));
+        }
+    }
+    out.push_str(&expected(file));
+    out.push_str(&beside(file));
+    out.push_str(&largest(file));
+    let axis = quoted(&axis.display().to_string());
+    let folder = |name: &str| quoted(&written.join(name).display().to_string());
+    let [low, high] = file.limits.stroke;
+    let length = units(file)[0];
+    let _ = writeln!(
+        out,
+        "\nnext: bring the axis to where it may go {} {length} to negative and {} {length} to positive positions; run {} first \
+         at 30 % override and look, then at 100 %, and record time, position and force at {} Hz; then\n    \
+         stiction identify LOG.csv --axis {axis} --out {}",
+        short(-low),
+        short(high),
+        folder("setpoints.csv"),
+        short(file.rig.rate),
+        folder("identified"),
+    );
+    out
+}
+
+/// Units of length, speed and force.
+fn units(file: &PlanFile) -> [&'static str; 3] {
+    match file.kind == "rotary" {
+        false => ["m", "m/s", "N"],
+        true => ["rad", "rad/s", "N m"],
+    }
+}
+
+/// The largest of what happened, beside the limits, and where to abort.
+fn largest(file: &PlanFile) -> String {
+    let [length, speed, force] = units(file);
+    let (largest, limits) = (&file.largest, &file.limits);
+    format!(
+        "\nlargest on any of them: speed {} of {} {speed}; force {} of {} {force}, rms {} of {}, at its limit {} of the time; \
+         following error {} {length}\nabort above a following error of {} {length}, a force of {} {force}, a speed of {} {speed}\n",
+        short(largest.speed),
+        short(limits.speed),
+        short(largest.force),
+        short(limits.peak_force),
+        short(largest.force_rms),
+        short(limits.rated_force),
+        Percent::error(100.0 * largest.saturated).short(),
+        short(largest.following_error),
+        short(2.0 * largest.following_error),
+        short((1.2 * largest.force).min(limits.peak_force)),
+        short((1.5 * largest.speed).min(1.1 * limits.speed)),
+    )
+}
+
+/// What each parameter can be expected to come out as.
+fn expected(file: &PlanFile) -> String {
+    let mut rows = vec![
+        [
+            "parameter",
+            "95 % interval, half of the axes",
+            "nine of ten",
+        ]
+        .map(String::from)
+        .to_vec(),
+    ];
+    rows.extend(file.parameter.iter().map(|p| {
+        vec![
+            p.name.clone(),
+            within(p.interval_percent),
+            within(p.interval90_percent),
+        ]
+    }));
+    let mut out = String::from("\nexpected of its log, by simulation, at most:\n");
+    out.push_str(&table(&rows, &[false, true, true]));
+    let open: Vec<&str> = (file.parameter.iter())
+        .filter(|p| p.interval90_percent > OPEN)
+        .map(|p| p.name.as_str())
+        .collect();
+    if !open.is_empty() {
+        let _ = writeln!(
+            out,
+            "on some axes {} may stay open: bristles of a few encoder steps, or static friction hardly above Coulomb friction",
+            open.join(", ")
+        );
+    }
+    out
+}
+
+fn within(percent: f64) -> String {
+    format!("+-{}", Percent::deviation(percent).short())
+}
+
+/// The worst parameter beside that of other motions.
+fn beside(file: &PlanFile) -> String {
+    let header = [
+        "motion",
+        "s",
+        "worst parameter, half of the axes",
+        "nine of ten",
+        "",
+    ];
+    let mut rows = vec![header.map(String::from).to_vec()];
+    rows.extend(file.compared.iter().map(|c| {
+        vec![
+            c.name.clone(),
+            short(c.duration),
+            within(c.interval_percent),
+            within(c.interval90_percent),
+            if c.keeps_limits { "" } else { "breaks a limit" }.into(),
+        ]
+    }));
+    format!("\n{}", table(&rows, &[false, true, true, true, false]))
+}

@@ -1,0 +1,184 @@
+//! The pieces to choose from.
+
+use crate::atom::Atom;
+use crate::limits::Limits;
+use crate::rig::Rig;
+
+/// Frequencies of the sines, Hz, as far as the loop follows them, and their durations, s.
+const SINES: [(f64, f64); 6] = [
+    (0.5, 2.0),
+    (1.0, 1.0),
+    (2.0, 1.0),
+    (5.0, 0.6),
+    (10.0, 0.5),
+    (28.0, 0.5),
+];
+/// Speeds of the sines and moves: the largest and each of the following by this factor slower, down to 1e-4 of it.
+const SPEEDS: i32 = 11;
+const SPEED_RATIO: f64 = 2.511_886_431_509_58;
+/// Speeds and durations (s) of moves there and back.
+const MOVES: i32 = 13;
+const MOVE_RATIO: f64 = 2.154_434_690_031_884;
+const MOVE_TIMES: [f64; 2] = [1.0, 2.0];
+/// Parts of the largest acceleration and speed of full strokes: the drive may lack the force for all of it.
+const STROKES: [(f64, f64); 6] = [
+    (0.3, 0.5),
+    (0.3, 1.0),
+    (0.6, 0.5),
+    (0.6, 1.0),
+    (0.9, 0.5),
+    (0.9, 1.0),
+];
+/// Frequencies and speeds, as parts of the largest, of sines that grow.
+const GROWING: [(f64, f64); 8] = [
+    (1.0, 1.0),
+    (1.0, 0.1),
+    (1.0, 0.01),
+    (5.0, 0.3),
+    (5.0, 0.03),
+    (5.0, 3e-3),
+    (10.0, 0.1),
+    (10.0, 0.01),
+];
+/// Part of the limits that is used: what is left is for the rounding of whoever samples the motion.
+pub(crate) const MARGIN: f64 = 1.0 - 1e-6;
+/// Highest frequency over the bandwidth of the loop, and over the rate of the log.
+const OF_BANDWIDTH: f64 = 0.75;
+const OF_RATE: f64 = 1.0 / 40.0;
+/// Least amplitude in encoder steps: less is seldom seen.
+const LEAST_STEPS: f64 = 2.0;
+/// A piece that the limits make slower than this part of what was asked for is another one.
+const SAME: f64 = 0.6;
+/// Part of the duration in which a sine grows.
+const GROWTH: f64 = 0.8;
+
+/// Part of the largest speed that the fast pieces have: the speed of a real axis overshoots that of its reference.
+pub(crate) const FAST: f64 = 0.95;
+
+/// All pieces within the limits that the loop can follow and the encoder can see.
+pub fn dictionary(limits: &Limits, rig: &Rig) -> Vec<Atom> {
+    let limits = &Limits {
+        speed: FAST * limits.speed,
+        ..*limits
+    };
+    let highest = (OF_BANDWIDTH * rig.bandwidth()).min(OF_RATE * rig.rate);
+    let mut all = Vec::new();
+    let mut add = |atom: Atom, wanted: f64| {
+        let by = fits(&atom, limits);
+        let atom = atom.scaled(by);
+        let size = atom.extremes().position;
+        let seen = (size[1] - size[0]) >= LEAST_STEPS * rig.encoder_step;
+        if by * wanted >= SAME * wanted && seen && atom.validate().is_ok() {
+            all.push(atom);
+        }
+    };
+    for (frequency, duration) in SINES.into_iter().filter(|(f, _)| *f <= highest) {
+        for k in 0..SPEEDS {
+            let speed = limits.speed / power(SPEED_RATIO, k);
+            add(sine(speed, frequency, duration), speed);
+        }
+        // The largest that the limits allow, whatever its speed.
+        let largest = sine(limits.speed, frequency, duration);
+        if fits(&largest, limits) < SAME {
+            let largest = largest.scaled(fits(&largest, limits));
+            add(largest, 1.0);
+        }
+    }
+    for (frequency, part) in GROWING.into_iter().filter(|(f, _)| *f <= highest) {
+        let duration = (4.0 / frequency).max(1.0);
+        let Atom::Sine { amplitude, .. } = sine(part * limits.speed, frequency, duration) else {
+            continue;
+        };
+        let growing = Atom::Sine {
+            amplitude,
+            frequency,
+            duration,
+            fade_in: GROWTH * duration,
+            fade_out: (1.0 - GROWTH) * duration,
+        };
+        add(growing, 1.0);
+    }
+    for time in MOVE_TIMES {
+        for k in 0..MOVES {
+            let speed = limits.speed / power(MOVE_RATIO, k);
+            if let Some(atom) = there_and_back(limits, (speed, limits.acceleration), 0.5 * time) {
+                add(atom, 1.0);
+            }
+        }
+    }
+    for (acceleration, speed) in STROKES {
+        let part = limits.part(speed, acceleration);
+        let atom = Atom::Move {
+            distance: farther(limits),
+            speed: part.velocity,
+            acceleration: part.acceleration,
+            jerk: part.jerk,
+        };
+        add(atom, 1.0);
+    }
+    all
+}
+
+/// A sine of this speed amplitude with fades of half a period.
+pub(crate) fn sine(speed: f64, frequency: f64, duration: f64) -> Atom {
+    let fade = (0.5 / frequency).min(0.5 * duration);
+    Atom::Sine {
+        amplitude: speed / (std::f64::consts::TAU * frequency),
+        frequency,
+        duration,
+        fade_in: fade,
+        fade_out: fade,
+    }
+}
+
+/// There and back at a speed and acceleration, each way in `time` s or as far as the stroke allows; `None` where the ramps alone
+/// take longer.
+pub(crate) fn there_and_back(
+    limits: &Limits,
+    (speed, acceleration): (f64, f64),
+    time: f64,
+) -> Option<Atom> {
+    let ramp = speed / acceleration + acceleration / limits.jerk;
+    let ramp = ramp.max(2.0 * libm::sqrt(speed / limits.jerk));
+    if ramp >= time {
+        return None;
+    }
+    let far = farther(limits);
+    let distance = (speed * (time - ramp)).min(far.abs()) * far.signum();
+    Some(Atom::Move {
+        distance,
+        speed,
+        acceleration,
+        jerk: limits.jerk,
+    })
+}
+
+/// The way to the farther end of the stroke, m (rad).
+fn farther(limits: &Limits) -> f64 {
+    let [low, high] = limits.reach();
+    let far = if high >= -low { high } else { low };
+    MARGIN * far
+}
+
+/// By what a piece has to be made smaller to be within the limits: at most 1.
+pub(crate) fn fits(atom: &Atom, limits: &Limits) -> f64 {
+    let found = atom.extremes();
+    let [low, high] = limits.reach();
+    let part = |found: f64, limit: f64| {
+        if found > 0.0 {
+            MARGIN * limit / found
+        } else {
+            1.0
+        }
+    };
+    let most = part(found.position[1], high)
+        .min(part(-found.position[0], -low))
+        .min(part(found.speed, limits.speed))
+        .min(part(found.acceleration, limits.acceleration))
+        .min(part(found.jerk, limits.jerk));
+    most.min(1.0)
+}
+
+fn power(x: f64, n: i32) -> f64 {
+    (0..n).fold(1.0, |product, _| product * x)
+}

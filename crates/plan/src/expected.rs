@@ -1,0 +1,68 @@
+//! What a whole motion can be expected to tell.
+
+use crate::candidate::PARAMETERS;
+use crate::predict::{Deviations, deviations, worst};
+use crate::run::Peaks;
+use crate::select::score;
+use crate::table::Entry;
+
+/// Deviations that a motion gives, over the axes that are thought possible.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expected {
+    /// For each axis the relative deviation of each parameter.
+    pub axes: Vec<Deviations>,
+    /// What [`select`](crate::select()) minimises; less is better.
+    pub score: f64,
+    /// The largest of what happened on any axis.
+    pub peaks: Peaks,
+    /// On each axis: the root mean square of the force, N (N m), the share of the time in which it is at its limit, and the share of
+    /// the motion that really happens.
+    pub runs: Vec<Peaks>,
+}
+
+impl Expected {
+    /// From the entries of a motion on every axis, under a force noise, N (N m).
+    pub fn of(entries: &[Entry], noise: f64) -> Expected {
+        let axes: Vec<Deviations> = entries
+            .iter()
+            .map(|e| deviations(&e.information, noise))
+            .collect();
+        let mut logarithms: Vec<f64> = axes
+            .iter()
+            .map(|d| libm::log(worst(d).max(1e-12)))
+            .collect();
+        let runs: Vec<Peaks> = entries.iter().map(|e| e.peaks).collect();
+        Expected {
+            score: score(&mut logarithms),
+            peaks: runs.iter().copied().reduce(Peaks::with).unwrap_or_default(),
+            runs,
+            axes,
+        }
+    }
+
+    /// The relative deviation of a parameter that a part of the axes, 0 to 1, does not exceed.
+    pub fn quantile(&self, parameter: usize, part: f64) -> f64 {
+        quantile(self.axes.iter().map(|d| d[parameter]).collect(), part)
+    }
+
+    /// The same of the worst parameter of each axis.
+    pub fn worst(&self, part: f64) -> f64 {
+        quantile(self.axes.iter().map(worst).collect(), part)
+    }
+
+    /// Whether all parameters have a deviation; there is always one.
+    pub fn parameters(&self) -> std::ops::Range<usize> {
+        0..PARAMETERS
+    }
+}
+
+fn quantile(mut values: Vec<f64>, part: f64) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let place = part.clamp(0.0, 1.0) * (values.len().saturating_sub(1)) as f64;
+    let (low, rest) = (place as usize, place - libm::floor(place));
+    match (values.get(low), values.get(low + 1)) {
+        (Some(a), Some(b)) => a + rest * (b - a),
+        (Some(a), None) => *a,
+        (None, _) => 1.0,
+    }
+}

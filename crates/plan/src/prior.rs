@@ -1,0 +1,93 @@
+//! What is believed of the axis before it has moved.
+
+use crate::candidate::{Candidate, PARAMETERS};
+use crate::limits::Limits;
+use crate::rig::Rig;
+use stiction_friction::ParamError;
+
+/// What the nameplate of a servo axis leaves open: ranges in equal ratios, independent of each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nameplate {
+    /// kg (kg m^2), with everything that moves.
+    pub mass: f64,
+    /// How many times larger or smaller the mass may be, above 1.
+    pub mass_factor: f64,
+    /// What the axis may do.
+    pub limits: Limits,
+    /// What moves and reads it.
+    pub rig: Rig,
+}
+
+/// Coulomb friction over the rated force.
+const COULOMB: [f64; 2] = [0.02, 0.2];
+/// Fs/Fc - 1.
+const EXCESS: [f64; 2] = [0.1, 3.0];
+/// Stribeck velocity over the largest speed.
+const STRIBECK: [f64; 2] = [0.003, 0.3];
+/// Viscous friction at the largest speed over Coulomb friction.
+const VISCOUS: [f64; 2] = [0.1, 2.0];
+/// Presliding length Fc/sigma0, m (rad), and its least in encoder steps.
+const PRESLIDING: [f64; 2] = [1e-6, 200e-6];
+const PRESLIDING_STEPS: f64 = 4.0;
+/// Damping ratio of the bristles, sigma1/(2 sqrt(sigma0 M)).
+const DAMPING: [f64; 2] = [0.1, 1.5];
+
+impl Nameplate {
+    /// The ranges as text for people: name, least, largest and what they are a part of.
+    pub fn ranges(&self) -> [(&'static str, [f64; 2]); PARAMETERS] {
+        let rated = self.limits.rated_force;
+        let short = PRESLIDING[0].max(PRESLIDING_STEPS * self.rig.encoder_step);
+        let by = self.mass_factor;
+        [
+            ("mass", [self.mass / by, self.mass * by]),
+            ("coulomb", COULOMB.map(|part| part * rated)),
+            ("static over coulomb", EXCESS.map(|excess| 1.0 + excess)),
+            (
+                "stribeck_velocity",
+                STRIBECK.map(|part| part * self.limits.speed),
+            ),
+            ("sigma2 times speed over coulomb", VISCOUS),
+            ("presliding length", [short, PRESLIDING[1].max(2.0 * short)]),
+            ("damping ratio of the bristles", DAMPING),
+        ]
+    }
+
+    /// The axis at a place in the unit cube.
+    pub fn at(&self, unit: [f64; PARAMETERS]) -> Candidate {
+        let ranges = self.ranges();
+        let value = |i: usize, [low, high]: [f64; 2]| low * libm::pow(high / low, unit[i]);
+        let mass = value(0, ranges[0].1);
+        let coulomb = value(1, ranges[1].1);
+        let excess = value(2, EXCESS);
+        let stribeck_velocity = value(3, ranges[3].1);
+        let viscous = value(4, ranges[4].1);
+        let sigma0 = coulomb / value(5, ranges[5].1);
+        let damping = value(6, ranges[6].1);
+        Candidate {
+            sigma0,
+            sigma1: 2.0 * damping * libm::sqrt(sigma0 * mass),
+            sigma2: viscous * coulomb / self.limits.speed,
+            coulomb,
+            static_friction: coulomb * (1.0 + excess),
+            stribeck_velocity,
+            mass,
+        }
+    }
+
+    /// Refuses numbers out of range.
+    pub fn validate(&self) -> Result<(), ParamError> {
+        ParamError::positive("mass", self.mass)?;
+        if !(self.mass_factor > 1.0 && self.mass_factor.is_finite()) {
+            return Err(ParamError::new("mass_factor", self.mass_factor, "above 1"));
+        }
+        self.limits.validate()?;
+        self.rig.validate()
+    }
+
+    /// `count` axes, spread evenly by a scrambled Sobol sequence; other seeds are other axes.
+    pub fn draw(&self, count: usize, seed: u32) -> Vec<Candidate> {
+        let unit = |i: usize, d: usize| f64::from(sobol_burley::sample(i as u32, d as u32, seed));
+        let cube = |i: usize| std::array::from_fn(|d| unit(i, d));
+        (0..count).map(|i| self.at(cube(i))).collect()
+    }
+}

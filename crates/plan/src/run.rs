@@ -1,0 +1,123 @@
+//! A motion on a candidate, simulated in closed loop with its encoder.
+
+use crate::candidate::Candidate;
+use crate::rig::Rig;
+use stiction_friction::ParamError;
+use stiction_servo::axis::{Axis, AxisSettings, Correction};
+use stiction_servo::controller::Controller;
+use stiction_servo::drive::Drive;
+use stiction_servo::encoder::Encoder;
+use stiction_servo::feedforward::Feedforward;
+use stiction_servo::integrator::Quick;
+use stiction_servo::path::Reference;
+use stiction_servo::plant::Plant;
+use stiction_servo::trajectory::Trajectory;
+
+/// What a run shows, at the rate of the log.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Run {
+    /// Position as the encoder reads it, m (rad).
+    pub reading: Vec<f64>,
+    /// True velocity, m/s (rad/s).
+    pub velocity: Vec<f64>,
+    /// Force about the instant of each sample, N (N m).
+    pub force: Vec<f64>,
+    /// What happened between samples too.
+    pub peaks: Peaks,
+}
+
+/// The largest of what a run did, in every control period.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Peaks {
+    /// Least and largest true position, m (rad).
+    pub position: [f64; 2],
+    /// Largest true speed, m/s (rad/s).
+    pub speed: f64,
+    /// Largest force, N (N m).
+    pub force: f64,
+    /// Mean of its square, N^2.
+    pub force_square: f64,
+    /// Largest difference of reference and position, m (rad).
+    pub error: f64,
+    /// Share of the control periods in which the force is at its limit.
+    pub saturated: f64,
+    /// Sum of the squares of the true velocity over that of the reference velocity: far below 1 where the axis sticks.
+    pub followed: f64,
+}
+
+/// Largest step of the plant in parts of the period of its bristles.
+const BRISTLE_STEP: f64 = 0.4;
+/// Most steps of the plant in a control period.
+const MOST_STEPS: f64 = 64.0;
+
+/// Runs a motion from rest on the candidate under a largest force, N (N m). `phase`, 0 to 1, is where the encoder stands in its
+/// step.
+pub fn run(
+    motion: &impl Trajectory,
+    candidate: &Candidate,
+    rig: &Rig,
+    force_limit: f64,
+    phase: f64,
+) -> Result<Run, ParamError> {
+    let every = rig.periods();
+    let rate = rig.rate * every as f64;
+    let bristles = libm::sqrt(candidate.sigma0 / candidate.mass) / rate;
+    let substeps = libm::ceil(bristles / BRISTLE_STEP).clamp(1.0, MOST_STEPS) as u32;
+    let settings = AxisSettings {
+        plant: Plant::new(candidate.mass, candidate.law()?)?,
+        drive: Drive::ideal(),
+        encoder: Encoder::new(rig.encoder_step)?.with_phase(phase)?,
+        position_noise: 0.0,
+        cogging: None,
+        disturbance: None,
+        controller: Controller::Cascade(rig.cascade(candidate.mass, force_limit)?),
+        feedforward: Feedforward::default(),
+        rate,
+        substeps,
+        seed: 0,
+    };
+    let force_limit = settings.controller.force_limit();
+    let mut axis = Axis::new(settings, Quick::new(1)?)?;
+    let samples = libm::floor(motion.duration() * rig.rate + 1e-6) as usize + 1;
+    let mut out = Run {
+        reading: Vec::with_capacity(samples),
+        velocity: Vec::with_capacity(samples),
+        force: Vec::with_capacity(samples),
+        peaks: Peaks::default(),
+    };
+    let peaks = &mut out.peaks;
+    let (mut held, mut asked, mut moved, mut at_limit) = (0.0, 0.0, 0.0, 0_usize);
+    let fed = rig.velocity_feedforward();
+    let count = (samples - 1) * every + 1;
+    for k in 0..count {
+        let reference: Reference = motion.at(k as f64 / rate);
+        let correction = Correction {
+            velocity: (fed - 1.0) * reference.velocity,
+            force: 0.0,
+        };
+        let sample = axis.step(reference, 0.0, correction);
+        if k % every == 0 {
+            out.reading.push(sample.measured);
+            out.velocity.push(sample.velocity);
+            out.force.push(0.5 * (held + sample.command));
+        }
+        held = sample.command;
+        let [low, high] = &mut peaks.position;
+        (*low, *high) = (low.min(sample.position), high.max(sample.position));
+        peaks.speed = peaks.speed.max(sample.velocity.abs());
+        peaks.force = peaks.force.max(held.abs());
+        peaks.force_square += held * held;
+        peaks.error = peaks.error.max(sample.error().abs());
+        at_limit += usize::from(held.abs() >= force_limit);
+        asked += reference.velocity * reference.velocity;
+        moved += sample.velocity * sample.velocity;
+    }
+    peaks.force_square /= count as f64;
+    peaks.saturated = at_limit as f64 / count as f64;
+    peaks.followed = if asked > 0.0 { moved / asked } else { 1.0 };
+    if !(peaks.speed.is_finite() && peaks.force_square.is_finite() && peaks.error.is_finite()) {
+        let allowed = "a motion that stays finite: a smaller bandwidth";
+        return Err(ParamError::new("bandwidth", rig.bandwidth(), allowed));
+    }
+    Ok(out)
+}

@@ -1,0 +1,5 @@
+//! Tests of `stiction-plan`.
+
+mod limits;
+mod pieces;
+mod prediction;

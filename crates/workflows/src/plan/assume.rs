@@ -1,0 +1,188 @@
+//! From what the axis file gives to what a plan needs, with what is assumed where it is silent.
+
+use crate::error::Error;
+use stiction_files::Axis;
+use stiction_files::plan::Assumed;
+use stiction_identify::Mass;
+use stiction_log::{Dimension, Motion};
+use stiction_plan::{Limits, Loop, Nameplate, Rig};
+use stiction_servo::cascade::Cascade;
+
+/// What a plan is made with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Given {
+    /// Linear or rotary.
+    pub motion: Motion,
+    /// Limits, drive, encoder and the ranges of what is not known.
+    pub nameplate: Nameplate,
+    /// What the axis file does not give.
+    pub assumed: Vec<Assumed>,
+}
+
+/// How many times larger or smaller the mass may be than the axis file says.
+const MASS_FACTOR: f64 = 2.0;
+/// Part of the stroke that is left free at either end.
+const END_ZONE: f64 = 0.05;
+/// Time in which the largest acceleration is reached, s.
+const JERK_TIME: f64 = 5e-3;
+/// Rate of a log, Hz.
+const RATE: f64 = 2000.0;
+/// One encoder step, m, and of a rotary axis, rad: 17 bits a turn.
+const STEP: f64 = 1e-6;
+const ANGLE_STEP: f64 = std::f64::consts::TAU / 131_072.0;
+/// Noise of the logged force over the rated one.
+const NOISE: f64 = 0.005;
+/// Bandwidth of the speed loop, Hz, and its largest over the rate of the log.
+const BANDWIDTH: f64 = 40.0;
+const OF_RATE: f64 = 1.0 / 20.0;
+
+/// What the axis file gives, and what is assumed where it may be.
+pub(super) fn given(axis: &Axis) -> Result<Given, Error> {
+    let limits = axis.limits.as_ref();
+    let rotary = limits.is_some_and(|l| l.motion == Motion::Rotary)
+        || axis.mapping.motion == Some(Motion::Rotary);
+    let examples = match rotary {
+        false => [
+            "[\"-100 mm\", \"100 mm\"]",
+            "\"0.2 m/s\"",
+            "\"6 m/s2\"",
+            "\"150 N\"",
+            "\"10 kg\"",
+        ],
+        true => [
+            "[\"-180 deg\", \"180 deg\"]",
+            "\"300 rpm\"",
+            "\"200 rad/s2\"",
+            "\"1.3 N m\"",
+            "\"5 kg cm2\"",
+        ],
+    };
+    let mass = limits.and_then(|l| l.mass).or(match axis.terms.mass {
+        Mass::Given(mass) => Some(mass),
+        Mass::Fitted | Mass::Absent => None,
+    });
+    let wanted = [
+        (
+            limits.and_then(|l| l.stroke).is_none(),
+            "limits.stroke",
+            "how far the axis may go from where it stands",
+        ),
+        (
+            limits.and_then(|l| l.speed).is_none(),
+            "limits.speed",
+            "the largest speed",
+        ),
+        (
+            limits.and_then(|l| l.acceleration).is_none(),
+            "limits.acceleration",
+            "the largest acceleration",
+        ),
+        (
+            limits.and_then(|l| l.rated_force).is_none(),
+            "limits.rated_force",
+            "the force or torque that the drive can give for long",
+        ),
+        (
+            mass.is_none(),
+            "limits.mass",
+            "what moves, within a factor of two",
+        ),
+    ];
+    let missing: Vec<(&str, String)> = wanted
+        .iter()
+        .zip(examples)
+        .filter(|((missing, ..), _)| *missing)
+        .map(|((_, key, what), example)| (*key, format!("{what}, such as {example}")))
+        .collect();
+    let (Some(l), Some(mass), true) = (limits, mass, missing.is_empty()) else {
+        return Err(axis.missing(&missing).into());
+    };
+    let (Some(stroke), Some(speed), Some(acceleration), Some(rated)) =
+        (l.stroke, l.speed, l.acceleration, l.rated_force)
+    else {
+        return Err(axis.missing(&missing).into());
+    };
+    let motion = l.motion;
+    let mut assumed = Vec::new();
+    let mut or = |given: Option<f64>, key: &str, value: f64, unit: String| {
+        given.unwrap_or_else(|| {
+            assumed.push(Assumed {
+                key: key.into(),
+                value,
+                unit,
+            });
+            value
+        })
+    };
+    let per_time = |d: Dimension| d.per(Dimension::TIME).unwrap_or(d);
+    let jerk_unit = per_time(per_time(motion.velocity())).si_text();
+    let (force, length) = (motion.force().si_text(), motion.position().si_text());
+    let step = match motion {
+        Motion::Linear => STEP,
+        Motion::Rotary => ANGLE_STEP,
+    };
+    let limits = Limits {
+        stroke,
+        end_zone: or(l.end_zone, "limits.end_zone", END_ZONE, "1".into()),
+        speed,
+        acceleration,
+        jerk: or(l.jerk, "limits.jerk", acceleration / JERK_TIME, jerk_unit),
+        rated_force: rated,
+        peak_force: or(l.peak_force, "limits.peak_force", rated, force.clone()),
+    };
+    let rate = or(axis.mapping.rate_hz, "rate", RATE, "Hz".into());
+    let rig = Rig {
+        rate,
+        encoder_step: or(axis.mapping.resolution, "log.resolution", step, length),
+        force_noise: or(l.force_noise, "limits.force_noise", NOISE * rated, force),
+        loop_: match axis.controller_of(motion)? {
+            Some(known) => Loop::Gains(
+                Cascade {
+                    position_gain: known.position_gain,
+                    speed_gain: known.speed_gain,
+                    integral_gain: known.integral_gain,
+                    mass_feedforward: known.mass_feedforward,
+                    force_limit: limits.peak_force.min(known.force_limit),
+                },
+                known.velocity_feedforward,
+            ),
+            None => {
+                let usual = BANDWIDTH.min(OF_RATE * rate);
+                Loop::Tuned(or(
+                    axis.bandwidth,
+                    "controller.bandwidth",
+                    usual,
+                    "Hz".into(),
+                ))
+            }
+        },
+    };
+    let nameplate = Nameplate {
+        mass,
+        mass_factor: MASS_FACTOR,
+        limits,
+        rig,
+    };
+    nameplate.validate().map_err(|e| {
+        let key = match e.name {
+            "rate" | "mass" => e.name.to_string(),
+            "resolution" => "log.resolution".into(),
+            "bandwidth" | "position_gain" | "speed_gain" | "integral_gain" => {
+                format!("controller.{}", e.name)
+            }
+            name => format!("limits.{name}"),
+        };
+        let found = stiction_number::full(e.value);
+        let code = stiction_codes::Code::BadConfig;
+        let refused = axis.refuse(&key, found.clone(), e.allowed, code);
+        refused.map_or_else(
+            || Error::usage(format!("{key} = {found}"), e.allowed),
+            Error::from,
+        )
+    })?;
+    Ok(Given {
+        motion,
+        nameplate,
+        assumed,
+    })
+}

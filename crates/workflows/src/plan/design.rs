@@ -1,0 +1,304 @@
+//! Pieces, axes, choice, and the whole motion simulated beside hand-made ones.
+
+use super::PlanOptions;
+use super::assume::Given;
+use super::judged::{Judged, judged, refused};
+use super::outcome::Planned;
+use crate::error::Error;
+use rayon::prelude::*;
+use std::path::PathBuf;
+use stiction_files::plan::{
+    AtomEntry, ComparedEntry, ExpectedEntry, InputEntry, LargestEntry, LimitsEntry, PlanFile,
+    RangeEntry, RigEntry, SCHEMA,
+};
+use stiction_files::{Axis, sha256};
+use stiction_friction::ParamError;
+use stiction_plan::{
+    Atom, Candidate, Choice, Entry, HandMade, Limits, Motion, NAMES, Nameplate, Spread, Table,
+    dictionary, hand_made, select,
+};
+use stiction_search::{Control, Observer, Progress, Shared, Stage};
+
+/// Axes on which pieces are simulated, and whole motions, at least and at most.
+const AXES: [usize; 2] = [8, 24];
+const FRESH_AXES: [usize; 2] = [8, 16];
+/// Control periods that are simulated in pieces, and in whole motions: they bound the time that a plan takes.
+const PERIODS: f64 = 25e6;
+const FRESH_PERIODS: f64 = 7e6;
+/// Simulations of a motion on an axis.
+const PHASES: f64 = 2.0;
+/// Realised root mean square deviations over predicted ones, on simulated logs: predictions are given times this.
+const TRUST: f64 = 1.25;
+/// From a deviation to half a 95 % interval.
+const HALF_INTERVAL: f64 = 1.959_963_984_540_054;
+/// Most times that a motion which breaks a limit on an axis is slowed down, and by how much more than it went beyond.
+const SLOWED: usize = 6;
+const MORE: f64 = 0.98;
+/// Pieces faster than this part of the limit are slowed down first.
+const FAST: f64 = 0.5;
+
+/// Plans.
+pub(super) fn design(
+    axis: &Axis,
+    given: Given,
+    inputs: Vec<PathBuf>,
+    options: &PlanOptions,
+    observer: &mut dyn Observer,
+) -> Result<Option<Planned>, Error> {
+    let plate = &given.nameplate;
+    let (limits, rig) = (&plate.limits, &plate.rig);
+    let atoms: Vec<Atom> = dictionary(limits, rig)
+        .into_iter()
+        .filter(|atom| atom.duration() <= options.time)
+        .collect();
+    let periods = rig.rate * rig.periods() as f64 * PHASES;
+    let seed = seed(options.seed);
+    let time: f64 = atoms.iter().map(Atom::duration).sum();
+    let axes = plate.draw(fewer(AXES, PERIODS, periods * time), seed);
+    let Some(table) = table(atoms, &axes, plate, observer)? else {
+        return Ok(None);
+    };
+    let mut simulated: f64 = table.entries.iter().flatten().map(|e| e.simulated).sum();
+    let table = table.safe(limits);
+    if table.atoms.is_empty() {
+        let found =
+            "no piece of a motion keeps within the limits on the axes that the nameplate allows";
+        return Err(Error::usage(
+            found,
+            "a larger stroke, speed or acceleration, or a finer encoder",
+        ));
+    }
+    let choice = chosen(&table, rig.force_noise, options.time, observer);
+    let designed = Motion::new(ordered(&table, &choice)).map_err(refused)?;
+
+    let kinds = HandMade::ALL.len() as f64 + 1.0;
+    let fresh = fewer(FRESH_AXES, FRESH_PERIODS, periods * options.time * kinds);
+    // Other axes than those that the pieces were chosen on.
+    let axes_fresh = plate.draw(fresh, seed ^ OTHER_AXES);
+    let watch = Shared::new(observer, fresh * (HandMade::ALL.len() + 1));
+    let Some(designed) = within(designed, &axes_fresh, plate, &watch)? else {
+        return Ok(None);
+    };
+    let mut all = vec![("designed", designed)];
+    for kind in HandMade::ALL {
+        let made = hand_made(kind, limits, rig, options.time).map_err(refused)?;
+        let Some(made) = made else { continue };
+        if let Some(found) = judged(made, &axes_fresh, plate, &watch)? {
+            all.push((kind.name(), found));
+        }
+    }
+    simulated += all.iter().map(|(_, j)| j.simulated).sum::<f64>();
+    let compared: Vec<ComparedEntry> = all
+        .iter()
+        .map(|(name, j)| compared(name, j, limits))
+        .collect();
+    let finalists = all.into_iter().filter(|(_, j)| j.keeps(limits));
+    let best = finalists.min_by(|(_, a), (_, b)| a.expected.score.total_cmp(&b.expected.score));
+    let Some((name, best)) = best else {
+        let found =
+            "no motion keeps within stroke and speed on every axis that the nameplate allows";
+        return Err(Error::usage(
+            found,
+            "a larger stroke or speed, or a controller.bandwidth that the axis really has",
+        ));
+    };
+    let mut hashed = Vec::new();
+    for path in &inputs {
+        hashed.push(InputEntry {
+            path: path.display().to_string(),
+            sha256: sha256(path)?,
+        });
+    }
+    let peaks = best.expected.peaks;
+    let file = PlanFile {
+        schema: SCHEMA.into(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        name: axis.name.clone(),
+        kind: given.motion.to_string(),
+        seed: options.seed,
+        status: if choice.interrupted {
+            "interrupted"
+        } else {
+            "complete"
+        }
+        .into(),
+        motion: name.into(),
+        duration: best.motion.duration(),
+        axes: [axes.len(), fresh],
+        simulated,
+        evaluations: choice.evaluations,
+        trust: TRUST,
+        assumed: given.assumed.clone(),
+        inputs: hashed,
+        limits: LimitsEntry {
+            stroke: limits.stroke,
+            end_zone: limits.end_zone,
+            speed: limits.speed,
+            acceleration: limits.acceleration,
+            jerk: limits.jerk,
+            rated_force: limits.rated_force,
+            peak_force: limits.peak_force,
+        },
+        rig: RigEntry {
+            rate: rig.rate,
+            resolution: rig.encoder_step,
+            force_noise: rig.force_noise,
+            bandwidth: rig.bandwidth(),
+        },
+        prior: (plate.ranges().into_iter())
+            .map(|(name, range)| RangeEntry {
+                name: name.into(),
+                range,
+            })
+            .collect(),
+        parameter: (0..NAMES.len()).map(|i| expected(&best, i)).collect(),
+        compared,
+        largest: LargestEntry {
+            position: peaks.position,
+            speed: peaks.speed,
+            force: peaks.force,
+            force_rms: libm::sqrt(peaks.force_square),
+            following_error: peaks.error,
+            saturated: peaks.saturated,
+        },
+        atom: (best.motion.timed())
+            .map(|(start, atom)| AtomEntry::of(start, atom))
+            .collect(),
+    };
+    Ok(Some(Planned {
+        file,
+        motion: best.motion,
+        expected: best.expected,
+        given,
+    }))
+}
+
+/// What tells the seed of the axes for whole motions from that of the axes for pieces.
+const OTHER_AXES: u32 = 0x9e37_79b9;
+
+fn seed(seed: u64) -> u32 {
+    (seed ^ (seed >> 32)) as u32
+}
+
+/// As many axes as the budget allows, of which each takes so many periods.
+fn fewer([least, most]: [usize; 2], budget: f64, each: f64) -> usize {
+    ((budget / each) as usize).clamp(least, most)
+}
+
+/// Every piece on every axis, in parallel; `None` where the observer stopped it.
+fn table(
+    atoms: Vec<Atom>,
+    axes: &[Candidate],
+    plate: &Nameplate,
+    observer: &mut dyn Observer,
+) -> Result<Option<Table>, Error> {
+    let n = axes.len();
+    let watch = Shared::new(observer, atoms.len() * n);
+    let limits = (&plate.limits, &plate.rig);
+    let entries: Vec<Option<Result<Entry, ParamError>>> = (0..atoms.len() * n)
+        .into_par_iter()
+        .map(|k| {
+            if watch.is_stopped() {
+                return None;
+            }
+            let entry = Entry::of(&atoms[k / n], &axes[k % n], limits, k as u32);
+            watch.one_more();
+            watch.go_on();
+            Some(entry)
+        })
+        .collect();
+    let Some(entries) = entries.into_iter().collect::<Option<Vec<_>>>() else {
+        return Ok(None);
+    };
+    let entries = entries
+        .into_iter()
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(refused)?;
+    let entries = entries.chunks(n).map(<[Entry]>::to_vec).collect();
+    Ok(Some(Table { atoms, entries }))
+}
+
+/// Scores on all threads.
+struct Threads;
+
+impl Spread for Threads {
+    fn map(&self, count: usize, score: &(dyn Fn(usize) -> f64 + Sync)) -> Vec<f64> {
+        (0..count).into_par_iter().map(score).collect()
+    }
+}
+
+fn chosen(table: &Table, noise: f64, time: f64, observer: &mut dyn Observer) -> Choice {
+    let mut go_on = |fraction: f64| {
+        observer.progress(&Progress::of(Stage::Search, fraction)) == Control::Continue
+    };
+    select(table, noise, time, &Threads, &mut go_on)
+}
+
+/// The chosen pieces by rising speed, so that the axis shows first what it does slowly.
+fn ordered(table: &Table, choice: &Choice) -> Vec<Atom> {
+    let mut atoms: Vec<Atom> = choice.pieces.iter().map(|p| table.atoms[*p]).collect();
+    atoms.sort_by(|a, b| a.extremes().speed.total_cmp(&b.extremes().speed));
+    atoms
+}
+
+/// The motion simulated on every axis, slowed down until it keeps within the limits on all of them.
+fn within(
+    mut motion: Motion,
+    axes: &[Candidate],
+    plate: &Nameplate,
+    watch: &Shared,
+) -> Result<Option<Judged>, Error> {
+    let limits = &plate.limits;
+    let mut round = 0;
+    loop {
+        let Some(found) = judged(motion, axes, plate, watch)? else {
+            return Ok(None);
+        };
+        if found.keeps(limits) || round == SLOWED {
+            return Ok(Some(found));
+        }
+        let peaks = &found.expected.peaks;
+        let part = |limit: f64, found: f64| if found > limit { limit / found } else { 1.0 };
+        let by = MORE
+            * part(limits.speed, peaks.speed)
+                .min(part(limits.stroke[1], peaks.position[1]))
+                .min(part(-limits.stroke[0], -peaks.position[0]));
+        let slowed = found.motion.atoms().iter().map(|atom| {
+            let is_fast = atom.extremes().speed > FAST * limits.speed;
+            // Where it is not the fast ones, it is any.
+            if is_fast || round >= SLOWED / 2 {
+                atom.scaled(by)
+            } else {
+                *atom
+            }
+        });
+        motion = Motion::new(slowed.collect()).map_err(refused)?;
+        round += 1;
+    }
+}
+
+fn percent(deviation: f64) -> f64 {
+    100.0 * TRUST * deviation
+}
+
+fn expected(found: &Judged, parameter: usize) -> ExpectedEntry {
+    let at = |part: f64| percent(found.expected.quantile(parameter, part));
+    ExpectedEntry {
+        name: NAMES[parameter].into(),
+        std_percent: at(0.5),
+        std90_percent: at(0.9),
+        interval_percent: HALF_INTERVAL * at(0.5),
+        interval90_percent: HALF_INTERVAL * at(0.9),
+    }
+}
+
+fn compared(name: &str, found: &Judged, limits: &Limits) -> ComparedEntry {
+    let at = |part: f64| HALF_INTERVAL * percent(found.expected.worst(part));
+    ComparedEntry {
+        name: name.into(),
+        duration: found.motion.duration(),
+        interval_percent: at(0.5),
+        interval90_percent: at(0.9),
+        keeps_limits: found.keeps(limits),
+    }
+}

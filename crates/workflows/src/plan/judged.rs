@@ -1,0 +1,66 @@
+//! A whole motion simulated on many axes.
+
+use super::super::error::Error;
+use rayon::prelude::*;
+use stiction_friction::ParamError;
+use stiction_plan::{Candidate, Entry, Expected, Limits, Motion, Nameplate};
+use stiction_search::Shared;
+
+/// A motion with what it would show.
+pub(super) struct Judged {
+    pub motion: Motion,
+    pub expected: Expected,
+    /// Seconds of motion that were simulated.
+    pub simulated: f64,
+}
+
+/// Simulates a motion on every axis; `None` where the observer stopped it.
+pub(super) fn judged(
+    motion: Motion,
+    axes: &[Candidate],
+    nameplate: &Nameplate,
+    watch: &Shared,
+) -> Result<Option<Judged>, Error> {
+    let (limits, rig) = (&nameplate.limits, &nameplate.rig);
+    let entries: Vec<Option<Result<Entry, ParamError>>> = axes
+        .par_iter()
+        .enumerate()
+        .map(|(i, axis)| {
+            if watch.is_stopped() {
+                return None;
+            }
+            let entry = Entry::of(&motion, axis, (limits, rig), FIRST_NUMBER + i as u32);
+            watch.one_more();
+            watch.go_on();
+            Some(entry)
+        })
+        .collect();
+    let Some(entries) = entries.into_iter().collect::<Option<Vec<_>>>() else {
+        return Ok(None);
+    };
+    let entries = entries
+        .into_iter()
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(refused)?;
+    Ok(Some(Judged {
+        expected: Expected::of(&entries, rig.force_noise),
+        simulated: entries.iter().map(|e| e.simulated).sum(),
+        motion,
+    }))
+}
+
+/// Numbers of whole motions, beyond those of the pieces: they decide where the encoder stands.
+const FIRST_NUMBER: u32 = 1 << 24;
+
+/// What cannot be simulated.
+pub(super) fn refused(error: ParamError) -> Error {
+    let found = format!("{} = {}", error.name, stiction_number::full(error.value));
+    Error::usage(found, error.allowed)
+}
+
+impl Judged {
+    /// Whether the true motion keeps within stroke and speed on every axis.
+    pub fn keeps(&self, limits: &Limits) -> bool {
+        self.expected.peaks.within(limits)
+    }
+}

@@ -1,0 +1,18 @@
+//! What a plan is.
+
+use super::assume::Given;
+use stiction_files::plan::PlanFile;
+use stiction_plan::{Expected, Motion};
+
+/// A planned motion with what it can be expected to show.
+#[derive(Clone, Debug)]
+pub struct Planned {
+    /// What goes into `plan.toml`.
+    pub file: PlanFile,
+    /// The motion.
+    pub motion: Motion,
+    /// What a log of it can be expected to show.
+    pub expected: Expected,
+    /// What it was planned with.
+    pub given: Given,
+}
