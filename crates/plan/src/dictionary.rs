@@ -63,25 +63,25 @@ pub fn dictionary(limits: &Limits, rig: &Rig) -> Vec<Atom> {
     };
     let highest = (OF_BANDWIDTH * rig.bandwidth()).min(OF_RATE * rig.rate);
     let mut all = Vec::new();
-    let mut add = |atom: Atom, wanted: f64| {
+    let mut add = |atom: Atom| {
         let by = fits(&atom, limits);
         let atom = atom.scaled(by);
         let size = atom.extremes().position;
         let seen = (size[1] - size[0]) >= LEAST_STEPS * rig.encoder_step;
-        if by * wanted >= SAME * wanted && seen && atom.validate().is_ok() {
+        if by >= SAME && seen && atom.validate().is_ok() {
             all.push(atom);
         }
     };
     for (frequency, duration) in SINES.into_iter().filter(|(f, _)| *f <= highest) {
         for k in 0..SPEEDS {
             let speed = limits.speed / power(SPEED_RATIO, k);
-            add(sine(speed, frequency, duration), speed);
+            add(sine(speed, frequency, duration));
         }
         // The largest that the limits allow, whatever its speed.
         let largest = sine(limits.speed, frequency, duration);
         if fits(&largest, limits) < SAME {
             let largest = largest.scaled(fits(&largest, limits));
-            add(largest, 1.0);
+            add(largest);
         }
     }
     for (frequency, part) in GROWING.into_iter().filter(|(f, _)| *f <= highest) {
@@ -96,13 +96,13 @@ pub fn dictionary(limits: &Limits, rig: &Rig) -> Vec<Atom> {
             fade_in: GROWTH * duration,
             fade_out: (1.0 - GROWTH) * duration,
         };
-        add(growing, 1.0);
+        add(growing);
     }
     for time in MOVE_TIMES {
         for k in 0..MOVES {
             let speed = limits.speed / power(MOVE_RATIO, k);
             if let Some(atom) = there_and_back(limits, (speed, limits.acceleration), 0.5 * time) {
-                add(atom, 1.0);
+                add(atom);
             }
         }
     }
@@ -114,7 +114,7 @@ pub fn dictionary(limits: &Limits, rig: &Rig) -> Vec<Atom> {
             acceleration: part.acceleration,
             jerk: part.jerk,
         };
-        add(atom, 1.0);
+        add(atom);
     }
     all
 }
@@ -176,7 +176,7 @@ pub(crate) fn fits(atom: &Atom, limits: &Limits) -> f64 {
         .min(part(found.speed, limits.speed))
         .min(part(found.acceleration, limits.acceleration))
         .min(part(found.jerk, limits.jerk));
-    most.min(1.0)
+    most.clamp(0.0, 1.0)
 }
 
 fn power(x: f64, n: i32) -> f64 {

@@ -44,7 +44,8 @@ impl HandMade {
 const SPEED_RATIO: f64 = 3.0;
 /// Speed and frequency of the three sines (`Path::three_segments` of stiction-servo).
 const THREE: [(f64, f64); 3] = [(1.0, 1.0), (0.0189, 1.2), (0.128, 28.0)];
-/// The motion in at most `time` s, within the limits. `None` where the time is too short for it.
+/// The motion in at most `time` s, within the limits. `None` where the time is too short for it, or the axis stands at an
+/// end of its stroke.
 pub fn hand_made(
     kind: HandMade,
     limits: &Limits,
@@ -77,7 +78,8 @@ pub fn hand_made(
         }
     };
     match atoms {
-        Some(atoms) if !atoms.is_empty() => Motion::new(atoms).map(Some),
+        // Of an axis that stands at an end of its stroke nothing is left of a sine.
+        Some(atoms) if !atoms.is_empty() => Ok(Motion::new(atoms).ok()),
         _ => Ok(None),
     }
 }

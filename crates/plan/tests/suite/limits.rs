@@ -56,7 +56,7 @@ fn on_grid(atom: &Atom, count: usize) -> [f64; 5] {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(ProptestConfig { cases: 200, max_global_rejects: 10_000, ..ProptestConfig::default() })]
 
     /// On a grid at least 20 times as fine as the set points of a log at 1 kHz.
     #[test]
@@ -80,6 +80,8 @@ proptest! {
         let atoms = dictionary(&limits, &rig);
         prop_assume!(!atoms.is_empty());
         let atom = one.get(&atoms);
+        // Those of moves are their extremes, in ramps that may be too short for any grid.
+        prop_assume!(matches!(atom, Atom::Sine { .. }));
         let bounds = atom.extremes();
         let [least, most, speed, acceleration, jerk] = on_grid(atom, 20_000);
         let pairs = [
@@ -90,8 +92,7 @@ proptest! {
         ];
         for (found, bound) in pairs {
             prop_assert!(found <= bound * (1.0 + 1e-12), "{atom:?} {found} {bound}");
-            // A sine within its fades swings less to one side than to the other.
-            prop_assert!(found >= 0.45 * bound, "{atom:?} {found} {bound}");
+            prop_assert!(found >= 0.5 * bound, "{atom:?} {found} {bound}");
         }
     }
 

@@ -129,13 +129,10 @@ fn a_chosen_motion_is_better_than_hand_made_ones() {
             .collect();
         Expected::of(&entries, RIG.force_noise)
     };
-    // The pieces are simulated one by one, from rest each: the whole is not quite their sum.
-    let whole = judged(&motion, &axes).score;
-    assert!(
-        (whole - choice.score).abs() < 0.2,
-        "{whole} {}",
-        choice.score
-    );
+    // The pieces are simulated one by one, from rest each, with the encoder elsewhere in its step: the sums promise more than the
+    // whole holds, which is why the whole is simulated.
+    let off = judged(&motion, &axes).score - choice.score;
+    assert!((0.0..0.6).contains(&off), "{off}");
     let fresh = plate().draw(12, 77);
     let designed = judged(&motion, &fresh);
     for kind in HandMade::ALL {
