@@ -6,7 +6,7 @@
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
 
-use crate::binary::{ByteOrder, Class, Collector, Layout, Number, Order, Values, read_numbers};
+use crate::binary::{ByteOrder, Class, Collector, Layout, Number, Order};
 use crate::{Error, Kind, Limits, Table};
 
 /// Longest name of a variable in bytes, far above the 31 characters of that version.
@@ -88,12 +88,12 @@ fn variable(
         (2, ..) => collector.skip(&name, "sparse matrix; save it as a full one"),
         (0, 0, Layout::Skip(why)) => collector.skip(&name, &why),
         (0, 0, _) => {
-            let count = collector.reserve(&name, &dims)?;
+            collector.reserve(&name, &dims)?;
             let number = Number::new(class, width, order);
             let number = number.ok_or_else(|| bad("numbers of an unknown type"))?;
-            let mut values = Values::default();
-            read_numbers(reader, number, count, &mut values).map_err(cut)?;
-            collector.array(&name, None, &dims, Order::Column, values);
+            collector
+                .numbers(&name, None, (&dims, Order::Column), number, reader)
+                .map_err(cut)?;
         }
         (0, ..) => collector.skip(&name, "complex numbers; save real(x) and imag(x)"),
         _ => return Err(bad(format!("a variable of unknown type {kind}")).in_column(name)),

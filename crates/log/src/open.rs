@@ -15,7 +15,9 @@ use crate::{Error, Kind, Table};
 pub struct Limits {
     /// Size of the file in bytes; 4 GiB unless told otherwise.
     pub file_bytes: u64,
-    /// Samples over all columns of a binary file; 2^28 (2 GiB in memory) unless told otherwise.
+    /// Samples over all columns of a file that is not text; 2^28 (2 GiB in memory) unless told otherwise, and no more than
+    /// half of the memory that this machine has or allows holds. While reading they take at most three times that, those of
+    /// arrays (MATLAB, HDF5, NumPy) 9/8, beside what a decoder holds: a chunk, or the file itself (HDF5).
     /// Text, which cannot claim more than it holds, has limits of its own, see [`text`].
     pub samples: u64,
 }
@@ -24,9 +26,21 @@ impl Default for Limits {
     fn default() -> Self {
         Self {
             file_bytes: 1 << 32,
-            samples: 1 << 28,
+            samples: (1 << 28).min(half_of_memory() / size_of::<f64>() as u64),
         }
     }
+}
+
+/// Half of the memory of this machine in bytes, or of what its control group may take; without end where neither is told.
+fn half_of_memory() -> u64 {
+    let read = |file: &str| std::fs::read_to_string(file).unwrap_or_default();
+    let about = read("/proc/meminfo");
+    let total = about.lines().find_map(|line| {
+        let kibibytes = line.strip_prefix("MemTotal:")?.trim().strip_suffix("kB")?;
+        kibibytes.trim().parse::<u64>().ok()?.checked_mul(1024)
+    });
+    let group = read("/sys/fs/cgroup/memory.max").trim().parse().ok();
+    total.unwrap_or(u64::MAX).min(group.unwrap_or(u64::MAX)) / 2
 }
 
 /// How a file is to be read, where that does not follow from the file.

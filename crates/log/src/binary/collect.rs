@@ -151,19 +151,15 @@ impl Collector {
         values: Values,
     ) {
         if values.rounded {
-            self.detected(format!(
-                "{name}: integers beyond 2^53, rounded to the nearest 64-bit float"
-            ));
+            self.rounded(name);
         }
         let samples = values.samples;
         match Layout::of(dims) {
-            Layout::Scalar => self
-                .table
-                .scalars
-                .extend(samples.first().map(|&value| Scalar {
-                    name: name.to_owned(),
-                    value,
-                })),
+            Layout::Scalar => {
+                if let Some(&value) = samples.first() {
+                    self.scalar(name, value);
+                }
+            }
             Layout::Column => self.column(name, unit, samples),
             Layout::Matrix { rows, columns } => {
                 for j in 0..columns {
@@ -171,14 +167,33 @@ impl Collector {
                         Order::Column => samples[j * rows..][..rows].to_vec(),
                         Order::Row => samples.iter().skip(j).step_by(columns).copied().collect(),
                     };
-                    let name = match name {
-                        "" => String::new(),
-                        name => format!("{name}(:,{})", j + 1),
-                    };
-                    self.column(&name, unit.clone(), values);
+                    self.column(&Self::of_matrix(name, j), unit.clone(), values);
                 }
             }
             Layout::Skip(why) => self.skip(name, &why),
+        }
+    }
+
+    /// Adds a single number.
+    pub(crate) fn scalar(&mut self, name: &str, value: f64) {
+        self.table.scalars.push(Scalar {
+            name: name.to_owned(),
+            value,
+        });
+    }
+
+    /// Says that integers among these numbers were too large for `f64` to hold exactly.
+    pub(crate) fn rounded(&mut self, name: &str) {
+        self.detected(format!(
+            "{name}: integers beyond 2^53, rounded to the nearest 64-bit float"
+        ));
+    }
+
+    /// The name of a column of a matrix, by its index counted from 0.
+    pub(crate) fn of_matrix(name: &str, index: usize) -> String {
+        match name {
+            "" => String::new(),
+            name => format!("{name}(:,{})", index + 1),
         }
     }
 

@@ -4,6 +4,7 @@
 // A build with only some of the formats leaves parts of this unused.
 #![cfg_attr(not(feature = "all"), allow(dead_code, unused_imports))]
 
+mod array;
 mod collect;
 mod guard;
 mod number;

@@ -16,7 +16,7 @@ use std::path::Path;
 use tree::{Dataset, Element, Group, Node};
 use window::Window;
 
-use crate::binary::{Collector, Layout, Order, Values, guard, read_numbers};
+use crate::binary::{Collector, Layout, Order, guard};
 use crate::{Error, Kind, Limits, Table};
 
 /// Deepest nesting of groups or cells; MATLAB and h5py files of recordings use two or three levels.
@@ -94,13 +94,18 @@ fn dataset(
         collector.skip(name, "empty");
         return Ok(());
     }
+    let element = dataset.element().map_err(broken)?;
+    if let Element::Other(what) = &element {
+        collector.skip(name, what);
+        return Ok(());
+    }
     let mut dims = dataset.dims().map_err(broken)?;
     let chunk = dataset.chunk().map_err(broken)?;
     collector.fits(name, &chunk)?;
     let stream = |dims: &[u64], width| Window::new(dataset, dims, &chunk, width);
     let cut = |error: std::io::Error| broken(error.to_string());
-    match dataset.element().map_err(broken)? {
-        Element::Other(what) => collector.skip(name, &what),
+    match element {
+        Element::Other(_) => {}
         Element::Reference => cell(dataset, name, &dims, depth, collector)?,
         Element::Record(_) if class.is_some() => {
             collector.skip(name, "complex numbers; save real(x) and imag(x)");
@@ -128,15 +133,15 @@ fn dataset(
                 collector.skip(name, &why);
                 return Ok(());
             }
-            let count = collector.reserve(name, &dims)?;
-            let mut values = Values::default();
-            read_numbers(&mut stream, number, count, &mut values).map_err(cut)?;
+            collector.reserve(name, &dims)?;
             let unit = ["unit", "units", "Unit", "Units"]
                 .iter()
                 .find_map(|name| dataset.text_attribute(name))
                 .map(|unit| unit.trim().to_owned())
                 .filter(|unit| !unit.is_empty());
-            collector.array(name, unit, &dims, order, values);
+            collector
+                .numbers(name, unit, (&dims, order), number, &mut stream)
+                .map_err(cut)?;
         }
     }
     Ok(())

@@ -1,6 +1,9 @@
 //! The tree of an HDF5 file through the crate `hdf5-pure`.
 
-use hdf5_pure::{Datatype, DatatypeByteOrder, FloatingPointLayout, Object};
+use hdf5_pure::{
+    ChunkIndex, Datatype, DatatypeByteOrder, Error, FloatingPointLayout, FormatError, Layout,
+    Object, ReferenceType,
+};
 
 use super::tree::{Dataset, Element, Group, Node};
 use crate::binary::{ByteOrder, Cell, Class, Field, Number, Record};
@@ -32,7 +35,17 @@ impl Group for hdf5_pure::Group {
 
 impl Dataset for hdf5_pure::Dataset {
     fn dims(&self) -> Result<Vec<u64>, String> {
-        self.shape().map_err(words)
+        let dims = self.shape().map_err(words)?;
+        // The crate does not tell a set of nothing from one of a single value, but that it has no bytes.
+        let bytes = match self.layout() {
+            Ok(Layout::Compact { size } | Layout::Contiguous { size, .. }) => size,
+            _ => 1,
+        };
+        Ok(if dims.is_empty() && bytes == 0 {
+            vec![0]
+        } else {
+            dims
+        })
     }
 
     fn chunk(&self) -> Result<Vec<u64>, String> {
@@ -45,6 +58,9 @@ impl Dataset for hdf5_pure::Dataset {
                 "compressed by HDF5 filter {filter}, which is not supported; use gzip"
             )));
         }
+        if let Some(what) = elsewhere(self) {
+            return Ok(Element::Other(what.to_owned()));
+        }
         let datatype = self.datatype().map_err(words)?;
         Ok(match &datatype {
             Datatype::Compound { size, members } => {
@@ -55,6 +71,10 @@ impl Dataset for hdf5_pure::Dataset {
                     None => Element::Other(format!("records of {size} bytes")),
                 }
             }
+            Datatype::Reference {
+                ref_type: ReferenceType::DatasetRegion,
+                ..
+            } => Element::Other("references to regions".to_owned()),
             Datatype::Reference { .. } => Element::Reference,
             plain => match number(plain) {
                 Ok(number) => Element::Number(number),
@@ -92,6 +112,24 @@ impl Dataset for hdf5_pure::Dataset {
                 _ => Err("a reference to something other than a group or dataset".to_owned()),
             })
             .collect()
+    }
+}
+
+/// Why the elements of a dataset cannot be found, where that is no damage.
+fn elsewhere(dataset: &hdf5_pure::Dataset) -> Option<&'static str> {
+    match dataset.layout().ok()? {
+        Layout::Virtual => Some("a virtual dataset; copy its values into the file"),
+        Layout::Chunked {
+            index: ChunkIndex::BTreeV2,
+            ..
+        } => Some("chunks that grow in more than one direction; write it with libver 'earliest'"),
+        Layout::Contiguous { address: None, .. } => match dataset.read_raw_rows(0, 1) {
+            Err(Error::Format(FormatError::UnsupportedExternalStorage)) => {
+                Some("values in another file; copy them into this one")
+            }
+            _ => None,
+        },
+        _ => None,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::element::{MATRIX, Stream, Tag, number};
 use crate::Error;
-use crate::binary::{ByteOrder, Class, Collector, Layout, Number, Order, Values, read_numbers};
+use crate::binary::{ByteOrder, Class, Collector, Layout, Number, Order, Values};
 
 /// Deepest nesting of structs and cells.
 const MAX_DEPTH: usize = 16;
@@ -170,12 +170,12 @@ fn numeric(stream: &mut Stream<'_>, head: &Head, collector: &mut Collector) -> R
             number.width()
         )));
     }
-    let mut values = Values::default();
     stream.element(tag, |part| {
-        read_numbers(part, number, count, &mut values).map_err(|error| part.io(error))
-    })?;
-    collector.array(&head.name, None, &head.dims, Order::Column, values);
-    Ok(())
+        let layout = (&head.dims[..], Order::Column);
+        collector
+            .numbers(&head.name, None, layout, number, part)
+            .map_err(|error| part.io(error))
+    })
 }
 
 /// `name{1}`, `name{2}` ...

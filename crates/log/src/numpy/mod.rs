@@ -12,9 +12,7 @@ use dtype::Dtype;
 use literal::Literal;
 use zip::ZipArchive;
 
-use crate::binary::{
-    ByteOrder, Clock, Collector, Layout, Order, Period, Values, guard, read_numbers, seconds,
-};
+use crate::binary::{ByteOrder, Clock, Collector, Layout, Order, Period, guard, seconds};
 use crate::{Error, Kind, Limits, Table};
 
 /// Longest header in bytes; NumPy's own reader stops at 10 000 bytes unless told otherwise.
@@ -82,11 +80,11 @@ fn array(reader: &mut impl Read, name: &str, collector: &mut Collector) -> Resul
                 collector.skip(name, &why);
                 return Ok(());
             }
-            let count = collector.reserve(name, &dims)?;
-            let mut values = Values::default();
-            read_numbers(reader, number, count, &mut values).map_err(cut)?;
+            collector.reserve(name, &dims)?;
+            collector
+                .numbers(name, None, (&dims, header.order), number, reader)
+                .map_err(cut)?;
             at_end(reader)?;
-            collector.array(name, None, &dims, header.order, values);
         }
         Dtype::Ticks(order, period, clock) => {
             dims.retain(|&n| n != 1);

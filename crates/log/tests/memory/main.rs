@@ -149,6 +149,7 @@ fn hostile_files() {
     let path = scratch.path().join("hostile");
     odd_files(scratch.path());
     bombs(&path);
+    arrays(&path);
 
     let mut random = runner(600);
     random
@@ -242,6 +243,29 @@ fn odd_files(folder: &Path) {
     let large = std::fs::File::create(&empty).unwrap();
     large.set_len(Limits::default().file_bytes + 1).unwrap();
     refuse(&empty, Kind::Limit, "at most");
+}
+
+/// An array of a byte each takes the memory of its samples, and an eighth of that.
+fn arrays(path: &Path) {
+    const SAMPLES: usize = 1 << 23;
+    const KEPT: usize = SAMPLES * size_of::<f64>();
+    for (shape, order) in [
+        ("(8388608,)", "False"),
+        ("(524288, 16)", "False"),
+        ("(524288, 16)", "True"),
+    ] {
+        let text = format!("{{'descr': '|i1', 'fortran_order': {order}, 'shape': {shape}}}\n");
+        let length = (text.len() as u16).to_le_bytes();
+        let head = [b"\x93NUMPY\x01\x00", &length[..], text.as_bytes()].concat();
+        std::fs::write(path, [head, vec![1; SAMPLES]].concat()).unwrap();
+        let before = MEMORY.current_usage();
+        MEMORY.reset_peak_usage();
+        let table = read_table(path, &ReadOptions::default()).unwrap();
+        let used = MEMORY.peak_usage().saturating_sub(before);
+        assert!(used <= KEPT / 8 * 9 + (1 << 20), "{used} bytes for {shape}");
+        let samples = table.columns.iter().map(|c| c.values.len()).sum::<usize>();
+        assert_eq!(samples, SAMPLES);
+    }
 }
 
 /// Small files that claim to be huge.

@@ -144,3 +144,8 @@ fn a_codec_that_is_not_built_in_is_named() {
     assert!(error.to_string().contains("GZIP"), "{error}");
     assert!(error.to_string().contains("refused.parquet"), "{error}");
 }
+
+#[test]
+fn a_member_of_an_hdf5_file_that_cannot_be_read_costs_that_member_alone() {
+    assert_eq!(come_back("write_odd_hdf5.py").len(), 38);
+}
