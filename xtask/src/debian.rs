@@ -23,6 +23,11 @@ const PACKAGES: &[Package] = &[
         why: "counts instructions",
     },
     Package {
+        name: "strace",
+        program: Some("strace"),
+        why: "ends commands between two system calls",
+    },
+    Package {
         name: "cppcheck",
         program: Some("cppcheck"),
         why: "checks exported C against MISRA",

@@ -3,6 +3,8 @@
 mod cli;
 mod export;
 mod exported;
+#[cfg(target_os = "linux")]
+mod killed;
 #[cfg(unix)]
 mod linuxcnc;
 mod paper;

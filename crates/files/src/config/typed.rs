@@ -1,6 +1,7 @@
 //! A file that a user types: read whole, within bounds.
 
 use crate::error::Error;
+use crate::output::settle;
 use std::path::Path;
 
 /// Largest file that is read, bytes.
@@ -22,6 +23,11 @@ pub(super) fn text(file: &Path, what: &str) -> Result<String, (String, String)> 
         let found = format!("cannot be read ({e})");
         (found, format!("give the path of {what}"))
     };
+    // It may be one of several files that were about to be replaced together.
+    if let Some(dir) = file.parent() {
+        let whole = format!("{what} in a folder that can be completed, or a copy of it elsewhere");
+        settle(dir).map_err(|e| (e.to_string(), whole))?;
+    }
     let meta = std::fs::metadata(file).map_err(unreadable)?;
     if !meta.is_file() || meta.len() > MAX_BYTES {
         let found = if meta.is_file() {

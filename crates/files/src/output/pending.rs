@@ -1,0 +1,223 @@
+//! What is being renamed in a folder, on record while that goes on.
+//!
+//! Renaming several files is no single step. Where the program is ended in between, some are of the new outcome and some of
+//! the old one, and nothing about them tells. So they are renamed under a record: it is made and locked before anything is
+//! written, filled once everything is complete, and removed when the last file has its name. Whoever finds a record that
+//! nobody holds ends what it says; one that is not complete says that nothing was renamed.
+
+use super::{describe, staged};
+use crate::error::Error;
+use std::fs::{self, File};
+use std::io::{ErrorKind, Read, Write};
+use std::path::{Component, Path, PathBuf};
+
+/// The record's name in the folder.
+const NAME: &str = ".stiction-pending";
+
+/// Its first and its last line.
+const HEAD: &str = "stiction renames 1";
+const END: &str = "end";
+
+/// Largest record that is read, bytes.
+const MOST_BYTES: u64 = 1 << 20;
+
+/// A record that this program holds.
+pub(super) struct Pending {
+    path: PathBuf,
+    file: File,
+}
+
+/// One file to be renamed, both names relative to the folder.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Rename {
+    /// A file of the earlier outcome that is kept under a name that nothing had.
+    Keep(String, String),
+    /// A complete file under its temporary name gets its own.
+    Publish(String, String),
+}
+
+impl Rename {
+    /// Renames, unless that was done before.
+    pub(super) fn run(&self, dir: &Path) -> std::io::Result<()> {
+        let (from, to) = self.names();
+        let (from, to) = (dir.join(from), dir.join(to));
+        let there = |path: &Path| path.symlink_metadata().is_ok();
+        let done = match self {
+            // After it another file may have the old name.
+            Rename::Keep(..) => there(&to) || !there(&from),
+            Rename::Publish(..) => !there(&from),
+        };
+        if done {
+            return Ok(());
+        }
+        if let Some(folder) = to.parent() {
+            fs::create_dir_all(folder)?;
+        }
+        fs::rename(from, to)
+    }
+
+    fn names(&self) -> (&str, &str) {
+        let (Rename::Keep(from, to) | Rename::Publish(from, to)) = self;
+        (from, to)
+    }
+
+    fn line(&self) -> String {
+        let verb = match self {
+            Rename::Keep(..) => "keep",
+            Rename::Publish(..) => "publish",
+        };
+        let (from, to) = self.names();
+        format!("{verb}\t{from}\t{to}\n")
+    }
+
+    /// A line of a record; `None` where it is none, or leads out of the folder.
+    fn read(line: &str) -> Option<Self> {
+        let mut cells = line.split('\t');
+        let (verb, from, to) = (cells.next()?, cells.next()?, cells.next()?);
+        if cells.next().is_some() || !is_inside(from) || !is_inside(to) {
+            return None;
+        }
+        let (from, to) = (from.to_string(), to.to_string());
+        match verb {
+            "keep" => Some(Rename::Keep(from, to)),
+            "publish" if staged::is_temporary(&from) => Some(Rename::Publish(from, to)),
+            _ => None,
+        }
+    }
+}
+
+/// Whether a relative path stays in its folder, and in a line of a record.
+pub(super) fn is_inside(name: &str) -> bool {
+    let plain = |c| matches!(c, Component::Normal(_));
+    let path = Path::new(name);
+    !name.is_empty() && !name.contains(char::is_control) && path.components().all(plain)
+}
+
+impl Pending {
+    /// Makes the record of a folder, and waits for and ends what another program has begun there.
+    pub(super) fn begin(dir: &Path) -> Result<Self, Error> {
+        let fail = |e: std::io::Error| Error::output(dir, describe(&e));
+        let path = dir.join(NAME);
+        loop {
+            let new = File::options().write(true).create_new(true).open(&path);
+            match new {
+                Ok(file) => {
+                    // Some file systems have no locks; then two programs at once in one folder are not told apart.
+                    let _ = file.lock();
+                    if is_the_file(&file, &path) {
+                        return Ok(Self { path, file });
+                    }
+                }
+                Err(e) if e.kind() == ErrorKind::AlreadyExists => settle(dir)?,
+                Err(e) => return Err(fail(e)),
+            }
+        }
+    }
+
+    /// Says what is going to be renamed: from here on that is done, by this program or by the next.
+    pub(super) fn commit(&mut self, renames: &[Rename]) -> std::io::Result<()> {
+        let lines: String = renames.iter().map(Rename::line).collect();
+        self.file
+            .write_all(format!("{HEAD}\n{lines}{END}\n").as_bytes())?;
+        self.file.sync_all()
+    }
+
+    /// Removes the record: everything has its name, or nothing was renamed.
+    pub(super) fn end(self) -> std::io::Result<()> {
+        fs::remove_file(&self.path)
+    }
+}
+
+/// Ends what a program began in a folder before it was ended by force; waits for one that is at work there.
+pub(crate) fn settle(dir: &Path) -> Result<(), Error> {
+    let dir = match dir.as_os_str().is_empty() {
+        true => Path::new("."),
+        false => dir,
+    };
+    let path = dir.join(NAME);
+    // Most folders have none. Opening a pipe of this name would wait for ever.
+    if !path.symlink_metadata().is_ok_and(|m| m.is_file()) {
+        return match path.symlink_metadata() {
+            Ok(_) => Err(Error::output(&path, "is not a file; remove it")),
+            Err(_) => Ok(()),
+        };
+    }
+    let fail = |e: std::io::Error| {
+        let why = describe(&e);
+        Error::output(
+            dir,
+            format!("was left half replaced, and that cannot be completed: {why}"),
+        )
+    };
+    let file = match File::open(&path) {
+        Ok(file) => file,
+        Err(e) if e.kind() == ErrorKind::NotFound => return Ok(()),
+        Err(e) => return Err(fail(e)),
+    };
+    let _ = file.lock();
+    if !is_the_file(&file, &path) {
+        // Its program has ended the work meanwhile.
+        return Ok(());
+    }
+    let mut text = String::new();
+    // What is no text is no complete record.
+    let _ = (&file).take(MOST_BYTES).read_to_string(&mut text);
+    for rename in renames(&text) {
+        rename.run(dir).map_err(fail)?;
+    }
+    staged::sweep(dir);
+    fs::remove_file(&path).map_err(fail)
+}
+
+/// What a record says; nothing where it is not complete.
+fn renames(text: &str) -> Vec<Rename> {
+    let body = text.strip_prefix(&format!("{HEAD}\n"));
+    let body = body.and_then(|rest| rest.strip_suffix(&format!("{END}\n")));
+    let all = body.and_then(|body| body.lines().map(Rename::read).collect());
+    all.unwrap_or_default()
+}
+
+/// Whether a file that is open is the one of that name: it may have been removed, and made anew, since.
+fn is_the_file(file: &File, path: &Path) -> bool {
+    let (Ok(open), Ok(named)) = (file.metadata(), path.symlink_metadata()) else {
+        return false;
+    };
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        (open.dev(), open.ino()) == (named.dev(), named.ino())
+    }
+    #[cfg(not(unix))]
+    {
+        open.len() == named.len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_record_comes_back_and_none_leads_out_of_its_folder() {
+        let all = [
+            Rename::Keep("model.toml".into(), "model-1.toml".into()),
+            Rename::Publish(".stiction-part-aB3dE9".into(), "src/model.toml".into()),
+        ];
+        let lines: String = all.iter().map(Rename::line).collect();
+        assert_eq!(renames(&format!("{HEAD}\n{lines}{END}\n")), all);
+        for cut in 0..lines.len() {
+            assert_eq!(renames(&format!("{HEAD}\n{}", &lines[..cut])), []);
+        }
+        for bad in [
+            "publish\t../x\ty",
+            "publish\t.stiction-part-aB3dE9\t../y",
+            "publish\t.stiction-part-aB3dE9\t/etc/y",
+            "publish\tmodel.toml\ty",
+            "keep\tmodel.toml\t../y",
+            "keep\tmodel.toml",
+            "keep\ta\tb\tc",
+        ] {
+            assert_eq!(renames(&format!("{HEAD}\n{bad}\n{END}\n")), []);
+        }
+    }
+}
