@@ -429,18 +429,35 @@ pub struct Plan {
     /// What is known of the axis, with its [limits].
     #[arg(value_name = "AXIS.toml")]
     pub axis: PathBuf,
-    /// Longest motion, from rest to rest.
-    #[arg(long, value_name = "TIME", default_value = "9s", allow_negative_numbers = true, value_parser = duration)]
-    pub time: f64,
+    /// A first model of the axis: plan for what it leaves open instead of for the nameplate.
+    #[arg(long, value_name = "MODEL.toml", conflicts_with = "log")]
+    pub model: Option<PathBuf>,
+    /// A first log, such as that of --stage probe: it is identified, and the motion is planned for what it leaves open.
+    #[arg(long, value_name = "LOG")]
+    pub log: Option<PathBuf>,
+    /// A first, careful motion whose log is for --log, or the whole.
+    #[arg(long, value_enum, default_value_t = Stage::Whole)]
+    pub stage: Stage,
+    /// Longest motion, from rest to rest [default: 9s, of a probe 3s].
+    #[arg(long, value_name = "TIME", allow_negative_numbers = true, value_parser = duration)]
+    pub time: Option<f64>,
     /// Seed of the axes that it is planned for.
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole)]
     pub seed: u64,
-    /// Folder for plan.toml and setpoints.csv.
+    /// Folder for plan.toml, setpoints.csv and report.html.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Write into a folder that holds something else.
     #[arg(long)]
     pub force: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Stage {
+    /// A few seconds at half the speed and acceleration.
+    Probe,
+    /// All that the limits allow.
+    Whole,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

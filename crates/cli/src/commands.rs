@@ -14,8 +14,8 @@ use stiction::commands::number::full;
 use stiction::commands::reproduce::{Budget, OwnAxis, canudas_1995, zhang_2025, zhang_2025_on};
 use stiction::commands::shell::quoted;
 use stiction::commands::{
-    Bundle, CompareOptions, Cost, Excitation, ExportedC, FileError, Files, Input, Kept, Outcome,
-    PlanOptions, Scheme, check_folder, check_folder_of, check_inputs, compare_exported,
+    Bundle, CompareOptions, Cost, Excitation, ExportedC, FileError, Files, Input, Kept, Known,
+    Outcome, PlanOptions, Scheme, check_folder, check_folder_of, check_inputs, compare_exported,
     compare_file, plan_motion, write_atomic,
 };
 use stiction::result::Next;
@@ -512,9 +512,13 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
 fn plan(plan: &arguments::Plan, common: &Common) -> Result<Exit, Error> {
     let schema = stiction::commands::plan::SCHEMA;
     check_folder_of(&plan.out, schema, plan.force)?;
-    check_inputs(&plan.out, [&plan.axis])?;
+    let files = [Some(&plan.axis), plan.model.as_ref(), plan.log.as_ref()];
+    check_inputs(&plan.out, files.into_iter().flatten())?;
+    let model = plan.model.clone().map(Known::Model);
     let options = PlanOptions {
         time: plan.time,
+        probe: plan.stage == arguments::Stage::Probe,
+        known: model.or(plan.log.clone().map(Known::Log)),
         seed: plan.seed,
     };
     let mut bar = Bar::new(common.json || common.quiet);

@@ -50,6 +50,8 @@ pub struct PlanFile {
     pub compared: Vec<ComparedEntry>,
     /// The largest of what happened on any simulated axis.
     pub largest: LargestEntry,
+    /// Where to abort.
+    pub abort: AbortEntry,
     /// The pieces in their order.
     pub atom: Vec<AtomEntry>,
 }
@@ -160,6 +162,17 @@ pub struct LargestEntry {
     pub following_error: f64,
     /// Share of the time with the force at its limit.
     pub saturated: f64,
+}
+
+/// Where a run is to be aborted: beyond what any simulated axis did.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct AbortEntry {
+    /// m (rad)
+    pub following_error: f64,
+    /// N (N m)
+    pub force: f64,
+    /// m/s (rad/s)
+    pub speed: f64,
 }
 
 /// A piece.

@@ -6,6 +6,7 @@ mod elements;
 mod figures;
 mod formula;
 mod ladder;
+mod plan;
 mod procedure;
 mod reproduction;
 mod searched;
@@ -26,6 +27,7 @@ use stiction_identify::Divided;
 use stiction_number::Percent;
 use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
 use stiction_workflows::identify::Outcome;
+use stiction_workflows::plan::Planned;
 use stiction_workflows::reproduce::Reproduction;
 use stiction_workflows::study::StudyOutcome;
 
@@ -42,6 +44,11 @@ pub fn comparison(file: &CompareFile) -> Document {
 /// The report of a study.
 pub fn study(outcome: &StudyOutcome) -> Document {
     explained(study::study(outcome))
+}
+
+/// The report of a planned motion.
+pub fn plan(planned: &Planned) -> Document {
+    explained(plan::plan(planned))
 }
 
 /// The report of reproduced experiments.

@@ -1,5 +1,6 @@
 //! What a whole motion can be expected to tell.
 
+use crate::aim::Aim;
 use crate::candidate::PARAMETERS;
 use crate::predict::{Deviations, deviations, worst};
 use crate::run::Peaks;
@@ -21,11 +22,11 @@ pub struct Expected {
 }
 
 impl Expected {
-    /// From the entries of a motion on every axis, under a force noise, N (N m).
-    pub fn of(entries: &[Entry], noise: f64) -> Expected {
+    /// From the entries of a motion on every axis, as [`Aim`] says.
+    pub fn of(entries: &[Entry], aim: &Aim) -> Expected {
         let axes: Vec<Deviations> = entries
             .iter()
-            .map(|e| deviations(&e.information, noise))
+            .map(|e| deviations(&e.information, aim))
             .collect();
         let mut logarithms: Vec<f64> = axes
             .iter()

@@ -1,7 +1,7 @@
 //! The motion to record before friction is identified, within the limits of an axis.
 //!
 //! Pieces from rest to rest ([`Atom`]) are simulated in closed loop, with the encoder, on axes that the nameplate allows
-//! ([`Nameplate`]). Each run gives sums that say how well its log would determine the parameters of LuGre and the mass; they add
+//! ([`Nameplate`]), or that a first identification leaves open ([`Belief`]). Each run gives sums that say how well its log would determine the parameters of LuGre and the mass; they add
 //! over pieces, so the best pieces of a given length are found without further simulation ([`select()`]), and the whole motion is
 //! then simulated once more ([`Entry::of`]).
 //!
@@ -19,7 +19,9 @@
 //! clock. The same settings and seed give the same bits on every machine.
 #![forbid(unsafe_code)]
 
+mod aim;
 mod atom;
+mod belief;
 mod candidate;
 mod dictionary;
 mod expected;
@@ -34,7 +36,9 @@ mod run;
 mod select;
 mod table;
 
+pub use aim::Aim;
 pub use atom::{Atom, Extremes, Instant};
+pub use belief::Belief;
 pub use candidate::{Candidate, NAMES, PARAMETERS};
 pub use dictionary::dictionary;
 pub use expected::Expected;

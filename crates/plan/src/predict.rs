@@ -1,5 +1,6 @@
 //! How well parameters would be known.
 
+use crate::aim::Aim;
 use crate::candidate::PARAMETERS;
 use crate::information::{ENTRIES, Information, Sums, UNKNOWNS};
 
@@ -10,10 +11,15 @@ const BIAS_LEFT: f64 = 0.2;
 /// Standard deviations relative to the values, for each parameter.
 pub type Deviations = [f64; PARAMETERS];
 
-/// With the best pair of cut-offs, the relative deviations that a motion with these sums gives, under a force noise of this standard
-/// deviation, N (N m), per sample; what is known beforehand is a deviation of 1, which is 100 %.
-pub(crate) fn deviations(information: &Information, noise: f64) -> Deviations {
-    let each = information.iter().map(|sums| of_pair(sums, noise * noise));
+/// With the best pair of cut-offs, the relative deviations that a motion with these sums gives. What is known of a parameter before
+/// any log is a deviation of 1, which is 100 %.
+pub(crate) fn deviations(information: &Information, aim: &Aim) -> Deviations {
+    let (power, start) = (aim.force_noise * aim.force_noise, aim.start());
+    let each = information.iter().map(|sums| {
+        let mut sums = *sums;
+        sums.add(&start, 1.0);
+        of_pair(&sums, power)
+    });
     let worst = |d: &Deviations| d.iter().copied().fold(0.0, f64::max);
     let best = each.min_by(|a, b| worst(a).total_cmp(&worst(b)));
     best.unwrap_or([1.0; PARAMETERS])
@@ -128,6 +134,6 @@ mod tests {
     #[test]
     fn nothing_recorded_leaves_what_was_known_before() {
         let nothing = [Sums::ZERO; crate::information::PAIR_COUNT];
-        assert_eq!(deviations(&nothing, 0.3), [1.0; PARAMETERS]);
+        assert_eq!(deviations(&nothing, &Aim::new(0.3)), [1.0; PARAMETERS]);
     }
 }

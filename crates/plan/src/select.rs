@@ -1,5 +1,6 @@
 //! Which pieces make the best motion of a given length.
 
+use crate::aim::Aim;
 use crate::information::{Information, PAIR_COUNT, Sums};
 use crate::predict::{deviations, worst};
 use crate::table::Table;
@@ -56,7 +57,7 @@ pub(crate) fn score(logarithms: &mut [f64]) -> f64 {
 /// The sums of a choice on every axis.
 struct Sum<'a> {
     table: &'a Table,
-    noise: f64,
+    aim: &'a Aim,
     /// What was recorded before, and what is chosen.
     information: Vec<Information>,
     time: f64,
@@ -84,7 +85,7 @@ impl Sum<'_> {
                     sum.add(more, 1.0);
                 }
             }
-            libm::log(worst(&deviations(&sums, self.noise)).max(1e-12))
+            libm::log(worst(&deviations(&sums, self.aim)).max(1e-12))
         });
         score(&mut each.collect::<Vec<f64>>())
     }
@@ -120,11 +121,11 @@ impl Sum<'_> {
     }
 }
 
-/// Chooses pieces of at most `time` s in all, under a force noise, N (N m), greedily and then by leaving out one to three and
+/// Chooses pieces of at most `time` s in all, greedily and then by leaving out one to three and
 /// filling up again. `go_on` is asked between rounds with the part that is done.
 pub fn select(
     table: &Table,
-    noise: f64,
+    aim: &Aim,
     time: f64,
     spread: &dyn Spread,
     go_on: &mut dyn FnMut(f64) -> bool,
@@ -132,7 +133,7 @@ pub fn select(
     let axes = table.entries.first().map_or(0, Vec::len);
     let mut sum = Sum {
         table,
-        noise,
+        aim,
         information: vec![[Sums::ZERO; PAIR_COUNT]; axes],
         time: 0.0,
         pieces: Vec::new(),

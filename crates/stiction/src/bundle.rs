@@ -67,10 +67,11 @@ pub fn study(outcome: &StudyOutcome) -> Bundle {
     bundle
 }
 
-/// The files of a plan: `plan.toml` and `setpoints.csv`.
+/// The files of a plan: `plan.toml`, `setpoints.csv` and `report.html`.
 pub fn plan(planned: &Planned) -> Bundle {
     let mut bundle = Bundle::default();
     bundle.add("setpoints.csv", setpoints_csv(planned));
+    bundle.add("report.html", report::plan(planned).to_html());
     bundle.add("plan.toml", planned.file.to_toml());
     bundle
 }

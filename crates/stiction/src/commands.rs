@@ -19,7 +19,7 @@ pub use stiction_workflows::compare::{
 /// An identification from paths.
 pub use stiction_workflows::identify::{Files, Outcome, Simulated, identify};
 /// A planned motion, from an axis file.
-pub use stiction_workflows::plan::{PlanOptions, Planned, plan as plan_motion};
+pub use stiction_workflows::plan::{Known, PlanOptions, Planned, plan as plan_motion};
 /// Logs with the files they came from.
 pub use stiction_workflows::source::{Source, load, table};
 /// Exported C beside the compensator of a study's model.

@@ -1,11 +1,15 @@
 //! The motion to record, within the limits of an axis.
 
 mod assume;
+mod band;
 mod design;
 mod judged;
+mod known;
 mod outcome;
 
 pub use assume::Given;
+pub use band::Band;
+pub use known::Known;
 pub use outcome::Planned;
 
 use crate::error::Error;
@@ -14,10 +18,14 @@ use stiction_files::Axis;
 use stiction_search::Observer;
 
 /// What is to be planned.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlanOptions {
-    /// Longest motion, s.
-    pub time: f64,
+    /// Longest motion, s; `None`: 9 s, and of a probe 3 s.
+    pub time: Option<f64>,
+    /// A first, careful motion at half the speed and acceleration, whose log a second plan is made from.
+    pub probe: bool,
+    /// What is known of the axis beside its nameplate.
+    pub known: Option<Known>,
     /// Of the axes that it is made for.
     pub seed: u64,
 }
@@ -25,9 +33,15 @@ pub struct PlanOptions {
 /// Shortest and longest motion that is planned, s.
 pub const TIMES: [f64; 2] = [2.0, 600.0];
 
-impl Default for PlanOptions {
-    fn default() -> Self {
-        PlanOptions { time: 9.0, seed: 0 }
+/// Longest motion where none is given, s.
+const TIME: f64 = 9.0;
+const PROBE_TIME: f64 = 3.0;
+
+impl PlanOptions {
+    /// Longest motion, s.
+    pub fn longest(&self) -> f64 {
+        self.time
+            .unwrap_or(if self.probe { PROBE_TIME } else { TIME })
     }
 }
 
@@ -42,12 +56,18 @@ pub fn plan(
     observer: &mut dyn Observer,
 ) -> Result<Option<Planned>, Error> {
     let [least, most] = TIMES;
-    if !(least..=most).contains(&options.time) {
-        let found = format!("--time {} s", stiction_number::full(options.time));
+    if !(least..=most).contains(&options.longest()) {
+        let found = format!("--time {} s", stiction_number::full(options.longest()));
         return Err(Error::usage(found, format!("{least} s to {most} s")));
     }
     let axis = Axis::read(axis_file)?;
-    let given = assume::given(&axis)?;
-    let inputs = vec![PathBuf::from(axis_file)];
+    let kind = axis.limits.as_ref().map(|limits| limits.motion);
+    let told = match (&options.known, kind) {
+        (Some(known), Some(kind)) => Some(known::told(known, axis_file, kind, observer)?),
+        _ => None,
+    };
+    let given = assume::given(&axis, told, options)?;
+    let mut inputs = vec![PathBuf::from(axis_file)];
+    inputs.extend(options.known.iter().map(|known| known.file().to_path_buf()));
     design::design(&axis, given, inputs, options, observer)
 }

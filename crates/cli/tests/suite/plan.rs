@@ -203,3 +203,105 @@ fn a_plan_that_is_interrupted_says_so_and_writes_nothing_half() {
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert!(!folder.path().join("out/plan.toml").exists());
 }
+
+const MODEL: &str = r#"
+law = "lugre"
+parameter = [
+    { name = "sigma0", value = 2e5, unit = "N/m", std = 2e3 },
+    { name = "sigma1", value = 700, unit = "N*s/m", std = 70 },
+    { name = "sigma2", value = 20, unit = "N*s/m", std = 1 },
+    { name = "coulomb", value = 4, unit = "N", std = 0.1 },
+    { name = "static", value = 7, unit = "N", std = 0.3 },
+    { name = "stribeck_velocity", value = 0.01, unit = "m/s", std = 0.002 },
+    { name = "mass", value = 4, unit = "kg", std = 0.01 },
+]
+"#;
+
+/// A model says more than the nameplate: the axes drawn are nearer to it, and what is expected is less.
+#[test]
+fn a_plan_for_a_model_expects_less_than_one_for_the_nameplate() {
+    let folder = folder(AXIS);
+    let at = folder.path();
+    std::fs::write(at.join("model.toml"), MODEL).unwrap();
+    let worst = |more: &[&str]| {
+        let mut all = vec![
+            "plan",
+            "axis.toml",
+            "--time",
+            "4s",
+            "--json",
+            "--out",
+            "out",
+        ];
+        all.extend(more);
+        let (code, out, err) = run(at, &all);
+        assert_eq!(code, 0, "{err}");
+        let file: serde_json::Value = serde_json::from_str(&out).unwrap();
+        let names: Vec<String> = (file["inputs"].as_array().unwrap().iter())
+            .map(|input| input["path"].as_str().unwrap().to_string())
+            .collect();
+        let compared = file["compared"].as_array().unwrap();
+        assert_eq!(compared[0]["name"], "designed");
+        (compared[0]["interval90_percent"].as_f64().unwrap(), names)
+    };
+    let (plate, inputs) = worst(&[]);
+    assert_eq!(inputs, ["axis.toml"]);
+    let (model, inputs) = worst(&["--model", "model.toml"]);
+    assert_eq!(inputs, ["axis.toml", "model.toml"]);
+    assert!(model < 0.7 * plate, "{model} {plate}");
+    let report = std::fs::read_to_string(at.join("out/report.html")).unwrap();
+    for said in [
+        "Force to expect",
+        "Stribeck velocities thought possible",
+        "30 % override",
+        "the first identification allows",
+    ] {
+        assert!(report.contains(said), "{said}");
+    }
+}
+
+#[test]
+fn a_model_that_says_nothing_of_the_axis_is_refused() {
+    let refused = [
+        (MODEL.replace("\"lugre\"", "\"stribeck\""), "model.toml"),
+        (
+            MODEL.replace(
+                "name = \"mass\", value = 4, unit = \"kg\"",
+                "name = \"offset\", value = 4, unit = \"N\"",
+            ),
+            "no mass",
+        ),
+    ];
+    for (model, said) in refused {
+        let folder = folder(AXIS);
+        std::fs::write(folder.path().join("model.toml"), model).unwrap();
+        let (code, _, err) = run(
+            folder.path(),
+            &["plan", "axis.toml", "--model", "model.toml", "--out", "out"],
+        );
+        assert_eq!(code, 2, "{err}");
+        assert!(err.contains(said), "{said}\n{err}");
+    }
+}
+
+/// A probe keeps to half of what the axis may do, and leads on to a plan from its log.
+#[test]
+fn a_probe_is_careful() {
+    let folder = folder(AXIS);
+    let at = folder.path();
+    let (code, out, err) = run(
+        at,
+        &["plan", "axis.toml", "--stage", "probe", "--out", "probe"],
+    );
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert!(
+        out.contains("stiction plan axis.toml --log LOG.csv"),
+        "{out}"
+    );
+    for [t, _, v, a] in rows(at, "probe/setpoints.csv") {
+        assert!(
+            t <= 3.01 && v.abs() <= 0.05 && a.abs() <= 1.0,
+            "{t} {v} {a}"
+        );
+    }
+}

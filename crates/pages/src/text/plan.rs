@@ -2,11 +2,11 @@
 
 use super::table::table;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use stiction_files::plan::PlanFile;
 use stiction_files::shell::quoted;
 use stiction_number::{Percent, four_digits as short, unit};
-use stiction_workflows::plan::Planned;
+use stiction_workflows::plan::{Known, Planned};
 
 /// The interval above which a parameter is said to stay open on some axes, percent.
 const OPEN: f64 = 20.0;
@@ -15,7 +15,7 @@ const OPEN: f64 = 20.0;
 pub fn planned(planned: &Planned, axis: &Path, written: &Path) -> String {
     let file = &planned.file;
     let mut out = format!(
-        "{} s from rest to rest in {} pieces, {}; pieces simulated on {} axes that the nameplate allows, the whole on {} others\n",
+        "{} s from rest to rest in {} pieces, {}; pieces simulated on {} axes that {} allows, the whole on {} others\n",
         short(file.duration),
         file.atom.len(),
         match file.motion.as_str() {
@@ -23,6 +23,7 @@ pub fn planned(planned: &Planned, axis: &Path, written: &Path) -> String {
             other => format!("{other}: nothing designed was better"),
         },
         file.axes[0],
+        planned.given.known_by(),
         file.axes[1],
     );
     if !file.assumed.is_empty() {
@@ -38,22 +39,39 @@ pub fn planned(planned: &Planned, axis: &Path, written: &Path) -> String {
     out.push_str(&expected(file));
     out.push_str(&beside(file));
     out.push_str(&largest(file));
-    let axis = quoted(&axis.display().to_string());
     let folder = |name: &str| quoted(&written.join(name).display().to_string());
     let [low, high] = file.limits.stroke;
     let length = units(file)[0];
     let _ = writeln!(
         out,
         "\nnext: bring the axis to where it may go {} {length} to negative and {} {length} to positive positions; run {} first \
-         at 30 % override and look, then at 100 %, and record time, position and force at {} Hz; then\n    \
-         stiction identify LOG.csv --axis {axis} --out {}",
+         at 30 % override and look, then at 100 %, and record time, position and force at {} Hz; then\n    {}",
         short(-low),
         short(high),
         folder("setpoints.csv"),
         short(file.rig.rate),
-        folder("identified"),
+        next(planned, axis, written),
     );
     out
+}
+
+/// The command for the log of the motion.
+fn next(planned: &Planned, axis: &Path, written: &Path) -> String {
+    let typed = |path: &Path| quoted(&path.display().to_string());
+    let axis = typed(axis);
+    if planned.options.probe {
+        let out = quoted(&format!(
+            "{}-2",
+            written.components().collect::<PathBuf>().display()
+        ));
+        return format!("stiction plan {axis} --log LOG.csv --out {out}");
+    }
+    let first = match &planned.options.known {
+        Some(Known::Log(log)) => format!("{} ", typed(log)),
+        _ => String::new(),
+    };
+    let out = typed(&written.join("identified"));
+    format!("stiction identify {first}LOG.csv --axis {axis} --out {out}")
 }
 
 /// Units of length, speed and force.
@@ -79,9 +97,9 @@ fn largest(file: &PlanFile) -> String {
         short(limits.rated_force),
         Percent::error(100.0 * largest.saturated).short(),
         short(largest.following_error),
-        short(2.0 * largest.following_error),
-        short((1.2 * largest.force).min(limits.peak_force)),
-        short((1.5 * largest.speed).min(1.1 * limits.speed)),
+        short(file.abort.following_error),
+        short(file.abort.force),
+        short(file.abort.speed),
     )
 }
 

@@ -4,8 +4,8 @@ use stiction_identify::{
     Conditioning, Law, LawKind, Samples, Settings, Silent, Terms, condition, identify,
 };
 use stiction_plan::{
-    Alone, Atom, Candidate, Entry, Expected, HandMade, Limits, Loop, Motion, NAMES, Nameplate, Rig,
-    Table, dictionary, hand_made, run, select,
+    Aim, Alone, Atom, Candidate, Entry, Expected, HandMade, Limits, Loop, Motion, NAMES, Nameplate,
+    Rig, Table, dictionary, hand_made, run, select,
 };
 use stiction_servo::noise::Noise;
 
@@ -71,7 +71,7 @@ fn predicted_deviations_are_those_of_fits() {
         .unwrap()
         .unwrap();
     let entry = Entry::of(&motion, &axis, (&LIMITS, &RIG), 3).unwrap();
-    let predicted = Expected::of(&[entry], RIG.force_noise).axes[0];
+    let predicted = Expected::of(&[entry], &Aim::new(RIG.force_noise)).axes[0];
     let found = realised(&motion, &axis, 12);
     for ((name, found), predicted) in NAMES.iter().zip(found).zip(predicted) {
         let ratio = found / predicted;
@@ -114,7 +114,7 @@ fn a_chosen_motion_is_better_than_hand_made_ones() {
     let axes = plate().draw(10, 1);
     let table = table(atoms, &axes).safe(&LIMITS);
     let mut rounds = 0;
-    let choice = select(&table, RIG.force_noise, 6.0, &Alone, &mut |_| {
+    let choice = select(&table, &Aim::new(RIG.force_noise), 6.0, &Alone, &mut |_| {
         rounds += 1;
         true
     });
@@ -127,7 +127,7 @@ fn a_chosen_motion_is_better_than_hand_made_ones() {
         let entries: Vec<Entry> = entries
             .map(|(i, axis)| Entry::of(motion, axis, (&LIMITS, &RIG), 5000 + i as u32).unwrap())
             .collect();
-        Expected::of(&entries, RIG.force_noise)
+        Expected::of(&entries, &Aim::new(RIG.force_noise))
     };
     // The pieces are simulated one by one, from rest each, with the encoder elsewhere in its step: the sums promise more than the
     // whole holds, which is why the whole is simulated.
@@ -151,6 +151,8 @@ fn a_chosen_motion_is_better_than_hand_made_ones() {
 fn a_choice_that_is_stopped_keeps_what_it_has() {
     let atoms: Vec<Atom> = dictionary(&LIMITS, &RIG).into_iter().step_by(6).collect();
     let table = table(atoms, &plate().draw(3, 1));
-    let choice = select(&table, RIG.force_noise, 4.0, &Alone, &mut |_| false);
+    let choice = select(&table, &Aim::new(RIG.force_noise), 4.0, &Alone, &mut |_| {
+        false
+    });
     assert!(choice.interrupted && !choice.pieces.is_empty());
 }

@@ -1,11 +1,13 @@
 //! From what the axis file gives to what a plan needs, with what is assumed where it is silent.
 
+use super::PlanOptions;
+use super::known::{Known, Told};
 use crate::error::Error;
 use stiction_files::Axis;
 use stiction_files::plan::Assumed;
 use stiction_identify::Mass;
 use stiction_log::{Dimension, Motion};
-use stiction_plan::{Limits, Loop, Nameplate, Rig};
+use stiction_plan::{Aim, Belief, Candidate, Limits, Loop, Nameplate, Rig};
 use stiction_servo::cascade::Cascade;
 
 /// What a plan is made with.
@@ -15,10 +17,34 @@ pub struct Given {
     pub motion: Motion,
     /// Limits, drive, encoder and the ranges of what is not known.
     pub nameplate: Nameplate,
+    /// What a first model or log leaves open, in place of what the nameplate does.
+    pub belief: Option<Belief>,
+    /// The noise, and what is known from a log that will be identified together with that of the motion.
+    pub aim: Aim,
     /// What the axis file does not give.
     pub assumed: Vec<Assumed>,
 }
 
+impl Given {
+    /// Axes that are thought possible; other seeds are others.
+    pub(super) fn draw(&self, count: usize, seed: u32) -> Vec<Candidate> {
+        match &self.belief {
+            Some(belief) => belief.draw(count, seed),
+            None => self.nameplate.draw(count, seed),
+        }
+    }
+
+    /// What allows these axes.
+    pub fn known_by(&self) -> &'static str {
+        match self.belief {
+            Some(_) => "the first identification",
+            None => "the nameplate",
+        }
+    }
+}
+
+/// Parts of the largest speed and acceleration of a probe.
+const PROBE: f64 = 0.5;
 /// How many times larger or smaller the mass may be than the axis file says.
 const MASS_FACTOR: f64 = 2.0;
 /// Part of the stroke that is left free at either end.
@@ -37,7 +63,11 @@ const BANDWIDTH: f64 = 40.0;
 const OF_RATE: f64 = 1.0 / 20.0;
 
 /// What the axis file gives, and what is assumed where it may be.
-pub(super) fn given(axis: &Axis) -> Result<Given, Error> {
+pub(super) fn given(
+    axis: &Axis,
+    told: Option<Told>,
+    options: &PlanOptions,
+) -> Result<Given, Error> {
     let limits = axis.limits.as_ref();
     let rotary = limits.is_some_and(|l| l.motion == Motion::Rotary)
         || axis.mapping.motion == Some(Motion::Rotary);
@@ -61,6 +91,7 @@ pub(super) fn given(axis: &Axis) -> Result<Given, Error> {
         Mass::Given(mass) => Some(mass),
         Mass::Fitted | Mass::Absent => None,
     });
+    let mass = mass.or(told.as_ref().map(|told| told.belief.axis.mass));
     let wanted = [
         (
             limits.and_then(|l| l.stroke).is_none(),
@@ -130,11 +161,27 @@ pub(super) fn given(axis: &Axis) -> Result<Given, Error> {
         rated_force: rated,
         peak_force: or(l.peak_force, "limits.peak_force", rated, force.clone()),
     };
-    let rate = or(axis.mapping.rate_hz, "rate", RATE, "Hz".into());
+    let shown = told.as_ref();
+    let rate = or(
+        axis.mapping.rate_hz.or(shown.and_then(|t| t.rate)),
+        "rate",
+        RATE,
+        "Hz".into(),
+    );
     let rig = Rig {
         rate,
-        encoder_step: or(axis.mapping.resolution, "log.resolution", step, length),
-        force_noise: or(l.force_noise, "limits.force_noise", NOISE * rated, force),
+        encoder_step: or(
+            axis.mapping.resolution.or(shown.and_then(|t| t.step)),
+            "log.resolution",
+            step,
+            length,
+        ),
+        force_noise: or(
+            l.force_noise.or(shown.and_then(|t| t.force_noise)),
+            "limits.force_noise",
+            NOISE * rated,
+            force,
+        ),
         loop_: match axis.controller_of(motion)? {
             Some(known) => Loop::Gains(
                 Cascade {
@@ -157,6 +204,18 @@ pub(super) fn given(axis: &Axis) -> Result<Given, Error> {
             }
         },
     };
+    let limits = match options.probe {
+        true => Limits {
+            speed: PROBE * limits.speed,
+            acceleration: PROBE * limits.acceleration,
+            ..limits
+        },
+        false => limits,
+    };
+    let mut aim = Aim::new(rig.force_noise);
+    if let (Some(Known::Log(_)), Some(told)) = (&options.known, &told) {
+        aim.known = told.belief.deviations;
+    }
     let nameplate = Nameplate {
         mass,
         mass_factor: MASS_FACTOR,
@@ -183,6 +242,8 @@ pub(super) fn given(axis: &Axis) -> Result<Given, Error> {
     Ok(Given {
         motion,
         nameplate,
+        belief: told.map(|told| told.belief),
+        aim,
         assumed,
     })
 }

@@ -2,19 +2,20 @@
 
 use super::PlanOptions;
 use super::assume::Given;
+use super::band::band;
 use super::judged::{Judged, judged, refused};
 use super::outcome::Planned;
 use crate::error::Error;
 use rayon::prelude::*;
 use std::path::PathBuf;
 use stiction_files::plan::{
-    AtomEntry, ComparedEntry, ExpectedEntry, InputEntry, LargestEntry, LimitsEntry, PlanFile,
-    RangeEntry, RigEntry, SCHEMA,
+    AbortEntry, AtomEntry, ComparedEntry, ExpectedEntry, InputEntry, LargestEntry, LimitsEntry,
+    PlanFile, RangeEntry, RigEntry, SCHEMA,
 };
 use stiction_files::{Axis, sha256};
 use stiction_friction::ParamError;
 use stiction_plan::{
-    Atom, Candidate, Choice, Entry, HandMade, Limits, Motion, NAMES, Nameplate, Spread, Table,
+    Aim, Atom, Candidate, Choice, Entry, HandMade, Limits, Motion, NAMES, Nameplate, Spread, Table,
     dictionary, hand_made, select,
 };
 use stiction_search::{Control, Observer, Progress, Shared, Stage};
@@ -45,16 +46,17 @@ pub(super) fn design(
     options: &PlanOptions,
     observer: &mut dyn Observer,
 ) -> Result<Option<Planned>, Error> {
+    let longest = options.longest();
     let plate = &given.nameplate;
     let (limits, rig) = (&plate.limits, &plate.rig);
     let atoms: Vec<Atom> = dictionary(limits, rig)
         .into_iter()
-        .filter(|atom| atom.duration() <= options.time)
+        .filter(|atom| atom.duration() <= longest)
         .collect();
     let periods = rig.rate * rig.periods() as f64 * PHASES;
     let seed = seed(options.seed);
     let time: f64 = atoms.iter().map(Atom::duration).sum();
-    let axes = plate.draw(fewer(AXES, PERIODS, periods * time), seed);
+    let axes = given.draw(fewer(AXES, PERIODS, periods * time), seed);
     let Some(table) = table(atoms, &axes, plate, observer)? else {
         return Ok(None);
     };
@@ -62,28 +64,28 @@ pub(super) fn design(
     let table = table.safe(limits);
     if table.atoms.is_empty() {
         let found =
-            "no piece of a motion keeps within the limits on the axes that the nameplate allows";
+            "no piece of a motion keeps within the limits on the axes that are thought possible";
         return Err(Error::usage(
             found,
             "a larger stroke, speed or acceleration, or a finer encoder",
         ));
     }
-    let choice = chosen(&table, rig.force_noise, options.time, observer);
+    let choice = chosen(&table, &given.aim, longest, observer);
     let designed = Motion::new(ordered(&table, &choice)).map_err(refused)?;
 
     let kinds = HandMade::ALL.len() as f64 + 1.0;
-    let fresh = fewer(FRESH_AXES, FRESH_PERIODS, periods * options.time * kinds);
+    let fresh = fewer(FRESH_AXES, FRESH_PERIODS, periods * longest * kinds);
     // Other axes than those that the pieces were chosen on.
-    let axes_fresh = plate.draw(fresh, seed ^ OTHER_AXES);
+    let axes_fresh = given.draw(fresh, seed ^ OTHER_AXES);
     let watch = Shared::new(observer, fresh * (HandMade::ALL.len() + 1));
-    let Some(designed) = within(designed, &axes_fresh, plate, &watch)? else {
+    let Some(designed) = within(designed, &axes_fresh, &given, &watch)? else {
         return Ok(None);
     };
     let mut all = vec![("designed", designed)];
     for kind in HandMade::ALL {
-        let made = hand_made(kind, limits, rig, options.time).map_err(refused)?;
+        let made = hand_made(kind, limits, rig, longest).map_err(refused)?;
         let Some(made) = made else { continue };
-        if let Some(found) = judged(made, &axes_fresh, plate, &watch)? {
+        if let Some(found) = judged(made, &axes_fresh, &given, &watch)? {
             all.push((kind.name(), found));
         }
     }
@@ -96,7 +98,7 @@ pub(super) fn design(
     let best = finalists.min_by(|(_, a), (_, b)| a.expected.score.total_cmp(&b.expected.score));
     let Some((name, best)) = best else {
         let found =
-            "no motion keeps within stroke and speed on every axis that the nameplate allows";
+            "no motion keeps within stroke and speed on every axis that is thought possible";
         return Err(Error::usage(
             found,
             "a larger stroke or speed, or a controller.bandwidth that the axis really has",
@@ -145,12 +147,7 @@ pub(super) fn design(
             force_noise: rig.force_noise,
             bandwidth: rig.bandwidth(),
         },
-        prior: (plate.ranges().into_iter())
-            .map(|(name, range)| RangeEntry {
-                name: name.into(),
-                range,
-            })
-            .collect(),
+        prior: ranges(&given),
         parameter: (0..NAMES.len()).map(|i| expected(&best, i)).collect(),
         compared,
         largest: LargestEntry {
@@ -161,14 +158,21 @@ pub(super) fn design(
             following_error: peaks.error,
             saturated: peaks.saturated,
         },
+        abort: AbortEntry {
+            following_error: 2.0 * peaks.error,
+            force: (1.2 * peaks.force).min(limits.peak_force),
+            speed: (1.5 * peaks.speed).min(1.1 * limits.speed),
+        },
         atom: (best.motion.timed())
             .map(|(start, atom)| AtomEntry::of(start, atom))
             .collect(),
     };
     Ok(Some(Planned {
+        band: band(&best.motion, &axes_fresh, plate),
         file,
         motion: best.motion,
         expected: best.expected,
+        options: options.clone(),
         given,
     }))
 }
@@ -227,11 +231,11 @@ impl Spread for Threads {
     }
 }
 
-fn chosen(table: &Table, noise: f64, time: f64, observer: &mut dyn Observer) -> Choice {
+fn chosen(table: &Table, aim: &Aim, time: f64, observer: &mut dyn Observer) -> Choice {
     let mut go_on = |fraction: f64| {
         observer.progress(&Progress::of(Stage::Search, fraction)) == Control::Continue
     };
-    select(table, noise, time, &Threads, &mut go_on)
+    select(table, aim, time, &Threads, &mut go_on)
 }
 
 /// The chosen pieces by rising speed, so that the axis shows first what it does slowly.
@@ -245,13 +249,13 @@ fn ordered(table: &Table, choice: &Choice) -> Vec<Atom> {
 fn within(
     mut motion: Motion,
     axes: &[Candidate],
-    plate: &Nameplate,
+    given: &Given,
     watch: &Shared,
 ) -> Result<Option<Judged>, Error> {
-    let limits = &plate.limits;
+    let limits = &given.nameplate.limits;
     let mut round = 0;
     loop {
-        let Some(found) = judged(motion, axes, plate, watch)? else {
+        let Some(found) = judged(motion, axes, given, watch)? else {
             return Ok(None);
         };
         if found.keeps(limits) || round == SLOWED {
@@ -275,6 +279,31 @@ fn within(
         motion = Motion::new(slowed.collect()).map_err(refused)?;
         round += 1;
     }
+}
+
+/// The ranges of the axes that are thought possible.
+fn ranges(given: &Given) -> Vec<RangeEntry> {
+    let entry = |name: &str, range: [f64; 2]| RangeEntry {
+        name: name.into(),
+        range,
+    };
+    let Some(belief) = &given.belief else {
+        let ranges = given.nameplate.ranges();
+        return ranges.map(|(name, range)| entry(name, range)).to_vec();
+    };
+    let values = NAMES.iter().zip(belief.axis.values()).zip(belief.factors());
+    let each = values.map(|((name, value), by)| match *name {
+        // Its factor is that of what it has above Coulomb friction.
+        "static" => {
+            let excess = belief.axis.excess();
+            entry(
+                "static over coulomb",
+                [1.0 + excess / by, 1.0 + excess * by],
+            )
+        }
+        name => entry(name, [value / by, value * by]),
+    });
+    each.collect()
 }
 
 fn percent(deviation: f64) -> f64 {

@@ -1,9 +1,10 @@
 //! A whole motion simulated on many axes.
 
 use super::super::error::Error;
+use super::assume::Given;
 use rayon::prelude::*;
 use stiction_friction::ParamError;
-use stiction_plan::{Candidate, Entry, Expected, Limits, Motion, Nameplate};
+use stiction_plan::{Candidate, Entry, Expected, Limits, Motion};
 use stiction_search::Shared;
 
 /// A motion with what it would show.
@@ -18,10 +19,10 @@ pub(super) struct Judged {
 pub(super) fn judged(
     motion: Motion,
     axes: &[Candidate],
-    nameplate: &Nameplate,
+    given: &Given,
     watch: &Shared,
 ) -> Result<Option<Judged>, Error> {
-    let (limits, rig) = (&nameplate.limits, &nameplate.rig);
+    let (limits, rig) = (&given.nameplate.limits, &given.nameplate.rig);
     let entries: Vec<Option<Result<Entry, ParamError>>> = axes
         .par_iter()
         .enumerate()
@@ -43,7 +44,7 @@ pub(super) fn judged(
         .collect::<Result<Vec<_>, _>>()
         .map_err(refused)?;
     Ok(Some(Judged {
-        expected: Expected::of(&entries, rig.force_noise),
+        expected: Expected::of(&entries, &given.aim),
         simulated: entries.iter().map(|e| e.simulated).sum(),
         motion,
     }))

@@ -1,6 +1,8 @@
 //! What a plan is.
 
+use super::PlanOptions;
 use super::assume::Given;
+use super::band::Band;
 use stiction_files::plan::PlanFile;
 use stiction_plan::{Expected, Motion};
 
@@ -13,6 +15,10 @@ pub struct Planned {
     pub motion: Motion,
     /// What a log of it can be expected to show.
     pub expected: Expected,
+    /// The force to expect.
+    pub band: Band,
+    /// What was asked for.
+    pub options: PlanOptions,
     /// What it was planned with.
     pub given: Given,
 }

@@ -1,0 +1,210 @@
+//! What plans are worth: logs of known axes along planned and hand-made motions, identified with defaults. Writes the table of
+//! docs/plan.md: `plan [LOGS]`, LOGS of each motion and axis (10).
+
+use std::path::Path;
+use stiction::commands::{Known, PlanOptions, Planned, plan_motion};
+use stiction::{Axis, Column, Log, Options, Silent, identify};
+use stiction_plan::{Candidate, Entry, Expected, HandMade, Motion, NAMES, hand_made, run};
+use stiction_servo::noise::Noise;
+
+/// Name, axis file, and sigma0, sigma1, sigma2, Fc, Fs, vs, M.
+const AXES: [(&str, &str, [f64; 7]); 3] = [
+    (
+        "slide",
+        "rate = \"4 kHz\"\n[limits]\nstroke = [\"-100 mm\", \"100 mm\"]\nspeed = \"0.2 m/s\"\nacceleration = \"6 m/s2\"\njerk = \"1500 m/s3\"\n\
+         rated_force = \"150 N\"\npeak_force = \"200 N\"\nmass = \"10 kg\"\nforce_noise = \"1 N\"\n[log]\nresolution = \"50 nm\"\n\
+         [controller]\nbandwidth = \"60 Hz\"\n",
+        [1.2e5, 600.0, 60.0, 20.0, 30.0, 5e-3, 10.0],
+    ),
+    (
+        "motor",
+        "rate = \"4 kHz\"\n[limits]\nstroke = [\"-100 mm\", \"100 mm\"]\nspeed = \"0.5 m/s\"\nacceleration = \"10 m/s2\"\njerk = \"2000 m/s3\"\n\
+         rated_force = \"150 N\"\npeak_force = \"221 N\"\nmass = \"4.6 kg\"\nforce_noise = \"0.6 N\"\n[log]\nresolution = \"50 nm\"\n\
+         [controller]\nbandwidth = \"60 Hz\"\n",
+        [2e6, 1.5e3, 30.0, 12.0, 18.0, 3e-3, 4.6],
+    ),
+    (
+        "coarse",
+        "rate = \"2 kHz\"\n[limits]\nstroke = [\"-100 mm\", \"100 mm\"]\nspeed = \"0.3 m/s\"\nacceleration = \"6 m/s2\"\njerk = \"1500 m/s3\"\n\
+         rated_force = \"80 N\"\npeak_force = \"100 N\"\nmass = \"5 kg\"\nforce_noise = \"0.5 N\"\n[log]\nresolution = \"0.5 um\"\n\
+         [controller]\nbandwidth = \"40 Hz\"\n",
+        [1.333e5, 600.0, 35.0, 5.0, 12.0, 0.03, 5.0],
+    ),
+];
+
+/// What the logs of a motion said.
+#[derive(Default)]
+struct Found {
+    /// Worst error of each log, percent.
+    worst: Vec<f64>,
+    inside: usize,
+    claimed: usize,
+    flagged: usize,
+    all: usize,
+    /// Squares of errors over predicted deviations.
+    ratio: Vec<f64>,
+}
+
+fn main() {
+    let logs = std::env::args()
+        .nth(1)
+        .map_or(10, |x| x.parse().expect("a number of logs"));
+    println!(
+        "| axis | motion | s | logs | median | largest | coverage | flagged | rms/predicted |\n|---|---|---|---|---|---|---|---|---|"
+    );
+    for (name, axis, values) in AXES {
+        let folder =
+            std::env::temp_dir().join(format!("stiction-plan-{}-{name}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let file = folder.join("axis.toml");
+        std::fs::write(&file, axis).expect("a file");
+        let planned = plan(&file, PlanOptions::default());
+        let plate = &planned.given.nameplate;
+        let truth = Candidate::from_values(values);
+        let axis = Axis::read(&file).expect("an axis");
+        let mut motions = vec![("plan, nameplate", planned.motion.clone())];
+        for kind in HandMade::ALL {
+            let made =
+                hand_made(kind, &plate.limits, &plate.rig, 9.0).expect("limits that are some");
+            motions.extend(made.map(|motion| (kind.name(), motion)));
+        }
+        for (motion_name, motion) in motions {
+            let mut found = Found::default();
+            for seed in 0..logs {
+                one(&motion, &truth, &planned, &axis, (seed, None), &mut found);
+            }
+            say(name, motion_name, motion.duration(), &mut found);
+        }
+        // Two stages: each probe has a plan of its own, whose logs are identified with it.
+        let probe = plan(
+            &file,
+            PlanOptions {
+                probe: true,
+                ..PlanOptions::default()
+            },
+        );
+        let (mut found, mut duration) = (Found::default(), 0.0);
+        for number in 0..PROBES {
+            let first = log(&probe.motion, &truth, &probe, &axis, 500 + number);
+            let csv = folder.join(format!("probe-{number}.csv"));
+            std::fs::write(&csv, text(&first)).expect("a file");
+            let known = Some(Known::Log(csv));
+            let second = plan(
+                &file,
+                PlanOptions {
+                    known,
+                    ..PlanOptions::default()
+                },
+            );
+            duration = probe.motion.duration() + second.motion.duration();
+            for seed in 0..logs / PROBES {
+                let seed = 100 * number + seed;
+                one(
+                    &second.motion,
+                    &truth,
+                    &second,
+                    &axis,
+                    (seed, Some(&first)),
+                    &mut found,
+                );
+            }
+        }
+        say(name, "probe + plan", duration, &mut found);
+        std::fs::remove_dir_all(&folder).expect("the folder that was made");
+    }
+}
+
+fn plan(file: &Path, options: PlanOptions) -> Planned {
+    let planned = plan_motion(file, &options, &mut Silent).expect("a plan");
+    planned.expect("not stopped")
+}
+
+/// Probes of an axis.
+const PROBES: u64 = 2;
+
+/// A simulated log.
+fn log(motion: &Motion, truth: &Candidate, planned: &Planned, axis: &Axis, seed: u64) -> Log {
+    let plate = &planned.given.nameplate;
+    let (limits, rig) = (&plate.limits, &plate.rig);
+    let mut noise = Noise::new(1000 + seed);
+    let phase = noise.uniform();
+    let run =
+        run(motion, truth, rig, limits.peak_force, phase).expect("an axis that can be simulated");
+    let force = run
+        .force
+        .iter()
+        .map(|f| f + rig.force_noise * noise.normal())
+        .collect();
+    let time = (0..run.reading.len())
+        .map(|k| k as f64 / rig.rate)
+        .collect();
+    let column = |name: &str, unit: &str, values: Vec<f64>| Column {
+        name: name.into(),
+        unit: Some(unit.into()),
+        values,
+    };
+    let columns = vec![
+        column("time", "s", time),
+        column("position", "m", run.reading),
+        column("force", "N", force),
+    ];
+    Log::from_columns("log", columns, axis).expect("a log")
+}
+
+/// A log as text.
+fn text(log: &Log) -> String {
+    let (Some(position), Some(force)) = (log.position(), log.force()) else {
+        return String::new();
+    };
+    let rows = log.time().iter().zip(position).zip(force);
+    let rows: Vec<String> = rows.map(|((t, x), f)| format!("{t},{x},{f}\n")).collect();
+    format!("time [s],position [m],force [N]\n{}", rows.concat())
+}
+
+/// A log, identified, with one before it where there is one, and its errors.
+fn one(
+    motion: &Motion,
+    truth: &Candidate,
+    planned: &Planned,
+    axis: &Axis,
+    (seed, before): (u64, Option<&Log>),
+    found: &mut Found,
+) {
+    let plate = &planned.given.nameplate;
+    let (limits, rig) = (&plate.limits, &plate.rig);
+    let mut logs: Vec<Log> = before.into_iter().cloned().collect();
+    logs.push(log(motion, truth, planned, axis, seed));
+    let fit = identify(&logs, axis, &Options::default()).expect("a fit");
+    let entry = Entry::of(motion, truth, (limits, rig), 1 << 25).expect("as before");
+    let predicted = Expected::of(&[entry], &planned.given.aim).axes[0];
+    let mut worst: f64 = 0.0;
+    for ((name, truth), predicted) in NAMES.iter().zip(truth.values()).zip(predicted) {
+        found.all += 1;
+        let Some(p) = fit.parameter(name).filter(|p| p.is_identifiable()) else {
+            found.flagged += 1;
+            continue;
+        };
+        let error = p.value() / truth - 1.0;
+        worst = worst.max(error.abs());
+        found.ratio.push((error / predicted) * (error / predicted));
+        if let Some((low, high)) = p.interval() {
+            found.claimed += 1;
+            found.inside += usize::from(low <= truth && truth <= high);
+        }
+    }
+    found.worst.push(100.0 * worst);
+}
+
+fn say(axis: &str, motion_name: &str, duration: f64, found: &mut Found) {
+    found.worst.sort_by(f64::total_cmp);
+    let n = found.worst.len();
+    let median = 0.5 * (found.worst[(n - 1) / 2] + found.worst[n / 2]);
+    let rms = (found.ratio.iter().sum::<f64>() / found.ratio.len().max(1) as f64).sqrt();
+    println!(
+        "| {axis} | {motion_name} | {:.1} | {n} | {median:.2} | {:.2} | {:.0} | {:.0} | {rms:.2} |",
+        duration,
+        found.worst[n - 1],
+        100.0 * found.inside as f64 / found.claimed.max(1) as f64,
+        100.0 * found.flagged as f64 / found.all as f64,
+    );
+}
