@@ -66,10 +66,10 @@ fn a_plan_is_written_with_set_points_within_the_limits_and_the_same_on_any_threa
     let (code, out, err) = with("one", "1");
     assert_eq!((code, err.as_str()), (0, ""));
     for said in [
-        "limits.jerk = 400.0 m/s",
+        "limits.jerk = 400.0 m/s^3",
         "limits.force_noise = 0.2000 N",
         "stiction identify LOG.csv --axis axis.toml --out one/identified",
-        "written to one: setpoints.csv, plan.toml",
+        "written to one: setpoints.csv, report.html, plan.toml",
     ] {
         assert!(out.contains(said), "{said}\n{out}");
     }

@@ -6,7 +6,7 @@ use crate::error::Error;
 use stiction_files::Axis;
 use stiction_files::plan::Assumed;
 use stiction_identify::Mass;
-use stiction_log::{Dimension, Motion};
+use stiction_log::Motion;
 use stiction_plan::{Aim, Belief, Candidate, Limits, Loop, Nameplate, Rig};
 use stiction_servo::cascade::Cascade;
 
@@ -145,8 +145,7 @@ pub(super) fn given(
             value
         })
     };
-    let per_time = |d: Dimension| d.per(Dimension::TIME).unwrap_or(d);
-    let jerk_unit = per_time(per_time(motion.velocity())).si_text();
+    let jerk_unit = format!("{}/s^3", motion.position().si_text());
     let (force, length) = (motion.force().si_text(), motion.position().si_text());
     let step = match motion {
         Motion::Linear => STEP,
