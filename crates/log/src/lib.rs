@@ -43,6 +43,8 @@ mod open;
 mod parquet;
 mod sniff;
 mod table;
+#[cfg(feature = "tdms")]
+mod tdms;
 pub mod text;
 pub mod unit;
 

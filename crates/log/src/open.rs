@@ -117,6 +117,8 @@ fn read(path: &Path, options: &ReadOptions) -> Result<Table, Error> {
         Format::Arrow => crate::arrow::read(file, bytes, limits),
         #[cfg(feature = "mcap")]
         Format::Mcap => crate::mcap::read(file, limits),
+        #[cfg(feature = "tdms")]
+        Format::Tdms => crate::tdms::read(file, bytes, limits),
         #[cfg(not(feature = "all"))]
         other => Err(Error::new(
             Kind::Format,

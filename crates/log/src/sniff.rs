@@ -15,6 +15,7 @@ pub(crate) enum Format {
     Json,
     Arrow,
     Mcap,
+    Tdms,
     /// A known format that is not read, and what to do instead.
     Foreign(&'static str, &'static str),
     Text,
@@ -33,6 +34,7 @@ impl Format {
             Format::Json => "JSON",
             Format::Arrow => "Arrow IPC",
             Format::Mcap => "MCAP",
+            Format::Tdms => "TDMS",
             Format::Foreign(what, _) => what,
             Format::Text => "text",
         }
@@ -68,6 +70,9 @@ pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
     }
     if starts(b"PAR1") || starts(b"PARE") {
         return Ok(Format::Parquet);
+    }
+    if starts(b"TDSm") {
+        return Ok(Format::Tdms);
     }
     if starts(b"\x89MCAP0\r\n") {
         return Ok(Format::Mcap);

@@ -174,6 +174,11 @@ impl Collector {
         }
     }
 
+    /// Says the time between samples, in s.
+    pub(crate) fn sample_time(&mut self, seconds: f64) {
+        self.table.sample_time = Some(seconds);
+    }
+
     /// Adds a single number.
     pub(crate) fn scalar(&mut self, name: &str, value: f64) {
         self.table.scalars.push(Scalar {

@@ -133,7 +133,7 @@ pub(crate) fn read_numbers(
 ) -> io::Result<()> {
     // 64 KiB of doubles: large enough that the calls do not count, small enough for the cache.
     const BATCH_NUMBERS: usize = 8192;
-    let mut buffer = vec![0; BATCH_NUMBERS * number.width()];
+    let mut buffer = vec![0; count.min(BATCH_NUMBERS as u64) as usize * number.width()];
     let mut left = count;
     while left > 0 {
         let now = left.min(BATCH_NUMBERS as u64) as usize;

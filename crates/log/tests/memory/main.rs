@@ -27,7 +27,7 @@ const SAMPLES: u64 = 1 << 17;
 const MEMORY_BOUND: usize = 8 << 20;
 
 /// First bytes of the formats; the last of these lead to the text reader.
-const STARTS: [&[u8]; 15] = [
+const STARTS: [&[u8]; 16] = [
     b"\x89HDF\r\n\x1a\n",
     b"\x93NUMPY\x01\x00",
     b"\x93NUMPY\x02\x00",
@@ -37,6 +37,7 @@ const STARTS: [&[u8]; 15] = [
     b"\x1f\x8b",
     b"{\"t\": [",
     b"[[",
+    b"TDSm\x0e\0\0\0\x69\x12\0\0",
     b"\x89MCAP0\r\n",
     b"ARROW1\0\0",
     b"\xff\xff\xff\xff\x10\0\0\0",

@@ -17,6 +17,7 @@ import pyarrow.parquet as pq
 import scipy.io
 from mcap.writer import CompressionType
 from mcap_ros2.writer import Writer
+from nptdms import ChannelObject, RootObject, TdmsWriter
 
 folder = pathlib.Path(sys.argv[1])
 t = np.linspace(0.0, 1.0, 40)
@@ -119,3 +120,9 @@ for compression in CompressionType:
                        "position": [float(q[i]), 1.0], "effort": [2.0, float(i)]}
             writer.write_message("/joint_states", schema, message, log_time=5 * 10**9 + 1000 * i)
         writer.finish()
+
+with TdmsWriter(folder / "small.tdms") as writer:
+    channels = [ChannelObject("g", "t", t, {"unit_string": "s", "wf_increment": 0.5}), ChannelObject("g", "n", count),
+                ChannelObject("g", "at", np.arange(4).astype("M8[us]")), ChannelObject("g", "words", ["a", "b"])]
+    writer.write_segment([RootObject({"kt": 2.0, "name": "axis"}), *channels])
+    writer.write_segment([ChannelObject("g", "t", t[:7])])

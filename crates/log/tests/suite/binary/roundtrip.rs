@@ -132,6 +132,25 @@ fn mcap_comes_back_bit_for_bit() {
 }
 
 #[test]
+fn tdms_comes_back_bit_for_bit() {
+    let tables = come_back("write_tdms.py");
+    assert_eq!(tables.len(), 6);
+    for (name, table) in &tables {
+        if name.starts_with("version") {
+            assert_eq!(table.columns[0].unit.as_deref(), Some("N m"));
+            assert_eq!(table.sample_time, Some(0.001));
+            assert!(detects(table, "beyond 2^53"));
+        }
+        let stamp = table
+            .columns
+            .iter()
+            .find(|c| c.name.ends_with("stamp") || c.name == "g.t");
+        assert!(stamp.is_some(), "{name}");
+        assert!(detects(table, "time stamps"), "{name}");
+    }
+}
+
+#[test]
 fn a_codec_that_is_not_built_in_is_named() {
     let folder = written("write_binary.py");
     let error = read_table(
