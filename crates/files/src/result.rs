@@ -125,6 +125,9 @@ pub struct ResolvedAxis {
     /// The axis file; absent where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
+    /// Whether the axis file has `[limits]`, within which a motion can be planned.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub limits: bool,
     /// `linear` or `rotary`.
     pub kind: String,
     /// Unit of the force channel after scaling.

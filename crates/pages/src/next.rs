@@ -152,6 +152,36 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
     }
 }
 
+/// The command that plans the motion which would settle what the logs leave open; `None` where they leave nothing open that a plan is
+/// made for, or the axis file does not say what the axis may do.
+pub(crate) fn planned(result: &ResultFile, dir: &Path) -> Option<String> {
+    let axis = result.axis.file.as_ref().filter(|_| result.axis.limits)?;
+    let mut open = result.parameters.iter().filter(|p| !p.identifiable);
+    let settles = |name: &str| PLANNED.iter().any(|own| name.starts_with(own));
+    let is_fit = result.method == "separable";
+    if !is_fit || !open.any(|p| settles(&p.name)) {
+        return None;
+    }
+    let known = match result.inputs.as_slice() {
+        [log] => format!(" --log {}", quoted(&log.path)),
+        _ => String::new(),
+    };
+    let dir: &Path = &dir.components().collect::<PathBuf>();
+    let out = quoted(&format!("{}-plan", dir.display()));
+    Some(format!("stiction plan {}{known} --out {out}", quoted(axis)))
+}
+
+/// What the names of parameters begin with that a motion is planned for.
+const PLANNED: [&str; 7] = [
+    "sigma0",
+    "sigma1",
+    "sigma2",
+    "coulomb",
+    "static",
+    "stribeck_velocity",
+    "mass",
+];
+
 /// The cycle of a controller as fast as the logs, where that is shorter than the usual one.
 fn cycle(result: &ResultFile) -> String {
     let rate = result.inputs.iter().map(|i| i.rate_hz).fold(0.0, f64::max);

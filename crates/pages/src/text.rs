@@ -238,6 +238,12 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
             }
         }
     };
+    if let Some(command) = next::planned(result, dir) {
+        let _ = writeln!(
+            out,
+            "the motion to record for what is not identifiable, within [limits]\n  {command}"
+        );
+    }
     out
 }
 

@@ -305,3 +305,42 @@ fn a_probe_is_careful() {
         );
     }
 }
+
+/// Where a log leaves parameters open, `identify` ends in the command that plans the motion for them.
+#[test]
+fn identify_leads_to_a_plan_for_what_a_log_leaves_open() {
+    let folder = folder(AXIS);
+    let at = folder.path();
+    // Sliding without presliding or a Stribeck curve.
+    let row = |k: u32| {
+        let t = 2e-3 * f64::from(k);
+        let phase = 6.0 * t;
+        let (x, v, a) = (
+            0.015 * libm::sin(phase),
+            0.09 * libm::cos(phase),
+            -0.54 * libm::sin(phase),
+        );
+        format!("{t},{x},{}\n", 5.0 * v.signum() + 20.0 * v + 4.0 * a)
+    };
+    let rows: String = (0..3000).map(row).collect();
+    std::fs::write(
+        at.join("log.csv"),
+        format!("time [s],position [m],force [N]\n{rows}"),
+    )
+    .unwrap();
+    let identify = |axis: &str, out: &str| {
+        let all = [
+            "identify", "log.csv", "--axis", axis, "--law", "lugre", "--out", out,
+        ];
+        run(at, &all).1
+    };
+    let said = identify("axis.toml", "out");
+    let command = "stiction plan axis.toml --log log.csv --out out-plan";
+    assert!(
+        said.contains("not identifiable") && said.contains(command),
+        "{said}"
+    );
+    let limitless = AXIS.split("[limits]").next().unwrap();
+    std::fs::write(at.join("plain.toml"), limitless).unwrap();
+    assert!(!identify("plain.toml", "plain").contains("stiction plan"));
+}

@@ -84,6 +84,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         axis: ResolvedAxis {
             name: asked.axis.name.clone(),
             file: asked.axis.file().map(|file| file.display().to_string()),
+            limits: asked.axis.limits.is_some(),
             kind: motion.to_string(),
             force_unit: force_unit.into(),
             columns: first.detected.clone(),
