@@ -18,9 +18,12 @@ use stiction_servo::plant::Plant;
 use stiction_servo::run::follow;
 use stiction_servo::trajectory::Trajectory;
 
-/// Reversals before the levels are judged, and cycles in which the error is.
+/// Reversals before the levels are judged.
 const REVERSALS: usize = 20;
+/// Cycles in which the error is judged, and those where that is close: where an axis jumps at its reversals, the largest error of
+/// a cycle scatters by up to 2 % of that without compensation with exact parameters already.
 const JUDGED_CYCLES: usize = 4;
+const CLOSELY_JUDGED_CYCLES: usize = 40;
 
 /// An axis whose friction is `level` times what was identified.
 #[derive(Clone, Debug)]
@@ -34,6 +37,8 @@ struct Case {
     noise: f64,
     seed: u64,
     motion: Motion,
+    /// Cycles in which the error is judged.
+    judged: usize,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -107,11 +112,12 @@ impl Case {
             noise: 1e-8,
             seed,
             motion,
+            judged: JUDGED_CYCLES,
         }
     }
 
     fn cycles(&self) -> f64 {
-        (REVERSALS / 2 + JUDGED_CYCLES) as f64
+        (REVERSALS / 2 + self.judged) as f64
     }
 
     /// Duration of a cycle, s.
@@ -158,7 +164,8 @@ impl Case {
                     ..Adaptation::default()
                 }),
                 watchdog: None,
-                ..Settings::for_law(&Friction::LuGre(law), period)
+                // Limits are settings, not parameters: those of what was identified, also with exact parameters.
+                ..Settings::for_law(&Friction::LuGre(self.law), period)
             };
             let compensator =
                 Compensator::new(Friction::LuGre(law), Source::Reference, settings).unwrap();
@@ -201,9 +208,9 @@ impl Case {
     /// Largest error of a cycle, in the mean of the last cycles.
     fn peak(&self, samples: &[Sample]) -> f64 {
         let cycle = (self.cycle() * self.rate).round() as usize;
-        let from = samples.len() - JUDGED_CYCLES * cycle;
+        let from = samples.len() - self.judged * cycle;
         let cycles = samples[from..].chunks(cycle);
-        cycles.map(|cycle| Tracking::of(cycle).peak).sum::<f64>() / JUDGED_CYCLES as f64
+        cycles.map(|cycle| Tracking::of(cycle).peak).sum::<f64>() / self.judged as f64
     }
 }
 
@@ -211,16 +218,18 @@ impl Case {
 struct Done {
     /// Error of the worse level.
     level: f64,
-    /// Error with adapted parameters more than with exact ones, and over it.
-    more: f64,
+    /// Error with adapted parameters, and how many times that of exact ones.
+    with: f64,
     over: f64,
-    /// Error more than with the parameters as they were identified.
+    /// How much more it is than with exact parameters, and than with the parameters as they were identified.
+    more: f64,
     worse: f64,
     /// What adapting costs where nothing has changed.
     costs: f64,
 }
 
-fn done(case: &Case) -> Done {
+/// `level` is known where the errors are judged closely.
+fn done_at(case: &Case, level: Option<f64>) -> Done {
     let peak = |case: &Case, assumed| case.peak(&case.run(assumed).0);
     let (adapted, levels) = case.run(Assumed::Adapted);
     let with = case.peak(&adapted);
@@ -233,44 +242,98 @@ fn done(case: &Case) -> Done {
     let cost = peak(&right, Assumed::Adapted) - peak(&right, Assumed::Exact);
     let off = levels.map(|level| (level / case.level - 1.0).abs());
     Done {
-        level: off[0].max(off[1]),
-        more: (with - exact) / none,
+        level: level.unwrap_or_else(|| off[0].max(off[1])),
+        with: with / none,
         over: with / exact,
+        more: (with - exact) / none,
         worse: (with - peak(case, Assumed::Identified)) / none,
         costs: cost / peak(&right, Assumed::Nothing),
     }
 }
 
-/// After a change of -40 to 40 % and twenty reversals: levels within 5 %; errors at most 1.3 times those of exact parameters, but
-/// for what is within 2 % of the error without compensation; nowhere worse than without adapting by more than 1 %; and where
-/// nothing has changed at most 1 % more. Small errors are of single reversals and scatter.
-fn levels_that_change_are_found(cases: std::ops::Range<u64>) {
-    let all = cases.end - cases.start;
-    let mut beyond = [0; 4];
-    for seed in cases {
-        let case = Case::random(None, seed);
-        let done = done(&case);
-        let each = [
-            done.level > 0.05,
-            done.over > 1.3 && done.more > 0.02,
-            done.worse > 0.01,
-            done.costs > 0.01,
-        ];
-        for (count, is_beyond) in beyond.iter_mut().zip(each) {
-            *count += u64::from(is_beyond);
-        }
-        if each.contains(&true) {
-            println!(
-                "{seed}: level {:.3}, error {:.2} of exact, {:+.3} more, {:+.3} than without, costs {:+.3}; {case:?}",
-                done.level, done.over, done.more, done.worse, done.costs
-            );
-        }
+/// The bars, each with the least share of axes, in thousandths, that has to keep it. Levels are not found where an axis sticks and
+/// slips through its whole motion, which exact parameters do not end either.
+const BARS: [(&str, usize); 5] = [
+    ("levels within 5 %", 970),
+    ("error within 1.3 times that of exact parameters", 980),
+    ("no more error than without compensation", 1000),
+    ("no more error than without adapting", 980),
+    ("costs nothing where nothing changed", 975),
+];
+
+impl Done {
+    /// Which bars it does not keep, all but the first less `margin`. Errors are compared to 1 % of that without compensation, and
+    /// to 2 % where that of exact parameters is small. No adaptation is better than exact parameters, so where these leave more
+    /// error than wrong ones do, adapting may too.
+    fn beyond(&self, margin: f64) -> [bool; 5] {
+        [
+            self.level > 0.05,
+            self.over > 1.3 - 20.0 * margin && self.more > 0.02 - margin,
+            self.with > 1.0 - margin,
+            self.worse.min(self.more) > 0.01 - margin,
+            self.costs > 0.01 - margin,
+        ]
     }
-    println!("{all} axes: level, error, worse, costs beyond in {beyond:?}");
-    assert!(
-        beyond.iter().all(|count| *count <= all / 20),
-        "{beyond:?} of {all}"
-    );
+}
+
+/// What is beyond its bars on an axis after a change of -40 to 40 % and twenty reversals. What is not clear in a few cycles is
+/// decided in many.
+fn beyond(seed: u64) -> [bool; 5] {
+    let mut case = Case::random(None, seed);
+    let mut done = done_at(&case, None);
+    if done.beyond(0.005)[1..].contains(&true) {
+        case.judged = CLOSELY_JUDGED_CYCLES;
+        done = done_at(&case, Some(done.level));
+    }
+    let beyond = done.beyond(0.0);
+    if beyond.contains(&true) {
+        println!(
+            "{seed}: {beyond:?} level {:.3}, error {:.3}, {:.2} of exact, {:+.3} more, {:+.3} than without adapting, costs {:+.3}; {case:?}",
+            done.level, done.with, done.over, done.more, done.worse, done.costs
+        );
+    }
+    beyond
+}
+
+/// Counts stand after every hundred axes, so that a run that is stopped says how far it came.
+fn levels_that_change_are_found(cases: std::ops::Range<u64>) {
+    let mut beyond_of = [0; BARS.len()];
+    let mut all = 0;
+    let threads = std::thread::available_parallelism().map_or(1, usize::from) as u64;
+    for start in cases.clone().step_by(100) {
+        let end = cases.end.min(start + 100);
+        let counts = |first: u64| {
+            let mut counts = [0; BARS.len()];
+            for seed in (first..end).step_by(threads as usize) {
+                for (count, is_beyond) in counts.iter_mut().zip(beyond(seed)) {
+                    *count += usize::from(is_beyond);
+                }
+            }
+            counts
+        };
+        let counted: Vec<[usize; BARS.len()]> = std::thread::scope(|scope| {
+            let counts = &counts;
+            let each =
+                (start..end.min(start + threads)).map(|first| scope.spawn(move || counts(first)));
+            let each: Vec<_> = each.collect();
+            each.into_iter()
+                .map(|thread| thread.join().unwrap())
+                .collect()
+        });
+        for counts in counted {
+            for (sum, count) in beyond_of.iter_mut().zip(counts) {
+                *sum += count;
+            }
+        }
+        all += (end - start) as usize;
+        println!("of {all} axes beyond: {beyond_of:?}");
+    }
+    for ((bar, least), count) in BARS.into_iter().zip(beyond_of) {
+        assert!(
+            1000 * count <= (1000 - least) * all,
+            "{bar}: not {count} of {all}"
+        );
+    }
 }
 
 #[test]
