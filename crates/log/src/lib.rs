@@ -47,6 +47,8 @@ mod table;
 mod tdms;
 pub mod text;
 pub mod unit;
+#[cfg(feature = "xlsx")]
+mod xlsx;
 
 pub use error::{Error, Kind, Place};
 pub use findings::{Finding, Severity};

@@ -16,6 +16,7 @@ pub(crate) enum Format {
     Arrow,
     Mcap,
     Tdms,
+    Xlsx,
     /// A known format that is not read, and what to do instead.
     Foreign(&'static str, &'static str),
     Text,
@@ -35,6 +36,7 @@ impl Format {
             Format::Arrow => "Arrow IPC",
             Format::Mcap => "MCAP",
             Format::Tdms => "TDMS",
+            Format::Xlsx => "Excel workbook",
             Format::Foreign(what, _) => what,
             Format::Text => "text",
         }
@@ -66,6 +68,10 @@ pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
         return Ok(Format::Npy);
     }
     if starts(b"PK\x03\x04") || starts(b"PK\x05\x06") {
+        #[cfg(feature = "xlsx")]
+        if crate::xlsx::is_workbook(file) {
+            return Ok(Format::Xlsx);
+        }
         return Ok(Format::Npz);
     }
     if starts(b"PAR1") || starts(b"PARE") {
@@ -100,9 +106,10 @@ pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
         [0x28, 0xb5, 0x2f, 0xfd, ..] => Format::Foreign("a Zstandard archive", compressed),
         [b'B', b'Z', b'h', ..] => Format::Foreign("a bzip2 archive", compressed),
         [0xfd, b'7', b'z', b'X', b'Z', ..] => Format::Foreign("an xz archive", compressed),
-        _ if starts(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1") => {
-            Format::Foreign("an old Excel workbook", "save the sheet as CSV")
-        }
+        _ if starts(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1") => Format::Foreign(
+            "an old Excel workbook",
+            "save it as .xlsx or the sheet as CSV",
+        ),
         _ if starts(b"FEA1") => Format::Foreign(
             "a Feather file of version 1",
             "write it again with version 2, as pyarrow and pandas do by themselves",

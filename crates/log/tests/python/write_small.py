@@ -18,6 +18,7 @@ import scipy.io
 from mcap.writer import CompressionType
 from mcap_ros2.writer import Writer
 from nptdms import ChannelObject, RootObject, TdmsWriter
+from openpyxl import Workbook
 
 folder = pathlib.Path(sys.argv[1])
 t = np.linspace(0.0, 1.0, 40)
@@ -126,3 +127,10 @@ with TdmsWriter(folder / "small.tdms") as writer:
                 ChannelObject("g", "at", np.arange(4).astype("M8[us]")), ChannelObject("g", "words", ["a", "b"])]
     writer.write_segment([RootObject({"kt": 2.0, "name": "axis"}), *channels])
     writer.write_segment([ChannelObject("g", "t", t[:7])])
+
+book = Workbook()
+book.active.append(["t [s]", "q", "name"])
+for row in zip(t, q):
+    book.active.append([float(row[0]), float(row[1]), "x"])
+book.create_sheet("more").append([1.5, 2.5])
+book.save(folder / "small.xlsx")

@@ -151,6 +151,22 @@ fn tdms_comes_back_bit_for_bit() {
 }
 
 #[test]
+fn workbooks_come_back_bit_for_bit() {
+    let tables = come_back("write_xlsx.py");
+    assert_eq!(tables.len(), 3);
+    for (name, table) in &tables {
+        let force = table
+            .columns
+            .iter()
+            .find(|c| c.name == "Torque" || c.name == "Force")
+            .unwrap();
+        let unit = if name == "titled.xlsx" { "N" } else { "N m" };
+        assert_eq!(force.unit.as_deref(), Some(unit), "{name}");
+        assert!(detects(table, "sheet "), "{name}");
+    }
+}
+
+#[test]
 fn a_codec_that_is_not_built_in_is_named() {
     let folder = written("write_binary.py");
     let error = read_table(

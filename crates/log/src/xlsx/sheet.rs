@@ -1,0 +1,188 @@
+//! The rows of a sheet as lines of text with TABs between the cells.
+
+use std::io::{self, BufRead, Read};
+
+use super::book::Book;
+use super::xml::{Part, Xml, attribute, name};
+
+/// Most columns, those of the text reader.
+const MAX_COLUMNS: usize = crate::text::MAX_COLUMNS;
+
+/// Most rows, those that a workbook can have.
+const MAX_ROWS: u64 = 1 << 20;
+
+/// A sheet that is read as text.
+pub(super) struct Sheet<'b, R> {
+    xml: Xml<R>,
+    book: &'b Book,
+    /// Cells of a row, the missing ones included.
+    width: usize,
+    /// Cells that may still come.
+    cells: u64,
+    row: u64,
+    line: Vec<u8>,
+    used: usize,
+}
+
+impl<'b, R: BufRead> Sheet<'b, R> {
+    /// A sheet whose rows are filled up to this many cells, of which there may be so many.
+    pub(super) fn new(reader: R, book: &'b Book, width: usize, cells: u64) -> Self {
+        Self {
+            xml: Xml::new(reader),
+            book,
+            width,
+            cells,
+            row: 0,
+            line: Vec::new(),
+            used: 0,
+        }
+    }
+
+    /// The cells of the widest row.
+    pub(super) fn widest(mut self) -> io::Result<usize> {
+        let mut most = 0;
+        while let Some(cells) = self.cells()? {
+            most = most.max(cells.len());
+        }
+        Ok(most)
+    }
+
+    /// The cells of the next row, and how many rows without any are before it.
+    fn cells(&mut self) -> io::Result<Option<Vec<String>>> {
+        let mut cells: Vec<String> = Vec::new();
+        let mut cell = Cell::default();
+        let (mut in_value, mut in_row) = (false, false);
+        while let Some(part) = self.xml.next()? {
+            match part {
+                Part::Open(tag, empty) => match name(&tag) {
+                    "row" => {
+                        let said = attribute(&tag, "r").and_then(|row| row.parse().ok());
+                        let row = said.unwrap_or(self.row + 1);
+                        if row <= self.row || row > MAX_ROWS {
+                            return Err(io::Error::other(format!(
+                                "row {row} after row {}",
+                                self.row
+                            )));
+                        }
+                        self.row = row;
+                        in_row = !empty;
+                        if empty {
+                            return Ok(Some(cells));
+                        }
+                    }
+                    "c" if in_row => {
+                        let at = attribute(&tag, "r").and_then(|place| column(&place));
+                        let at = at.unwrap_or(cells.len());
+                        if at >= MAX_COLUMNS || at < cells.len() {
+                            return Err(io::Error::other(format!(
+                                "column {} in row {}",
+                                at + 1,
+                                self.row
+                            )));
+                        }
+                        let kind = attribute(&tag, "t").unwrap_or_default();
+                        let style = attribute(&tag, "s").and_then(|style| style.parse().ok());
+                        cell = Cell {
+                            at,
+                            kind,
+                            style,
+                            text: String::new(),
+                        };
+                        if empty {
+                            cells.resize(at + 1, String::new());
+                        }
+                    }
+                    "v" | "t" => in_value = in_row && !empty,
+                    _ => {}
+                },
+                Part::Text(text) if in_value => cell.text.push_str(&text),
+                Part::Text(_) => {}
+                Part::Close(tag) => match tag.as_str() {
+                    "v" | "t" => in_value = false,
+                    "c" if in_row => {
+                        cells.resize(cell.at, String::new());
+                        cells.push(self.book.text(&cell.kind, cell.style, &cell.text));
+                    }
+                    "row" => return Ok(Some(cells)),
+                    _ => {}
+                },
+            }
+        }
+        Ok(None)
+    }
+
+    fn fill(&mut self) -> io::Result<()> {
+        self.line.clear();
+        self.used = 0;
+        let before = self.row;
+        let Some(mut cells) = self.cells()? else {
+            return Ok(());
+        };
+        // Rows that are not there are lines without cells, so that lines are counted as rows are.
+        self.line.resize((self.row - before - 1) as usize, b'\n');
+        let filled = cells.iter().filter(|cell| !cell.is_empty());
+        let is_title = filled.count() < 2 && cells.iter().all(|cell| cell.parse::<f64>().is_err());
+        if !is_title {
+            cells.resize(self.width.max(cells.len()), String::new());
+        }
+        let left = self.cells.checked_sub(cells.len() as u64);
+        self.cells = left.ok_or_else(|| io::Error::other("more cells than are allowed"))?;
+        for (index, cell) in cells.iter().enumerate() {
+            if index > 0 {
+                self.line.push(b'\t');
+            }
+            self.line.extend(cell.bytes().map(|byte| match byte {
+                b'\t' | b'\n' | b'\r' | 0 => b' ',
+                b'"' => b'\'',
+                byte => byte,
+            }));
+        }
+        self.line.push(b'\n');
+        Ok(())
+    }
+}
+
+#[derive(Default)]
+struct Cell {
+    at: usize,
+    kind: String,
+    style: Option<usize>,
+    text: String,
+}
+
+impl<R: BufRead> Read for Sheet<'_, R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if self.used == self.line.len() {
+            self.fill()?;
+        }
+        let left = &self.line[self.used..];
+        let now = left.len().min(buffer.len());
+        buffer[..now].copy_from_slice(&left[..now]);
+        self.used += now;
+        Ok(now)
+    }
+}
+
+/// The index of the column of a place such as `AB12`.
+fn column(place: &str) -> Option<usize> {
+    let mut number = 0_usize;
+    for letter in place.bytes().take_while(u8::is_ascii_uppercase) {
+        number = number
+            .checked_mul(26)?
+            .checked_add(usize::from(letter - b'A') + 1)?;
+    }
+    number.checked_sub(1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::column;
+
+    #[test]
+    fn columns() {
+        assert_eq!(column("A1"), Some(0));
+        assert_eq!(column("Z9"), Some(25));
+        assert_eq!(column("AA9"), Some(26));
+        assert_eq!(column("9"), None);
+    }
+}
