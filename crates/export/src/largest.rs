@@ -14,9 +14,11 @@ impl Model {
         let (offset, viscous) = (self.friction.offset(), self.friction.viscous());
         let of = |side: usize| {
             let sign = [1.0, -1.0][side];
-            let steady = self.steady(sign * speed.max(ALMOST_STANDSTILL)) - offset;
+            let steady = self.steady_of_law(sign * speed.max(ALMOST_STANDSTILL)) - offset;
             let dry = sign * steady - viscous[side] * speed;
             let viscous = viscous[side] + levels.viscous[side].abs() * warmest;
+            let bent = (levels.quadratic[side] * speed.min(levels.top_speed)).max(0.0);
+            let viscous = viscous + bent;
             dry * factor + viscous * speed
         };
         gain * (of(0).max(of(1)) + offset.abs()) + self.terms.largest_beside()

@@ -162,8 +162,14 @@ impl Model {
         }
     }
 
-    /// The steady force at a velocity, m/s (rad/s).
+    /// The steady force at a velocity, m/s (rad/s), with quadratic viscous friction.
     pub(crate) fn steady(&self, v: f64) -> f64 {
+        let levels = self.terms.levels.unwrap_or_default();
+        self.steady_of_law(v) + levels.quadratic_force(self.friction.viscous(), v)
+    }
+
+    /// That of the law alone.
+    pub(crate) fn steady_of_law(&self, v: f64) -> f64 {
         match &self.friction {
             Friction::Coulomb(law) => law.force(v),
             _ => self.friction.curve().map_or(0.0, |curve| curve.force(v)),

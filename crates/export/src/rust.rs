@@ -125,7 +125,7 @@ fn literal(terms: &Terms<f64>) -> String {
     let levels = |l: &Levels<f64>| {
         format!(
             "Some(Levels {{\n            load: {},\n            temperature: {},\n            position: {},\n            transmitted: {},\n            driven: {},\n            \
-             waves: [{}, {}],\n            viscous: {},\n        }})",
+             waves: [{}, {}],\n            viscous: {},\n            quadratic: {},\n            top_speed: {},\n        }})",
             both(l.load),
             both(l.temperature),
             both(l.position),
@@ -133,7 +133,9 @@ fn literal(terms: &Terms<f64>) -> String {
             both(l.driven),
             waves(&l.waves[0]),
             waves(&l.waves[1]),
-            both(l.viscous)
+            both(l.viscous),
+            both(l.quadratic),
+            number(l.top_speed)
         )
     };
     let weight = terms.weight.map_or("None".into(), |w| {

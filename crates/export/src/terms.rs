@@ -129,6 +129,8 @@ pub(crate) fn cast<T: Real>(terms: &Terms<f64>) -> Terms<T> {
             driven: both(l.driven),
             waves: l.waves.map(|waves| waves.map(wave)),
             viscous: both(l.viscous),
+            quadratic: both(l.quadratic),
+            top_speed: to(l.top_speed),
         }),
         mass: to(terms.mass),
         weight: terms.weight.map(|w| Weight {
@@ -161,6 +163,8 @@ pub(crate) fn numbers(terms: &Terms<f64>) -> Vec<(&'static str, f64)> {
         ("coulomb_transmitted / coulomb", levels.transmitted),
         ("coulomb_driven / coulomb", levels.driven),
         ("sigma2_temperature", levels.viscous),
+        ("quadratic_viscous", levels.quadratic),
+        ("top_speed", [levels.top_speed; 2]),
     ] {
         all.extend(slopes.map(|x| (name, x)));
     }
@@ -224,12 +228,22 @@ pub(crate) fn fill<T: Literal>(fill: &mut Fill, terms: &Terms<T>, syntax: &Synta
     fill.flag("terms", has(terms))
         .flag("levels", terms.levels.is_some())
         .flag("fed", !fed.is_empty())
+        .flag(
+            "looks",
+            terms.weight.is_some() || extras.iter().any(|extra| *extra != Extra::Acceleration),
+        )
         .flag("by_load", some(levels.load))
         .flag("by_temperature", some(levels.temperature))
         .flag("by_position", some(levels.position))
         .flag("by_transmitted", some(levels.transmitted))
         .flag("by_driven", some(levels.driven))
         .flag("viscous_by_temperature", some(levels.viscous))
+        .flag("viscous_by_speed", some(levels.quadratic))
+        .flag(
+            "viscous_changes",
+            some(levels.viscous) || some(levels.quadratic),
+        )
+        .set("top_speed", (syntax.number)(levels.top_speed))
         .flag("waves", levels.waves[0][0].rate > T::ZERO)
         .flag("feeds_mass", fed.contains(&"mass"))
         .flag("feeds_gravity", fed.contains(&"gravity"))
@@ -284,6 +298,7 @@ pub(crate) fn fill<T: Literal>(fill: &mut Fill, terms: &Terms<T>, syntax: &Synta
             ["viscous_temperature_pos", "viscous_temperature_neg"],
             levels.viscous,
         ),
+        (["quadratic_pos", "quadratic_neg"], levels.quadratic),
     ] {
         fill.set(keys[0], syntax.operand(slopes[0]))
             .set(keys[1], syntax.operand(slopes[1]));

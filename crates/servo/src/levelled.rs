@@ -1,4 +1,4 @@
-//! Friction that depends on where the axis is, on its load and its temperature.
+//! Friction that depends on where the axis is, on its load and its temperature, and viscous friction that bends.
 
 use crate::integrator::Integrator;
 use crate::law::{AxisLaw, OfAxis};
@@ -36,8 +36,9 @@ impl<L> Levelled<L> {
         (more * spring, more)
     }
 
+    /// What viscous friction gains, as a force.
     fn viscous(&self, v: f64) -> f64 {
-        self.changes.viscous[usize::from(v < 0.0)]
+        self.changes.viscous(v).0 * v
     }
 }
 
@@ -54,7 +55,7 @@ impl<L: Held<f64>> Held<f64> for Levelled<L> {
 
     fn mean_force(&self, from: L::State, to: L::State, h: f64, v: f64) -> f64 {
         let ends = [from, to].map(|state| self.gain(self.law.spring(state)).0);
-        self.law.mean_force(from, to, h, v) + 0.5 * (ends[0] + ends[1]) + self.viscous(v) * v
+        self.law.mean_force(from, to, h, v) + 0.5 * (ends[0] + ends[1]) + self.viscous(v)
     }
 
     fn mean_force_slope(&self, from: L::State, pace: &Pace<f64>, v: f64) -> (f64, f64) {
@@ -62,15 +63,15 @@ impl<L: Held<f64>> Held<f64> for Levelled<L> {
         let (end, end_slope) = self.law.spring_slope(from, pace.h, v);
         let (begin, _) = self.gain(self.law.spring(from));
         let (end, more) = self.gain(end);
-        let viscous = self.viscous(v);
+        let (viscous, more_viscous) = self.changes.viscous(v);
         (
             force + 0.5 * (begin + end) + viscous * v,
-            slope + 0.5 * more * end_slope + viscous,
+            slope + 0.5 * more * end_slope + more_viscous,
         )
     }
 
     fn force_now(&self, state: L::State, v: f64) -> f64 {
-        self.law.force_now(state, v) + self.gain(self.law.spring(state)).0 + self.viscous(v) * v
+        self.law.force_now(state, v) + self.gain(self.law.spring(state)).0 + self.viscous(v)
     }
 
     fn spring_slope(&self, from: L::State, h: f64, v: f64) -> (f64, f64) {

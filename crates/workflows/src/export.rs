@@ -13,7 +13,7 @@ use stiction_files::model::{Lowered, ReadModel};
 use stiction_files::{write_folder, write_into_folder};
 use stiction_friction::ParamError;
 use stiction_friction::compensator::{
-    Adaptation, Compensator, Friction, Settings, Terms, Watchdog,
+    Adaptation, Compensator, Friction, Levels, Settings, Terms, Watchdog,
 };
 use stiction_parameters::{FrictionLaw, LawError, Name, ParameterSet, Quantity, Side};
 
@@ -332,7 +332,7 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
         || matches!(options.target, Target::Tf5200 | Target::DriveTable);
     let of_law = settings_of_law(&friction, file, &lowered);
     let (friction, terms, beside) = match table {
-        true => (friction, Terms::default(), None),
+        true => (friction, bent(file, &friction, options.target), None),
         false => {
             let beside = terms::beside(read, friction, options.feedforward)?;
             (beside.friction, beside.terms, Some(beside))
@@ -368,7 +368,7 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
             ));
         }
     }
-    if let (Some(zone), Some(top)) = (options.safety.dead_zone, file.source.top_speed)
+    if let (Some(zone), Some(top)) = (options.safety.dead_zone, file.top_speed())
         && zone >= top
     {
         let speed = match file.kind.as_str() {
@@ -387,7 +387,11 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
         holds(limit, &terms, file)?;
     }
     let mut settings = settings;
-    let mut warnings = doubts(file, beside.as_ref());
+    let mut taken = beside.as_ref().map_or(Vec::new(), |b| b.taken.clone());
+    if table && terms.levels.is_some() {
+        taken.extend(quadratic(file));
+    }
+    let mut warnings = doubts(file, beside.as_ref(), &taken);
     if options.adapt {
         let mass = known_mass(file);
         settings.adaptation = Some(Adaptation {
@@ -419,7 +423,7 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
             .map_or(String::new(), |p| p.unit.replace('*', " ")),
         settings,
         rated_force: options.rated_force,
-        top_speed: file.source.top_speed,
+        top_speed: file.top_speed(),
         parameters: file
             .parameter
             .iter()
@@ -518,9 +522,8 @@ fn place(source: stiction_export::Error, read: &ReadModel, options: &ExportOptio
 }
 
 /// What should not be used, what the log leaves open, and what the code leaves out.
-fn doubts(file: &ModelFile, beside: Option<&terms::Beside>) -> Vec<Warning> {
-    let taken = beside.map(|b| b.taken.as_slice());
-    let is_taken = |name: &String| taken.is_some_and(|taken| taken.contains(name));
+fn doubts(file: &ModelFile, beside: Option<&terms::Beside>, taken: &[String]) -> Vec<Warning> {
+    let is_taken = |name: &String| taken.contains(name);
     let mut found = Vec::new();
     if !file.trustworthy {
         found.push(Warning::new(
@@ -551,13 +554,37 @@ fn doubts(file: &ModelFile, beside: Option<&terms::Beside>) -> Vec<Warning> {
             format!(
                 "{} is not friction and not in the compensator; feed it forward separately{}",
                 left.join(", "),
-                with_it(&left, taken)
+                with_it(&left, beside.map(|b| b.taken.as_slice()))
             ),
         ));
     }
     let lacking = beside.map_or(&[][..], |b| &b.lacking);
-    found.extend(at_reference(file, taken.unwrap_or(&[]), lacking));
+    found.extend(at_reference(file, taken, lacking));
     found
+}
+
+/// Quadratic viscous friction of what holds the steady force and nothing else: tables, and joints with two numbers of it.
+fn bent(file: &ModelFile, friction: &Friction<f64>, target: Target) -> Terms<f64> {
+    let steady = !matches!(target, Target::Mujoco | Target::Modelica);
+    let levels = file.dependences(friction.coulomb()).levels;
+    let levels = levels.filter(|l| steady && l.quadratic != [0.0; 2]);
+    Terms {
+        levels: levels.map(|l| Levels {
+            quadratic: l.quadratic,
+            top_speed: l.top_speed,
+            ..Levels::default()
+        }),
+        ..Terms::default()
+    }
+}
+
+/// The parameters of quadratic viscous friction.
+fn quadratic(file: &ModelFile) -> impl Iterator<Item = String> + '_ {
+    let names = file.parameter.iter().map(|p| &p.name);
+    let is = |name: &Name| name.quantity == Quantity::QuadraticViscous;
+    names
+        .filter(move |name| name.parse().is_ok_and(|name: Name| is(&name)))
+        .cloned()
 }
 
 /// How the compensator would feed forward what it leaves out.
@@ -616,7 +643,7 @@ fn at_reference(file: &ModelFile, taken: &[String], lacking: &[&str]) -> Option<
     let cure = match lacking {
         [] => String::new(),
         lines => format!(
-            ". With what the log has seen in the model file it is an input of the code: {}",
+            ". With what the log has seen in the model file the code has it: {}",
             lines.join("; ")
         ),
     };
@@ -688,13 +715,16 @@ fn less(lowered: &[Lowered], limited: bool) -> Option<Warning> {
 }
 
 /// The largest friction up to the speeds of the log; at standstill where those are not known.
-fn seen(friction: &Friction<f64>, top_speed: Option<f64>) -> f64 {
+fn seen(friction: &Friction<f64>, top_speed: Option<f64>, levels: Levels<f64>) -> f64 {
     let top = top_speed.unwrap_or(0.0);
     let (coulomb, viscous) = (friction.coulomb(), friction.viscous());
     let statics = friction.curve().map_or(coulomb, |curve| {
         [curve.positive(), curve.negative()].map(|side| side.static_friction)
     });
-    let of = |i: usize| statics[i].max(coulomb[i] + viscous[i] * top);
+    let of = |i: usize| {
+        let bent = levels.quadratic_force(viscous, [top, -top][i]).abs();
+        statics[i].max(coulomb[i] + viscous[i] * top + bent)
+    };
     of(0).max(of(1)) + friction.offset().abs()
 }
 
@@ -707,14 +737,15 @@ fn settings_of_law(
     file: &ModelFile,
     lowered: &[Lowered],
 ) -> Settings<f64> {
-    let top_speed = file.source.top_speed;
+    let top_speed = file.top_speed();
     // The cycle time is put in later.
     let mut settings = Settings::for_law(friction, 1e-3);
     if let (Friction::Coulomb(_), Some(top)) = (friction, top_speed) {
         settings.dead_zone = SLOW * top;
     }
     if !lowered.is_empty() {
-        settings.limit = seen(friction, top_speed);
+        let levels = file.dependences(friction.coulomb()).levels;
+        settings.limit = seen(friction, top_speed, levels.unwrap_or_default());
     }
     settings
 }

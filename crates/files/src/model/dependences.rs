@@ -56,6 +56,21 @@ impl ModelFile {
             let Ok(name) = p.name.parse::<Name>() else {
                 continue;
             };
+            if name.quantity == Quantity::QuadraticViscous && !self.leaves_open(name) {
+                match self.top_speed() {
+                    Some(top) => {
+                        levels.top_speed = top;
+                        for &side in sides(name.side) {
+                            levels.quadratic[side] = p.value;
+                        }
+                        any = true;
+                        found.taken.push(p.name.clone());
+                    }
+                    None if found.lacking.contains(&TOP_SPEED) => {}
+                    None => found.lacking.push(TOP_SPEED),
+                }
+                continue;
+            }
             let (channel, line) = match name.quantity {
                 Quantity::CoulombLoad => (load, "[range] load = [LEAST, LARGEST]"),
                 Quantity::CoulombTemperature | Quantity::Sigma2Temperature => {
@@ -80,11 +95,7 @@ impl ModelFile {
                 }
                 continue;
             };
-            let sides: &[usize] = match name.side {
-                Side::Both => &[0, 1],
-                Side::Positive => &[0],
-                Side::Negative => &[1],
-            };
+            let sides = sides(name.side);
             let viscous = name.quantity == Quantity::Sigma2Temperature;
             if !viscous && sides.iter().any(|&side| coulomb[side] <= 0.0) {
                 continue;
@@ -129,6 +140,11 @@ impl ModelFile {
         found
     }
 
+    /// Largest speed of the recordings, m/s (rad/s), if known.
+    pub fn top_speed(&self) -> Option<f64> {
+        self.source.top_speed.or(self.range.speed)
+    }
+
     /// The positions that the log has seen.
     pub fn place(&self) -> Option<Channel<f64>> {
         self.channel(self.range.position, "position_reference")
@@ -144,6 +160,18 @@ impl ModelFile {
             reference,
             range: [low, high],
         })
+    }
+}
+
+/// What a model with quadratic viscous friction lacks.
+const TOP_SPEED: &str = "[range] speed = LARGEST";
+
+/// The places of a side.
+fn sides(side: Side) -> &'static [usize] {
+    match side {
+        Side::Both => &[0, 1],
+        Side::Positive => &[0],
+        Side::Negative => &[1],
     }
 }
 

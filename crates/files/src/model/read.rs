@@ -397,15 +397,17 @@ fn range(table: &Table<'_>) -> Result<RangeEntry, Error> {
             false => Err(given.refuse(format!("{ends:?}"), allowed)),
         }
     };
-    let acceleration = table.get("acceleration").is_some();
+    let largest = |key: &'static str| {
+        let there = table.get(key).is_some();
+        there.then(|| size(table, key)).transpose()
+    };
     let range = RangeEntry {
         position: ends("position")?,
         load: ends("load")?,
         temperature: ends("temperature")?,
         transmitted: ends("transmitted")?,
-        acceleration: acceleration
-            .then(|| size(table, "acceleration"))
-            .transpose()?,
+        acceleration: largest("acceleration")?,
+        speed: largest("speed")?,
     };
     table.end()?;
     Ok(range)

@@ -20,6 +20,9 @@ pub struct RangeEntry {
     /// Largest acceleration, m/s^2 or rad/s^2.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub acceleration: Option<f64>,
+    /// Top speed, m/s or rad/s, of a model without that of its log.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed: Option<f64>,
 }
 
 /// Pitches of the waves along the position, m or rad: of the first, second, ...

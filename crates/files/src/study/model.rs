@@ -396,7 +396,7 @@ impl Model {
 
     /// Largest speed of the logs that it was identified from, m/s (rad/s), where that is known.
     pub fn top_speed(&self) -> Option<f64> {
-        self.read.as_ref()?.model.source.top_speed
+        self.read.as_ref()?.model.top_speed()
     }
 
     /// A parameter by its name.

@@ -140,7 +140,7 @@ impl<T: Real> Terms<T> {
             // The sign of the deflection, unlike that of the velocity, does not make the force jump at a reversal.
             let factor = levels.factor(usize::from(dry <= T::ZERO), &away, place);
             let side = usize::from(v < T::ZERO);
-            let viscous = levels.thinner(side, &away, friction.viscous());
+            let viscous = levels.thicker(side, &away, friction.viscous(), v.abs());
             let changed = (factor - T::ONE) * dry + viscous * v;
             if changed.is_finite() {
                 beside.changed = changed;

@@ -61,6 +61,11 @@ pub struct Levels<T> {
     pub waves: [[Wave<T>; WAVES]; 2],
     /// Viscous friction per K, N s/m (N m s/rad) per K; sigma2 is never below 0.
     pub viscous: [T; 2],
+    /// Quadratic viscous friction, the factor of v |v|, N s^2/m^2 (N m s^2/rad^2), of either sign: viscous friction per speed up to
+    /// `top_speed`, and what it is there beyond; never below 0 with sigma2.
+    pub quadratic: [T; 2],
+    /// Largest speed that the identification saw, >= 0, m/s (rad/s).
+    pub top_speed: T,
 }
 
 /// What load, temperature and position make of friction, for each direction: forward, back.
@@ -68,8 +73,13 @@ pub struct Levels<T> {
 pub struct Changes<T> {
     /// Factor on the level, >= 0.
     pub level: [T; 2],
-    /// Added to sigma2, N s/m (N m s/rad), which with it is not below 0.
-    pub viscous: [T; 2],
+    /// Added to sigma2 at standstill, N s/m (N m s/rad).
+    viscous: [T; 2],
+    /// And per speed, up to the top speed.
+    quadratic: [T; 2],
+    top_speed: T,
+    /// Of the law: with what is added it is not below 0.
+    sigma2: [T; 2],
 }
 
 impl<T: Real> Changes<T> {
@@ -78,8 +88,36 @@ impl<T: Real> Changes<T> {
         Changes {
             level: [T::ONE; 2],
             viscous: [T::ZERO; 2],
+            quadratic: [T::ZERO; 2],
+            top_speed: T::ZERO,
+            sigma2: [T::ZERO; 2],
         }
     }
+
+    /// What is added to the viscous friction of the law at the velocity `v`, m/s (rad/s), as a coefficient, N s/m (N m s/rad), and
+    /// how much the force that it makes grows with the velocity.
+    #[inline]
+    pub fn viscous(&self, v: T) -> (T, T) {
+        let side = usize::from(v < T::ZERO);
+        let speed = v.abs();
+        let added = thicker(
+            self.viscous[side],
+            self.quadratic[side],
+            speed.min(self.top_speed),
+        );
+        let least = -self.sigma2[side];
+        match (added < least, speed < self.top_speed) {
+            (true, _) => (least, least),
+            (false, true) => (added, added + self.quadratic[side] * speed),
+            (false, false) => (added, added),
+        }
+    }
+}
+
+/// Viscous friction beside sigma2 at a speed within what the identification saw.
+#[inline]
+fn thicker<T: Real>(viscous: T, quadratic: T, speed: T) -> T {
+    viscous + quadratic * speed
 }
 
 /// A weight: what holds the axis where it stands.
@@ -229,10 +267,21 @@ impl<T: Real> Levels<T> {
         factor.max(T::ZERO)
     }
 
-    /// What viscous friction of `sigma2` in a direction, N s/m (N m s/rad), gains with what the channels are away.
+    /// What viscous friction of `sigma2` in a direction, N s/m (N m s/rad), gains with what the channels are away, at a speed,
+    /// m/s (rad/s).
     #[inline]
-    pub(super) fn thinner(&self, side: usize, away: &Away<T>, sigma2: [T; 2]) -> T {
-        (self.viscous[side] * away.temperature).max(-sigma2[side])
+    pub(super) fn thicker(&self, side: usize, away: &Away<T>, sigma2: [T; 2], speed: T) -> T {
+        let viscous = self.viscous[side] * away.temperature;
+        let speed = speed.min(self.top_speed);
+        thicker(viscous, self.quadratic[side], speed).max(-sigma2[side])
+    }
+
+    /// Quadratic viscous friction at a velocity, m/s (rad/s), with that of the law, N s/m (N m s/rad), and load, temperature and
+    /// position at their references: what it adds to the force, N (N m).
+    pub fn quadratic_force(&self, sigma2: [T; 2], v: T) -> T {
+        let side = usize::from(v < T::ZERO);
+        let speed = v.abs().min(self.top_speed);
+        thicker(T::ZERO, self.quadratic[side], speed).max(-sigma2[side]) * v
     }
 
     /// What friction is where load, temperature and position are `seen` and what is transmitted is as at the reference, with viscous friction `sigma2` forward and back,
@@ -246,7 +295,10 @@ impl<T: Real> Levels<T> {
         let place = channels.place(seen[2]);
         Changes {
             level: [0, 1].map(|side| self.factor(side, &away, place)),
-            viscous: [0, 1].map(|side| self.thinner(side, &away, sigma2)),
+            viscous: self.viscous.map(|slope| slope * away.temperature),
+            quadratic: self.quadratic,
+            top_speed: self.top_speed,
+            sigma2,
         }
     }
 
@@ -258,10 +310,12 @@ impl<T: Real> Levels<T> {
             ("transmitted_level", self.transmitted),
             ("driven_level", self.driven),
             ("temperature_viscous", self.viscous),
+            ("quadratic_viscous", self.quadratic),
         ] {
             ParamError::finite(name, slopes[0])?;
             ParamError::finite(name, slopes[1])?;
         }
+        ParamError::not_negative("top_speed", self.top_speed)?;
         let mut waves = self.waves.iter().flatten();
         waves.try_for_each(|wave| wave.validate("position_level_wave"))
     }
@@ -358,8 +412,10 @@ impl<T: Real> Terms<T> {
             levels.viscous,
             levels.transmitted,
             levels.driven,
+            levels.quadratic,
         ];
         slopes.into_iter().flatten().for_each(&mut *take);
+        take(levels.top_speed);
         let c = &self.channels;
         for Channel { reference, range } in [c.load, c.temperature, c.position, c.transmitted] {
             [reference, range[0], range[1]]

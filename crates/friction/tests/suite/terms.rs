@@ -195,6 +195,35 @@ fn the_level_is_that_of_what_is_transmitted() {
     assert!((slide(-0.2, f64::INFINITY) - due(-0.2, 10.0)).abs() < 1e-9);
 }
 
+/// Viscous friction that bends: v |v| up to the top speed, straight beyond, and never negative (worked out by hand).
+#[test]
+fn viscous_friction_bends_up_to_the_top_speed() {
+    let terms = Terms {
+        levels: Some(Levels {
+            quadratic: [40.0, -50.0],
+            top_speed: 0.8,
+            ..Levels::default()
+        }),
+        ..Terms::default()
+    };
+    let mut compensator = bare(terms);
+    for (v, viscous) in [
+        (0.2, 30.0 * 0.2 + 40.0 * 0.04),
+        (0.8, 30.0 * 0.8 + 40.0 * 0.64),
+        (2.0, (30.0 + 40.0 * 0.8) * 2.0),
+        (-0.2, -(30.0 * 0.2 - 50.0 * 0.04)),
+        (-0.5, -(30.0 * 0.5 - 50.0 * 0.25)),
+        // 30 - 50 * 0.7 is below 0.
+        (-0.7, 0.0),
+        (-3.0, 0.0),
+    ] {
+        let force = (0..400).fold(0.0, |_, _| compensator.step(at(v, 0.0, 0.0, 0.0)));
+        let level: f64 = if v > 0.0 { 20.0 } else { -14.0 };
+        let due = level + viscous;
+        assert!((force - due).abs() < 1e-9, "{v}: {force} {due}");
+    }
+}
+
 /// What is not a number counts as what came in last, and as the reference before anything came in.
 #[test]
 fn what_is_not_a_number_counts_as_the_last_that_was() {

@@ -30,6 +30,8 @@ fn depends() -> Depends {
         temperature: [-0.01; 2],
         position: [0.2, 0.3],
         viscous: [-0.4; 2],
+        quadratic: [11.0, -7.0],
+        top_speed: 0.15,
         ..Levels::default()
     };
     for side in 0..2 {
@@ -85,6 +87,8 @@ fn a_sliding_axis_feels_the_level_of_its_place() {
             let steady = if side == 0 { 1.0 } else { -1.0 };
             known = steady * level * curve.level(v)
                 + (curve.direction(v).viscous - 0.4 * 10.0) * v
+                // The speed is beyond that up to which viscous friction bends.
+                + [11.0, -7.0][side] * 0.15 * v
                 + curve.offset();
             // A drive that gives what friction is keeps the speed.
             let before = motion.velocity;

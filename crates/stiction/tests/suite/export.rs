@@ -336,6 +336,44 @@ fn friction_that_changes_is_exported_at_its_reference() {
     }
 }
 
+/// Numbers of the steady friction have quadratic viscous friction in them: the least squares of v |v| from 0 to the top speed T is
+/// T v - T^2/6.
+#[test]
+fn numbers_of_the_steady_friction_have_what_bends() {
+    let damping = |more: &[(&str, f64, &str)], range: &str| {
+        let mut parameters = LUGRE.to_vec();
+        parameters.extend(more);
+        let bench = Bench::new();
+        let model =
+            text("lugre", &parameters).replace("[covariance]", &format!("{range}[covariance]"));
+        let mut options = bench.options(&model);
+        options.target = Target::Urdf;
+        let exported = bench.export_to("out", &options).unwrap();
+        let text = String::from_utf8(exported.files[0].bytes.clone()).unwrap();
+        let number = |key: &str| -> f64 {
+            let (_, rest) = text.split_once(&format!("{key}=\"")).unwrap();
+            rest.split('"').next().unwrap().parse().unwrap()
+        };
+        let bent = exported
+            .warnings
+            .iter()
+            .any(|w| w.message.contains("quadratic"));
+        ([number("damping"), number("friction")], bent)
+    };
+    let range = "[range]\nspeed = 0.3\n\n";
+    let ([plain, level], said) = damping(&[], range);
+    assert!(!said);
+    let quadratic = ("quadratic_viscous", 40.0, "N*s^2/m^2");
+    let ([bent, lower], said) = damping(&[quadratic], range);
+    assert!(!said);
+    assert!((bent - plain - 40.0 * 0.3).abs() < 1e-3, "{plain} {bent}");
+    assert!(
+        (level - lower - 40.0 * 0.09 / 6.0).abs() < 1e-3,
+        "{level} {lower}"
+    );
+    assert!(damping(&[quadratic], "").1);
+}
+
 #[test]
 fn doubts_are_said_and_written() {
     let mut stiff = LUGRE;

@@ -88,6 +88,39 @@ fn what_a_sensor_is_worth() {
     assert_eq!(entry.position, Some(0.3));
 }
 
+/// Viscous friction that bends is on the axis, and in every compensator of it: without it a third of the friction at speed would
+/// be left.
+#[test]
+fn viscous_friction_bends() {
+    let desk = Desk::new();
+    let plain = MODEL
+        .lines()
+        .filter(|l| !l.contains("coulomb_") && !l.contains("_reference"))
+        .collect::<Vec<_>>()
+        .join("\n");
+    let bent = plain.replace(
+        "    { name = \"mass\"",
+        "    { name = \"quadratic_viscous\", value = 60, unit = \"N*s^2/m^2\" },\n    { name = \"mass\"",
+    );
+    assert_ne!(plain, bent);
+    desk.write("model.toml", &format!("{bent}\n[range]\nspeed = 0.5\n"));
+    let fast = FAR.replace("0.2 Hz", "0.5 Hz");
+    let file = desk.run(&together(&[AXIS, &fast, CASCADE, WHOLE]));
+    assert!(file.warnings.is_empty(), "{:?}", file.warnings);
+    let [none, whole] = ["none", "whole"].map(|name| error(&file, name));
+    assert!(whole < 0.1 * none, "{none} {whole}");
+    // Without the range it is left out, which is said.
+    desk.write("model.toml", &bent);
+    let file = desk.run(&together(&[AXIS, &fast, CASCADE, WHOLE]));
+    let said = &file.warnings[0].message;
+    assert!(
+        said.contains("quadratic_viscous") && said.contains("[range] speed"),
+        "{said}"
+    );
+    let less = error(&file, "none");
+    assert!(less < 0.95 * none, "{none} {less}");
+}
+
 /// At its references, in the middle of its stroke, the axis is the one without any of it; a load makes it another.
 #[test]
 fn at_its_references_the_level_is_that_of_the_law() {

@@ -24,6 +24,7 @@ pub(super) fn range(sources: &[Source], series: &Series, terms: &Terms) -> Range
         temperature: of(|log| log.temperature.as_ref()),
         transmitted: transmitted(sources, terms),
         acceleration: acceleration(series),
+        speed: None,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use stiction_files::study::{Belief, Machine, ModelKind, ModelScheme, Scheme};
 use stiction_friction::compensator::{
-    Adaptation, Compensator, DisturbanceObserver, Friction, Settings, Source, Terms, Watch,
+    Adaptation, Compensator, DisturbanceObserver, Friction, Levels, Settings, Source, Terms, Watch,
 };
 use stiction_friction::{CoulombViscous, Direction, ParamError, Stribeck};
 use stiction_servo::controller::Controller;
@@ -86,16 +86,28 @@ fn from_law(
         _ => 0.0,
     });
     let mut compensator = Compensator::new(friction, model.source, settings)?;
-    let depends = machine.depends.as_ref().filter(|_| model.inputs);
-    if let Some(depends) = depends {
-        compensator = compensator.with_terms(Terms {
-            channels: depends.channels,
-            levels: Some(depends.levels),
-            ..Terms::default()
-        })?;
+    let told = machine.depends.as_ref().filter(|_| model.inputs);
+    if let Some(depends) = &machine.depends {
+        let terms = match told {
+            Some(_) => Terms {
+                channels: depends.channels,
+                levels: Some(depends.levels),
+                ..Terms::default()
+            },
+            // The speed needs no telling.
+            None => Terms {
+                levels: Some(Levels {
+                    quadratic: depends.levels.quadratic,
+                    top_speed: depends.levels.top_speed,
+                    ..Levels::default()
+                }),
+                ..Terms::default()
+            },
+        };
+        compensator = compensator.with_terms(terms)?;
     }
     Ok(Feedforward {
-        surroundings: depends.map(|depends| depends.surroundings),
+        surroundings: told.map(|depends| depends.surroundings),
         ..Feedforward::compensator(compensator.running(watch), preview)
     })
 }

@@ -398,6 +398,8 @@ pub fn single(terms: &Terms<f64>) -> Terms<f32> {
             driven: both(l.driven),
             waves: l.waves.map(|waves| waves.map(wave)),
             viscous: both(l.viscous),
+            quadratic: both(l.quadratic),
+            top_speed: to(l.top_speed),
         }),
         mass: to(terms.mass),
         weight: terms.weight.map(|w| Weight {

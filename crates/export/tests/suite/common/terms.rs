@@ -50,6 +50,20 @@ pub fn depends() -> Terms<f64> {
                 waves(&[wave(0.02, true, 0.02, -0.06), wave(0.9, false, 0.04, 0.01)]),
             ],
             viscous: [-1.5, -2.0],
+            quadratic: [-20.0, 35.0],
+            top_speed: 0.3,
+        }),
+        ..Terms::default()
+    }
+}
+
+/// Viscous friction that bends, alone: nothing comes in for it. In one direction it is used up before the top speed.
+pub fn bends() -> Terms<f64> {
+    Terms {
+        levels: Some(Levels {
+            quadratic: [25.0, -80.0],
+            top_speed: 0.6,
+            ..Levels::default()
         }),
         ..Terms::default()
     }
@@ -71,7 +85,7 @@ pub fn feeds() -> Terms<f64> {
 
 /// The model of a law with terms: its k-th kind of some, of which one has what there is.
 pub fn with_terms(friction: Friction<f64>, kind: usize) -> Model {
-    let mut model = match kind % 3 {
+    let mut model = match kind % 4 {
         0 => {
             let mut model = model(friction.without_offset().unwrap());
             model.terms = Terms {
@@ -85,9 +99,14 @@ pub fn with_terms(friction: Friction<f64>, kind: usize) -> Model {
             model.terms = depends();
             model
         }
-        _ => {
+        2 => {
             let mut model = model(friction.without_offset().unwrap());
             model.terms = feeds();
+            model
+        }
+        _ => {
+            let mut model = model(friction);
+            model.terms = bends();
             model
         }
     };
@@ -102,6 +121,8 @@ pub fn models() -> Vec<(&'static str, Model)> {
         ("power", 2, false),
         ("stribeck", 1, true),
         ("coulomb", 0, false),
+        ("gaussian", 3, true),
+        ("coulomb", 3, false),
     ];
     let of = |(wanted, kind, follows): (&'static str, usize, bool)| {
         let (_, law) = laws()
@@ -120,7 +141,8 @@ pub fn models() -> Vec<(&'static str, Model)> {
 /// What a model takes beside velocity, error, enable and drive, in the order of the code, and its place in what a program reads
 /// for a sample.
 pub fn extras(model: &Model) -> Vec<(&'static str, usize)> {
-    let [mass, place, conditions] = match (model.terms.mass > 0.0, model.terms.levels) {
+    let changes = (model.terms.levels).filter(|levels| levels.load != [0.0; 2]);
+    let [mass, place, conditions] = match (model.terms.mass > 0.0, changes) {
         (mass, Some(_)) => [mass, true, true],
         (mass, None) => [mass, mass, false],
     };
