@@ -362,8 +362,12 @@ fn courses(
         let line = line(&course.error).color(color);
         error = error.layer(line.label(trace.compensator.as_str()));
     }
-    for time in events {
-        error = error.layer(Layer::vline(*time));
+    for (i, time) in events.iter().enumerate() {
+        let line = Layer::vline(*time);
+        error = error.layer(match i {
+            0 => line.label("Event"),
+            _ => line,
+        });
     }
     let figure = Figure::new(title).panel(reference).panel(error).shared_x();
     match traces.len() {

@@ -35,7 +35,10 @@ pub(crate) fn render(figure: &Figure, place: svg::Place) -> String {
     let last = panels.len().saturating_sub(1);
     let mut content = String::new();
     let mut top = 2.0;
-    for (i, panel) in panels.into_iter().enumerate() {
+    for (i, mut panel) in panels.into_iter().enumerate() {
+        if panel.panel.square {
+            panel.height = plot_width;
+        }
         let with_x = !figure.shared_x || i == last;
         top = panel.push_svg(&mut content, round(left), round(top), plot_width, with_x);
     }

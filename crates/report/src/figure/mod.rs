@@ -31,6 +31,9 @@ pub struct Panel {
     pub layers: Vec<Layer>,
     /// Height of the plot area in px, 40 to 4000.
     pub height: f64,
+    /// Whether the plot area is as high as it is wide, in place of the height: a plane with axes of equal span is then drawn to one
+    /// scale.
+    pub square: bool,
 }
 
 impl Panel {
@@ -42,6 +45,7 @@ impl Panel {
             y,
             layers: Vec::new(),
             height: 240.0,
+            square: false,
         }
     }
 
@@ -54,6 +58,12 @@ impl Panel {
     /// Sets the title.
     pub fn title(mut self, title: impl Into<Text>) -> Self {
         self.title = title.into();
+        self
+    }
+
+    /// Makes the plot area as high as it is wide.
+    pub fn square(mut self) -> Self {
+        self.square = true;
         self
     }
 

@@ -4,3 +4,4 @@ mod hostile;
 mod robust;
 mod size;
 mod snapshots;
+mod square;

@@ -98,14 +98,16 @@ fn panel() -> impl Strategy<Value = Panel> {
         axis(),
         prop::collection::vec(layer(), 0..4),
         value(),
+        any::<bool>(),
         string(),
     )
-        .prop_map(|(x, y, layers, height, title)| Panel {
+        .prop_map(|(x, y, layers, height, square, title)| Panel {
             title: title.into(),
             x,
             y,
             layers,
             height,
+            square,
         })
 }
 

@@ -97,7 +97,7 @@ pub(super) fn figures(outcome: &StudyOutcome, rows: &[ResultRow]) -> Option<Bloc
     let largest = first.deviation.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
     let frame = Frame::of(first)?;
     let magnified = magnification(LARGEST_DEVIATION_DRAWN * frame.size / largest);
-    let mut plane = Panel::new(frame.axis(0, length), frame.axis(1, length)).height(PICTURE_HEIGHT);
+    let mut plane = Panel::new(frame.axis(0, length), frame.axis(1, length)).square();
     let side = |i: usize| first.reference.iter().map(|p| p[i]).collect::<Vec<_>>();
     plane = plane.layer(
         Layer::line(side(0), side(1))
