@@ -498,7 +498,10 @@ fn bad_settings_give_no_force() {
 /// No name that a file declares is a word of the language, of a library or of a tool, whatever the law.
 #[test]
 fn no_name_is_reserved() {
-    assert!(is_reserved("ramp") && is_reserved("On") && is_reserved("max_int"));
+    for word in ["ramp", "On", "max_int", "mux_int_real", "sub_dt_dt", "P0"] {
+        assert!(is_reserved(word), "{word}");
+    }
+    assert!(!is_reserved("limit_high") && !is_reserved("my_int"));
     for (_, model) in models() {
         for target in [Target::St, Target::TcPou, Target::PlcOpen] {
             for file in export(&model, target).unwrap() {

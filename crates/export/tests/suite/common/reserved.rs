@@ -25,7 +25,10 @@ const WORDS: &str = "
     STATISTICS_INT STATISTICS_REAL VARIANCE LIMITALARM PD PID_FIXCYCLE CHARCURVE CONCAT WCONCAT BCD_TO_INT INT_TO_BCD
     F_GETVERSIONTIMESTAMP HRESULT ITCUNKNOWN IFACE T_MAXSTRING EXT PARAM LIBRARY IMPLEMENTATION ASSERT STOP
 
-    SAFEBOOL SAFEBYTE SAFEINT SAFEDINT SAFEREAL SAFEWORD SAFEDWORD SAFETIME
+    SAFEBOOL SAFEBYTE SAFEDATE SAFEDATE_AND_TIME SAFEDINT SAFEDT SAFEDWORD SAFEINT SAFELINT SAFELREAL SAFELWORD SAFEREAL
+    SAFESINT SAFESTRING SAFETIME SAFETIME_OF_DAY SAFETOD SAFEUDINT SAFEUINT SAFEULINT SAFEUSINT SAFEWORD SAFEWSTRING
+
+    DREF P0 P1 VOID
 ";
 
 /// Standard functions: there is one of each for every type, too.
@@ -36,7 +39,7 @@ const FUNCTIONS: &str = "
     SQRT SUB TAN TRUNC TRUNC_INT UPPER_BOUND FROM_BIG_ENDIAN FROM_LITTLE_ENDIAN TO_BIG_ENDIAN TO_LITTLE_ENDIAN
 ";
 
-/// Types that end the name of a function for one type, such as `MAX_INT`.
+/// Types that end the name of a function for one type or more, such as `MAX_INT` and `MUX_INT_REAL`.
 const TYPES: &str = "BOOL BYTE WORD DWORD LWORD SINT INT DINT LINT USINT UINT UDINT ULINT REAL LREAL TIME LTIME DATE LDATE \
     TOD LTOD DT LDT STRING WSTRING CHAR WCHAR";
 
@@ -44,14 +47,15 @@ const TYPES: &str = "BOOL BYTE WORD DWORD LWORD SINT INT DINT LINT USINT UINT UD
 pub fn is_reserved(word: &str) -> bool {
     let word = word.to_ascii_uppercase();
     let among = |words: &str, word: &str| words.split_whitespace().any(|known| known == word);
-    let of_one_type = || {
-        let (stem, kind) = word.rsplit_once('_')?;
-        Some(among(FUNCTIONS, stem) && among(TYPES, kind))
-    };
+    let mut stem = word.as_str();
+    while let Some((shorter, kind)) = stem.rsplit_once('_')
+        && among(TYPES, kind)
+    {
+        stem = shorter;
+    }
     among(WORDS, &word)
-        || among(FUNCTIONS, &word)
+        || among(FUNCTIONS, stem)
         || word.starts_with("__")
         || word.contains("_TO_")
         || word.starts_with("TO_")
-        || of_one_type() == Some(true)
 }
