@@ -16,7 +16,7 @@ pub use searched::{Evaluations, SearchedEntry, SearchedParameter, SearchedPoint}
 pub use seen::{PitchEntry, RangeEntry};
 use serde::{Deserialize, Serialize};
 use stiction_codes::Code;
-pub use trust::{CauseEntry, Compensation, Cure, Next, Trust};
+pub use trust::{BetterLaw, CauseEntry, Compensation, Cure, Next, Trust};
 
 /// Name of the schema.
 pub const SCHEMA: &str = "stiction.result/1";

@@ -21,7 +21,8 @@ const MOST_WEIGHTS: usize = 12;
 ///
 /// A fitted delay that reaches the end of its range is no delay but some other effect that the law does
 /// not explain: it is set to zero and the law is fitted again, as the terms of the estimate then say. Where friction depends on
-/// what is transmitted and the weight is fitted, it is fitted again with that weight until both are one.
+/// what is transmitted and the weight is fitted, it is fitted again with that weight until both are one. Beside a Maxwell-slip law
+/// a delay that is to be fitted is held at what LuGre finds of it on the same record.
 ///
 /// # Errors
 /// Those of [`separable`].
@@ -53,6 +54,18 @@ pub fn fit_law(
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<(Estimate, Optimum), Error> {
+    if terms.asks_delay_of_another(&law) {
+        let other = delay_of_another(record, law, terms, low_speed_bound, settings, observer);
+        // What LuGre cannot be fitted to has too little for elements as well, which say what they need.
+        let held = match other {
+            Ok((other, _)) => terms.holding_delay_of(&other),
+            Err(_) => Terms {
+                delay: Delay::NONE,
+                ..terms.clone()
+            },
+        };
+        return fit_law(record, law, &held, low_speed_bound, settings, observer);
+    }
     stated(
         record,
         law,
@@ -63,6 +76,32 @@ pub fn fit_law(
             Some(from) => follow(from, record, law, terms, settings, observer),
         },
     )
+}
+
+/// The law that finds the delay for one that cannot ([`Terms::asks_delay_of_another`]), with its full intervals, and the end of
+/// its search, which [`fit_law`] leaves. [`Terms::holding_delay_of`] it is what stands beside the other law.
+///
+/// # Errors
+/// Those of [`separable`].
+pub fn delay_of_another(
+    record: &Record,
+    law: Law,
+    terms: &Terms,
+    low_speed_bound: f64,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Result<(Estimate, (Estimate, Optimum)), Error> {
+    let settings = Settings {
+        bounds: None,
+        ..settings.clone()
+    };
+    let law = law.that_finds_delay();
+    let left = fit_law(record, law, terms, low_speed_bound, &settings, observer)?;
+    let mut estimate = left.0.clone();
+    if estimate.status != Status::Interrupted {
+        intervals(record, &left.1, &mut estimate, observer);
+    }
+    Ok((estimate, left))
 }
 
 /// [`fit_law`] by least squares from the end point of another search.

@@ -18,6 +18,7 @@ pub fn why(next: Next) -> &'static str {
             "the compensator as C; also cpp, ros2, st, tcpou, plcopen, rust, mujoco, modelica, urdf, sdf, isaaclab, hal, fmu, matlab, tf5200 and drive-table"
         }
         Next::LetTheDataChoose => "let the data choose the law",
+        Next::AnotherLaw => "the best of the laws above that a compensator may rely on",
         Next::IdentifyTheOther => "what the other log says by itself, to compare the parameters",
         Next::Simulate => "fit the position of the simulated axis, which differentiates nothing",
         Next::AxisFile => "correct the axis file as said above",
@@ -32,9 +33,9 @@ pub fn why(next: Next) -> &'static str {
     }
 }
 
-/// What takes the cause of what the law leaves into the fit.
+/// What is worth a try before a law is used.
 pub(crate) struct Cured {
-    /// The cause, and what to do.
+    /// Why, and what to do.
     pub what: String,
     /// The line to write into the axis file; none where another law is to be tried.
     pub line: Option<String>,
@@ -42,8 +43,14 @@ pub(crate) struct Cured {
     pub command: String,
 }
 
+/// What is worth a try before a law is used: a law that holds better, which leaves something else, or what takes the cause of what
+/// this one leaves into the fit.
+pub(crate) fn to_try(result: &ResultFile, dir: &Path) -> Option<Cured> {
+    better(result, dir).or_else(|| cured(result, dir))
+}
+
 /// What takes the cause of what the law leaves into the fit, where something does.
-pub(crate) fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
+fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
     let cause = result.trust.cause.as_ref()?;
     let dir: &Path = &dir.components().collect::<PathBuf>();
     let logs: Vec<String> = result.inputs.iter().map(|i| quoted(&i.path)).collect();
@@ -53,13 +60,21 @@ pub(crate) fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
         Cure::Law { law } => {
             let axis = axis_option(result);
             let out = out(law);
+            let sides = match result.asymmetric {
+                true => " --asymmetric",
+                false => "",
+            };
             Cured {
                 what: format!("{}; try the law {law}", cause.text),
                 line: None,
-                command: format!("stiction identify {logs}{axis} --law {law} --out {out}"),
+                command: format!("stiction identify {logs}{axis} --law {law}{sides} --out {out}"),
             }
         }
-        Cure::Line { table, line } => {
+        Cure::Line {
+            table,
+            line,
+            replaces,
+        } => {
             let (file, place) = match &result.axis.file {
                 Some(file) => (quoted(file), format!("in {file}, under [{table}]")),
                 None => {
@@ -69,13 +84,37 @@ pub(crate) fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
                 }
             };
             let law = law(result);
-            let out = out(line.split(' ').next().unwrap_or_default());
+            let key = line.split(' ').next().unwrap_or_default();
+            let out = out(key);
+            let write = match replaces {
+                true => format!("in place of the line {key}, write"),
+                false => "write".into(),
+            };
             Cured {
-                what: format!("{}; take that into the fit: {place}, write", cause.text),
+                what: format!("{}; take that into the fit: {place}, {write}", cause.text),
                 line: Some(line.clone()),
                 command: format!("stiction identify {logs} --axis {file}{law} --out {out}"),
             }
         }
+    })
+}
+
+/// The law that holds better than the one that was asked for.
+fn better(result: &ResultFile, dir: &Path) -> Option<Cured> {
+    let better = result.trust.better.as_ref()?;
+    let dir: &Path = &dir.components().collect::<PathBuf>();
+    let logs: Vec<String> = result.inputs.iter().map(|i| quoted(&i.path)).collect();
+    let (logs, axis) = (logs.join(" "), axis_option(result));
+    let law = &better.law;
+    let (option, suffix) = match better.asymmetric {
+        true => (" --asymmetric", "-asymmetric"),
+        false => ("", ""),
+    };
+    let out = quoted(&format!("{}-{law}{suffix}", dir.display()));
+    Some(Cured {
+        what: format!("the law {law} holds better on held-out samples"),
+        line: None,
+        command: format!("stiction identify {logs}{axis} --law {law}{option} --out {out}"),
     })
 }
 
@@ -114,6 +153,10 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
             let cycle = cycle(result);
             format!("stiction export {model} --target c{cycle} --out {code}")
         }
+        Next::AnotherLaw => better(result, dir).map_or_else(
+            || format!("stiction identify {log} --out {}", another("auto")),
+            |better| better.command,
+        ),
         Next::LetTheDataChoose => format!("stiction identify {log} --out {}", another("auto")),
         Next::IdentifyTheOther => format!("stiction identify {log} --out {}", another("other")),
         Next::Simulate => format!(

@@ -274,7 +274,7 @@ fn next_step(result: &ResultFile) -> Text {
     };
     let as_it_is = format!("{}. {place}: ", next::why(next));
     let command_as_it_is = next::command(result, Path::new(dir));
-    let Some(cured) = next::cured(result, Path::new("result")) else {
+    let Some(cured) = next::to_try(result, Path::new("result")) else {
         return Text::from(format!("Next: {as_it_is}")).code(command_as_it_is);
     };
     let line = cured.line.map_or(String::new(), |line| format!(" {line}"));

@@ -224,7 +224,7 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
         );
     }
     let (why, command) = (next::why(result.trust.next), next::command(result, dir));
-    let _ = match next::cured(result, dir) {
+    let _ = match next::to_try(result, dir) {
         None => writeln!(out, "next: {why}\n  {command}"),
         Some(cured) => {
             let _ = writeln!(out, "next: {}", cured.what);

@@ -124,8 +124,11 @@ fn defaults(data: &Path, out: &mut String) {
                 Next::Simulate => "`--method output-error`",
                 Next::Check => "`stiction check`",
                 Next::Record => "another recording",
-                Next::LetTheDataChoose | Next::IdentifyTheOther | Next::Again | Next::Finish =>
-                    "identify again",
+                Next::LetTheDataChoose
+                | Next::AnotherLaw
+                | Next::IdentifyTheOther
+                | Next::Again
+                | Next::Finish => "identify again",
                 Next::AxisFile => "correct the axis file",
             }
         );

@@ -4,7 +4,7 @@
 //! `screw`, `joint`), motions (`commissioning`, `sine`, `trapezoid`) and worlds (`as-assumed`, `cogging`, `force-10-late`,
 //! ...); all of a kind where none is named. `each` prints every run too. `twice` identifies two logs of the axis together,
 //! `apart-PERCENT` two between which its friction has risen by so much; the second moves as `with-MOTION` says. With
-//! `levels` each of the two has levels of its own, and the claims are of the first.
+//! `levels` each of the two has levels of its own, and the claims are of the first. `law-NAME` asks for a law, alone.
 //!
 //! What is claimed, and when a run is silent, is defined in `tests/suite/claims`.
 
@@ -19,7 +19,7 @@ use claims::Run;
 use identified::identified;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use stiction::Axis;
+use stiction::{Axis, LawKind, Options};
 use stiction_testkit::worlds::{Machine, Motion, World, record};
 
 fn main() {
@@ -39,6 +39,10 @@ fn main() {
         true => Axis::parse("[terms]\ncoulomb_log = true\nsigma2_log = true\n").unwrap(),
         false => Axis::default(),
     };
+    let law = names.iter().find_map(|name| name.strip_prefix("law-"));
+    let law = law.map(|name| LawKind::from_name(name).expect("a law"));
+    let mut options = Options::default();
+    (options.law, options.compare_laws) = (law, law.is_none());
     let runs: Vec<Run> = tasks
         .par_iter()
         .map(|&(world, axis, motion, seed)| {
@@ -57,7 +61,7 @@ fn main() {
                     machines.push(later);
                 }
             }
-            claims::judged(&machines, identified(&machine, &logs, &file))
+            claims::judged(&machines, identified(&machine, &logs, &file, &options))
         })
         .collect();
     if asked.has("each") {

@@ -5,6 +5,7 @@ mod export;
 mod exported;
 #[cfg(target_os = "linux")]
 mod killed;
+mod leads;
 #[cfg(unix)]
 mod linuxcnc;
 mod paper;

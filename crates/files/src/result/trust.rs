@@ -23,9 +23,21 @@ pub struct Trust {
     /// machine.
     #[serde(default)]
     pub open: Vec<String>,
+    /// A law that holds better on held-out samples than the one that was asked for, and that a compensator may rely on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub better: Option<BetterLaw>,
     /// What to do next.
     #[serde(default)]
     pub next: Next,
+}
+
+/// A law beside the one that was asked for.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct BetterLaw {
+    /// Its family.
+    pub law: String,
+    /// Whether each direction has parameters of its own.
+    pub asymmetric: bool,
 }
 
 /// The strongest cause of what a law leaves systematically.
@@ -52,6 +64,9 @@ pub enum Cure {
         table: String,
         /// The line, such as `coulomb_temperature = true`.
         line: String,
+        /// Whether it takes the place of the line with this key, which the axis file has.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        replaces: bool,
     },
     /// A law that may have that shape.
     Law {
@@ -86,6 +101,8 @@ pub enum Next {
     Export,
     /// Identify again and let the data choose the law.
     LetTheDataChoose,
+    /// Identify again with the law that holds better on held-out samples.
+    AnotherLaw,
     /// Identify the logs that it was validated on by themselves, and compare.
     IdentifyTheOther,
     /// Identify again by simulation of the axis.

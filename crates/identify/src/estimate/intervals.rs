@@ -13,6 +13,7 @@ use crate::estimate::fitted::FittedLaw;
 use crate::estimate::profile::{End, Held, Profile};
 use crate::estimate::sliding::flag_what_the_motion_hides;
 use crate::estimate::{Estimate, advice, levels, optimal};
+use crate::held_delay;
 use crate::lag;
 use crate::law::physical::physical;
 use crate::law::transmitted::flag_parts_of_an_open_weight;
@@ -195,6 +196,12 @@ fn conditioned(
     }
     // Counts are read behind the same lag.
     if let Some(unknowns) = lag::spread(objective, estimate.terms.lag, &optimum.p, at) {
+        for p in raw {
+            between.add(p.name, p.variance(&unknowns));
+        }
+    }
+    let bread = &estimate.unknowns.bread;
+    if let Some(unknowns) = held_delay::spread(objective, &estimate.terms, &optimum.p, at, bread) {
         for p in raw {
             between.add(p.name, p.variance(&unknowns));
         }

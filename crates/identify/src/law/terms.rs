@@ -27,6 +27,8 @@ pub struct Terms {
     /// How much later the force was logged than the motion it belongs to. Not linear, but like the
     /// terms above no part of the law.
     pub delay: Delay,
+    /// Standard deviation of a delay that is given, s, which intervals count; 0 where it is known.
+    pub delay_deviation: f64,
     /// A lag between the force that was logged and that which the axis feels, as a current loop has one. Its time is a part of a
     /// delay that is fitted; beside one that is given there is none.
     pub lag: Lag,
@@ -102,6 +104,7 @@ impl Default for Terms {
             gravity: false,
             cogging: Vec::new(),
             delay: Delay::NONE,
+            delay_deviation: 0.0,
             lag: Lag::NONE,
             quadratic_viscous: false,
             dependences: Vec::new(),

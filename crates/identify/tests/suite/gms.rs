@@ -4,8 +4,8 @@ use crate::common;
 use crate::common::maxwell::{Maxwell, four, motion};
 use crate::common::{Noise, record};
 use stiction_identify::{
-    Error, Estimate, Fit, Law, LawKind, Mass, Objective, Optimum, Record, Settings, Silent, Status,
-    Terms, estimate, predict, separable,
+    Delay, Error, Estimate, Fit, Law, LawKind, Mass, Objective, Optimum, Record, Settings, Silent,
+    Status, Terms, estimate, identify, predict, separable,
 };
 
 fn friction_only() -> Terms {
@@ -314,6 +314,85 @@ fn four_elements_are_found() {
         }
     }
     assert!(checked >= 8, "only {checked} parameters are identifiable");
+}
+
+/// A command that is held from its row on is half a sample ahead of the motion that it causes. Elements cannot find that, and
+/// without it the mass is outside its interval; held where LuGre finds it, it is inside.
+#[test]
+fn beside_a_delay_the_mass_is_that_of_the_axis() {
+    let truth = four();
+    let step = 5e-4;
+    // Twice as fine, so that force and motion can be taken half a sample apart.
+    let (v, mut u) = truth.along(40_000, 0.5 * step, 25, motion);
+    let mut noise = Noise::new(3);
+    for (i, u) in u.iter_mut().enumerate() {
+        let (h, t) = (1e-6, 0.5 * i as f64 * step);
+        *u += 6.0 * (motion(t + h) - motion(t - h)) / h + 0.15 * noise.normal();
+    }
+    let every_other = |x: &[f64], from: usize| x[from..].iter().step_by(2).copied().collect();
+    let record = record(step, every_other(&v, 0), every_other(&u, 1));
+    let fitted = |delay: Delay| {
+        let terms = Terms {
+            delay,
+            ..Terms::default()
+        };
+        let settings = Settings::default();
+        identify(&record, gms(4), &terms, 1e-4, &settings, &mut Silent).unwrap()
+    };
+    let halves = |found: &Estimate| {
+        let (low, high) = found.parameter("mass").unwrap().ci95.unwrap();
+        (12.0 - 0.5 * (low + high)) / (0.5 * (high - low))
+    };
+    let [held, without] = [Delay::Fitted, Delay::NONE].map(fitted);
+    println!("{} and {} without", halves(&held), halves(&without));
+    assert!(halves(&without).abs() > 1.0);
+    assert!(halves(&held).abs() < 1.0);
+    let Delay::Given(delay) = held.terms.delay else {
+        panic!("{:?}", held.terms.delay);
+    };
+    // The force belongs to a motion half a sample later.
+    let off = delay / step + 0.5;
+    let deviation = held.terms.delay_deviation / step;
+    assert!(off.abs() < 0.1 && deviation > 0.0, "{off} of {deviation}");
+}
+
+/// The error of a delay that another law has found is one of the mass and of all that feels it: their deviations are those beside
+/// the held delay and of its error together, taken from fits at the ends of its interval.
+#[test]
+fn the_error_of_a_delay_that_is_held_is_counted() {
+    let truth = four();
+    let step = 5e-4;
+    let (v, mut u) = truth.along(20_000, step, 50, motion);
+    let mut noise = Noise::new(3);
+    for (i, u) in u.iter_mut().enumerate() {
+        let (h, t) = (1e-6, i as f64 * step);
+        *u += 6.0 * (motion(t + h) - motion(t - h)) / h + 0.15 * noise.normal();
+    }
+    let record = record(step, v, u);
+    let deviation = 0.2 * step;
+    let at = |delay: f64, delay_deviation: f64| {
+        let terms = Terms {
+            delay: Delay::Given(delay),
+            delay_deviation,
+            ..Terms::default()
+        };
+        let settings = Settings::default();
+        identify(&record, gms(4), &terms, 1e-4, &settings, &mut Silent).unwrap()
+    };
+    let [early, late] = [-deviation, deviation].map(|delay| at(delay, 0.0));
+    let [known, held] = [0.0, deviation].map(|deviation| at(0.0, deviation));
+    let mut felt = Vec::new();
+    for name in ["mass", "sigma2", "coulomb", "static", "attraction"] {
+        let moved = 0.5 * (late.value(name).unwrap() - early.value(name).unwrap());
+        let [known, held] = [&known, &held].map(|e| e.parameter(name).unwrap().std.unwrap());
+        println!("{name} moves by {moved}, {known} to {held}");
+        let ratio = held / known.hypot(moved);
+        assert!((ratio - 1.0).abs() < 0.1, "{name}: {ratio}");
+        if moved.abs() > 0.5 * known {
+            felt.push(name);
+        }
+    }
+    assert!(felt.contains(&"mass"), "{felt:?}");
 }
 
 /// Elements that the data do not ask for are dropped.

@@ -306,6 +306,8 @@ fn terms() -> impl Strategy<Value = Terms> {
             variance: 10f64.powf(variance),
         })
     ];
+    let deviation = prop_oneof![Just(0.0), (-9.0..9.0).prop_map(|e: f64| 10f64.powf(e))];
+    let delay = (delay, deviation);
     let parts = (mass, flags, pitches, dependences, delay, lag);
     parts.prop_map(|(mass, flags, cogging, dependences, delay, lag)| Terms {
         mass,
@@ -314,7 +316,8 @@ fn terms() -> impl Strategy<Value = Terms> {
         cogging,
         quadratic_viscous: flags.2,
         dependences,
-        delay,
+        delay: delay.0,
+        delay_deviation: delay.1,
         lag,
     })
 }

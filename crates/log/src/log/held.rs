@@ -66,7 +66,7 @@ pub(super) fn meaned(force: &[f64], rows: usize) -> Vec<f64> {
 /// What is said of it.
 pub(super) fn finding(rows: usize, rate: f64) -> Finding {
     let message = format!(
-        "the position is renewed at every {rows}th row only; the rows between are left out, their force goes into the mean, and the log \
+        "the position is renewed once in {rows} rows only; the rows between are left out, their force goes into the mean, and the log \
          is read at {} Hz",
         full(rate / rows as f64)
     );

@@ -1,7 +1,7 @@
 //! Several logs of one axis: what is said where they tell the same, and where they do not.
 
 use crate::common::identified::identified;
-use stiction::{Axis, Code, Fit};
+use stiction::{Axis, Code, Fit, Options};
 use stiction_testkit::worlds::{Machine, Motion, World, record};
 
 /// What the seed of a second log is more than that of the first.
@@ -18,7 +18,7 @@ fn twice_on(axis: &Axis, seed: u64, motion: Motion, factor: f64) -> (Fit, [Machi
     let machines = [machine, machine.with_friction(factor)];
     let logs = [(&machines[0], seed), (&machines[1], seed + LATER)]
         .map(|(machine, seed)| record(machine, motion, World::Faithful, seed));
-    let fit = identified(&machine, &logs, axis).unwrap();
+    let fit = identified(&machine, &logs, axis, &Options::default()).unwrap();
     (fit, machines)
 }
 
@@ -137,8 +137,10 @@ fn a_level_for_each_log_is_that_of_the_only_one() {
     let axis = Axis::parse("[terms]\ncoulomb_log = true\nsigma2_log = true\n").unwrap();
     let machine = Machine::joint(1);
     let log = record(&machine, Motion::Sine, World::Faithful, 1);
-    let [with, without] = [axis, Axis::default()]
-        .map(|axis| identified(&machine, std::slice::from_ref(&log), &axis).unwrap());
+    let options = Options::default();
+    let logs = std::slice::from_ref(&log);
+    let [with, without] =
+        [axis, Axis::default()].map(|axis| identified(&machine, logs, &axis, &options).unwrap());
     assert_eq!(
         format!("{:?}", with.result().parameters),
         format!("{:?}", without.result().parameters)

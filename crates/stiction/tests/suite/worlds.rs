@@ -3,14 +3,17 @@
 use crate::claims::{Run, judged};
 use crate::common::identified::identified;
 use rayon::prelude::*;
-use stiction::Axis;
+use stiction::{Axis, LawKind, Options};
 use stiction_testkit::worlds::{Drive, Machine, Motion, World, record};
 
 const SEED: u64 = 1;
 
 fn run(machine: &Machine, motion: Motion, world: World) -> Run {
     let log = record(machine, motion, world, SEED);
-    judged(&[*machine], identified(machine, &[log], &Axis::default()))
+    judged(
+        &[*machine],
+        identified(machine, &[log], &Axis::default(), &Options::default()),
+    )
 }
 
 fn of(axis: &str, motion: Motion, world: World) -> Run {
@@ -113,7 +116,13 @@ fn a_level_that_follows_a_channel_is_named_after_it() {
                     .collect(),
             ),
         ];
-        let as_it_is = identified(&machine, &[log.clone()], &Axis::default()).unwrap();
+        let as_it_is = identified(
+            &machine,
+            &[log.clone()],
+            &Axis::default(),
+            &Options::default(),
+        )
+        .unwrap();
         let named = |fit: &stiction::Fit| -> Vec<String> {
             let codes = fit.warnings().iter().map(|w| w.code.to_string());
             codes.filter(|c| causes.contains(&c.as_str())).collect()
@@ -131,7 +140,7 @@ fn a_level_that_follows_a_channel_is_named_after_it() {
         let warning = warnings.find(|w| w.code.as_str() == cause).unwrap();
         assert!(warning.message.contains(&format!("{term} = true")));
         let axis_file = Axis::parse(&format!("[terms]\n{term} = true\n")).unwrap();
-        let taken = identified(&machine, &[log], &axis_file);
+        let taken = identified(&machine, &[log], &axis_file, &Options::default());
         let taken = taken.unwrap();
         assert_eq!(named(&taken), [""; 0], "{axis}, {world:?}");
         // What encoder and filters shift is known with the term as well.
@@ -200,7 +209,7 @@ fn a_resonance_says_at_which_frequency_and_what_to_do() {
         World::ResonanceAtMotor,
         SEED,
     );
-    let fit = identified(&machine, &[log], &Axis::default()).unwrap();
+    let fit = identified(&machine, &[log], &Axis::default(), &Options::default()).unwrap();
     let mut warnings = fit.warnings().iter();
     let message = &warnings
         .find(|w| w.code.as_str() == "resonance")
@@ -315,6 +324,26 @@ fn another_curve_shows_where_an_axis_rests() {
     assert!(claimed("mass") && !found.is_silent(), "{found}");
     let gaussian = of("stage", Motion::Trapezoid, World::Faithful);
     assert!(!gaussian.codes.contains(&"law-shape"), "{gaussian}");
+}
+
+/// A force that is held from its row on is half a sample ahead of its motion, which elements cannot find by themselves.
+#[test]
+fn elements_are_fitted_beside_the_delay_of_the_log() {
+    let mut options = Options::default();
+    (options.law, options.compare_laws) = (Some(LawKind::Gms), false);
+    for axis in ["stage", "screw"] {
+        let mut machines = Machine::all(SEED).into_iter();
+        let (_, machine) = machines.find(|(name, _)| *name == axis).unwrap();
+        let log = record(&machine, Motion::Commissioning, World::MaxwellSlip, SEED);
+        let fit = identified(&machine, &[log], &Axis::default(), &options);
+        let found = judged(&[machine], fit);
+        for name in ["sigma2", "mass"] {
+            let claim = found.claims.iter().find(|claim| claim.0 == name);
+            let inside = claim.is_some_and(|claim| claim.2.abs() < 1.0);
+            assert!(inside, "{axis}, {name}: {found}");
+        }
+        assert!(!found.is_silent(), "{axis}: {found}");
+    }
 }
 
 #[test]

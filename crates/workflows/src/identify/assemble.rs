@@ -16,6 +16,7 @@ use stiction_files::result::{
 use stiction_files::symbols;
 use stiction_identify::{Delay, Fit, FittedLaw, IntervalKind, Parameter, Series};
 use stiction_log::Motion;
+use stiction_number::four_digits;
 use stiction_parameters::{Name, Quantity};
 
 /// What a result is made of.
@@ -221,13 +222,20 @@ pub(super) fn counts_note(estimate: &FittedLaw) -> Option<String> {
     })
 }
 
-/// A note that the delay was not fitted with a law that cannot fit it, where the axis file asks for a fitted delay.
+/// A note that the delay is that of another law, where this one cannot find it.
 pub(super) fn delay_note(estimate: &FittedLaw) -> Option<String> {
-    let without = estimate.law.kind.has_elements() && estimate.terms.delay == Delay::Fitted;
-    without.then(|| {
-        "delay between force and motion: not fitted with a Maxwell-slip law; give it, such as the \
-         one that lugre finds"
-            .into()
+    let Delay::Given(delay) = estimate.terms.delay else {
+        return None;
+    };
+    let deviation = estimate.terms.delay_deviation;
+    (deviation > 0.0).then(|| {
+        let ms = |seconds: f64| four_digits(1e3 * seconds);
+        format!(
+            "delay between force and motion: a Maxwell-slip law cannot find it; held at the {} ms (std {} ms) that lugre finds on \
+             the same log, and the intervals count what is open of it",
+            ms(delay),
+            ms(deviation)
+        )
     })
 }
 

@@ -3,7 +3,7 @@
 use super::ladder::{self, Candidate, Climb, Ladder, Rung};
 use super::trust::RICHER_LAW_WINS_BELOW;
 use super::unfit;
-use stiction_files::result::LawEntry;
+use stiction_files::result::{BetterLaw, LawEntry};
 use stiction_identify as engine;
 use stiction_identify::{
     Control, Estimate, Law, LawKind, Observer, Optimum, Progress, Settings, Status,
@@ -11,7 +11,7 @@ use stiction_identify::{
 use stiction_parameters::{Quantity, Side};
 
 /// The families that the data choose from.
-const FAMILIES: [LawKind; 4] = [
+pub(super) const FAMILIES: [LawKind; 4] = [
     LawKind::CoulombViscous,
     LawKind::Stribeck,
     LawKind::Dahl,
@@ -33,6 +33,8 @@ pub(super) struct Choice {
     pub by: &'static str,
     /// Why a compensator should not rely on it.
     pub held_back: Option<String>,
+    /// The best of the others that a compensator may rely on, where the law was asked for.
+    pub better: Option<BetterLaw>,
     /// Rms residual on held-out samples of the record, where it was cross-validated.
     pub held_out_rmse: Option<f64>,
     /// What of the law is left out, as written to `result.json`.
@@ -48,26 +50,39 @@ impl Choice {
             estimate,
             laws: Vec::new(),
             by: "user",
+            better: None,
             held_out_rmse: None,
         }
     }
 }
 
-/// Fits the law that was asked for and, if wanted, others beside it.
+/// Fits the law that was asked for and, if wanted, others beside it, of which `fitted` are already.
 pub(super) fn asked(
     law: Law,
     ladder: &Ladder,
+    fitted: &[(Estimate, Optimum)],
     compare: bool,
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<Choice, engine::Error> {
-    let fitted = ladder.fit(&ladder.usual(law), settings, observer)?;
-    Ok(fitted_already(fitted, ladder, compare, settings, observer))
+    let own = ladder.fit(&ladder.usual(law), settings, observer)?;
+    Ok(beside(own, fitted, ladder, compare, settings, observer))
 }
 
 /// States a law that was asked for and fitted and, if wanted, fits others beside it.
 pub(super) fn fitted_already(
+    own: (Estimate, Optimum),
+    ladder: &Ladder,
+    compare: bool,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Choice {
+    beside(own, &[], ladder, compare, settings, observer)
+}
+
+fn beside(
     (estimate, optimum): (Estimate, Optimum),
+    fitted: &[(Estimate, Optimum)],
     ladder: &Ladder,
     compare: bool,
     settings: &Settings,
@@ -75,13 +90,15 @@ pub(super) fn fitted_already(
 ) -> Choice {
     let law = estimate.law;
     let mut held_out_rmse = None;
+    let mut better = None;
     let laws = if compare && optimum.status != Status::Interrupted {
-        let known = Some((&estimate, &optimum));
+        let others = fitted.iter().map(|(estimate, optimum)| (estimate, optimum));
+        let known: Vec<_> = others.chain([(&estimate, &optimum)]).collect();
         let others: Vec<Candidate> = ladder::beside(&law)
             .into_iter()
             .map(|law| ladder.usual(law))
             .collect();
-        let climb = ladder.climb(&others, known, settings, observer);
+        let climb = ladder.climb(&others, &known, settings, observer);
         // A table with only some of the laws could name the wrong one as best.
         if climb.stopped {
             Vec::new()
@@ -93,6 +110,13 @@ pub(super) fn fitted_already(
                     held_out_rmse = rung.cross_validated_rmse(ladder);
                 }
             }
+            let able = (0..laws.len()).filter(|&i| laws[i].held_back.is_none());
+            let best = climb.best_of(&able.collect::<Vec<_>>());
+            let best = best.map(|i| &laws[i]).filter(|best| !best.reported);
+            better = best.map(|best| BetterLaw {
+                law: best.law.clone(),
+                asymmetric: best.asymmetric,
+            });
             laws
         }
     } else {
@@ -104,6 +128,7 @@ pub(super) fn fitted_already(
         estimate: stated(ladder, &optimum, estimate, observer),
         laws,
         by: "user",
+        better,
         held_out_rmse,
     }
 }
@@ -124,13 +149,13 @@ pub(super) fn auto(
         .into_iter()
         .map(|law| ladder.usual(law))
         .collect();
-    let mut climb = ladder.climb(&first, None, settings, observer);
+    let mut climb = ladder.climb(&first, &[], settings, observer);
     for round in [second, third, capped] {
         if climb.stopped {
             break;
         }
         let next = round(&climb, ladder);
-        let more = ladder.climb(&next, None, settings, observer);
+        let more = ladder.climb(&next, &[], settings, observer);
         climb = climb.and(more);
     }
     let mut unsure = None;
@@ -142,8 +167,8 @@ pub(super) fn auto(
             Shape::AsAssumed => {}
             Shape::Unknown => unsure = Some(estimate),
             Shape::Another => {
-                let known = Some((&estimate, &optimum));
-                let more = ladder.climb(&[next], known, settings, observer);
+                let known = [(&estimate, &optimum)];
+                let more = ladder.climb(&[next], &known, settings, observer);
                 climb = climb.and(more);
             }
         }
@@ -153,7 +178,7 @@ pub(super) fn auto(
     let Some(best) = best else {
         // Not one could be fitted: the simplest says why.
         let simplest = ladder::symmetric(base, &[LawKind::CoulombViscous])[0];
-        return asked(simplest, ladder, false, settings, observer);
+        return asked(simplest, ladder, &[], false, settings, observer);
     };
     let at = reliable(&climb, &laws, best);
     laws[at].reported = true;
@@ -203,6 +228,7 @@ pub(super) fn auto(
         laws: if stopped { Vec::new() } else { laws },
         by,
         held_back,
+        better: None,
         held_out_rmse,
         without,
     })

@@ -39,10 +39,7 @@ pub(super) struct Conditioned {
 impl Conditioned {
     /// The linear terms beside a law.
     pub fn terms(&self, asymmetric: bool) -> &Terms {
-        match asymmetric {
-            true => &self.terms.asymmetric,
-            false => &self.terms.symmetric,
-        }
+        self.terms.beside(asymmetric)
     }
 }
 

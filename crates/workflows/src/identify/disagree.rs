@@ -131,6 +131,7 @@ pub(super) fn cause(found: &[Disagreement]) -> Option<CauseEntry> {
         cure: own_level(first).map(|key| Cure::Line {
             table: "terms".into(),
             line: format!("{key} = true"),
+            replaces: false,
         }),
     })
 }

@@ -73,6 +73,7 @@ fn ladder<'a>(asked: Asked, conditioned: &'a Conditioned) -> Ladder<'a> {
         record: &conditioned.record,
         held_out: &conditioned.unseen,
         terms: &conditioned.terms,
+        held_delay: None,
         low_speed: conditioned.low_speed,
         exponent_is_open: asked.axis.leaves_exponent_open(),
     }
@@ -86,30 +87,30 @@ fn at_once(
     observer: &mut dyn Observer,
 ) -> Result<Fitted, Error> {
     let options = asked.options;
-    let ladder = ladder(asked, conditioned);
+    let mut ladder = ladder(asked, conditioned);
     let settings = settings(options.seed);
+    let refused = |source: engine::Error| Error::Identify {
+        inputs: paths(&loaded.sources).join(", "),
+        source,
+    };
+    let law = law(asked);
     let choice = match options.law {
-        Some(_) => choice::asked(
-            law(asked),
-            &ladder,
-            options.compare_laws,
-            &settings,
-            observer,
-        ),
+        Some(_) => {
+            let other = ladder.hold_delay(law, &settings, observer);
+            let fitted: Vec<_> = other.into_iter().collect();
+            let compare = options.compare_laws;
+            choice::asked(law, &ladder, &fitted, compare, &settings, observer)
+        }
         None => {
             // What the law is to be judged by must not choose it.
             let ladder = Ladder {
                 held_out: &[],
                 ..ladder
             };
-            choice::auto(law(asked), &ladder, &settings, observer)
+            choice::auto(law, &ladder, &settings, observer)
         }
     };
-    let choice = choice.map_err(|source: engine::Error| Error::Identify {
-        inputs: paths(&loaded.sources).join(", "),
-        source,
-    })?;
-    Ok(Fitted::new(choice))
+    Ok(Fitted::new(choice.map_err(refused)?))
 }
 
 /// All parameters at once, by one of the searches.

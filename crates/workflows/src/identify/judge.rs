@@ -48,6 +48,7 @@ pub(super) fn judge(
         motion: loaded.motion(),
         chosen: fitted.choice.by != "user",
         held_back: fitted.choice.held_back.as_deref(),
+        better: fitted.choice.better.as_ref(),
         held_out_rmse: fitted.choice.held_out_rmse,
         validation,
         validated_on_logs: !loaded.held_out.is_empty(),

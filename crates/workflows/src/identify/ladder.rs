@@ -21,12 +21,15 @@ pub(super) struct Ladder<'a> {
     pub held_out: &'a [Record],
     /// Linear terms beside the laws.
     pub terms: &'a LinearTerms,
+    /// The same beside a law that cannot find the delay of the force, where that is asked for: held at what another finds.
+    pub held_delay: Option<LinearTerms>,
     pub low_speed: f64,
     /// Whether the Stribeck exponent is assumed, and may be fitted where the data ask for it.
     pub exponent_is_open: bool,
 }
 
 /// Linear terms beside the laws.
+#[derive(Clone)]
 pub(super) struct LinearTerms {
     /// Beside a symmetric law.
     pub symmetric: Terms,
@@ -67,11 +70,11 @@ pub(super) struct Climb {
 }
 
 impl Ladder<'_> {
-    /// Fits and scores laws, each on a thread of its own; `fitted` is one that was fitted already.
+    /// Fits and scores laws, each on a thread of its own; `fitted` are those that were fitted already.
     pub fn climb(
         &self,
         laws: &[Candidate],
-        fitted: Option<(&Estimate, &Optimum)>,
+        fitted: &[(&Estimate, &Optimum)],
         settings: &Settings,
         observer: &mut dyn Observer,
     ) -> Climb {
@@ -82,7 +85,8 @@ impl Ladder<'_> {
             .rev()
             .with_max_len(1)
             .map(|candidate| {
-                let known = fitted.filter(|(estimate, _)| candidate.is(estimate));
+                let mut known = fitted.iter().copied();
+                let known = known.find(|(estimate, _)| candidate.is(estimate));
                 let rung = self.rung(candidate, known, settings, &shared);
                 shared.one_more();
                 rung
@@ -97,16 +101,34 @@ impl Ladder<'_> {
 
     /// A law with the terms that stand beside it unless others are asked for.
     pub fn usual(&self, law: Law) -> Candidate<'_> {
-        let terms = match law.asymmetric {
-            true => &self.terms.asymmetric,
-            false => &self.terms.symmetric,
-        };
+        let held = self.held_delay.as_ref();
+        let held = held.filter(|_| law.kind.has_elements());
+        let terms = held.unwrap_or(self.terms).beside(law.asymmetric);
         Candidate {
             law,
             terms,
             starts: Vec::new(),
             capped: None,
         }
+    }
+
+    /// Fits the law that finds the delay of the force for one that cannot, where it is asked for, and holds what it finds.
+    pub fn hold_delay(
+        &mut self,
+        law: Law,
+        settings: &Settings,
+        observer: &mut dyn Observer,
+    ) -> Option<(Estimate, Optimum)> {
+        let terms = self.terms.beside(law.asymmetric);
+        if !terms.asks_delay_of_another(&law) {
+            return None;
+        }
+        let bound = self.low_speed;
+        let found = engine::delay_of_another(self.record, law, terms, bound, settings, observer);
+        // Where it cannot be found the law that was asked for says what is missing.
+        let (other, left) = found.ok()?;
+        self.held_delay = Some(self.terms.holding_delay_of(&other));
+        Some(left)
     }
 
     /// The terms that a law was fitted with.
@@ -177,6 +199,25 @@ impl Ladder<'_> {
             score,
             capped: candidate.capped.is_some(),
         })
+    }
+}
+
+impl LinearTerms {
+    /// Those beside a law of this kind.
+    pub fn beside(&self, asymmetric: bool) -> &Terms {
+        match asymmetric {
+            true => &self.asymmetric,
+            false => &self.symmetric,
+        }
+    }
+
+    fn holding_delay_of(&self, other: &Estimate) -> Self {
+        let held = |terms: &Terms| terms.holding_delay_of(other);
+        Self {
+            symmetric: held(&self.symmetric),
+            asymmetric: held(&self.asymmetric),
+            asymmetric_with_offset: self.asymmetric_with_offset.as_ref().map(held),
+        }
     }
 }
 
@@ -321,21 +362,28 @@ pub(super) fn without(law: &Law, capped: bool) -> Vec<String> {
 
 /// The symmetric laws of some families.
 pub(super) fn symmetric(base: Law, kinds: &[LawKind]) -> Vec<Law> {
-    let law = |&kind| Law {
+    let law = |&kind: &LawKind| Law {
         kind,
         asymmetric: false,
+        elements: if kind.has_elements() {
+            base.elements
+        } else {
+            0
+        },
         ..base
     };
     kinds.iter().map(law).collect()
 }
 
-/// The laws to compare a law with: every family up to its own, at least up to LuGre, each symmetric and asymmetric.
+/// The laws to compare a law with: every family up to its own, at least up to LuGre, each symmetric and asymmetric; of Maxwell slip,
+/// whose number of elements is found for each, those that are as symmetric as it is.
 pub(super) fn beside(law: &Law) -> Vec<Law> {
     let top = law.kind.max(LawKind::LuGre);
     symmetric(*law, &LawKind::ALL)
         .into_iter()
         .flat_map(|law| [law, law.asymmetric()])
         .filter(|other| other.kind <= top)
+        .filter(|other| !other.kind.has_elements() || other.asymmetric == law.asymmetric)
         // Beside LuGre, Dahl is the law without a Stribeck curve; one such law is enough.
         .filter(|other| {
             other.kind != LawKind::Dahl || !other.asymmetric || law.kind == LawKind::Dahl

@@ -71,8 +71,9 @@ pub(super) fn named(law: &FittedLaw, log: &Log, warnings: &mut Vec<Warning>) {
     warnings.push(Warning::new(code(cause), message));
 }
 
-/// The same as a part of the verdict, with what takes it into the fit.
-pub(super) fn cause(law: &FittedLaw, log: &Log) -> Option<CauseEntry> {
+/// The same as a part of the verdict, with what takes it into the fit; another law where the data chose among the `others` without
+/// it. From a law that was asked for none leads to another by its shape, which may be where it came from.
+pub(super) fn cause(law: &FittedLaw, log: &Log, others: bool) -> Option<CauseEntry> {
     if let Some(exponent) = law.likelier_exponent {
         return Some(CauseEntry {
             code: Code::LawShape,
@@ -81,6 +82,7 @@ pub(super) fn cause(law: &FittedLaw, log: &Log) -> Option<CauseEntry> {
             cure: Some(Cure::Line {
                 table: "terms".into(),
                 line: FIT_EXPONENT.into(),
+                replaces: false,
             }),
         });
     }
@@ -94,7 +96,8 @@ pub(super) fn cause(law: &FittedLaw, log: &Log) -> Option<CauseEntry> {
         code: code(cause),
         text: words(cause).into(),
         size: of_what_is_left(share, law),
-        cure: cure(misfit, cause, law, log),
+        cure: cure(misfit, cause, law, log)
+            .filter(|cure| others || !matches!(cure, Cure::Law { .. })),
     })
 }
 
@@ -127,8 +130,14 @@ fn cure(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> Option<Cur
     let of_terms = |line| Cure::Line {
         table: "terms".into(),
         line,
+        replaces: cause == Cause::Ripple && !law.terms.cogging.is_empty(),
     };
+    // Elements have no levels that depend on anything.
     let first_of = |terms: &[Dependence]| {
+        let terms = match law.law.kind.has_elements() {
+            true => &[],
+            false => terms,
+        };
         let open = terms.iter().find(|term| !has(law, term))?;
         Some(of_terms(format!("{} = true", open.name())))
     };
@@ -170,13 +179,18 @@ fn cure(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> Option<Cur
             };
             first_of(&[term]).filter(|_| share >= PART_OF_DRIFT * misfit.share)
         }
-        // One bristle is the presliding that several are held against; elements have no levels that depend on anything.
+        // One bristle is the presliding that several are held against, with the same curve over speed; elements have no levels
+        // that depend on anything.
         Cause::Shape
             if [LawKind::Dahl, LawKind::LuGre].contains(&law.law.kind)
                 && law.terms.dependences.is_empty() =>
         {
+            let law = match law.law.has_stribeck() {
+                true => LawKind::Gms,
+                false => LawKind::MaxwellSlip,
+            };
             Some(Cure::Law {
-                law: LawKind::MaxwellSlip.name().into(),
+                law: law.name().into(),
             })
         }
         Cause::Resonance | Cause::Backlash | Cause::Shape => None,
@@ -201,7 +215,9 @@ fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String 
         "No straight line over it describes that: record within the range that the axis works in"
             .into(),
         |cure| match cure {
-            Cure::Line { table, line } => format!("Set {line} under [{table}] in the axis file"),
+            Cure::Line { table, line, .. } => {
+                format!("Set {line} under [{table}] in the axis file")
+            }
             Cure::Law { law } => format!("Try the law {law}"),
         },
     );
@@ -250,16 +266,17 @@ fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String 
             format!("{what}: {left}{line}. {counted}")
         }
         Cause::Shape => format!(
-            "{what}: {left} {}. {counted}, and what describes that shape is no constant of the machine. Compare {}. \
+            "{what}: {left} {}. {counted}, and what describes that shape is no constant of the machine.{} \
                  Neither a load on a spring nor one behind a gap explains it surely; a force logged \
                  late looks alike",
             match misfit.by {
                 Divided::AfterReversals => "lies after reversals, beyond what is left elsewhere",
                 _ => "comes back with speed and travel after each reversal",
             },
-            match law.law.kind.has_elements() {
-                true => "the law elasto-plastic",
-                false => "the laws maxwell-slip and elasto-plastic",
+            match (law.law.kind.has_elements(), law.law.has_stribeck()) {
+                (true, _) => "",
+                (false, true) => " Compare the laws gms and elasto-plastic.",
+                (false, false) => " Compare the laws maxwell-slip and elasto-plastic.",
             }
         ),
     }

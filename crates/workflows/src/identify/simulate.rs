@@ -139,6 +139,7 @@ pub(super) fn run(
         // The laws that the data choose among are fitted to the force: no way on from here.
         chosen: true,
         held_back: held_back.as_deref(),
+        better: None,
         held_out_rmse: None,
         validation: &[],
         validated_on_logs: false,

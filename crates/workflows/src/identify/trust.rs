@@ -1,5 +1,6 @@
 //! Whether a result may be used: every rule that can say no, in one place. What a process exits with follows from it.
 
+use super::choice::FAMILIES;
 use super::compensation;
 use super::disagree;
 use super::lacking;
@@ -8,7 +9,7 @@ use super::unfit;
 use crate::source::Source;
 use stiction_codes::Code;
 use stiction_files::Warning;
-use stiction_files::result::{Compensation, LawEntry, Next, Trust};
+use stiction_files::result::{BetterLaw, Compensation, LawEntry, Next, Trust};
 use stiction_files::symbols;
 use stiction_identify::procedure::StepFit;
 use stiction_identify::{Fit, FittedLaw, LawKind, Series, SimulationFit, Status, Unseen};
@@ -104,6 +105,7 @@ impl Judged {
             compensation,
             constants: names(true),
             open: names(false),
+            better: None,
         };
         Judged { trust, warnings }
     }
@@ -112,8 +114,13 @@ impl Judged {
     /// another motion to be recorded first, which changes what is left.
     fn with_cause(mut self, evidence: &Evidence) -> Self {
         let first = [Next::AxisFile, Next::Again, Next::Finish];
+        self.trust.better = match self.trust.next {
+            Next::AnotherLaw => evidence.better.cloned(),
+            _ => evidence.clearly_better().cloned(),
+        };
         if evidence.shows_friction() && !first.contains(&self.trust.next) {
-            let own = left::cause(evidence.law, &evidence.sources[0].log);
+            let compared = evidence.chosen && !evidence.laws.is_empty();
+            let own = left::cause(evidence.law, &evidence.sources[0].log, compared);
             let between = || disagree::cause(&evidence.law.disagreements);
             // Levels that differ have a cure; what of another shape is left may be of them.
             self.trust.cause = match own {
@@ -170,6 +177,8 @@ pub(super) struct Evidence<'a> {
     pub chosen: bool,
     /// Why a compensator should not rely on the law.
     pub held_back: Option<&'a str>,
+    /// The best of the other laws that a compensator may rely on, where this one was asked for.
+    pub better: Option<&'a BetterLaw>,
     /// Rms residual on held-out samples, where the law was fitted without them in turn.
     pub held_out_rmse: Option<f64>,
     /// Signals of each validation, with its name.
@@ -188,12 +197,39 @@ impl Evidence<'_> {
         self.moves_both_ways && !self.law.stays_in_presliding()
     }
 
-    /// What leads on where this law will not do.
+    /// What leads on where this law will not do. No law leads to one that leads back to it: one that the data choose leads to
+    /// another only as the cure of its shape, and one that was asked for to the best of those that it was compared with, or, where
+    /// it is held back, to the choice, which has more of its kind.
     fn another_law(&self) -> Next {
-        match self.chosen {
-            true => self.where_no_law_predicts(),
-            false => Next::LetTheDataChoose,
+        let own = self.laws.iter().find(|law| law.reported);
+        let held_back = own.is_some_and(|own| own.held_back.is_some());
+        if self.chosen {
+            self.where_no_law_predicts()
+        } else if own.is_none() || held_back && FAMILIES.contains(&self.law.law.kind) {
+            Next::LetTheDataChoose
+        } else if self.better.is_some() {
+            Next::AnotherLaw
+        } else {
+            self.where_no_law_predicts()
         }
+    }
+
+    /// A law that holds clearly better than this one, which was asked for.
+    fn clearly_better(&self) -> Option<&BetterLaw> {
+        let better = self.better?;
+        let is_it =
+            |law: &&LawEntry| (&law.law, law.asymmetric) == (&better.law, better.asymmetric);
+        let [own, other] = [
+            self.laws.iter().find(|law| law.reported)?,
+            self.laws.iter().find(is_it)?,
+        ];
+        let [mine, least] = [own, other].map(|law| law.held_out_error_percent);
+        let (mine, least) = (mine?, least?);
+        match other.parameters <= own.parameters {
+            true => mine > SIMPLER_LAW_WINS_FROM * least,
+            false => least < RICHER_LAW_WINS_BELOW * mine,
+        }
+        .then_some(better)
     }
 
     /// What leads on where no law does: a coarse encoder is not differentiated by a simulation; motion in one direction

@@ -3,21 +3,18 @@
 use stiction::{Axis, Column, Fit, Log, Options, identify};
 use stiction_testkit::worlds::{Machine, Recording};
 
-/// Identifies logs of a machine together, by default but for what the axis file says.
+/// Identifies logs of a machine together.
 pub fn identified(
     machine: &Machine,
     logs: &[Recording],
     axis: &Axis,
+    options: &Options,
 ) -> Result<Fit, stiction::Error> {
     let logs = logs.iter().enumerate().map(|(i, log)| {
         let name = format!("log-{}.csv", i + 1);
         Log::from_columns(&name, columns(machine, log), axis)
     });
-    identify(
-        &logs.collect::<Result<Vec<_>, _>>()?,
-        axis,
-        &Options::default(),
-    )
+    identify(&logs.collect::<Result<Vec<_>, _>>()?, axis, options)
 }
 
 fn columns(machine: &Machine, log: &Recording) -> Vec<Column> {

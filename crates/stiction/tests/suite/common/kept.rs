@@ -2,7 +2,7 @@
 
 use super::identified::identified;
 use std::fmt;
-use stiction::{Axis, Silent, Study, simulate};
+use stiction::{Axis, Options, Silent, Study, simulate};
 use stiction_friction::LuGre;
 use stiction_servo::integrator::Integrator;
 use stiction_servo::plant::{Load, Motion as State, Plant};
@@ -75,6 +75,7 @@ pub fn kept(machine: &Machine, motion: Motion, world: World, seed: u64) -> Told 
         machine,
         &[record(machine, motion, world, seed)],
         &Axis::default(),
+        &Options::default(),
     ) {
         Ok(fit) => fit,
         Err(e) => return Told::Nothing(e.to_string()),

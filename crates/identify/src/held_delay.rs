@@ -1,0 +1,99 @@
+//! A delay of the force that one law has found, held beside another that cannot fit it.
+//!
+//! Elements change between stick and slip at instants between samples, where the slope of their force by the delay jumps, so that
+//! no descent finds it. The delay belongs to the log, not to friction: LuGre finds it on the same record, and what is open of
+//! it there is counted in the intervals of what is fitted beside it.
+
+use crate::estimate::Estimate;
+use crate::law::terms::{Delay, Terms};
+use crate::law::{Law, LawKind};
+use crate::separable::objective::{Evaluation, Objective};
+use nalgebra::DMatrix;
+use stiction_parameters::Quantity;
+
+impl Terms {
+    /// Whether this law has to be told the delay that is asked for.
+    pub fn asks_delay_of_another(&self, law: &Law) -> bool {
+        self.delay == Delay::Fitted && law.kind.has_elements()
+    }
+
+    /// The same with the delay that the fit of another law has found; none where that found none.
+    #[must_use]
+    pub fn holding_delay_of(&self, other: &Estimate) -> Self {
+        let own = other.parameter(Quantity::Delay);
+        let (delay, deviation) = match (other.terms.delay, own) {
+            (Delay::Fitted, Some(own)) => {
+                // One that is not determined may be as wrong as a sample.
+                let deviation = own.std.filter(|std| std.is_finite());
+                (
+                    Delay::Given(own.value),
+                    deviation.unwrap_or(other.step).min(other.step),
+                )
+            }
+            (Delay::Fitted, None) => (Delay::NONE, 0.0),
+            (known, _) => (known, other.terms.delay_deviation),
+        };
+        Self {
+            delay,
+            delay_deviation: deviation,
+            ..self.clone()
+        }
+    }
+}
+
+impl Law {
+    /// The law that finds the delay for one that cannot.
+    #[must_use]
+    pub fn that_finds_delay(self) -> Self {
+        Self {
+            kind: LawKind::LuGre,
+            elements: 0,
+            ..self
+        }
+    }
+}
+
+/// Covariance of the unknowns, nonlinear then linear, that comes of what is open of a delay that is held; `None` where nothing is.
+/// `bread` is the inverse of `J^T J`.
+///
+/// To first order: with the delay one deviation earlier and later the model differs by a column, and the unknowns move against
+/// it as in a Gauss-Newton step.
+pub(crate) fn spread(
+    objective: &Objective,
+    terms: &Terms,
+    p: &[f64],
+    at: &Evaluation,
+    bread: &DMatrix<f64>,
+) -> Option<DMatrix<f64>> {
+    let (Delay::Given(delay), deviation) = (terms.delay, terms.delay_deviation) else {
+        return None;
+    };
+    if deviation.is_nan() || deviation <= 0.0 {
+        return None;
+    }
+    let c = &at.solution.coefficients;
+    let model = |delay: f64| {
+        let terms = Terms {
+            delay: Delay::Given(delay),
+            ..terms.clone()
+        };
+        let moved = Objective::new(objective.record(), *objective.law(), &terms);
+        moved.model(p, c)
+    };
+    let [early, late] = [model(delay - deviation), model(delay + deviation)];
+    let column: Vec<f64> = late
+        .iter()
+        .zip(&early)
+        .map(|(b, a)| 0.5 * (b - a))
+        .collect();
+    let along = at.slopes.iter().map(|s| s.as_slice());
+    let along = along.chain(at.columns.iter().map(|c| c.as_slice()));
+    let product = |x: &[f64]| x.iter().zip(&column).map(|(x, y)| x * y).sum::<f64>();
+    let products: Vec<f64> = along.map(product).collect();
+    let n = products.len();
+    let moved: Vec<f64> = (0..n)
+        .map(|i| -(0..n).map(|j| bread[(i, j)] * products[j]).sum::<f64>())
+        .collect();
+    let finite = moved.iter().all(|x| x.is_finite());
+    finite.then(|| DMatrix::from_fn(n, n, |i, j| moved[i] * moved[j]))
+}
