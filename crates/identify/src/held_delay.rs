@@ -25,10 +25,7 @@ impl Terms {
             (Delay::Fitted, Some(own)) => {
                 // One that is not determined may be as wrong as a sample.
                 let deviation = own.std.filter(|std| std.is_finite());
-                (
-                    Delay::Given(own.value),
-                    deviation.unwrap_or(other.step).min(other.step),
-                )
+                (Delay::Given(own.value), deviation.unwrap_or(other.step))
             }
             (Delay::Fitted, None) => (Delay::NONE, 0.0),
             (known, _) => (known, other.terms.delay_deviation),

@@ -350,10 +350,10 @@ fn beside_a_delay_the_mass_is_that_of_the_axis() {
     let Delay::Given(delay) = held.terms.delay else {
         panic!("{:?}", held.terms.delay);
     };
-    // The force belongs to a motion half a sample later.
+    // The force belongs to a motion half a sample later. Four elements are no LuGre, which knows that it does not know it well.
     let off = delay / step + 0.5;
     let deviation = held.terms.delay_deviation / step;
-    assert!(off.abs() < 0.1 && deviation > 0.0, "{off} of {deviation}");
+    assert!(off.abs() < 3.0 * deviation, "{off} of {deviation}");
 }
 
 /// The error of a delay that another law has found is one of the mass and of all that feels it: their deviations are those beside
