@@ -11,6 +11,7 @@ pub(crate) mod channels;
 pub(crate) mod grid;
 pub(crate) mod losses;
 pub(crate) mod record;
+pub(crate) mod settling;
 pub(crate) mod shift;
 
 use crate::conditioning::channels::Channels;
@@ -65,6 +66,10 @@ pub struct Conditioning {
     /// Only samples at least this fast count, m/s or rad/s; 0 for all. A static law does not define
     /// friction at rest, and an encoder may not resolve the bristle deflection there.
     pub min_speed: f64,
+    /// Distance that the axis must have slid since the start of a log or the end of a gap before its samples count, m or
+    /// rad: until then the force depends on how far the bristles were deflected there. 0 counts them all, as if bristles
+    /// began undeflected. [`tune`](crate::tune()) finds it.
+    pub settling: f64,
 }
 
 impl Default for Conditioning {
@@ -76,6 +81,7 @@ impl Default for Conditioning {
             decimate: None,
             resolution: None,
             min_speed: 0.0,
+            settling: 0.0,
         }
     }
 }
@@ -105,6 +111,7 @@ pub(crate) fn condition_as(
     let settings = [
         ("min_speed", Some(conditioning.min_speed)),
         ("resolution", conditioning.resolution),
+        ("settling", Some(conditioning.settling)),
     ];
     for (name, found) in settings {
         if let Some(found) = found.filter(|x| !(*x >= 0.0 && x.is_finite())) {
@@ -230,6 +237,15 @@ pub(crate) fn condition_as(
             }
         }
     }
+    losses.unsettled = settling::settle(&mut segments, decimate, conditioning.settling);
+    if losses.unsettled > 0 {
+        notes.push(format!(
+            "{} samples not fitted at the start and after gaps: until the axis has slid {} (SI), the force depends on what was \
+             before",
+            losses.unsettled,
+            cutoff(conditioning.settling)
+        ));
+    }
     if segments.is_empty() {
         let needed = filters.least();
         return Err(Error::TooFewSamples {
@@ -252,6 +268,7 @@ pub(crate) fn condition_as(
         decimate: Some(decimate),
         resolution: conditioning.resolution,
         min_speed: 0.0,
+        settling: conditioning.settling,
     };
     Ok(Record {
         segments,

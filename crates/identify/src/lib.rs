@@ -132,4 +132,4 @@ pub use stiction_parameters::{
 };
 pub use stiction_search::{Control, Counts, Observer, Progress, Silent, Stage, Status};
 pub use stiction_signal::SignalError;
-pub use tune::{Trial, Tuned, tune};
+pub use tune::{Trial, Tuned, settle, tune};

@@ -61,11 +61,15 @@ pub(crate) struct Axis<'a> {
 impl<'a> Axis<'a> {
     /// `None` for an axis that cannot be simulated: without inertia, or without a bristle.
     pub fn of(record: &'a Record, fitted: &'a Estimate) -> Option<Self> {
+        Self::logged(record, fitted, late(fitted, record.step()))
+    }
+
+    /// The same with a force that is logged so many samples later than it was held.
+    pub fn logged(record: &'a Record, fitted: &'a Estimate, late: f64) -> Option<Self> {
         let first = plant(fitted)?;
         let plants = record.segments.iter();
         let plants = plants.map(|segment| of_log(first, fitted, segment.log));
         let plants = plants.collect::<Option<Vec<_>>>()?;
-        let late = late(fitted, record.step());
         let lag = fitted.lag_samples();
         // A force that acts a sample late without a lag may as well be one whose rows are a sample off.
         let (logging, drive) = match lag > 0.0 {
@@ -243,7 +247,7 @@ fn logged(channel: &[f64]) -> Option<Vec<f64>> {
 /// Samples by which the force is logged later than it was held; negative where it acts later than it was logged. A drive logs
 /// the force of this sample or of one before, or the mean of two: a fitted delay that chance may have moved from there is taken
 /// as that, unless there is a lag.
-fn late(fitted: &Estimate, step: f64) -> f64 {
+pub(crate) fn late(fitted: &Estimate, step: f64) -> f64 {
     let late = fitted.delay_samples() - HELD_DELAY;
     let delay = fitted.parameter(Quantity::Delay).and_then(|p| p.std);
     let is_sought = fitted.terms.delay == Delay::Fitted && fitted.lag_samples() == 0.0;

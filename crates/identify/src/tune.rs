@@ -23,7 +23,7 @@ use crate::law::Law;
 use crate::law::physical::physical;
 use crate::law::terms::{Lag, Terms};
 use crate::refit::{FirstOrder, first_order, force_noise};
-use crate::replica::{Axis, Replica};
+use crate::replica::{self, Axis, Replica};
 use crate::separable::settings::Settings;
 use crate::separable::{follow, separable};
 use stiction_parameters::Name;
@@ -84,7 +84,8 @@ pub struct Tuned {
     pub interrupted: bool,
 }
 
-/// Chooses the cut-offs that `wanted` leaves open. They stay as they are where the position does not
+/// Chooses the cut-offs that `wanted` leaves open, and the distance that an axis must have slid before its samples count
+/// ([`Conditioning::settling`]). The cut-offs stay as they are where the position does not
 /// drive the law, or where the axis cannot be simulated: no inertia, no bristle, a fit that explains
 /// little.
 ///
@@ -111,16 +112,17 @@ pub fn tune(
         None => logs.iter().all(|log| log.position.is_some()),
     };
     if !from_position || !(open(wanted.source_cutoff) || open(wanted.common_cutoff)) {
-        return Ok(tuned);
+        return settle(logs, wanted, law, terms, settings, observer);
     }
     let untuned = condition_as(logs, wanted, 0.0)?;
     let rate = 1.0 / untuned.step();
-    let least = untuned.kept().min(FEWEST_SAMPLES);
+    let mut wanted = *wanted;
     let mut at = START;
     let mut last: Option<Vec<f64>> = None;
+    let mut late = None;
     for round in 0..MOST_ROUNDS {
-        let trial = cutoffs(wanted, rate, at);
-        let Ok(record) = condition(logs, &trial) else {
+        let mut trial = cutoffs(&wanted, rate, at);
+        let Ok(mut record) = condition(logs, &trial) else {
             break;
         };
         let mut terms = terms.about(&record);
@@ -130,7 +132,14 @@ pub fn tune(
             Some(start) => follow(start, &record, law, &terms, settings, observer)?,
             None => {
                 let found = separable(&record, law, &terms, settings, observer)?;
-                match lag(logs, (wanted, &record), &terms, &found, settings, observer)? {
+                tuned.counts.add(&found.counts);
+                wanted.settling = found.settling();
+                tuned.conditioning = wanted;
+                trial = cutoffs(&wanted, rate, at);
+                record = condition(logs, &trial)?;
+                let found = follow(&found.p, &record, law, &terms, settings, observer)?;
+                let near = (&wanted, &record);
+                match lag(logs, near, &terms, &found, settings, observer)? {
                     Some((lag, counts)) => {
                         tuned.counts.add(&counts);
                         tuned.counts.add(&found.counts);
@@ -143,6 +152,7 @@ pub fn tune(
         };
         last = Some(found.p[..law.nonlinear()].to_vec());
         tuned.counts.add(&found.counts);
+        wanted.settling = found.settling();
         let fitted = estimate(&record, law, &terms, &found, 0.0);
         tuned.interrupted = found.status == Status::Interrupted;
         if tuned.interrupted {
@@ -150,23 +160,27 @@ pub fn tune(
         }
         if !worth(&fitted) {
             // Replicas of a fit with low cut-offs know nothing of what the axis does above them.
-            tuned.conditioning = *wanted;
+            tuned.conditioning = wanted;
             tuned.trials.clear();
             break;
         }
-        let Some(axis) = Axis::of(&record, &fitted) else {
+        // The delay of the first fit, whose common cut-off is low. The higher the cut-off, the more of what a controller answers
+        // to its encoder is taken for a delay, and a replica with that delay is as biased as the fit: nothing would come
+        // out wrong there, however far the choice has led.
+        let late = *late.get_or_insert_with(|| replica::late(&fitted, record.step()));
+        let Some(axis) = Axis::logged(&record, &fitted, late) else {
             break;
         };
         let Some(noise) = force_noise(&record, &axis, &trial, &fitted, &mut tuned.counts) else {
             break;
         };
         let mut search = Walk {
-            least,
+            least: condition_as(logs, &wanted, 0.0)?.kept().min(FEWEST_SAMPLES),
             fitted: &fitted,
             replicas: Vec::new(),
             force_noise: noise,
             round,
-            wanted,
+            wanted: &wanted,
             rate,
             seen: Vec::new(),
             counts: Counts::default(),
@@ -182,13 +196,42 @@ pub fn tune(
         };
         tuned.counts.add(&search.counts);
         tuned.trials = search.trials();
-        tuned.conditioning = cutoffs(wanted, rate, best);
+        tuned.conditioning = cutoffs(&wanted, rate, best);
         if best == at {
             break;
         }
         at = best;
     }
     Ok(tuned)
+}
+
+/// Leaves the cut-offs as they are, and finds the distance alone that an axis must have slid before its samples count: by a
+/// fit of some of the samples.
+///
+/// # Errors
+/// Those of [`condition`] and [`separable`].
+pub fn settle(
+    logs: &[Samples],
+    wanted: &Conditioning,
+    law: Law,
+    terms: &Terms,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Result<Tuned, Error> {
+    let record = condition_as(logs, wanted, 0.0)?;
+    let rough = record.rough(settings.thin);
+    let rough = rough.as_ref().unwrap_or(&record);
+    let found = separable(rough, law, &terms.about(rough), settings, observer)?;
+    Ok(Tuned {
+        conditioning: Conditioning {
+            settling: found.settling(),
+            ..*wanted
+        },
+        trials: Vec::new(),
+        counts: found.counts,
+        lag: Lag::NONE,
+        interrupted: found.status == Status::Interrupted,
+    })
 }
 
 /// Part of the variance that a fit must explain to represent the axis. The rest is taken as noise of the

@@ -137,6 +137,7 @@ impl Resolver {
             min_speed: self
                 .positive(table.get("min_speed"), &SPEEDS)?
                 .unwrap_or(0.0),
+            settling: 0.0,
         };
         table.end()?;
         Ok(conditioning)

@@ -20,6 +20,8 @@ pub struct Losses {
     pub at_rest: usize,
     /// Of those taken: slower than `min_speed`.
     pub slow: usize,
+    /// Of those taken: where the force depends on what was before the log or in a gap.
+    pub unsettled: usize,
     /// Of those taken: held back for validation.
     pub held_back: usize,
 }
@@ -42,6 +44,10 @@ impl fmt::Display for Losses {
             (self.ends, "lie at ends, where filters settle"),
             (self.at_rest, "are at rest"),
             (self.slow, "are slower than min_speed"),
+            (
+                self.unsettled,
+                "lie at the start or after gaps, where the force depends on what was before",
+            ),
             (self.held_back, "are held back for validation"),
         ];
         let mut before = ", and of those ";

@@ -183,7 +183,7 @@ impl Record {
     /// Why samples do not count, with their numbers.
     pub(crate) fn losses(&self) -> Losses {
         let mut losses = self.losses.clone();
-        let known = losses.excluded + losses.ends + losses.slow;
+        let known = losses.excluded + losses.ends + losses.slow + losses.unsettled;
         losses.held_back = (self.len() - self.kept()).saturating_sub(known);
         losses
     }

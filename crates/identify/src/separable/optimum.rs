@@ -1,5 +1,6 @@
 //! What a separable search finds.
 
+use crate::conditioning::settling;
 use crate::gms::score::ElementsScore;
 use crate::law::Law;
 use crate::separable::objective::Evaluation;
@@ -75,6 +76,18 @@ impl Optimum {
             }
         }
         bounds
+    }
+
+    /// The distance that the axis must slide until its friction no longer depends on how its bristles were deflected before,
+    /// m or rad; 0 for a law without bristles, and for one of several elements.
+    pub(crate) fn settling(&self) -> f64 {
+        let layout = self.law.layout();
+        let Some(kappa) = layout.kappa else {
+            return 0.0;
+        };
+        let level = |i: usize| 1.0 + libm::exp(self.p[i]);
+        let levels = layout.excess.into_iter().flatten().map(level);
+        settling::distance(levels.fold(1.0, f64::max) * libm::exp(-self.p[kappa]))
     }
 
     /// Whether the delay was fitted and stands at the bound of its range.

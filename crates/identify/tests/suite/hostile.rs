@@ -254,6 +254,7 @@ fn conditioning() -> impl Strategy<Value = Conditioning> {
                     decimate,
                     resolution,
                     min_speed,
+                    settling: 0.0,
                 }
             },
         )

@@ -20,6 +20,7 @@ mod oracle;
 mod output_error;
 mod profile;
 mod refusals;
+mod settling;
 mod static_map;
 mod step;
 mod stretches;

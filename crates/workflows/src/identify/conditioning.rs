@@ -64,9 +64,6 @@ pub(super) fn choose(
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<Chosen, Error> {
-    if terms.mass == Mass::Absent || wanted.min_speed > 0.0 {
-        return Ok(Chosen::stated(*wanted));
-    }
     let samples = sources
         .iter()
         .map(Source::fitted)
@@ -77,10 +74,17 @@ pub(super) fn choose(
         ..terms.clone()
     };
     // What cannot be fitted at all is reported by the fit itself.
-    let Ok(tuned) = engine::tune(&samples, wanted, law, &plain, settings, observer) else {
+    let as_stated = terms.mass == Mass::Absent || wanted.min_speed > 0.0;
+    let choice = if as_stated {
+        engine::settle
+    } else {
+        engine::tune
+    };
+    let Ok(tuned) = choice(&samples, wanted, law, &plain, settings, observer) else {
         return Ok(Chosen::stated(*wanted));
     };
     let note = match tuned.interrupted {
+        true if as_stated => None,
         true => Some(
             "cut-offs not chosen: the run was stopped before; these follow from the sample rate"
                 .into(),
