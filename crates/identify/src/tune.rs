@@ -13,7 +13,7 @@
 //! What encoder steps and filters shift is seen on replicas without force noise, and what that noise adds is
 //! computed, so that no draw of it decides (decision 0048).
 
-use crate::conditioning::record::Samples;
+use crate::conditioning::record::{Record, Samples};
 use crate::conditioning::{Conditioning, Cutoff, Source, condition, condition_as};
 use crate::error::Error;
 use crate::estimate::fitted::FittedLaw;
@@ -24,6 +24,7 @@ use crate::law::physical::physical;
 use crate::law::terms::{Lag, Terms};
 use crate::refit::{FirstOrder, first_order, force_noise};
 use crate::replica::{self, Axis, Replica};
+use crate::separable::optimum::Optimum;
 use crate::separable::settings::Settings;
 use crate::separable::{follow, separable};
 use stiction_parameters::Name;
@@ -132,12 +133,22 @@ pub fn tune(
             Some(start) => follow(start, &record, law, &terms, settings, observer)?,
             None => {
                 let found = separable(&record, law, &terms, settings, observer)?;
-                tuned.counts.add(&found.counts);
-                wanted.settling = found.settling();
-                tuned.conditioning = wanted;
-                trial = cutoffs(&wanted, rate, at);
-                record = condition(logs, &trial)?;
-                let found = follow(&found.p, &record, law, &terms, settings, observer)?;
+                let settled = Conditioning {
+                    settling: found.settling(),
+                    ..trial
+                };
+                let later = condition(logs, &settled)?;
+                let found = match depends_on_before(&record, &later, &found) {
+                    true => {
+                        tuned.counts.add(&found.counts);
+                        wanted.settling = settled.settling;
+                        tuned.conditioning = wanted;
+                        trial = settled;
+                        record = later;
+                        follow(&found.p, &record, law, &terms, settings, observer)?
+                    }
+                    false => found,
+                };
                 let near = (&wanted, &record);
                 match lag(logs, near, &terms, &found, settings, observer)? {
                     Some((lag, counts)) => {
@@ -152,7 +163,9 @@ pub fn tune(
         };
         last = Some(found.p[..law.nonlinear()].to_vec());
         tuned.counts.add(&found.counts);
-        wanted.settling = found.settling();
+        if wanted.settling > 0.0 {
+            wanted.settling = found.settling();
+        }
         let fitted = estimate(&record, law, &terms, &found, 0.0);
         tuned.interrupted = found.status == Status::Interrupted;
         if tuned.interrupted {
@@ -205,6 +218,29 @@ pub fn tune(
     Ok(tuned)
 }
 
+/// Mean square of what a fit leaves before the axis has slid, over that of the rest, from which on the start is not what the
+/// law assumes.
+const UNLIKE: f64 = 2.0;
+
+/// Whether a fit of a record leaves more in the samples that the same record, settled, has no more: there the bristles did not
+/// begin undeflected, as the law assumes.
+fn depends_on_before(record: &Record, settled: &Record, found: &Optimum) -> bool {
+    let flags = |record: &Record| -> Vec<bool> {
+        let segments = record.segments.iter();
+        segments.flat_map(|s| s.keep.iter().copied()).collect()
+    };
+    let mut residual = found.evaluation.residual().iter();
+    let (mut early, mut rest) = ((0.0, 0.0), (0.0, 0.0));
+    for (kept, late) in flags(record).into_iter().zip(flags(settled)) {
+        if let Some(r) = kept.then(|| residual.next()).flatten() {
+            let of = if late { &mut rest } else { &mut early };
+            of.0 += r * r;
+            of.1 += 1.0;
+        }
+    }
+    early.0 * rest.1 > UNLIKE * rest.0 * early.1
+}
+
 /// Leaves the cut-offs as they are, and finds the distance alone that an axis must have slid before its samples count: by a
 /// fit of some of the samples.
 ///
@@ -222,10 +258,16 @@ pub fn settle(
     let rough = record.rough(settings.thin);
     let rough = rough.as_ref().unwrap_or(&record);
     let found = separable(rough, law, &terms.about(rough), settings, observer)?;
+    let settled = Conditioning {
+        settling: found.settling(),
+        ..*wanted
+    };
+    let later = condition_as(logs, &settled, 0.0)?;
+    let later = later.rough(settings.thin).unwrap_or(later);
     Ok(Tuned {
-        conditioning: Conditioning {
-            settling: found.settling(),
-            ..*wanted
+        conditioning: match depends_on_before(rough, &later, &found) {
+            true => settled,
+            false => *wanted,
         },
         trials: Vec::new(),
         counts: found.counts,

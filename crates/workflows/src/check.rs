@@ -238,6 +238,19 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
             };
             out.parameters = verdicts(&outcome);
             out.conditioning = outcome.result.axis.conditioning;
+            // What only the fit shows of the log itself.
+            let shown = outcome.result.warnings.into_iter();
+            let of_the_log = shown.filter(|w| w.code == Code::Jitter);
+            for warning in of_the_log {
+                let known = |f: &Finding| warning.message.ends_with(&f.message);
+                if !out.findings.iter().any(known) {
+                    out.findings.push(Finding {
+                        code: warning.code,
+                        severity: "warning".into(),
+                        message: warning.message,
+                    });
+                }
+            }
         }
         // What the log cannot give is a verdict on the log; a bad axis file is an error of its own.
         Err(e @ Error::Identify { .. }) if e.code() != Code::BadSetting => {

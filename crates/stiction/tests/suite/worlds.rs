@@ -1,9 +1,11 @@
 //! What is claimed of axes that are not what an identification assumes.
 
 use crate::claims::{Run, judged};
+use crate::common::Bench;
 use crate::common::identified::identified;
 use rayon::prelude::*;
-use stiction::{Axis, LawKind, Options};
+use stiction::commands::check::{Finding, check};
+use stiction::{Axis, LawKind, Options, Silent};
 use stiction_testkit::worlds::{Drive, Machine, Motion, World, record};
 
 const SEED: u64 = 1;
@@ -70,6 +72,47 @@ fn jitter_is_named_and_counted() {
         assert!(!found.is_silent(), "{axis}: {found}");
         let without = of(axis, Motion::Commissioning, World::Faithful);
         assert!(!without.codes.contains(&"jitter"), "{axis}: {without}");
+    }
+}
+
+/// `check` says the same of the log.
+#[test]
+fn check_names_jitter() {
+    let mut machines = Machine::all(SEED).into_iter();
+    let (_, machine) = machines.find(|(name, _)| *name == "stage").unwrap();
+    for (world, named) in [(World::Dropped, true), (World::Faithful, false)] {
+        let log = record(&machine, Motion::Commissioning, world, SEED);
+        let mut text = String::from("time [s],position [m],force [N]\n");
+        let position = log.position.as_ref().unwrap();
+        for ((t, x), u) in log.time.iter().zip(position).zip(&log.force) {
+            text += &format!("{t:.9},{x:.12},{u:.6}\n");
+        }
+        let bench = Bench::new();
+        let path = bench.path("log.csv");
+        std::fs::write(&path, text).unwrap();
+        let found = check(&[path], None, &mut Silent).unwrap();
+        let says = |f: &Finding| f.code.as_str() == "jitter" && f.message.contains("rms");
+        let findings = &found.logs[0].findings;
+        assert_eq!(findings.iter().any(says), named, "{world:?}: {findings:#?}");
+    }
+}
+
+/// A force so late that no delay that is looked for fits says nothing of the bristle.
+#[test]
+fn beyond_all_delays_no_bristle_is_claimed() {
+    let late = Drive {
+        periods: 0,
+        lag: 1e-3,
+        every: 1,
+    };
+    let motions = [Motion::Commissioning, Motion::Sine, Motion::Trapezoid];
+    let found = motions.map(|motion| of("stage", motion, World::Driven(late)));
+    let beyond = |run: &&Run| run.codes.contains(&"delay-out-of-range");
+    let beyond: Vec<&Run> = found.iter().filter(beyond).collect();
+    assert!(!beyond.is_empty(), "{found:#?}");
+    for run in beyond {
+        let claims = |name: &str| run.claims.iter().any(|c| c.0 == name);
+        assert!(!claims("sigma0") && !claims("sigma1"), "{run}");
     }
 }
 

@@ -6,7 +6,7 @@ use super::unfit;
 use stiction_files::result::{BetterLaw, LawEntry};
 use stiction_identify as engine;
 use stiction_identify::{
-    Control, Estimate, Law, LawKind, Observer, Optimum, Progress, Settings, Status,
+    Control, Delay, Estimate, Law, LawKind, Observer, Optimum, Progress, Settings, Status,
 };
 use stiction_parameters::{Quantity, Side};
 
@@ -23,6 +23,11 @@ pub(super) const FAMILIES: [LawKind; 4] = [
 const SHIFTED: f64 = 0.22;
 /// The same in standard deviations.
 const SURELY: f64 = 3.0;
+
+/// Why the bristle is open where no delay that is looked for fits: what is late, and how, decides most about the slopes of
+/// reversals.
+const BEYOND_ALL_DELAYS: &str = "the delay of the force came out at the end of those that are looked for, and it moves stiffness \
+                                 and damping of the bristles more than all else";
 
 /// A fitted law and the laws it was compared with.
 pub(super) struct Choice {
@@ -400,6 +405,15 @@ fn stated(
             // What its intervals lack is not told from what they have.
             estimate = estimate.interrupted();
         }
+    }
+    let sought = ladder.usual(estimate.law).terms.delay == Delay::Fitted;
+    if sought && estimate.terms.delay == Delay::NONE {
+        let moved = [Quantity::Sigma0, Quantity::Sigma1];
+        estimate.doubt(|p| {
+            moved
+                .contains(&p.name.quantity)
+                .then_some(BEYOND_ALL_DELAYS)
+        });
     }
     estimate
 }
