@@ -374,19 +374,23 @@ fn another_curve_shows_where_an_axis_rests() {
 fn elements_are_fitted_beside_the_delay_of_the_log() {
     let mut options = Options::default();
     (options.law, options.compare_laws) = (Some(LawKind::Gms), false);
+    let mut missed = Vec::new();
     for axis in ["stage", "screw"] {
         let mut machines = Machine::all(SEED).into_iter();
         let (_, machine) = machines.find(|(name, _)| *name == axis).unwrap();
         let log = record(&machine, Motion::Commissioning, World::MaxwellSlip, SEED);
         let fit = identified(&machine, &[log], &Axis::default(), &options);
         let found = judged(&[machine], fit);
-        // Where LuGre knows the delay badly, what it moves most is open.
-        let claim = |name: &str| found.claims.iter().find(|claim| claim.0 == name);
-        let inside = |name: &str| claim(name).map(|claim| claim.2.abs() < 1.0);
-        assert_eq!(inside("mass"), Some(true), "{axis}: {found}");
-        assert_ne!(inside("sigma2"), Some(false), "{axis}: {found}");
+        for name in ["sigma2", "mass"] {
+            match found.claims.iter().find(|claim| claim.0 == name) {
+                Some(claim) => assert!(claim.2.abs() < 1.0, "{axis}, {name}: {found}"),
+                None => missed.push((axis, name)),
+            }
+        }
         assert!(!found.is_silent(), "{axis}: {found}");
     }
+    // Where LuGre knows the delay badly, what it moves most is open.
+    assert_eq!(missed, [("screw", "sigma2")]);
 }
 
 #[test]
