@@ -28,6 +28,8 @@ const POSITION: &[&str] = &[
     "enc",
     "qm",
     "qg",
+    "lage",
+    "winkel",
 ];
 const VELOCITY: &[&str] = &[
     "velocity",
@@ -42,10 +44,33 @@ const VELOCITY: &[&str] = &[
     "xdot",
     "dx",
     "dtheta",
+    "geschwindigkeit",
+    "drehzahl",
 ];
-const ACCELERATION: &[&str] = &["acceleration", "accel", "acc", "ddq", "qddot", "xddot"];
+const ACCELERATION: &[&str] = &[
+    "acceleration",
+    "accel",
+    "acc",
+    "ddq",
+    "qddot",
+    "xddot",
+    "beschleunigung",
+];
 const FORCE: &[&str] = &[
-    "force", "torque", "trq", "tau", "moment", "current", "cur", "curr", "friction", "f", "iq",
+    "force",
+    "torque",
+    "trq",
+    "tau",
+    "moment",
+    "current",
+    "cur",
+    "curr",
+    "friction",
+    "f",
+    "iq",
+    "kraft",
+    "drehmoment",
+    "strom",
 ];
 const TEMPERATURE: &[&str] = &["temperature", "temp", "temperatur"];
 const WEAK: &[(&str, Role)] = &[
@@ -72,6 +97,7 @@ const COMMANDED: &[&str] = &[
     "goal",
     "nominal",
     "qg",
+    "soll",
 ];
 const MEASURED: &[&str] = &[
     "act",
@@ -83,6 +109,7 @@ const MEASURED: &[&str] = &[
     "fb",
     "fbk",
     "qm",
+    "ist",
 ];
 const PASSED_OVER: &[&str] = &[
     "error",
@@ -103,9 +130,38 @@ const PASSED_OVER: &[&str] = &[
     "gain",
     "offset",
     "warning",
+    "schlepp",
+    "fehler",
+    "abweichung",
 ];
 /// Words that may be beside a letter or two without changing its meaning.
-const HARMLESS_NEIGHBOURS: &[&str] = &["axis", "motor", "joint", "drive", "m"];
+const HARMLESS_NEIGHBOURS: &[&str] = &["axis", "motor", "joint", "drive", "m", "achse", "wert"];
+/// What German names are put together of: `Istposition`, `Lagesollwert`, `Schleppfehler`.
+const GERMAN: &[&str] = &[
+    "soll",
+    "ist",
+    "wert",
+    "position",
+    "lage",
+    "winkel",
+    "geschwindigkeit",
+    "drehzahl",
+    "beschleunigung",
+    "kraft",
+    "drehmoment",
+    "moment",
+    "strom",
+    "zeit",
+    "temperatur",
+    "schlepp",
+    "fehler",
+    "abstand",
+    "abweichung",
+    "regel",
+    "motor",
+    "achs",
+    "achse",
+];
 
 /// What a name says; `None` where it says nothing, or names something that is passed over.
 pub(super) fn hint(name: &str) -> Option<Hint> {
@@ -239,7 +295,7 @@ fn alone(words: &[String], word: &str) -> bool {
 pub(super) fn says_current(name: &str) -> bool {
     words(name)
         .iter()
-        .any(|w| ["current", "cur", "curr", "i", "iq"].contains(&w.as_str()))
+        .any(|w| ["current", "cur", "curr", "i", "iq", "strom"].contains(&w.as_str()))
 }
 
 /// Whether a name speaks of encoder counts and of nothing else.
@@ -263,10 +319,21 @@ pub(super) fn motion(name: &str) -> Option<Motion> {
     let words = words(name);
     let has = |list: &[&str]| words.iter().any(|w| list.contains(&w.as_str()));
     if has(&[
-        "angle", "theta", "dtheta", "omega", "torque", "trq", "tau", "moment", "joint",
+        "angle",
+        "theta",
+        "dtheta",
+        "omega",
+        "torque",
+        "trq",
+        "tau",
+        "moment",
+        "joint",
+        "winkel",
+        "drehmoment",
     ]) {
         Some(Motion::Rotary)
-    } else if has(&["force", "displacement", "disp", "f", "xdot", "dx"]) || words == ["x"] {
+    } else if has(&["force", "displacement", "disp", "f", "xdot", "dx", "kraft"]) || words == ["x"]
+    {
         Some(Motion::Linear)
     } else {
         None
@@ -309,5 +376,35 @@ fn words(name: &str) -> Vec<String> {
     if let Some(at) = words.windows(2).position(|w| w[0] == "i" && w[1] == "q") {
         words.splice(at..at + 2, ["iq".to_string()]);
     }
-    words
+    words.into_iter().flat_map(taken_apart).collect()
 }
+
+/// The words that a German name is put together of; the word itself where it is none.
+fn taken_apart(word: String) -> Vec<String> {
+    fn parts(rest: &str) -> Option<Vec<&'static str>> {
+        if rest.is_empty() {
+            return Some(Vec::new());
+        }
+        // The longest that leaves something which can be taken apart too.
+        let mut first: Vec<&str> = GERMAN
+            .iter()
+            .copied()
+            .filter(|p| rest.starts_with(p))
+            .collect();
+        first.sort_by_key(|part| std::cmp::Reverse(part.len()));
+        first.into_iter().find_map(|part| {
+            let mut all = vec![part];
+            all.extend(parts(&rest[part.len()..])?);
+            Some(all)
+        })
+    }
+    match word.len() <= LONGEST_GERMAN {
+        true => {
+            parts(&word).map_or_else(|| vec![word], |p| p.into_iter().map(String::from).collect())
+        }
+        false => vec![word],
+    }
+}
+
+/// Longer words are not taken apart, bytes.
+const LONGEST_GERMAN: usize = 40;

@@ -85,6 +85,36 @@ fn what_is_recognised() {
     ]));
 }
 
+/// German controllers put names together: `Soll` is asked for, `Ist` is measured, `Schleppfehler` is neither.
+#[test]
+fn german_names_are_taken_apart() {
+    insta::assert_snapshot!(pick_each(&[
+        &[
+            "Zeit [ms]",
+            "Istposition [mm]",
+            "Motorstrom [A]",
+            "Sollposition [mm]",
+            "Sollgeschwindigkeit [mm/s]",
+            "Istgeschwindigkeit [mm/s]",
+            "Schleppfehler [mm]",
+        ],
+        &[
+            "Zeit [s]",
+            "Lagesollwert [deg]",
+            "Lageistwert [deg]",
+            "Drehzahlistwert [rpm]",
+            "Drehmomentsollwert [Nm]",
+            "Drehmomentistwert [Nm]",
+        ],
+        &[
+            "Zeit [s]",
+            "Winkel Soll [deg]",
+            "Winkel Ist [deg]",
+            "Drehmoment [Nm]"
+        ],
+    ]));
+}
+
 #[test]
 fn what_is_refused_with_the_choices() {
     insta::assert_snapshot!(pick_each(&[
@@ -542,7 +572,7 @@ fn every_column_is_accounted_for() {
                 "ActPos [mm]",
                 "SetPos [mm]",
                 "FollowingError [mm]",
-                "Kraft [N]",
+                "Zug [N]",
                 "Flag",
             ],
             &Mapping::default(),
