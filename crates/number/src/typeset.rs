@@ -66,9 +66,14 @@ pub fn plus_minus(value: f64, uncertainty: f64) -> String {
 }
 
 /// An interval as `7.17 … 7.65` or `(7.17 … 7.65)×10⁶`, with two digits of its width.
-/// An open end is written `−∞` or `∞`.
+/// An open end is written `−∞` or `∞`; an end that those digits would show as zero has digits of its own:
+/// `1607 … 2.184×10⁵`.
 pub fn interval(low: f64, high: f64) -> String {
-    match Grid::new(low.abs().max(high.abs()), (high - low).abs()) {
+    let shown = |grid: &Grid| {
+        let vanishes = |x: f64| x != 0.0 && !grid.write(x).contains(|c| ('1'..='9').contains(&c));
+        !vanishes(low) && !vanishes(high)
+    };
+    match Grid::new(low.abs().max(high.abs()), (high - low).abs()).filter(shown) {
         Some(grid) => grid.bracket(format!(
             "{}\u{a0}…\u{a0}{}",
             grid.write(low),
@@ -313,6 +318,9 @@ mod tests {
         for (low, high, expected) in [
             (7.17e6, 7.652e6, "(7.17 … 7.65)×10⁶"),
             (-0.5, 1.26, "−0.5 … 1.3"),
+            (0.0, 1.26, "0.0 … 1.3"),
+            (1607.0, 2.184e5, "1607 … 2.184×10⁵"),
+            (-2.184e5, -1607.0, "−2.184×10⁵ … −1607"),
             (f64::NEG_INFINITY, 3.0, "−∞ … 3.000"),
             (2.0, 2.0, "2.000 … 2.000"),
             (f64::NAN, f64::MAX, "– … 1.798×10³⁰⁸"),
