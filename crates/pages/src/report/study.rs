@@ -10,7 +10,7 @@ pub(crate) mod rows;
 pub(crate) mod sweep;
 
 use axis::{axis, mass_unit, motion, parameters};
-use rows::{COLORS, believed, drawn, judged, left_out, less, tabled};
+use rows::{COLORS, believed, drawn, is_worse, judged, left_out, less, tabled};
 use stiction_files::study::result::{MetricEntry, ResultRow, StudyFile};
 use stiction_files::symbols;
 use stiction_log::Motion;
@@ -164,11 +164,10 @@ fn verdict(file: &StudyFile) -> Callout {
         .map(|r| r.runs)
         .chain(swept)
         .sum::<usize>();
-    let worse = file
-        .results
+    let worse = tabled(&file.results)
         .iter()
-        .filter(|r| judged(r).is_some_and(|m| m.worst_reduction_percent < Some(0.0)))
         .filter(|r| r.compensator != "none" || r.coupled)
+        .filter(|r| judged(r).is_some_and(|m| is_worse(m.worst_reduction_percent)))
         .count();
     let swept_worse = sweep::count_worse(file);
     let (severity, text) = if file.status == "interrupted" {
@@ -302,7 +301,7 @@ fn table(rows: &[ResultRow]) -> Table {
             .filter(|(_, (shown, ..))| *shown)
             .map(|(cell, _)| cell)
             .collect();
-        table = if worst < Some(0.0) && judged.is_some() {
+        table = if is_worse(worst) {
             table.marked(Severity::Warning, cells)
         } else {
             table.row(cells)

@@ -1,6 +1,6 @@
 //! Rows and pictures of two axes on a contour.
 
-use super::rows::{COLORS, believed, drawn, left_out, less};
+use super::rows::{COLORS, believed, drawn, is_worse, left_out, less};
 use stiction_files::study::result::ResultRow;
 use stiction_files::symbols;
 use stiction_log::Motion;
@@ -73,7 +73,7 @@ pub(super) fn table(rows: &[ResultRow]) -> Table {
         if several {
             cells.push(less(worst.filter(|_| row.runs > 1)));
         }
-        table = if worst < Some(0.0) && judged.is_some() {
+        table = if is_worse(worst) {
             table.marked(Severity::Warning, cells)
         } else {
             table.row(cells)

@@ -19,6 +19,11 @@ pub(crate) fn judged(row: &ResultRow) -> Option<&MetricEntry> {
     row.judged()
 }
 
+/// Whether a run tracks worse with compensation than without, by the least reduction of a row; a row without one says nothing.
+pub(crate) fn is_worse(least_reduction_percent: Option<f64>) -> bool {
+    least_reduction_percent.is_some_and(|percent| percent < 0.0)
+}
+
 /// The rows of the tables: what is promised stands in one of its own.
 pub(crate) fn tabled(rows: &[ResultRow]) -> Vec<ResultRow> {
     let tabled = rows.iter().filter(|r| r.parameters != "promised");
@@ -74,6 +79,13 @@ pub(crate) fn left_out(drawn: usize, all: usize) -> String {
 
 #[cfg(test)]
 mod tests {
+    #[test]
+    fn a_row_that_is_compared_with_nothing_is_not_worse() {
+        assert!(!super::is_worse(None));
+        assert!(!super::is_worse(Some(0.0)));
+        assert!(super::is_worse(Some(-0.1)));
+    }
+
     #[test]
     fn what_is_nearly_all_is_not_all() {
         assert_eq!(super::less(99.97), "> 99.9 %");
