@@ -7,9 +7,13 @@
 //! 1986, doi 10.1093/biomet/73.1.13). Filters and encoder pull too: how much on which log, the replicas of the fitted axis
 //! show.
 //!
+//! Two logs that differ in one unknown may move another one without pulling on it: they are seen from a
+//! [centre](centre) between them as well, and the larger scatter counts.
+//!
 //! A residual is so divided in two: what logs have differently is judged here, and what is left when each log has linear
 //! unknowns of its own ([`Logs::within`]) states the deviations and is looked through for a [misfit](crate::misfit) of the law.
 
+mod centre;
 mod levels;
 mod points;
 
@@ -38,6 +42,8 @@ type Pulls = Vec<Vec<f64>>;
 #[derive(Clone, Debug)]
 pub(crate) struct Told {
     pulls: Pulls,
+    /// The same from the centre between the logs.
+    from_centre: Pulls,
     levels: Levels,
 }
 
@@ -75,13 +81,19 @@ impl Told {
         let free = self.pulls.len() - 1;
         let chance = CHANCE[free.min(CHANCE.len()) - 1];
         let few = student::whole(free) / NORMAL_Q95;
-        let mean = mean(replicas, &self.pulls);
         let count = replicas.len() as f64;
+        let ways: [(Of, fn(&[f64]) -> f64); 2] = [
+            (|told| &told.pulls, about_mean),
+            (|told| &told.from_centre, about_zero),
+        ];
+        let means = ways.map(|(of, _)| mean(replicas, of, self));
         let beyond = |p: &Physical, known: f64| {
-            let between = scatter(p, &self.pulls, &mean);
-            let each = replicas.iter().map(|told| scatter(p, &told.pulls, &mean));
-            let usual = each.sum::<f64>() / (count - 1.0).max(1.0);
-            between - chance * usual.max(known)
+            let each = ways.iter().zip(&means).map(|((of, squares), mean)| {
+                let scatter = |told: &Told| scatter(p, of(told), mean, squares);
+                let usual = replicas.iter().map(scatter).sum::<f64>() / (count - 1.0).max(1.0);
+                scatter(self) - chance * usual.max(known)
+            });
+            each.fold(0.0, f64::max)
         };
         let each = parameters.iter().zip(known);
         Between(
@@ -118,11 +130,15 @@ impl Between {
     }
 }
 
+/// The pulls that are looked at.
+type Of = fn(&Told) -> &Pulls;
+
 /// Mean pulls of replicas; zero where there are none.
-fn mean(replicas: &[Told], own: &Pulls) -> Pulls {
-    let mut out: Pulls = own.iter().map(|pull| vec![0.0; pull.len()]).collect();
+fn mean(replicas: &[Told], of: Of, own: &Told) -> Pulls {
+    let own = of(own).iter();
+    let mut out: Pulls = own.map(|pull| vec![0.0; pull.len()]).collect();
     for told in replicas {
-        for (sum, pull) in out.iter_mut().zip(&told.pulls) {
+        for (sum, pull) in out.iter_mut().zip(of(told)) {
             for (sum, x) in sum.iter_mut().zip(pull) {
                 *sum += x / replicas.len() as f64;
             }
@@ -131,9 +147,13 @@ fn mean(replicas: &[Told], own: &Pulls) -> Pulls {
     out
 }
 
-/// Variance of a parameter from the scatter of the pulls about those that are expected. What they add up to is not between the
-/// logs: nothing at an optimum, and the rest of the way to it in a replica.
-fn scatter(parameter: &Physical, pulls: &Pulls, expected: &Pulls) -> f64 {
+/// Variance of a parameter from the scatter of the pulls about those that are expected.
+fn scatter(
+    parameter: &Physical,
+    pulls: &Pulls,
+    expected: &Pulls,
+    squares: &fn(&[f64]) -> f64,
+) -> f64 {
     let along = |(pull, expected): (&Vec<f64>, &Vec<f64>)| -> f64 {
         let slopes = parameter.slope.iter();
         slopes
@@ -143,9 +163,18 @@ fn scatter(parameter: &Physical, pulls: &Pulls, expected: &Pulls) -> f64 {
     };
     let logs = pulls.len() as f64;
     let each: Vec<f64> = pulls.iter().zip(expected).map(along).collect();
-    let mean = each.iter().sum::<f64>() / logs;
-    let squares = each.iter().map(|d| (d - mean) * (d - mean));
-    squares.sum::<f64>() * logs / (logs - 1.0)
+    squares(&each) * logs / (logs - 1.0)
+}
+
+/// What pulls from the optimum add up to is not between the logs: nothing there, and the rest of the way to it in a replica.
+fn about_mean(pulls: &[f64]) -> f64 {
+    let mean = pulls.iter().sum::<f64>() / pulls.len() as f64;
+    pulls.iter().map(|d| (d - mean) * (d - mean)).sum()
+}
+
+/// What pulls from the centre add up to is how far the logs together have moved the parameter.
+fn about_zero(pulls: &[f64]) -> f64 {
+    pulls.iter().map(|d| d * d).sum()
 }
 
 #[cfg(test)]
@@ -167,8 +196,10 @@ mod tests {
     fn told(values: &[f64]) -> Told {
         let count = values.len() as f64;
         let mean = values.iter().sum::<f64>() / count;
+        let pulls: Pulls = values.iter().map(|x| vec![(x - mean) / count]).collect();
         Told {
-            pulls: values.iter().map(|x| vec![(x - mean) / count]).collect(),
+            from_centre: pulls.clone(),
+            pulls,
             levels: Vec::new(),
         }
     }
@@ -209,5 +240,15 @@ mod tests {
         }
         let far = reach(&[0.5, 1.5], 0.0, &moved);
         assert!(far > 12.0 * 0.49 && far < 12.8 * 0.5, "{far}");
+    }
+
+    /// From the centre both logs pull the same way: the parameter is moved, though no scatter about the optimum shows it.
+    #[test]
+    fn what_both_logs_move_alike_counts() {
+        let mut moved = told(&[1.0, 1.0]);
+        moved.from_centre = vec![vec![0.05], vec![0.05]];
+        let between = moved.between(&mass(), &[], &[0.0]);
+        let reach = NORMAL_Q95 * between.variance(Quantity::Mass.into()).sqrt();
+        assert!((reach - 12.706 * 0.1).abs() < 1e-4, "{reach}");
     }
 }

@@ -73,6 +73,7 @@ impl Logs {
     ) -> Option<Told> {
         self.are_of(at).then(|| Told {
             pulls: self.pulls(at, inverse),
+            from_centre: self.pulls_from_centre(at, inverse),
             levels: self.levels(objective, p, at),
         })
     }
