@@ -19,6 +19,7 @@ mod procedures;
 mod promise;
 mod recordings;
 mod rests;
+mod scale;
 mod several_logs;
 mod simulation;
 mod study;
