@@ -478,7 +478,7 @@ fn put(bundle: &Bundle, dir: &Path, schema: &str) -> Result<(PathBuf, Vec<PathBu
 
 /// Writes the files, says what was found, and what it is worth.
 fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error> {
-    let bundle = bundle::identification(outcome);
+    let bundle = bundle::identification_in(outcome, dir);
     let (dir, written) = put(&bundle, dir, stiction::result::SCHEMA)?;
     let dir = dir.as_path();
     if common.json {

@@ -1,5 +1,7 @@
 //! Commands as they are typed.
 
+use std::path::Path;
+
 /// Whether a shell takes a letter as it stands.
 pub fn plain(c: char) -> bool {
     c.is_alphanumeric() || "/._-+=:,@%".contains(c)
@@ -13,6 +15,14 @@ pub fn quoted(path: &str) -> String {
         true => format!("{folder}{path}"),
         false => format!("'{folder}{}'", path.replace('\'', "'\\''")),
     }
+}
+
+/// What an axis file for a log may be called, as a shell takes it: by the log, so that those of several do not meet.
+pub fn axis_file(log: &str) -> String {
+    let stem = Path::new(log)
+        .file_stem()
+        .map(|stem| stem.to_string_lossy());
+    quoted(&format!("{}.axis.toml", stem.as_deref().unwrap_or("log")))
 }
 
 #[cfg(test)]

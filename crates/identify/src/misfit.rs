@@ -45,6 +45,8 @@ pub(crate) type Energies = [f64; Divided::ALL.len()];
 pub(crate) struct Divisions {
     parts: Vec<Vec<usize>>,
     friction: Vec<f64>,
+    /// The part of it that grows with speed, without which a level is stated.
+    viscous: Vec<f64>,
     measures: Measures,
     /// Where a bristle turns round; `None` for a law without one.
     reversals: Option<Reversals>,
@@ -61,8 +63,8 @@ pub struct Misfit {
     pub share: f64,
     /// That part for every division.
     pub shares: Vec<(Divided, f64)>,
-    /// How far the level of friction differs from its mean over the stretches of time or the places, as parts of it: least
-    /// and largest.
+    /// How far the level of friction, without what grows with speed, differs from its mean over the stretches of time or the
+    /// places, as parts of it: least and largest of the means over each.
     pub levels: (f64, f64),
     /// The wave over the position that explains most of a ripple.
     pub ripple: Option<Ripple>,
@@ -71,7 +73,7 @@ pub struct Misfit {
     /// By what its course is shown: `by`, or the one of a pair that shows more of it.
     pub shown_by: Divided,
     /// Its course: in each part that `shown_by` makes, the mean of what the motion is divided by (s, m, m/s, m/s^2, or with
-    /// rad), and that of the residual; as parts of the friction for levels.
+    /// rad), and that of the residual; for levels as parts of the friction that does not grow with speed.
     pub course: Vec<(f64, f64)>,
 }
 
@@ -84,6 +86,7 @@ impl Divisions {
         Self {
             parts: Divided::ALL.map(|by| measures.parts(by)).to_vec(),
             friction: friction(objective, at),
+            viscous: viscous(objective, at),
             reversals: length.map(|length| Reversals::of(&measures, length)),
             measures,
         }
@@ -104,11 +107,15 @@ impl Divisions {
         reversals.map_or((0.0, 0.0), |reversals| reversals.excess(residual))
     }
 
-    /// Sums over each part of a division, the samples of a level weighted with the friction.
+    /// Sums over each part of a division: for a level over the friction that does not grow with speed and that which does.
     fn sums(&self, i: usize, residual: &[f64]) -> Sums {
         let mut sums = Sums::new(&self.parts[i]);
         for (t, r) in residual.iter().enumerate() {
-            sums.add(self.parts[i][t], self.weight(i, t), *r);
+            let viscous = match Divided::ALL[i].is_a_level() {
+                true => self.viscous[t],
+                false => 0.0,
+            };
+            sums.add(self.parts[i][t], [self.weight(i, t) - viscous, viscous], *r);
         }
         sums
     }
@@ -138,13 +145,11 @@ impl Divisions {
         for (&part, x) in self.parts[i].iter().zip(along) {
             places[part] += x;
         }
-        let means = sums.products.iter().zip(&sums.squares);
         let mut course: Vec<(f64, f64)> = places
             .iter()
             .zip(&sums.samples)
-            .zip(means)
-            .filter(|(_, (_, square))| **square > 0.0)
-            .map(|((place, samples), (product, square))| (place / samples, product / square))
+            .zip(sums.means())
+            .filter_map(|((place, samples), mean)| Some((place / samples, mean?)))
             .collect();
         course.sort_by(|a, b| a.0.total_cmp(&b.0));
         course
@@ -214,10 +219,15 @@ impl Divisions {
     }
 }
 
-/// Sums over each part.
+/// Part of the squares of the first column that keeps it apart from the second where they are hardly two: at one speed both share
+/// what is left, the larger more of it.
+const RIDGE: f64 = 1e-3;
+
+/// Sums over each part, of two columns and a residual.
 struct Sums {
-    products: Vec<f64>,
-    squares: Vec<f64>,
+    /// Of each part the products of the first column with itself, with the second, of the second with itself, and of both with
+    /// the residual.
+    products: Vec<[f64; 5]>,
     samples: Vec<f64>,
 }
 
@@ -225,25 +235,40 @@ impl Sums {
     fn new(parts: &[usize]) -> Self {
         let count = parts.iter().max().map_or(0, |most| most + 1);
         Self {
-            products: vec![0.0; count],
-            squares: vec![0.0; count],
+            products: vec![[0.0; 5]; count],
             samples: vec![0.0; count],
         }
     }
 
-    fn add(&mut self, part: usize, weight: f64, residual: f64) {
-        self.products[part] += weight * residual;
-        self.squares[part] += weight * weight;
+    fn add(&mut self, part: usize, [a, b]: [f64; 2], residual: f64) {
+        let products = [a * a, a * b, b * b, a * residual, b * residual];
+        let own = self.products[part].iter_mut();
+        own.zip(products).for_each(|(sum, x)| *sum += x);
         self.samples[part] += 1.0;
+    }
+
+    /// What the residual has of the first column in each part, beside what it has of the second; `None` where there is none of it.
+    fn means(&self) -> impl Iterator<Item = Option<f64>> {
+        self.products.iter().map(|&[aa, ab, bb, ar, br]| {
+            let ridge = match bb > 0.0 {
+                true => RIDGE * aa,
+                false => 0.0,
+            };
+            let (aa, bb) = (aa + ridge, bb + ridge);
+            match bb > 0.0 {
+                true => Some((ar * bb - br * ab) / (aa * bb - ab * ab)).filter(|x| x.is_finite()),
+                false => (aa > 0.0).then(|| ar / aa),
+            }
+        })
     }
 
     /// Least and largest mean.
     fn extent(&self) -> (f64, f64) {
-        let means = self.products.iter().zip(&self.squares);
-        let means = means.filter(|(_, s)| **s > 0.0).map(|(p, s)| p / s);
-        means.fold((0.0, 0.0), |(low, high): (f64, f64), mean| {
-            (low.min(mean), high.max(mean))
-        })
+        self.means()
+            .flatten()
+            .fold((0.0, 0.0), |(low, high): (f64, f64), mean| {
+                (low.min(mean), high.max(mean))
+            })
     }
 }
 
@@ -300,6 +325,22 @@ impl Misfit {
     }
 }
 
+/// The part of it that grows with speed.
+fn viscous(objective: &Objective, at: &Evaluation) -> Vec<f64> {
+    let mut out = vec![0.0; at.residual().len()];
+    let columns = at.columns.iter().zip(&at.solution.coefficients);
+    for (term, (column, c)) in objective.linear().iter().zip(columns) {
+        if let ColumnKind::Speed(_) | ColumnKind::Square(_) | ColumnKind::SpeedTimes(..) =
+            term.column
+        {
+            out.iter_mut()
+                .zip(column.iter())
+                .for_each(|(y, x)| *y += c * x);
+        }
+    }
+    out
+}
+
 /// Friction as the law has it at the kept samples.
 fn friction(objective: &Objective, at: &Evaluation) -> Vec<f64> {
     let mut out = vec![0.0; at.residual().len()];
@@ -315,4 +356,27 @@ fn friction(objective: &Objective, at: &Evaluation) -> Vec<f64> {
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Sums;
+
+    /// A level that rises by a fifth is told as that, also where most of the friction grows with speed.
+    #[test]
+    fn a_level_is_told_beside_viscous_friction() {
+        let parts: Vec<usize> = (0..400).map(|t| t / 200).collect();
+        let mut sums = Sums::new(&parts);
+        for (t, part) in parts.into_iter().enumerate() {
+            let speed = 1.0 + (t % 10) as f64;
+            let side = if t % 20 < 10 { 1.0 } else { -1.0 };
+            let change = [0.2, -0.2][part];
+            sums.add(part, [side, side * speed], change * side);
+        }
+        let (low, high) = sums.extent();
+        assert!(
+            (low + 0.2).abs() < 0.01 && (high - 0.2).abs() < 0.01,
+            "{low} {high}"
+        );
+    }
 }

@@ -309,7 +309,7 @@ impl Log {
     pub fn take_force_later(&mut self, rows: usize) {
         let message = format!(
             "the force was logged {rows} rows ({} ms) later than the motion that it belongs to; that of every row is taken that \
-             much later. State it as delay under [terms] in the axis file, in time, if it is known",
+             much later",
             stiction_number::short(1e3 * rows as f64 / self.rate_hz)
         );
         let finding = Finding::new(Code::ForceLate, Severity::Warning, message);

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use stiction_files::result::{Cure, Next, ResultFile};
+pub use stiction_files::shell::axis_file;
 use stiction_files::shell::{plain, quoted};
 
 /// What a log that is still to be recorded is called in commands.
@@ -91,12 +92,21 @@ fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
                 false => "write".into(),
             };
             Cured {
-                what: format!("{}; take that into the fit: {place}, {write}", cause.text),
+                what: format!("{}; {}: {place}, {write}", cause.text, aim(table)),
                 line: Some(line.clone()),
                 command: format!("stiction identify {logs} --axis {file}{law} --out {out}"),
             }
         }
     })
+}
+
+/// What a line of a table of the axis file is for.
+fn aim(table: &str) -> &'static str {
+    match table {
+        "log" => "fit the part where it has settled",
+        "columns" => "scale it",
+        _ => "take that into the fit",
+    }
 }
 
 /// The law that holds better than the one that was asked for.
@@ -242,14 +252,6 @@ pub(crate) fn simulate(study: &Path, dir: &Path) -> String {
     let [study, out] = [study.to_path_buf(), dir.join("study")];
     let [study, out] = [study, out].map(|path| quoted(&path.display().to_string()));
     format!("stiction simulate {study} --out {out}")
-}
-
-/// What an axis file for a log may be called, as a shell takes it: by the log, so that those of several do not meet.
-pub fn axis_file(log: &str) -> String {
-    let stem = Path::new(log)
-        .file_stem()
-        .map(|stem| stem.to_string_lossy());
-    quoted(&format!("{}.axis.toml", stem.as_deref().unwrap_or("log")))
 }
 
 /// An argument as a shell takes it.

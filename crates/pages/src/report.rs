@@ -33,7 +33,12 @@ use stiction_workflows::study::StudyOutcome;
 
 /// The report of one identification.
 pub fn identification(outcome: &Outcome) -> Document {
-    explained(sections(outcome))
+    identification_in(outcome, Path::new("result"))
+}
+
+/// The same of a result that goes into a folder, by which its commands call those that follow.
+pub fn identification_in(outcome: &Outcome, folder: &Path) -> Document {
+    explained(sections(outcome, folder))
 }
 
 /// The report of a comparison of searches.
@@ -57,7 +62,7 @@ pub fn reproduction(outcome: &Reproduction) -> Document {
 }
 
 /// An identification, section by section.
-fn sections(outcome: &Outcome) -> Document {
+fn sections(outcome: &Outcome, folder: &Path) -> Document {
     let result = &outcome.result;
     let name = result.axis.name.clone().unwrap_or_else(|| {
         result
@@ -84,7 +89,7 @@ fn sections(outcome: &Outcome) -> Document {
             document = document.block(callout);
         }
     }
-    document = document.paragraph(next_step(result));
+    document = document.paragraph(next_step(result, folder));
     document = document.block(Block::KeyFigures(key_figures(outcome)));
     document = document
         .heading(2, "Parameters")
@@ -264,17 +269,17 @@ fn verdicts(outcome: &Outcome) -> [Callout; 2] {
 }
 
 /// The command that leads on.
-fn next_step(result: &ResultFile) -> Text {
+fn next_step(result: &ResultFile, folder: &Path) -> Text {
     let next = result.trust.next;
     let (place, dir) = match next {
         // It was typed with options that a result does not keep.
         Next::Again | Next::Finish => return format!("Next: {}.", next::why(next)).into(),
-        Next::Export => ("In the folder of this report", ""),
-        _ => ("In the folder it was identified in", "result"),
+        Next::Export => ("In the folder of this report", Path::new("")),
+        _ => ("In the folder it was identified in", folder),
     };
     let as_it_is = format!("{}. {place}: ", next::why(next));
-    let command_as_it_is = next::command(result, Path::new(dir));
-    let Some(cured) = next::to_try(result, Path::new("result")) else {
+    let command_as_it_is = next::command(result, dir);
+    let Some(cured) = next::to_try(result, folder) else {
         return Text::from(format!("Next: {as_it_is}")).code(command_as_it_is);
     };
     let line = cured.line.map_or(String::new(), |line| format!(" {line}"));

@@ -57,10 +57,12 @@ impl<'a> Units<'a> {
             Dimension::Length => length.to_string(),
             Dimension::Rate => "1/s".into(),
             Dimension::Speed => speed.to_string(),
-            Dimension::Inertia => match force {
-                "N" => "kg".into(),
-                "N*m" => "kg*m^2".into(),
-                other => format!("{other}*s^2/{length}"),
+            Dimension::Inertia => match (force, length) {
+                ("N", "m") => "kg".into(),
+                ("N*m", "rad") => "kg*m^2".into(),
+                // A torque on a linear axis, a force on a rotary one.
+                ("N*m", _) | ("N", _) => "kg*m".into(),
+                (other, _) => format!("{other}*s^2/{length}"),
             },
             Dimension::Time => "s".into(),
             Dimension::QuadraticDamping => format!("{force}*s^2/{length}^2"),

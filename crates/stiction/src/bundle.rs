@@ -17,11 +17,23 @@ use stiction_workflows::study::StudyOutcome;
 /// The files of an identification: `result.json`, `model.toml`, `report.html`, `fit.csv`, and where a study takes the law
 /// `study.toml`.
 pub fn identification(outcome: &Outcome) -> Bundle {
+    with_report(outcome, report::identification(outcome).to_html())
+}
+
+/// The same for a folder, by which the commands in the report call those that follow.
+pub fn identification_in(outcome: &Outcome, folder: &Path) -> Bundle {
+    with_report(
+        outcome,
+        report::identification_in(outcome, folder).to_html(),
+    )
+}
+
+fn with_report(outcome: &Outcome, report: String) -> Bundle {
     let mut bundle = Bundle::default();
     let model = ModelFile::from_result(&outcome.result);
     bundle.add("model.toml", model.to_toml());
     bundle.add("fit.csv", fit_csv(outcome));
-    bundle.add("report.html", report::identification(outcome).to_html());
+    bundle.add("report.html", report);
     match study_of(outcome) {
         Some(study) => bundle.add("study.toml", study),
         None => bundle.lacks("study.toml"),

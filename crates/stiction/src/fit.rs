@@ -117,6 +117,6 @@ impl Fit {
         let folder = folder.as_ref();
         stiction_files::check_folder(folder, false)?;
         stiction_files::check_inputs(folder, self.outcome.sources.iter().map(|s| &s.path))?;
-        Ok(bundle::identification(&self.outcome).write(folder)?)
+        Ok(bundle::identification_in(&self.outcome, folder).write(folder)?)
     }
 }

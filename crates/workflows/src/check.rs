@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 use stiction_codes::Code;
 use stiction_files::axis::Axis;
-use stiction_files::result::{Input, Next};
+use stiction_files::result::{Cure, Input, Next};
 use stiction_identify::Observer;
 use stiction_log::{Log, Severity, Understood};
 use stiction_number::four_digits as short;
@@ -67,6 +67,8 @@ pub struct LogCheck {
     pub refused: Option<String>,
     /// What leads on: a fit, a fit by simulation, or another record.
     pub next: Lead,
+    /// The line of the axis file that is missing; `null` where none is known.
+    pub line: Option<Cure>,
 }
 
 /// What leads on from a log.
@@ -205,6 +207,7 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
         parameters: Vec::new(),
         refused: None,
         next: Lead::Record,
+        line: None,
     };
     match Tracking::of(&path.display().to_string(), log) {
         Ok(tracking) => out.tracking = Some(tracking),
@@ -236,11 +239,16 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
                 _ if slides => Lead::Identify,
                 _ => Lead::Record,
             };
+            let cause = outcome.result.trust.cause.as_ref();
+            if let Some(unscaled) = cause.filter(|cause| cause.code == Code::ForceUnit) {
+                out.line = unscaled.cure.clone();
+                out.next = Lead::AxisFile;
+            }
             out.parameters = verdicts(&outcome);
             out.conditioning = outcome.result.axis.conditioning;
             // What only the fit shows of the log itself.
             let shown = outcome.result.warnings.into_iter();
-            let of_the_log = shown.filter(|w| w.code == Code::Jitter);
+            let of_the_log = shown.filter(|w| [Code::Jitter, Code::ForceLate].contains(&w.code));
             for warning in of_the_log {
                 let known = |f: &Finding| warning.message.ends_with(&f.message);
                 if !out.findings.iter().any(known) {

@@ -4,6 +4,7 @@ use super::table::table;
 use crate::next::{ANOTHER_LOG, axis_file};
 use std::fmt::Write;
 use std::path::Path;
+use stiction_files::result::Cure;
 use stiction_files::shell::quoted;
 use stiction_files::symbols;
 use stiction_number::{counted, four_digits as short, unit};
@@ -24,8 +25,10 @@ pub fn check(check: &Check) -> String {
             log.input.path
         ))
     });
-    logs.chain(changes)
+    // What changed is what several logs are given for; what each shows by itself comes after.
+    changes
         .chain(silent)
+        .chain(logs)
         .collect::<Vec<_>>()
         .join("\n")
 }
@@ -304,14 +307,40 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
              another"
         ));
     }
-    out.push(match log.next {
+    let last = match log.next {
         Lead::Identify => format!("next: stiction identify {path}{with} --out result"),
-        Lead::AxisFile => match axis {
-            Some(file) => format!(
+        Lead::AxisFile => match (&log.line, axis) {
+            (
+                Some(Cure::Line {
+                    table,
+                    line,
+                    replaces,
+                }),
+                _,
+            ) => {
+                let (place, file) = match axis {
+                    Some(file) => (
+                        format!("in {}", file.display()),
+                        quoted(&file.display().to_string()),
+                    ),
+                    None => {
+                        let file = axis_file(&log.input.path);
+                        (format!("in a new file {file}"), file)
+                    }
+                };
+                let key = line.split(' ').next().unwrap_or_default();
+                out.push(match replaces {
+                    true => format!("next: {place}, in place of the line {key}, write"),
+                    false => format!("next: {place}, under a line [{table}], write"),
+                });
+                out.push(format!("    {line}"));
+                format!("  then: stiction identify {path} --axis {file} --out result")
+            }
+            (_, Some(file)) => format!(
                 "next: correct {} as said above, then: stiction identify {path}{with} --out result",
                 file.display()
             ),
-            None => format!("next, to correct what is said above in it: {init}"),
+            (_, None) => format!("next, to correct what is said above in it: {init}"),
         },
         Lead::Simulate => {
             format!("next: stiction identify {path}{with} --method output-error --out result")
@@ -322,6 +351,7 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
                  check {ANOTHER_LOG}{with}"
             )
         }
-    });
+    };
+    out.push(last);
     out
 }

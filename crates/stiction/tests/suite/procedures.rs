@@ -220,7 +220,7 @@ fn the_logs_of_the_demo() {
         .find(|p| p.name == "static")
         .unwrap();
     assert!(!entry.identifiable && entry.origin == "given", "{entry:?}");
-    let warned = |w: &Warning| w.code == Code::NotIdentifiable && w.message.starts_with("static (");
+    let warned = |w: &Warning| w.code == Code::NotIdentifiable && w.message.contains("static (");
     assert!(
         step.result.warnings.iter().any(warned),
         "{:?}",

@@ -35,6 +35,20 @@ fn constants(fit: &Fit, kind: &str) -> usize {
     all.filter(|name| name.starts_with(kind)).count()
 }
 
+/// The table, the verdict and the result say the same of every parameter.
+fn open_is_what_is_not_identifiable(fit: &Fit) {
+    let result = fit.result();
+    let fitted = result
+        .parameters
+        .iter()
+        .filter(|p| p.origin == "identified");
+    let open: Vec<&str> = fitted
+        .filter(|p| !p.identifiable)
+        .map(|p| p.name.as_str())
+        .collect();
+    assert_eq!(result.trust.open, open);
+}
+
 fn alike(seeds: std::ops::Range<u64>, motion: Motion) {
     let (mut inside, mut stated) = (0, 0);
     for seed in seeds {
@@ -125,6 +139,7 @@ fn levels_of_each_log_are_found() {
             }
         }
         assert!(fit.parameter("coulomb_log2").unwrap().is_identifiable());
+        open_is_what_is_not_identifiable(&fit);
         let model = fit.model();
         assert!(model.parameter.iter().all(|p| !p.name.contains("_log")));
     }

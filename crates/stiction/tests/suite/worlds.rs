@@ -410,6 +410,56 @@ fn what_a_recorder_did_is_named() {
     assert!(late.claims.len() >= 5, "{late}");
 }
 
+/// The delay that is stated is that against the rows, and the warning has the line to write and the command that takes it.
+#[test]
+fn the_whole_delay_of_a_late_force_is_stated() {
+    let machine = Machine::all(SEED)
+        .into_iter()
+        .find(|(name, _)| *name == "joint")
+        .unwrap()
+        .1;
+    let late = |rows: usize| {
+        let world = if rows > 0 {
+            World::Late(rows)
+        } else {
+            World::Faithful
+        };
+        let log = stiction_testkit::worlds::record(&machine, Motion::Trapezoid, world, SEED);
+        let log = std::slice::from_ref(&log);
+        crate::common::identified::identified(
+            &machine,
+            log,
+            &stiction::Axis::default(),
+            &stiction::Options::default(),
+        )
+        .unwrap()
+    };
+    let (inside, behind) = (late(0), late(10));
+    let [before, after] = [&inside, &behind].map(|fit| fit.parameter("delay").unwrap().value());
+    let rate = behind.result().inputs[0].rate_hz;
+    let rows = (after - before) * rate;
+    assert!((rows - 10.0).abs() < 1.0, "{rows} rows");
+    let warning = behind
+        .warnings()
+        .iter()
+        .find(|w| w.code == stiction::Code::ForceLate)
+        .unwrap();
+    let line = format!(
+        "delay = \"{} ms\"",
+        stiction_number::four_digits(1e3 * after)
+    );
+    assert!(
+        warning.message.contains(&line),
+        "{}: {line}",
+        warning.message
+    );
+    assert!(
+        warning.message.contains("stiction identify "),
+        "{}",
+        warning.message
+    );
+}
+
 #[test]
 #[ignore = "soak: every world on three axes and three motions"]
 fn at_most_one_run_in_twenty_is_silently_wrong() {

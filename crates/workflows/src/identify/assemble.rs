@@ -29,6 +29,8 @@ pub(super) struct Parts<'a> {
     pub validation: &'a [(String, Series)],
     /// Laws side by side; empty where they were not compared.
     pub laws: Vec<LawEntry>,
+    /// By how much later than in their rows the force of all logs was taken, s.
+    pub late: f64,
     /// What of the law is left out.
     pub without: Vec<String>,
     /// Who chose the law.
@@ -101,7 +103,11 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         parameters: estimate
             .parameters
             .iter()
-            .map(|p| parameter(p, motion, force_unit, &first.load_unit))
+            .map(|p| match p.name.quantity {
+                Quantity::Delay => whole_delay(p, parts.late),
+                _ => p.clone(),
+            })
+            .map(|p| parameter(&p, motion, force_unit, &first.load_unit))
             .collect(),
         covariance: CovarianceEntry {
             names: covariance.names.iter().map(Name::to_string).collect(),
@@ -166,6 +172,15 @@ fn elements(estimate: &FittedLaw) -> Vec<ElementsEntry> {
         .collect()
 }
 
+/// The delay against the rows of the logs, of which the fit has seen what is left after the force was taken later.
+fn whole_delay(further: &Parameter, late: f64) -> Parameter {
+    Parameter {
+        value: further.value + late,
+        ci95: further.ci95.map(|(low, high)| (low + late, high + late)),
+        ..further.clone()
+    }
+}
+
 fn parameter(p: &Parameter, motion: Motion, force_unit: &str, load_unit: &str) -> ParameterEntry {
     ParameterEntry {
         name: p.name.to_string(),
@@ -223,7 +238,7 @@ pub(super) fn counts_note(estimate: &FittedLaw) -> Option<String> {
 }
 
 /// A note that the delay is that of another law, where this one cannot find it.
-pub(super) fn delay_note(estimate: &FittedLaw) -> Option<String> {
+pub(super) fn delay_note(estimate: &FittedLaw, late: f64) -> Option<String> {
     let Delay::Given(delay) = estimate.terms.delay else {
         return None;
     };
@@ -233,7 +248,7 @@ pub(super) fn delay_note(estimate: &FittedLaw) -> Option<String> {
         format!(
             "delay between force and motion: a Maxwell-slip law cannot find it; held at the {} ms (std {} ms) that lugre finds on \
              the same log, and the intervals count what is open of it",
-            ms(delay),
+            ms(delay + late),
             ms(deviation)
         )
     })

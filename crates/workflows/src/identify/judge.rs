@@ -3,8 +3,10 @@
 use super::condition::Conditioned;
 use super::disagree;
 use super::fit::Fitted;
+use super::late;
 use super::load::{Asked, Loaded};
 use super::logs::log_warnings;
+use super::mixed;
 use super::trust::{self, Judged};
 use stiction_codes::Code;
 use stiction_files::Warning;
@@ -39,6 +41,7 @@ pub(super) fn judge(
         let text = "the comparison of laws was interrupted and is left out; the fit is complete";
         warnings.push(Warning::new(Code::Interrupted, text));
     }
+    late::stated(asked, loaded, law, &mut warnings);
     let evidence = trust::Evidence {
         law,
         signal: "force",
@@ -53,6 +56,7 @@ pub(super) fn judge(
         validation,
         validated_on_logs: !loaded.held_out.is_empty(),
         options: disagree::options(asked),
+        unscaled: mixed::cause(asked, &loaded.sources[0].log),
         can_be_simulated: can_be_simulated(asked, loaded),
     };
     match &fitted.two_steps {

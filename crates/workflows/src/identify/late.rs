@@ -1,9 +1,16 @@
 //! A force that was logged much later than its motion is taken as it belongs.
 
+use super::disagree;
 use super::load::{Asked, Loaded};
+use super::logs::paths;
 use crate::error::Error;
 use crate::source::Source;
-use stiction_identify::{Delay, lateness};
+use stiction_codes::Code;
+use stiction_files::Warning;
+use stiction_files::shell;
+use stiction_identify::{Delay, FittedLaw, lateness};
+use stiction_number::four_digits;
+use stiction_parameters::Quantity;
 
 /// Lays force and motion beside each other, where no delay is given and whole records are fitted.
 pub(super) fn aligned(asked: Asked, mut loaded: Loaded) -> Result<Loaded, Error> {
@@ -15,8 +22,42 @@ pub(super) fn aligned(asked: Asked, mut loaded: Loaded) -> Result<Loaded, Error>
     let Some(rows) = lateness(&samples?) else {
         return Ok(loaded);
     };
+    loaded.late = rows as f64 / loaded.sources[0].log.rate_hz;
     for source in loaded.sources.iter_mut().chain(&mut loaded.held_out) {
         source.log.take_force_later(rows);
     }
     Ok(loaded)
+}
+
+/// Adds to the warning of a late force the line that states the whole delay, and the command that then takes it.
+pub(super) fn stated(asked: Asked, loaded: &Loaded, law: &FittedLaw, warnings: &mut [Warning]) {
+    let late = warnings
+        .iter_mut()
+        .rev()
+        .find(|w| w.code == Code::ForceLate);
+    let Some(warning) = late else { return };
+    let (further, row) = match (law.value(Quantity::Delay), law.terms.delay) {
+        (Some(delay), _) => (delay, "The delay in the table is the whole one. "),
+        (None, Delay::Given(delay)) => (delay, ""),
+        (None, Delay::Fitted) => (0.0, ""),
+    };
+    let line = format!(
+        "delay = \"{} ms\"",
+        four_digits(1e3 * (loaded.late + further))
+    );
+    let logs = paths(&loaded.sources);
+    let typed: Vec<String> = logs.iter().map(|log| shell::quoted(log)).collect();
+    let options = disagree::options(asked);
+    let (place, axis) = match asked.axis.file() {
+        Some(file) => (format!("in {}", file.display()), String::new()),
+        None => {
+            let file = shell::axis_file(&logs[0]);
+            (format!("in a new file {file}"), format!(" --axis {file}"))
+        }
+    };
+    warning.message.push_str(&format!(
+        ". {row}Find out where it comes from; to state it, write {line} under [terms] {place}, \
+         then: stiction identify {}{axis}{options} --out RESULT",
+        typed.join(" ")
+    ));
 }

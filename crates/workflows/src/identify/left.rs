@@ -1,11 +1,12 @@
 //! What a law leaves systematically, and what to do about it, in words.
 
 use super::coupled;
+use super::settled;
+use crate::source::Source;
 use stiction_codes::Code;
 use stiction_files::result::{CauseEntry, Cure, MisfitEntry};
 use stiction_files::{Warning, symbols};
 use stiction_identify::{Cause, Dependence, Divided, FittedLaw, LawKind, Misfit};
-use stiction_log::Log;
 use stiction_number::{Percent, four_digits};
 
 /// Part of what a drift leaves from which on a channel of the log that shows it is taken into the fit first.
@@ -56,7 +57,12 @@ fn code(cause: Cause) -> Code {
 }
 
 /// Names the likely cause of what the residual leaves systematically, and a curve that counts make likelier.
-pub(super) fn named(law: &FittedLaw, log: &Log, warnings: &mut Vec<Warning>) {
+pub(super) fn named(
+    law: &FittedLaw,
+    sources: &[Source],
+    options: &str,
+    warnings: &mut Vec<Warning>,
+) {
     if let Some(exponent) = law.likelier_exponent {
         let message = format!(
             "{ANOTHER_CURVE}: where the axis rests, the counts of its encoder are likelier with an exponent of {exponent} than \
@@ -67,13 +73,13 @@ pub(super) fn named(law: &FittedLaw, log: &Log, warnings: &mut Vec<Warning>) {
     }
     let Some(misfit) = &law.misfit else { return };
     let Some(cause) = misfit.cause() else { return };
-    let message = message(misfit, cause, law, log);
+    let message = message(misfit, cause, law, (sources, options));
     warnings.push(Warning::new(code(cause), message));
 }
 
 /// The same as a part of the verdict, with what takes it into the fit; another law where the data chose among the `others` without
 /// it. From a law that was asked for none leads to another by its shape, which may be where it came from.
-pub(super) fn cause(law: &FittedLaw, log: &Log, others: bool) -> Option<CauseEntry> {
+pub(super) fn cause(law: &FittedLaw, sources: &[Source], others: bool) -> Option<CauseEntry> {
     if let Some(exponent) = law.likelier_exponent {
         return Some(CauseEntry {
             code: Code::LawShape,
@@ -96,7 +102,7 @@ pub(super) fn cause(law: &FittedLaw, log: &Log, others: bool) -> Option<CauseEnt
         code: code(cause),
         text: words(cause).into(),
         size: of_what_is_left(share, law),
-        cure: cure(misfit, cause, law, log)
+        cure: cure(misfit, cause, law, sources)
             .filter(|cure| others || !matches!(cure, Cure::Law { .. })),
     })
 }
@@ -126,7 +132,8 @@ fn of_what_is_left(share: f64, law: &FittedLaw) -> String {
 }
 
 /// What takes a cause into the fit, where there is something that the fit has not.
-fn cure(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> Option<Cure> {
+fn cure(misfit: &Misfit, cause: Cause, law: &FittedLaw, sources: &[Source]) -> Option<Cure> {
+    let log = &sources[0].log;
     let of_terms = |line| Cure::Line {
         table: "terms".into(),
         line,
@@ -177,7 +184,8 @@ fn cure(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> Option<Cur
             } else {
                 temperature
             };
-            first_of(&[term]).filter(|_| share >= PART_OF_DRIFT * misfit.share)
+            let by_channel = first_of(&[term]).filter(|_| share >= PART_OF_DRIFT * misfit.share);
+            by_channel.or_else(|| settled::part(misfit, law, sources))
         }
         // One bristle is the presliding that several are held against, with the same curve over speed; elements have no levels
         // that depend on anything.
@@ -197,7 +205,13 @@ fn cure(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> Option<Cur
     }
 }
 
-fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String {
+fn message(
+    misfit: &Misfit,
+    cause: Cause,
+    law: &FittedLaw,
+    (sources, options): (&[Source], &str),
+) -> String {
+    let log = &sources[0].log;
     let share = Percent::error(100.0 * misfit.share).digits(2);
     let of_force = misfit.rms / law.fit.rmse * law.fit.relative_error_percent;
     let of_force = Percent::error(of_force).digits(2);
@@ -209,8 +223,9 @@ fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String 
     };
     let counted = "The intervals count it";
     let what = words(cause);
-    let cure = cure(misfit, cause, law, log);
+    let cure = cure(misfit, cause, law, sources);
     let cured = cure.is_some();
+    let crops = matches!(&cure, Some(Cure::Line { table, .. }) if table == "log");
     let to_do = cure.map_or(
         "No straight line over it describes that: record within the range that the axis works in"
             .into(),
@@ -229,17 +244,26 @@ fn message(misfit: &Misfit, cause: Cause, law: &FittedLaw, log: &Log) -> String 
         }
         Cause::Drift => {
             let has_temperature = has(law, &Dependence::CoulombTemperature(0.0));
-            let to_do = match cured {
-                true => format!("{to_do}, which shows much of it"),
-                false if has_temperature => {
-                    "Record the axis warmed up: the temperature that is logged does not explain it".into()
+            let logged = match has_temperature {
+                true => "the temperature that is logged does not explain it",
+                false => {
+                    "its temperature, logged beside the rest and taken in with coulomb_temperature = true under [terms], would \
+                          settle whether it is warmth"
                 }
-                false => "Record the axis warmed up, or its temperature beside the rest and set coulomb_temperature = true under \
-                          [terms] in the axis file"
-                    .into(),
+            };
+            let to_do = match (cured, crops) {
+                (true, false) => format!("{to_do}, which shows much of it"),
+                (true, true) => format!(
+                    "It has settled at the end of the log. To fit that part alone, {}; {logged}",
+                    to_do.replacen('S', "s", 1)
+                ),
+                (false, _) => format!(
+                    "Record the axis warmed up, then: stiction identify another.csv{options} --out another; {logged}"
+                ),
             };
             format!(
-                "{what}: {left} is a level that goes from {} of its mean. {counted}; the values are means over the log. {to_do}",
+                "{what}: {left} is a Coulomb level that goes from {} of its mean, as means over sixteenths of the log. {counted}; the \
+                 values are means over the log. {to_do}",
                 levels()
             )
         }

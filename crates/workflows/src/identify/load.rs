@@ -27,6 +27,8 @@ pub(super) struct Loaded {
     /// Validated on.
     pub held_out: Vec<Source>,
     pub beside: Beside,
+    /// By how much later than in their rows the force of all logs is taken, s; 0 where it is not.
+    pub late: f64,
 }
 
 impl Loaded {
@@ -84,6 +86,7 @@ pub(super) fn load(
         sources,
         held_out,
         beside,
+        late: 0.0,
     })
 }
 

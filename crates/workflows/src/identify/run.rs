@@ -158,12 +158,13 @@ fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Resul
             .chain(conditioned.note)
             .chain(assemble::correction_note(&estimate))
             .chain(assemble::counts_note(&estimate))
-            .chain(assemble::delay_note(&estimate))
+            .chain(assemble::delay_note(&estimate, loaded.late))
             .chain(assemble::acceleration_note(asked, &loaded.sources))
             .collect(),
         law: &estimate,
         validation: &validation,
         laws: fitted.choice.laws,
+        late: loaded.late,
         without: fitted.choice.without,
         law_chosen_by: fitted.choice.by,
         judged,

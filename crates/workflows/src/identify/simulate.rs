@@ -6,6 +6,7 @@ use super::conditioning::{self, conditioned};
 use super::disagree;
 use super::load::{Asked, Loaded};
 use super::logs::{log_warnings, paths};
+use super::mixed;
 use super::outcome::{Found, Outcome, Simulated};
 use super::procedure::break_away;
 use super::trust::{self, Evidence};
@@ -144,6 +145,7 @@ pub(super) fn run(
         validation: &[],
         validated_on_logs: false,
         options: disagree::options(asked),
+        unscaled: mixed::cause(asked, &sources[0].log),
         can_be_simulated: false,
         motion,
     };
@@ -165,6 +167,7 @@ pub(super) fn run(
         law: &found.fitted,
         validation: &[],
         laws: Vec::new(),
+        late: 0.0,
         without: Vec::new(),
         law_chosen_by: "user",
         judged,

@@ -9,7 +9,7 @@ use super::unfit;
 use crate::source::Source;
 use stiction_codes::Code;
 use stiction_files::Warning;
-use stiction_files::result::{BetterLaw, Compensation, LawEntry, Next, Trust};
+use stiction_files::result::{BetterLaw, CauseEntry, Compensation, LawEntry, Next, Trust};
 use stiction_files::symbols;
 use stiction_identify::procedure::StepFit;
 use stiction_identify::{Fit, FittedLaw, LawKind, Series, SimulationFit, Status, Unseen};
@@ -73,9 +73,7 @@ impl Judged {
         warnings: Vec<Warning>,
     ) -> Self {
         let names = |determined: bool| -> Vec<String> {
-            // What one log has more than another is none of the machine's.
-            let of_the_machine = |p: &&Parameter| p.identified && !p.name.quantity.is_of_a_log();
-            let identified = law.parameters.iter().filter(of_the_machine);
+            let identified = law.parameters.iter().filter(|p| p.identified);
             // Between two renewals of a held position a controller has moved the axis in ways that the log does not show.
             let held = warnings.iter().any(|w| w.code == Code::HeldPosition);
             // A law that explains less than half has no constants of the machine, whatever its curvature says.
@@ -92,8 +90,10 @@ impl Judged {
                     Shown::TooLittle => false,
                 };
             let known = |p: &Parameter| p.identifiable && holds;
+            // What one log has more than another may be open, but is none of the machine's.
+            let is_listed = |p: &Parameter| !determined || !p.name.quantity.is_of_a_log();
             identified
-                .filter(|p| known(p) == determined)
+                .filter(|p| known(p) == determined && is_listed(p))
                 .map(|p| p.name.to_string())
                 .collect()
         };
@@ -120,13 +120,15 @@ impl Judged {
         };
         if evidence.shows_friction() && !first.contains(&self.trust.next) {
             let compared = evidence.chosen && !evidence.laws.is_empty();
-            let own = left::cause(evidence.law, &evidence.sources[0].log, compared);
+            let own = left::cause(evidence.law, evidence.sources, compared);
             let between = || disagree::cause(&evidence.law.disagreements);
             // Levels that differ have a cure; what of another shape is left may be of them.
-            self.trust.cause = match own {
+            let found = match own {
                 Some(own) if own.cure.is_some() => Some(own),
                 own => between().or(own),
             };
+            // All else is in the wrong unit until the force is scaled.
+            self.trust.cause = evidence.unscaled.clone().or(found);
         }
         self
     }
@@ -187,6 +189,8 @@ pub(super) struct Evidence<'a> {
     pub validated_on_logs: bool,
     /// The options of the run, as they are typed.
     pub options: String,
+    /// What the column of the force lacks where its unit does not fit the axis.
+    pub unscaled: Option<CauseEntry>,
     /// Whether the axis can be simulated: its position and its inertia are known or fitted.
     pub can_be_simulated: bool,
 }
@@ -445,26 +449,29 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
         reasons.push(text, Next::Check);
     }
     saturation(evidence.sources, reasons);
-    unidentifiable(law, evidence.motion, warnings);
     another_wins(evidence, warnings, reasons);
     if let Some(why) = evidence.held_back {
         let text = format!("a compensator would rely on a guess: {why}");
         reasons.push(text, evidence.another_law());
     }
-    systematic(law, warnings);
-    let before = warnings.len();
-    left::named(law, &evidence.sources[0].log, warnings);
-    if evidence.shows_friction() && warnings.len() > before {
-        warnings.rotate_right(1);
-    }
-    warnings.extend(disagree::named(
+    // Causes first: what they leave open, and what else shows them, comes after.
+    let mut causes = Vec::new();
+    left::named(law, evidence.sources, &evidence.options, &mut causes);
+    causes.extend(disagree::named(
         &law.disagreements,
         evidence.sources,
         evidence.motion,
         (&evidence.options, false),
     ));
+    let place = match evidence.shows_friction() {
+        true => 0,
+        false => warnings.len(),
+    };
+    warnings.splice(place..place, causes);
+    systematic(law, warnings);
     shifted(law, warnings);
     static_at_rest(law, evidence.motion, warnings);
+    unidentifiable(law, evidence.motion, warnings);
 }
 
 fn search_ended(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
@@ -554,6 +561,8 @@ fn unidentifiable(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warni
         .filter(of_an_element)
         .map(|p| p.name.to_string())
         .collect();
+    let mut each = Vec::new();
+    let mut advice: Vec<&str> = Vec::new();
     for parameter in unknown().filter(|p| !of_an_element(p)) {
         let meaning = symbols::meaning_of(parameter.name, motion);
         let mut text = format!("{} ({meaning}): {}", parameter.name, parameter.reason);
@@ -563,11 +572,20 @@ fn unidentifiable(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warni
             .map(|(name, correlation)| format!("{name} (correlation {correlation:+.2})"))
             .collect();
         if !partners.is_empty() {
-            text.push_str(&format!("; moves together with {}", partners.join(" and ")));
+            text.push_str(&format!(", moves together with {}", partners.join(" and ")));
         }
-        if !parameter.advice.is_empty() {
-            text.push_str(&format!(". {}", parameter.advice));
+        each.push(text);
+        // Several parameters may be determined by one motion.
+        let own = parameter.advice.as_str();
+        if !own.is_empty() && !advice.contains(&own) {
+            advice.push(own);
         }
+    }
+    if !each.is_empty() {
+        let text = [each.join("; ")]
+            .into_iter()
+            .chain(advice.into_iter().map(String::from));
+        let text = text.collect::<Vec<_>>().join(". ");
         warnings.push(Warning::new(Code::NotIdentifiable, text));
     }
     if !elements.is_empty() {

@@ -45,6 +45,7 @@ pub(in crate::identify) fn run(
         law: &law,
         validation: &[],
         laws: Vec::new(),
+        late: 0.0,
         without: Vec::new(),
         law_chosen_by: "user",
         judged,

@@ -1,0 +1,41 @@
+//! A torque on a linear axis, or a force on a rotary one: the line of the axis file that scales it.
+
+use super::load::Asked;
+use stiction_codes::Code;
+use stiction_files::axis::entry;
+use stiction_files::result::{CauseEntry, Cure};
+use stiction_log::{Log, Motion};
+
+/// What the column of the force lacks, as a part of the verdict; `None` where its unit fits the axis.
+pub(super) fn cause(asked: Asked, log: &Log) -> Option<CauseEntry> {
+    let mixed = log.findings.iter().any(|f| f.code == Code::ForceUnit);
+    let mut channel = log.mapping.force.clone().filter(|_| mixed)?;
+    // What stands there gives the unit that does not fit.
+    channel.scale = None;
+    let unit = channel.unit.as_ref().map_or("N*m", |unit| unit.text());
+    let column = entry(&channel);
+    let column = column.trim_end_matches('}').trim_end();
+    let (text, wanted, how) = match log.motion {
+        Motion::Linear => (
+            "the force is a torque on a linear axis",
+            "N",
+            "2 pi / lead of a screw, 1 / radius of a pinion: 628.3 N/Nm for a lead of 10 mm",
+        ),
+        Motion::Rotary => (
+            "the torque is a force on a rotary axis",
+            "Nm",
+            "the radius at which it acts: 0.05 Nm/N at 50 mm",
+        ),
+    };
+    let replaces = asked.axis.mapping.force.is_some();
+    Some(CauseEntry {
+        code: Code::ForceUnit,
+        text: text.into(),
+        size: format!("its scale to {wanted} is missing, without which no study can be simulated"),
+        cure: Some(Cure::Line {
+            table: "columns".into(),
+            line: format!("force = {column}, scale = \"... {wanted}/{unit}\" }}   # {how}"),
+            replaces,
+        }),
+    })
+}

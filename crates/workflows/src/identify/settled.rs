@@ -1,0 +1,73 @@
+//! The part of a log in which a level of friction has settled.
+
+use crate::source::Source;
+use stiction_files::result::Cure;
+use stiction_identify::{Divided, FittedLaw, Misfit};
+use stiction_number::short;
+
+/// Part of the whole change of the level that may be left in what counts as settled.
+const LEFT: f64 = 0.25;
+/// Least part of the log that has to be settled: of a level that goes on changing half is never left with a quarter of the change.
+const LEAST_PART: f64 = 0.5;
+
+/// The line of the axis file that keeps the settled part of a log; `None` where there is none, where there are several logs, or
+/// where a part was chosen already.
+pub(super) fn part(misfit: &Misfit, law: &FittedLaw, sources: &[Source]) -> Option<Cure> {
+    let [source] = sources else { return None };
+    let log = &source.log;
+    if log.mapping.crop.is_some() || misfit.shown_by != Divided::LevelOverTime {
+        return None;
+    }
+    let levels: Vec<f64> = misfit.course.iter().map(|(_, level)| *level).collect();
+    let first = settled_from(&levels)?;
+    let times = &law.series.time;
+    let from = *times.get(first * times.len() / levels.len())?;
+    let to = *log.time.last()?;
+    // In tenths of a second, the end not cut off.
+    let tenth = |x: f64| short((10.0 * x).ceil() / 10.0);
+    Some(Cure::Line {
+        table: "log".into(),
+        line: format!("crop = [\"{} s\", \"{} s\"]", tenth(from), tenth(to + 0.05)),
+        replaces: false,
+    })
+}
+
+/// From which of the means in order of time on the level has settled.
+fn settled_from(levels: &[f64]) -> Option<usize> {
+    let span = |levels: &[f64]| {
+        let ends = levels
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                (low.min(*x), high.max(*x))
+            });
+        ends.1 - ends.0
+    };
+    let whole = span(levels);
+    let first = (1..levels.len()).find(|&i| span(&levels[i..]) <= LEFT * whole)?;
+    let part = 1.0 - first as f64 / levels.len() as f64;
+    (part >= LEAST_PART).then_some(first)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::settled_from;
+
+    fn course(level: impl Fn(f64) -> f64) -> Vec<f64> {
+        (0..16)
+            .map(|i| level((f64::from(i) + 0.5) / 16.0))
+            .collect()
+    }
+
+    #[test]
+    fn what_goes_on_has_not_settled() {
+        assert_eq!(settled_from(&course(|t| 0.1 - 0.2 * t)), None);
+        assert_eq!(settled_from(&course(|t| 0.1 * libm::sin(20.0 * t))), None);
+        assert_eq!(settled_from(&[]), None);
+    }
+
+    #[test]
+    fn what_warms_up_settles() {
+        let first = settled_from(&course(|t| 0.2 * libm::exp(-4.0 * t))).unwrap();
+        assert!((4..8).contains(&first), "{first}");
+    }
+}
