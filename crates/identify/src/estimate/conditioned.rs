@@ -36,6 +36,9 @@ pub(super) struct Shift {
     /// Squared difference between the shift of a replica and that of a replica of it, less what chance
     /// explains.
     change: Vec<f64>,
+    /// Square of half the difference between the shifts of the ways in which the force may have been logged, less what chance
+    /// explains.
+    ways: Vec<f64>,
     /// What comes back of the residuals of the replicas.
     pub energies: Vec<Energies>,
     /// What the logs of each replica tell, where there are several.
@@ -52,7 +55,8 @@ impl Shift {
     /// Beran 1987, doi 10.1093/biomet/74.3.457), and is enlarged because they are few. Added to it are
     /// the variance of the mean shift and the possible error of the shift itself: a tenth of it, and the
     /// amount by which it changes from the replicas to replicas of them (an iterated bootstrap: Hall
-    /// 1992, doi 10.1007/978-1-4612-4384-7, section 1.4).
+    /// 1992, doi 10.1007/978-1-4612-4384-7, section 1.4), and half of that by which it differs with the way in which the force
+    /// was logged.
     pub fn total(&self, i: usize, residual: f64) -> f64 {
         let calibration = TEN_REPLICAS_FACTOR * self.scatter[i] / self.stated[i];
         let calibrated = residual
@@ -62,7 +66,11 @@ impl Shift {
                 1.0
             };
         let doubt = SHIFT_DOUBT * self.bias[i];
-        calibrated + self.scatter[i] / REPLICA_COUNT as f64 + doubt * doubt + self.change[i]
+        calibrated
+            + self.scatter[i] / REPLICA_COUNT as f64
+            + doubt * doubt
+            + self.change[i]
+            + self.ways[i]
     }
 }
 
@@ -76,18 +84,19 @@ pub(super) fn shift(
     watch: &mut Watch,
 ) -> Option<Shift> {
     let conditioning = record.conditioning?;
-    let axis = Axis::of(record, fitted)?;
-    let noise = force_noise(record, &axis, &conditioning, fitted, &mut watch.counts)?;
+    let ways = Axis::each_way(record, fitted)?;
+    let noise = force_noise(record, &ways[0], &conditioning, fitted, &mut watch.counts)?;
     asked(watch)?;
-    let mut first = Shifts::default();
+    let mut first: Vec<Shifts> = ways.iter().map(|_| Shifts::default()).collect();
     let mut second = Shifts::default();
     let mut stated = vec![0.0; raw.len()];
     let (mut energies, mut told) = (Vec::new(), Vec::new());
     for i in 0..REPLICA_COUNT {
+        let way = i as usize % ways.len();
         let (found, replica) = once(
             record,
             fitted,
-            &axis,
+            &ways[way],
             noise,
             (FIRST_SEED + i, Asked::All(logs)),
             watch,
@@ -99,17 +108,18 @@ pub(super) fn shift(
         }
         energies.push(all.energies);
         told.extend(all.told.clone());
-        first.0.push(found.shift.clone());
+        first[way].0.push(found.shift.clone());
         // A replica that cannot be simulated is left out. Of a replica of a replica only the shift is asked for, and to
         // first order.
         if let Ok(again) = condition(&replica.logs, &conditioning)
             && let refit = &found.refit
             && let next = as_found(fitted, &replica, (&refit.p, &refit.c), &found.parameters)
-            && let Some(axis) = Axis::of(&again, &next)
+            && let Some(again_ways) = Axis::each_way(&again, &next)
+            && let Some(axis) = again_ways.get(way)
             && let Some((next, _)) = once(
                 &again,
                 &next,
-                &axis,
+                axis,
                 noise,
                 (FIRST_SECOND_SEED + i, Asked::Unknowns),
                 watch,
@@ -121,11 +131,21 @@ pub(super) fn shift(
         asked(watch)?;
     }
     let all = 0..raw.len();
+    let mean = |of: &dyn Fn(&Shifts) -> f64| first.iter().map(of).sum::<f64>() / first.len() as f64;
+    let bias = all.clone().map(|i| mean(&|s| s.mean(i))).collect();
+    let scatter = all.clone().map(|i| mean(&|s| s.variance(i))).collect();
+    let ways = all.clone().map(|i| match &first[..] {
+        [one, other] => 0.25 * one.change(other, i),
+        _ => 0.0,
+    });
+    let ways = ways.collect();
+    let first = Shifts(first.into_iter().flat_map(|s| s.0).collect());
     Some(Shift {
-        bias: all.clone().map(|i| first.mean(i)).collect(),
-        scatter: all.clone().map(|i| first.variance(i)).collect(),
+        bias,
+        scatter,
         stated,
         change: all.map(|i| second.change(&first, i)).collect(),
+        ways,
         energies,
         told,
     })

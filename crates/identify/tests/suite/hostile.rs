@@ -320,6 +320,7 @@ fn terms() -> impl Strategy<Value = Terms> {
         delay: delay.0,
         delay_deviation: delay.1,
         lag,
+        late: None,
     })
 }
 
