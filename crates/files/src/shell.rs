@@ -4,17 +4,92 @@ use std::path::Path;
 
 /// Whether a shell takes a letter as it stands.
 pub fn plain(c: char) -> bool {
-    c.is_alphanumeric() || "/._-+=:,@%".contains(c)
+    (c.is_alphanumeric() || "/._-+=:,@%".contains(c)) && stands_for(c).is_none()
 }
 
-/// A path as a shell takes it: in quotes where it holds anything but letters, digits and plain signs.
+/// Stand-ins for the bytes 0x80 to 0xff of a name that is not UTF-8: the last private characters of Unicode.
+const STAND_INS: u32 = 0x10_ff80;
+
+/// The byte of a name that is not UTF-8 that a character of [`text`] stands for.
+pub fn stands_for(c: char) -> Option<u8> {
+    let byte = u32::from(c).checked_sub(STAND_INS)? + 0x80;
+    u8::try_from(byte).ok()
+}
+
+/// A path as text from which [`quoted`] makes the very path: a byte that is not UTF-8 is a character that [`stands_for`] it.
+#[cfg(unix)]
+pub fn text(path: &Path) -> String {
+    use std::os::unix::ffi::OsStrExt;
+    let stand_in = |byte: &u8| char::from_u32(STAND_INS + u32::from(*byte) - 0x80);
+    let mut out = String::new();
+    for chunk in path.as_os_str().as_bytes().utf8_chunks() {
+        for c in chunk.valid().chars() {
+            match stands_for(c) {
+                None => out.push(c),
+                // A name that has one of the characters itself.
+                Some(_) => {
+                    let mut bytes = [0; 4];
+                    let bytes = c.encode_utf8(&mut bytes).as_bytes();
+                    out.extend(bytes.iter().filter_map(stand_in));
+                }
+            }
+        }
+        out.extend(chunk.invalid().iter().filter_map(stand_in));
+    }
+    out
+}
+
+/// A path as text; what is not Unicode is lost.
+#[cfg(not(unix))]
+pub fn text(path: &Path) -> String {
+    path.display().to_string()
+}
+
+/// A path as a shell takes it.
+pub fn quoted_path(path: &Path) -> String {
+    quoted(&text(path))
+}
+
+/// A path, as [`text`] gives it, as a shell takes it: in quotes where it holds anything but letters, digits and plain signs, with
+/// what a terminal would not show as it is in octal, as in `$'a\033b'` (POSIX 2024, bash, zsh, ksh).
 pub fn quoted(path: &str) -> String {
     // What begins with a dash would be taken for an option.
     let folder = if path.starts_with('-') { "./" } else { "" };
-    match !path.is_empty() && path.chars().all(plain) {
-        true => format!("{folder}{path}"),
-        false => format!("'{folder}{}'", path.replace('\'', "'\\''")),
+    if !path.is_empty() && path.chars().all(plain) {
+        return format!("{folder}{path}");
     }
+    if !path.chars().any(is_unseen) {
+        return format!("'{folder}{}'", path.replace('\'', "'\\''"));
+    }
+    let mut out = format!("$'{folder}");
+    for c in path.chars() {
+        if let Some(byte) = stands_for(c) {
+            out.push_str(&octal(byte));
+        } else if is_unseen(c) {
+            let mut bytes = [0; 4];
+            out.extend(c.encode_utf8(&mut bytes).bytes().map(octal));
+        } else {
+            if matches!(c, '\'' | '\\') {
+                out.push('\\');
+            }
+            out.push(c);
+        }
+    }
+    out.push('\'');
+    out
+}
+
+/// Three digits, so that a digit behind them is none of theirs.
+fn octal(byte: u8) -> String {
+    format!("\\{byte:03o}")
+}
+
+/// Whether a terminal shows a character as nothing, does something at it, or turns what is around it.
+fn is_unseen(c: char) -> bool {
+    c.is_control()
+        || stands_for(c).is_some()
+        || matches!(c, '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
+            | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}')
 }
 
 /// What an axis file for a log may be called, as a shell takes it: by the log, so that those of several do not meet.
@@ -36,5 +111,42 @@ mod tests {
         assert_eq!(quoted("-a.csv"), "./-a.csv");
         assert_eq!(quoted("it's"), "'it'\\''s'");
         assert_eq!(quoted(""), "''");
+    }
+
+    #[test]
+    fn what_a_terminal_does_not_show_is_typed_in_octal() {
+        assert_eq!(quoted("\u{1b}[31m it's"), "$'\\033[31m it\\'s'");
+        assert_eq!(quoted("-a\n1"), "$'./-a\\0121'");
+        assert_eq!(quoted("a\u{202e}b\\c"), "$'a\\342\\200\\256b\\\\c'");
+    }
+
+    /// Whatever bytes a name has, the shell gives them back, and none of them reaches the terminal that is not to be seen.
+    #[cfg(unix)]
+    #[test]
+    fn a_shell_gives_the_very_name() {
+        use super::quoted_path;
+        use std::ffi::OsStr;
+        use std::os::unix::ffi::OsStrExt;
+        use std::path::Path;
+        use std::process::Command;
+        let every: Vec<u8> = (1..=255).collect();
+        let names: [&[u8]; 7] = [
+            &every,
+            b"plain.csv",
+            b"it's $(id) `x`.csv",
+            b"\x1b[31mname.csv",
+            "a\u{202e}b\u{2066}.csv".as_bytes(),
+            b"non\xff7utf\xc3.csv",
+            "\u{10ffff}\u{10ff80}.csv".as_bytes(),
+        ];
+        for name in names {
+            let typed = quoted_path(Path::new(OsStr::from_bytes(name)));
+            assert!(!typed.chars().any(super::is_unseen), "{typed:?}");
+            let script = format!("printf %s {typed}");
+            let Ok(shown) = Command::new("bash").args(["-c", &script]).output() else {
+                return;
+            };
+            assert_eq!(shown.stdout, name, "{typed}");
+        }
     }
 }
