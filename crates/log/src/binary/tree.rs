@@ -9,6 +9,11 @@ use crate::{Error, Kind};
 /// How many lists of one signal each are columns of their own, when they are not the rows of a matrix.
 const MAX_LISTS: usize = 64;
 
+/// Most cells without a number for each number of a file, and how many are allowed however few numbers there are: a log in which
+/// every record has one of some hundred signals has fewer.
+const MAX_ABSENT: u64 = 256;
+const SOME_ABSENT: u64 = 1 << 22;
+
 /// One place: a path of keys without the indices of lists.
 #[derive(Debug, Default)]
 pub(crate) struct Node {
@@ -29,7 +34,12 @@ pub(crate) struct Node {
 /// The numbers at one place.
 #[derive(Debug, Default)]
 struct Samples {
+    /// The numbers that are there; the cells between them that are not take no memory before all are counted.
     values: Values,
+    /// Where numbers are missing: before which of those that are there, and how many.
+    gaps: Vec<(usize, usize)>,
+    /// Cells so far, those that are missing counted.
+    length: u64,
     /// Where the numbers of each outer element begin, within two lists.
     starts: Vec<usize>,
     /// Why they are no signal.
@@ -51,6 +61,9 @@ pub(crate) struct Tree {
     pub(crate) collector: Collector,
     /// What time stamps are counted from, where all places of a file have that in common.
     pub(crate) origin: Option<Moment>,
+    /// Cells with a number, and cells of the same columns without one.
+    present: u64,
+    absent: u64,
 }
 
 impl Tree {
@@ -61,6 +74,8 @@ impl Tree {
             at: Vec::new(),
             collector,
             origin: None,
+            present: 0,
+            absent: 0,
         }
     }
 
@@ -71,7 +86,11 @@ impl Tree {
                 match node.lists {
                     0 => continue,
                     1 => node.samples.starts = vec![0],
-                    _ => node.samples.values = Values::default(),
+                    _ => {
+                        node.samples.values = Values::default();
+                        node.samples.gaps = Vec::new();
+                        node.samples.length = 0;
+                    }
                 }
                 node.lengths = Vec::new();
             }
@@ -202,6 +221,8 @@ impl Tree {
             samples.refused = Some(why);
             samples.values.samples = Vec::new();
             samples.starts = Vec::new();
+            samples.gaps = Vec::new();
+            samples.length = 0;
         }
     }
 
@@ -220,13 +241,17 @@ impl Tree {
             _ => return Ok(()),
         }
         self.collector.reserve("", &[1])?;
-        self.nodes[node].samples.values.samples.push(value);
+        self.present += 1;
+        let samples = &mut self.nodes[node].samples;
+        samples.values.samples.push(value);
+        samples.length += 1;
         Ok(())
     }
 
-    /// Fills up with NaN to this many numbers; more of them are two values of one key.
+    /// Counts this many cells of a place, of which those that are not there have no number; more of them are two values of one
+    /// key.
     fn fill(&mut self, node: usize, count: u64) -> Result<(), Error> {
-        let have = self.nodes[node].samples.values.samples.len() as u64;
+        let have = self.nodes[node].samples.length;
         if have > count {
             return Err(Error::new(
                 Kind::Format,
@@ -234,10 +259,60 @@ impl Tree {
                 "every key once in an object",
             ));
         }
+        if have == count {
+            return Ok(());
+        }
+        self.miss(count - have)?;
         self.collector.reserve("", &[count - have])?;
-        let samples = &mut self.nodes[node].samples.values.samples;
-        samples.resize(count as usize, f64::NAN);
+        let samples = &mut self.nodes[node].samples;
+        let before = samples.values.samples.len();
+        samples.gaps.push((before, (count - have) as usize));
+        samples.length = count;
         Ok(())
+    }
+
+    /// Counts cells that have no number, and refuses a file that has hardly any others.
+    fn miss(&mut self, cells: u64) -> Result<(), Error> {
+        self.absent = self.absent.saturating_add(cells);
+        self.sparse(self.absent)
+    }
+
+    /// Refuses a file with this many cells without a number, if that is hardly any number a cell.
+    fn sparse(&self, absent: u64) -> Result<(), Error> {
+        let most = MAX_ABSENT.saturating_mul(self.present).max(SOME_ABSENT);
+        if absent <= most {
+            return Ok(());
+        }
+        let columns = self.nodes.iter().filter(|n| n.samples.length > 0).count();
+        let record = self.at.first().map_or_else(String::new, |at| {
+            format!("up to record {}: ", at.saturating_add(1))
+        });
+        let found = format!(
+            "{record}{} numbers under {columns} keys, and {absent} cells of these keys without one",
+            self.present
+        );
+        let allowed = format!(
+            "at most {most} cells without a number: give the records the same keys, each a signal"
+        );
+        Err(Error::new(Kind::Limit, found, allowed))
+    }
+
+    /// Puts NaN where numbers are missing.
+    fn expand(&mut self, node: usize) {
+        let samples = &mut self.nodes[node].samples;
+        if samples.gaps.is_empty() {
+            return;
+        }
+        let there = std::mem::take(&mut samples.values.samples);
+        let mut whole = Vec::with_capacity(samples.length as usize);
+        let mut from = 0;
+        for (at, missing) in std::mem::take(&mut samples.gaps) {
+            whole.extend_from_slice(&there[from..at]);
+            whole.resize(whole.len() + missing, f64::NAN);
+            from = at;
+        }
+        whole.extend_from_slice(&there[from..]);
+        samples.values.samples = whole;
     }
 
     /// Begins this many outer elements of a place within two lists, and fills up those before.
@@ -250,9 +325,13 @@ impl Tree {
                 let length = self.nodes[list].lengths.get(last).copied().unwrap_or(0);
                 self.fill(node, begin + length)?;
             }
+            // A list in which the key is missing takes as much as a cell.
+            if rows + 1 < count {
+                self.miss(1)?;
+            }
             self.collector.reserve("", &[1])?;
             let samples = &mut self.nodes[node].samples;
-            samples.starts.push(samples.values.samples.len());
+            samples.starts.push(samples.length as usize);
         }
         Ok(())
     }
@@ -271,6 +350,7 @@ impl Tree {
 
     /// Makes columns and scalars, in the order in which the places came first.
     pub(crate) fn finish(mut self, documents: u64) -> Result<Collector, Error> {
+        self.ends(documents)?;
         let mut stack = vec![0];
         while let Some(node) = stack.pop() {
             self.column(node, documents)
@@ -278,6 +358,18 @@ impl Tree {
             stack.extend(self.nodes[node].children.iter().rev());
         }
         Ok(self.collector)
+    }
+
+    /// Refuses a file most of whose columns end long before their table does, before any of them is filled up.
+    fn ends(&self, documents: u64) -> Result<(), Error> {
+        let short = (0..self.nodes.len()).filter_map(|node| {
+            let here = &self.nodes[node];
+            let one = here.lists + usize::from(self.lines) == 1;
+            let rows = || self.rows(self.list_around(node), documents);
+            (one && here.samples.length > 0).then(|| rows().saturating_sub(here.samples.length))
+        });
+        let missing = short.fold(self.absent, u64::saturating_add);
+        self.sparse(missing)
     }
 
     fn column(&mut self, node: usize, documents: u64) -> Result<(), Error> {
@@ -312,6 +404,7 @@ impl Tree {
             1 => {
                 let rows = self.rows(self.list_around(node), documents);
                 self.fill(node, rows)?;
+                self.expand(node);
                 self.give(node, &name, &[rows, 1]);
             }
             2 => self.matrix(node, &name, documents)?,
@@ -344,6 +437,7 @@ impl Tree {
         let other = filled.find(|&length| length != one);
         let end = self.nodes[node].samples.starts.last().copied().unwrap_or(0) as u64 + last;
         self.fill(node, end)?;
+        self.expand(node);
         if other.is_none() && one <= outer {
             self.rectangle(node, one, outer)?;
             self.give(node, name, &[outer, one]);
@@ -386,6 +480,7 @@ impl Tree {
         if missing == 0 {
             return Ok(());
         }
+        self.miss(missing as u64)?;
         self.collector.reserve("", &[missing as u64])?;
         let samples = &mut self.nodes[node].samples;
         let mut whole = vec![f64::NAN; rows * columns];

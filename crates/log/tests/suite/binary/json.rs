@@ -114,3 +114,49 @@ fn times_of_day_run_on_over_midnight() {
     let table = read("{\"at\": [\"23:59:59.5\", \"00:00:00.25\"], \"q\": [1, 2]}").unwrap();
     assert_eq!(table.columns[0].values, [0.0, 0.75]);
 }
+
+/// Cells that are missing count before they take memory: a short file cannot ask for a large table.
+#[test]
+fn records_with_hardly_a_key_in_common_are_refused() {
+    let each = |count: usize, record: &dyn Fn(usize) -> String| {
+        let records: Vec<String> = (0..count).map(record).collect();
+        records
+    };
+    let keys: Vec<String> = (0..3000).map(|k| format!("\"k{k}\": 1")).collect();
+    let mut long = vec![format!("{{{}}}", keys.join(","))];
+    long.extend(vec!["{}".to_owned(); 3000]);
+    for (records, record) in [
+        (each(4000, &|k| format!("{{\"k{k}\": 1}}")), Some(2897)),
+        (each(4000, &|k| format!("[{{\"k{k}\": 1}}]")), Some(2049)),
+        (long, None),
+    ] {
+        let list = format!("[{}]", records.join(",\n"));
+        let lines = records.join("\n");
+        for text in [list, lines] {
+            let error = read_within(&text, 1 << 28).unwrap_err();
+            assert_eq!(error.kind, Kind::Limit, "{error}");
+            let said = error.to_string();
+            let at = record.map_or_else(String::new, |n| format!("record {n}:"));
+            assert!(said.contains(&at), "{said}");
+            assert!(said.contains("without one"), "{said}");
+            assert!(said.contains("at most 4194304 cells without"), "{said}");
+        }
+    }
+}
+
+/// Signals that take turns are a log, and every cell stands in its row.
+#[test]
+fn records_of_signals_in_turn_are_read() {
+    let record = |k: usize| format!("{{\"t\": {k}, \"s{}\": {k}}}", k % 200);
+    let records: Vec<String> = (0..20_000).map(record).collect();
+    let table = read_within(&records.join("\n"), 1 << 28).unwrap();
+    assert_eq!(table.columns.len(), 201);
+    for (signal, column) in table.columns[1..].iter().enumerate() {
+        let right = |(row, x): (usize, &f64)| match row % 200 == signal {
+            true => *x == row as f64,
+            false => x.is_nan(),
+        };
+        assert_eq!(column.values.len(), 20_000);
+        assert!(column.values.iter().enumerate().all(right));
+    }
+}
