@@ -6,6 +6,7 @@
 //! when others are known.
 
 mod given;
+pub(crate) mod machine;
 mod name;
 mod places;
 mod source;

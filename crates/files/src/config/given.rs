@@ -19,6 +19,8 @@ pub(crate) const LARGEST_SI: f64 = 1e15;
 pub(crate) const ANY_COUNT: u64 = i64::MAX as u64;
 /// Longest piece of the file that is quoted, characters.
 const QUOTED: usize = 60;
+/// Most entries of a list that are quoted.
+const LISTED: usize = 4;
 
 /// A value as it stands in the file.
 #[derive(Clone)]
@@ -319,7 +321,14 @@ fn shown(value: &DeValue<'_>) -> String {
         DeValue::Float(x) => cut(x.as_str().to_string()),
         DeValue::Boolean(flag) => flag.to_string(),
         DeValue::Datetime(_) => "a date".into(),
-        DeValue::Array(_) => "a list".into(),
+        DeValue::Array(list) => {
+            let each = list.iter().take(LISTED).map(|entry| match entry.get_ref() {
+                DeValue::Array(_) => "a list".into(),
+                entry => shown(entry),
+            });
+            let more = if list.len() > LISTED { ", ..." } else { "" };
+            cut(format!("[{}{more}]", each.collect::<Vec<_>>().join(", ")))
+        }
         DeValue::Table(_) => "a table".into(),
     }
 }

@@ -6,6 +6,7 @@ use super::source::Source;
 use super::swept::Swept;
 use crate::error::Error;
 use std::cell::RefCell;
+use std::ops::RangeInclusive;
 use stiction_friction::ParamError;
 use stiction_log::Dimension;
 use stiction_number::full;
@@ -149,6 +150,17 @@ impl<'a> Table<'a> {
     /// A value above 0 with its unit, in SI.
     pub fn positive(&self, key: &'static str, dimension: Dimension) -> Result<Option<f64>, Error> {
         let value = self.get(key).map(|given| given.positive(&[dimension]));
+        Ok(value.transpose()?.map(|(x, _)| x))
+    }
+
+    /// The same within a range in SI.
+    pub fn among(
+        &self,
+        key: &'static str,
+        dimension: Dimension,
+        range: &RangeInclusive<f64>,
+    ) -> Result<Option<f64>, Error> {
+        let value = self.get(key).map(|given| given.among(&[dimension], range));
         Ok(value.transpose()?.map(|(x, _)| x))
     }
 

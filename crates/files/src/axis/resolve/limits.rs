@@ -1,6 +1,7 @@
 //! `[limits]`: what the axis may do.
 
 use crate::axis::limits::AxisLimits;
+use crate::config::machine::{ACCELERATIONS, FORCES, JERKS, MASSES, SPEEDS, STROKES};
 use crate::config::{Given, Table};
 use crate::error::Error;
 use stiction_log::{Dimension, Motion};
@@ -35,13 +36,13 @@ pub(super) fn limits(root: &Table<'_>, kind: Option<Motion>) -> Result<Option<Ax
             .get("end_zone")
             .map(|given| zone(&given))
             .transpose()?,
-        speed: table.positive("speed", motion.velocity())?,
-        acceleration: table.positive("acceleration", acceleration)?,
-        jerk: table.positive("jerk", per_time(acceleration))?,
-        rated_force: table.positive("rated_force", motion.force())?,
-        peak_force: table.positive("peak_force", motion.force())?,
-        mass: table.positive("mass", mass)?,
-        force_noise: table.positive("force_noise", motion.force())?,
+        speed: table.among("speed", motion.velocity(), &SPEEDS)?,
+        acceleration: table.among("acceleration", acceleration, &ACCELERATIONS)?,
+        jerk: table.among("jerk", per_time(acceleration), &JERKS)?,
+        rated_force: table.among("rated_force", motion.force(), &FORCES)?,
+        peak_force: table.among("peak_force", motion.force(), &FORCES)?,
+        mass: table.among("mass", mass, &MASSES)?,
+        force_noise: table.among("force_noise", motion.force(), &FORCES)?,
     };
     if let (Some(rated), Some(peak)) = (limits.rated_force, limits.peak_force)
         && peak < rated
@@ -53,7 +54,8 @@ pub(super) fn limits(root: &Table<'_>, kind: Option<Motion>) -> Result<Option<Ax
 }
 
 const STROKE: &str = "how far the axis may go from where it stands, to negative and to positive positions, such as \
-                      [\"-100 mm\", \"100 mm\"]; the first at most 0, the second at least 0, not both 0";
+                      [\"-100 mm\", \"100 mm\"]: the negative one first, at most 0, then the positive one, at least 0, \
+                      not both 0";
 
 /// Linear or rotary, by the unit of an end.
 fn motion_of(given: &Given<'_>) -> Result<Motion, Error> {
@@ -71,10 +73,16 @@ fn ends(given: &Given<'_>, motion: Motion) -> Result<[f64; 2], Error> {
     let [low, high] = list.as_slice() else {
         return Err(given.refused(STROKE));
     };
-    let ends = [
-        low.signed(motion.position())?,
-        high.signed(motion.position())?,
-    ];
+    let end = |given: &Given<'_>| {
+        let x = given.signed(motion.position())?;
+        if STROKES.contains(&x) {
+            return Ok(x);
+        }
+        let (least, most) = (STROKES.start(), STROKES.end());
+        let unit = motion.position().si_text();
+        Err(given.refused(&format!("from {least:e} to {most:e} {unit}")))
+    };
+    let ends = [end(low)?, end(high)?];
     if ends[0] > 0.0 || ends[1] < 0.0 || ends[0] == ends[1] {
         return Err(given.refused(STROKE));
     }

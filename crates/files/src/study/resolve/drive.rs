@@ -2,6 +2,7 @@
 
 use super::dimensions::Dimensions;
 use crate::config::Table;
+use crate::config::machine::LEAST_BANDWIDTH;
 use crate::error::Error;
 use stiction_log::Dimension;
 use stiction_servo::drive::Drive;
@@ -25,6 +26,9 @@ pub(super) fn drive(table: &Table<'_>, is: &Dimensions, rate: f64) -> Result<Dri
         None | Some((_, Some(_))) => motor.current_lag,
         Some((given, None)) => {
             let (bandwidth, _) = given.positive(&[Dimension::FREQUENCY])?;
+            if bandwidth < LEAST_BANDWIDTH {
+                return Err(given.refused(&format!("at least {LEAST_BANDWIDTH} Hz, or \"none\"")));
+            }
             1.0 / (2.0 * std::f64::consts::PI * bandwidth)
         }
     };

@@ -1,6 +1,7 @@
 //! What holds for every entry of a list in a study file: its name, and how long its motion is.
 
 use crate::config::Table;
+use crate::config::machine::LEAST_BANDWIDTH;
 use crate::error::Error;
 use stiction_log::Dimension;
 use stiction_number::{four_digits as short, shortest};
@@ -72,15 +73,17 @@ pub(super) fn seen(
     Err(table.refuse("kind", found(), &allowed))
 }
 
-/// Checks that a frequency is below half the control rate.
+/// Checks that a bandwidth is that of a loop: from a hundredth of a Hz to below half the control rate.
 pub(super) fn below_half_the_rate(
     table: &Table<'_>,
     key: &'static str,
     rate: f64,
 ) -> Result<Option<f64>, Error> {
     let frequency = table.positive(key, Dimension::FREQUENCY)?;
-    if frequency.is_some_and(|f| f >= 0.5 * rate) {
-        let allowed = format!("below half the control rate, {} Hz", shortest(0.5 * rate));
+    if frequency.is_some_and(|f| f >= 0.5 * rate || f < LEAST_BANDWIDTH) {
+        let half = shortest(0.5 * rate);
+        let allowed =
+            format!("from {LEAST_BANDWIDTH} Hz to below half the control rate, {half} Hz");
         return Err(table.refused(key, &allowed));
     }
     Ok(frequency)

@@ -4,6 +4,7 @@ use super::MOST_ENTRIES;
 use super::dimensions::Dimensions;
 use super::machine::plant_steps;
 use crate::config::Table;
+use crate::config::machine::MASSES;
 use crate::error::{Error, Warning};
 use crate::study::plan::{Event, Scheme, Study};
 use stiction_codes::Code;
@@ -52,7 +53,7 @@ pub(super) fn events(root: &Table<'_>, study: &mut Study) -> Result<(), Error> {
         }
         let event = Event {
             time,
-            mass: table.positive("mass", is.mass)?,
+            mass: table.among("mass", is.mass, &MASSES)?,
             friction: table.number("friction", FRICTION[0], FRICTION[1])?,
         };
         if event.mass.is_none() && event.friction.is_none() {

@@ -6,6 +6,7 @@ use super::disturbance::disturbance;
 use super::drive::drive;
 use super::published::published;
 use crate::config::Table;
+use crate::config::machine::MASSES;
 use crate::error::{Error, Warning};
 use crate::model::MODEL;
 use crate::study::model::{Model, axis_law};
@@ -84,12 +85,16 @@ pub(super) fn machine(
     };
     let law = law.map_err(|e| table.together(&e))?;
     let depends = depends(table, &model, &law)?;
-    let given = table.positive("mass", is.mass)?;
+    let given = table.among("mass", is.mass, &MASSES)?;
     let of_model = model.value(Quantity::Mass);
-    if given.is_none() && of_model.is_some_and(|mass| mass <= 0.0) {
-        let found = format!("{} {}", of_model.unwrap_or(0.0), is.mass.si_text());
-        let allowed = "a study needs a mass above 0: in the model, or as mass of its axis";
-        return Err(model.refuse_parameter("mass", found, allowed));
+    if let (None, Some(mass)) = (given, of_model.filter(|mass| !MASSES.contains(mass))) {
+        let unit = is.mass.si_text();
+        let found = format!("{} {unit}", stiction_number::shortest(mass));
+        let (least, most) = (MASSES.start(), MASSES.end());
+        let allowed = format!(
+            "a study needs a mass from {least:e} to {most:e} {unit}: in the model, or as mass of its axis"
+        );
+        return Err(model.refuse_parameter("mass", found, &allowed));
     }
     let mass = table.required(
         "mass",
