@@ -1,24 +1,30 @@
-//! Progress on standard error, while that is a terminal.
+//! Progress on standard error: a bar on a terminal, now and then a line where that is none.
 
 use crate::interrupt;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::IsTerminal;
+use crate::output;
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use std::io::{IsTerminal, Write};
 use std::mem::discriminant;
+use std::time::{Duration, Instant};
 use stiction::commands::number::Percent;
 use stiction::{Control, Observer, Progress, Stage};
 
-/// Shows a bar with the best cost so far, and passes the user's interrupt on.
+/// Shows how far work is with the best cost so far, and passes the user's interrupt on.
 pub struct Bar {
     bar: ProgressBar,
     stage: Option<Stage>,
+    /// Where there is no terminal.
+    lines: Option<Lines>,
 }
 
 impl Bar {
-    /// A bar, hidden where standard error is no terminal or the user wants none.
+    /// A bar, or lines where standard error is no terminal; neither where the user wants none.
     pub fn new(hidden: bool) -> Self {
+        let terminal = std::io::stderr().is_terminal();
         Self {
-            bar: bar(1000, hidden),
+            bar: bar(1000, hidden || !terminal),
             stage: None,
+            lines: (!hidden && !terminal).then(Lines::default),
         }
     }
 
@@ -28,18 +34,101 @@ impl Bar {
     }
 }
 
-/// A bar, hidden where standard error is no terminal or the user wants none.
+/// A bar, or a hidden one.
 fn bar(length: u64, hidden: bool) -> ProgressBar {
     let bar = ProgressBar::new(length);
-    if hidden || !std::io::stderr().is_terminal() {
+    if hidden {
         bar.set_draw_target(ProgressDrawTarget::hidden());
     }
     if let Ok(style) =
-        ProgressStyle::with_template("{prefix:>18} {wide_bar} {percent:>3} %  {msg}  left {eta}")
+        ProgressStyle::with_template("{prefix:>18} {wide_bar} {percent:>3} %  {msg}  {left}")
     {
-        bar.set_style(style);
+        let time = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
+            // A bar that cannot be written has nobody to see it.
+            let _ = out.write_str(&left(state.pos(), state.eta()));
+        };
+        bar.set_style(style.with_key("left", time));
     }
     bar
+}
+
+/// The time that is left, which nobody knows before anything is done.
+fn left(done: u64, eta: Duration) -> String {
+    match done {
+        0 => String::new(),
+        _ => format!("left {:#}", HumanDuration(eta)),
+    }
+}
+
+/// Between the lines that say how far work is, and before the first: what is short says nothing.
+const BETWEEN: Duration = Duration::from_secs(20);
+
+/// When the next line is due.
+struct Lines {
+    began: Instant,
+    said: Duration,
+}
+
+impl Default for Lines {
+    fn default() -> Self {
+        Self {
+            began: Instant::now(),
+            said: Duration::ZERO,
+        }
+    }
+}
+
+impl Lines {
+    /// Whether a line is due at a time after the start; then the next is due later.
+    fn due(&mut self, elapsed: Duration) -> bool {
+        let due = elapsed >= self.said + BETWEEN;
+        if due {
+            self.said = elapsed;
+        }
+        due
+    }
+
+    fn tell(&mut self, progress: &Progress) {
+        let elapsed = self.began.elapsed();
+        if self.due(elapsed) {
+            // With standard error closed there is nowhere to say it.
+            let line = output::line(&line(progress, elapsed));
+            let _ = writeln!(std::io::stderr(), "stiction: {line}");
+        }
+    }
+}
+
+/// How far work is, as a line.
+fn line(progress: &Progress, elapsed: Duration) -> String {
+    let percent = (100.0 * progress.fraction) as u64;
+    let message = message(progress).map_or_else(String::new, |said| format!(", {said}"));
+    let stage = name(progress.stage);
+    format!("{} s: {stage}, {percent} %{message}", elapsed.as_secs())
+}
+
+fn name(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Tuning => "choosing cut-offs",
+        Stage::Calibration => "measuring the bias",
+        Stage::Search => "searching",
+        Stage::Scan => "scanning the box",
+        Stage::Coarse => "first descents",
+        Stage::Fine | Stage::Finish => "least squares",
+        Stage::CrossValidation => "comparing laws",
+        Stage::Experiments { .. } => "simulating",
+    }
+}
+
+/// What is said beside the part that is done.
+fn message(progress: &Progress) -> Option<String> {
+    if progress.best.is_finite() {
+        let error = Percent::error(100.0 * progress.best).decimals(3);
+        return Some(format!("error {error}"));
+    }
+    match progress.stage {
+        Stage::Experiments { done, all } => Some(format!("{done} of {all}")),
+        _ => None,
+    }
 }
 
 impl Observer for Bar {
@@ -48,31 +137,48 @@ impl Observer for Bar {
         if !self.stage.as_ref().is_some_and(same) {
             self.stage = Some(progress.stage);
             self.bar.reset();
-            self.bar.set_prefix(match progress.stage {
-                Stage::Tuning => "choosing cut-offs",
-                Stage::Calibration => "measuring the bias",
-                Stage::Search => "searching",
-                Stage::Scan => "scanning the box",
-                Stage::Coarse => "first descents",
-                Stage::Fine | Stage::Finish => "least squares",
-                Stage::CrossValidation => "comparing laws",
-                Stage::Experiments { .. } => "simulating",
-            });
+            self.bar.set_prefix(name(progress.stage));
         }
         self.bar.set_position((1000.0 * progress.fraction) as u64);
-        if let Stage::Experiments { done, all } = progress.stage {
-            self.bar.set_message(format!("{done} of {all}"));
+        if let Some(message) = message(progress) {
+            self.bar.set_message(message);
         }
-        if progress.best.is_finite() {
-            self.bar.set_message(format!(
-                "error {}",
-                Percent::error(100.0 * progress.best).decimals(3)
-            ));
+        if let Some(lines) = &mut self.lines {
+            lines.tell(progress);
         }
         if interrupt::asked() {
             Control::Stop
         } else {
             Control::Continue
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Lines, left, line};
+    use std::time::Duration;
+    use stiction::{Progress, Stage};
+
+    #[test]
+    fn time_that_is_left_is_said_once_something_is_done() {
+        let second = Duration::from_secs(1);
+        assert_eq!(left(0, Duration::ZERO), "");
+        assert_eq!(left(1, 90 * second), "left 90s");
+        assert_eq!(left(999, Duration::ZERO), "left 0s");
+    }
+
+    #[test]
+    fn lines_are_due_now_and_then_and_not_for_what_is_short() {
+        let mut lines = Lines::default();
+        let due = (0..60).filter(|s| lines.due(Duration::from_secs(*s)));
+        assert_eq!(due.collect::<Vec<_>>(), [20, 40]);
+    }
+
+    #[test]
+    fn a_line_says_what_is_done_and_how_much_of_it() {
+        let stage = Stage::Experiments { done: 3, all: 12 };
+        let told = line(&Progress::of(stage, 0.25), Duration::from_secs(21));
+        assert_eq!(told, "21 s: simulating, 25 %, 3 of 12");
     }
 }

@@ -13,3 +13,16 @@ mod plan;
 mod procedures;
 mod searches;
 mod study;
+
+/// What a command said on standard error, without the lines that tell how far long work is: how many there are depends on the
+/// machine.
+fn said(stderr: Vec<u8>) -> String {
+    let is_progress = |line: &&str| {
+        let rest = line.strip_prefix("stiction: ").unwrap_or_default();
+        let time = rest.split_once(" s: ").map(|(time, _)| time);
+        time.is_some_and(|time| time.parse::<u64>().is_ok())
+    };
+    let text = String::from_utf8(stderr).unwrap();
+    let lines = text.split_inclusive('\n');
+    lines.filter(|line| !is_progress(line)).collect()
+}

@@ -13,7 +13,7 @@ fn run(dir: &Path, line: &str) -> (i32, String, String) {
         .output()
         .unwrap();
     let text = |bytes| String::from_utf8(bytes).unwrap();
-    let (out, err) = (text(output.stdout), text(output.stderr));
+    let (out, err) = (text(output.stdout), crate::said(output.stderr));
     assert!(!err.contains("panicked"), "{err}");
     (output.status.code().unwrap_or(-1), out, err)
 }

@@ -38,7 +38,7 @@ fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
     (
         output.status.code().unwrap_or(-1),
         text(output.stdout),
-        text(output.stderr),
+        crate::said(output.stderr),
     )
 }
 
