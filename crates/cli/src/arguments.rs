@@ -69,7 +69,7 @@ fn duration(text: &str) -> Result<f64, String> {
         .iter()
         .find_map(|(unit, by)| Some((text.strip_suffix(unit)?, by)));
     let parsed = split.and_then(|(number, by)| Some(by * number.trim().parse::<f64>().ok()?));
-    parsed.ok_or_else(|| "a time is allowed, such as 9s or 0.5min".into())
+    parsed.ok_or_else(|| "a time from 2s to 600s is allowed, such as 9s or 0.5min".into())
 }
 
 /// A time in seconds.
@@ -439,7 +439,7 @@ pub struct Plan {
     #[arg(long, value_enum, default_value_t = Stage::Whole)]
     pub stage: Stage,
     /// Longest motion, from rest to rest [default: 9s, of a probe 3s].
-    #[arg(long, value_name = "TIME", allow_negative_numbers = true, value_parser = duration)]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = duration)]
     pub time: Option<f64>,
     /// Seed of the axes that it is planned for.
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole)]

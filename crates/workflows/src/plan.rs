@@ -6,6 +6,7 @@ mod design;
 mod judged;
 mod known;
 mod outcome;
+mod possible;
 
 pub use assume::Given;
 pub use band::Band;

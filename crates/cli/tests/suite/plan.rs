@@ -31,7 +31,7 @@ fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
     (
         output.status.code().unwrap_or(-1),
         text(output.stdout),
-        text(output.stderr),
+        crate::said(output.stderr),
     )
 }
 
@@ -161,6 +161,65 @@ fn limits_that_are_none_are_refused_with_their_line() {
         );
         assert_eq!(code, 2, "{time} {err}");
     }
+}
+
+/// Each a limit that is not that of the same machine as the others: no plan of nothing, and nothing that never ends.
+#[test]
+fn limits_of_no_machine_are_refused_at_their_key() {
+    let fast = |speed: &str| AXIS.replace("\"0.1 m/s\"", speed);
+    let weak = AXIS.replace("\"60 N\"", "\"2e-9 N\"");
+    let stroke = |ends: &str| AXIS.replace("[\"-20 mm\", \"30 mm\"]", ends);
+    for (axis, says) in [
+        (
+            fast("\"1e15 m/s\""),
+            "line 7, column 16, limits.speed: \"1e15 m/s\"; from 1e-9 to 1e6 m/s",
+        ),
+        (
+            fast("\"200 m/s\""),
+            "limits.speed: 200 m/s; at most 105.4 m/s: acceleration and stroke allow 0.3162 m/s",
+        ),
+        (
+            weak.replace("\"40 N\"", "\"1e-9 N\""),
+            "line 10, column 16, limits.peak_force: 2e-9 N, which moves 4 kg",
+        ),
+        (
+            AXIS.replace("\"500 Hz\"", "\"1e9 Hz\""),
+            "line 3, column 8, rate: 1000000000 Hz, in --time 4 s 4e9 samples; at most 2500000 samples",
+        ),
+        (
+            AXIS.replace("\"4 kg\"", "\"1e-13 kg\""),
+            "limits.mass: \"1e-13 kg\"; from 1e-12 to 1e9 kg",
+        ),
+        (
+            format!("{AXIS}\n[log]\nresolution = \"50 mm\"\n"),
+            "limits.stroke: 0.05 m in all; at least 0.1 m, two encoder steps",
+        ),
+        (
+            stroke("[\"30 mm\", \"-20 mm\"]"),
+            "limits.stroke: [\"30 mm\", \"-20 mm\"]; how far",
+        ),
+        (stroke("[\"0 mm\", \"0 mm\"]"), "the negative one first"),
+        (
+            stroke("[\"0 mm\", \"30 mm\"]"),
+            "line 6, column 16, limits.stroke: 0 to 0.03 m: every motion goes beyond it",
+        ),
+    ] {
+        let folder = folder(&axis);
+        let (code, out, err) = run(
+            folder.path(),
+            &["plan", "axis.toml", "--time", "4s", "--out", "out"],
+        );
+        assert_eq!((code, out.as_str()), (2, ""), "{err}");
+        assert!(err.contains(says), "{says}\n{err}");
+        assert!(!folder.path().join("out").exists());
+    }
+    let folder = folder(AXIS);
+    let (code, _, err) = run(
+        folder.path(),
+        &["plan", "axis.toml", "--time", "-9s", "--out", "out"],
+    );
+    assert_eq!(code, 2);
+    assert!(err.contains("--time -9 s; 2 s to 600 s"), "{err}");
 }
 
 /// A stroke that the encoder hardly sees leaves no motion, and that is said.

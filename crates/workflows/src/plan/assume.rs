@@ -2,6 +2,7 @@
 
 use super::PlanOptions;
 use super::known::{Known, Told};
+use super::possible::{reachable, samples, thinned};
 use crate::error::Error;
 use stiction_files::Axis;
 use stiction_files::plan::Assumed;
@@ -17,6 +18,8 @@ pub struct Given {
     pub motion: Motion,
     /// Limits, drive, encoder and the ranges of what is not known.
     pub nameplate: Nameplate,
+    /// The rig with the log that is recorded; that of the nameplate is simulated, and may have a slower one.
+    pub logged: Rig,
     /// What a first model or log leaves open, in place of what the nameplate does.
     pub belief: Option<Belief>,
     /// The noise, and what is known from a log that will be identified together with that of the motion.
@@ -203,6 +206,7 @@ pub(super) fn given(
             }
         },
     };
+    let whole = limits;
     let limits = match options.probe {
         true => Limits {
             speed: PROBE * limits.speed,
@@ -211,17 +215,13 @@ pub(super) fn given(
         },
         false => limits,
     };
-    let mut aim = Aim::new(rig.force_noise);
-    if let (Some(Known::Log(_)), Some(told)) = (&options.known, &told) {
-        aim.known = told.belief.deviations;
-    }
-    let nameplate = Nameplate {
+    let logged = Nameplate {
         mass,
         mass_factor: MASS_FACTOR,
         limits,
         rig,
     };
-    nameplate.validate().map_err(|e| {
+    logged.validate().map_err(|e| {
         let key = match e.name {
             "rate" | "mass" => e.name.to_string(),
             "resolution" => "log.resolution".into(),
@@ -238,9 +238,24 @@ pub(super) fn given(
             Error::from,
         )
     })?;
+    samples(axis, rate, options.longest())?;
+    let unhalved = Nameplate {
+        limits: whole,
+        ..logged
+    };
+    reachable(axis, &unhalved, motion, options.longest())?;
+    let nameplate = Nameplate {
+        rig: thinned(rig),
+        ..logged
+    };
+    let mut aim = Aim::new(nameplate.rig.force_noise);
+    if let (Some(Known::Log(_)), Some(told)) = (&options.known, &told) {
+        aim.known = told.belief.deviations;
+    }
     Ok(Given {
         motion,
         nameplate,
+        logged: rig,
         belief: told.map(|told| told.belief),
         aim,
         assumed,

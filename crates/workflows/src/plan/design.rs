@@ -5,6 +5,7 @@ use super::assume::Given;
 use super::band::band;
 use super::judged::{Judged, judged, refused};
 use super::outcome::Planned;
+use super::possible::{beyond, no_piece, peaks, tells_nothing};
 use crate::error::Error;
 use rayon::prelude::*;
 use std::path::PathBuf;
@@ -15,8 +16,8 @@ use stiction_files::plan::{
 use stiction_files::{Axis, sha256};
 use stiction_friction::ParamError;
 use stiction_plan::{
-    Aim, Atom, Candidate, Choice, Entry, HandMade, Limits, Motion, NAMES, Nameplate, Spread, Table,
-    dictionary, hand_made, select,
+    Aim, Atom, Candidate, Choice, Entry, HandMade, Limits, Motion, NAMES, Nameplate, Peaks, Spread,
+    Table, dictionary, hand_made, select,
 };
 use stiction_search::{Control, Observer, Progress, Shared, Stage};
 
@@ -53,6 +54,9 @@ pub(super) fn design(
         .into_iter()
         .filter(|atom| atom.duration() <= longest)
         .collect();
+    if atoms.is_empty() {
+        return Err(no_piece(axis));
+    }
     let periods = rig.rate * rig.periods() as f64 * PHASES;
     let seed = seed(options.seed);
     let time: f64 = atoms.iter().map(Atom::duration).sum();
@@ -61,16 +65,15 @@ pub(super) fn design(
         return Ok(None);
     };
     let mut simulated: f64 = table.entries.iter().flatten().map(|e| e.simulated).sum();
+    let all = peaks(&table.entries);
     let table = table.safe(limits);
     if table.atoms.is_empty() {
-        let found =
-            "no piece of a motion keeps within the limits on the axes that are thought possible";
-        return Err(Error::usage(
-            found,
-            "a larger stroke, speed or acceleration, or a finer encoder",
-        ));
+        return Err(beyond(axis, &given, &all));
     }
     let choice = chosen(&table, &given.aim, longest, observer);
+    if choice.pieces.is_empty() {
+        return Err(tells_nothing(axis, longest));
+    }
     let designed = Motion::new(ordered(&table, &choice)).map_err(refused)?;
 
     let kinds = HandMade::ALL.len() as f64 + 1.0;
@@ -94,24 +97,20 @@ pub(super) fn design(
         .iter()
         .map(|(name, j)| compared(name, j, limits))
         .collect();
+    let whole: Vec<Peaks> = all.iter().map(|(_, j)| j.expected.peaks).collect();
     let finalists = all.into_iter().filter(|(_, j)| j.keeps(limits));
     let best = finalists.min_by(|(_, a), (_, b)| a.expected.score.total_cmp(&b.expected.score));
     let Some((name, best)) = best else {
-        let found =
-            "no motion keeps within stroke and speed on every axis that is thought possible";
-        return Err(Error::usage(
-            found,
-            "a larger stroke or speed, or a controller.bandwidth that the axis really has",
-        ));
+        return Err(beyond(axis, &given, &whole));
     };
     let mut hashed = Vec::new();
     for path in &inputs {
         hashed.push(InputEntry {
-            path: path.display().to_string(),
+            path: stiction_files::shell::text(path),
             sha256: sha256(path)?,
         });
     }
-    let peaks = best.expected.peaks;
+    let largest = best.expected.peaks;
     let file = PlanFile {
         schema: SCHEMA.into(),
         version: env!("CARGO_PKG_VERSION").into(),
@@ -142,26 +141,26 @@ pub(super) fn design(
             peak_force: limits.peak_force,
         },
         rig: RigEntry {
-            rate: rig.rate,
-            resolution: rig.encoder_step,
-            force_noise: rig.force_noise,
-            bandwidth: rig.bandwidth(),
+            rate: given.logged.rate,
+            resolution: given.logged.encoder_step,
+            force_noise: given.logged.force_noise,
+            bandwidth: given.logged.bandwidth(),
         },
         prior: ranges(&given),
         parameter: (0..NAMES.len()).map(|i| expected(&best, i)).collect(),
         compared,
         largest: LargestEntry {
-            position: peaks.position,
-            speed: peaks.speed,
-            force: peaks.force,
-            force_rms: libm::sqrt(peaks.force_square),
-            following_error: peaks.error,
-            saturated: peaks.saturated,
+            position: largest.position,
+            speed: largest.speed,
+            force: largest.force,
+            force_rms: libm::sqrt(largest.force_square),
+            following_error: largest.error,
+            saturated: largest.saturated,
         },
         abort: AbortEntry {
-            following_error: 2.0 * peaks.error,
-            force: (1.2 * peaks.force).min(limits.peak_force),
-            speed: (1.5 * peaks.speed).min(1.1 * limits.speed),
+            following_error: 2.0 * largest.error,
+            force: (1.2 * largest.force).min(limits.peak_force),
+            speed: (1.5 * largest.speed).min(1.1 * limits.speed),
         },
         atom: (best.motion.timed())
             .map(|(start, atom)| AtomEntry::of(start, atom))
