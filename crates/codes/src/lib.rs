@@ -55,6 +55,7 @@ codes! {
     SensorDropout = "sensor-dropout": "a temperature or a load holds numbers that no sensor measured",
     ShortColumn = "short-column": "a column ends before the others",
     UnitAssumed = "unit-assumed": "a unit is given nowhere and was assumed",
+    UnlikelySize = "unlikely-size": "a rate, travel, speed or force is one that no machine has: a unit is probably wrong",
     UnitOverride = "unit-override": "the axis file gives another unit than the recording",
     UnitConvention = "unit-convention": "the unit is in use with more than one meaning",
     ForceUnit = "force-unit": "the unit of the force does not fit a linear or rotary axis as stated",

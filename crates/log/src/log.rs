@@ -114,6 +114,9 @@ const MIN_SAMPLES: usize = 3;
 /// Largest share of samples that may be cut off to bring all columns to the length of the shortest.
 const MAX_CUT_SHARE: f64 = 0.01;
 
+/// Fewest values of a force from which parameters may be constants: with fewer the error of a step is a tenth of the force and more.
+const FEWEST_FORCE_LEVELS: usize = 10;
+
 impl Log {
     /// Reads a table as this mapping says; what the mapping leaves open is detected.
     ///
@@ -202,6 +205,8 @@ impl Log {
             mapping,
         };
         credible::check(&log, table, &sources)?;
+        let unlikely = credible::unlikely(&log, table, &sources);
+        log.findings.extend(unlikely);
         let mapping = log.mapping.clone();
         findings::inspect(&mut log, &mapping);
         log.excluded
@@ -268,6 +273,13 @@ impl Log {
         self.findings
             .iter()
             .any(|f| f.severity == Severity::Warning)
+    }
+
+    /// Whether the force takes so few values that what a fit makes of their steps is no constant of a machine: more than one, and
+    /// fewer than ten.
+    pub fn has_few_force_levels(&self) -> bool {
+        let levels = self.force.as_deref().map(crate::findings::levels);
+        levels.is_some_and(|levels| (2..FEWEST_FORCE_LEVELS).contains(&levels.len()))
     }
 
     /// Which samples are excluded.

@@ -21,6 +21,10 @@ const MIN_LEVELS: f64 = 100.0;
 const SATURATED_SHARE_OF_LIMIT: f64 = 0.999;
 /// Fewest steps of the range of a force that is not called coarse.
 const FEWEST_FORCE_STEPS: f64 = 50.0;
+/// Fewest values of a force that is not called coarse where it changes too seldom to tell its steps.
+const SELDOM_CHANGED: usize = 8;
+/// Most values of a force that are told apart.
+const MOST_LEVELS: usize = 64;
 /// Net work over the sum of its magnitudes, below which the sign is wrong: friction as a force gives -1.
 const MIN_NET_WORK: f64 = -0.3;
 /// Largest net travel over the whole path of a motion to and fro.
@@ -132,6 +136,22 @@ fn flat_elsewhere(force: &[f64], low: f64, high: f64) -> impl Iterator<Item = (f
         .map(|run| (run[0], run.len()))
 }
 
+/// The values that a force takes, rising, as far as there are at most some tens.
+pub(crate) fn levels(force: &[f64]) -> Vec<f64> {
+    let mut levels: Vec<f64> = Vec::new();
+    for x in force.iter().filter(|x| x.is_finite()) {
+        if levels.len() > MOST_LEVELS {
+            break;
+        }
+        // No two zeros.
+        let x = x + 0.0;
+        if let Err(at) = levels.binary_search_by(|level| level.total_cmp(&x)) {
+            levels.insert(at, x);
+        }
+    }
+    levels
+}
+
 /// Names a force whose steps are coarse beside its range: friction below a step does not show, and the error of a step has the
 /// sign of the motion for as long as the force hardly changes.
 pub(super) fn steps(log: &mut Log) {
@@ -139,14 +159,27 @@ pub(super) fn steps(log: &mut Log) {
     let Some((low, high)) = extremes(force) else {
         return;
     };
-    let Some(step) = quantum(force, &log.skipped()) else {
+    let levels = levels(force);
+    // A force that changes seldom shows too few steps to tell one by, but has few values.
+    let few = (2..SELDOM_CHANGED).contains(&levels.len());
+    let closest = || {
+        levels
+            .windows(2)
+            .map(|w| w[1] - w[0])
+            .min_by(f64::total_cmp)
+    };
+    let step = quantum(force, &log.skipped()).or_else(|| closest().filter(|_| few));
+    let Some(step) = step.filter(|step| (high - low) / step < FEWEST_FORCE_STEPS) else {
         return;
     };
-    if (high - low) / step >= FEWEST_FORCE_STEPS {
-        return;
-    }
+    let known = match log.has_few_force_levels() {
+        false => "friction is known to a part of a step",
+        true => {
+            "friction is known to a part of a step, and no parameter that is fitted to it is a constant of the machine"
+        }
+    };
     let message = format!(
-        "the force comes in steps of {} {}, and its range of {} is {} of them: friction is known to a part of a step",
+        "the force comes in steps of {} {}, and its range of {} is {} of them: {known}",
         short(step),
         log.force_unit,
         short(high - low),

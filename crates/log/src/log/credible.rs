@@ -1,16 +1,102 @@
-//! Refuses what no axis does: a travel, speed or force beyond all measure, for which a unit is wrong.
+//! Refuses what no axis does: a travel, speed or force beyond all measure, for which a unit is wrong; and names what no machine is
+//! known to do, for which one probably is.
 
 use super::Log;
-use crate::findings::{extremes, short};
+use crate::findings::{Finding, Severity, extremes, short};
 use crate::mapping::{RATES, Role, Source};
-use crate::{Error, Kind, Table};
+use crate::{Error, Kind, Motion, Table};
 use std::ops::RangeInclusive;
+use stiction_codes::Code;
 
 /// Travels of a position (m, rad) and largest velocities, accelerations and forces that a log may have, in SI units: a thousandth
 /// of the diameter of an atom to far more than any machine.
 const SIZES: RangeInclusive<f64> = 1e-12..=1e12;
+/// Rates of a log of friction, Hz: slower ones have nothing of presliding.
+const USUAL_RATES: RangeInclusive<f64> = 2.0..=1e7;
+/// Travels, m: a part of a wavelength of light to the longest crane; and what a shaft turns at least, rad.
+const USUAL_TRAVELS: RangeInclusive<f64> = 1e-9..=1e4;
+const USUAL_ANGLES: RangeInclusive<f64> = 1e-9..=1e12;
+/// Largest speeds, m/s and rad/s: a projectile, an ultracentrifuge.
+const USUAL_SPEED: f64 = 1e3;
+const USUAL_TURNS: f64 = 1e5;
+/// Forces and torques, N and N m, and currents, voltages and parts of a rated value: of a stage on a chip to the largest press.
+const USUAL_FORCES: RangeInclusive<f64> = 1e-9..=1e8;
 /// Rounding errors of the largest number up to which a signal counts as constant.
 const CONSTANT_WITHIN: f64 = 8.0;
+
+/// Names the rate and the columns that are not those of any machine. A column that never changes is told elsewhere.
+pub(super) fn unlikely(log: &Log, table: &Table, sources: &[(Role, Source)]) -> Vec<Finding> {
+    let (length, speed) = (
+        log.motion.position().si_text(),
+        log.motion.velocity().si_text(),
+    );
+    let (travels, fastest) = match log.motion {
+        Motion::Linear => (USUAL_TRAVELS, USUAL_SPEED),
+        Motion::Rotary => (USUAL_ANGLES, USUAL_TURNS),
+    };
+    let duration = log.time.last().zip(log.time.first()).map(|(b, a)| b - a);
+    let mut found = Vec::new();
+    let mut tell = |role: Role,
+                    value: f64,
+                    says: String,
+                    range: &RangeInclusive<f64>,
+                    unit: &str| {
+        let Some((_, source)) = sources.iter().find(|(own, _)| *own == role) else {
+            return;
+        };
+        // What never changes has no size.
+        if value == 0.0 || range.contains(&value) {
+            return;
+        }
+        let message = format!(
+            "{says}; machines have {:e} to {:e} {unit}: the unit of column {} ({}) is probably wrong; another one is given in axis.toml under [columns], as in: {}",
+            range.start(),
+            range.end(),
+            source.place(table),
+            source.unit,
+            source.line(table, role),
+        );
+        found.push(Finding::new(Code::UnlikelySize, Severity::Warning, message));
+    };
+    let step = 1.0 / log.rate_hz;
+    let steps = 1.0 / USUAL_RATES.end()..=1.0 / USUAL_RATES.start();
+    let says = format!("the median time step is {} s", short(step));
+    tell(Role::Time, step, says, &steps, "s");
+    for (role, values) in [
+        (Role::Position, &log.position),
+        (Role::Reference, &log.reference),
+    ] {
+        let Some((low, high)) = values.as_deref().and_then(extremes) else {
+            continue;
+        };
+        if high - low <= CONSTANT_WITHIN * f64::EPSILON * low.abs().max(high.abs()) {
+            continue;
+        }
+        let says = format!("{role} travels {} {length} in all", short(high - low));
+        tell(role, high - low, says, &travels, &length);
+        let path = |x: &[f64]| x.windows(2).map(|w| (w[1] - w[0]).abs()).sum::<f64>();
+        let (Some(x), Some(duration)) = (values, duration.filter(|d| *d > 0.0)) else {
+            continue;
+        };
+        let mean = path(x) / duration;
+        if travels.contains(&(high - low)) && mean > fastest {
+            let says = format!("{role} moves with {} {speed} on average", short(mean));
+            tell(role, mean, says, &(0.0..=fastest), &speed);
+        }
+    }
+    let force = log.force_unit.as_str();
+    for (role, values, range, unit) in [
+        (Role::Velocity, &log.velocity, 0.0..=fastest, speed.as_str()),
+        (Role::Force, &log.force, USUAL_FORCES, force),
+    ] {
+        if let Some((low, high)) = values.as_deref().and_then(extremes) {
+            let largest = low.abs().max(high.abs());
+            let says = format!("{role} is {} {unit} at most", short(largest));
+            tell(role, largest, says, &range, unit);
+        }
+    }
+    found
+}
 
 /// Refuses a log whose rate or one of whose columns cannot be that of an axis. A column that never changes is told elsewhere.
 pub(super) fn check(log: &Log, table: &Table, sources: &[(Role, Source)]) -> Result<(), Error> {

@@ -102,13 +102,24 @@ impl Source {
     pub fn line(&self, table: &Table, role: Role) -> String {
         let rotary = Motion::Rotary;
         let angular = [rotary.position(), rotary.velocity(), rotary.acceleration()];
+        let own = self.unit.to_string();
         let unit = match (role, angular.contains(&self.dimension)) {
+            // Not the unit that is wrong.
+            (Role::Time, _) if own == "ms" => "s".to_string(),
+            (Role::Position | Role::Reference, false) if own == "mm" => "m".into(),
+            (Role::Position | Role::Reference, true) if own == "deg" => "rad".into(),
+            (Role::Velocity, false) if own == "mm/s" => "m/s".into(),
+            (Role::Velocity, true) if own == "deg/s" => "rad/s".into(),
             (Role::Time, _) => "ms".to_string(),
             (Role::Position | Role::Reference, false) => "mm".into(),
             (Role::Position | Role::Reference, true) => "deg".into(),
             (Role::Velocity, false) => "mm/s".into(),
             (Role::Velocity, true) => "deg/s".into(),
-            _ => self.dimension.si_text(),
+            _ => match self.dimension.si_text() {
+                si if si == "1" => "%".into(),
+                si if si == own => format!("m{si}"),
+                si => si,
+            },
         };
         describe::line_with(table, self.column, role, &format!("unit = \"{unit}\""))
     }

@@ -687,6 +687,54 @@ fn what_no_axis_does_is_refused() {
     }
 }
 
+/// A time step, travel, speed or force of no machine is read, and named with the column, its unit and the line for another one.
+#[test]
+fn what_no_machine_does_is_named() {
+    let said = |column: usize, size: f64| {
+        let mut table = axis(300).table();
+        table.columns[column]
+            .values
+            .iter_mut()
+            .for_each(|x| *x *= size);
+        let log = Log::from_table(&table, &Mapping::default()).unwrap();
+        let named = log.findings.into_iter();
+        let named = named.filter(|f| f.code == stiction_codes::Code::UnlikelySize);
+        named
+            .map(|f| format!("{}\n", f.message))
+            .collect::<String>()
+    };
+    let all = [(0, 1e3), (1, 1e9), (1, 1e-8), (3, 1e9)];
+    let all: String = all.into_iter().map(|(k, size)| said(k, size)).collect();
+    insta::assert_snapshot!(all);
+    for column in [0, 1, 3] {
+        assert_eq!(said(column, 1.0), "");
+    }
+}
+
+/// A force of two values is as coarse as one in steps, however seldom it changes.
+#[test]
+fn a_force_of_few_values_is_coarse() {
+    let with = |levels: f64, every: usize| {
+        let mut table = axis(3000).table();
+        for (k, x) in table.columns[3].values.iter_mut().enumerate() {
+            *x = 10.0 * ((k / every) as f64 % levels);
+        }
+        Log::from_table(&table, &Mapping::default()).unwrap()
+    };
+    let coarse = |log: &Log| {
+        let mut codes = log.findings.iter().map(|f| f.code);
+        codes.any(|code| code == stiction_codes::Code::CoarseForce)
+    };
+    for levels in [2.0, 5.0, 7.0] {
+        let log = with(levels, 500);
+        assert!(coarse(&log) && log.has_few_force_levels(), "{levels}");
+    }
+    let log = with(40.0, 10);
+    assert!(coarse(&log) && !log.has_few_force_levels());
+    let log = with(1.0, 1);
+    assert!(!coarse(&log) && !log.has_few_force_levels());
+}
+
 /// A wrap that the encoder does not resolve is refused, whether its step is given or seen.
 #[test]
 fn a_wrap_is_longer_than_the_steps_of_the_encoder() {
