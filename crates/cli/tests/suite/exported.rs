@@ -34,7 +34,7 @@ fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
     (
         output.status.code().unwrap_or(-1),
         text(output.stdout),
-        text(output.stderr),
+        crate::said(output.stderr),
     )
 }
 
@@ -173,6 +173,15 @@ fn what_cannot_be_run_is_refused() {
     std::fs::write(&file, whole.replace("params->gain", "params->gone")).unwrap();
     let err = simulate("c");
     assert!(err.contains("gcc does not compile it"), "{err}");
+
+    // C that never answers.
+    let endless = "static void __attribute__((constructor)) endless(void) { for (;;) { } }";
+    std::fs::write(&file, format!("{whole}\n{endless}\n")).unwrap();
+    let err = simulate("c");
+    assert!(
+        err.contains("gives no answer within 10 s: it was ended"),
+        "{err}"
+    );
     std::fs::write(&file, whole).unwrap();
 
     let slower = STUDY.replace("2 kHz", "1 kHz");

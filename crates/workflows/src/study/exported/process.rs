@@ -2,6 +2,9 @@
 
 use std::io::{Read, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 use stiction_friction::compensator::{Input, Watch};
 use tempfile::TempDir;
 
@@ -22,11 +25,52 @@ pub(super) struct Settled {
     pub key: f64,
 }
 
+/// Longest time for one answer: the step of a compensator takes microseconds.
+const LONGEST_ANSWER: Duration = Duration::from_secs(10);
+/// How often that is looked at.
+const LOOK: Duration = Duration::from_millis(50);
+
 /// A running program; it ends with this.
 pub(super) struct Process {
-    child: Child,
+    state: Arc<State>,
     input: ChildStdin,
     output: ChildStdout,
+}
+
+/// What the thread that ends a program without an answer shares with the one that waits for it.
+struct State {
+    child: Mutex<Child>,
+    /// Questions and answers so far: odd while an answer is awaited.
+    turns: AtomicU64,
+    /// Whether it was ended for its silence.
+    silent: AtomicBool,
+    /// Whether nobody waits any more.
+    over: AtomicBool,
+}
+
+impl State {
+    fn end(&self) {
+        let mut child = self.child.lock().unwrap_or_else(PoisonError::into_inner);
+        // It may have ended by itself.
+        let _ = child.kill();
+        let _ = child.wait();
+    }
+
+    /// Ends the program when one answer takes too long.
+    fn watch(&self) {
+        let mut seen = (0, Instant::now());
+        while !self.over.load(Ordering::Relaxed) {
+            std::thread::sleep(LOOK);
+            let turns = self.turns.load(Ordering::Relaxed);
+            if turns != seen.0 || turns.is_multiple_of(2) {
+                seen = (turns, Instant::now());
+            } else if seen.1.elapsed() > LONGEST_ANSWER {
+                self.silent.store(true, Ordering::Relaxed);
+                self.end();
+                return;
+            }
+        }
+    }
 }
 
 impl Process {
@@ -41,11 +85,20 @@ impl Process {
         let (Some(input), Some(output)) = (child.stdin.take(), child.stdout.take()) else {
             return Err("its program has no pipes".into());
         };
+        let state = Arc::new(State {
+            child: Mutex::new(child),
+            turns: AtomicU64::new(0),
+            silent: AtomicBool::new(false),
+            over: AtomicBool::new(false),
+        });
         let mut process = Process {
-            child,
+            state: state.clone(),
             input,
             output,
         };
+        std::thread::Builder::new()
+            .spawn(move || state.watch())
+            .map_err(|e| format!("its program cannot be watched ({e})"))?;
         let [
             ready,
             cycle_time,
@@ -112,22 +165,29 @@ impl Process {
     }
 
     fn read<const N: usize>(&mut self) -> Result<[f64; N], String> {
+        self.state.turns.fetch_add(1, Ordering::Relaxed);
         let mut numbers = [0.0; N];
         for number in &mut numbers {
             let mut bytes = [0; 8];
-            self.output
-                .read_exact(&mut bytes)
-                .map_err(|e| format!("its program has ended ({e})"))?;
+            let read = self.output.read_exact(&mut bytes);
+            read.map_err(|e| match self.state.silent.load(Ordering::Relaxed) {
+                true => {
+                    let longest = LONGEST_ANSWER.as_secs();
+                    format!("its program gives no answer within {longest} s: it was ended")
+                }
+                false => format!("its program has ended ({e})"),
+            })?;
             *number = f64::from_ne_bytes(bytes);
         }
+        self.state.turns.fetch_add(1, Ordering::Relaxed);
         Ok(numbers)
     }
 }
 
 impl Drop for Process {
     fn drop(&mut self) {
+        self.state.over.store(true, Ordering::Relaxed);
         // It may be in an endless loop of its own.
-        let _ = self.child.kill();
-        let _ = self.child.wait();
+        self.state.end();
     }
 }
