@@ -142,7 +142,11 @@ pub(crate) fn condition_as(
             return Err(Error::MissingChannel {
                 log: i + 1,
                 channel,
-                term: "the source of the conditioning",
+                term: match conditioning.source {
+                    Some(Source::Position) => "source = \"position\" in [conditioning]",
+                    Some(Source::Velocity) => "source = \"velocity\" in [conditioning]",
+                    None => "a fit together with a log that has no position",
+                },
             });
         }
     }

@@ -175,6 +175,25 @@ pub enum Error {
     },
 }
 
+impl Error {
+    /// Which log it is about, counted from 1, where it is about one.
+    pub fn log(&self) -> Option<usize> {
+        match self {
+            Error::Length { log, .. }
+            | Error::NoMotionChannel { log }
+            | Error::MissingChannel { log, .. }
+            | Error::NotFinite { log, .. }
+            | Error::Time { log, .. }
+            | Error::NoStep { log, .. }
+            | Error::FaintStep { log, .. }
+            | Error::NoBreakAway { log, .. }
+            | Error::Diverged { log, .. }
+            | Error::NotSimulated { log, .. } => Some(*log),
+            _ => None,
+        }
+    }
+}
+
 /// How slow an axis stays that does not move.
 fn slow(bound: f64, unit: &str) -> String {
     if bound > 0.0 {

@@ -38,6 +38,7 @@ pub(crate) mod start;
 pub(crate) mod unknowns;
 pub(crate) mod unseen;
 
+use crate::conditioning::losses::Losses;
 use crate::error::Error;
 use crate::estimate::Estimate;
 use crate::law::Law;
@@ -117,7 +118,11 @@ pub fn output_error(
         .iter()
         .map(|r| r.keep.iter().filter(|&&k| k).count())
         .sum();
-    let needed = 10 * Layout::new(&law, &terms).len() + 4 * runs.len();
+    let mut needed = 10 * Layout::new(&law, &terms).len() + 4 * runs.len();
+    if simulation.controller.is_none() {
+        let all = runs.iter().map(|r| r.keep.len()).sum();
+        needed = needed.max(Losses::needed_to_simulate(all));
+    }
     if kept < needed || runs.is_empty() {
         let whole: usize = runs.iter().map(|r| r.keep.len()).sum();
         return Err(Error::TooFewSamples {

@@ -26,6 +26,27 @@ pub struct Losses {
     pub held_back: usize,
 }
 
+/// Least part of the samples of a log that may be neither saturated, missing nor frozen for its axis to be simulated under its force.
+const LEAST_KNOWN_SHARE: f64 = 0.2;
+
+impl Losses {
+    /// How many of so many samples have to be usable for the axis to be simulated under their force: where it is known too seldom, no
+    /// simulation finds the position.
+    pub(crate) fn needed_to_simulate(samples: usize) -> usize {
+        (LEAST_KNOWN_SHARE * samples as f64) as usize
+    }
+
+    /// Samples that a simulation without filters could use, if it is not refused for the force being unknown in nearly all of them.
+    pub fn left_to_simulate(&self) -> usize {
+        let long = self.logged.saturating_sub(self.short);
+        let known = long.saturating_sub(self.excluded * self.decimate.max(1));
+        match known < Self::needed_to_simulate(long) {
+            true => 0,
+            false => known,
+        }
+    }
+}
+
 impl fmt::Display for Losses {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "of {} logged", self.logged)?;
