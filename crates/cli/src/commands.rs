@@ -12,7 +12,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use stiction::commands::number::full;
 use stiction::commands::reproduce::{Budget, OwnAxis, canudas_1995, zhang_2025, zhang_2025_on};
-use stiction::commands::shell::quoted;
+use stiction::commands::shell::{quoted, quoted_path, text as path_text};
 use stiction::commands::{
     Bundle, CompareOptions, Cost, Excitation, ExportedC, FileError, Files, Input, Kept, Known,
     Outcome, PlanOptions, Scheme, check_folder, check_folder_of, check_inputs, compare_exported,
@@ -82,6 +82,25 @@ fn next(error: &Error, command: &Command) -> Option<String> {
         ));
     }
     if let Command::Identify(identify) = command
+        && error.code() == Code::BadRecord
+    {
+        let log = faulty(&identify.logs, error);
+        return log.map(|log| {
+            looked_at(
+                std::slice::from_ref(log),
+                identify,
+                "shows which channels it has: logs that are fitted together have the same",
+            )
+        });
+    }
+    if let Command::Identify(identify) = command
+        && error.code() == Code::Usage
+        && WITHOUT_A_SEARCH.contains(&identify.law)
+        && is_search(identify.method)
+    {
+        return Some(again(identify, "", &identify.out));
+    }
+    if let Command::Identify(identify) = command
         && error.code() == Code::NoStep
     {
         return Some(shown(
@@ -107,16 +126,31 @@ fn next(error: &Error, command: &Command) -> Option<String> {
         error.code(),
         Code::LogMissing | Code::LogAmbiguous | Code::LogUnit
     );
-    // The error begins with the log that it is about.
-    let message = wording::message(error);
-    let faulty = |log: &&PathBuf| message.starts_with(&format!("{}:", log.display()));
-    let log = logs.iter().find(faulty).or(logs.first());
-    let log = log.filter(|_| unclear && axis.is_none())?;
+    let log = faulty(logs, error).filter(|_| unclear && axis.is_none())?;
     Some(format!(
         "next, for an axis file with the columns that are clear filled in: stiction check {} --init {}",
         typed(log),
-        stiction::commands::text::axis_file(&log.display().to_string())
+        stiction::commands::text::axis_file(&path_text(log))
     ))
+}
+
+/// The log that an error begins with, and else the first.
+fn faulty<'a>(logs: &'a [PathBuf], error: &Error) -> Option<&'a PathBuf> {
+    let message = wording::message(error);
+    let begins = |path: String| message.starts_with(&format!("{path}:"));
+    let faulty = |log: &&PathBuf| begins(log.display().to_string()) || begins(path_text(log));
+    logs.iter().find(faulty).or(logs.first())
+}
+
+/// Laws whose parameters no search has to look for.
+const WITHOUT_A_SEARCH: [arguments::Law; 3] = [
+    arguments::Law::CoulombViscous,
+    arguments::Law::MaxwellSlip,
+    arguments::Law::Gms,
+];
+
+fn is_search(typed: arguments::Method) -> bool {
+    matches!(method(typed), Method::Searched(_))
 }
 
 /// Samples of a log with which a simulation goes on for any law: ten for each of thirty unknowns.
@@ -143,7 +177,8 @@ fn more_samples(error: &Error, identify: &arguments::Identify) -> Option<String>
             ));
         }
     }
-    let is_long = losses.logged >= ENOUGH_TO_SIMULATE;
+    // A simulation drops the stretches between gaps that are too short, as filters do.
+    let is_long = losses.left_to_simulate() >= ENOUGH_TO_SIMULATE.max(needed);
     simulated(identify).filter(|_| is_long).or_else(|| {
         Some(shown(
             identify,
@@ -176,6 +211,13 @@ fn simulated(identify: &arguments::Identify) -> Option<String> {
         .axis
         .as_ref()
         .is_none_or(|file| Axis::read(file).is_ok_and(|axis| axis.has_inertia()));
+    let is_simulated = identify.law != arguments::Law::ElastoPlastic;
+    let again = || again(identify, " --method output-error", &identify.out);
+    (from_force && has_mass && is_simulated).then(again)
+}
+
+/// The same identification by another method, given as an option.
+fn again(identify: &arguments::Identify, method: &str, dir: &Path) -> String {
     let law = match identify.law {
         // By simulation auto is LuGre.
         arguments::Law::Auto => "",
@@ -185,11 +227,8 @@ fn simulated(identify: &arguments::Identify) -> Option<String> {
         arguments::Law::Dahl => " --law dahl",
         arguments::Law::MaxwellSlip => " --law maxwell-slip",
         arguments::Law::Gms => " --law gms",
-        arguments::Law::ElastoPlastic => return None,
+        arguments::Law::ElastoPlastic => " --law elasto-plastic",
     };
-    if !from_force || !has_mass {
-        return None;
-    }
     let mut out = String::from("next: stiction identify");
     let files = |out: &mut String, paths: &[PathBuf]| {
         for path in paths {
@@ -204,7 +243,7 @@ fn simulated(identify: &arguments::Identify) -> Option<String> {
     if identify.asymmetric {
         out.push_str(" --asymmetric");
     }
-    out.push_str(" --method output-error");
+    out.push_str(method);
     for (option, paths) in [
         ("--validate", &identify.validate),
         ("--break-away", &identify.break_away),
@@ -217,13 +256,13 @@ fn simulated(identify: &arguments::Identify) -> Option<String> {
     if let Some(part) = identify.split {
         out.push_str(&format!(" --split {}", full(part)));
     }
-    out.push_str(&format!(" --out {}", typed(&identify.out)));
-    Some(out)
+    out.push_str(&format!(" --out {}", typed(dir)));
+    out
 }
 
 /// A path as it is typed.
 fn typed(path: &Path) -> String {
-    quoted(&path.display().to_string())
+    quoted_path(path)
 }
 
 /// Prints a text that is asked for itself.
@@ -488,7 +527,7 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
         let next = match outcome.result.trust.next {
             next @ (Next::Again | Next::Finish) => {
                 let arguments = std::env::args_os().skip(1);
-                let arguments = arguments.map(|a| a.to_string_lossy().into_owned());
+                let arguments = arguments.map(|a| path_text(Path::new(&a)));
                 let kept = arguments.filter(|a| next == Next::Again || a != "--no-finish");
                 let command = stiction::commands::text::command(kept);
                 let why = stiction::commands::text::why(next);
@@ -645,7 +684,8 @@ fn fed_line(error: Error) -> Error {
         return error;
     };
     let parts = instead.join(",");
-    let given: Vec<String> = std::env::args().skip(1).collect();
+    let given = std::env::args_os().skip(1);
+    let given: Vec<String> = given.map(|a| path_text(Path::new(&a))).collect();
     let mut line = vec!["stiction".to_string()];
     let mut rest = given.iter();
     while let Some(word) = rest.next() {
@@ -657,7 +697,7 @@ fn fed_line(error: Error) -> Error {
         } else if word.starts_with('-') {
             line.push(word.clone());
         } else {
-            line.push(stiction::commands::shell::quoted(word));
+            line.push(quoted(word));
         }
     }
     Error::Usage {

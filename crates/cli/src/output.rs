@@ -6,6 +6,7 @@ use std::io::{ErrorKind, Write};
 use std::path::Path;
 use stiction::Error;
 use stiction::commands::FileError;
+use stiction::commands::shell::stands_for;
 
 /// Prints a text in which names from files may stand; a reader that has gone away has seen enough.
 ///
@@ -45,7 +46,7 @@ pub fn json(value: &impl serde::Serialize) -> Result<(), Error> {
     let mut text = serde_json::to_string_pretty(value).expect("plain data");
     text.push('\n');
     // Those that JSON does not escape itself; they stand within strings only.
-    let text = escaped(&text, |c, out| {
+    let text = escaped(&text, steers, |c, out| {
         let _ = write!(out, "\\u{:04x}", u32::from(c));
     });
     print_as_it_is(&text)
@@ -53,7 +54,13 @@ pub fn json(value: &impl serde::Serialize) -> Result<(), Error> {
 
 /// A text whose characters that would steer a terminal are written out, as `\u{1b}`; line feeds are kept.
 pub fn plain(text: &str) -> Cow<'_, str> {
-    escaped(text, |c, out| out.extend(c.escape_default()))
+    let unseen = |c: char| steers(c) || stands_for(c).is_some();
+    escaped(text, unseen, |c, out| match stands_for(c) {
+        Some(byte) => {
+            let _ = write!(out, "\\x{byte:02x}");
+        }
+        None => out.extend(c.escape_default()),
+    })
 }
 
 /// The same on one line.
@@ -61,8 +68,12 @@ pub fn line(text: &str) -> String {
     plain(text).replace('\n', "\\n")
 }
 
-fn escaped(text: &str, escape: impl Fn(char, &mut String)) -> Cow<'_, str> {
-    if !text.contains(steers) {
+fn escaped(
+    text: &str,
+    steers: impl Fn(char) -> bool,
+    escape: impl Fn(char, &mut String),
+) -> Cow<'_, str> {
+    if !text.contains(&steers) {
         return text.into();
     }
     let mut out = String::with_capacity(text.len() + 16);
@@ -92,5 +103,7 @@ mod tests {
         assert_eq!(plain("a\u{1b}[31mb\r\t"), "a\\u{1b}[31mb\\r\\t");
         assert_eq!(plain("\u{9b}2J\u{202e}x"), "\\u{9b}2J\\u{202e}x");
         assert_eq!(line("a\nb"), "a\\nb");
+        // A byte of a name that is not UTF-8.
+        assert_eq!(plain("a\u{10ffff}"), "a\\xff");
     }
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use stiction_files::result::{Cure, Next, ResultFile};
 pub use stiction_files::shell::axis_file;
-use stiction_files::shell::{plain, quoted};
+use stiction_files::shell::{plain, quoted, quoted_path, text};
 
 /// What a log that is still to be recorded is called in commands.
 pub(crate) const ANOTHER_LOG: &str = "another.csv";
@@ -21,6 +21,7 @@ pub fn why(next: Next) -> &'static str {
         Next::LetTheDataChoose => "let the data choose the law",
         Next::AnotherLaw => "the best of the laws above that a compensator may rely on",
         Next::IdentifyTheOther => "what the other log says by itself, to compare the parameters",
+        Next::CheckTheOther => "see what the other log shows, from which nothing can be identified",
         Next::Simulate => "fit the position of the simulated axis, which differentiates nothing",
         Next::AxisFile => "correct the axis file as said above",
         Next::Check => "see what the log shows, and what motion to record instead",
@@ -56,7 +57,7 @@ fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
     let dir: &Path = &dir.components().collect::<PathBuf>();
     let logs: Vec<String> = result.inputs.iter().map(|i| quoted(&i.path)).collect();
     let logs = logs.join(" ");
-    let out = |suffix: &str| quoted(&format!("{}-{suffix}", dir.display()));
+    let out = |suffix: &str| quoted(&format!("{}-{suffix}", text(dir)));
     Some(match cause.cure.as_ref()? {
         Cure::Law { law } => {
             let axis = axis_option(result);
@@ -120,7 +121,7 @@ fn better(result: &ResultFile, dir: &Path) -> Option<Cured> {
         true => (" --asymmetric", "-asymmetric"),
         false => ("", ""),
     };
-    let out = quoted(&format!("{}-{law}{suffix}", dir.display()));
+    let out = quoted(&format!("{}-{law}{suffix}", text(dir)));
     Some(Cured {
         what: format!("the law {law} holds better on held-out samples"),
         line: None,
@@ -147,19 +148,21 @@ fn law(result: &ResultFile) -> String {
 pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
     // Without a slash or a dot at its end, to which a suffix would be added.
     let dir: &Path = &dir.components().collect::<PathBuf>();
-    let folder = quoted(&dir.display().to_string());
-    let another = |suffix: &str| quoted(&format!("{}-{suffix}", dir.display()));
+    let folder = quoted_path(dir);
+    let another = |suffix: &str| quoted(&format!("{}-{suffix}", text(dir)));
     let next = result.trust.next;
     let logs: Vec<String> = match next {
-        Next::IdentifyTheOther => result.validation.iter().map(|v| quoted(&v.path)).collect(),
+        Next::IdentifyTheOther | Next::CheckTheOther => {
+            result.trust.other.iter().map(|path| quoted(path)).collect()
+        }
         _ => result.inputs.iter().map(|i| quoted(&i.path)).collect(),
     };
     let mut log = logs.join(" ");
     log.push_str(&axis_option(result));
     match next {
         Next::Export => {
-            let model = quoted(&dir.join("model.toml").display().to_string());
-            let code = quoted(&dir.join("c").display().to_string());
+            let model = quoted_path(&dir.join("model.toml"));
+            let code = quoted_path(&dir.join("c"));
             let cycle = cycle(result);
             format!("stiction export {model} --target c{cycle} --out {code}")
         }
@@ -180,7 +183,7 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
                 axis_file(&result.inputs[0].path)
             ),
         },
-        Next::Check => format!("stiction check {log}"),
+        Next::Check | Next::CheckTheOther => format!("stiction check {log}"),
         Next::Record => {
             if result.method == "presliding-step" {
                 let out = another("again");
@@ -220,7 +223,7 @@ pub(crate) fn planned(result: &ResultFile, dir: &Path) -> Option<String> {
         _ => String::new(),
     };
     let dir: &Path = &dir.components().collect::<PathBuf>();
-    let out = quoted(&format!("{}-plan", dir.display()));
+    let out = quoted(&format!("{}-plan", text(dir)));
     Some(format!("stiction plan {}{known} --out {out}", quoted(axis)))
 }
 
@@ -250,7 +253,7 @@ fn cycle(result: &ResultFile) -> String {
 /// The command that runs a study of the result in a folder.
 pub(crate) fn simulate(study: &Path, dir: &Path) -> String {
     let [study, out] = [study.to_path_buf(), dir.join("study")];
-    let [study, out] = [study, out].map(|path| quoted(&path.display().to_string()));
+    let [study, out] = [study, out].map(|path| quoted_path(&path));
     format!("stiction simulate {study} --out {out}")
 }
 

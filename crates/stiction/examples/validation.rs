@@ -122,7 +122,7 @@ fn defaults(data: &Path, out: &mut String) {
             match result.trust.next {
                 Next::Export => "`stiction export DIR/model.toml --target c --out DIR/c`",
                 Next::Simulate => "`--method output-error`",
-                Next::Check => "`stiction check`",
+                Next::Check | Next::CheckTheOther => "`stiction check`",
                 Next::Record => "another recording",
                 Next::LetTheDataChoose
                 | Next::AnotherLaw

@@ -263,6 +263,8 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
         // What the log cannot give is a verdict on the log; a bad axis file is an error of its own.
         Err(e @ Error::Identify { .. }) if e.code() != Code::BadSetting => {
             out.refused = Some(format!("{}: {e}", e.code()));
+            let left = e.losses().map(|(losses, _)| losses.left_to_simulate());
+            let simulates = simulates && left.is_none_or(|left| left > 0);
             if e.code() == Code::TooFewSamples && simulates && slides {
                 out.next = Lead::Simulate;
             }

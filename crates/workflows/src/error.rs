@@ -133,6 +133,7 @@ impl Error {
                 format!("conditioning.{name}")
             }
             "mass" => name.into(),
+            "segment" | "segments" => "simulation.segment".into(),
             "stribeck_exponent" => format!("terms.{name}"),
             _ if name.starts_with("controller.") => name.into(),
             _ => return self,
@@ -153,14 +154,10 @@ impl Error {
 
 /// What the engine says of a log without its number, where the path stands before it.
 fn of_the_log(source: &stiction_identify::Error) -> String {
-    use stiction_identify::Error as Fit;
     let said = source.to_string();
-    match source {
-        Fit::NoStep { log, .. } | Fit::FaintStep { log, .. } | Fit::NoBreakAway { log, .. } => said
-            .strip_prefix(&format!("log {log}: "))
-            .map_or(said.clone(), str::to_string),
-        _ => said,
-    }
+    let number = source.log().map(|log| format!("log {log}: "));
+    let rest = number.and_then(|number| said.strip_prefix(&number).map(str::to_string));
+    rest.unwrap_or(said)
 }
 
 impl From<stiction_log::Error> for Error {

@@ -123,7 +123,7 @@ impl Source {
         Input {
             excluded: excluded.collect(),
             assumed: assumed.collect(),
-            path: self.path.display().to_string(),
+            path: stiction_files::shell::text(&self.path),
             sha256: self.sha256.clone(),
             samples: self.log.time.len(),
             rate_hz: self.log.rate_hz,

@@ -73,17 +73,35 @@ impl Lead {
     }
 }
 
-fn leads_to_an_end(machine: Machine, world: World, motion: Motion) {
-    let dir = tempfile::tempdir().unwrap();
-    let log = record(&machine, motion, world, 1);
+/// Writes a recording with what becomes of each position and force.
+fn written(
+    file: &Path,
+    machine: &Machine,
+    motion: Motion,
+    world: World,
+    changed: impl Fn(f64, f64) -> (f64, f64),
+) {
+    let log = record(machine, motion, world, 1);
     let mut text = String::from(match machine.kind {
         "rotary" => "time [s],position [rad],force [N*m]\n",
         _ => "time [s],position [m],force [N]\n",
     });
     for ((t, x), f) in log.time.iter().zip(log.position.unwrap()).zip(&log.force) {
+        let (x, f) = changed(x, *f);
         let _ = writeln!(text, "{t},{x},{f}");
     }
-    std::fs::write(dir.path().join("log.csv"), text).unwrap();
+    std::fs::write(file, text).unwrap();
+}
+
+fn leads_to_an_end(machine: Machine, world: World, motion: Motion) {
+    let dir = tempfile::tempdir().unwrap();
+    written(
+        &dir.path().join("log.csv"),
+        &machine,
+        motion,
+        world,
+        |x, f| (x, f),
+    );
     let mut command = "identify log.csv --out result".to_owned();
     let mut seen = vec![(command.replace(" --out result", ""), None)];
     for _ in 0..=MOST_STEPS {
@@ -134,4 +152,120 @@ fn of_cogging() {
 #[test]
 fn of_backlash() {
     leads_to_an_end(Machine::joint(1), World::Backlash, Motion::Commissioning);
+}
+
+/// Runs a line that was printed, as a shell takes it; its exit code.
+#[cfg(unix)]
+fn pasted(dir: &Path, line: &str) -> Option<i32> {
+    let binary = env!("CARGO_BIN_EXE_stiction");
+    let script = line.trim().replacen("stiction", binary, 1);
+    let output = Command::new("bash")
+        .args(["-c", &script])
+        .current_dir(dir)
+        .output();
+    let output = output.ok()?;
+    let err = String::from_utf8_lossy(&output.stderr).into_owned();
+    let code = output.status.code();
+    assert!(code.is_some_and(|code| code <= 1), "{line}: {err}");
+    code
+}
+
+/// Logs that the law was validated on and from which nothing can be identified are looked at, not identified; the command names
+/// them, whatever their names are.
+#[cfg(unix)]
+#[test]
+fn of_validation_on_logs_that_show_nothing() {
+    use std::os::unix::ffi::OsStrExt;
+    let dir = tempfile::tempdir().unwrap();
+    let machine = Machine::joint(1);
+    let write = |name: &std::ffi::OsStr, changed: fn(f64, f64) -> (f64, f64)| {
+        let file = dir.path().join(name);
+        written(&file, &machine, Motion::Sine, World::Faithful, changed);
+    };
+    let silent = std::ffi::OsStr::from_bytes(b"it's\x1b[31m\xff.csv");
+    write("log.csv".as_ref(), |x, f| (x, f));
+    write(silent, |x, _| (x, 0.0));
+    write("rest.csv".as_ref(), |_, f| (0.0, f));
+    for other in [silent, "rest.csv".as_ref()] {
+        let output = Command::new(env!("CARGO_BIN_EXE_stiction"))
+            .args(["identify", "log.csv", "--out", "result", "--validate"])
+            .arg(other)
+            .current_dir(dir.path())
+            .output()
+            .unwrap();
+        let out = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{out}");
+        assert!(!out.contains(['\u{1b}', '\u{10ffff}']), "{out}");
+        let (_, next) = out.rsplit_once("\nnext: ").unwrap();
+        let line = next.lines().nth(1).unwrap();
+        assert!(line.trim().starts_with("stiction check "), "{out}");
+        pasted(dir.path(), line);
+    }
+}
+
+/// A force of a few values gives no constants, and one that is cut off nearly everywhere is not simulated.
+#[test]
+fn of_a_force_that_tells_too_little() {
+    let dir = tempfile::tempdir().unwrap();
+    let machine = Machine::joint(1);
+    let most = machine.static_friction;
+    let write = |name: &str, changed: &dyn Fn(f64) -> f64| {
+        let file = dir.path().join(name);
+        written(&file, &machine, Motion::Sine, World::Faithful, |x, f| {
+            (x, changed(f))
+        });
+    };
+    write("coarse.csv", &|f| (f / most).round() * most);
+    write("cut.csv", &|f| f.clamp(-0.1 * most, 0.1 * most));
+    let (_, out) = run(dir.path(), "identify coarse.csv --out coarse");
+    assert!(out.contains("coarse-force"), "{out}");
+    assert!(out.contains("as constants      none"), "{out}");
+    let (code, out) = run(dir.path(), "check cut.csv");
+    assert_eq!(code, 1, "{out}");
+    assert!(!out.contains("--method output-error"), "{out}");
+    let output = Command::new(env!("CARGO_BIN_EXE_stiction"))
+        .args(["identify", "cut.csv", "--out", "cut"])
+        .args(["--method", "output-error"])
+        .current_dir(dir.path())
+        .output()
+        .unwrap();
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{err}");
+    assert!(err.contains("are saturated, missing or frozen"), "{err}");
+    assert!(err.contains("stiction check cut.csv"), "{err}");
+}
+
+/// What no search has to look for is said with the command that does without one; logs without a channel in common by their file.
+#[test]
+fn of_what_cannot_be_combined() {
+    let dir = tempfile::tempdir().unwrap();
+    let machine = Machine::joint(1);
+    let file = dir.path().join("log.csv");
+    written(&file, &machine, Motion::Sine, World::Faithful, |x, f| {
+        (x, f)
+    });
+    let text = std::fs::read_to_string(&file).unwrap();
+    let text = text.replace("position [rad]", "velocity [rad/s]");
+    std::fs::write(dir.path().join("speed.csv"), text).unwrap();
+    for (command, says, next) in [
+        (
+            "identify log.csv --method ga --law coulomb-viscous --out out",
+            "this law has no parameter that a search could look for",
+            "next: stiction identify log.csv --law coulomb-viscous --out out",
+        ),
+        (
+            "identify log.csv speed.csv --out out",
+            "log.csv: a fit together with a log that has no position needs a velocity channel",
+            "next: stiction check log.csv shows which channels it has",
+        ),
+    ] {
+        let output = Command::new(env!("CARGO_BIN_EXE_stiction"))
+            .args(command.split_whitespace())
+            .current_dir(dir.path())
+            .output()
+            .unwrap();
+        let err = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{err}");
+        assert!(err.contains(says) && err.contains(next), "{err}");
+    }
 }

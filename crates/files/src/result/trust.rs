@@ -26,6 +26,9 @@ pub struct Trust {
     /// A law that holds better on held-out samples than the one that was asked for, and that a compensator may rely on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub better: Option<BetterLaw>,
+    /// The logs that it was validated on and that contradict it, where the next step is about them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub other: Vec<String>,
     /// What to do next.
     #[serde(default)]
     pub next: Next,
@@ -105,6 +108,8 @@ pub enum Next {
     AnotherLaw,
     /// Identify the logs that it was validated on by themselves, and compare.
     IdentifyTheOther,
+    /// See what the logs that it was validated on show: from one of them nothing can be identified.
+    CheckTheOther,
     /// Identify again by simulation of the axis.
     Simulate,
     /// Correct the axis file as the reasons say, and identify again.

@@ -5,7 +5,7 @@ use crate::config::{Given, LARGEST_SI, Swept};
 use crate::error::{Error, Warning};
 use crate::model::{BY_HAND, Dependences, ModelFile, ModelParameter, ReadModel};
 use crate::result::{CovarianceEntry, RemainingEntry};
-use crate::shell::quoted;
+use crate::shell::{quoted, quoted_path};
 use crate::symbols;
 use std::path::Path;
 use stiction_codes::Code;
@@ -87,7 +87,7 @@ fn is_simulated(quantity: Quantity) -> bool {
 /// from a log with reversals; of other logs lugre is fitted.
 fn lugre(read: &ReadModel) -> String {
     let model = &read.model;
-    let file = quoted(&read.file().display().to_string());
+    let file = quoted_path(read.file());
     let out = quoted(&format!("{}-lugre", model.law));
     if model.source.method == "static" {
         return format!(

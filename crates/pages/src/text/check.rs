@@ -5,7 +5,7 @@ use crate::next::{ANOTHER_LOG, axis_file};
 use std::fmt::Write;
 use std::path::Path;
 use stiction_files::result::Cure;
-use stiction_files::shell::quoted;
+use stiction_files::shell::{quoted, quoted_path};
 use stiction_files::symbols;
 use stiction_number::{counted, four_digits as short, unit};
 use stiction_workflows::check::{Check, Lead, LogCheck, Started, TrackingChange};
@@ -165,8 +165,8 @@ pub fn started(started: &Started, log: &Path, file: &Path) -> String {
     let _ = writeln!(
         out,
         "{then} stiction check {} --axis {}",
-        quoted(&log.display().to_string()),
-        quoted(&file.display().to_string())
+        quoted_path(log),
+        quoted_path(file)
     );
     out
 }
@@ -289,7 +289,7 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
     let path = quoted(&log.input.path);
     let mut out = Vec::new();
     let with = match axis {
-        Some(file) => format!(" --axis {}", quoted(&file.display().to_string())),
+        Some(file) => format!(" --axis {}", quoted_path(file)),
         None => String::new(),
     };
     let init = format!(

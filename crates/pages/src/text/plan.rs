@@ -4,7 +4,7 @@ use super::table::table;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use stiction_files::plan::PlanFile;
-use stiction_files::shell::quoted;
+use stiction_files::shell::{quoted, quoted_path, text};
 use stiction_number::{Percent, four_digits as short, unit};
 use stiction_workflows::plan::{Known, Planned};
 
@@ -39,7 +39,7 @@ pub fn planned(planned: &Planned, axis: &Path, written: &Path) -> String {
     out.push_str(&expected(file));
     out.push_str(&beside(file));
     out.push_str(&largest(file));
-    let folder = |name: &str| quoted(&written.join(name).display().to_string());
+    let folder = |name: &str| quoted_path(&written.join(name));
     let [low, high] = file.limits.stroke;
     let length = units(file)[0];
     let _ = writeln!(
@@ -57,12 +57,12 @@ pub fn planned(planned: &Planned, axis: &Path, written: &Path) -> String {
 
 /// The command for the log of the motion.
 fn next(planned: &Planned, axis: &Path, written: &Path) -> String {
-    let typed = |path: &Path| quoted(&path.display().to_string());
+    let typed = quoted_path;
     let axis = typed(axis);
     if planned.options.probe {
         let out = quoted(&format!(
             "{}-2",
-            written.components().collect::<PathBuf>().display()
+            text(&written.components().collect::<PathBuf>())
         ));
         return format!("stiction plan {axis} --log LOG.csv --out {out}");
     }

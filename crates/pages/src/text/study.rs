@@ -8,7 +8,7 @@ use crate::report::study::rows::{judged, kind, less, tabled};
 use crate::report::study::sweep::{groups, label, lines};
 use std::fmt::Write;
 use std::path::Path;
-use stiction_files::shell::quoted;
+use stiction_files::shell::quoted_path;
 use stiction_files::study::result::{ResultRow, StudyFile};
 use stiction_files::study::{Started, results};
 use stiction_number::quantity;
@@ -32,8 +32,8 @@ pub fn started_study(started: &Started, file: &Path) -> String {
     let _ = writeln!(
         out,
         "{then} stiction simulate {} --out {}",
-        quoted(&file.display().to_string()),
-        quoted(&results(file).display().to_string())
+        quoted_path(file),
+        quoted_path(&results(file))
     );
     out
 }

@@ -86,7 +86,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
             .collect(),
         axis: ResolvedAxis {
             name: asked.axis.name.clone(),
-            file: asked.axis.file().map(|file| file.display().to_string()),
+            file: asked.axis.file().map(stiction_files::shell::text),
             limits: asked.axis.limits.is_some(),
             kind: motion.to_string(),
             force_unit: force_unit.into(),

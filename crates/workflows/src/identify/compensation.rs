@@ -17,6 +17,10 @@ const VALIDATION_FAILS_ABOVE: f64 = 2.0;
 /// compensator.
 const LITTLE_LEFT: f64 = 0.1;
 
+/// Speed of a record over the top speed of the fitted ones up to which it counts as rest, and part of its samples that has to move
+/// faster each way for anything to be identified from it, dimensionless.
+const SLOW: f64 = 0.01;
+const MOVING_EACH_WAY: f64 = 0.05;
 /// Fewest reversals on which a law is relied on that leaves its Coulomb level open: the third may confirm what the first two
 /// suggest.
 const FEWEST_REVERSALS: usize = 3;
@@ -47,10 +51,11 @@ pub(super) fn judged(evidence: &Evidence, reasons: &mut Reasons) -> Option<Compe
                 percent(fitted)
             );
             let next = match evidence.validated_on_logs {
-                true => Next::IdentifyTheOther,
+                true if shows_friction(series, top_speed(own)) => Next::IdentifyTheOther,
+                true => Next::CheckTheOther,
                 false => Next::Check,
             };
-            reasons.push_elsewhere(text, next);
+            reasons.push_elsewhere(text, next, name);
         }
     }
     if left.is_nan() || left > MOST_FRICTION_LEFT {
@@ -94,6 +99,17 @@ pub(super) fn judged(evidence: &Evidence, reasons: &mut Reasons) -> Option<Compe
 
 fn percent(part: f64) -> String {
     Percent::error(100.0 * part).digits(2)
+}
+
+/// Whether a record holds what an identification needs: a force, and motion both ways that is not slow beside a top speed, m/s
+/// (rad/s).
+fn shows_friction(series: &Series, top_speed: f64) -> bool {
+    let part = |moves: &dyn Fn(f64) -> bool| {
+        let count = series.velocity.iter().filter(|v| moves(**v)).count();
+        count as f64 > MOVING_EACH_WAY * series.velocity.len() as f64
+    };
+    let slow = SLOW * top_speed;
+    rms(&series.measured) > 0.0 && part(&|v| v > slow) && part(&|v| v < -slow)
 }
 
 /// Rms of the measured force without the terms that stand beside the law; `None` where there is none.

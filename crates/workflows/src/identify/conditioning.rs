@@ -120,11 +120,21 @@ fn note(tuned: &Tuned) -> Option<String> {
     let lowest = tuned.trials.iter().map(|t| t.source_hz);
     let lowest = lowest.fold(f64::INFINITY, f64::min);
     Some(format!(
-        "cut-offs chosen among {} pairs, {lowest:.0} to {highest:.0} Hz on the position, on simulated logs of the \
-         fitted axis with this encoder and noise: parameters off by {} (rms) there",
+        "cut-offs chosen among {} pairs, {} to {} Hz on the position, on simulated logs of the fitted axis with this \
+         encoder and noise: parameters off by {} (rms) there",
         tuned.trials.len(),
+        hertz_of(lowest),
+        hertz_of(highest),
         stiction_number::Percent::error(100.0 * used.error).decimals(2)
     ))
+}
+
+/// A frequency in whole Hz, where that leaves it two digits.
+fn hertz_of(frequency: f64) -> String {
+    match frequency < 10.0 {
+        true => stiction_number::short(frequency),
+        false => format!("{frequency:.0}"),
+    }
 }
 
 fn lag_note(lag: &Lag) -> String {
@@ -136,12 +146,5 @@ fn lag_note(lag: &Lag) -> String {
 }
 
 pub(super) fn fail(sources: &[Source], source: engine::Error) -> Error {
-    let paths: Vec<String> = sources
-        .iter()
-        .map(|s| s.path.display().to_string())
-        .collect();
-    Error::Identify {
-        inputs: paths.join(", "),
-        source,
-    }
+    super::logs::refused(sources, source)
 }

@@ -18,11 +18,7 @@ pub(super) fn options(asked: Asked) -> String {
     let Asked { options, axis, .. } = asked;
     let mut out = String::new();
     if let Some(file) = axis.file() {
-        let _ = write!(
-            out,
-            " --axis {}",
-            shell::quoted(&file.display().to_string())
-        );
+        let _ = write!(out, " --axis {}", shell::quoted_path(file));
     }
     if options.procedures.method == Method::Static {
         out.push_str(" --method static");

@@ -26,13 +26,8 @@ pub(super) fn run_of<'a>(source: &'a Source, samples: &'a Samples, axis: &Axis) 
 /// An engine's refusal with the logs it is about.
 pub(super) fn refused(sources: &[Source], source: engine::Error) -> Error {
     // The engine knows logs by their number; a message gives the path.
-    let one = match &source {
-        engine::Error::NoStep { log, .. }
-        | engine::Error::FaintStep { log, .. }
-        | engine::Error::NoBreakAway { log, .. } => sources.get(log - 1).map(std::slice::from_ref),
-        _ => None,
-    };
-    let named = one.unwrap_or(sources);
+    let one = source.log().and_then(|log| sources.get(log - 1));
+    let named = one.map_or(sources, std::slice::from_ref);
     Error::Identify {
         inputs: paths(named).join(", "),
         source,
@@ -43,14 +38,14 @@ pub(super) fn refused(sources: &[Source], source: engine::Error) -> Error {
 pub(super) fn path_of(sources: &[Source], log: usize) -> String {
     sources
         .get(log)
-        .map_or_else(String::new, |s| s.path.display().to_string())
+        .map_or_else(String::new, |s| stiction_files::shell::text(&s.path))
 }
 
 /// Paths as given.
 pub(super) fn paths(sources: &[Source]) -> Vec<String> {
     sources
         .iter()
-        .map(|s| s.path.display().to_string())
+        .map(|s| stiction_files::shell::text(&s.path))
         .collect()
 }
 

@@ -14,6 +14,11 @@ use super::method::Method;
 use super::options::{Options, Searching};
 use crate::error::Error;
 use crate::wording::{Setting, TOGETHER_WITH};
+use stiction_identify::LawKind;
+
+/// Laws that leave a search nothing: their parameters are all linear, or known places of elements.
+const NOTHING_TO_SEARCH: [LawKind; 3] =
+    [LawKind::CoulombViscous, LawKind::MaxwellSlip, LawKind::Gms];
 
 /// Refuses a search or its limits beside a method that makes none, and limits that are not positive.
 pub(super) fn check(options: &Options) -> Result<(), Error> {
@@ -85,6 +90,23 @@ pub(super) fn check(options: &Options) -> Result<(), Error> {
         if let Some(found) = found.filter(|x| !(*x > 0.0 && x.is_finite())) {
             return Err(Error::usage(setting.is(found), "a finite number above 0"));
         }
+    }
+    let law = options.one_law();
+    if matches!(method, Method::Searched(_)) && NOTHING_TO_SEARCH.contains(&law) {
+        return Err(Error::usage(
+            [
+                Setting::Law.is(law.name()),
+                TOGETHER_WITH.into(),
+                Setting::Method.is(method.name()),
+                ": this law has no parameter that a search could look for".into(),
+            ],
+            [
+                Setting::Law.is(LawKind::LuGre.name()),
+                ", stribeck, dahl or elasto-plastic; or no search: ".into(),
+                Setting::Method.is(Method::Separable.name()),
+                ", which solves for all parameters of this law at once".into(),
+            ],
+        ));
     }
     if given.evaluations == Some(0) {
         return Err(Error::usage(Setting::Evaluations.is(0), "at least 1"));

@@ -5,7 +5,7 @@ use super::condition::settings;
 use super::conditioning::{self, conditioned};
 use super::disagree;
 use super::load::{Asked, Loaded};
-use super::logs::{log_warnings, paths};
+use super::logs::{log_warnings, refused};
 use super::mixed;
 use super::outcome::{Found, Outcome, Simulated};
 use super::procedure::break_away;
@@ -95,12 +95,9 @@ pub(super) fn run(
     }
     for source in &loaded.held_out {
         let recording = self::recordings(std::slice::from_ref(source))?.remove(0);
-        unseen_logs.push((source.path.display().to_string(), recording));
+        unseen_logs.push((stiction_files::shell::text(&source.path), recording));
     }
-    let fail = |source| Error::Identify {
-        inputs: paths(sources).join(", "),
-        source,
-    };
+    let fail = |source| refused(sources, source);
     let start = match options.split {
         None => separable(sources, axis, law, &stated, options.seed, observer),
         // That fit would have used the samples that are held out.

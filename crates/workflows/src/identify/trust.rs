@@ -69,7 +69,12 @@ impl Judged {
         law: &FittedLaw,
         motion: Shown,
         compensation: Option<Compensation>,
-        Reasons { reasons, elsewhere }: Reasons,
+        Reasons {
+            reasons,
+            elsewhere,
+            other,
+            few_levels,
+        }: Reasons,
         warnings: Vec<Warning>,
     ) -> Self {
         let names = |determined: bool| -> Vec<String> {
@@ -81,6 +86,7 @@ impl Judged {
             let assumed = warnings.iter().any(|w| w.code == Code::StaticsAssumed);
             let holds = law.status == Status::Converged
                 && !elsewhere
+                && !few_levels
                 && !held
                 && !assumed
                 && law.fit.r2 >= LEAST_R2
@@ -97,9 +103,14 @@ impl Judged {
                 .map(|p| p.name.to_string())
                 .collect()
         };
+        let next = reasons.first().map_or(Next::Export, |(_, next)| *next);
         let trust = Trust {
             trustworthy: reasons.is_empty(),
-            next: reasons.first().map_or(Next::Export, |(_, next)| *next),
+            next,
+            other: match next {
+                Next::IdentifyTheOther | Next::CheckTheOther => other,
+                _ => Vec::new(),
+            },
             reasons: reasons.into_iter().map(|(text, _)| text).collect(),
             cause: None,
             compensation,
@@ -151,15 +162,31 @@ pub(super) struct Reasons {
     reasons: Vec<(String, Next)>,
     /// Whether data that were not fitted contradict the law: what it holds for constants differs there.
     elsewhere: bool,
+    /// The logs that do, as far as the first of these reasons leads to them.
+    other: Vec<String>,
+    /// Whether the force that was fitted takes a few values only.
+    few_levels: bool,
 }
 
 impl Reasons {
+    /// None yet against a force that is fitted.
+    fn of_force(sources: &[Source]) -> Self {
+        Self {
+            few_levels: sources.iter().any(|s| s.log.has_few_force_levels()),
+            ..Self::default()
+        }
+    }
+
     pub fn push(&mut self, text: impl Into<String>, next: Next) {
         self.reasons.push((text.into(), next));
     }
 
     /// Data that were not fitted contradict the law.
-    pub fn push_elsewhere(&mut self, text: String, next: Next) {
+    pub fn push_elsewhere(&mut self, text: String, next: Next, name: &str) {
+        // One command is about logs of one kind.
+        if self.reasons.first().is_none_or(|(_, first)| *first == next) {
+            self.other.push(name.to_string());
+        }
         self.push(text, next);
         self.elsewhere = true;
     }
@@ -248,7 +275,7 @@ impl Evidence<'_> {
 
 /// A law that was fitted to the force.
 pub(super) fn of_force(evidence: &Evidence, mut warnings: Vec<Warning>) -> Judged {
-    let mut reasons = Reasons::default();
+    let mut reasons = Reasons::of_force(evidence.sources);
     of_a_search_alone(evidence.law, &mut reasons);
     let compensation = record(evidence, &mut warnings, &mut reasons);
     Judged::new(
@@ -267,7 +294,7 @@ pub(super) fn of_two_steps(
     changed: bool,
     mut warnings: Vec<Warning>,
 ) -> Judged {
-    let mut reasons = Reasons::default();
+    let mut reasons = Reasons::of_force(evidence.sources);
     of_a_search_alone(evidence.law, &mut reasons);
     let compensation = record(evidence, &mut warnings, &mut reasons);
     if changed {
@@ -351,7 +378,7 @@ pub(super) fn of_static_map(
     motion: Motion,
     mut warnings: Vec<Warning>,
 ) -> Judged {
-    let mut reasons = Reasons::default();
+    let mut reasons = Reasons::of_force(sources);
     of_a_search_alone(law, &mut reasons);
     interrupted(law, &mut warnings, &mut reasons);
     saturation(sources, &mut reasons);

@@ -13,7 +13,7 @@ use crate::export::{ExportOptions, Feedforward, Target, compensator_of};
 use process::{Process, Settled};
 use source::Source;
 use std::path::Path;
-use stiction_files::shell::quoted;
+use stiction_files::shell::{quoted, quoted_path};
 use stiction_files::study::Study;
 use stiction_files::study::result::StudyInput;
 use stiction_friction::compensator::Compensator;
@@ -44,7 +44,7 @@ impl ExportedC {
     /// # Errors
     /// Where one of these is not so, there is no gcc, or it does not compile the C.
     pub fn open(folder: &Path, study: &Study) -> Result<Self, Error> {
-        let name = folder.display().to_string();
+        let name = stiction_files::shell::text(folder);
         let refuse = |found: String, allowed: String| Error::usage(found, allowed);
         let Some(read) = study.machine.model.file() else {
             return Err(refuse(
@@ -61,7 +61,7 @@ impl ExportedC {
         let export = |more: &str| {
             format!(
                 "stiction export {} --target c --cycle-time {}{more} --force --out {}",
-                quoted(&read.file().display().to_string()),
+                quoted_path(read.file()),
                 shortest(1.0 / study.machine.rate),
                 quoted(&name)
             )

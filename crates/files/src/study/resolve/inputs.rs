@@ -9,7 +9,7 @@ use std::path::Path;
 /// A file with its hash.
 pub(super) fn input(path: &Path) -> Result<StudyInput, Error> {
     Ok(StudyInput {
-        path: path.display().to_string(),
+        path: crate::shell::text(path),
         sha256: sha256(path)?,
     })
 }

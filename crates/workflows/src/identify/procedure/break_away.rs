@@ -74,7 +74,7 @@ pub(in crate::identify) fn break_away(
         let mass = values.get(Quantity::Mass).filter(|mass| *mass > 0.0);
         let inertia = mass.map(|mass| mass * found.acceleration);
         out.entries.push(BreakAwayEntry {
-            path: source.path.display().to_string(),
+            path: stiction_files::shell::text(&source.path),
             rate: found.rate,
             force: found.force,
             force_scatter: found.scatter,

@@ -142,10 +142,9 @@ fn differing(entry: &ExportedEntry, study: &Study, exported: &ExportedC) -> Opti
                     .machine
                     .model
                     .file()
-                    .map_or("MODEL.toml".into(), |read| read
-                        .file()
-                        .display()
-                        .to_string())
+                    .map_or("MODEL.toml".into(), |read| stiction_files::shell::text(
+                        read.file()
+                    ))
             ),
             stiction_number::shortest(1.0 / study.machine.rate),
             stiction_files::shell::quoted(&format!("{}-new", entry.folder.trim_end_matches('/'))),
