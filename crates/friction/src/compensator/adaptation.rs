@@ -70,10 +70,10 @@ struct Before<T> {
 }
 
 impl<T: Real> Default for Adaptation<T> {
-    /// A memory of 0.25 s, levels from 0.5 to 1.5, no mass.
+    /// A memory of 1 s, levels from 0.5 to 1.5, no mass.
     fn default() -> Self {
         Adaptation {
-            memory: T::from_f64(0.25),
+            memory: T::ONE,
             range: T::from_f64(0.5),
             mass: T::ZERO,
         }
