@@ -22,6 +22,7 @@ pub fn why(next: Next) -> &'static str {
         Next::AnotherLaw => "the best of the laws above that a compensator may rely on",
         Next::IdentifyTheOther => "what the other log says by itself, to compare the parameters",
         Next::CheckTheOther => "see what the other log shows, from which nothing can be identified",
+        Next::FirstLog => "the first log by itself, then the others likewise",
         Next::Simulate => "fit the position of the simulated axis, which differentiates nothing",
         Next::AxisFile => "correct the axis file as said above",
         Next::Check => "see what the log shows, and what motion to record instead",
@@ -155,6 +156,12 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
         Next::IdentifyTheOther | Next::CheckTheOther => {
             result.trust.other.iter().map(|path| quoted(path)).collect()
         }
+        Next::FirstLog => result
+            .inputs
+            .iter()
+            .take(1)
+            .map(|i| quoted(&i.path))
+            .collect(),
         _ => result.inputs.iter().map(|i| quoted(&i.path)).collect(),
     };
     let mut log = logs.join(" ");
@@ -172,6 +179,7 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
         ),
         Next::LetTheDataChoose => format!("stiction identify {log} --out {}", another("auto")),
         Next::IdentifyTheOther => format!("stiction identify {log} --out {}", another("other")),
+        Next::FirstLog => format!("stiction identify {log} --out {}", another("first")),
         Next::Simulate => format!(
             "stiction identify {log} --method output-error --out {}",
             another("simulated")

@@ -127,6 +127,7 @@ fn defaults(data: &Path, out: &mut String) {
                 Next::LetTheDataChoose
                 | Next::AnotherLaw
                 | Next::IdentifyTheOther
+                | Next::FirstLog
                 | Next::Again
                 | Next::Finish => "identify again",
                 Next::AxisFile => "correct the axis file",

@@ -110,6 +110,8 @@ pub enum Next {
     IdentifyTheOther,
     /// See what the logs that it was validated on show: from one of them nothing can be identified.
     CheckTheOther,
+    /// Identify the first of the logs by itself, and the others likewise: together they are not of one axis.
+    FirstLog,
     /// Identify again by simulation of the axis.
     Simulate,
     /// Correct the axis file as the reasons say, and identify again.

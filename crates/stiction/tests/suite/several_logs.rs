@@ -1,6 +1,7 @@
 //! Several logs of one axis: what is said where they tell the same, and where they do not.
 
 use crate::common::identified::identified;
+use stiction::result::Next;
 use stiction::{Axis, Code, Fit, Options};
 use stiction_testkit::worlds::{Machine, Motion, World, record};
 
@@ -90,6 +91,15 @@ fn a_fifth_between_logs_is_named_and_is_no_constant() {
     }
     let (fit, _) = twice(1, Motion::Sine, 1.2);
     insta::assert_snapshot!(disagreements(&fit).join("\n"));
+}
+
+/// A common level of friction that is half as large as in one log and half as large again as in the other is of neither.
+#[test]
+fn logs_of_two_axes_are_not_used_as_one() {
+    let (fit, _) = twice(1, Motion::Sine, 3.0);
+    let trust = &fit.result().trust;
+    assert!(!trust.trustworthy && trust.next == Next::FirstLog);
+    assert!(trust.reasons[0].contains("coulomb"), "{:?}", trust.reasons);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use stiction_files::result::{CauseEntry, Cure};
 use stiction_files::{Warning, shell, symbols};
 use stiction_identify::{Disagreement, NOT_CONSTANT};
 use stiction_log::Motion;
-use stiction_number::{Percent, four_digits};
+use stiction_number::{Percent, four_digits, short};
 use stiction_parameters::Quantity;
 
 /// The options of a run that is to be repeated for each log, as they are typed.
@@ -115,6 +115,25 @@ fn own_level(found: &Disagreement) -> Option<&'static str> {
         Quantity::Sigma2 => Some("sigma2_log"),
         _ => None,
     }
+}
+
+/// Difference of a level or a mass between two logs, in parts of the value of all, from which on they are not of one axis: friction
+/// that warmth and lubricant change by tens of percent is.
+const ANOTHER_AXIS: f64 = 0.5;
+
+/// Why logs are not of one axis in one state; `None` where they may be.
+pub(super) fn of_two_axes(found: &[Disagreement]) -> Option<String> {
+    let telling = |d: &&Disagreement| {
+        let quantity = d.name.quantity;
+        matches!(quantity, Quantity::Coulomb | Quantity::Mass) && d.part >= ANOTHER_AXIS
+    };
+    let d = found.iter().find(telling)?;
+    Some(format!(
+        "the logs are not of one axis in one state: {} is {} times as large in one as in another. The force, its unit, the load or \
+         the axis is another one",
+        d.name,
+        short(d.values[1] / d.values[0])
+    ))
 }
 
 /// The first of them as a part of the verdict.

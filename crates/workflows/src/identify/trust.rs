@@ -459,6 +459,9 @@ fn record(
 /// What can be said of any law that was fitted to whole records.
 fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
     let law = evidence.law;
+    if let Some(why) = disagree::of_two_axes(&law.disagreements) {
+        reasons.push(why, Next::FirstLog);
+    }
     lacking::named(evidence, reasons);
     search_ended(evidence, warnings, reasons);
     explains_little(evidence, warnings, reasons);
