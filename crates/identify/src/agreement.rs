@@ -82,7 +82,7 @@ impl Told {
         let chance = CHANCE[free.min(CHANCE.len()) - 1];
         let few = student::whole(free) / NORMAL_Q95;
         let count = replicas.len() as f64;
-        let ways: [(Of, fn(&[f64]) -> f64); 2] = [
+        let ways: [Way; 2] = [
             (|told| &told.pulls, about_mean),
             (|told| &told.from_centre, about_zero),
         ];
@@ -132,6 +132,8 @@ impl Between {
 
 /// The pulls that are looked at.
 type Of = fn(&Told) -> &Pulls;
+/// What is scattered, and about what.
+type Way = (Of, fn(&[f64]) -> f64);
 
 /// Mean pulls of replicas; zero where there are none.
 fn mean(replicas: &[Told], of: Of, own: &Told) -> Pulls {

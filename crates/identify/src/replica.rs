@@ -70,8 +70,7 @@ impl<'a> Axis<'a> {
     /// In each way in which a force may have come about that is logged a part of a sample late: as the mean of two that were
     /// held, and as the one that acts at the instant, behind a lag. Where a controller answers its encoder they shift the
     /// parameters differently, and a log does not tell which of them it has.
-    pub fn each_way(record: &'a Record, fitted: &'a Estimate) -> Option<Vec<Self>> {
-        let late = late(fitted, record.step());
+    pub fn each_way(record: &'a Record, fitted: &'a Estimate, late: f64) -> Option<Vec<Self>> {
         let mut ways = vec![Self::logged(record, fitted, late)?];
         let whole = libm::ceil(late);
         let lag = whole - late;
@@ -272,15 +271,11 @@ fn logged(channel: &[f64]) -> Option<Vec<f64>> {
 
 /// Samples by which the force is logged later than it was held; negative where it acts later than it was logged. A drive logs
 /// the force of this sample or of one before, or the mean of two: a fitted delay that chance may have moved from there is taken
-/// as that, unless there is a lag. What the choice of the cut-offs has found goes before.
+/// as that, unless there is a lag.
 pub(crate) fn late(fitted: &Estimate, step: f64) -> f64 {
-    let is_fitted = fitted.terms.delay == Delay::Fitted;
-    if let Some(late) = fitted.terms.late.filter(|_| is_fitted) {
-        return late;
-    }
     let late = fitted.delay_samples() - HELD_DELAY;
     let delay = fitted.parameter(Quantity::Delay).and_then(|p| p.std);
-    let is_sought = is_fitted && fitted.lag_samples() == 0.0;
+    let is_sought = fitted.terms.delay == Delay::Fitted && fitted.lag_samples() == 0.0;
     let Some(deviation) = delay.filter(|_| is_sought) else {
         return late;
     };

@@ -9,8 +9,8 @@ const SLID: f64 = 6.0;
 /// had begun undeflected.
 const MOST_LOST_SHARE: f64 = 0.5;
 
-/// Fewest samples of the regression that must be left, ten for each unknown of LuGre: a very short log is fitted whole too.
-const FEWEST_LEFT: usize = 60;
+/// Fewest samples of the regression that must be left: a short log is fitted whole too.
+const FEWEST_LEFT: usize = 300;
 
 /// Leaves out what comes before the axis has slid `distance`, m or rad, since the start of each stretch; returns how many
 /// samples of the regression that takes.
@@ -99,6 +99,6 @@ mod tests {
         };
         assert!((480..=500).contains(&of(0.48, 1000)));
         assert_eq!(of(0.52, 1000), 0);
-        assert_eq!(of(0.01, 65), 0);
+        assert_eq!(of(0.01, 305), 0);
     }
 }

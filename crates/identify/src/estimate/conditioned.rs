@@ -11,10 +11,11 @@ use crate::conditioning::condition;
 use crate::conditioning::record::Record;
 use crate::estimate::Estimate;
 use crate::law::physical::physical;
+use crate::law::terms::Delay;
 use crate::misfit::Energies;
 use crate::parameter::physical::Physical;
 use crate::refit::{Asked, Refit, force_noise, refitted};
-use crate::replica::{Axis, Replica};
+use crate::replica::{Axis, Replica, late};
 use crate::separable::logs::Logs;
 use crate::shifts::{REPLICA_COUNT, SHIFT_DOUBT, Shifts, TEN_REPLICAS_FACTOR, as_found, between};
 use crate::watch::Watch;
@@ -24,6 +25,12 @@ use stiction_search::Control;
 const FIRST_SEED: u64 = 1000;
 /// Seeds of the replicas of replicas begin here.
 const FIRST_SECOND_SEED: u64 = 2000;
+
+/// Replicas that show which delay the log has, and the first seed of them.
+const DELAY_REPLICAS: u64 = 2;
+const FIRST_DELAY_SEED: u64 = 3000;
+/// Difference of two delays, samples, that replicas do not tell apart.
+const SAME_DELAY: f64 = 0.05;
 
 /// Shift of each parameter, SI, and how the fits of the replicas scatter.
 #[derive(Clone, Debug)]
@@ -84,7 +91,9 @@ pub(super) fn shift(
     watch: &mut Watch,
 ) -> Option<Shift> {
     let conditioning = record.conditioning?;
-    let ways = Axis::each_way(record, fitted)?;
+    let first_delay = first_delay(record, fitted, watch);
+    let late = |fitted: &Estimate| first_delay.unwrap_or_else(|| late(fitted, record.step()));
+    let ways = Axis::each_way(record, fitted, late(fitted))?;
     let noise = force_noise(record, &ways[0], &conditioning, fitted, &mut watch.counts)?;
     asked(watch)?;
     let mut first: Vec<Shifts> = ways.iter().map(|_| Shifts::default()).collect();
@@ -114,7 +123,7 @@ pub(super) fn shift(
         if let Ok(again) = condition(&replica.logs, &conditioning)
             && let refit = &found.refit
             && let next = as_found(fitted, &replica, (&refit.p, &refit.c), &found.parameters)
-            && let Some(again_ways) = Axis::each_way(&again, &next)
+            && let Some(again_ways) = Axis::each_way(&again, &next, late(&next))
             && let Some(axis) = again_ways.get(way)
             && let Some((next, _)) = once(
                 &again,
@@ -149,6 +158,30 @@ pub(super) fn shift(
         energies,
         told,
     })
+}
+
+/// The delay of the first fit of the choice of cut-offs, as samples by which the force is logged late, where it is the better
+/// one for replicas: where those with it come out nearer to the delay of this fit than those with the delay of the fit itself.
+fn first_delay(record: &Record, fitted: &Estimate, watch: &mut Watch) -> Option<f64> {
+    let is_sought = fitted.terms.delay == Delay::Fitted && fitted.lag_samples() == 0.0;
+    let first = fitted.terms.late.filter(|_| is_sought)?;
+    let own = late(fitted, record.step());
+    if (first - own).abs() < SAME_DELAY {
+        return None;
+    }
+    let conditioning = record.conditioning?;
+    let mut off = |late: f64| {
+        let axis = Axis::logged(record, fitted, late)?;
+        let mut sum = 0.0;
+        for seed in 0..DELAY_REPLICAS {
+            let replica = axis.replica(0.0, FIRST_DELAY_SEED + seed)?;
+            let asked = Asked::Unknowns;
+            let refit = refitted(&replica, &conditioning, fitted, asked, &mut watch.counts)?;
+            sum += refit.p.last()? - fitted.unknowns().last()?;
+        }
+        Some(f64::abs(sum))
+    };
+    (off(first)? < off(own)?).then_some(first)
 }
 
 /// Whether to go on: `None` if the observer stops it.

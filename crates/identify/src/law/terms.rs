@@ -32,9 +32,8 @@ pub struct Terms {
     /// A lag between the force that was logged and that which the axis feels, as a current loop has one. Its time is a part of a
     /// delay that is fitted; beside one that is given there is none.
     pub lag: Lag,
-    /// Samples by which the force was logged later than it was held, where the choice of the cut-offs has found that: what the
-    /// logs of simulated axes have. Of a fit with higher cut-offs the delay has moved, and an axis with that delay is as
-    /// biased as the fit.
+    /// Samples by which the force was logged later than it was held, as the first fit of the choice of the cut-offs has it. Of a
+    /// fit with higher cut-offs the delay may have moved, and an axis with that delay is as biased as the fit.
     pub late: Option<f64>,
 }
 
