@@ -164,7 +164,7 @@ mod tests {
     fn time_that_is_left_is_said_once_something_is_done() {
         let second = Duration::from_secs(1);
         assert_eq!(left(0, Duration::ZERO), "");
-        assert_eq!(left(1, 90 * second), "left 90s");
+        assert_eq!(left(1, 45 * second), "left 45s");
         assert_eq!(left(999, Duration::ZERO), "left 0s");
     }
 

@@ -23,9 +23,6 @@ use stiction_servo::plant::{Load, Motion, Plant};
 
 /// Delay of a force that is logged where it is held, from its sample to the next, samples.
 pub(crate) const HELD_DELAY: f64 = -0.5;
-/// Parts of a sample by which a force may be behind a lag, where it is logged as it acts: of less a log shows nothing, and more
-/// is a force that is logged as it was held, but for what chance moves.
-const LAGS: std::ops::RangeInclusive<f64> = 0.1..=0.75;
 /// Deviations of a fitted delay that chance explains.
 const CHANCE: f64 = 2.0;
 /// The spring that keeps the simulated axis on the recorded motion: its frequency over the sample rate.
@@ -67,43 +64,21 @@ impl<'a> Axis<'a> {
         Self::logged(record, fitted, late(fitted, record.step()))
     }
 
-    /// In each way in which a force may have come about that is logged a part of a sample late: as the mean of two that were
-    /// held, and as the one that acts at the instant, behind a lag. Where a controller answers its encoder they shift the
-    /// parameters differently, and a log does not tell which of them it has.
-    pub fn each_way(record: &'a Record, fitted: &'a Estimate, late: f64) -> Option<Vec<Self>> {
-        let mut ways = vec![Self::logged(record, fitted, late)?];
-        let whole = libm::ceil(late);
-        let lag = whole - late;
-        if fitted.lag_samples() == 0.0 && LAGS.contains(&lag) {
-            let behind = (Logging::new(whole), Drive::new(lag, lag));
-            ways.extend(Self::driven(record, fitted, behind));
-        }
-        Some(ways)
-    }
-
     /// The same with a force that is logged so many samples later than it was held.
     pub fn logged(record: &'a Record, fitted: &'a Estimate, late: f64) -> Option<Self> {
+        let first = plant(fitted)?;
+        let plants = record.segments.iter();
+        let plants = plants.map(|segment| of_log(first, fitted, segment.log));
+        let plants = plants.collect::<Option<Vec<_>>>()?;
         let lag = fitted.lag_samples();
         // A force that acts a sample late without a lag may as well be one whose rows are a sample off.
-        let way = match lag > 0.0 {
+        let (logging, drive) = match lag > 0.0 {
             true => (
                 Logging::new(late.max(0.0)),
                 Drive::new((-late).max(0.0), lag),
             ),
             false => (Logging::new(late), Drive::DIRECT),
         };
-        Self::driven(record, fitted, way)
-    }
-
-    fn driven(
-        record: &'a Record,
-        fitted: &'a Estimate,
-        (logging, drive): (Logging, Drive),
-    ) -> Option<Self> {
-        let first = plant(fitted)?;
-        let plants = record.segments.iter();
-        let plants = plants.map(|segment| of_log(first, fitted, segment.log));
-        let plants = plants.collect::<Option<Vec<_>>>()?;
         let segments = &record.segments;
         let linear = fitted.terms.columns(&fitted.law);
         let beside = linear.iter().zip(fitted.coefficients());

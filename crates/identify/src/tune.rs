@@ -81,9 +81,6 @@ pub struct Tuned {
     pub counts: Counts,
     /// The lag of the force, for the fits that follow.
     pub lag: Lag,
-    /// Samples by which the force is logged later than it was held, for replicas of the fits that follow; `None` where no
-    /// replica was made.
-    pub late: Option<f64>,
     /// Whether the observer stopped it before the choice was made.
     pub interrupted: bool,
 }
@@ -108,7 +105,6 @@ pub fn tune(
         trials: Vec::new(),
         counts: Counts::default(),
         lag: Lag::NONE,
-        late: None,
         interrupted: false,
     };
     let open = |cutoff| cutoff == Cutoff::Auto;
@@ -124,6 +120,7 @@ pub fn tune(
     let mut wanted = *wanted;
     let mut at = START;
     let mut last: Option<Vec<f64>> = None;
+    let mut late = None;
     for round in 0..MOST_ROUNDS {
         let mut trial = cutoffs(&wanted, rate, at);
         let Ok(mut record) = condition(logs, &trial) else {
@@ -183,8 +180,7 @@ pub fn tune(
         // The delay of the first fit, whose common cut-off is low. The higher the cut-off, the more of what a controller answers
         // to its encoder is taken for a delay, and a replica with that delay is as biased as the fit: nothing would come
         // out wrong there, however far the choice has led.
-        let late = replica::late(&fitted, record.step());
-        let late = *tuned.late.get_or_insert(late);
+        let late = *late.get_or_insert_with(|| replica::late(&fitted, record.step()));
         let Some(axis) = Axis::logged(&record, &fitted, late) else {
             break;
         };
@@ -276,7 +272,6 @@ pub fn settle(
         trials: Vec::new(),
         counts: found.counts,
         lag: Lag::NONE,
-        late: None,
         interrupted: found.status == Status::Interrupted,
     })
 }

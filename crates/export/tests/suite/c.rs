@@ -443,7 +443,7 @@ int main(void)
     x_axis_params(&params);
     params.watchdog_window = 0.1;
     (void)x_axis_init(&params, &state);
-    for (int k = 0; k < 4000; k++) {
+    for (int k = 0; k < 16000; k++) {
         /* to and fro in 0.2 s, with a force of the drive of 1.2 times 12 N and 30 N s/m */
         const bool onward = (k / 100) % 2 == 0;
         const double v = onward ? 0.05 : -0.05;

@@ -38,7 +38,11 @@ impl Losses {
 
     /// Samples that a simulation without filters could use, if it is not refused for the force being unknown in nearly all of them.
     pub fn left_to_simulate(&self) -> usize {
-        let long = self.logged.saturating_sub(self.short);
+        // A log that is short as a whole is too short for filters only.
+        let long = match self.short < self.logged {
+            true => self.logged.saturating_sub(self.short),
+            false => self.logged,
+        };
         let known = long.saturating_sub(self.excluded * self.decimate.max(1));
         match known < Self::needed_to_simulate(long) {
             true => 0,

@@ -11,11 +11,10 @@ use crate::conditioning::condition;
 use crate::conditioning::record::Record;
 use crate::estimate::Estimate;
 use crate::law::physical::physical;
-use crate::law::terms::Delay;
 use crate::misfit::Energies;
 use crate::parameter::physical::Physical;
 use crate::refit::{Asked, Refit, force_noise, refitted};
-use crate::replica::{Axis, Replica, late};
+use crate::replica::{Axis, Replica};
 use crate::separable::logs::Logs;
 use crate::shifts::{REPLICA_COUNT, SHIFT_DOUBT, Shifts, TEN_REPLICAS_FACTOR, as_found, between};
 use crate::watch::Watch;
@@ -25,12 +24,6 @@ use stiction_search::Control;
 const FIRST_SEED: u64 = 1000;
 /// Seeds of the replicas of replicas begin here.
 const FIRST_SECOND_SEED: u64 = 2000;
-
-/// Replicas that show which delay the log has, and the first seed of them.
-const DELAY_REPLICAS: u64 = 2;
-const FIRST_DELAY_SEED: u64 = 3000;
-/// Difference of two delays, samples, that replicas do not tell apart.
-const SAME_DELAY: f64 = 0.05;
 
 /// Shift of each parameter, SI, and how the fits of the replicas scatter.
 #[derive(Clone, Debug)]
@@ -43,9 +36,6 @@ pub(super) struct Shift {
     /// Squared difference between the shift of a replica and that of a replica of it, less what chance
     /// explains.
     change: Vec<f64>,
-    /// Square of half the difference between the shifts of the ways in which the force may have been logged, less what chance
-    /// explains.
-    ways: Vec<f64>,
     /// What comes back of the residuals of the replicas.
     pub energies: Vec<Energies>,
     /// What the logs of each replica tell, where there are several.
@@ -62,8 +52,7 @@ impl Shift {
     /// Beran 1987, doi 10.1093/biomet/74.3.457), and is enlarged because they are few. Added to it are
     /// the variance of the mean shift and the possible error of the shift itself: a tenth of it, and the
     /// amount by which it changes from the replicas to replicas of them (an iterated bootstrap: Hall
-    /// 1992, doi 10.1007/978-1-4612-4384-7, section 1.4), and half of that by which it differs with the way in which the force
-    /// was logged.
+    /// 1992, doi 10.1007/978-1-4612-4384-7, section 1.4).
     pub fn total(&self, i: usize, residual: f64) -> f64 {
         let calibration = TEN_REPLICAS_FACTOR * self.scatter[i] / self.stated[i];
         let calibrated = residual
@@ -73,11 +62,7 @@ impl Shift {
                 1.0
             };
         let doubt = SHIFT_DOUBT * self.bias[i];
-        calibrated
-            + self.scatter[i] / REPLICA_COUNT as f64
-            + doubt * doubt
-            + self.change[i]
-            + self.ways[i]
+        calibrated + self.scatter[i] / REPLICA_COUNT as f64 + doubt * doubt + self.change[i]
     }
 }
 
@@ -91,21 +76,18 @@ pub(super) fn shift(
     watch: &mut Watch,
 ) -> Option<Shift> {
     let conditioning = record.conditioning?;
-    let first_delay = first_delay(record, fitted, watch);
-    let late = |fitted: &Estimate| first_delay.unwrap_or_else(|| late(fitted, record.step()));
-    let ways = Axis::each_way(record, fitted, late(fitted))?;
-    let noise = force_noise(record, &ways[0], &conditioning, fitted, &mut watch.counts)?;
+    let axis = Axis::of(record, fitted)?;
+    let noise = force_noise(record, &axis, &conditioning, fitted, &mut watch.counts)?;
     asked(watch)?;
-    let mut first: Vec<Shifts> = ways.iter().map(|_| Shifts::default()).collect();
+    let mut first = Shifts::default();
     let mut second = Shifts::default();
     let mut stated = vec![0.0; raw.len()];
     let (mut energies, mut told) = (Vec::new(), Vec::new());
     for i in 0..REPLICA_COUNT {
-        let way = i as usize % ways.len();
         let (found, replica) = once(
             record,
             fitted,
-            &ways[way],
+            &axis,
             noise,
             (FIRST_SEED + i, Asked::All(logs)),
             watch,
@@ -117,18 +99,17 @@ pub(super) fn shift(
         }
         energies.push(all.energies);
         told.extend(all.told.clone());
-        first[way].0.push(found.shift.clone());
+        first.0.push(found.shift.clone());
         // A replica that cannot be simulated is left out. Of a replica of a replica only the shift is asked for, and to
         // first order.
         if let Ok(again) = condition(&replica.logs, &conditioning)
             && let refit = &found.refit
             && let next = as_found(fitted, &replica, (&refit.p, &refit.c), &found.parameters)
-            && let Some(again_ways) = Axis::each_way(&again, &next, late(&next))
-            && let Some(axis) = again_ways.get(way)
+            && let Some(axis) = Axis::of(&again, &next)
             && let Some((next, _)) = once(
                 &again,
                 &next,
-                axis,
+                &axis,
                 noise,
                 (FIRST_SECOND_SEED + i, Asked::Unknowns),
                 watch,
@@ -140,48 +121,14 @@ pub(super) fn shift(
         asked(watch)?;
     }
     let all = 0..raw.len();
-    let mean = |of: &dyn Fn(&Shifts) -> f64| first.iter().map(of).sum::<f64>() / first.len() as f64;
-    let bias = all.clone().map(|i| mean(&|s| s.mean(i))).collect();
-    let scatter = all.clone().map(|i| mean(&|s| s.variance(i))).collect();
-    let ways = all.clone().map(|i| match &first[..] {
-        [one, other] => 0.25 * one.change(other, i),
-        _ => 0.0,
-    });
-    let ways = ways.collect();
-    let first = Shifts(first.into_iter().flat_map(|s| s.0).collect());
     Some(Shift {
-        bias,
-        scatter,
+        bias: all.clone().map(|i| first.mean(i)).collect(),
+        scatter: all.clone().map(|i| first.variance(i)).collect(),
         stated,
         change: all.map(|i| second.change(&first, i)).collect(),
-        ways,
         energies,
         told,
     })
-}
-
-/// The delay of the first fit of the choice of cut-offs, as samples by which the force is logged late, where it is the better
-/// one for replicas: where those with it come out nearer to the delay of this fit than those with the delay of the fit itself.
-fn first_delay(record: &Record, fitted: &Estimate, watch: &mut Watch) -> Option<f64> {
-    let is_sought = fitted.terms.delay == Delay::Fitted && fitted.lag_samples() == 0.0;
-    let first = fitted.terms.late.filter(|_| is_sought)?;
-    let own = late(fitted, record.step());
-    if (first - own).abs() < SAME_DELAY {
-        return None;
-    }
-    let conditioning = record.conditioning?;
-    let mut off = |late: f64| {
-        let axis = Axis::logged(record, fitted, late)?;
-        let mut sum = 0.0;
-        for seed in 0..DELAY_REPLICAS {
-            let replica = axis.replica(0.0, FIRST_DELAY_SEED + seed)?;
-            let asked = Asked::Unknowns;
-            let refit = refitted(&replica, &conditioning, fitted, asked, &mut watch.counts)?;
-            sum += refit.p.last()? - fitted.unknowns().last()?;
-        }
-        Some(f64::abs(sum))
-    };
-    (off(first)? < off(own)?).then_some(first)
 }
 
 /// Whether to go on: `None` if the observer stops it.

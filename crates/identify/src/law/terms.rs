@@ -32,9 +32,6 @@ pub struct Terms {
     /// A lag between the force that was logged and that which the axis feels, as a current loop has one. Its time is a part of a
     /// delay that is fitted; beside one that is given there is none.
     pub lag: Lag,
-    /// Samples by which the force was logged later than it was held, as the first fit of the choice of the cut-offs has it. Of a
-    /// fit with higher cut-offs the delay may have moved, and an axis with that delay is as biased as the fit.
-    pub late: Option<f64>,
 }
 
 /// What is known of the delay of the force against the motion.
@@ -109,7 +106,6 @@ impl Default for Terms {
             delay: Delay::NONE,
             delay_deviation: 0.0,
             lag: Lag::NONE,
-            late: None,
             quadratic_viscous: false,
             dependences: Vec::new(),
         }

@@ -320,7 +320,6 @@ fn terms() -> impl Strategy<Value = Terms> {
         delay: delay.0,
         delay_deviation: delay.1,
         lag,
-        late: None,
     })
 }
 

@@ -56,9 +56,7 @@ pub(super) fn condition(
     let settings = settings(options.seed);
     let wanted = conditioning::wanted(sources, axis);
     let chosen = conditioning::choose(sources, &wanted, &symmetric, &settings, observer)?;
-    for terms in [&mut symmetric, &mut asymmetric] {
-        (terms.lag, terms.late) = (chosen.lag, chosen.late);
-    }
+    (symmetric.lag, asymmetric.lag) = (chosen.lag, chosen.lag);
     // A Maxwell-slip law depends on past motion: it is fitted from where the start no longer has an effect.
     let settle = |record: Record| match options.law.is_some_and(LawKind::has_elements) {
         true => record.settled(),
@@ -133,7 +131,6 @@ pub(crate) fn record_of(
     refuse_rest(&record, &sources, sources[0].log.motion)?;
     let terms = Terms {
         lag: chosen.lag,
-        late: chosen.late,
         ..terms.about(&record)
     };
     Ok((sources, record, terms))

@@ -36,8 +36,6 @@ pub(super) struct Chosen {
     pub conditioning: Conditioning,
     /// The lag of the force, for every fit of these logs.
     pub lag: Lag,
-    /// Samples by which the force is logged later than it was held, for replicas; `None` where none was made.
-    pub late: Option<f64>,
     /// How it was chosen.
     pub note: Option<String>,
     /// Whether the choice was stopped; the conditioning is then the default one.
@@ -49,7 +47,6 @@ impl Chosen {
         Self {
             conditioning,
             lag: Lag::NONE,
-            late: None,
             note: None,
             interrupted: false,
         }
@@ -98,7 +95,6 @@ pub(super) fn choose(
     Ok(Chosen {
         conditioning: tuned.conditioning,
         lag: tuned.lag,
-        late: tuned.late,
         note: match (note, lag) {
             (Some(note), Some(lag)) => Some(format!("{note}; {lag}")),
             (note, lag) => note.or(lag),
