@@ -95,7 +95,7 @@ fn next(error: &Error, command: &Command) -> Option<String> {
     }
     if let Command::Identify(identify) = command
         && error.code() == Code::Usage
-        && WITHOUT_A_SEARCH.contains(&identify.law)
+        && law(identify.law).is_some_and(LawKind::needs_no_search)
         && is_search(identify.method)
     {
         return Some(again(identify, "", &identify.out));
@@ -141,13 +141,6 @@ fn faulty<'a>(logs: &'a [PathBuf], error: &Error) -> Option<&'a PathBuf> {
     let faulty = |log: &&PathBuf| begins(log.display().to_string()) || begins(path_text(log));
     logs.iter().find(faulty).or(logs.first())
 }
-
-/// Laws whose parameters no search has to look for.
-const WITHOUT_A_SEARCH: [arguments::Law; 3] = [
-    arguments::Law::CoulombViscous,
-    arguments::Law::MaxwellSlip,
-    arguments::Law::Gms,
-];
 
 fn is_search(typed: arguments::Method) -> bool {
     matches!(method(typed), Method::Searched(_))
@@ -383,16 +376,7 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
         validate: identify.validate.clone(),
     };
     let mut options = Options::default();
-    options.law = match identify.law {
-        arguments::Law::Auto => None,
-        arguments::Law::CoulombViscous => Some(LawKind::CoulombViscous),
-        arguments::Law::Stribeck => Some(LawKind::Stribeck),
-        arguments::Law::Dahl => Some(LawKind::Dahl),
-        arguments::Law::Lugre => Some(LawKind::LuGre),
-        arguments::Law::ElastoPlastic => Some(LawKind::ElastoPlastic),
-        arguments::Law::MaxwellSlip => Some(LawKind::MaxwellSlip),
-        arguments::Law::Gms => Some(LawKind::Gms),
-    };
+    options.law = law(identify.law);
     options.asymmetric = identify.asymmetric;
     options.split = identify.split;
     options.seed = identify.seed;
@@ -463,6 +447,19 @@ fn compare(compare: &arguments::Compare, common: &Common) -> Result<Exit, Error>
 }
 
 /// The method under the name that it has on the command line.
+fn law(typed: arguments::Law) -> Option<LawKind> {
+    match typed {
+        arguments::Law::Auto => None,
+        arguments::Law::CoulombViscous => Some(LawKind::CoulombViscous),
+        arguments::Law::Stribeck => Some(LawKind::Stribeck),
+        arguments::Law::Dahl => Some(LawKind::Dahl),
+        arguments::Law::Lugre => Some(LawKind::LuGre),
+        arguments::Law::ElastoPlastic => Some(LawKind::ElastoPlastic),
+        arguments::Law::MaxwellSlip => Some(LawKind::MaxwellSlip),
+        arguments::Law::Gms => Some(LawKind::Gms),
+    }
+}
+
 fn method(typed: arguments::Method) -> Method {
     let name = typed.to_possible_value().expect("no method is hidden");
     Method::from_name(name.get_name()).expect("the engine knows every method of the command line")

@@ -250,15 +250,12 @@ impl Sums {
     /// What the residual has of the first column in each part, beside what it has of the second; `None` where there is none of it.
     fn means(&self) -> impl Iterator<Item = Option<f64>> {
         self.products.iter().map(|&[aa, ab, bb, ar, br]| {
-            let ridge = match bb > 0.0 {
-                true => RIDGE * aa,
-                false => 0.0,
-            };
-            let (aa, bb) = (aa + ridge, bb + ridge);
-            match bb > 0.0 {
-                true => Some((ar * bb - br * ab) / (aa * bb - ab * ab)).filter(|x| x.is_finite()),
-                false => (aa > 0.0).then(|| ar / aa),
+            if bb <= 0.0 {
+                return (aa > 0.0).then(|| ar / aa);
             }
+            let ridge = RIDGE * aa;
+            let (aa, bb) = (aa + ridge, bb + ridge);
+            Some((ar * bb - br * ab) / (aa * bb - ab * ab)).filter(|x| x.is_finite())
         })
     }
 
@@ -325,32 +322,31 @@ impl Misfit {
     }
 }
 
-/// The part of it that grows with speed.
-fn viscous(objective: &Objective, at: &Evaluation) -> Vec<f64> {
-    let mut out = vec![0.0; at.residual().len()];
-    let columns = at.columns.iter().zip(&at.solution.coefficients);
-    for (term, (column, c)) in objective.linear().iter().zip(columns) {
-        if let ColumnKind::Speed(_) | ColumnKind::Square(_) | ColumnKind::SpeedTimes(..) =
-            term.column
-        {
-            out.iter_mut()
-                .zip(column.iter())
-                .for_each(|(y, x)| *y += c * x);
-        }
-    }
-    out
-}
-
 /// Friction as the law has it at the kept samples.
 fn friction(objective: &Objective, at: &Evaluation) -> Vec<f64> {
+    sum_of(objective, at, |column| {
+        let beside = [ColumnKind::Acceleration, ColumnKind::One];
+        let wave = matches!(column, ColumnKind::Sine(_) | ColumnKind::Cosine(_));
+        !wave && !beside.contains(column)
+    })
+}
+
+/// The part of it that grows with speed.
+fn viscous(objective: &Objective, at: &Evaluation) -> Vec<f64> {
+    sum_of(objective, at, |column| {
+        matches!(
+            column,
+            ColumnKind::Speed(_) | ColumnKind::Square(_) | ColumnKind::SpeedTimes(..)
+        )
+    })
+}
+
+/// The force of the linear terms of some kinds at the kept samples.
+fn sum_of(objective: &Objective, at: &Evaluation, is: impl Fn(&ColumnKind) -> bool) -> Vec<f64> {
     let mut out = vec![0.0; at.residual().len()];
     let columns = at.columns.iter().zip(&at.solution.coefficients);
-    for (term, (column, c)) in objective.linear().iter().zip(columns) {
-        let beside = [ColumnKind::Acceleration, ColumnKind::One];
-        let wave = matches!(term.column, ColumnKind::Sine(_) | ColumnKind::Cosine(_));
-        if wave || beside.contains(&term.column) {
-            continue;
-        }
+    let terms = objective.linear().iter().zip(columns);
+    for (_, (column, c)) in terms.filter(|(term, _)| is(&term.column)) {
         for (y, x) in out.iter_mut().zip(column.iter()) {
             *y += c * x;
         }

@@ -65,6 +65,11 @@ impl LawKind {
         matches!(self, LawKind::MaxwellSlip | LawKind::Gms)
     }
 
+    /// Whether the law leaves nothing to a search: its parameters are all linear, or known places of elements.
+    pub fn needs_no_search(self) -> bool {
+        self == LawKind::CoulombViscous || self.has_elements()
+    }
+
     /// Whether the friction level falls with speed.
     pub fn has_stribeck(self) -> bool {
         matches!(

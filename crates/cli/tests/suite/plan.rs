@@ -115,6 +115,18 @@ fn without_limits_every_missing_key_is_named() {
     assert!(!folder.path().join("out").exists());
 }
 
+/// An axis from which nothing is planned or written, and what is said of it.
+fn is_refused(axis: &str, says: &str) {
+    let folder = folder(axis);
+    let (code, out, err) = run(
+        folder.path(),
+        &["plan", "axis.toml", "--time", "4s", "--out", "out"],
+    );
+    assert_eq!((code, out.as_str()), (2, ""), "{err}");
+    assert!(err.contains(says), "{says}\n{err}");
+    assert!(!folder.path().join("out").exists());
+}
+
 #[test]
 fn limits_that_are_none_are_refused_with_their_line() {
     let refused = [
@@ -148,10 +160,7 @@ fn limits_that_are_none_are_refused_with_their_line() {
         ),
     ];
     for (axis, place) in refused {
-        let folder = folder(&axis);
-        let (code, _, err) = run(folder.path(), &["plan", "axis.toml", "--out", "out"]);
-        assert_eq!(code, 2, "{err}");
-        assert!(err.contains(place), "{place}\n{err}");
+        is_refused(&axis, place);
     }
     let folder = folder(AXIS);
     for time in ["0.1s", "1h", "-3", "nan"] {
@@ -204,14 +213,7 @@ fn limits_of_no_machine_are_refused_at_their_key() {
             "line 6, column 16, limits.stroke: 0 to 0.03 m: every motion goes beyond it",
         ),
     ] {
-        let folder = folder(&axis);
-        let (code, out, err) = run(
-            folder.path(),
-            &["plan", "axis.toml", "--time", "4s", "--out", "out"],
-        );
-        assert_eq!((code, out.as_str()), (2, ""), "{err}");
-        assert!(err.contains(says), "{says}\n{err}");
-        assert!(!folder.path().join("out").exists());
+        is_refused(&axis, says);
     }
     let folder = folder(AXIS);
     let (code, _, err) = run(

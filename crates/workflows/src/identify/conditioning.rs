@@ -1,5 +1,6 @@
 //! Logs to records: cut-offs chosen once, the same for every log of the axis.
 
+use super::logs::refused;
 use crate::error::Error;
 use crate::source::Source;
 use stiction_files::Axis;
@@ -18,7 +19,7 @@ pub(super) fn conditioned(
         .iter()
         .map(Source::fitted)
         .collect::<Result<Vec<_>, _>>()?;
-    engine::condition(&samples, conditioning).map_err(|source| fail(sources, source))
+    engine::condition(&samples, conditioning).map_err(|source| refused(sources, source))
 }
 
 /// What the axis file asks, with the encoder step of the logs.
@@ -139,8 +140,4 @@ fn lag_note(lag: &Lag) -> String {
          intervals",
         stiction_number::four_digits(1e3 * lag.time())
     )
-}
-
-pub(super) fn fail(sources: &[Source], source: engine::Error) -> Error {
-    super::logs::refused(sources, source)
 }

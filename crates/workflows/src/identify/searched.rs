@@ -16,10 +16,6 @@ use crate::error::Error;
 use crate::wording::{Setting, TOGETHER_WITH};
 use stiction_identify::LawKind;
 
-/// Laws that leave a search nothing: their parameters are all linear, or known places of elements.
-const NOTHING_TO_SEARCH: [LawKind; 3] =
-    [LawKind::CoulombViscous, LawKind::MaxwellSlip, LawKind::Gms];
-
 /// Refuses a search or its limits beside a method that makes none, and limits that are not positive.
 pub(super) fn check(options: &Options) -> Result<(), Error> {
     let method = options.procedures.method;
@@ -92,7 +88,7 @@ pub(super) fn check(options: &Options) -> Result<(), Error> {
         }
     }
     let law = options.one_law();
-    if matches!(method, Method::Searched(_)) && NOTHING_TO_SEARCH.contains(&law) {
+    if matches!(method, Method::Searched(_)) && law.needs_no_search() {
         return Err(Error::usage(
             [
                 Setting::Law.is(law.name()),
