@@ -296,18 +296,36 @@ fn regular(samples: &mut [Sample]) {
     samples.iter_mut().for_each(|(h, _)| *h = 1e-3);
 }
 
+/// A law with a bristle, one with elements and one with neither: the law itself is the source of C, which is run for all.
+fn some() -> Vec<(&'static str, Friction<f64>)> {
+    let mut some = laws();
+    some.retain(|(name, _)| ["lugre", "gms", "power"].contains(name));
+    assert_eq!(some.len(), 3);
+    some
+}
+
 #[test]
 fn fmi_2_agrees() {
-    agree("FMI 2.0", regular, |model, samples| {
+    agree_over("FMI 2.0", some(), usize::MAX, regular, |model, samples| {
         through_fmu(2, model, samples)
     });
 }
 
 #[test]
 fn fmi_3_agrees() {
-    agree("FMI 3.0", regular, |model, samples| {
+    agree_over("FMI 3.0", some(), usize::MAX, regular, |model, samples| {
         through_fmu(3, model, samples)
     });
+}
+
+#[test]
+#[ignore = "soak: every law through two libraries"]
+fn both_agree_for_every_law() {
+    for version in [2, 3] {
+        agree(&format!("FMI {version}.0"), regular, |model, samples| {
+            through_fmu(version, model, samples)
+        });
+    }
 }
 
 /// The compilers of all platforms.

@@ -23,7 +23,8 @@ const LEAST_SQUARE: f64 = 1e-15;
 /// While the axis slides the drive gives `u = offset + level F + M a`, with the law's force F less its offset, and the
 /// acceleration a of the reference. Levels and mass follow by recursive least squares with exponential forgetting (Astrom,
 /// Wittenmark 1995, Adaptive Control, chapter 2), in the form of sums, which cannot wind up: nothing is forgotten while nothing
-/// is learnt. The mass is found beside the levels so that a load does not pass for friction; the compensator does not feed it
+/// is learnt. The sums are of what is beyond the identified law and the given mass, so that digits are not lost where inertial
+/// forces are large. The mass is found beside the levels so that a load does not pass for friction; the compensator does not feed it
 /// forward. A constant force that the law does not know raises one level and lowers the other, and is so compensated while
 /// the axis moves.
 ///
@@ -47,7 +48,8 @@ pub struct Learnt<T> {
     pub levels: [T; 2],
     /// Mass, kg (kg m^2).
     pub mass: T,
-    /// For each direction the sums of F^2, F a, a^2, F u and a u over what is remembered, u without the offset.
+    /// For each direction the sums of F^2, F a, a^2, F r and a r over what is remembered, with r what `u` is beyond the law and
+    /// the given mass.
     sums: [[T; 5]; 2],
     /// The sample before, once there is one.
     before: Option<Before<T>>,
@@ -125,7 +127,7 @@ impl<T: Real> Adaptation<T> {
     fn begin(&self, levels: [T; 2], friction: &Friction<T>) -> [[T; 5]; 2] {
         let size = friction.scale();
         let weight = T::from_f64(INITIAL_WEIGHT) * self.memory * size * size;
-        levels.map(|level| [weight, T::ZERO, T::ZERO, weight * level, T::ZERO])
+        levels.map(|level| [weight, T::ZERO, T::ZERO, weight * (level - T::ONE), T::ZERO])
     }
 
     /// Takes a sample: the law's own `force` at the reference velocity, over `h` seconds. `frozen` learns nothing.
@@ -180,13 +182,13 @@ impl<T: Real> Adaptation<T> {
         let left = (input.drive_force - friction.offset() - known)
             .max(-most)
             .min(most);
-        let u = known + left;
+        let beyond = (learnt.levels[side] - T::ONE) * dry + (learnt.mass - self.mass) * a + left;
         let largest = T::from_f64(LARGEST);
-        if !(most <= largest && a.abs() <= largest && u.abs() <= largest) {
+        if !(most <= largest && a.abs() <= largest && beyond.abs() <= largest) {
             return;
         }
         let fade = T::ONE - (h / self.memory).min(T::ONE);
-        let terms = [dry * dry, dry * a, a * a, dry * u, a * u];
+        let terms = [dry * dry, dry * a, a * a, dry * beyond, a * beyond];
         let mut sums = learnt.sums[side];
         for (sum, term) in sums.iter_mut().zip(terms) {
             *sum = *sum * fade + h * term;
@@ -206,21 +208,21 @@ impl<T: Real> Adaptation<T> {
         if self.mass > T::ZERO {
             let least = T::from_f64(HELD_MASS) * friction.scale() / self.mass;
             let held = least * least * self.memory;
-            let (mut square, mut product) = (held, held * self.mass);
-            for [ff, fa, aa, fu, au] in known {
+            let (mut square, mut product) = (held, T::ZERO);
+            for [ff, fa, aa, fr, ar] in known {
                 square = square + (aa - fa * (fa / ff)).max(T::ZERO);
-                product = product + (au - fa * (fu / ff));
+                product = product + (ar - fa * (fr / ff));
             }
             if square > T::from_f64(LEAST_SQUARE) {
                 let most = T::from_f64(MOST_MASSES) * self.mass;
-                learnt.mass = (product / square).max(T::ZERO).min(most);
+                learnt.mass = (self.mass + product / square).max(T::ZERO).min(most);
             }
         }
-        for (level, [ff, fa, _, fu, _]) in learnt.levels.iter_mut().zip(learnt.sums) {
+        for (level, [ff, fa, _, fr, _]) in learnt.levels.iter_mut().zip(learnt.sums) {
             if ff <= T::ZERO {
                 continue;
             }
-            let next = (fu - fa * learnt.mass) / ff;
+            let next = T::ONE + (fr - fa * (learnt.mass - self.mass)) / ff;
             *level = next.max(T::ONE - self.range).min(T::ONE + self.range);
         }
     }
