@@ -12,5 +12,6 @@ mod values;
 
 pub use extend::{Addition, extend};
 pub use limits::AxisLimits;
+pub use resolve::MOST_PITCHES;
 pub use template::{Found, entry, template};
 pub use values::Axis;

@@ -15,12 +15,13 @@ mod parts;
 mod reversals;
 mod ripple;
 mod visits;
+mod waves;
 
 pub use cause::Cause;
 pub use coupling::{Between, Coupling, Encoder};
 pub use parts::Divided;
 use parts::Measures;
-pub use ripple::Ripple;
+pub use ripple::{Repeats, Ripple};
 
 use self::reversals::Reversals;
 use self::visits::{BLOCKS, Visits};
@@ -66,7 +67,7 @@ pub struct Misfit {
     /// How far the level of friction, without what grows with speed, differs from its mean over the stretches of time or the
     /// places, as parts of it: least and largest of the means over each.
     pub levels: (f64, f64),
-    /// The wave over the position that explains most of a ripple.
+    /// The wave over the position that explains a ripple, or a level along the stroke much better than a line does.
     pub ripple: Option<Ripple>,
     /// A spring or a gap between motor and load that explains it.
     pub coupling: Option<Coupling>,
@@ -201,9 +202,7 @@ impl Divisions {
             share: (beyond[most] / square).min(1.0),
             shares: shares.collect(),
             levels: (0.0, 0.0),
-            ripple: (by == Divided::Position && beyond[most] >= cause::NAMED_SHARE * square)
-                .then(|| Ripple::of(&self.measures.position, residual))
-                .flatten(),
+            ripple: None,
             coupling: None,
             shown_by: by,
             course: Vec::new(),
@@ -289,16 +288,15 @@ impl Divisions {
             return misfit;
         };
         let square = residual.iter().map(|r| r * r).sum::<f64>() / residual.len() as f64;
-        let mut misfit = misfit.unwrap_or_else(|| self.unseen(residual));
+        let mut misfit = misfit.unwrap_or_else(|| self.unseen(Divided::Acceleration, residual));
         misfit.share = misfit.share.max(found.share);
         misfit.rms = misfit.rms.max((found.share * square).sqrt());
         misfit.coupling = Some(found).filter(Coupling::is_sure);
         Some(misfit)
     }
 
-    /// A misfit that no division shows.
-    fn unseen(&self, residual: &[f64]) -> Misfit {
-        let by = Divided::Acceleration;
+    /// A misfit that no division shows; its course is shown by one of them.
+    fn unseen(&self, by: Divided, residual: &[f64]) -> Misfit {
         let shown = Divided::ALL.iter().position(|own| *own == by);
         Misfit {
             by,

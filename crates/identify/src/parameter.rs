@@ -157,6 +157,22 @@ impl Parameter {
                 Some((value - reach, value + reach))
             }
         });
+        // A part of the force that may be none of it, and may be a tenth of friction, is no constant: it says nothing of interest.
+        if let Some((low, high)) = ci95
+            && reason.is_empty()
+            && !p.is_positive()
+            && !p.is_share()
+            && !matches!(p.name.dimension(), Dimension::Time)
+            && !matches!(p.name.quantity, Quantity::Sigma1Log(_))
+            && low < 0.0
+            && high > 0.0
+            && high - low > IDENTIFIABLE * level
+        {
+            reason = format!(
+                "its interval holds 0 and is as wide as {} of the Coulomb level",
+                Percent::deviation(100.0 * (high - low) / level).decimals(0)
+            );
+        }
         // For a share near one a small relative error of the value can be any error of its odds.
         if ci95.is_none() && reason.is_empty() {
             reason = "the data bound it on no side".into();

@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 use stiction_files::result::{Cure, Next, ResultFile};
 pub use stiction_files::shell::axis_file;
 use stiction_files::shell::{plain, quoted, quoted_path, text};
+use stiction_identify::LawKind;
+use stiction_number::Percent;
 
 /// What a log that is still to be recorded is called in commands.
 pub(crate) const ANOTHER_LOG: &str = "another.csv";
@@ -49,7 +51,40 @@ pub(crate) struct Cured {
 /// What is worth a try before a law is used: a law that holds better, which leaves something else, or what takes the cause of what
 /// this one leaves into the fit.
 pub(crate) fn to_try(result: &ResultFile, dir: &Path) -> Option<Cured> {
-    better(result, dir).or_else(|| cured(result, dir))
+    tried(result, dir)
+        .or_else(|| better(result, dir))
+        .or_else(|| cured(result, dir))
+}
+
+/// Where elements were asked for and one bristle holds better: what the shape of one bristle leads to is then no better than it,
+/// and a command that leads back would go round in a circle.
+fn tried(result: &ResultFile, dir: &Path) -> Option<Cured> {
+    let better = result.trust.better.as_ref()?;
+    let back = self::better(result, dir)?.command;
+    let [own, other] = [&result.law, &better.law].map(|name| LawKind::from_name(name));
+    if !result.trust.trustworthy || !own?.has_elements() || other?.has_elements() {
+        return None;
+    }
+    let error = |name: &str, asymmetric: bool| {
+        let mut laws = result.laws.iter();
+        let law = laws.find(|law| law.law == name && law.asymmetric == asymmetric)?;
+        let error = Percent::error(law.held_out_error_percent?);
+        Some(error.decimals(2))
+    };
+    let mine = error(&result.law, result.asymmetric)?;
+    let least = error(&better.law, better.asymmetric)?;
+    let logs: Vec<String> = result.inputs.iter().map(|i| quoted(&i.path)).collect();
+    let (own, other) = (&result.law, &better.law);
+    Some(Cured {
+        what: format!(
+            "{own} holds worse than {other} ({mine} against {least} on held-out samples). Where the shape of {other} led here, both \
+             are tried and neither is that of the axis: compensate with the result of {other} (without one: {back}), and look for what is left in the \
+             drive train, in the instants of force and position or in forces that the log has not, rather than in another law. \
+             See what the log shows of that"
+        ),
+        line: None,
+        command: format!("stiction check {}{}", logs.join(" "), axis_option(result)),
+    })
 }
 
 /// What takes the cause of what the law leaves into the fit, where something does.

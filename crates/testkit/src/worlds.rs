@@ -41,6 +41,8 @@ pub enum World {
     ResonanceAtMotor,
     /// The same, with the encoder on the load.
     ResonanceAtLoad,
+    /// Friction that rises and falls by 15 % along the stroke, with a pitch of its own.
+    PositionWave,
     /// A random force on the axis that the log does not show, a tenth of the Coulomb level.
     HiddenForce,
     /// Friction falls off as exp(-|v/vs|) instead of exp(-(v/vs)^2).
@@ -75,7 +77,7 @@ pub struct Drive {
 }
 
 impl World {
-    /// All of them but the drives, one of each kind but for the delay.
+    /// All of the tables but the drives, one of each kind but for the delay.
     pub const ALL: [World; 18] = [
         World::Faithful,
         World::Cogging,
@@ -117,6 +119,7 @@ impl World {
             World::Backlash => "backlash".into(),
             World::ResonanceAtMotor => "resonance, encoder on motor".into(),
             World::ResonanceAtLoad => "resonance, encoder on load".into(),
+            World::PositionWave => "position wave".into(),
             World::HiddenForce => "hidden force".into(),
             World::Exponent => "exponent 1".into(),
             World::MaxwellSlip => "Maxwell-slip".into(),

@@ -25,6 +25,7 @@ mod mixed;
 mod options;
 mod outcome;
 mod outside;
+mod pitch;
 mod predict;
 mod procedure;
 mod remaining;

@@ -7,6 +7,8 @@ mod search;
 mod simulation;
 mod terms;
 
+pub use terms::MOST_PITCHES;
+
 use super::values::Axis;
 use crate::config::{Given, Places, Source, Table};
 use crate::error::Error;

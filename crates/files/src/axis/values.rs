@@ -8,7 +8,7 @@ use crate::config::Places;
 use crate::error::Error;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
-use stiction_identify::{Conditioning, Delay, Dependence, Hold, Mass, Terms};
+use stiction_identify::{Conditioning, Delay, Hold, Mass, Terms};
 use stiction_log::text::TextOptions;
 use stiction_log::{Log, Mapping, Motion};
 use stiction_number::short;
@@ -153,11 +153,7 @@ impl Axis {
         let Some(step) = self.mapping.resolution.or(log.quantum) else {
             return Ok(());
         };
-        let along = self.terms.dependences.iter().filter_map(|term| match term {
-            Dependence::CoulombPitch(pitch) => Some(*pitch),
-            _ => None,
-        });
-        let along: Vec<f64> = along.collect();
+        let along = self.terms.level_pitches();
         for (key, pitches) in [("cogging", &self.terms.cogging), ("coulomb_pitch", &along)] {
             if let Some(i) = pitches.iter().position(|pitch| *pitch < step) {
                 let key = format!("terms.{key}[{}]", i + 1);

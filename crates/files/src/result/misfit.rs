@@ -19,6 +19,9 @@ pub struct MisfitEntry {
     /// Pitch of the wave over the position that explains most of it, m or rad.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pitch: Option<f64>,
+    /// Standard deviation of that pitch, percent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pitch_std_percent: Option<f64>,
     /// Amplitude of that wave, in `unit`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub amplitude: Option<f64>,

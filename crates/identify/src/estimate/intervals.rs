@@ -171,6 +171,7 @@ fn conditioned(
     let left = within.as_deref().unwrap_or(at.residual());
     let misfit = divisions.misfit(left, energies);
     let fit = (at, &optimum.p[..]);
+    let misfit = divisions.waved(misfit, objective, &estimate.terms, at, left);
     let misfit = divisions.coupled(misfit, objective, &estimate.terms, fit, left);
     let spread = misfit.as_ref().map(|misfit| {
         let unknowns = misfit.spread(&estimate.unknowns.bread, left.len());

@@ -194,6 +194,16 @@ impl Terms {
         about.transmitting(record)
     }
 
+    /// Pitches of the waves that the level of friction has along the stroke, m or rad, in their order.
+    pub fn level_pitches(&self) -> Vec<f64> {
+        let dependences = self.dependences.iter();
+        let pitches = dependences.filter_map(|own| match own {
+            Dependence::CoulombPitch(pitch) => Some(*pitch),
+            _ => None,
+        });
+        pitches.collect()
+    }
+
     /// The channel of the log that a dependence needs beside these terms, if any.
     pub fn channel(&self, dependence: &Dependence) -> Option<&'static str> {
         match dependence {

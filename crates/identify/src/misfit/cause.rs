@@ -1,6 +1,6 @@
 //! What a misfit is most likely to come from, and which parameters it makes doubtful.
 
-use super::{Between, Divided, Misfit};
+use super::{Between, Divided, Misfit, Repeats};
 use stiction_parameters::Quantity;
 
 /// Part of the variance of the residual from which a misfit is named. Replicas and chance leave up to about half of it where
@@ -45,6 +45,12 @@ impl Misfit {
             return Some(match coupling.between {
                 Between::Spring { .. } => Cause::Resonance,
                 Between::Gap { .. } => Cause::Backlash,
+            });
+        }
+        if let Some(ripple) = self.ripple.filter(|ripple| ripple.replaces.is_some()) {
+            return Some(match ripple.what {
+                Repeats::Force => Cause::Ripple,
+                Repeats::Level => Cause::Position,
             });
         }
         let share = |by| self.share_by(by);

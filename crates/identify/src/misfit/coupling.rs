@@ -5,7 +5,7 @@
 //! such a column explains of the residual, beyond all that the parameters of the law can take up, tells the two from friction
 //! of another shape, which such a column hardly explains. Reasons and figures: decision 0066.
 
-mod beside;
+pub(super) mod beside;
 mod gap;
 mod spring;
 

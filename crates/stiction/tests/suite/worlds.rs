@@ -480,3 +480,14 @@ fn at_most_one_run_in_twenty_is_silently_wrong() {
         .collect();
     assert!(20 * silent.len() <= cases.len(), "{}", silent.join("\n"));
 }
+
+/// A level that rises and falls along the stroke asks for a wave, with a pitch near its own.
+#[test]
+fn a_level_with_a_wave_asks_for_the_wave() {
+    let machine = Machine::joint(SEED);
+    let log = record(&machine, Motion::Commissioning, World::PositionWave, SEED);
+    let fit = identified(&machine, &[log], &Axis::default(), &Options::default()).unwrap();
+    let cause = fit.result().trust.cause.as_ref().unwrap();
+    let cure = format!("{:?}", cause.cure);
+    assert!(cure.contains("coulomb_pitch"), "{cause:?}");
+}

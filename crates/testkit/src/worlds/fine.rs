@@ -17,6 +17,8 @@ const RESONANCE_OF_GAP: (f64, f64) = (4.0, 0.03);
 const GAP: f64 = 0.5;
 /// Periods of the cogging in the distance that the top speed covers in a second.
 const PITCHES: f64 = 13.0;
+/// Waves of a level along the stroke.
+const WAVES: f64 = 1.6;
 /// Share of each Maxwell-slip element in force and in stiffness.
 const ELEMENT_FORCE: [f64; 4] = [0.1, 0.2, 0.3, 0.4];
 const ELEMENT_STIFFNESS: [f64; 4] = [0.4, 0.3, 0.2, 0.1];
@@ -213,6 +215,7 @@ impl Fine {
             2.0
         };
         let changed = match self.world {
+            World::PositionWave => 1.0 + 0.15 * (0.5 * TAU * WAVES * x / self.reach).sin(),
             World::Position => 1.0 + 0.15 * x / self.reach,
             World::WarmUp => 1.0 - 0.2 * (self.time / self.duration).min(1.0),
             _ => 1.0,

@@ -1,7 +1,7 @@
 //! The law that was asked for, or the one that the data choose.
 
 use super::ladder::{self, Candidate, Climb, Ladder, Rung};
-use super::trust::RICHER_LAW_WINS_BELOW;
+use super::trust::{RICHER_LAW_WINS_BELOW, SIMPLER_LAW_WINS_FROM};
 use super::unfit;
 use stiction_files::result::{BetterLaw, LawEntry};
 use stiction_identify as engine;
@@ -28,6 +28,10 @@ const SURELY: f64 = 3.0;
 /// reversals.
 const BEYOND_ALL_DELAYS: &str = "the delay of the force came out at the end of those that are looked for, and it moves stiffness \
                                  and damping of the bristles more than all else";
+
+/// Why what describes the shape of a law is no constant where that shape holds worse than a simpler one.
+const ANOTHER_SHAPE: &str =
+    "depends on the shape of the law, and a simpler one holds better on held-out samples";
 
 /// A fitted law and the laws it was compared with.
 pub(super) struct Choice {
@@ -127,15 +131,48 @@ fn beside(
     } else {
         Vec::new()
     };
+    let held_back = unfit::unseen_force(&estimate);
+    let without = ladder::without(&estimate.law, false);
+    let mut estimate = stated(ladder, &optimum, estimate, observer);
+    if simpler_shape_holds_better(&laws) {
+        estimate.doubt(|p| is_of_the_shape(p.name.quantity).then_some(ANOTHER_SHAPE));
+    }
     Choice {
-        held_back: unfit::unseen_force(&estimate),
-        without: ladder::without(&estimate.law, false),
-        estimate: stated(ladder, &optimum, estimate, observer),
+        estimate,
         laws,
         by: "user",
+        held_back,
         better,
         held_out_rmse,
+        without,
     }
+}
+
+/// Whether a law of another family, with fewer parameters than the one that is reported, holds better on held-out samples.
+fn simpler_shape_holds_better(laws: &[LawEntry]) -> bool {
+    let Some(own) = laws.iter().find(|law| law.reported) else {
+        return false;
+    };
+    let better = |other: &LawEntry| {
+        let errors = own.held_out_error_percent.zip(other.held_out_error_percent);
+        errors.is_some_and(|(mine, least)| mine > SIMPLER_LAW_WINS_FROM * least)
+    };
+    laws.iter()
+        .any(|other| other.law != own.law && other.parameters < own.parameters && better(other))
+}
+
+/// Whether a quantity describes the shape of presliding or of the Stribeck curve.
+fn is_of_the_shape(quantity: Quantity) -> bool {
+    let of_shape = [
+        Quantity::Sigma0,
+        Quantity::Sigma1,
+        Quantity::Static,
+        Quantity::StribeckVelocity,
+        Quantity::StribeckExponent,
+        Quantity::BreakawayRatio,
+        Quantity::Attraction,
+    ];
+    of_shape.contains(&quantity) || quantity.is_of_an_element()
 }
 
 /// Fits the laws that can be exported, each with what it holds, and takes the best that a compensator may rely on.

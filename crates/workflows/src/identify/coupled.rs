@@ -67,8 +67,9 @@ pub(super) fn message(coupling: &Coupling, of_force: f64, log: &Log) -> String {
         }
         Between::Gap { width } => format!(
             "a gap lies between motor and load: a load of {load} of the moving mass that the motor moves only after a lost \
-             motion of some {} {} (± {about}) {explained}. {stands}. Adjust or preload the drive train and record again, or \
-             use the values for motion that does not cross the gap",
+             motion of some {} {} (± {about}) {explained}. {stands}. A load on a spring that has much of the friction itself \
+             can look the same: hold the motor and push the load to and fro, a gap lets it move freely. If it does, adjust \
+             or preload the drive train and record again, or use the values for motion that does not cross the gap",
             four_digits(width),
             symbols::length_unit(log.motion)
         ),

@@ -1,12 +1,11 @@
 //! What a law leaves systematically, and what to do about it, in words.
 
-use super::coupled;
-use super::settled;
+use super::{coupled, pitch, settled};
 use crate::source::Source;
 use stiction_codes::Code;
+use stiction_files::Warning;
 use stiction_files::result::{CauseEntry, Cure, MisfitEntry};
-use stiction_files::{Warning, symbols};
-use stiction_identify::{Cause, Dependence, Divided, FittedLaw, LawKind, Misfit};
+use stiction_identify::{Cause, Dependence, Divided, FittedLaw, LawKind, Misfit, Ripple};
 use stiction_number::{Percent, four_digits};
 
 /// Part of what a drift leaves from which on a channel of the log that shows it is taken into the fit first.
@@ -19,9 +18,11 @@ const FIT_EXPONENT: &str = "stribeck_exponent = \"fit\"";
 /// What goes into the result.
 pub(super) fn entry(law: &FittedLaw, force_unit: &str) -> Option<MisfitEntry> {
     let misfit = law.misfit.as_ref()?;
-    let ripple = misfit
-        .ripple
-        .filter(|_| misfit.cause() == Some(Cause::Ripple));
+    let of_a_wave = [Cause::Ripple, Cause::Position];
+    let is_one = misfit
+        .cause()
+        .is_some_and(|cause| of_a_wave.contains(&cause));
+    let ripple = misfit.ripple.filter(|_| is_one);
     let mut entry = MisfitEntry {
         by: misfit.by.name().into(),
         cause: misfit.cause().map(|cause| code(cause).to_string()),
@@ -29,6 +30,7 @@ pub(super) fn entry(law: &FittedLaw, force_unit: &str) -> Option<MisfitEntry> {
         unit: force_unit.into(),
         share_percent: 100.0 * misfit.share,
         pitch: ripple.map(|r| r.pitch),
+        pitch_std_percent: ripple.map(|r| 100.0 * r.deviation / r.pitch),
         amplitude: ripple.map(|r| r.amplitude),
         frequency_hz: None,
         resonance_hz: None,
@@ -94,17 +96,29 @@ pub(super) fn cause(law: &FittedLaw, sources: &[Source], others: bool) -> Option
     }
     let misfit = law.misfit.as_ref()?;
     let cause = misfit.cause()?;
-    let share = match &misfit.coupling {
-        Some(coupling) => coupling.share,
-        None => misfit.share,
+    let share = match (&misfit.coupling, moved(misfit)) {
+        (Some(coupling), _) => coupling.share,
+        (None, Some(ripple)) => ripple.share,
+        (None, None) => misfit.share,
     };
     Some(CauseEntry {
         code: code(cause),
-        text: words(cause).into(),
+        text: moved(misfit).map_or(words(cause), |_| MOVED).into(),
         size: of_what_is_left(share, law),
         cure: cure(misfit, cause, law, sources)
             .filter(|cure| others || !matches!(cure, Cure::Law { .. })),
     })
+}
+
+/// What a wave is that the fit has with a pitch that is off.
+const MOVED: &str = "what repeats with the position has another pitch than in the fit";
+
+/// That wave, where it is the cause.
+fn moved(misfit: &Misfit) -> Option<&Ripple> {
+    misfit
+        .ripple
+        .as_ref()
+        .filter(|ripple| ripple.replaces.is_some())
 }
 
 /// What a cause is.
@@ -134,10 +148,14 @@ fn of_what_is_left(share: f64, law: &FittedLaw) -> String {
 /// What takes a cause into the fit, where there is something that the fit has not.
 fn cure(misfit: &Misfit, cause: Cause, law: &FittedLaw, sources: &[Source]) -> Option<Cure> {
     let log = &sources[0].log;
-    let of_terms = |line| Cure::Line {
+    let of_terms = |(line, replaces)| Cure::Line {
         table: "terms".into(),
         line,
-        replaces: cause == Cause::Ripple && !law.terms.cogging.is_empty(),
+        replaces,
+    };
+    let wave = || {
+        let ripple = misfit.ripple.as_ref()?;
+        pitch::line(ripple, law, log.motion).map(of_terms)
     };
     // Elements have no levels that depend on anything.
     let first_of = |terms: &[Dependence]| {
@@ -146,28 +164,17 @@ fn cure(misfit: &Misfit, cause: Cause, law: &FittedLaw, sources: &[Source]) -> O
             false => terms,
         };
         let open = terms.iter().find(|term| !has(law, term))?;
-        Some(of_terms(format!("{} = true", open.name())))
+        Some(of_terms((format!("{} = true", open.name()), false)))
     };
     match cause {
+        Cause::Position if misfit.ripple.is_some() && !law.law.kind.has_elements() => wave(),
         Cause::Position => first_of(&[Dependence::CoulombPosition(0.0)]),
         Cause::Load => first_of(&[Dependence::CoulombLoad(0.0)]),
         Cause::Temperature => first_of(&[
             Dependence::CoulombTemperature(0.0),
             Dependence::ViscousTemperature(0.0),
         ]),
-        Cause::Ripple => {
-            let unit = symbols::length_unit(log.motion);
-            let pitches = law
-                .terms
-                .cogging
-                .iter()
-                .copied()
-                .chain([misfit.ripple?.pitch]);
-            let pitches: Vec<_> = pitches
-                .map(|pitch| format!("\"{} {unit}\"", four_digits(pitch)))
-                .collect();
-            Some(of_terms(format!("cogging = [{}]", pitches.join(", "))))
-        }
+        Cause::Ripple => wave(),
         // Where the level changes with two things, neither explains it by itself.
         Cause::Drift => {
             let beside = [
@@ -230,12 +237,34 @@ fn message(
         "No straight line over it describes that: record within the range that the axis works in"
             .into(),
         |cure| match cure {
-            Cure::Line { table, line, .. } => {
-                format!("Set {line} under [{table}] in the axis file")
+            Cure::Line {
+                table,
+                line,
+                replaces,
+            } => {
+                let key = line.split(' ').next().unwrap_or_default();
+                let instead = match replaces {
+                    true => format!(" in place of the line {key}"),
+                    false => String::new(),
+                };
+                format!("Set {line} under [{table}] in the axis file{instead}")
             }
             Cure::Law { law } => format!("Try the law {law}"),
         },
     );
+    if let Some(ripple) = moved(misfit) {
+        let share = Percent::error(100.0 * ripple.share).digits(2);
+        let found = pitch::found(ripple, log.motion);
+        return format!(
+            "{MOVED}: {found} explains {share} of what the law leaves. {counted}. {to_do}"
+        );
+    }
+    // Of a wave, what it is and how surely its pitch is known.
+    let wave = misfit.ripple.map(|ripple| {
+        let size = four_digits(ripple.amplitude);
+        let found = pitch::found(&ripple, log.motion);
+        format!("a wave of {size} {} with {found}", log.force_unit)
+    });
     match cause {
         Cause::Resonance | Cause::Backlash => {
             misfit.coupling.as_ref().map_or_else(String::new, |found| {
@@ -267,10 +296,15 @@ fn message(
                 levels()
             )
         }
-        Cause::Position => format!(
-            "{what}: {left} is a level that goes from {} of its mean. {counted}. {to_do}",
-            levels()
-        ),
+        Cause::Position => {
+            let line = wave.map_or(String::new(), |wave| {
+                format!(", which {wave} describes much better than a straight line")
+            });
+            format!(
+                "{what}: {left} is a level that goes from {} of its mean{line}. {counted}. {to_do}",
+                levels()
+            )
+        }
         Cause::Load => format!(
             "{what}: {left} is a level that goes from {} of its mean over the loads of the log. {counted}. {to_do}",
             levels()
@@ -280,12 +314,8 @@ fn message(
             levels()
         ),
         Cause::Ripple => {
-            let line = misfit.ripple.map_or(String::new(), |ripple| {
-                format!(
-                    ", most of it a wave of {} {}. {to_do}",
-                    four_digits(ripple.amplitude),
-                    log.force_unit
-                )
+            let line = wave.map_or(String::new(), |wave| {
+                format!(", most of it {wave}. {to_do}")
             });
             format!("{what}: {left}{line}. {counted}")
         }

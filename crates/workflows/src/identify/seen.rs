@@ -2,7 +2,7 @@
 
 use crate::source::Source;
 use stiction_files::result::{PitchEntry, RangeEntry};
-use stiction_identify::{Dependence, Series, Terms};
+use stiction_identify::{Series, Terms};
 use stiction_log::Log;
 
 /// Time steps from sample to sample, in steps of the first, up to which a log goes on.
@@ -71,13 +71,9 @@ fn acceleration(series: &Series) -> Option<f64> {
 
 /// The pitches of the waves that were fitted.
 pub(super) fn pitch(terms: &Terms) -> PitchEntry {
-    let along = terms.dependences.iter().filter_map(|d| match d {
-        Dependence::CoulombPitch(pitch) => Some(*pitch),
-        _ => None,
-    });
     PitchEntry {
         cogging: terms.cogging.clone(),
-        coulomb: along.collect(),
+        coulomb: terms.level_pitches(),
     }
 }
 

@@ -29,7 +29,7 @@ const MOST_OUTLYING_SHARE: f64 = 1.0 / 3.0;
 const MOST_SATURATED_SHARE: f64 = 0.2;
 /// Ratio of the held-out error of the law to that of a simpler one above which a warning names the simpler one,
 /// dimensionless: 2 % more, twice what the choice of a law counts as the same.
-const SIMPLER_LAW_WINS_FROM: f64 = 1.02;
+pub(super) const SIMPLER_LAW_WINS_FROM: f64 = 1.02;
 
 /// Ratio of the held-out error of a richer law to that of this one below which a warning names the richer one,
 /// dimensionless: a fifth less, which biases parameters visibly.

@@ -10,7 +10,7 @@ use stiction_log::mapping::WRAPS;
 use stiction_parameters::Quantity;
 
 /// Most pitches of cogging, and of friction along the axis.
-const MOST_PITCHES: usize = 4;
+pub const MOST_PITCHES: usize = 4;
 
 impl Resolver {
     pub(super) fn terms(&self, root: &Table<'_>, axis: &mut Axis) -> Result<(), Error> {

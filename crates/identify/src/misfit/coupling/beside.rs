@@ -6,7 +6,7 @@ use crate::separable::linear::dot;
 const ROUNDING: f64 = 1e-10;
 
 /// A residual, and the columns that were fitted.
-pub(super) struct Beside {
+pub(in crate::misfit) struct Beside {
     residual: Vec<f64>,
     /// Sum of its squares.
     square: f64,
@@ -16,7 +16,7 @@ pub(super) struct Beside {
 
 /// What a column explains.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Explained {
+pub(in crate::misfit) struct Explained {
     /// Part of the sum of squares.
     pub share: f64,
     /// Its coefficient.
@@ -86,6 +86,27 @@ impl Beside {
             share: product * product / own / self.square,
             coefficient: product / own,
         }
+    }
+
+    /// What two columns together explain: the part of the sum of squares, and their coefficients.
+    pub fn pair(&self, columns: &[Vec<f64>; 2]) -> (f64, [f64; 2]) {
+        let [one, other] = [&columns[0], &columns[1]].map(|column| self.outside(column));
+        let (aa, ab, bb) = (dot(&one, &one), dot(&one, &other), dot(&other, &other));
+        let (ar, br) = (dot(&one, &self.residual), dot(&other, &self.residual));
+        let determinant = aa * bb - ab * ab;
+        let least = ROUNDING * dot(&columns[0], &columns[0]) * dot(&columns[1], &columns[1]);
+        if determinant.is_nan() || determinant <= least || self.square <= 0.0 {
+            return (0.0, [0.0; 2]);
+        }
+        let a = (bb * ar - ab * br) / determinant;
+        let b = (aa * br - ab * ar) / determinant;
+        ((a * ar + b * br) / self.square, [a, b])
+    }
+
+    /// What is left.
+    #[cfg(test)]
+    pub fn residual(&self) -> &[f64] {
+        &self.residual
     }
 
     /// Sum of squares of what is left.

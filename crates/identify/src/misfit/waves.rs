@@ -1,0 +1,139 @@
+//! Waves over the position: one that the law lacks, and one that it has with a pitch that is off.
+
+use super::coupling::beside::Beside;
+use super::ripple::{Along, Repeats, Ripple};
+use super::{Cause, Divided, Divisions, Misfit};
+use crate::law::terms::{ColumnKind, Terms};
+use crate::separable::objective::{Evaluation, Objective};
+use stiction_parameters::{Quantity, Wave};
+
+/// Part of the residual that another pitch of a wave explains from which that is named, before all that looks alike, and the part
+/// of a wave by which it is then off over the stroke.
+const MOVED_SHARE: f64 = 0.3;
+const MOVED_BY: f64 = 0.001;
+/// What a wave leaves of a residual, over what a line over the position leaves, up to which the level has the wave.
+const OF_A_LINE: f64 = 0.5;
+
+impl Divisions {
+    /// The misfit with the wave over the position that explains it, where one does.
+    pub fn waved(
+        &self,
+        misfit: Option<Misfit>,
+        objective: &Objective,
+        terms: &Terms,
+        at: &Evaluation,
+        residual: &[f64],
+    ) -> Option<Misfit> {
+        let cause = misfit.as_ref().and_then(Misfit::cause);
+        let near = [Cause::Ripple, Cause::Position, Cause::Shape];
+        if cause.is_some_and(|cause| !near.contains(&cause)) {
+            return misfit;
+        }
+        let waves = given(terms, objective, at);
+        if waves.is_empty() && matches!(cause, None | Some(Cause::Shape)) {
+            return misfit;
+        }
+        let beside = Beside::new(&at.jacobian(), residual);
+        let ones = vec![1.0; residual.len()];
+        let level = level(objective, at);
+        let along = |what| Along {
+            what,
+            position: &self.measures.position,
+            weight: match what {
+                Repeats::Force => &ones,
+                Repeats::Level => &level,
+            },
+        };
+        let moved = waves.iter().filter_map(|wave| {
+            let found = along(wave.what).moved(wave.pitch, wave.factors, &beside)?;
+            let named = found.share >= MOVED_SHARE
+                && found.pitch > 0.0
+                && found.off_by(wave.pitch) >= MOVED_BY;
+            named.then_some(Ripple {
+                replaces: Some(wave.place),
+                ..found
+            })
+        });
+        if let Some(found) = moved.max_by(|a, b| a.share.total_cmp(&b.share)) {
+            let square = residual.iter().map(|r| r * r).sum::<f64>() / residual.len() as f64;
+            let mut misfit = misfit.unwrap_or_else(|| self.unseen(Divided::Position, residual));
+            misfit.share = misfit.share.max(found.share);
+            misfit.rms = misfit.rms.max((found.share * square).sqrt());
+            misfit.ripple = Some(found);
+            return Some(misfit);
+        }
+        let mut misfit = misfit?;
+        misfit.ripple = match cause {
+            Some(Cause::Ripple) => along(Repeats::Force).best(residual, &beside),
+            Some(Cause::Position) => {
+                let own = along(Repeats::Level);
+                let line: Vec<f64> = own
+                    .position
+                    .iter()
+                    .zip(&level)
+                    .map(|(x, w)| x * w)
+                    .collect();
+                let of_a_line = beside.explained(&line).share;
+                let wave = own.best(residual, &beside);
+                wave.filter(|wave| 1.0 - wave.share <= OF_A_LINE * (1.0 - of_a_line))
+            }
+            _ => None,
+        };
+        Some(misfit)
+    }
+}
+
+/// A wave that a law has.
+struct Given {
+    what: Repeats,
+    /// Its place among those of its kind, from 0.
+    place: usize,
+    pitch: f64,
+    /// Factors of its sine and cosine, in the unit of the force.
+    factors: [f64; 2],
+}
+
+/// The waves of a fit, those of an asymmetric level in the mean of both directions.
+fn given(terms: &Terms, objective: &Objective, at: &Evaluation) -> Vec<Given> {
+    let factor = |quantity: Quantity| {
+        let both = objective.linear().iter().zip(&at.solution.coefficients);
+        let own = both.filter(|(term, _)| term.name.quantity == quantity);
+        let (sum, count) = own.fold((0.0, 0.0), |(sum, count), (_, c)| (sum + c, count + 1.0));
+        (count > 0.0).then(|| sum / count)
+    };
+    let factors =
+        |of: &dyn Fn(Wave) -> Quantity| Some([factor(of(Wave::Sine))?, factor(of(Wave::Cosine))?]);
+    let forces = terms
+        .cogging
+        .iter()
+        .enumerate()
+        .filter_map(|(place, &pitch)| {
+            Some(Given {
+                what: Repeats::Force,
+                place,
+                pitch,
+                factors: factors(&|part| Quantity::Cogging(place as u32 + 1, part))?,
+            })
+        });
+    let levels = terms.level_pitches().into_iter().enumerate();
+    let levels = levels.filter_map(|(place, pitch)| {
+        Some(Given {
+            what: Repeats::Level,
+            place,
+            pitch,
+            factors: factors(&|part| Quantity::CoulombPitch(place as u32 + 1, part))?,
+        })
+    });
+    forces.chain(levels).collect()
+}
+
+/// What a level of friction multiplies at the kept samples: 1 where the axis slides forward.
+fn level(objective: &Objective, at: &Evaluation) -> Vec<f64> {
+    let mut out = vec![0.0; at.residual().len()];
+    for (term, column) in objective.linear().iter().zip(&at.columns) {
+        if matches!(term.column, ColumnKind::Level | ColumnKind::Sign(_)) {
+            out.iter_mut().zip(column.iter()).for_each(|(y, x)| *y += x);
+        }
+    }
+    out
+}
