@@ -163,10 +163,22 @@ fn stated_rate(table: &Table) -> Result<f64, Error> {
 }
 
 fn nameless(table: &Table) -> Error {
-    let allowed = "say which is which in axis.toml: rate = \"1 kHz\" where there is no time column, \
+    let steps_by_one =
+        |values: &[f64]| values.len() > 1 && values.windows(2).all(|p| p[1] - p[0] == 1.0);
+    let allowed = if table
+        .columns
+        .first()
+        .is_some_and(|c| steps_by_one(&c.values))
+    {
+        "say which is which in axis.toml: rate = \"1 kHz\" where column 1 numbers the samples, as halsampler -t does, or \
+         under [columns] time = { column = 1, unit = \"ms\" } where it counts milliseconds; and under [columns], by number \
+         counted from 1, as in: position = { column = 2, unit = \"mm\" }, force = { column = 3, unit = \"N\" }"
+    } else {
+        "say which is which in axis.toml: rate = \"1 kHz\" where there is no time column, \
                    and under [columns], by number counted from 1, as in: time = { column = 1, unit = \
                    \"s\" }, position = { column = 2, unit = \"rad\" }, force = { column = 3, unit = \
-                   \"N*m\" }";
+                   \"N*m\" }"
+    };
     Error::new(
         Kind::Missing,
         format!(

@@ -18,6 +18,10 @@ pub(super) struct Body {
     /// For each text column, its first cell.
     pub texts: Vec<Option<Seen>>,
     pub comments: usize,
+    /// Before which rows samples are missing, each row once, in order.
+    pub overruns: Vec<usize>,
+    /// Rows of samples.
+    pub rows: usize,
     /// Blank lines between rows.
     pub blank: usize,
     /// Text after the last row.
@@ -40,6 +44,8 @@ pub(super) fn read(source: &mut Source, layout: &Layout, limit: usize) -> Result
             decimal: layout.decimal.clone(),
             texts: layout.texts.clone(),
             comments: 0,
+            overruns: Vec::new(),
+            rows: 0,
             blank: 0,
             trailing: None,
         },
@@ -130,6 +136,11 @@ impl Joint<'_> {
             body.texts[column] = Some(absolute(seen));
         }
         body.comments += block.comments;
+        let overruns = block.overruns.iter().map(|row| body.rows + row);
+        let last = body.overruns.last().copied();
+        body.overruns
+            .extend(overruns.filter(|row| Some(*row) != last));
+        body.rows += block.rows;
         if block.rows > 0 {
             body.blank += self.blank_end + block.blank - block.blank_end;
             self.blank_end = block.blank_end;

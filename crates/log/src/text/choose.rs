@@ -111,6 +111,7 @@ pub(super) fn layout(source: &Source, options: &TextOptions) -> Result<Layout, E
             ends,
             trailing: fit.trailing,
             run_out: false,
+            overruns: fit.separator == Separator::Blanks && !above.named,
         },
         state: State {
             decimal: options.decimal.or(mark.as_ref().map(|m| m.decimal)),

@@ -18,7 +18,9 @@
 //! - empty cells and the usual marks for a missing value (NaN), infinities, `TRUE`/`FALSE` (1/0);
 //! - ISO date-times and times of day, read as seconds from the first sample;
 //! - text columns, which are skipped and named in [`Table::skipped`];
-//! - comment lines between rows, and text such as `EOF` after the last row.
+//! - comment lines between rows, and text such as `EOF` after the last row;
+//! - lines `overrun` of LinuxCNC's halsampler: by the sample numbers of `halsampler -t` the samples that it
+//!   lost become missing values in rows of their own.
 //!
 //! Numbers are correctly rounded: what Python, NumPy or pandas wrote comes back bit for bit.
 //!
@@ -44,6 +46,7 @@ mod choose;
 mod clock;
 mod column;
 mod fit;
+mod halsampler;
 mod header;
 mod limits;
 mod lines;
@@ -103,7 +106,9 @@ fn read_sized(reader: impl Read, size: Option<u64>, options: &TextOptions) -> Re
     let mut layout = choose::layout(&source, options)?;
     let encoding = source.encoding(layout.offset);
     layout.detected.splice(..0, encoding.map(str::to_owned));
-    let body = body::read(&mut source, &layout, MAX_SAMPLES)?;
+    let mut body = body::read(&mut source, &layout, MAX_SAMPLES)?;
+    let lost = halsampler::restore(&mut body, MAX_SAMPLES)?;
+    layout.detected.extend(lost);
     let table = column::finish(layout, body);
     if table.columns.is_empty() {
         return Err(Error::new(

@@ -2,6 +2,7 @@
 
 use super::cell::{self, Cell};
 use super::clock;
+use super::halsampler;
 use super::limits::MAX_ROW_BYTES;
 use super::options::Decimal;
 use super::problem;
@@ -41,6 +42,8 @@ pub(super) struct Rule {
     pub trailing: bool,
     /// Whether columns at the end of a row may run out, once and for all.
     pub run_out: bool,
+    /// Whether a line `overrun` is the mark of halsampler for samples that are missing.
+    pub overruns: bool,
 }
 
 /// A line of the file and the words on it.
@@ -62,6 +65,8 @@ pub(super) struct Block {
     /// Columns that turned out to be text in this block, and where.
     pub texts: Vec<(usize, Seen)>,
     pub comments: usize,
+    /// Before which rows of the block samples are missing, each row once.
+    pub overruns: Vec<usize>,
     /// Blank lines, and those of them after the last row.
     pub blank: usize,
     pub blank_end: usize,
@@ -90,6 +95,7 @@ pub(super) fn parse(text: &[u8], rule: &Rule, state: &State, seen: Option<&str>)
         decimal: None,
         texts: Vec::new(),
         comments: 0,
+        overruns: Vec::new(),
         blank: 0,
         blank_end: 0,
         stop: None,
@@ -125,6 +131,12 @@ impl Parser<'_> {
                 self.rule.ends.next_row(self.text, at)
             } else if split::is_comment(&self.text[at..]) {
                 self.block.comments += 1;
+                self.rule.ends.next_row(self.text, at)
+            } else if self.rule.overruns && halsampler::is_overrun(&self.text[at..]) {
+                let rows = self.block.rows;
+                if self.block.overruns.last() != Some(&rows) {
+                    self.block.overruns.push(rows);
+                }
                 self.rule.ends.next_row(self.text, at)
             } else {
                 match self.row(at) {

@@ -189,6 +189,7 @@ impl Header<'_> {
                 ends: self.ends.clone(),
                 trailing: true,
                 run_out: true,
+                overruns: false,
             },
             state: State {
                 width: roles.len(),

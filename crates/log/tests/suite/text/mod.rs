@@ -4,6 +4,7 @@
 
 mod dialects;
 mod errors;
+mod halsampler;
 mod hostile;
 mod python;
 mod recordings;
