@@ -156,9 +156,23 @@ pub struct Input {
     /// Stretches that the fit did not see, though nothing is wrong with them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub excluded: Vec<ExcludedEntry>,
+    /// Rows that a column of the log leaves out; none without such a column.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub not_enabled: Option<NotEnabledEntry>,
     /// Units that neither file nor axis file gives: every number rests on them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assumed: Vec<AssumedEntry>,
+}
+
+/// Rows in which the axis is not enabled, or in another mode.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NotEnabledEntry {
+    /// The column that says so, by number and name: `7 "Enabled"`.
+    pub column: String,
+    /// Rows that are left out.
+    pub rows: usize,
+    /// Of so many.
+    pub of: usize,
 }
 
 /// A unit that was assumed.

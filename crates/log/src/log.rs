@@ -13,16 +13,19 @@
 //! 6. units, scale and sign are applied; zeros that stand for missing samples of position, force and load
 //!    become missing cells, and so do temperatures below 0 K and dropouts of temperature and load; a position that wraps
 //!    is unwrapped;
-//! 7. missing cells of position, velocity and force: up to 5 in a row are interpolated
+//! 7. rows in which the enable column says that the axis is not enabled are left out; they leave gaps at which the record
+//!    is split, however short;
+//! 8. missing cells of position, velocity and force: up to 5 in a row are interpolated
 //!    linearly in time and excluded; longer runs are dropped with their rows and leave a gap. In
 //!    reference, temperature and load every missing cell is interpolated or held: they vary slowly; so it is in an
 //!    acceleration, which no fit has to rely on. A temperature or load without a number for most of the time is left out;
-//! 8. a rate, travel, speed or force that no axis has is refused: its unit is wrong;
-//! 9. the log is inspected (see [`Finding`]).
+//! 9. a rate, travel, speed or force that no axis has is refused: its unit is wrong;
+//! 10. the log is inspected (see [`Finding`]).
 //!
 //! No sample is resampled, filtered or moved in time.
 
 mod cells;
+mod chosen;
 mod clock;
 mod credible;
 mod dropout;
@@ -34,6 +37,7 @@ use crate::findings::{self, Finding, Severity};
 use crate::mapping::{Mapping, Motion, Role, Source, Understood};
 use crate::{Error, Kind, Table};
 use cells::LeftOut;
+pub use chosen::NotEnabled;
 use std::ops::Range;
 use stiction_codes::Code;
 
@@ -97,6 +101,10 @@ pub struct Log {
     /// Samples not to be fitted to, by first sample; they may overlap. Those of [`Code::RestAtEnd`] are left out of
     /// fits of the whole record only: for a procedure that starts from rest they are data.
     pub excluded: Vec<Excluded>,
+    /// Rows that the enable column leaves out; `None` without such a column.
+    pub not_enabled: Option<NotEnabled>,
+    /// First samples after rows that were left out by choice, in order, counted from 0.
+    pub(crate) resumed: Vec<usize>,
     /// Stretches of at least 1 s in which the axis stands still, in order.
     pub rests: Vec<Range<usize>>,
     /// What is wrong or worth knowing.
@@ -137,6 +145,7 @@ impl Log {
         let length = common_length(table, &sources, &mut findings)?;
         let clock = clock::read(table, &sources, &mapping, length, &mut findings)?;
         let mut columns = cells::Columns::read(table, &sources, &clock);
+        let mut chosen = chosen::Chosen::read(table, &mapping, &clock)?;
         filled::clear(&mut columns, &mut findings)?;
         let mut left_out = dropout::clear(&mut columns, table, &sources, &clock, &mut findings);
         let mut time = clock.time;
@@ -162,12 +171,21 @@ impl Log {
                 }
             }
             columns.keep(&mut time, |row| row % rows == first);
+            chosen.keep(|row| row % rows == first);
         }
+        let resumed = chosen.cut(&mut time, &mut columns);
+        findings.extend(chosen.finding());
         let mended = columns.mend(&mut time)?;
         findings.extend(mended.findings);
         left_out.extend(mended.left_out);
         if time.len() < MIN_SAMPLES {
-            let found = format!("{} left", findings::count(time.len(), "sample"));
+            let mut found = format!("{} left", findings::count(time.len(), "sample"));
+            if let Some(left_out) = chosen.not_enabled() {
+                let NotEnabled { column, rows, of } = left_out;
+                found.push_str(&format!(
+                    ", where enable, column {column}, leaves out {rows} of {of} rows"
+                ));
+            }
             let allowed = format!("at least {MIN_SAMPLES}, and some thousand to identify friction");
             return Err(Error::new(Kind::Value, found, allowed));
         }
@@ -177,6 +195,10 @@ impl Log {
         };
         let mut detected = table.detected.clone();
         detected.extend(completed.phrases);
+        // Missing cells may have taken rows since.
+        let resumed = resumed.iter().map(|at| time.partition_point(|t| t < at));
+        let mut resumed: Vec<usize> = resumed.filter(|at| (1..time.len()).contains(at)).collect();
+        resumed.dedup();
         let first = time[0];
         time.iter_mut().for_each(|t| *t -= first);
         let mut log = Self {
@@ -198,6 +220,8 @@ impl Log {
             quantum: None,
             gaps: Vec::new(),
             excluded: mended.bridged,
+            not_enabled: chosen.not_enabled(),
+            resumed,
             rests: Vec::new(),
             findings,
             detected,

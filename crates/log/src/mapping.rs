@@ -6,8 +6,8 @@
 //! `qm`, `t`); a unit that measures something else rules a column out. Words such as `cmd`,
 //! `target`, `reference` make it a reference: the position reference is kept as such, a commanded
 //! force stands in only where no measured one exists. Columns about errors, limits and states are
-//! passed over. Where names say nothing, the only column in a unit of length (angle, velocity,
-//! force, torque) is taken. Two columns that fit equally well are refused, unless they are equal
+//! passed over, and so are columns without a unit that hold 0 and 1 alone: flags. Where names say nothing,
+//! the only column in a unit of length (angle, velocity, force, torque) is taken. Two columns that fit equally well are refused, unless they are equal
 //! sample by sample. Motion and force are of one axis: beside `X act` and `X current`, `Y act` is a position
 //! too, and the one is taken whose force is named. Columns that a mapping names are taken as named; only what it leaves
 //! open is filled in: time where neither time nor rate is given, force where none is given, and
@@ -29,7 +29,7 @@
 //! assumed, from the names (`torque`, `angle`, `force`, `displacement`); else refused.
 //!
 //! Error texts quote `axis.toml` as: top-level `kind`, `rate`; table `[columns]` with a name, a
-//! number counted from 1, or `{ column, unit, scale, invert }` for each quantity; table `[log]` with
+//! number counted from 1, or `{ column, unit, scale, invert }` for each quantity, `enable` with `{ column, equals }`; table `[log]` with
 //! `crop`, `rests`, `wrap`, `resolution`, `force_limit`.
 
 mod channel;
@@ -37,6 +37,8 @@ mod choose;
 mod complete;
 mod convert;
 mod describe;
+pub(crate) mod enable;
+mod flags;
 mod limits;
 mod motion;
 mod names;
@@ -47,6 +49,7 @@ use crate::findings::{Finding, full};
 use crate::{Error, Kind, Table};
 pub use channel::{Channel, Motion, Role, Selector};
 pub(crate) use convert::{LARGEST_VALUE, Source};
+pub use enable::Enable;
 pub use limits::{FORCE_LIMITS, RATES, RESOLUTIONS, SCALES, WRAPS};
 pub use understood::{Assumed, Understood};
 
@@ -100,6 +103,8 @@ pub struct Mapping {
     pub load: Option<Channel>,
     /// Force or torque that acts on the axis from outside, towards positive position.
     pub external: Option<Channel>,
+    /// Column that says in which rows the axis is enabled, or in which mode it is; `None` keeps every row.
+    pub enable: Option<Enable>,
     /// Where the position wraps.
     pub wrap: Option<Wrap>,
     /// First and last second to keep, counted from the first sample of the file.

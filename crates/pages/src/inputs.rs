@@ -2,10 +2,22 @@
 
 use stiction_codes::Code;
 use stiction_files::result::{ExcludedEntry, Input};
-use stiction_number::{four_digits as short, unit};
+use stiction_number::{counted, four_digits as short, unit};
 
 /// Most stretches that are named one by one.
 const MOST_NAMED: usize = 4;
+
+/// How many rows the enable column leaves out; nothing where it leaves out none.
+pub(crate) fn not_enabled(input: &Input) -> Option<String> {
+    let left_out = input.not_enabled.as_ref().filter(|left| left.rows > 0)?;
+    Some(format!(
+        "not fitted: {} of {}, by column {}, which is enable under [columns] of the axis file [{}]",
+        left_out.rows,
+        counted(left_out.of, "row"),
+        left_out.column,
+        Code::NotEnabled
+    ))
+}
 
 /// Which stretches were left out, and why; nothing where the whole log was fitted.
 pub(crate) fn left_out(input: &Input) -> Option<String> {

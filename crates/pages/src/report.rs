@@ -215,7 +215,9 @@ fn of_input(input: &Input) -> Vec<Callout> {
     };
     let assumed = inputs::assumed(input)
         .map(|(text, lines)| said(Severity::Warning, format!("{text} {}", lines.join("; "))));
-    let left_out = inputs::left_out(input).map(|text| said(Severity::Info, text));
+    let left_out = [inputs::not_enabled(input), inputs::left_out(input)];
+    let left_out = left_out.into_iter().flatten();
+    let left_out = left_out.map(|text| said(Severity::Info, text));
     assumed.into_iter().chain(left_out).collect()
 }
 

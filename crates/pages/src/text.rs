@@ -45,8 +45,8 @@ pub fn outcome(outcome: &Outcome) -> String {
         if let Some((assumed, lines)) = inputs::assumed(input) {
             let _ = writeln!(out, "{assumed}\n    {}", lines.join("\n    "));
         }
-        if let Some(left_out) = inputs::left_out(input) {
-            let _ = writeln!(out, "{left_out}");
+        for left_out in [inputs::not_enabled(input), inputs::left_out(input)] {
+            let _ = left_out.map(|text| writeln!(out, "{text}"));
         }
     }
     let _ = writeln!(

@@ -4,7 +4,7 @@ use crate::error::Error;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 use stiction_files::Axis;
-use stiction_files::result::{AssumedEntry, ExcludedEntry, Input};
+use stiction_files::result::{AssumedEntry, ExcludedEntry, Input, NotEnabledEntry};
 use stiction_identify::{Samples, Terms};
 use stiction_log::{Column, Log, ReadOptions, Table, read_table};
 
@@ -120,8 +120,15 @@ impl Source {
                 line: assumed.line.clone(),
             })
         });
+        let not_enabled = self.log.not_enabled.as_ref();
+        let not_enabled = not_enabled.map(|left_out| NotEnabledEntry {
+            column: left_out.column.clone(),
+            rows: left_out.rows,
+            of: left_out.of,
+        });
         Input {
             excluded: excluded.collect(),
+            not_enabled,
             assumed: assumed.collect(),
             path: stiction_files::shell::text(&self.path),
             sha256: self.sha256.clone(),

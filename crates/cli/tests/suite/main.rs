@@ -11,6 +11,7 @@ mod linuxcnc;
 mod paper;
 mod plan;
 mod procedures;
+mod rows;
 mod searches;
 mod study;
 

@@ -150,6 +150,7 @@ pub fn template(
             }
         }
     }
+    out.push_str("# enable = \"NAME\"    # rows where it is 0 are left out; of a mode: { column = \"NAME\", equals = 8 }\n");
     let Words {
         length,
         count,

@@ -24,6 +24,7 @@ force = { column = "Iq", unit = "A", scale = "0.5 N m/A", invert = true }
 reference = { column = "set", unit = "rev", scale = 2.5 }
 temperature = "temp"
 load = 9
+enable = { column = "mode", equals = 8 }
 
 [log]
 crop = ["500 ms", "1 min"]
@@ -94,6 +95,9 @@ fn every_key_is_understood() {
         axis.mapping.velocity.as_ref().unwrap().column,
         Selector::Index(3)
     );
+    let enable = axis.mapping.enable.as_ref().unwrap();
+    assert_eq!(enable.column, Selector::Name("mode".into()));
+    assert_eq!(enable.equals, Some(8.0));
     assert_eq!(axis.text.header, Some(true));
     assert_eq!(axis.text.preamble, Some(3));
     assert_eq!(axis.conditioning.source, Some(Source::Velocity));
@@ -273,6 +277,15 @@ fn refusals() {
         (
             "table without column",
             "[columns]\nforce = { unit = \"N\" }",
+        ),
+        ("enable as a flag", "[columns]\nenable = true"),
+        (
+            "enable as a quantity",
+            "[columns]\nenable = { column = 3, unit = \"N\" }",
+        ),
+        (
+            "enable equal to a word",
+            "[columns]\nenable = { column = 3, equals = \"CSP\" }",
         ),
         ("column 0", "[columns]\ntime = 1\nforce = 0"),
         ("column -1", "[columns]\nforce = { column = -1 }"),

@@ -33,22 +33,26 @@ pub(super) fn gaps(log: &mut Log) {
             });
         }
     }
-    let long: Vec<usize> = log
-        .gaps
+    let resumed = std::mem::take(&mut log.resumed);
+    log.split(&resumed);
+    // What was left out by choice is not missing.
+    let by_choice = |g: &&Gap| resumed.binary_search(&(g.start_index + 1)).is_ok();
+    let missing: Vec<Gap> = log.gaps.iter().filter(|g| !by_choice(g)).cloned().collect();
+    log.resumed = resumed;
+    let long: Vec<usize> = missing
         .iter()
         .filter(|g| g.missing_samples > MAX_BRIDGED_SAMPLES)
         .map(|g| g.start_index + 1)
         .collect();
     log.split(&long);
-    let Some(longest) = log
-        .gaps
+    let longest = missing
         .iter()
-        .max_by(|a, b| a.seconds.total_cmp(&b.seconds))
-    else {
+        .max_by(|a, b| a.seconds.total_cmp(&b.seconds));
+    let Some((first, longest)) = missing.first().zip(longest) else {
         return;
     };
-    let missing = log
-        .gaps
+    let (gaps, first) = (missing.len(), first.start_index);
+    let missing = missing
         .iter()
         .fold(0_usize, |sum, g| sum.saturating_add(g.missing_samples));
     let many = missing as f64 > MISSING_SHARE_FOR_WARNING * log.time.len() as f64;
@@ -57,10 +61,9 @@ pub(super) fn gaps(log: &mut Log) {
     } else {
         Severity::Note
     };
-    let first = log.gaps[0].start_index;
     let mut message = format!(
         "{} with {} missing, the longest {} s; first after {}",
-        count(log.gaps.len(), "gap"),
+        count(gaps, "gap"),
         count(missing, "sample"),
         short(longest.seconds),
         place(log, first)

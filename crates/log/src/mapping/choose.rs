@@ -2,6 +2,8 @@
 
 use super::channel::{Channel, Motion, Role, Selector};
 use super::convert::{is_force, of_role};
+use super::enable::{self, Enable};
+use super::flags::is_flag;
 use super::names::{self, Hint};
 use super::select::{distinct, select};
 use super::{Detected, Mapping, describe};
@@ -22,6 +24,8 @@ struct Scan<'a> {
     table: &'a Table,
     hints: Vec<Option<Hint>>,
     units: Vec<Option<Unit>>,
+    /// Columns of 0 and 1.
+    flags: Vec<bool>,
     used: Vec<bool>,
     /// Letter of the axis whose columns are named so far.
     axis: Option<char>,
@@ -58,6 +62,18 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
                     .or(names::axis_letter(&table.columns[column].name));
             }
         }
+    }
+    if let Some(column) = Enable::of(&given, table)? {
+        if scan.used[column] {
+            let found = format!(
+                "{} has another role already",
+                describe::column(table, column)
+            );
+            let allowed = "a column of its own that says in which rows the axis is enabled";
+            let error = Error::new(Kind::Ambiguous, found, allowed);
+            return Err(error.of_setting(format!("{}.column", enable::KEY)));
+        }
+        scan.used[column] = true;
     }
     if given.time.is_some() && given.rate_hz.is_some() {
         let found = "both a time column and a rate are given";
@@ -135,7 +151,9 @@ pub(super) fn clear(table: &Table) -> Mapping {
         }
     }
     if out.position.is_none() && out.velocity.is_none() {
-        let counts = |c: &usize| !scan.used[*c] && names::says_counts(&table.columns[*c].name);
+        let counts = |c: &usize| {
+            !scan.used[*c] && !scan.flags[*c] && names::says_counts(&table.columns[*c].name)
+        };
         let mut counted = (0..table.columns.len()).filter(counts);
         if let (Some(column), None) = (counted.next(), counted.next()) {
             let unit = Unit::parse("counts").ok();
@@ -207,6 +225,7 @@ impl<'a> Scan<'a> {
             table,
             hints: table.columns.iter().map(|c| names::hint(&c.name)).collect(),
             units: units.map(|c| c.unit.as_ref().and_then(unit)).collect(),
+            flags: table.columns.iter().map(is_flag).collect(),
             used: vec![false; table.columns.len()],
             axis: None,
         };
@@ -258,7 +277,8 @@ impl<'a> Scan<'a> {
             .hints
             .iter()
             .enumerate()
-            .filter(|(column, _)| !self.used[*column] && self.unit_allows(*column, role))
+            .filter(|(column, _)| !self.used[*column] && !self.flags[*column])
+            .filter(|(column, _)| self.unit_allows(*column, role))
             .filter_map(|(column, hint)| hint.filter(|h| h.role == role).map(|h| (column, h)))
             .collect();
         if fits.is_empty() {
@@ -294,7 +314,7 @@ impl<'a> Scan<'a> {
             d != Dimension::COUNTS && d != Dimension::ONE && allows(role, d)
         };
         let fits: Vec<usize> = (0..self.table.columns.len())
-            .filter(|&c| !self.used[c] && self.hints[c].is_none())
+            .filter(|&c| !self.used[c] && !self.flags[c] && self.hints[c].is_none())
             .filter(|&c| !names::passed_over(&self.table.columns[c].name))
             .filter(|&c| self.units[c].as_ref().is_some_and(telling))
             .collect();
@@ -462,7 +482,7 @@ impl<'a> Scan<'a> {
         // A column that may be a position: none that is something else by its name or its unit.
         let open = |c: &usize| {
             let named = self.hints[*c].is_some_and(|hint| hint.role != Role::Position);
-            !self.used[*c] && !named && self.unit_allows(*c, Role::Position)
+            !self.used[*c] && !self.flags[*c] && !named && self.unit_allows(*c, Role::Position)
         };
         let example = match (0..self.units.len()).find(open) {
             Some(column) => {

@@ -1,7 +1,7 @@
 //! Columns in words, for what was detected and for errors.
 
-use super::channel::Role;
 use crate::Table;
+use std::fmt::Display;
 
 /// `column 5 "Torque [N m]"`, or `column 5` where it has no name.
 pub(super) fn column(table: &Table, index: usize) -> String {
@@ -76,12 +76,12 @@ pub(super) fn listed(items: impl ExactSizeIterator<Item = String>) -> String {
 
 /// The line of `axis.toml` that makes a column a role: `force = "Torque"`, by number where the name
 /// does not tell it apart.
-pub(super) fn line(table: &Table, index: usize, role: Role) -> String {
+pub(super) fn line(table: &Table, index: usize, role: impl Display) -> String {
     format!("{role} = {}", value(table, index))
 }
 
 /// The same with a unit to fill in: `force = { column = "Torque", unit = "N*m" }`.
-pub(super) fn line_with(table: &Table, index: usize, role: Role, rest: &str) -> String {
+pub(super) fn line_with(table: &Table, index: usize, role: impl Display, rest: &str) -> String {
     format!("{role} = {{ column = {}, {rest} }}", value(table, index))
 }
 

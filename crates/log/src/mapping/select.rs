@@ -1,12 +1,17 @@
 //! From a selector to a column.
 
-use super::channel::{Role, Selector};
+use super::channel::Selector;
 use super::describe::{columns, key, listed};
 use crate::unit::nearest;
 use crate::{Error, Kind, Table};
+use std::fmt::Display;
 
-/// The position of the column that a selector means.
-pub(super) fn select(table: &Table, selector: &Selector, role: Role) -> Result<usize, Error> {
+/// The position of the column that a selector means; `role` is what it is called in messages.
+pub(super) fn select(
+    table: &Table,
+    selector: &Selector,
+    role: impl Display,
+) -> Result<usize, Error> {
     match selector {
         Selector::Index(number) => {
             if let Some(index) = table.index(*number) {
@@ -24,7 +29,7 @@ pub(super) fn select(table: &Table, selector: &Selector, role: Role) -> Result<u
     }
 }
 
-fn by_name(table: &Table, name: &str, role: Role) -> Result<usize, Error> {
+fn by_name(table: &Table, name: &str, role: impl Display) -> Result<usize, Error> {
     let wanted = name.trim();
     let full = |index: usize| {
         let column = &table.columns[index];

@@ -2,6 +2,8 @@
 
 use super::channel::Role;
 use super::complete::Part;
+use super::enable::Enable;
+use super::flags::is_flag;
 use super::names;
 use super::{Mapping, describe};
 use crate::{Table, Unit};
@@ -85,7 +87,13 @@ fn unused(table: &Table, given: &Mapping, parts: &[Part], column: usize) -> Unde
     let hint = names::hint(name);
     let taken = hint.and_then(|hint| parts.iter().find(|part| part.role == hint.role));
     let named = Role::ALL.iter().any(|role| given.channel(*role).is_some());
+    let enables = matches!(Enable::of(given, table), Ok(Some(own)) if own == column);
+    let kept = given.enable.as_ref().map_or(1.0, Enable::kept);
     let reason = match (hint, taken) {
+        _ if enables => {
+            format!("named in the axis file as enable: rows where it is not {kept} are left out")
+        }
+        _ if is_flag(&table.columns[column]) => "a flag: 0 and 1 alone".into(),
         (_, Some(part)) => format!(
             "could be the {} too, which is column {}",
             part.role,

@@ -9,6 +9,7 @@ mod mapping_codes;
 mod mapping_common;
 mod mapping_detect;
 mod mapping_dropouts;
+mod mapping_enable;
 mod mapping_faults;
 mod mapping_filled;
 mod mapping_log;

@@ -3,7 +3,7 @@
 use crate::config::{Given, Table};
 use crate::error::Error;
 use stiction_log::mapping::SCALES;
-use stiction_log::{Channel, Dimension, Mapping, Selector, Unit, Value};
+use stiction_log::{Channel, Dimension, Enable, Mapping, Selector, Unit, Value};
 
 pub(super) fn columns(root: &Table<'_>, mapping: &mut Mapping) -> Result<(), Error> {
     let Some(table) = root.table("columns")? else {
@@ -18,6 +18,10 @@ pub(super) fn columns(root: &Table<'_>, mapping: &mut Mapping) -> Result<(), Err
     mapping.temperature = channel("temperature")?;
     mapping.load = channel("load")?;
     mapping.external = channel("external")?;
+    mapping.enable = table
+        .get("enable")
+        .map(|given| enable(&given))
+        .transpose()?;
     // One column under any of three names.
     let mut taken: Option<Given<'_>> = None;
     for key in ["force", "torque", "current"] {
@@ -61,6 +65,30 @@ fn channel(given: &Given<'_>) -> Result<Channel, Error> {
     };
     table.end()?;
     Ok(channel)
+}
+
+/// A column that says in which rows the axis is enabled.
+fn enable(given: &Given<'_>) -> Result<Enable, Error> {
+    let Some(table) = given.as_table() else {
+        let allowed = "a column name, a column number from 1, or for a column of modes a table such as { column = \"mode\", \
+                       equals = 8 }";
+        return Ok(Enable {
+            column: selector(given, allowed)?,
+            equals: None,
+        });
+    };
+    let column = table.get("column");
+    let column = table.required("column", column, "a column name or a column number from 1")?;
+    let equals = table.get("equals").map(|given| match given.as_number() {
+        Some(number) if number.is_finite() => Ok(number),
+        _ => Err(given.refused("the number in the rows that are kept, without quotes, such as 8")),
+    });
+    let enable = Enable {
+        column: selector(&column, "a column name or a column number from 1")?,
+        equals: equals.transpose()?,
+    };
+    table.end()?;
+    Ok(enable)
 }
 
 fn selector(given: &Given<'_>, allowed: &str) -> Result<Selector, Error> {

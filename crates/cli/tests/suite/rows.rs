@@ -1,0 +1,70 @@
+//! Which rows of a log are read: by a column that says when the axis is enabled.
+
+use std::fmt::Write;
+use std::path::Path;
+use std::process::Command;
+
+fn run(dir: &Path, command: &str) -> (i32, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_stiction"))
+        .args(command.split_whitespace())
+        .current_dir(dir)
+        .output()
+        .unwrap();
+    let out = String::from_utf8(output.stdout).unwrap();
+    (
+        output.status.code().unwrap_or(-1),
+        out,
+        super::said(output.stderr),
+    )
+}
+
+/// A log of an axis of 9 kg with 20 N and 60 N s/m in mode 8; before and after that it is moved by hand.
+fn log(path: &Path, samples: usize) {
+    let mut text = String::from("Time [s],Position [mm],Force [N],Mode\n");
+    for i in 0..samples {
+        let t = i as f64 * 1e-3;
+        let (mut x, mut v, mut a) = (0.0, 0.0, 0.0);
+        for (size, w) in [(0.05, 6.3), (0.008, 22.0)] {
+            x += size * (w * t).sin();
+            v += size * w * (w * t).cos();
+            a -= size * w * w * (w * t).sin();
+        }
+        let noise = 0.2 * ((1e4 * t).sin() + (2.3e4 * t).sin() + (3.1e4 * t * t).sin());
+        let driven = (600..samples - 400).contains(&i);
+        let force = match driven {
+            true => 20.0 * f64::tanh(v / 1e-4) + 60.0 * v + 9.0 * a + 1.0 + noise,
+            false => 0.0,
+        };
+        let mode = if driven { 8 } else { 6 };
+        let _ = writeln!(text, "{t:.4},{:.6},{force:.4},{mode}", 1e3 * x);
+    }
+    std::fs::write(path, text).unwrap();
+}
+
+#[test]
+fn rows_of_another_mode_are_not_fitted() {
+    let dir = tempfile::tempdir().unwrap();
+    let dir = dir.path();
+    log(&dir.join("log.csv"), 4000);
+    let axis = "[columns]\nenable = { column = \"Mode\", equals = 8 }\n";
+    std::fs::write(dir.join("axis.toml"), axis).unwrap();
+    let identify = "identify log.csv --axis axis.toml --law coulomb-viscous --out a";
+    let (_, out, err) = run(dir, identify);
+    assert!(
+        out.contains("not fitted: 1000 of 4000 rows, by column 4 \"Mode\""),
+        "{out}{err}"
+    );
+    let result = std::fs::read_to_string(dir.join("a/result.json")).unwrap();
+    let result: serde_json::Value = serde_json::from_str(&result).unwrap();
+    assert_eq!(result["inputs"][0]["samples"], 3000);
+    assert_eq!(result["inputs"][0]["not_enabled"]["rows"], 1000);
+    let coulomb = result["parameters"].as_array().unwrap().iter();
+    let coulomb = coulomb.clone().find(|p| p["name"] == "coulomb").unwrap();
+    let value = coulomb["value"].as_f64().unwrap();
+    assert!((value - 20.0).abs() < 0.5, "{value}");
+    // A column of modes needs the mode.
+    std::fs::write(dir.join("axis.toml"), "[columns]\nenable = \"Mode\"\n").unwrap();
+    let (code, _, err) = run(dir, identify);
+    assert_eq!(code, 2, "{err}");
+    insta::assert_snapshot!(err);
+}

@@ -1,0 +1,177 @@
+//! Rows that the axis file leaves out, by a column that says in which rows the axis is enabled or in which mode it is.
+//!
+//! They go as if they had not been recorded. The record is split where they were, however few they are: what drove the axis
+//! meanwhile is not in the force.
+
+use super::cells::{Columns, runs};
+use super::clock::Clock;
+use crate::findings::{Finding, Severity, count, short};
+use crate::mapping::{Enable, Mapping, enable};
+use crate::{Error, Kind, Table};
+use stiction_codes::Code;
+use stiction_number::full;
+
+/// Most different numbers of a column that are named.
+const MOST_NAMED: usize = 6;
+
+/// Rows that a column leaves out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NotEnabled {
+    /// The column: `7 "Enabled"`.
+    pub column: String,
+    /// Rows that are left out.
+    pub rows: usize,
+    /// Of so many.
+    pub of: usize,
+}
+
+/// Which rows of a log in the making are chosen.
+pub(super) struct Chosen {
+    /// One flag a kept row; nothing where all are chosen.
+    rows: Option<Vec<bool>>,
+    left_out: Option<NotEnabled>,
+    /// The number that chooses a row.
+    kept: f64,
+    /// Stretches that are left out, and the times of the first one.
+    stretches: usize,
+    first: Option<(f64, f64)>,
+}
+
+impl Chosen {
+    /// The rows that are chosen of those that the clock keeps.
+    pub fn read(table: &Table, mapping: &Mapping, clock: &Clock) -> Result<Self, Error> {
+        let mut out = Self {
+            rows: None,
+            left_out: None,
+            kept: mapping.enable.as_ref().map_or(1.0, Enable::kept),
+            stretches: 0,
+            first: None,
+        };
+        let Some((enable, column)) = mapping.enable.as_ref().zip(Enable::of(mapping, table)?)
+        else {
+            return Ok(out);
+        };
+        let values = &table.columns[column].values;
+        if values.len() < clock.range.end {
+            let found = format!(
+                "enable, column {}, has {}, and the record goes to row {}",
+                enable::place(table, column),
+                count(values.len(), "sample"),
+                clock.range.end
+            );
+            let allowed = "a column at the rate of the others; export them with one sample time";
+            return Err(Error::new(Kind::Value, found, allowed).of_setting(enable::KEY));
+        }
+        let mut dropped = clock.dropped.iter().peekable();
+        let kept = clock.range.clone();
+        let values: Vec<f64> = kept
+            .filter(|row| dropped.next_if_eq(&row).is_none())
+            .map(|row| values[row])
+            .collect();
+        refuse(table, column, enable, &values)?;
+        out.rows = Some(values.iter().map(|x| *x == out.kept).collect());
+        out.left_out = Some(NotEnabled {
+            column: enable::place(table, column),
+            rows: 0,
+            of: 0,
+        });
+        Ok(out)
+    }
+
+    /// Keeps the rows that a rule names.
+    pub fn keep(&mut self, rule: impl Fn(usize) -> bool) {
+        if let Some(rows) = &mut self.rows {
+            let mut at = 0..rows.len();
+            rows.retain(|_| at.next().is_some_and(&rule));
+        }
+    }
+
+    /// Leaves the other rows out; when the record goes on after each stretch of them.
+    pub fn cut(&mut self, time: &mut Vec<f64>, columns: &mut Columns) -> Vec<f64> {
+        let Some(rows) = self.rows.take() else {
+            return Vec::new();
+        };
+        let gone = runs(&rows, |kept| !kept);
+        if let Some(left_out) = &mut self.left_out {
+            left_out.rows = gone.iter().map(|run| run.len()).sum();
+            left_out.of = rows.len();
+        }
+        self.stretches = gone.len();
+        self.first = gone.first().map(|run| (time[run.start], time[run.end - 1]));
+        let resumed = gone.iter().filter_map(|run| time.get(run.end).copied());
+        let resumed = resumed.collect();
+        columns.keep(time, |row| rows[row]);
+        resumed
+    }
+
+    /// What was left out; times are those of the kept part.
+    pub fn finding(&self) -> Option<Finding> {
+        let (left_out, (from, to)) = self.left_out.as_ref().zip(self.first)?;
+        let message = format!(
+            "column {} is not {} in {} of {}, at {}, the first from {} to {} s of the part that is kept; they are left out, and \
+             the record is split there",
+            left_out.column,
+            full(self.kept),
+            left_out.rows,
+            count(left_out.of, "row"),
+            count(self.stretches, "place"),
+            short(from),
+            short(to)
+        );
+        Some(Finding::new(Code::NotEnabled, Severity::Note, message))
+    }
+
+    /// How many rows the column leaves out.
+    pub fn not_enabled(self) -> Option<NotEnabled> {
+        self.left_out
+    }
+}
+
+/// Refuses a column that keeps no row, or that is no flag where no number is given.
+fn refuse(table: &Table, column: usize, enable: &Enable, values: &[f64]) -> Result<(), Error> {
+    let there = different(values);
+    let named: Vec<String> = there.iter().take(MOST_NAMED).map(|x| short(*x)).collect();
+    let many = there.len() > MOST_NAMED;
+    let more = if many { ", ..." } else { "" };
+    let holds = match named.as_slice() {
+        [] => "no number".to_string(),
+        named => format!("{}{more}", named.join(", ")),
+    };
+    let place = enable::place(table, column);
+    // A column of many numbers is probably none of modes.
+    let mode = there.iter().find(|x| **x != 0.0).or(there.first());
+    let mode = mode.filter(|_| !many).map_or("8".into(), |x| full(*x));
+    let line = Enable::line(table, column, &mode);
+    let is_flag = there.iter().all(|x| *x == 0.0 || *x == 1.0);
+    let (found, allowed) = if enable.equals.is_none() && !is_flag {
+        let found = format!("enable, column {place}, holds {holds}");
+        let allowed =
+            format!("0 and 1 alone; of a column of modes say which one is kept, as in: {line}");
+        (found, allowed)
+    } else if !values.contains(&enable.kept()) {
+        let kept = full(enable.kept());
+        let found = format!("enable, column {place}, is {kept} in no row; it holds {holds}");
+        let allowed = match there.is_empty() {
+            true => "a column of numbers".to_string(),
+            false => format!("a number that it holds, as in: {line}"),
+        };
+        (found, allowed)
+    } else {
+        return Ok(());
+    };
+    Err(Error::new(Kind::Value, found, allowed).of_setting(enable::KEY))
+}
+
+/// The different numbers of a column in the order of their size, or the first that are more than can be named.
+fn different(values: &[f64]) -> Vec<f64> {
+    let mut out: Vec<f64> = Vec::new();
+    for x in values.iter().filter(|x| !x.is_nan()) {
+        if let Err(at) = out.binary_search_by(|y| y.total_cmp(x)) {
+            out.insert(at, *x);
+            if out.len() > MOST_NAMED {
+                break;
+            }
+        }
+    }
+    out
+}

@@ -1,0 +1,144 @@
+//! Rows that an enable or mode column leaves out, and flags, which are no quantity.
+
+use crate::mapping_common::{axis, codes, column, message, table, told, warnings};
+use proptest::prelude::*;
+use stiction_log::{Enable, Log, Mapping, Selector, Table};
+
+fn enable(name: &str, equals: Option<f64>) -> Mapping {
+    Mapping {
+        enable: Some(Enable {
+            column: Selector::Name(name.into()),
+            equals,
+        }),
+        ..Mapping::default()
+    }
+}
+
+/// A clean log with one more column.
+fn with(name: &str, value: impl Fn(usize) -> f64) -> Table {
+    let mut table = axis(4000).table();
+    table
+        .columns
+        .push(column(name, (0..4000).map(value).collect()));
+    table
+}
+
+fn flag(on: bool) -> f64 {
+    f64::from(u8::from(on))
+}
+
+#[test]
+fn rows_that_are_not_enabled_leave_a_gap() {
+    // From the second stretch on: one row only.
+    let off = |i: usize| (500..900).contains(&i) || i == 2000 || i >= 3990;
+    let log = Log::from_table(
+        &with("Enabled", |i| flag(!off(i))),
+        &enable("Enabled", None),
+    )
+    .unwrap();
+    assert_eq!(log.time.len(), 4000 - 411);
+    assert_eq!(log.segments, [0..500, 500..1600, 1600..3589]);
+    // They are not missing: they are left out.
+    assert_eq!(warnings(&log), [""; 0]);
+    assert!(!codes(&log).contains(&"gap"), "{:?}", codes(&log));
+    insta::assert_snapshot!(message(&log, "not-enabled"));
+    let left_out = log.not_enabled.unwrap();
+    assert_eq!((left_out.rows, left_out.of), (411, 4000));
+    assert_eq!(left_out.column, "5 \"Enabled\"");
+}
+
+#[test]
+fn a_mode_keeps_its_rows() {
+    let mode = |i: usize| match i {
+        0..1000 => 6.0,
+        1000..3000 => 8.0,
+        _ => f64::NAN,
+    };
+    let log = Log::from_table(&with("Mode", mode), &enable("Mode", Some(8.0))).unwrap();
+    assert_eq!(log.time.len(), 2000);
+    assert_eq!((log.time[0], log.start), (0.0, 1.0));
+    assert_eq!(log.segments.len(), 1);
+}
+
+/// What stands in the rows that are left out counts nowhere: not as missing, not as saturated, not as motion.
+#[test]
+fn what_is_left_out_is_not_looked_at() {
+    let clean = Log::from_table(
+        &with("on", |i| flag(!(500..2900).contains(&i))),
+        &enable("on", None),
+    )
+    .unwrap();
+    let mut table = with("on", |i| flag(!(500..2900).contains(&i)));
+    for values in table.columns[1..4].iter_mut().map(|c| &mut c.values) {
+        values[500..2900].fill(f64::NAN);
+        values[1000..1800].fill(1.0);
+    }
+    let log = Log::from_table(&table, &enable("on", None)).unwrap();
+    assert_eq!(log, clean);
+}
+
+#[test]
+fn what_is_refused() {
+    let refused = |table: &Table, mapping: &Mapping| {
+        let error = Log::from_table(table, mapping).unwrap_err();
+        format!("{} <- {}", error, error.setting().unwrap_or("no key"))
+    };
+    let modes = |i: usize| [0.0, 6.0, 8.0][i % 3];
+    let many = |i: usize| (i % 50) as f64;
+    let mut short = with("on", |i| flag(i > 9));
+    short.columns[4].values.truncate(1000);
+    let lines = [
+        refused(&with("mode", modes), &enable("mode", None)),
+        refused(&with("mode", many), &enable("mode", None)),
+        refused(&with("mode", modes), &enable("mode", Some(9.0))),
+        refused(&with("on", |_| 0.0), &enable("on", None)),
+        refused(&with("on", |_| f64::NAN), &enable("on", None)),
+        refused(&with("on", |i| flag(i > 9)), &enable("mode", None)),
+        refused(&with("on", |i| flag(i > 9)), &enable("force", None)),
+        refused(&with("on", |i| flag(i == 9)), &enable("on", None)),
+        refused(&short, &enable("on", None)),
+    ];
+    insta::assert_snapshot!(lines.join("\n"));
+}
+
+#[test]
+fn a_flag_is_no_force_and_no_position() {
+    let on = |i: usize| flag(i % 100 < 50);
+    let axis = axis(4000);
+    let flags = |name: &str| column(name, (0..4000).map(on).collect());
+    let columns = vec![
+        column("time [s]", axis.time),
+        flags("Torque active"),
+        flags("Position reached"),
+        column("Position [m]", axis.position),
+        column("Torque [N]", axis.force),
+        flags("Current"),
+    ];
+    let log = Log::from_table(&table(columns.clone()), &Mapping::default()).unwrap();
+    insta::assert_snapshot!(told(&log));
+    let why: Vec<_> = log.columns.iter().map(|c| c.reason.as_str()).collect();
+    assert_eq!(why[1], "a flag: 0 and 1 alone");
+    // With nothing else that could be the force there is none.
+    let without = columns.into_iter().filter(|c| c.name != "Torque");
+    let log = Log::from_table(&table(without.collect()), &Mapping::default()).unwrap();
+    assert!(log.force.is_none(), "{}", told(&log));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// A log without its rows that are not enabled is the log of the other rows, but for the splits.
+    #[test]
+    fn enabled_rows_are_kept_as_they_are(ends in prop::collection::btree_set(20_usize..3980, 1..8)) {
+        let on = |i: usize| ends.iter().filter(|end| **end <= i).count() % 2 == 0;
+        let full = with("on", |i| flag(on(i)));
+        let log = Log::from_table(&full, &enable("on", None)).unwrap();
+        let kept: Vec<usize> = (0..4000).filter(|i| on(*i)).collect();
+        let of = |column: usize| kept.iter().map(|i| full.columns[column].values[*i]).collect::<Vec<_>>();
+        prop_assert_eq!(log.position.as_ref(), Some(&of(1)));
+        prop_assert_eq!(log.force.as_ref(), Some(&of(3)));
+        let starts = (1..4000).filter(|i| on(*i) && !on(i - 1)).count() + 1;
+        prop_assert_eq!(log.segments.len(), starts);
+        prop_assert_eq!(log.not_enabled.map(|left| left.rows), Some(4000 - kept.len()));
+    }
+}
