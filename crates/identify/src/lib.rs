@@ -110,7 +110,7 @@ pub use identify::{delay_of_another, fit_law, fit_law_from, identify};
 pub use lateness::lateness;
 pub use law::Law;
 pub use law::dependence::Dependence;
-pub use law::terms::{Delay, Lag, Mass, Terms};
+pub use law::terms::{Delay, FirstDelay, Lag, Mass, Terms};
 pub use law::transmitted::Transmitted;
 pub use misfit::{Between, Cause, Coupling, Divided, Encoder, Misfit, Repeats, Ripple};
 pub use output_error::controller::Controller;

@@ -11,7 +11,7 @@ use crate::conditioning::shift::Shift;
 use crate::drive::Drive;
 use crate::estimate::Estimate;
 use crate::law::dependence::{Factor, product};
-use crate::law::terms::{ColumnKind, Delay, LinearTerm, Terms};
+use crate::law::terms::{ColumnKind, Delay, FirstDelay, LinearTerm, Terms};
 use crate::reaction::{Logging, Reaction};
 use std::borrow::Cow;
 use stiction_friction::{Damping, Direction, LuGre, Stribeck};
@@ -25,6 +25,8 @@ use stiction_servo::plant::{Load, Motion, Plant};
 pub(crate) const HELD_DELAY: f64 = -0.5;
 /// Deviations of a fitted delay that chance explains.
 const CHANCE: f64 = 2.0;
+/// The same from which on a delay is surely another one.
+const SURELY: f64 = 4.0;
 /// The spring that keeps the simulated axis on the recorded motion: its frequency over the sample rate.
 const TRACKING_FREQUENCY: f64 = 0.01;
 /// The same where the response of the controller keeps it there: a stiff spring with its damper would
@@ -247,16 +249,42 @@ fn logged(channel: &[f64]) -> Option<Vec<f64>> {
 /// Samples by which the force is logged later than it was held; negative where it acts later than it was logged. A drive logs
 /// the force of this sample or of one before, or the mean of two: a fitted delay that chance may have moved from there is taken
 /// as that, unless there is a lag.
+///
+/// The higher the cut-offs, the more of what a controller answers to its encoder is taken for a delay, and a replica with that
+/// delay is as biased as the fit. Where a first fit with low cut-offs surely had another one, it is that of the log (decision
+/// 0082).
 pub(crate) fn late(fitted: &Estimate, step: f64) -> f64 {
-    let late = fitted.delay_samples() - HELD_DELAY;
-    let delay = fitted.parameter(Quantity::Delay).and_then(|p| p.std);
+    let own = fitted.delay_samples();
     let is_sought = fitted.terms.delay == Delay::Fitted && fitted.lag_samples() == 0.0;
-    let Some(deviation) = delay.filter(|_| is_sought) else {
+    if !is_sought {
+        return own - HELD_DELAY;
+    }
+    let moved = |first: &FirstDelay| (own - first.delay).abs() > SURELY * first.deviation;
+    let (delay, deviation) = match fitted.terms.first_delay.filter(moved) {
+        Some(first) => (first.delay, Some(first.deviation)),
+        None => (own, deviation(fitted, step)),
+    };
+    let late = delay - HELD_DELAY;
+    let Some(deviation) = deviation else {
         return late;
     };
-    let within = |near: &f64| (late - near).abs() <= CHANCE * deviation / step;
+    let within = |near: &f64| (late - near).abs() <= CHANCE * deviation;
     let near = [late.round(), 0.5 * (2.0 * late).round()];
     near.into_iter().find(within).unwrap_or(late)
+}
+
+/// The delay of a fit with its standard deviation; `None` where it has none.
+pub(crate) fn first_delay(fitted: &Estimate, step: f64) -> Option<FirstDelay> {
+    Some(FirstDelay {
+        delay: fitted.delay_samples(),
+        deviation: deviation(fitted, step)?,
+    })
+}
+
+/// Standard deviation of a fitted delay, samples.
+fn deviation(fitted: &Estimate, step: f64) -> Option<f64> {
+    let delay = fitted.parameter(Quantity::Delay)?;
+    delay.std.map(|std| std / step)
 }
 
 /// The force beside the friction of the law and inertia along a segment; `None` where a term cannot be simulated. What load,

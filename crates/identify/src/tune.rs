@@ -21,7 +21,7 @@ use crate::estimate::{Estimate, estimate};
 use crate::lag::lag;
 use crate::law::Law;
 use crate::law::physical::physical;
-use crate::law::terms::{Lag, Terms};
+use crate::law::terms::{FirstDelay, Lag, Terms};
 use crate::refit::{FirstOrder, first_order, force_noise};
 use crate::replica::{self, Axis, Replica};
 use crate::separable::optimum::Optimum;
@@ -81,6 +81,8 @@ pub struct Tuned {
     pub counts: Counts,
     /// The lag of the force, for the fits that follow.
     pub lag: Lag,
+    /// The delay of the force in the first fit, whose common cut-off is low, for those fits too; `None` where none is fitted.
+    pub first_delay: Option<FirstDelay>,
     /// Whether the observer stopped it before the choice was made.
     pub interrupted: bool,
 }
@@ -105,6 +107,7 @@ pub fn tune(
         trials: Vec::new(),
         counts: Counts::default(),
         lag: Lag::NONE,
+        first_delay: None,
         interrupted: false,
     };
     let open = |cutoff| cutoff == Cutoff::Auto;
@@ -180,6 +183,9 @@ pub fn tune(
         // The delay of the first fit, whose common cut-off is low. The higher the cut-off, the more of what a controller answers
         // to its encoder is taken for a delay, and a replica with that delay is as biased as the fit: nothing would come
         // out wrong there, however far the choice has led.
+        if round == 0 {
+            tuned.first_delay = replica::first_delay(&fitted, record.step());
+        }
         let late = *late.get_or_insert_with(|| replica::late(&fitted, record.step()));
         let Some(axis) = Axis::logged(&record, &fitted, late) else {
             break;
@@ -272,6 +278,7 @@ pub fn settle(
         trials: Vec::new(),
         counts: found.counts,
         lag: Lag::NONE,
+        first_delay: None,
         interrupted: found.status == Status::Interrupted,
     })
 }

@@ -32,6 +32,17 @@ pub struct Terms {
     /// A lag between the force that was logged and that which the axis feels, as a current loop has one. Its time is a part of a
     /// delay that is fitted; beside one that is given there is none.
     pub lag: Lag,
+    /// The delay that the first fit of the choice of cut-offs found, whose common cut-off is low; `None` without a choice.
+    pub first_delay: Option<FirstDelay>,
+}
+
+/// A delay of the force against the motion as a fit with low cut-offs found it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FirstDelay {
+    /// Samples.
+    pub delay: f64,
+    /// Its standard deviation, samples.
+    pub deviation: f64,
 }
 
 /// What is known of the delay of the force against the motion.
@@ -106,6 +117,7 @@ impl Default for Terms {
             delay: Delay::NONE,
             delay_deviation: 0.0,
             lag: Lag::NONE,
+            first_delay: None,
             quadratic_viscous: false,
             dependences: Vec::new(),
         }

@@ -3,9 +3,9 @@
 
 use proptest::prelude::*;
 use stiction_identify::{
-    Conditioning, Control, Cutoff, Delay, Dependence, Lag, Law, LawKind, Mass, Observer, Progress,
-    Samples, Settings, Source, Terms, Transmitted, condition, cross_validate, estimate, intervals,
-    low_speed_bound, predict, separable,
+    Conditioning, Control, Cutoff, Delay, Dependence, FirstDelay, Lag, Law, LawKind, Mass,
+    Observer, Progress, Samples, Settings, Source, Terms, Transmitted, condition, cross_validate,
+    estimate, intervals, low_speed_bound, predict, separable,
 };
 
 #[derive(Clone, Copy, Debug)]
@@ -308,7 +308,14 @@ fn terms() -> impl Strategy<Value = Terms> {
         })
     ];
     let deviation = prop_oneof![Just(0.0), (-9.0..9.0).prop_map(|e: f64| 10f64.powf(e))];
+    let first_delay = prop::option::of((-1e3..1e3, -9.0..9.0)).prop_map(|given| {
+        given.map(|(delay, deviation): (f64, f64)| FirstDelay {
+            delay,
+            deviation: 10f64.powf(deviation),
+        })
+    });
     let delay = (delay, deviation);
+    let lag = (lag, first_delay);
     let parts = (mass, flags, pitches, dependences, delay, lag);
     parts.prop_map(|(mass, flags, cogging, dependences, delay, lag)| Terms {
         mass,
@@ -319,7 +326,8 @@ fn terms() -> impl Strategy<Value = Terms> {
         dependences,
         delay: delay.0,
         delay_deviation: delay.1,
-        lag,
+        lag: lag.0,
+        first_delay: lag.1,
     })
 }
 

@@ -56,7 +56,9 @@ pub(super) fn condition(
     let settings = settings(options.seed);
     let wanted = conditioning::wanted(sources, axis);
     let chosen = conditioning::choose(sources, &wanted, &symmetric, &settings, observer)?;
-    (symmetric.lag, asymmetric.lag) = (chosen.lag, chosen.lag);
+    for terms in [&mut symmetric, &mut asymmetric] {
+        (terms.lag, terms.first_delay) = (chosen.lag, chosen.first_delay);
+    }
     // A Maxwell-slip law depends on past motion: it is fitted from where the start no longer has an effect.
     let settle = |record: Record| match options.law.is_some_and(LawKind::has_elements) {
         true => record.settled(),
@@ -131,6 +133,7 @@ pub(crate) fn record_of(
     refuse_rest(&record, &sources, sources[0].log.motion)?;
     let terms = Terms {
         lag: chosen.lag,
+        first_delay: chosen.first_delay,
         ..terms.about(&record)
     };
     Ok((sources, record, terms))

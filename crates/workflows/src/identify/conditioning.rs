@@ -6,7 +6,8 @@ use crate::source::Source;
 use stiction_files::Axis;
 use stiction_identify as engine;
 use stiction_identify::{
-    Conditioning, Cutoff, Lag, Law, LawKind, Mass, Observer, Record, Settings, Terms, Tuned,
+    Conditioning, Cutoff, FirstDelay, Lag, Law, LawKind, Mass, Observer, Record, Settings, Terms,
+    Tuned,
 };
 
 /// Conditions logs together as the axis asks; the encoder step of the log is used where the axis
@@ -37,6 +38,8 @@ pub(super) struct Chosen {
     pub conditioning: Conditioning,
     /// The lag of the force, for every fit of these logs.
     pub lag: Lag,
+    /// The delay of the force in the first fit of the choice, for every fit too.
+    pub first_delay: Option<FirstDelay>,
     /// How it was chosen.
     pub note: Option<String>,
     /// Whether the choice was stopped; the conditioning is then the default one.
@@ -48,6 +51,7 @@ impl Chosen {
         Self {
             conditioning,
             lag: Lag::NONE,
+            first_delay: None,
             note: None,
             interrupted: false,
         }
@@ -96,6 +100,7 @@ pub(super) fn choose(
     Ok(Chosen {
         conditioning: tuned.conditioning,
         lag: tuned.lag,
+        first_delay: tuned.first_delay,
         note: match (note, lag) {
             (Some(note), Some(lag)) => Some(format!("{note}; {lag}")),
             (note, lag) => note.or(lag),

@@ -68,6 +68,11 @@ pub fn identified(log: &Record, count: f64) -> (Tuned, Estimate) {
     };
     let settings = Settings::default();
     let tuned = tune(&samples, &wanted, law, &terms, &settings, &mut Silent).unwrap();
+    let terms = Terms {
+        lag: tuned.lag,
+        first_delay: tuned.first_delay,
+        ..terms
+    };
     let record = condition(&samples, &tuned.conditioning).unwrap();
     let bound = low_speed_bound(&record);
     let found = identify(&record, law, &terms, bound, &settings, &mut Silent).unwrap();
