@@ -127,8 +127,8 @@ pub struct Demo {
 
 #[derive(Clone, Debug, Args)]
 pub struct Check {
-    /// Logs: text, MATLAB, HDF5, Parquet, JSON and others.
-    #[arg(required = true, value_name = "LOG")]
+    /// Logs: text, MATLAB, HDF5, Parquet, JSON and others; with --axis by default those of its [[log]].
+    #[arg(required_unless_present = "axis", value_name = "LOG")]
     pub logs: Vec<PathBuf>,
     /// What is known of the axis and its columns.
     #[arg(long, value_name = "AXIS.toml")]
@@ -140,8 +140,9 @@ pub struct Check {
 
 #[derive(Clone, Debug, Args)]
 pub struct Identify {
-    /// Logs of one axis, fitted together: text, MATLAB, HDF5, Parquet, JSON and others.
-    #[arg(required_unless_present = "break_away", value_name = "LOG")]
+    /// Logs of one axis, fitted together: text, MATLAB, HDF5, Parquet, JSON and others; with --axis by default those of its
+    /// [[log]].
+    #[arg(required_unless_present_any = ["break_away", "axis"], value_name = "LOG")]
     pub logs: Vec<PathBuf>,
     /// What is known of the axis and its columns.
     #[arg(long, value_name = "AXIS.toml")]

@@ -75,9 +75,10 @@ fn next(error: &Error, command: &Command) -> Option<String> {
     {
         let axis = identify.axis.iter();
         let axis = axis.map(|file| format!(" --axis {}", typed(file)));
-        let log = typed(identify.logs.first()?);
+        let log = identify.logs.first();
+        let log = log.map_or(String::new(), |log| format!(" {}", typed(log)));
         return Some(format!(
-            "next: stiction check {log}{} shows what was read as position and force",
+            "next: stiction check{log}{} shows what was read as position and force",
             axis.collect::<String>()
         ));
     }
@@ -338,7 +339,14 @@ fn is_new(file: &Path) -> Result<(), FileError> {
 
 fn init(check: &arguments::Check, file: &Path, common: &Common) -> Result<Exit, Error> {
     is_new(file)?;
-    let log = &check.logs[0];
+    let listed = match (check.logs.first(), &check.axis) {
+        (None, Some(axis)) => Axis::read(axis)?.logs.first().map(|log| log.file.clone()),
+        (log, _) => log.cloned(),
+    };
+    let Some(log) = &listed else {
+        let reason = "needs a log, here or under [[log]] of the axis file";
+        return Err(FileError::output(file, reason).into());
+    };
     let started = stiction::commands::check::init(log, check.axis.as_deref())?;
     write_atomic(file, started.text.as_bytes())?;
     if common.json {
@@ -361,7 +369,12 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
         &identify.statics,
         &identify.break_away,
     ];
-    let files = inputs.into_iter().flatten();
+    let axis = identify
+        .axis
+        .as_ref()
+        .and_then(|axis| Axis::read(axis).ok());
+    let listed = axis.iter().flat_map(|axis| &axis.logs).map(|log| &log.file);
+    let files = inputs.into_iter().flatten().chain(listed);
     check_inputs(
         &identify.out,
         files

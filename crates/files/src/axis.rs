@@ -4,6 +4,7 @@ mod controller;
 mod extend;
 mod gain;
 mod limits;
+mod listed;
 mod resolve;
 mod search;
 mod template;
@@ -12,6 +13,7 @@ mod values;
 
 pub use extend::{Addition, extend};
 pub use limits::AxisLimits;
+pub use listed::{ListedLog, Use};
 pub use resolve::MOST_PITCHES;
 pub use template::{Found, entry, template};
 pub use values::Axis;

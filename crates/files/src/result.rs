@@ -145,6 +145,9 @@ pub struct ResolvedAxis {
 pub struct Input {
     /// Path as given.
     pub path: String,
+    /// The part of it that is fitted, in words; none where that is all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub part: Option<String>,
     /// SHA-256 of the file, hexadecimal.
     pub sha256: String,
     /// Samples read.

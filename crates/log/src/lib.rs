@@ -54,7 +54,8 @@ pub use error::{Error, Kind, Place};
 pub use findings::{Finding, Severity};
 pub use log::{Excluded, Gap, Log, NotEnabled};
 pub use mapping::{
-    Assumed, Channel, Detected, Enable, Mapping, Motion, Rests, Role, Selector, Understood, Wrap,
+    Assumed, Channel, Detected, Enable, Mapping, Motion, Parts, Rests, Role, Selector, Understood,
+    Wrap,
 };
 pub use open::{Limits, ReadOptions, read_table};
 pub use stiction_codes::Code;

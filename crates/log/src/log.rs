@@ -13,8 +13,8 @@
 //! 6. units, scale and sign are applied; zeros that stand for missing samples of position, force and load
 //!    become missing cells, and so do temperatures below 0 K and dropouts of temperature and load; a position that wraps
 //!    is unwrapped;
-//! 7. rows in which the enable column says that the axis is not enabled are left out; they leave gaps at which the record
-//!    is split, however short;
+//! 7. rows in which the enable column says that the axis is not enabled are left out, and so are those in parts of the record
+//!    that are not asked for; they leave gaps at which the record is split, however short;
 //! 8. missing cells of position, velocity and force: up to 5 in a row are interpolated
 //!    linearly in time and excluded; longer runs are dropped with their rows and leave a gap. In
 //!    reference, temperature and load every missing cell is interpolated or held: they vary slowly; so it is in an
@@ -34,7 +34,7 @@ mod held;
 mod unwrap;
 
 use crate::findings::{self, Finding, Severity};
-use crate::mapping::{Mapping, Motion, Role, Source, Understood};
+use crate::mapping::{Mapping, Motion, Role, Source, Understood, parts};
 use crate::{Error, Kind, Table};
 use cells::LeftOut;
 pub use chosen::NotEnabled;
@@ -187,7 +187,11 @@ impl Log {
                 ));
             }
             let allowed = format!("at least {MIN_SAMPLES}, and some thousand to identify friction");
-            return Err(Error::new(Kind::Value, found, allowed));
+            let error = Error::new(Kind::Value, found, allowed);
+            return Err(match &mapping.parts {
+                Some(_) => error.of_setting(parts::KEY),
+                None => error,
+            });
         }
         let unit = |role| {
             let source = sources.iter().find(|(r, _)| *r == role).map(|(_, s)| s);

@@ -42,6 +42,7 @@ mod flags;
 mod limits;
 mod motion;
 mod names;
+pub(crate) mod parts;
 mod select;
 mod understood;
 
@@ -51,6 +52,7 @@ pub use channel::{Channel, Motion, Role, Selector};
 pub(crate) use convert::{LARGEST_VALUE, Source};
 pub use enable::Enable;
 pub use limits::{FORCE_LIMITS, RATES, RESOLUTIONS, SCALES, WRAPS};
+pub use parts::Parts;
 pub use understood::{Assumed, Understood};
 
 /// A position that wraps after some travel.
@@ -109,6 +111,8 @@ pub struct Mapping {
     pub wrap: Option<Wrap>,
     /// First and last second to keep, counted from the first sample of the file.
     pub crop: Option<(f64, f64)>,
+    /// Parts of that to keep; `None` keeps all.
+    pub parts: Option<Parts>,
     /// What becomes of rests at the ends; `None` cuts them where no crop is given.
     pub rests: Option<Rests>,
     /// Encoder step, m or rad; estimated from the data where `None`.
@@ -207,6 +211,13 @@ impl Mapping {
             let found = format!("crop is {} to {}", full(from), full(to));
             let allowed = "crop takes two times in s from the first sample, from 0 on, the first less than the second";
             return Err(Error::new(Kind::Value, found, allowed).of_setting("log.crop"));
+        }
+        let mut stretches = self.parts.iter().flat_map(|parts| parts.stretches());
+        if let Some((from, to)) = stretches.find(|(a, b)| !good(*a, *b)) {
+            let found = format!("a part is {} to {}", full(*from), full(*to));
+            let allowed =
+                "two times in s from the first sample, from 0 on, the first less than the second";
+            return Err(Error::new(Kind::Value, found, allowed).of_setting(parts::KEY));
         }
         Ok(())
     }

@@ -7,6 +7,14 @@ use stiction_number::{counted, four_digits as short, unit};
 /// Most stretches that are named one by one.
 const MOST_NAMED: usize = 4;
 
+/// Which part of a log is fitted, to stand behind its path; nothing where that is all.
+pub(crate) fn part(input: &Input) -> String {
+    input
+        .part
+        .as_ref()
+        .map_or(String::new(), |part| format!(", {part}"))
+}
+
 /// How many rows the enable column leaves out; nothing where it leaves out none.
 pub(crate) fn not_enabled(input: &Input) -> Option<String> {
     let left_out = input.not_enabled.as_ref().filter(|left| left.rows > 0)?;

@@ -37,8 +37,9 @@ pub fn outcome(outcome: &Outcome) -> String {
     for input in &result.inputs {
         let _ = writeln!(
             out,
-            "{}: {} samples at {} Hz",
+            "{}{}: {} samples at {} Hz",
             input.path,
+            inputs::part(input),
             input.samples,
             short(input.rate_hz)
         );

@@ -133,13 +133,18 @@ pub fn check(
     axis: Option<&Path>,
     observer: &mut dyn Observer,
 ) -> Result<Check, Error> {
-    if logs.is_empty() {
-        return Err(Error::usage("no log given", "at least one log"));
-    }
     let read = match axis {
         Some(file) => Axis::read(file)?,
         None => Axis::default(),
     };
+    let listed: Vec<PathBuf> = read.logs.iter().map(|log| log.file.clone()).collect();
+    let logs = if logs.is_empty() { &listed } else { logs };
+    if logs.is_empty() {
+        return Err(Error::usage(
+            "no log given",
+            "at least one log, here or under [[log]] of the axis file",
+        ));
+    }
     let mut out = Vec::new();
     for path in logs {
         out.push(one(path, &read, observer)?);

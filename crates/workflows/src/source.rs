@@ -1,9 +1,11 @@
 //! A log file, read, hashed and mapped.
 
 use crate::error::Error;
+use crate::wording::{Setting, TOGETHER_WITH};
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 use stiction_files::Axis;
+use stiction_files::axis::{ListedLog, Use};
 use stiction_files::result::{AssumedEntry, ExcludedEntry, Input, NotEnabledEntry};
 use stiction_identify::{Samples, Terms};
 use stiction_log::{Column, Log, ReadOptions, Table, read_table};
@@ -16,6 +18,8 @@ const LEFT_OUT: &str = "left out: ";
 pub struct Source {
     /// Path as given.
     pub path: PathBuf,
+    /// The part of it that this is, in words; `None` where it is all that the axis file keeps.
+    pub part: Option<String>,
     /// SHA-256 of the file, hexadecimal.
     pub sha256: String,
     /// What the reader detected, and what it left out.
@@ -36,14 +40,78 @@ pub fn table(path: impl AsRef<Path>, axis: &Axis) -> Result<Table, Error> {
     read_table(path.as_ref(), &options).map_err(|e| axis.at_key(e).into())
 }
 
-/// Reads a file and maps it by the axis.
+/// Reads a file and maps it by the axis. Of a log that the axis file lists it is what is fitted, or where nothing is, what is
+/// validated on.
 ///
 /// # Errors
 /// As [`table`], and where columns or units are missing or ambiguous.
 pub fn load(path: impl AsRef<Path>, axis: &Axis) -> Result<Source, Error> {
     let path = path.as_ref();
     let table = table(path, axis)?;
-    mapped(path, || Ok(stiction_files::sha256(path)?), &table, axis)
+    let listed = axis.listed(path);
+    let fitted = listed.is_none_or(|log| log.mapping(Use::Fitted).is_some());
+    let part = if fitted { Use::Fitted } else { Use::Validated };
+    mapped(path, || hash_of(path), &table, axis, (listed, part))
+}
+
+fn hash_of(path: &Path) -> Result<String, Error> {
+    Ok(stiction_files::sha256(path)?)
+}
+
+/// Logs as they are used.
+#[derive(Default)]
+pub(crate) struct Used {
+    pub fitted: Vec<Source>,
+    pub held_out: Vec<Source>,
+}
+
+impl Used {
+    /// Reads logs, each used as the axis file says, and is fitted where it says nothing.
+    pub fn load(paths: &[PathBuf], axis: &Axis) -> Result<Self, Error> {
+        let mut out = Self::default();
+        for path in paths {
+            let Some(listed) = axis.listed(path) else {
+                out.fitted.push(load(path, axis)?);
+                continue;
+            };
+            let table = table(path, axis)?;
+            let sha256 = hash_of(path)?;
+            for (part, sources) in [
+                (Use::Fitted, &mut out.fitted),
+                (Use::Validated, &mut out.held_out),
+            ] {
+                if listed.mapping(part).is_some() {
+                    let hash = || Ok(sha256.clone());
+                    sources.push(mapped(path, hash, &table, axis, (Some(listed), part))?);
+                }
+            }
+        }
+        Ok(out)
+    }
+}
+
+/// Reads logs to validate on.
+pub(crate) fn load_held_out(paths: &[PathBuf], axis: &Axis) -> Result<Vec<Source>, Error> {
+    let one = |path: &PathBuf| {
+        let listed = axis.listed(path).filter(|log| log.has_parts());
+        let Some(listed) = listed else {
+            return load(path, axis);
+        };
+        if listed.mapping(Use::Validated).is_some() {
+            let table = table(path, axis)?;
+            let part = (Some(listed), Use::Validated);
+            return mapped(path, || hash_of(path), &table, axis, part);
+        }
+        Err(Error::usage(
+            [
+                Setting::Validate.into(),
+                TOGETHER_WITH.into(),
+                format!("fit of {} under [[log]] of the axis file", path.display()).into(),
+            ],
+            "one of the two: validate under [[log]] names the stretches of a log that are validated on",
+        ))
+    };
+    paths.iter().map(one).collect()
 }
 
 /// Maps columns that are in memory by the axis. `name` stands in messages where a file has its path; the hash is that
@@ -57,7 +125,7 @@ pub fn in_memory(name: &str, columns: Vec<Column>, axis: &Axis) -> Result<Source
         ..Table::default()
     };
     let hash = || Ok(stiction_files::sha256_of(&bytes(&table.columns)));
-    mapped(Path::new(name), hash, &table, axis)
+    mapped(Path::new(name), hash, &table, axis, (None, Use::Fitted))
 }
 
 fn mapped(
@@ -65,13 +133,16 @@ fn mapped(
     sha256: impl FnOnce() -> Result<String, Error>,
     table: &Table,
     axis: &Axis,
+    (listed, part): (Option<&ListedLog>, Use),
 ) -> Result<Source, Error> {
-    let log = Log::from_table(table, &axis.mapping);
-    let log = log.map_err(|e| axis.at_key(e.in_file(path)))?;
+    let own = listed.and_then(|log| log.mapping(part));
+    let log = Log::from_table(table, own.as_ref().unwrap_or(&axis.mapping));
+    let log = log.map_err(|e| axis.at_listed(e.in_file(path), listed, part))?;
     let mut detected = log.detected.clone();
     detected.extend(table.skipped.iter().map(|s| format!("{LEFT_OUT}{s}")));
     Ok(Source {
         path: path.to_path_buf(),
+        part: listed.and_then(|log| log.words(part)),
         sha256: sha256()?,
         detected,
         log,
@@ -98,6 +169,15 @@ fn bytes(columns: &[Column]) -> Vec<u8> {
 }
 
 impl Source {
+    /// The path as given, and the part of the log that this is: what it is called where no command is made of it.
+    pub fn name(&self) -> String {
+        let path = stiction_files::shell::text(&self.path);
+        match &self.part {
+            Some(part) => format!("{path}, {part}"),
+            None => path,
+        }
+    }
+
     /// How the log goes into `result.json`; `whole_record` where the whole record is fitted, without rests at the ends.
     pub fn input(&self, whole_record: bool) -> Input {
         let rests = self.log.excluded.iter();
@@ -131,6 +211,7 @@ impl Source {
             not_enabled,
             assumed: assumed.collect(),
             path: stiction_files::shell::text(&self.path),
+            part: self.part.clone(),
             sha256: self.sha256.clone(),
             samples: self.log.time.len(),
             rate_hz: self.log.rate_hz,

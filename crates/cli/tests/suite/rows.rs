@@ -1,4 +1,4 @@
-//! Which rows of a log are read: by a column that says when the axis is enabled.
+//! Which rows of a log are read: by a column that says when the axis is enabled, and by the parts of `[[log]]`.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -67,4 +67,72 @@ fn rows_of_another_mode_are_not_fitted() {
     let (code, _, err) = run(dir, identify);
     assert_eq!(code, 2, "{err}");
     insta::assert_snapshot!(err);
+}
+
+/// One part is fitted and another validated on, of the logs that the axis file lists; what the command line says besides must not
+/// contradict it.
+#[test]
+fn parts_of_listed_logs() {
+    let dir = tempfile::tempdir().unwrap();
+    let dir = dir.path();
+    std::fs::create_dir(dir.join("logs")).unwrap();
+    for name in ["a.csv", "c.csv"] {
+        log(&dir.join("logs").join(name), 4000);
+    }
+    log(&dir.join("logs/b.csv"), 5000);
+    let columns = "[columns]\nenable = { column = \"Mode\", equals = 8 }\n";
+    let list = "[[log]]\nfile = \"a.csv\"\nfit = [\"0 s\", \"2.5 s\"]\nvalidate = [\"2.5 s\", \"4 s\"]\n\
+                [[log]]\nfile = \"b.csv\"\nvalidate = \"all\"\n";
+    std::fs::write(dir.join("logs/axis.toml"), format!("{columns}{list}")).unwrap();
+    let identify = "identify --axis logs/axis.toml --law coulomb-viscous --out a";
+    let (_, out, err) = run(dir, identify);
+    assert!(
+        out.starts_with("logs/a.csv, 0 to 2.5 s: 1900 samples"),
+        "{out}{err}"
+    );
+    for name in ["logs/a.csv, 2.5 to 4 s", "logs/b.csv"] {
+        assert!(out.contains(&format!("rms on {name}")), "{out}");
+    }
+    let result = std::fs::read_to_string(dir.join("a/result.json")).unwrap();
+    let result: serde_json::Value = serde_json::from_str(&result).unwrap();
+    let inputs = result["inputs"].as_array().unwrap();
+    assert_eq!(inputs.len(), 1);
+    assert_eq!(inputs[0]["part"], "0 to 2.5 s");
+    assert_eq!(inputs[0]["not_enabled"]["rows"], 600);
+    // A log that is named is used as it is listed, by whatever path.
+    let (_, out, err) = run(
+        &dir.join("logs"),
+        "identify ./a.csv --axis axis.toml --law coulomb-viscous --out a",
+    );
+    assert!(
+        out.starts_with("./a.csv, 0 to 2.5 s: 1900 samples"),
+        "{out}{err}"
+    );
+    assert!(!out.contains("b.csv"), "{out}");
+    let (_, out, err) = run(dir, "check --axis logs/axis.toml");
+    assert!(out.contains("logs/b.csv"), "{out}{err}");
+    let late = "[[log]]\nfile = \"logs/a.csv\"\nfit = [[\"0 s\", \"2 s\"], [\"14 s\", \"15 s\"]]\n";
+    std::fs::write(dir.join("late.toml"), late).unwrap();
+    std::fs::write(dir.join("columns.toml"), columns).unwrap();
+    let mut said = String::new();
+    for command in [
+        format!("{identify} --split 0.5"),
+        "identify logs/b.csv --axis logs/axis.toml --out b".into(),
+        format!("{identify} --validate logs/a.csv"),
+        "identify logs/c.csv --axis late.toml --validate logs/a.csv --out b".into(),
+        format!("{identify} logs/c.csv --validate logs/c.csv"),
+        "identify logs/a.csv --axis late.toml --out b".into(),
+        "identify --axis columns.toml --out b".into(),
+        "check --axis columns.toml".into(),
+    ] {
+        let force = if command.contains("--out a") {
+            " --force"
+        } else {
+            ""
+        };
+        let (code, _, err) = run(dir, &format!("{command}{force}"));
+        assert_eq!(code, 2, "{command}: {err}");
+        let _ = writeln!(said, "{command}\n{err}");
+    }
+    insta::assert_snapshot!(said);
 }

@@ -2,6 +2,7 @@
 
 mod columns;
 mod limits;
+mod log;
 mod resolver;
 mod search;
 mod simulation;
@@ -12,12 +13,12 @@ pub use terms::MOST_PITCHES;
 use super::values::Axis;
 use crate::config::{Given, Places, Source, Table};
 use crate::error::Error;
-use resolver::{FORCES, LENGTHS, Resolver, SPEEDS};
+use resolver::{Resolver, SPEEDS};
 use std::path::Path;
 use stiction_identify::{Conditioning, Cutoff, Source as Signal};
-use stiction_log::mapping::{FORCE_LIMITS, RATES, RESOLUTIONS, WRAPS};
+use stiction_log::mapping::RATES;
 use stiction_log::text::{Decimal, MAX_PREAMBLE_LINES, Separator, TextOptions};
-use stiction_log::{Dimension, Mapping, Motion, Rests, Wrap};
+use stiction_log::{Dimension, Mapping, Motion};
 
 /// What the text of an axis is called in messages where it is in no file.
 const IN_MEMORY: &str = "axis";
@@ -73,6 +74,7 @@ impl Resolver {
         let name = root.line("name")?.map(str::to_string);
         axis.name = name.filter(|name| !name.trim().is_empty());
         self.mapping(root, &mut axis.mapping)?;
+        self.log(root, axis, &axis.file.clone())?;
         text_options(root, &mut axis.text)?;
         axis.conditioning = self.conditioning(root)?;
         axis.conditioning.resolution = axis.mapping.resolution;
@@ -100,23 +102,7 @@ impl Resolver {
                 .transpose()
         };
         mapping.rate_hz = within(root.get("rate"), &[Dimension::FREQUENCY], &RATES)?;
-        columns::columns(root, mapping)?;
-        let Some(log) = root.table("log")? else {
-            return Ok(());
-        };
-        let wrap = within(log.get("wrap"), &LENGTHS, &WRAPS)?;
-        mapping.wrap = wrap.map(|period| Wrap { period });
-        mapping.resolution = within(log.get("resolution"), &LENGTHS, &RESOLUTIONS)?;
-        mapping.force_limit = within(log.get("force_limit"), &FORCES, &FORCE_LIMITS)?;
-        if let Some(given) = log.get("crop") {
-            mapping.crop = Some(crop(&given)?);
-        }
-        mapping.rests = match log.choice("rests", &["cut", "keep"])? {
-            None => None,
-            Some("cut") => Some(Rests::Cut),
-            Some(_) => Some(Rests::Keep),
-        };
-        log.end()
+        columns::columns(root, mapping)
     }
 
     fn conditioning(&self, root: &Table<'_>) -> Result<Conditioning, Error> {
@@ -157,22 +143,6 @@ impl Resolver {
                 .map(Cutoff::Hz),
         }
     }
-}
-
-/// Two times from the first sample, s.
-fn crop(given: &Given<'_>) -> Result<(f64, f64), Error> {
-    let allowed = "two times from the first sample, from 0 s on, the first before the second, such as [\"1 s\", \"20 s\"]";
-    let list = given.as_list().unwrap_or_default();
-    let [from, to] = list.as_slice() else {
-        return Err(given.refused(allowed));
-    };
-    let time = |given: &Given<'_>| Ok::<f64, Error>(given.not_negative(&[Dimension::TIME])?.0);
-    let (a, b) = (time(from)?, time(to)?);
-    if a >= b {
-        let found = format!("{} to {}", from.shown(), to.shown());
-        return Err(given.refuse(found, allowed));
-    }
-    Ok((a, b))
 }
 
 fn text_options(root: &Table<'_>, out: &mut TextOptions) -> Result<(), Error> {

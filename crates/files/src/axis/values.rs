@@ -2,6 +2,7 @@
 
 use super::gain::ControllerValues;
 use super::limits::AxisLimits;
+use super::listed::{ListedLog, Use};
 use super::search::SearchValues;
 use super::tied::Tied;
 use crate::config::Places;
@@ -20,6 +21,8 @@ pub struct Axis {
     pub name: Option<String>,
     /// Which column is what.
     pub mapping: Mapping,
+    /// The logs that the file lists.
+    pub logs: Vec<ListedLog>,
     /// How text logs are written, where stated.
     pub text: TextOptions,
     /// Filters and decimation.
@@ -62,6 +65,7 @@ impl Default for Axis {
         Self {
             name: None,
             mapping: Mapping::default(),
+            logs: Vec::new(),
             text: TextOptions::default(),
             conditioning: Conditioning::default(),
             terms: Terms {
@@ -166,6 +170,11 @@ impl Axis {
         Ok(())
     }
 
+    /// What the file says of the log at this path; `None` where it does not list it.
+    pub fn listed(&self, path: &Path) -> Option<&ListedLog> {
+        self.logs.iter().find(|log| log.is(path))
+    }
+
     /// Whether the file gives a key, such as `log.crop`, or a table.
     pub fn gives(&self, key: &str) -> bool {
         self.places.has(key)
@@ -194,6 +203,19 @@ impl Axis {
         match error.setting().map(String::from) {
             Some(key) => self.at(&key, error),
             None => error.into(),
+        }
+    }
+
+    /// The refusal of a part of a log that the file may list, at the key of that log that it is about.
+    pub fn at_listed(
+        &self,
+        error: stiction_log::Error,
+        listed: Option<&ListedLog>,
+        part: Use,
+    ) -> Error {
+        match (listed, error.setting()) {
+            (Some(log), Some(setting)) => self.at(&log.written(setting, part), error),
+            _ => self.at_key(error),
         }
     }
 

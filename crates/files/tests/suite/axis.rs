@@ -3,10 +3,12 @@
 
 use proptest::prelude::*;
 use std::fmt::Write;
-use stiction_files::axis::{Found, template};
+use stiction_files::axis::{Found, ListedLog, Use, template};
 use stiction_files::{Axis, Error};
 use stiction_identify::{Cutoff, Hold, Source};
-use stiction_log::{Channel, Column, Log, Mapping, Motion, Role, Selector, Table, Unit, Value};
+use stiction_log::{
+    Channel, Column, Log, Mapping, Motion, Parts, Role, Selector, Table, Unit, Value,
+};
 use stiction_search::Method;
 use stiction_search::genetic::{self, Annealing, Crossover, Rates, Ratio, Selection};
 
@@ -112,6 +114,75 @@ fn every_key_is_understood() {
     assert_eq!(axis.low_speed, Some(1.0));
     assert_eq!(axis.hold, Hold::Centred);
     assert_eq!(axis.segment, Some(0.5));
+}
+
+#[test]
+fn logs_are_listed_with_their_parts() {
+    let text = r#"
+[columns]
+force = "F"
+
+[[log]]
+file = "a.csv"
+crop = ["1 s", "1 min"]
+fit = ["1 s", "20 s"]
+validate = [["20 s", "25 s"], ["30 s", "60 s"]]
+resolution = "2 um"
+
+[[log]]
+file = "b.csv"
+validate = ["500 ms", "2 s"]
+resolution = "1 um"
+
+[[log]]
+file = "/there/c.csv"
+validate = "all"
+
+[[log]]
+file = "d.csv"
+"#;
+    let axis = parse(text).unwrap();
+    let [a, b, c, d] = axis.logs.as_slice() else {
+        panic!("{:?}", axis.logs);
+    };
+    let parts = |log: &ListedLog, part| log.mapping(part).map(|mapping| mapping.parts);
+    assert_eq!(
+        parts(a, Use::Fitted),
+        Some(Some(Parts::inside(vec![(1.0, 20.0)])))
+    );
+    let held_out = vec![(20.0, 25.0), (30.0, 60.0)];
+    assert_eq!(
+        parts(a, Use::Validated),
+        Some(Some(Parts::inside(held_out)))
+    );
+    assert_eq!(a.words(Use::Validated).unwrap(), "20 to 25 s, 30 to 60 s");
+    let mapping = a.mapping(Use::Fitted).unwrap();
+    assert_eq!(mapping.crop, Some((1.0, 60.0)));
+    assert_eq!(
+        mapping.force.unwrap().column,
+        Selector::Name("F".into()),
+        "what holds for every log"
+    );
+    assert_eq!(
+        parts(b, Use::Fitted),
+        Some(Some(Parts::outside(vec![(0.5, 2.0)])))
+    );
+    assert_eq!(b.words(Use::Fitted).unwrap(), "all but 0.5 to 2 s");
+    assert_eq!(
+        (parts(c, Use::Fitted), parts(c, Use::Validated)),
+        (None, Some(None))
+    );
+    assert_eq!(c.file, std::path::Path::new("/there/c.csv"));
+    assert_eq!(
+        (parts(d, Use::Fitted), parts(d, Use::Validated)),
+        (Some(None), None)
+    );
+    assert!(a.has_parts() && b.has_parts() && c.has_parts() && !d.has_parts());
+    assert_eq!(a.written("log.parts", Use::Fitted), "log[1].fit");
+    assert_eq!(b.written("log.parts", Use::Fitted), "log[2].validate");
+    assert_eq!(b.written("log.crop", Use::Fitted), "log[2].crop");
+    // The finest of all steps.
+    assert_eq!(axis.conditioning.resolution, Some(1e-6));
 }
 
 /// A log whose force is `unit`, after the scale of the axis file.
@@ -278,6 +349,33 @@ fn refusals() {
             "table without column",
             "[columns]\nforce = { unit = \"N\" }",
         ),
+        ("log as a number", "log = 3"),
+        ("a log without a file", "[[log]]\ncrop = [\"1 s\", \"2 s\"]"),
+        (
+            "a log twice",
+            "[[log]]\nfile = \"a\"\n[[log]]\nfile = \"a\"",
+        ),
+        (
+            "fit beyond crop",
+            "[[log]]\nfile = \"a\"\ncrop = [\"1 s\", \"9 s\"]\nfit = [[\"1 s\", \"2 s\"], [\"8 s\", \"10 s\"]]",
+        ),
+        (
+            "fit and validate the same",
+            "[[log]]\nfile = \"a\"\nfit = [\"1 s\", \"9 s\"]\nvalidate = [\"8 s\", \"10 s\"]",
+        ),
+        (
+            "fit and validate all",
+            "[[log]]\nfile = \"a\"\nfit = [\"1 s\", \"9 s\"]\nvalidate = \"all\"",
+        ),
+        (
+            "validate in words",
+            "[[log]]\nfile = \"a\"\nvalidate = \"rest\"",
+        ),
+        (
+            "validate without unit",
+            "[[log]]\nfile = \"a\"\nvalidate = [1, 2]",
+        ),
+        ("fit of every log", "[log]\nfit = [\"1 s\", \"2 s\"]"),
         ("enable as a flag", "[columns]\nenable = true"),
         (
             "enable as a quantity",

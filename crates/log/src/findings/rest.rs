@@ -11,7 +11,7 @@ mod varies;
 
 use super::finding::{Finding, Severity};
 use crate::log::Log;
-use crate::mapping::{Mapping, Rests};
+use crate::mapping::{Mapping, Parts, Rests};
 use std::ops::Range;
 use stiction_codes::Code;
 use stiction_number::Percent;
@@ -45,10 +45,13 @@ pub(super) fn rests(log: &mut Log, mapping: &Mapping) {
         .iter()
         .filter_map(|rest| end(log, rest.clone(), spread))
         .collect();
-    let keep = match (mapping.rests, mapping.crop) {
-        (Some(Rests::Keep), _) => Some("rests = \"keep\""),
-        (None, Some(_)) => Some("crop"),
-        (None, None) | (Some(Rests::Cut), _) => None,
+    // Where the ends were chosen, they are as they were chosen.
+    let chosen = mapping.parts.as_ref().is_some_and(Parts::are_inside);
+    let keep = match mapping.rests {
+        Some(Rests::Keep) => Some("rests = \"keep\""),
+        None if chosen => Some("fit or validate"),
+        None if mapping.crop.is_some() => Some("crop"),
+        None | Some(Rests::Cut) => None,
     };
     if !ends.is_empty() {
         let finding = at_the_ends(log, &ends, keep);

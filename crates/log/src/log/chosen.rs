@@ -1,12 +1,13 @@
-//! Rows that the axis file leaves out, by a column that says in which rows the axis is enabled or in which mode it is.
+//! Rows that the axis file leaves out: by a column that says in which rows the axis is enabled or in which mode it is, and by
+//! parts of the record that are fitted or validated.
 //!
 //! They go as if they had not been recorded. The record is split where they were, however few they are: what drove the axis
-//! meanwhile is not in the force.
+//! while it was not enabled is not in the force.
 
 use super::cells::{Columns, runs};
 use super::clock::Clock;
 use crate::findings::{Finding, Severity, count, short};
-use crate::mapping::{Enable, Mapping, enable};
+use crate::mapping::{Enable, Mapping, Parts, enable, parts};
 use crate::{Error, Kind, Table};
 use stiction_codes::Code;
 use stiction_number::full;
@@ -27,14 +28,24 @@ pub struct NotEnabled {
 
 /// Which rows of a log in the making are chosen.
 pub(super) struct Chosen {
-    /// One flag a kept row; nothing where all are chosen.
-    rows: Option<Vec<bool>>,
+    /// One entry a kept row; nothing where all are chosen.
+    rows: Option<Vec<Row>>,
     left_out: Option<NotEnabled>,
     /// The number that chooses a row.
     kept: f64,
-    /// Stretches that are left out, and the times of the first one.
+    /// Stretches that are not enabled, and the times of the first one.
     stretches: usize,
     first: Option<(f64, f64)>,
+}
+
+/// What becomes of a row.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Row {
+    Kept,
+    /// In a part of the record that is kept, but not enabled.
+    NotEnabled,
+    /// In another part of the record.
+    Elsewhere,
 }
 
 impl Chosen {
@@ -47,10 +58,28 @@ impl Chosen {
             stretches: 0,
             first: None,
         };
-        let Some((enable, column)) = mapping.enable.as_ref().zip(Enable::of(mapping, table)?)
-        else {
-            return Ok(out);
-        };
+        if let Some(parts) = &mapping.parts {
+            refuse_empty(parts, clock)?;
+            let in_part = |t: &f64| match parts.keep(clock.since_first + t) {
+                true => Row::Kept,
+                false => Row::Elsewhere,
+            };
+            out.rows = Some(clock.time.iter().map(in_part).collect());
+        }
+        if let Some((enable, column)) = mapping.enable.as_ref().zip(Enable::of(mapping, table)?) {
+            out.enable(table, enable, column, clock)?;
+        }
+        Ok(out)
+    }
+
+    /// Takes out the rows that are not enabled.
+    fn enable(
+        &mut self,
+        table: &Table,
+        enable: &Enable,
+        column: usize,
+        clock: &Clock,
+    ) -> Result<(), Error> {
         let values = &table.columns[column].values;
         if values.len() < clock.range.end {
             let found = format!(
@@ -64,18 +93,30 @@ impl Chosen {
         }
         let mut dropped = clock.dropped.iter().peekable();
         let kept = clock.range.clone();
-        let values: Vec<f64> = kept
+        let values = kept
             .filter(|row| dropped.next_if_eq(&row).is_none())
-            .map(|row| values[row])
-            .collect();
-        refuse(table, column, enable, &values)?;
-        out.rows = Some(values.iter().map(|x| *x == out.kept).collect());
-        out.left_out = Some(NotEnabled {
+            .map(|row| values[row]);
+        let mut rows = self
+            .rows
+            .take()
+            .unwrap_or_else(|| vec![Row::Kept; clock.time.len()]);
+        let mut there = Vec::new();
+        for (row, value) in rows.iter_mut().zip(values) {
+            if *row == Row::Kept {
+                there.push(value);
+                if value != self.kept {
+                    *row = Row::NotEnabled;
+                }
+            }
+        }
+        refuse(table, column, enable, &there)?;
+        self.rows = Some(rows);
+        self.left_out = Some(NotEnabled {
             column: enable::place(table, column),
             rows: 0,
             of: 0,
         });
-        Ok(out)
+        Ok(())
     }
 
     /// Keeps the rows that a rule names.
@@ -91,16 +132,18 @@ impl Chosen {
         let Some(rows) = self.rows.take() else {
             return Vec::new();
         };
-        let gone = runs(&rows, |kept| !kept);
+        let not_enabled = runs(&rows, |row| *row == Row::NotEnabled);
         if let Some(left_out) = &mut self.left_out {
-            left_out.rows = gone.iter().map(|run| run.len()).sum();
-            left_out.of = rows.len();
+            left_out.rows = not_enabled.iter().map(|run| run.len()).sum();
+            left_out.of = rows.iter().filter(|row| **row != Row::Elsewhere).count();
         }
-        self.stretches = gone.len();
-        self.first = gone.first().map(|run| (time[run.start], time[run.end - 1]));
+        self.stretches = not_enabled.len();
+        let first = not_enabled.first();
+        self.first = first.map(|run| (time[run.start], time[run.end - 1]));
+        let gone = runs(&rows, |row| *row != Row::Kept);
         let resumed = gone.iter().filter_map(|run| time.get(run.end).copied());
         let resumed = resumed.collect();
-        columns.keep(time, |row| rows[row]);
+        columns.keep(time, |row| rows[row] == Row::Kept);
         resumed
     }
 
@@ -125,6 +168,23 @@ impl Chosen {
     pub fn not_enabled(self) -> Option<NotEnabled> {
         self.left_out
     }
+}
+
+/// Refuses a stretch without a sample.
+fn refuse_empty(parts: &Parts, clock: &Clock) -> Result<(), Error> {
+    let at = |t: &f64| clock.since_first + t;
+    let empty = |stretch: &&(f64, f64)| !clock.time.iter().any(|t| parts::holds(**stretch, at(t)));
+    let Some((from, to)) = parts.stretches().iter().find(empty) else {
+        return Ok(());
+    };
+    let found = format!("{} to {} s holds no sample", full(*from), full(*to));
+    let last = clock.time.last().map_or(0.0, at);
+    let allowed = format!(
+        "what is kept of the record runs from {} to {} s, counted from the first sample of the file",
+        short(clock.since_first),
+        short(last)
+    );
+    Err(Error::new(Kind::Value, found, allowed).of_setting(parts::KEY))
 }
 
 /// Refuses a column that keeps no row, or that is no flag where no number is given.

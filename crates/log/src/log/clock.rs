@@ -23,6 +23,8 @@ pub(super) struct Clock {
     pub time: Vec<f64>,
     /// Seconds of the first kept row on the clock of the file.
     pub start: f64,
+    /// Seconds from the first row of the file to the first kept one.
+    pub since_first: f64,
     /// Rows of the table that the crop keeps.
     pub range: Range<usize>,
     /// Rows within `range` that are dropped, in order.
@@ -75,6 +77,7 @@ fn counted(rate: f64, mapping: &Mapping, length: usize) -> Result<Clock, Error> 
     Ok(Clock {
         time,
         start: at(range.start),
+        since_first: at(range.start),
         range,
         dropped: Vec::new(),
     })
@@ -180,9 +183,13 @@ fn stamped(
     let start = base.map_or(0.0, |(first, lift)| {
         source.si(first) + source.si_difference(lift)
     });
+    let since_first = base.map_or(0.0, |(first, lift)| {
+        source.si_difference((first - origin) + lift)
+    });
     Ok(Clock {
         time,
         start,
+        since_first,
         range,
         dropped,
     })

@@ -13,6 +13,7 @@ mod mapping_enable;
 mod mapping_faults;
 mod mapping_filled;
 mod mapping_log;
+mod mapping_parts;
 mod mapping_units;
 mod rests;
 mod text;

@@ -1,6 +1,7 @@
 //! The tables of the report.
 
 use crate::deviation::Deviation;
+use crate::inputs;
 use crate::names::law_beside;
 use stiction_files::result::{Input, LawEntry, SimulationEntry};
 use stiction_files::symbols;
@@ -229,7 +230,12 @@ pub(super) fn laws(outcome: &Outcome) -> Table {
 /// What a file was and how it was understood.
 pub(super) fn input(input: &Input) -> Block {
     let mut facts = vec![
-        (Text::from("File"), Text::new().code(input.path.as_str())),
+        (
+            Text::from("File"),
+            Text::new()
+                .code(input.path.as_str())
+                .plain(inputs::part(input)),
+        ),
         (
             Text::from("SHA-256"),
             Text::new().code(input.sha256.as_str()),

@@ -83,7 +83,8 @@ pub(super) fn condition(
                 conditioned(std::slice::from_ref(source), &chosen.conditioning).map(settle)
             };
             let records: Result<Vec<Record>, Error> = loaded.held_out.iter().map(one).collect();
-            (paths(&loaded.held_out), records?)
+            let names = loaded.held_out.iter().map(Source::name);
+            (names.collect(), records?)
         }
     };
     let asymmetric = asymmetric.about(&record);

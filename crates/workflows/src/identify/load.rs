@@ -93,11 +93,18 @@ pub(super) fn load(
 /// All logs must be of one kind of axis, with force in one unit, and no log may count twice.
 pub(super) fn check_together(sources: &[Source], held_out: &[Source]) -> Result<(), Error> {
     let Some(first) = sources.first() else {
-        return Err(Error::usage("no log given", "at least one log"));
+        return Err(Error::usage(
+            "no log given",
+            "at least one log, here or under [[log]] of the axis file",
+        ));
     };
     let all: Vec<&Source> = sources.iter().chain(held_out).collect();
     for (i, log) in all.iter().enumerate() {
-        if let Some(twin) = all[..i].iter().find(|other| other.sha256 == log.sha256) {
+        // Parts of one log do not overlap.
+        let apart =
+            |a: &Source, b: &Source| a.part.is_some() && b.part.is_some() && a.part != b.part;
+        let same = |other: &&&Source| other.sha256 == log.sha256 && !apart(other, log);
+        if let Some(twin) = all[..i].iter().find(same) {
             return Err(Error::usage(
                 format!(
                     "{} and {} are the same log",

@@ -13,8 +13,9 @@ use super::outside;
 use super::procedure::{static_map, step};
 use super::simulate;
 use crate::error::Error;
-use crate::source::{Source, load_all};
-use crate::wording::Setting;
+use crate::source::{Source, Used, load_held_out};
+use crate::wording::{Setting, TOGETHER_WITH};
+use std::path::PathBuf;
 use std::time::Instant;
 use stiction_codes::Code;
 use stiction_files::{Axis, Warning};
@@ -41,7 +42,7 @@ pub fn identify(
     let logs = match options.procedures.method {
         // Ramps are a commanded force like any other.
         Method::OutputError if files.logs.is_empty() => ramps,
-        _ if files.logs.is_empty() && !ramps.is_empty() => {
+        _ if files.logs.is_empty() && axis.logs.is_empty() && !ramps.is_empty() => {
             return Err(Error::usage(
                 [Setting::BreakAway.into(), " without a log".into()],
                 [
@@ -53,14 +54,51 @@ pub fn identify(
         }
         _ => &files.logs,
     };
-    let sources = load_all(logs, &axis)?;
-    let held_out = load_all(&files.validate, &axis)?;
+    let listed: Vec<PathBuf> = axis.logs.iter().map(|log| log.file.clone()).collect();
+    let logs = if files.logs.is_empty() && !listed.is_empty() {
+        &listed
+    } else {
+        logs
+    };
+    refuse_split(options, &axis, logs)?;
+    let used = Used::load(logs, &axis)?;
+    let mut held_out = used.held_out;
+    held_out.extend(load_held_out(&files.validate, &axis)?);
+    if used.fitted.is_empty() && !held_out.is_empty() {
+        return Err(Error::usage(
+            "no log to fit: validate = \"all\" under [[log]] of the axis file takes every one",
+            "at least one log, or a part of one, that is fitted",
+        ));
+    }
     let asked = Asked {
         options,
         axis: &axis,
         clock,
     };
-    identify_asked(asked, sources, held_out, observer)
+    identify_asked(asked, used.fitted, held_out, observer)
+}
+
+/// Refuses a split of logs whose parts the axis file chooses.
+fn refuse_split(options: &Options, axis: &Axis, logs: &[PathBuf]) -> Result<(), Error> {
+    let Some(part) = options.split else {
+        return Ok(());
+    };
+    let mut listed = logs.iter().filter_map(|path| axis.listed(path));
+    let Some(log) = listed.find(|log| log.has_parts()) else {
+        return Ok(());
+    };
+    Err(Error::usage(
+        [
+            Setting::Split.is(part),
+            TOGETHER_WITH.into(),
+            format!(
+                "fit or validate of {} under [[log]] of the axis file",
+                log.file.display()
+            )
+            .into(),
+        ],
+        "one of the two says what is fitted",
+    ))
 }
 
 /// The same for logs that are in memory already, read with this axis.

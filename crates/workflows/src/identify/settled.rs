@@ -15,7 +15,8 @@ const LEAST_PART: f64 = 0.5;
 pub(super) fn part(misfit: &Misfit, law: &FittedLaw, sources: &[Source]) -> Option<Cure> {
     let [source] = sources else { return None };
     let log = &source.log;
-    if log.mapping.crop.is_some() || misfit.shown_by != Divided::LevelOverTime {
+    let chosen = log.mapping.crop.is_some() || source.part.is_some();
+    if chosen || misfit.shown_by != Divided::LevelOverTime {
         return None;
     }
     let levels: Vec<f64> = misfit.course.iter().map(|(_, level)| *level).collect();

@@ -95,7 +95,7 @@ pub(super) fn run(
     }
     for source in &loaded.held_out {
         let recording = self::recordings(std::slice::from_ref(source))?.remove(0);
-        unseen_logs.push((stiction_files::shell::text(&source.path), recording));
+        unseen_logs.push((source.name(), recording));
     }
     let fail = |source| refused(sources, source);
     let start = match options.split {
