@@ -42,6 +42,8 @@ mod open;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod sniff;
+#[cfg(feature = "svb")]
+mod svb;
 mod table;
 #[cfg(feature = "tdms")]
 mod tdms;

@@ -119,6 +119,8 @@ fn read(path: &Path, options: &ReadOptions) -> Result<Table, Error> {
         Format::Mcap => crate::mcap::read(file, limits),
         #[cfg(feature = "tdms")]
         Format::Tdms => crate::tdms::read(file, bytes, limits),
+        #[cfg(feature = "svb")]
+        Format::Svb => crate::svb::read(file, bytes, limits),
         #[cfg(feature = "xlsx")]
         Format::Xlsx => crate::xlsx::read(file, limits),
         #[cfg(not(feature = "all"))]

@@ -16,6 +16,9 @@ pub(crate) enum Format {
     Arrow,
     Mcap,
     Tdms,
+    /// Told from text by reading its header, which its reader does.
+    #[cfg_attr(not(feature = "svb"), allow(dead_code))]
+    Svb,
     /// Told from NPZ by looking into the archive, which its reader does.
     #[cfg_attr(not(feature = "xlsx"), allow(dead_code))]
     Xlsx,
@@ -38,6 +41,7 @@ impl Format {
             Format::Arrow => "Arrow IPC",
             Format::Mcap => "MCAP",
             Format::Tdms => "TDMS",
+            Format::Svb => "TwinCAT Scope SVB",
             Format::Xlsx => "Excel workbook",
             Format::Foreign(what, _) => what,
             Format::Text => "text",
@@ -117,6 +121,8 @@ pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
             "write it again with version 2, as pyarrow and pandas do by themselves",
         ),
         _ if is_matlab4(&start) => Format::Matlab4,
+        #[cfg(feature = "svb")]
+        _ if crate::svb::starts(&start) => Format::Svb,
         _ if is_json(&start) => Format::Json,
         _ => Format::Text,
     })

@@ -4,7 +4,6 @@ use super::body::Body;
 use super::choose::Layout;
 use super::problem::{self, count};
 use super::row::{Role, Seen};
-use super::scope;
 use crate::{Column, Table};
 
 /// Half a day and a day in seconds.
@@ -74,7 +73,7 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
         });
     }
     if let Some(scope) = &layout.scope {
-        scope::finish(scope, &mut table);
+        scope.finish(&mut table);
     }
     if layout.scope.is_none() {
         let mut number = 0;

@@ -69,6 +69,8 @@ pub(crate) use clock::Moment;
 pub(crate) use column::unwrap_midnight;
 pub use limits::{MAX_COLUMNS, MAX_PREAMBLE_LINES, MAX_ROW_BYTES, MAX_SAMPLES};
 pub use options::{Decimal, Separator, TextOptions};
+#[cfg(feature = "svb")]
+pub(crate) use scope::{Group, Scope};
 
 use crate::{Error, Kind, Table};
 use source::Source;

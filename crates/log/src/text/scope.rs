@@ -5,66 +5,73 @@ use crate::{Scalar, Table};
 use std::collections::BTreeMap;
 
 /// What an export says beyond the names and units of its columns.
-pub(super) struct Scope {
+#[derive(Default)]
+pub(crate) struct Scope {
     pub groups: Vec<Group>,
     /// Sample time of each column in milliseconds, where stated.
     pub sample_times: Vec<Option<f64>>,
 }
 
 /// Channels that share their time stamps.
-pub(super) struct Group {
+#[derive(Default)]
+pub(crate) struct Group {
     /// The column of time stamps, where there is one.
     pub time: Option<usize>,
     pub channels: Vec<usize>,
 }
 
-/// Trims groups that ran out, joins equal time columns, and states the sample time.
-pub(super) fn finish(scope: &Scope, table: &mut Table) {
-    for group in &scope.groups {
-        trim(group, table);
-    }
-    let equals = equal_stamps(scope, table);
-    match &equals[..] {
-        [one] if one.times.len() > 1 => {
-            let joined = format!("{} equal time columns joined", one.times.len());
-            table.detected.push(joined);
+impl Scope {
+    /// Trims groups that ran out, joins equal time columns, and states the sample time.
+    pub(crate) fn finish(&self, table: &mut Table) {
+        for group in &self.groups {
+            trim(group, table);
         }
-        [] | [_] => {}
-        several => {
-            let said = format!("{} time columns that differ", several.len());
-            table.detected.push(said);
-            for stamps in several {
-                let Some(first) = stamps.channels.first() else {
-                    continue;
-                };
-                let name = format!("time of {}", table.columns[*first].name);
-                let of: Vec<String> = stamps.channels.iter().map(|&c| shown(table, c)).collect();
-                table
-                    .detected
-                    .push(format!("`{name}` applies to {}", problem::list(&of)));
-                table.columns[stamps.times[0]].name = name;
+        let equals = equal_stamps(self, table);
+        match &equals[..] {
+            [one] if one.times.len() > 1 => {
+                let joined = format!("{} equal time columns joined", one.times.len());
+                table.detected.push(joined);
+            }
+            [] | [_] => {}
+            several => {
+                let said = format!("{} time columns that differ", several.len());
+                table.detected.push(said);
+                for stamps in several {
+                    let Some(first) = stamps.channels.first() else {
+                        continue;
+                    };
+                    let name = format!("time of {}", table.columns[*first].name);
+                    let of: Vec<String> =
+                        stamps.channels.iter().map(|&c| shown(table, c)).collect();
+                    table
+                        .detected
+                        .push(format!("`{name}` applies to {}", problem::list(&of)));
+                    table.columns[stamps.times[0]].name = name;
+                }
             }
         }
+        let times: Vec<(usize, f64)> = self
+            .sample_times
+            .iter()
+            .enumerate()
+            .filter_map(|(c, t)| t.map(|t| (c, t)))
+            .collect();
+        match times[..] {
+            [] => {}
+            [(_, ms), ..] if times.iter().all(|(_, t)| *t == ms) => {
+                table.sample_time = Some(ms / 1e3)
+            }
+            _ => table.scalars.extend(times.iter().map(|&(c, ms)| Scalar {
+                name: format!("SampleTime[ms] of {}", table.columns[c].name),
+                value: ms,
+            })),
+        }
+        let mut column = 0;
+        table.columns.retain(|_| {
+            column += 1;
+            !equals.iter().any(|e| e.times[1..].contains(&(column - 1)))
+        });
     }
-    let times: Vec<(usize, f64)> = scope
-        .sample_times
-        .iter()
-        .enumerate()
-        .filter_map(|(c, t)| t.map(|t| (c, t)))
-        .collect();
-    match times[..] {
-        [] => {}
-        [(_, ms), ..] if times.iter().all(|(_, t)| *t == ms) => table.sample_time = Some(ms / 1e3),
-        _ => table.scalars.extend(times.iter().map(|&(c, ms)| Scalar {
-            name: format!("SampleTime[ms] of {}", table.columns[c].name),
-            value: ms,
-        })),
-    }
-    let mut column = 0;
-    table.columns.retain(|_| {
-        column += 1;
-        !equals.iter().any(|e| e.times[1..].contains(&(column - 1)))
-    });
 }
 
 /// Time columns with the same stamps, and the channels they hold for.

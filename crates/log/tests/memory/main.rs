@@ -27,7 +27,7 @@ const SAMPLES: u64 = 1 << 17;
 const MEMORY_BOUND: usize = 8 << 20;
 
 /// First bytes of the formats; the last of these lead to the text reader.
-const STARTS: [&[u8]; 16] = [
+const STARTS: [&[u8]; 17] = [
     b"\x89HDF\r\n\x1a\n",
     b"\x93NUMPY\x01\x00",
     b"\x93NUMPY\x02\x00",
@@ -42,6 +42,8 @@ const STARTS: [&[u8]; 16] = [
     b"ARROW1\0\0",
     b"\xff\xff\xff\xff\x10\0\0\0",
     b"[{\"q\":",
+    // The header of an SVB file of one channel, recorded in 2022.
+    b"\xb0\0\0\0\0\0\0\0\x01\0\0\0q\x80\x1b\x80\x05\x47\x5e\xd8\x01\x80\x1b\x80\x05\x47\x5e\xd8\x01\x01\0\0\0",
     b"time;force\n",
     b"",
 ];

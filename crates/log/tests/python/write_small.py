@@ -7,6 +7,7 @@ Small files, so that most damage hits the structure of the file and not its samp
 
 import json
 import pathlib
+import struct
 import sys
 
 import h5py
@@ -134,3 +135,26 @@ for row in zip(t, q):
     book.active.append([float(row[0]), float(row[1]), "x"])
 book.create_sheet("more").append([1.5, 2.5])
 book.save(folder / "small.xlsx")
+
+
+def svb():
+    """The layout is explained in write_svb.py."""
+    def text(value):
+        return struct.pack("<i", len(value)) + value.encode()
+
+    main = text("Scope") + struct.pack("<qqi", 132_959_733_843_760_000, 132_959_733_853_760_000, 2)
+    sizes, headers, at = [(40, 8, "REAL64"), (40, 2, "INT16")], [], 0
+    for write in (False, True):
+        length = 8 + len(main) + sum(map(len, headers))
+        at, headers = length, []
+        for n, size, kind in sizes:
+            rest = (text("q") + text("5.23.1.7.1.1") + struct.pack("<iq?", 851, 10_000, True) + text("MAIN.q") + text("")
+                    + struct.pack("<qq", 1, 2) + text(kind)
+                    + struct.pack("<iiqqqddq", 5, size, n, n * (size + 4), at, 0.0, 1.0, -1))
+            headers.append(struct.pack("<q", 8 + len(rest)) + rest)
+            at += n * (size + 4)
+    rows = [np.rec.fromarrays([np.arange(40, dtype="<u4") * 10_000, values]).tobytes() for values in (q, count)]
+    (folder / "scope.svb").write_bytes(struct.pack("<q", length) + main + b"".join(headers) + b"".join(rows))
+
+
+svb()

@@ -5,3 +5,4 @@ mod json;
 mod mapping_recordings;
 mod recordings;
 mod roundtrip;
+mod svb;

@@ -151,6 +151,35 @@ fn tdms_comes_back_bit_for_bit() {
 }
 
 #[test]
+fn svb_comes_back_bit_for_bit() {
+    let tables = come_back("write_svb.py");
+    assert_eq!(tables.len(), 5);
+    for (name, table) in &tables {
+        assert!(detects(table, "TwinCAT Scope SVB"), "{name}");
+        match name.as_str() {
+            "clocks.svb" => {
+                assert_eq!(table.sample_time, None);
+                assert!(detects(
+                    table,
+                    "`time of ActPos` applies to `ActPos`, `ActPos (1)`"
+                ));
+                assert!(detects(table, "display Offset not applied: `ActTorque` 2"));
+                assert!(detects(
+                    table,
+                    "display ScaleFactor not applied: `ActTorque` -1"
+                ));
+            }
+            "no_times.svb" => assert_eq!(table.sample_time, Some(0.00025)),
+            _ => {
+                assert_eq!(table.columns[0].unit.as_deref(), Some("s"));
+                assert_eq!(table.sample_time, Some(0.0005));
+                assert!(detects(table, "beyond 2^53"), "{name}");
+            }
+        }
+    }
+}
+
+#[test]
 fn workbooks_come_back_bit_for_bit() {
     let tables = come_back("write_xlsx.py");
     assert_eq!(tables.len(), 3);
