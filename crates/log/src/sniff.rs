@@ -116,6 +116,11 @@ pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
             "an old Excel workbook",
             "save it as .xlsx or the sheet as CSV",
         ),
+        _ if starts(b"MDF     ") || starts(b"UnFinMF ") => Format::Foreign(
+            "a recording in ASAM MDF (.mf4, .mdf)",
+            "have it written as one table for each clock in it, after pip install asammdf: python3 -c 'from asammdf import MDF; \
+             MDF(\"log.mf4\").export(\"csv\", \"log.csv\", add_units=True)'",
+        ),
         _ if starts(b"FEA1") => Format::Foreign(
             "a Feather file of version 1",
             "write it again with version 2, as pyarrow and pandas do by themselves",

@@ -243,6 +243,10 @@ fn odd_files(folder: &Path) {
     }
     std::fs::write(&empty, b"\x1f\x8b\x08 some more").unwrap();
     refuse(&empty, Kind::Format, "gzip");
+    for start in [b"MDF     4.10    ", b"UnFinMF 4.10    "] {
+        std::fs::write(&empty, [&start[..], &[0; 600]].concat()).unwrap();
+        refuse(&empty, Kind::Format, "asammdf");
+    }
     let large = std::fs::File::create(&empty).unwrap();
     large.set_len(Limits::default().file_bytes + 1).unwrap();
     refuse(&empty, Kind::Limit, "at most");
