@@ -16,4 +16,4 @@ pub use limits::AxisLimits;
 pub use listed::{ListedLog, Use};
 pub use resolve::MOST_PITCHES;
 pub use template::{Found, entry, template};
-pub use values::Axis;
+pub use values::{Axis, JoinedColumn};

@@ -159,12 +159,26 @@ pub struct Input {
     /// Stretches that the fit did not see, though nothing is wrong with them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub excluded: Vec<ExcludedEntry>,
+    /// Columns that come from other files.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub joined: Vec<JoinedEntry>,
     /// Rows that a column of the log leaves out; none without such a column.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub not_enabled: Option<NotEnabledEntry>,
     /// Units that neither file nor axis file gives: every number rests on them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assumed: Vec<AssumedEntry>,
+}
+
+/// A column that comes from another file than the log.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct JoinedEntry {
+    /// What the column is: `force`.
+    pub column: String,
+    /// Path of the file.
+    pub path: String,
+    /// SHA-256 of that file, hexadecimal.
+    pub sha256: String,
 }
 
 /// Rows in which the axis is not enabled, or in another mode.

@@ -26,6 +26,7 @@ mod error;
 pub mod findings;
 #[cfg(feature = "hdf5")]
 mod hdf5;
+mod join;
 #[cfg(feature = "json")]
 mod json;
 pub mod log;
@@ -54,6 +55,7 @@ mod xlsx;
 
 pub use error::{Error, Kind, Place};
 pub use findings::{Finding, Severity};
+pub use join::{Elsewhere, Joined};
 pub use log::{Excluded, Gap, Log, NotEnabled};
 pub use mapping::{
     Assumed, Channel, Detected, Enable, Mapping, Motion, Parts, Rests, Role, Selector, Understood,

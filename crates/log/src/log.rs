@@ -34,6 +34,7 @@ mod held;
 mod unwrap;
 
 use crate::findings::{self, Finding, Severity};
+use crate::join::Joined;
 use crate::mapping::{Mapping, Motion, Role, Source, Understood, parts};
 use crate::{Error, Kind, Table};
 use cells::LeftOut;
@@ -132,6 +133,21 @@ impl Log {
     /// Those of [`Mapping::complete`]; [`Kind::Time`] for time stamps that no rule mends, with the
     /// row; [`Kind::Value`] where too little is left or too much is missing.
     pub fn from_table(table: &Table, mapping: &Mapping) -> Result<Self, Error> {
+        Self::of_rows(table, mapping, &[])
+    }
+
+    /// The same of a table to which columns of other files were joined.
+    ///
+    /// # Errors
+    /// As [`Log::from_table`].
+    pub fn from_joined(joined: &Joined) -> Result<Self, Error> {
+        let mut log = Self::of_rows(&joined.table, &joined.mapping, &joined.outside)?;
+        log.findings.splice(0..0, joined.findings.iter().cloned());
+        Ok(log)
+    }
+
+    /// A log of the rows of a table that are not `outside`.
+    fn of_rows(table: &Table, mapping: &Mapping, outside: &[bool]) -> Result<Self, Error> {
         let completed = mapping.complete(table)?;
         let mapping = completed.mapping;
         let mut findings = completed.findings;
@@ -145,7 +161,7 @@ impl Log {
         let length = common_length(table, &sources, &mut findings)?;
         let clock = clock::read(table, &sources, &mapping, length, &mut findings)?;
         let mut columns = cells::Columns::read(table, &sources, &clock);
-        let mut chosen = chosen::Chosen::read(table, &mapping, &clock)?;
+        let mut chosen = chosen::Chosen::read(table, &mapping, &clock, outside)?;
         filled::clear(&mut columns, &mut findings)?;
         let mut left_out = dropout::clear(&mut columns, table, &sources, &clock, &mut findings);
         let mut time = clock.time;

@@ -49,10 +49,12 @@ mod understood;
 use crate::findings::{Finding, full};
 use crate::{Error, Kind, Table};
 pub use channel::{Channel, Motion, Role, Selector};
+pub(crate) use complete::time_source;
 pub(crate) use convert::{LARGEST_VALUE, Source};
 pub use enable::Enable;
 pub use limits::{FORCE_LIMITS, RATES, RESOLUTIONS, SCALES, WRAPS};
 pub use parts::Parts;
+pub(crate) use select::select;
 pub use understood::{Assumed, Understood};
 
 /// A position that wraps after some travel.
@@ -135,6 +137,11 @@ impl Mapping {
             Role::Load => self.load.as_ref(),
             Role::External => self.external.as_ref(),
         }
+    }
+
+    /// Gives a role another channel.
+    pub(crate) fn set(&mut self, role: Role, channel: Channel) {
+        *self.slot(role) = Some(channel);
     }
 
     fn slot(&mut self, role: Role) -> &mut Option<Channel> {

@@ -145,6 +145,7 @@ pub fn check(
             "at least one log, here or under [[log]] of the axis file",
         ));
     }
+    source::refuse_several(&read, logs.len())?;
     let mut out = Vec::new();
     for path in logs {
         out.push(one(path, &read, observer)?);

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 use stiction_files::Axis;
 use stiction_files::axis::{ListedLog, Use};
-use stiction_files::result::{AssumedEntry, ExcludedEntry, Input, NotEnabledEntry};
+use stiction_files::result::{AssumedEntry, ExcludedEntry, Input, JoinedEntry, NotEnabledEntry};
 use stiction_identify::{Samples, Terms};
-use stiction_log::{Column, Log, ReadOptions, Table, read_table};
+use stiction_log::{Column, Joined, Log, Mapping, ReadOptions, Table, read_table};
 
 /// Beginning of an entry of `detected` about a column that was not read.
 const LEFT_OUT: &str = "left out: ";
@@ -26,6 +26,8 @@ pub struct Source {
     pub detected: Vec<String>,
     /// The log in SI units.
     pub log: Log,
+    /// Columns of it that come from other files.
+    pub joined: Vec<JoinedEntry>,
 }
 
 /// Reads the columns of a file, without mapping them.
@@ -136,8 +138,16 @@ fn mapped(
     (listed, part): (Option<&ListedLog>, Use),
 ) -> Result<Source, Error> {
     let own = listed.and_then(|log| log.mapping(part));
-    let log = Log::from_table(table, own.as_ref().unwrap_or(&axis.mapping));
-    let log = log.map_err(|e| axis.at_listed(e.in_file(path), listed, part))?;
+    let mapping = own.as_ref().unwrap_or(&axis.mapping);
+    let refused =
+        |e: stiction_log::Error| Error::from(axis.at_listed(e.in_file(path), listed, part));
+    let (log, joined) = match axis.joined.is_empty() {
+        true => (
+            Log::from_table(table, mapping).map_err(refused)?,
+            Vec::new(),
+        ),
+        false => joined(table, mapping, axis, refused)?,
+    };
     let mut detected = log.detected.clone();
     detected.extend(table.skipped.iter().map(|s| format!("{LEFT_OUT}{s}")));
     Ok(Source {
@@ -146,11 +156,68 @@ fn mapped(
         sha256: sha256()?,
         detected,
         log,
+        joined,
     })
+}
+
+/// The log of a table with the columns that come from other files.
+fn joined(
+    table: &Table,
+    mapping: &Mapping,
+    axis: &Axis,
+    refused: impl Fn(stiction_log::Error) -> Error,
+) -> Result<(Log, Vec<JoinedEntry>), Error> {
+    let mut out = Joined::new(table.clone(), mapping);
+    let mut entries = Vec::new();
+    let mut before: Option<(&Path, Table)> = None;
+    for column in &axis.joined {
+        let file = column.file.as_path();
+        let other = match before.take() {
+            Some((path, table)) if path == file => table,
+            _ => self::table(file, axis)?,
+        };
+        let name = stiction_files::shell::text(file);
+        out.join(&name, &other, &column.from).map_err(&refused)?;
+        entries.push(JoinedEntry {
+            column: column.from.role.to_string(),
+            sha256: hash_of(file)?,
+            path: name,
+        });
+        before = Some((file, other));
+    }
+    let mut log = Log::from_joined(&out).map_err(refused)?;
+    // The line that gives a unit is that of the other file.
+    for column in &mut log.columns {
+        let mut joined = axis.joined.iter();
+        let own = joined.find(|j| Some(j.from.role) == column.role);
+        if let (Some(own), Some(assumed)) = (own, &mut column.assumed) {
+            assumed.line = own.line(&assumed.line);
+        }
+    }
+    Ok((log, entries))
+}
+
+/// Refuses several logs where a column comes from another file, which belongs to one of them.
+pub(crate) fn refuse_several(axis: &Axis, logs: usize) -> Result<(), Error> {
+    let Some(joined) = axis.joined.first().filter(|_| logs > 1) else {
+        return Ok(());
+    };
+    let found = format!(
+        "{} comes from {}, and there are {logs} logs",
+        joined.from.role,
+        joined.file.display()
+    );
+    let allowed = "one log, which that file belongs to, with an axis file of its own";
+    let key = format!("columns.{}.file", joined.from.role);
+    match axis.refuse(&key, found.clone(), allowed, Code::Usage) {
+        Some(error) => Err(error.into()),
+        None => Err(Error::usage(found, allowed)),
+    }
 }
 
 /// Reads every file of a list and maps it by the axis.
 pub(crate) fn load_all(paths: &[PathBuf], axis: &Axis) -> Result<Vec<Source>, Error> {
+    refuse_several(axis, paths.len())?;
     paths.iter().map(|path| load(path, axis)).collect()
 }
 
@@ -208,6 +275,7 @@ impl Source {
         });
         Input {
             excluded: excluded.collect(),
+            joined: self.joined.clone(),
             not_enabled,
             assumed: assumed.collect(),
             path: stiction_files::shell::text(&self.path),

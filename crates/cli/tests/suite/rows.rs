@@ -136,3 +136,81 @@ fn parts_of_listed_logs() {
     }
     insta::assert_snapshot!(said);
 }
+
+/// The force of another file, at another rate and by another clock.
+#[test]
+fn a_force_from_another_file() {
+    let dir = tempfile::tempdir().unwrap();
+    let dir = dir.path();
+    log(&dir.join("log.csv"), 4000);
+    let text = std::fs::read_to_string(dir.join("log.csv")).unwrap();
+    let (mut motion, mut force) = (String::new(), String::new());
+    for (i, line) in text.lines().enumerate() {
+        let cells: Vec<&str> = line.split(',').collect();
+        let _ = writeln!(motion, "{},{},{}", cells[0], cells[1], cells[3]);
+        // The clock of the drive began 3.5 s before that of the log.
+        let stamp = cells[0].parse::<f64>().map(|t| format!("{:.4}", t + 3.5));
+        if i % 2 == 1 || i == 0 {
+            let _ = writeln!(
+                force,
+                "{},{}",
+                stamp.unwrap_or("stamp [s]".into()),
+                cells[2]
+            );
+        }
+    }
+    std::fs::write(dir.join("motion.csv"), &motion).unwrap();
+    std::fs::write(dir.join("again.csv"), motion.replace("Mode", "mode")).unwrap();
+    std::fs::write(dir.join("tau.csv"), force).unwrap();
+    let axis = |offset: &str| {
+        let force = format!("force = {{ file = \"tau.csv\", column = \"Force\"{offset} }}");
+        let text = format!("[columns]\n{force}\nenable = {{ column = \"Mode\", equals = 8 }}\n");
+        std::fs::write(dir.join("axis.toml"), text).unwrap();
+    };
+    axis(", offset = \"-3.5 s\"");
+    let (_, out, err) = run(
+        dir,
+        "identify motion.csv --axis axis.toml --law coulomb-viscous --out a",
+    );
+    assert!(
+        out.starts_with("motion.csv: 1500 samples at 500.0 Hz"),
+        "{out}{err}"
+    );
+    let result = std::fs::read_to_string(dir.join("a/result.json")).unwrap();
+    let result: serde_json::Value = serde_json::from_str(&result).unwrap();
+    let joined = &result["inputs"][0]["joined"][0];
+    assert_eq!(
+        (&joined["column"], &joined["path"]),
+        (&"force".into(), &"tau.csv".into())
+    );
+    let mut parameters = result["parameters"].as_array().unwrap().iter();
+    let coulomb = parameters.find(|p| p["name"] == "coulomb").unwrap();
+    let value = coulomb["value"].as_f64().unwrap();
+    assert!((value - 20.0).abs() < 0.5, "{value}");
+    let (_, out, _) = run(dir, "check motion.csv --axis axis.toml");
+    assert!(
+        out.contains("[joined] force is joined from tau.csv"),
+        "{out}"
+    );
+    let mut said = String::new();
+    for (offset, command) in [
+        (
+            ", offset = \"-3.5 s\"",
+            "check motion.csv again.csv --axis axis.toml",
+        ),
+        (
+            ", offset = \"-3.5 s\"",
+            "identify motion.csv --validate again.csv --axis axis.toml --out b",
+        ),
+        (
+            ", offset = \"1 min\"",
+            "identify motion.csv --axis axis.toml --out b",
+        ),
+    ] {
+        axis(offset);
+        let (code, _, err) = run(dir, command);
+        assert_eq!(code, 2, "{command}: {err}");
+        let _ = writeln!(said, "{command}\n{err}");
+    }
+    insta::assert_snapshot!(said);
+}

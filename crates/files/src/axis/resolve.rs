@@ -74,6 +74,8 @@ impl Resolver {
         let name = root.line("name")?.map(str::to_string);
         axis.name = name.filter(|name| !name.trim().is_empty());
         self.mapping(root, &mut axis.mapping)?;
+        let folder = axis.file.parent().unwrap_or(Path::new(""));
+        axis.joined = columns::columns(root, &mut axis.mapping, folder)?;
         self.log(root, axis, &axis.file.clone())?;
         text_options(root, &mut axis.text)?;
         axis.conditioning = self.conditioning(root)?;
@@ -102,7 +104,7 @@ impl Resolver {
                 .transpose()
         };
         mapping.rate_hz = within(root.get("rate"), &[Dimension::FREQUENCY], &RATES)?;
-        columns::columns(root, mapping)
+        Ok(())
     }
 
     fn conditioning(&self, root: &Table<'_>) -> Result<Conditioning, Error> {

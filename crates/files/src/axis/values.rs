@@ -11,8 +11,25 @@ use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 use stiction_identify::{Conditioning, Delay, Hold, Mass, Terms};
 use stiction_log::text::TextOptions;
-use stiction_log::{Log, Mapping, Motion};
+use stiction_log::{Elsewhere, Log, Mapping, Motion};
 use stiction_number::short;
+
+/// A column that comes from another file than the log.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JoinedColumn {
+    /// That file.
+    pub file: PathBuf,
+    /// What the column is, and how its clock goes with that of the log.
+    pub from: Elsewhere,
+}
+
+impl JoinedColumn {
+    /// A line of the axis file such as `force = { column = "F", unit = "N" }`, with the file.
+    pub fn line(&self, line: &str) -> String {
+        let file = toml::Value::String(self.file.display().to_string());
+        line.replacen("{ ", &format!("{{ file = {file}, "), 1)
+    }
+}
 
 /// Everything an axis file says, resolved; `Axis::default()` leaves all to detection.
 #[derive(Clone, Debug)]
@@ -23,6 +40,8 @@ pub struct Axis {
     pub mapping: Mapping,
     /// The logs that the file lists.
     pub logs: Vec<ListedLog>,
+    /// Columns that come from other files than the log.
+    pub joined: Vec<JoinedColumn>,
     /// How text logs are written, where stated.
     pub text: TextOptions,
     /// Filters and decimation.
@@ -66,6 +85,7 @@ impl Default for Axis {
             name: None,
             mapping: Mapping::default(),
             logs: Vec::new(),
+            joined: Vec::new(),
             text: TextOptions::default(),
             conditioning: Conditioning::default(),
             terms: Terms {

@@ -376,6 +376,18 @@ fn refusals() {
             "[[log]]\nfile = \"a\"\nvalidate = [1, 2]",
         ),
         ("fit of every log", "[log]\nfit = [\"1 s\", \"2 s\"]"),
+        (
+            "an offset without a file",
+            "[columns]\nforce = { column = 1, offset = \"12 ms\" }",
+        ),
+        (
+            "an offset without a unit",
+            "[columns]\nforce = { file = \"a\", column = 1, offset = 12 }",
+        ),
+        (
+            "the time of another file",
+            "[columns]\ntime = { file = \"a\", column = 1 }",
+        ),
         ("enable as a flag", "[columns]\nenable = true"),
         (
             "enable as a quantity",

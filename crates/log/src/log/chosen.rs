@@ -50,7 +50,13 @@ enum Row {
 
 impl Chosen {
     /// The rows that are chosen of those that the clock keeps.
-    pub fn read(table: &Table, mapping: &Mapping, clock: &Clock) -> Result<Self, Error> {
+    /// `outside` are rows of the table that another file does not have.
+    pub fn read(
+        table: &Table,
+        mapping: &Mapping,
+        clock: &Clock,
+        outside: &[bool],
+    ) -> Result<Self, Error> {
         let mut out = Self {
             rows: None,
             left_out: None,
@@ -65,6 +71,18 @@ impl Chosen {
                 false => Row::Elsewhere,
             };
             out.rows = Some(clock.time.iter().map(in_part).collect());
+        }
+        if outside.contains(&true) {
+            let mut rows = out
+                .rows
+                .take()
+                .unwrap_or_else(|| vec![Row::Kept; clock.time.len()]);
+            for (row, at) in rows.iter_mut().zip(kept_rows(clock)) {
+                if outside.get(at).copied().unwrap_or(false) {
+                    *row = Row::Elsewhere;
+                }
+            }
+            out.rows = Some(rows);
         }
         if let Some((enable, column)) = mapping.enable.as_ref().zip(Enable::of(mapping, table)?) {
             out.enable(table, enable, column, clock)?;
@@ -91,11 +109,7 @@ impl Chosen {
             let allowed = "a column at the rate of the others; export them with one sample time";
             return Err(Error::new(Kind::Value, found, allowed).of_setting(enable::KEY));
         }
-        let mut dropped = clock.dropped.iter().peekable();
-        let kept = clock.range.clone();
-        let values = kept
-            .filter(|row| dropped.next_if_eq(&row).is_none())
-            .map(|row| values[row]);
+        let values = kept_rows(clock).map(|row| values[row]);
         let mut rows = self
             .rows
             .take()
@@ -168,6 +182,13 @@ impl Chosen {
     pub fn not_enabled(self) -> Option<NotEnabled> {
         self.left_out
     }
+}
+
+/// The rows of the table that the clock keeps.
+fn kept_rows(clock: &Clock) -> impl Iterator<Item = usize> {
+    let mut dropped = clock.dropped.iter().peekable();
+    let kept = clock.range.clone();
+    kept.filter(move |row| dropped.next_if_eq(&row).is_none())
 }
 
 /// Refuses a stretch without a sample.

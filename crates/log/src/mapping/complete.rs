@@ -220,6 +220,37 @@ fn assume_units(
     Ok(())
 }
 
+/// The time stamps of a table: the column that is given, or the one that is clear.
+pub(crate) fn time_source(table: &Table, given: Option<&Channel>) -> Result<Source, Error> {
+    let clear = match given {
+        Some(_) => None,
+        None => choose::clear(table).time,
+    };
+    let Some(channel) = given.or(clear.as_ref()).cloned() else {
+        let found = format!(
+            "no time column was recognised; {}",
+            describe::columns(table)
+        );
+        let allowed = "time stamps, which join the files: name their column as time";
+        return Err(Error::new(Kind::Missing, found, allowed));
+    };
+    let column = select(table, &channel.column, Role::Time)?;
+    let mut part = Part {
+        unit: written_unit(table, column, &channel, Role::Time, &mut Vec::new())?,
+        role: Role::Time,
+        channel,
+        column,
+        assumed: false,
+    };
+    let unit = match part.unit.take() {
+        Some(unit) => unit,
+        None => seconds(table, &part)?,
+    };
+    let source = Source::new(table, column, &unit, &part.channel, Role::Time)?;
+    source.check(table, Role::Time, Motion::Linear)?;
+    Ok(source)
+}
+
 /// Seconds, where the spacing is that of a motion log in seconds.
 fn seconds(table: &Table, part: &Part) -> Result<Unit, Error> {
     let values = &table.columns[part.column].values;

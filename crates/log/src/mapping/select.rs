@@ -7,7 +7,7 @@ use crate::{Error, Kind, Table};
 use std::fmt::Display;
 
 /// The position of the column that a selector means; `role` is what it is called in messages.
-pub(super) fn select(
+pub(crate) fn select(
     table: &Table,
     selector: &Selector,
     role: impl Display,

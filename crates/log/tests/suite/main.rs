@@ -5,6 +5,7 @@
 
 #[cfg(feature = "all")]
 mod binary;
+mod join;
 mod mapping_codes;
 mod mapping_common;
 mod mapping_detect;

@@ -160,6 +160,10 @@ fn additions(given: &Axis, log: &Log) -> Vec<Addition> {
         let Some(channel) = log.mapping.channel(role) else {
             continue;
         };
+        // The log has this column under a number that its file does not know.
+        if given.joined.iter().any(|joined| joined.from.role == role) {
+            continue;
+        }
         let replaces = given.mapping.channel(role).is_some();
         if replaces && column.assumed.is_none() {
             continue;

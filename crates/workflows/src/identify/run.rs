@@ -13,7 +13,7 @@ use super::outside;
 use super::procedure::{static_map, step};
 use super::simulate;
 use crate::error::Error;
-use crate::source::{Source, Used, load_held_out};
+use crate::source::{Source, Used, load_held_out, refuse_several};
 use crate::wording::{Setting, TOGETHER_WITH};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -61,6 +61,16 @@ pub fn identify(
         logs
     };
     refuse_split(options, &axis, logs)?;
+    let others = [
+        &files.validate,
+        &options.procedures.statics,
+        &options.procedures.break_away,
+    ];
+    let others = others
+        .into_iter()
+        .flatten()
+        .filter(|log| !logs.contains(log));
+    refuse_several(&axis, logs.len() + others.count())?;
     let used = Used::load(logs, &axis)?;
     let mut held_out = used.held_out;
     held_out.extend(load_held_out(&files.validate, &axis)?);

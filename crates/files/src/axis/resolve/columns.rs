@@ -1,23 +1,38 @@
 //! `[columns]`: which column is what.
 
+use crate::axis::values::JoinedColumn;
 use crate::config::{Given, Table};
 use crate::error::Error;
+use std::path::Path;
 use stiction_log::mapping::SCALES;
-use stiction_log::{Channel, Dimension, Enable, Mapping, Selector, Unit, Value};
+use stiction_log::{Channel, Dimension, Elsewhere, Enable, Mapping, Role, Selector, Unit, Value};
 
-pub(super) fn columns(root: &Table<'_>, mapping: &mut Mapping) -> Result<(), Error> {
+/// The columns of the log, and those of other files, which are named from a folder.
+pub(super) fn columns(
+    root: &Table<'_>,
+    mapping: &mut Mapping,
+    folder: &Path,
+) -> Result<Vec<JoinedColumn>, Error> {
+    let mut joined = Vec::new();
     let Some(table) = root.table("columns")? else {
-        return Ok(());
+        return Ok(joined);
     };
-    let channel = |key| table.get(key).map(|given| channel(&given)).transpose();
-    mapping.time = channel("time")?;
-    mapping.position = channel("position")?;
-    mapping.velocity = channel("velocity")?;
-    mapping.acceleration = channel("acceleration")?;
-    mapping.reference = channel("reference")?;
-    mapping.temperature = channel("temperature")?;
-    mapping.load = channel("load")?;
-    mapping.external = channel("external")?;
+    let mut read = |given: Option<Given<'_>>, role| -> Result<Option<Channel>, Error> {
+        let Some(given) = given else {
+            return Ok(None);
+        };
+        let (channel, from) = column(&given, role, folder)?;
+        joined.extend(from);
+        Ok(Some(channel))
+    };
+    mapping.time = read(table.get("time"), Role::Time)?;
+    mapping.position = read(table.get("position"), Role::Position)?;
+    mapping.velocity = read(table.get("velocity"), Role::Velocity)?;
+    mapping.acceleration = read(table.get("acceleration"), Role::Acceleration)?;
+    mapping.reference = read(table.get("reference"), Role::Reference)?;
+    mapping.temperature = read(table.get("temperature"), Role::Temperature)?;
+    mapping.load = read(table.get("load"), Role::Load)?;
+    mapping.external = read(table.get("external"), Role::External)?;
     mapping.enable = table
         .get("enable")
         .map(|given| enable(&given))
@@ -32,10 +47,46 @@ pub(super) fn columns(root: &Table<'_>, mapping: &mut Mapping) -> Result<(), Err
             let found = format!("a second column of the force, after {}", before.shown());
             return Err(given.refuse(found, "one of force, torque, current"));
         }
-        mapping.force = Some(self::channel(&given)?);
-        taken = Some(given);
+        taken = Some(given.clone());
+        mapping.force = read(Some(given), Role::Force)?;
     }
-    table.end()
+    table.end()?;
+    Ok(joined)
+}
+
+/// A column of the log or, where it names a file, of another one.
+fn column(
+    given: &Given<'_>,
+    role: Role,
+    folder: &Path,
+) -> Result<(Channel, Option<JoinedColumn>), Error> {
+    let Some(table) = given.as_table() else {
+        return Ok((channel(given)?, None));
+    };
+    let file = match role {
+        Role::Time => None,
+        _ => table.get("file"),
+    };
+    let own = of_table(&table)?;
+    let Some(file) = file else {
+        if let Some(offset) = table.find("offset").filter(|_| role != Role::Time) {
+            let found = format!("{} without file", offset.shown());
+            return Err(offset.refuse(
+                found,
+                "offset beside file = \"...\": it is of the clock of another file",
+            ));
+        }
+        table.end()?;
+        return Ok((own, None));
+    };
+    let time = table.get("time").map(|given| channel(&given)).transpose()?;
+    let offset = table.value("offset", Dimension::TIME)?.unwrap_or(0.0);
+    table.end()?;
+    let joined = JoinedColumn {
+        file: folder.join(file.path("a recording")?),
+        from: Elsewhere { role, time, offset },
+    };
+    Ok((own, Some(joined)))
 }
 
 /// A column by name, by number, or with all that is known of it.
@@ -50,6 +101,13 @@ fn channel(given: &Given<'_>) -> Result<Channel, Error> {
             invert: false,
         });
     };
+    let channel = of_table(&table)?;
+    table.end()?;
+    Ok(channel)
+}
+
+/// The keys of a column that say how its numbers are read.
+fn of_table(table: &Table<'_>) -> Result<Channel, Error> {
     let column = table.get("column");
     let column = table.required("column", column, "a column name or a column number from 1")?;
     let unit = table.get("unit").map(|given| {
@@ -57,14 +115,12 @@ fn channel(given: &Given<'_>) -> Result<Channel, Error> {
         Unit::parse(text).map_err(|e| given.refuse(e.found, &e.allowed))
     });
     let scale = table.get("scale").map(|given| scale(&given));
-    let channel = Channel {
+    Ok(Channel {
         column: selector(&column, "a column name or a column number from 1")?,
         unit: unit.transpose()?,
         scale: scale.transpose()?,
         invert: table.flag("invert")?.unwrap_or(false),
-    };
-    table.end()?;
-    Ok(channel)
+    })
 }
 
 /// A column that says in which rows the axis is enabled.

@@ -1,0 +1,295 @@
+//! A column of another file, joined to a recording by time stamps.
+//!
+//! Rows stay those of the recording, and none of its columns is touched. The other column is a straight line between two of
+//! its samples that are next to each other; across a gap and beyond its ends there is no value, and the rows are left out.
+//! Where it is sampled at half the rate or less, only rows nearest to its samples are kept, since nothing is known of it in
+//! between; temperatures and loads change slowly, and are not thinned so.
+
+use crate::findings::{Finding, Severity, count, median, short};
+use crate::mapping::{Channel, Mapping, Role, Source, select, time_source};
+use crate::{Column, Error, Kind, Selector, Table};
+use stiction_codes::Code;
+
+/// Step between two samples of the other column from which on some are missing in it, in median steps.
+const GAP_STEPS: f64 = 1.5;
+/// How much slower the other column has to be for rows to be thinned.
+const SLOWER: f64 = 2.0;
+/// Part of a step up to which a row is beside a sample of the other column.
+const BESIDE: f64 = 0.5;
+/// Part of a step by which a row at an end of the other column may miss it by the rounding of time stamps.
+const ROUNDING: f64 = 1e-4;
+
+/// A column of another file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Elsewhere {
+    /// What it is.
+    pub role: Role,
+    /// The time column of that file; found as in any recording where `None`.
+    pub time: Option<Channel>,
+    /// What is added to the time stamps of that file, s.
+    pub offset: f64,
+}
+
+/// A recording with columns of other files.
+#[derive(Clone, Debug)]
+pub struct Joined {
+    /// Its columns with those of the others behind them.
+    pub table: Table,
+    /// The mapping, with those columns by their numbers.
+    pub mapping: Mapping,
+    /// Rows that not all files have.
+    pub(crate) outside: Vec<bool>,
+    pub(crate) findings: Vec<Finding>,
+}
+
+/// Samples of the other column by the clock of the recording.
+struct Course {
+    time: Vec<f64>,
+    values: Vec<f64>,
+    step: f64,
+}
+
+impl Joined {
+    /// A recording to which nothing is joined yet.
+    pub fn new(table: Table, mapping: &Mapping) -> Self {
+        Self {
+            outside: vec![false; table.rows()],
+            mapping: mapping.clone(),
+            table,
+            findings: Vec::new(),
+        }
+    }
+
+    /// Joins the column that the mapping names for a role, from a table that `name` stands for in messages.
+    ///
+    /// # Errors
+    /// Where one of the two has no time stamps, where they do not increase, and where the two share no time.
+    pub fn join(&mut self, name: &str, other: &Table, from: &Elsewhere) -> Result<(), Error> {
+        let role = from.role;
+        let Some(channel) = self.mapping.channel(role).cloned() else {
+            return Ok(());
+        };
+        if self.mapping.rate_hz.is_some() {
+            let found = format!("{role} is from another file, and the rate is given");
+            let allowed = "time stamps in both files, which join them: take rate out, and give time under [columns]";
+            return Err(Error::new(Kind::Time, found, allowed).of_setting("rate"));
+        }
+        let own = time_source(&self.table, self.mapping.time.as_ref())?;
+        let stamps = &self.table.columns[own.column].values;
+        let origin = stamps.iter().copied().find(|t| own.si(*t).is_finite());
+        let origin = own.si(origin.unwrap_or(0.0));
+        let time: Vec<f64> = stamps.iter().map(|t| own.si(*t) - origin).collect();
+        let in_other = |e: Error| {
+            let found = format!("{name}: {}", e.found);
+            Error::new(e.kind, found, e.allowed.clone()).of_setting(role.key("file"))
+        };
+        let course = Course::read(other, &channel, from, origin).map_err(in_other)?;
+        let step = step(&time).unwrap_or(0.0);
+        self.refuse_apart(name, &course, &time, from)?;
+        let slow = matches!(role, Role::Temperature | Role::Load);
+        if !slow && course.step >= SLOWER * step {
+            self.thin(&course, &time);
+        } else {
+            self.outside.resize(self.table.rows(), false);
+        }
+        let stamps = &self.table.columns[own.column].values;
+        let time: Vec<f64> = stamps.iter().map(|t| own.si(*t) - origin).collect();
+        let values: Vec<f64> = time.iter().map(|t| course.at(*t)).collect();
+        self.say(name, &course, &time, &values, step, from);
+        for (outside, value) in self.outside.iter_mut().zip(&values) {
+            *outside |= value.is_nan();
+        }
+        let index = select(other, &channel.column, role).map_err(in_other)?;
+        self.table.columns.push(Column {
+            name: other.columns[index].name.clone(),
+            unit: other.columns[index].unit.clone(),
+            values,
+        });
+        let number = self.table.number(self.table.columns.len() - 1);
+        self.mapping.set(
+            role,
+            Channel {
+                column: Selector::Index(number),
+                ..channel
+            },
+        );
+        Ok(())
+    }
+
+    fn refuse_apart(
+        &self,
+        name: &str,
+        course: &Course,
+        time: &[f64],
+        from: &Elsewhere,
+    ) -> Result<(), Error> {
+        if time.iter().any(|t| !course.at(*t).is_nan()) {
+            return Ok(());
+        }
+        let ends = |time: &[f64]| {
+            let mut known = time.iter().copied().filter(|t| t.is_finite());
+            let first = known.next().unwrap_or(0.0);
+            (first, known.next_back().unwrap_or(first))
+        };
+        let ((a, b), (c, d)) = (ends(time), ends(&course.time));
+        let found = format!(
+            "{name} and this log share no time: it runs from {} to {} s, counted from the first sample of the log, which runs from \
+             {} to {} s",
+            short(c),
+            short(d),
+            short(a),
+            short(b)
+        );
+        let allowed = format!(
+            "files of one clock, or what is to be added to the time stamps of the other one, such as offset = \"{} s\"",
+            short(a - c + from.offset)
+        );
+        Err(Error::new(Kind::Time, found, allowed).of_setting(from.role.key("file")))
+    }
+
+    /// Keeps the rows that are nearest to samples of the other column, and the first, from which times count.
+    fn thin(&mut self, course: &Course, time: &[f64]) {
+        let mut keep = vec![false; time.len()];
+        let known: Vec<usize> = (0..time.len()).filter(|i| time[*i].is_finite()).collect();
+        for stamp in &course.time {
+            let after = known.partition_point(|i| time[*i] < *stamp);
+            let around = known[after.saturating_sub(1)..(after + 1).min(known.len())].iter();
+            let distance = |i: &usize| (time[*i] - stamp).abs();
+            let nearest = around.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            if let Some(row) = nearest.filter(|row| distance(row) <= BESIDE * course.step) {
+                keep[*row] = true;
+            }
+        }
+        self.outside.resize(time.len(), false);
+        if let Some(first) = keep.first_mut().filter(|kept| !**kept) {
+            *first = true;
+            self.outside[0] = true;
+        }
+        let retain = |values: &mut Vec<f64>| {
+            let mut row = 0..;
+            values.retain(|_| {
+                row.next()
+                    .is_some_and(|i| keep.get(i).copied().unwrap_or(false))
+            });
+        };
+        self.table
+            .columns
+            .iter_mut()
+            .for_each(|c| retain(&mut c.values));
+        let mut row = keep.iter();
+        self.outside.retain(|_| *row.next().unwrap_or(&false));
+    }
+
+    fn say(
+        &mut self,
+        name: &str,
+        course: &Course,
+        time: &[f64],
+        values: &[f64],
+        step: f64,
+        from: &Elsewhere,
+    ) {
+        let cut = values.iter().filter(|x| x.is_nan()).count();
+        let mut message = format!("{} is joined from {name} by time stamps", from.role.name());
+        if from.offset != 0.0 {
+            message.push_str(&format!(", {} s added to them", short(from.offset)));
+        }
+        message.push_str(&format!(
+            "; it is sampled at {} Hz, the log at {} Hz",
+            short(1.0 / course.step),
+            short(1.0 / step)
+        ));
+        let last = time.iter().copied().rfind(|t| t.is_finite()).unwrap_or(0.0);
+        let slow = matches!(from.role, Role::Temperature | Role::Load);
+        if !slow && course.step >= SLOWER * step {
+            message.push_str(&format!(
+                ", so the {} nearest to its samples are kept",
+                count(values.len(), "row")
+            ));
+        }
+        if cut > 0 {
+            message.push_str(&format!(
+                "; {} of {} lie beyond its ends or in a gap of it and are left out",
+                cut,
+                count(values.len(), "row")
+            ));
+        }
+        let beyond = |t: &&f64| **t < -course.step || **t > last + course.step;
+        let unused = course.time.iter().filter(beyond).count();
+        if unused > 0 {
+            message.push_str(&format!(
+                "; {} of {name} lie beyond the log",
+                count(unused, "sample")
+            ));
+        }
+        self.findings
+            .push(Finding::new(Code::Joined, Severity::Note, message));
+    }
+}
+
+impl Course {
+    fn read(
+        table: &Table,
+        channel: &Channel,
+        from: &Elsewhere,
+        origin: f64,
+    ) -> Result<Self, Error> {
+        let clock: Source = time_source(table, from.time.as_ref())?;
+        let column = select(table, &channel.column, from.role)?;
+        let stamps = &table.columns[clock.column].values;
+        let own = &table.columns[column].values;
+        let (mut time, mut values) = (Vec::new(), Vec::new());
+        for (row, (stamp, value)) in stamps.iter().zip(own).enumerate() {
+            let now = clock.si(*stamp) - origin + from.offset;
+            match time.last() {
+                _ if !now.is_finite() => continue,
+                Some(before) if now < *before => {
+                    let found = format!("time goes back in data row {}", row + 1);
+                    return Err(Error::new(Kind::Time, found, "increasing time stamps"));
+                }
+                // The first of equal stamps counts; a missing cell is a gap.
+                Some(before) if now == *before => continue,
+                _ if value.is_nan() => continue,
+                _ => {
+                    time.push(now);
+                    values.push(*value);
+                }
+            }
+        }
+        match step(&time) {
+            Some(step) => Ok(Self { time, values, step }),
+            None => {
+                let found = format!("{} with a time stamp and a value", count(time.len(), "row"));
+                Err(Error::new(Kind::Value, found, "at least two"))
+            }
+        }
+    }
+
+    /// The value at a time; NaN in a gap and beyond the ends.
+    fn at(&self, t: f64) -> f64 {
+        if !t.is_finite() {
+            return f64::NAN;
+        }
+        let after = self.time.partition_point(|x| *x <= t);
+        let (Some(i), Some(next)) = (after.checked_sub(1), self.time.get(after)) else {
+            let end = if after == 0 { 0 } else { self.time.len() - 1 };
+            let near = (self.time[end] - t).abs() <= ROUNDING * self.step;
+            return if near { self.values[end] } else { f64::NAN };
+        };
+        let (from, span) = (self.time[i], next - self.time[i]);
+        if span > GAP_STEPS * self.step {
+            return match t == from {
+                true => self.values[i],
+                false => f64::NAN,
+            };
+        }
+        self.values[i] + (self.values[after] - self.values[i]) * ((t - from) / span)
+    }
+}
+
+/// Median step of increasing times, s.
+fn step(time: &[f64]) -> Option<f64> {
+    let steps = time.windows(2).map(|w| w[1] - w[0]);
+    let mut steps: Vec<f64> = steps.filter(|d| d.is_finite() && *d > 0.0).collect();
+    median(&mut steps)
+}
