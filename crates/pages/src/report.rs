@@ -265,7 +265,7 @@ fn verdicts(outcome: &Outcome) -> [Callout; 2] {
         callout(use_it, &text),
         callout(
             known,
-            &format!("Constants of the machine: {}.", constants(trust, symbol)),
+            &format!("Constants of the machine: {}.", constants(result, symbol)),
         ),
     ]
 }

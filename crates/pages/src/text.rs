@@ -185,7 +185,7 @@ fn verdicts(result: &ResultFile) -> String {
     let _ = writeln!(
         out,
         "as constants      {}",
-        constants(trust, str::to_string)
+        constants(result, str::to_string)
     );
     out
 }

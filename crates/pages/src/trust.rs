@@ -43,7 +43,8 @@ pub(crate) fn cause(cause: &CauseEntry) -> String {
 }
 
 /// Which parameters are constants of the machine, each called as its name or its symbol.
-pub(crate) fn constants(trust: &Trust, called: impl Fn(&str) -> String) -> String {
+pub(crate) fn constants(result: &ResultFile, called: impl Fn(&str) -> String) -> String {
+    let trust = &result.trust;
     if trust.next == Next::Finish {
         return "none: a search by itself gives no intervals".into();
     }
@@ -51,10 +52,25 @@ pub(crate) fn constants(trust: &Trust, called: impl Fn(&str) -> String) -> Strin
         let called: Vec<_> = names.iter().map(|name| called(name)).collect();
         called.join(", ")
     };
+    let mixed = match mixed_offset(result) {
+        true => format!(
+            "; {} counts half of what friction differs between the directions too",
+            called("offset")
+        ),
+        false => String::new(),
+    };
     match (trust.constants.as_slice(), trust.open.as_slice()) {
         ([], []) => "none was identified".into(),
-        (_, []) => "every parameter, within its interval".into(),
         ([], _) => "none: the log leaves every parameter open".into(),
-        (known, open) => format!("{}; left open: {}", listed(known), listed(open)),
+        (_, []) => format!("every parameter, within its interval{mixed}"),
+        (known, open) => format!("{}; left open: {}{mixed}", listed(known), listed(open)),
     }
+}
+
+/// Whether there is such a force, which is known but no constant.
+fn mixed_offset(result: &ResultFile) -> bool {
+    let own = |names: &[String]| names.iter().any(|name| name == "offset");
+    let mut all = result.parameters.iter();
+    let is_fitted = all.any(|p| p.name == "offset" && p.origin == "identified");
+    is_fitted && !own(&result.trust.constants) && !own(&result.trust.open)
 }

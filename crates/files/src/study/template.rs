@@ -13,6 +13,11 @@ use stiction_parameters::LawKind;
 const BANDWIDTH: f64 = 30.0;
 /// ... and its least ratio to the control rate, below which the delay of a period no longer counts.
 const RATE_OVER_BANDWIDTH: f64 = 30.0;
+/// Least bandwidth that is asked of a coarse encoder, Hz.
+const SLOWEST: f64 = 1.0;
+/// Largest change of the command with a count of the encoder, over the largest force of the log, dimensionless: with more the
+/// command shakes between counts.
+const COUNT_OVER_FORCE: f64 = 0.5;
 /// Least ratio of the bandwidth to the frequency of a path, dimensionless: what is slower is tracked.
 const BANDWIDTH_OVER_FREQUENCY: f64 = 20.0;
 /// Least control rate of a study, Hz.
@@ -44,7 +49,7 @@ pub fn template(result: &ResultFile, shown: &Shown) -> Option<String> {
         let found = result.parameters.iter().find(|p| p.name == name);
         found.map(|p| p.value).filter(|x| x.is_finite() && *x > 0.0)
     };
-    value("mass")?;
+    let mass = value("mass")?;
     value("sigma0")?;
     let seen = result.trust.compensation.as_ref()?;
     let stroke = seen.stroke.filter(|x| *x > 0.0)?;
@@ -60,7 +65,13 @@ pub fn template(result: &ResultFile, shown: &Shown) -> Option<String> {
     if !unit_fits || !slides || !moves {
         return None;
     }
-    let bandwidth = BANDWIDTH.min(shown.rate / RATE_OVER_BANDWIDTH);
+    // A count in a sample is a speed, and the speed gain is the mass times the bandwidth.
+    let quiet = shown.step.map_or(f64::INFINITY, |step| {
+        COUNT_OVER_FORCE * shown.force / (TAU * mass * step * shown.rate)
+    });
+    let bandwidth = BANDWIDTH
+        .min(shown.rate / RATE_OVER_BANDWIDTH)
+        .min(quiet.max(SLOWEST));
     // A sine of the stroke that reaches the top speed; where that is too fast for the controller or too slow to wait for, one of
     // the same speed with another stroke.
     let mut frequency = seen.top_speed / (TAU * 0.5 * stroke);

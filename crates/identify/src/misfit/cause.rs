@@ -53,6 +53,12 @@ impl Misfit {
                 Repeats::Level => Cause::Position,
             });
         }
+        if self
+            .ripple
+            .is_some_and(|ripple| ripple.what == Repeats::Force)
+        {
+            return Some(Cause::Ripple);
+        }
         let share = |by| self.share_by(by);
         let explains = |by| share(by) >= LEVEL_PART * self.share;
         // What is measured beside the motion says more than time or place, with which it changes.

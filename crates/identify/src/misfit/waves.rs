@@ -30,7 +30,7 @@ impl Divisions {
             return misfit;
         }
         let waves = given(terms, objective, at);
-        if waves.is_empty() && matches!(cause, None | Some(Cause::Shape)) {
+        if waves.is_empty() && cause.is_none() {
             return misfit;
         }
         let beside = Beside::new(&at.jacobian(), residual);
@@ -55,14 +55,17 @@ impl Divisions {
             })
         });
         if let Some(found) = moved.max_by(|a, b| a.share.total_cmp(&b.share)) {
-            let square = residual.iter().map(|r| r * r).sum::<f64>() / residual.len() as f64;
-            let mut misfit = misfit.unwrap_or_else(|| self.unseen(Divided::Position, residual));
-            misfit.share = misfit.share.max(found.share);
-            misfit.rms = misfit.rms.max((found.share * square).sqrt());
-            misfit.ripple = Some(found);
-            return Some(misfit);
+            let misfit = misfit.unwrap_or_else(|| self.unseen(Divided::Position, residual));
+            return Some(self.of_a_wave(misfit, found, residual));
         }
         let mut misfit = misfit?;
+        if cause == Some(Cause::Shape) {
+            let sharp = along(Repeats::Force).best(residual, &beside);
+            return Some(match sharp.filter(Ripple::is_sharp) {
+                Some(found) => self.of_a_wave(misfit, found, residual),
+                None => misfit,
+            });
+        }
         misfit.ripple = match cause {
             Some(Cause::Ripple) => along(Repeats::Force).best(residual, &beside),
             Some(Cause::Position) => {
@@ -80,6 +83,22 @@ impl Divisions {
             _ => None,
         };
         Some(misfit)
+    }
+
+    /// The misfit with a wave that is its cause.
+    fn of_a_wave(&self, misfit: Misfit, found: Ripple, residual: &[f64]) -> Misfit {
+        let square = residual.iter().map(|r| r * r).sum::<f64>() / residual.len() as f64;
+        let by = Divided::Position;
+        let place = Divided::ALL.iter().position(|own| *own == by);
+        Misfit {
+            by,
+            shown_by: by,
+            course: place.map_or_else(Vec::new, |i| self.course(i, residual)),
+            share: misfit.share.max(found.share),
+            rms: misfit.rms.max((found.share * square).sqrt()),
+            ripple: Some(found),
+            ..misfit
+        }
     }
 }
 

@@ -54,7 +54,7 @@ pub(super) fn unlikely(log: &Log, table: &Table, sources: &[(Role, Source)]) -> 
             range.end(),
             source.place(table),
             source.unit,
-            source.line(table, role),
+            source.line(table, role, value < *range.start()),
         );
         found.push(Finding::new(Code::UnlikelySize, Severity::Warning, message));
     };
@@ -103,9 +103,17 @@ pub(super) fn check(log: &Log, table: &Table, sources: &[(Role, Source)]) -> Res
     if let Some((_, source)) = sources.iter().find(|(role, _)| *role == Role::Time)
         && !RATES.contains(&log.rate_hz)
     {
-        let found = format!("the median time step is {} s", short(1.0 / log.rate_hz));
+        let step = 1.0 / log.rate_hz;
+        let says = format!("the median time step is {} s", short(step));
         let steps = 1.0 / RATES.end()..=1.0 / RATES.start();
-        return Err(refusal(table, Role::Time, source, found, &steps, "s"));
+        return Err(refusal(
+            table,
+            Role::Time,
+            source,
+            (step, says),
+            &steps,
+            "s",
+        ));
     }
     let force = log.force_unit.as_str();
     let units = [
@@ -134,11 +142,11 @@ pub(super) fn check(log: &Log, table: &Table, sources: &[(Role, Source)]) -> Res
         if constant || SIZES.contains(&size) {
             continue;
         }
-        let found = match travels {
+        let says = match travels {
             true => format!("{role} travels {} {unit} in all", short(size)),
             false => format!("{role} is {} {unit} at most", short(size)),
         };
-        return Err(refusal(table, role, source, found, &SIZES, unit));
+        return Err(refusal(table, role, source, (size, says), &SIZES, unit));
     }
     Ok(())
 }
@@ -147,7 +155,7 @@ fn refusal(
     table: &Table,
     role: Role,
     source: &Source,
-    found: String,
+    (size, found): (f64, String),
     range: &RangeInclusive<f64>,
     unit: &str,
 ) -> Error {
@@ -156,7 +164,7 @@ fn refusal(
         range.start(),
         range.end(),
         source.unit,
-        source.line(table, role),
+        source.line(table, role, size < *range.start()),
     );
     Error::new(Kind::Value, found, allowed)
         .in_column(source.place(table))

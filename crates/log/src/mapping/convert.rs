@@ -98,30 +98,39 @@ impl Source {
         describe::place(table, self.column)
     }
 
-    /// The line of the axis file that gives it another unit.
-    pub fn line(&self, table: &Table, role: Role) -> String {
+    /// The line of the axis file that gives it another unit: a larger one for numbers that come out too small.
+    pub fn line(&self, table: &Table, role: Role, too_small: bool) -> String {
         let rotary = Motion::Rotary;
         let angular = [rotary.position(), rotary.velocity(), rotary.acceleration()];
-        let own = self.unit.to_string();
-        let unit = match (role, angular.contains(&self.dimension)) {
-            // Not the unit that is wrong.
-            (Role::Time, _) if own == "ms" => "s".to_string(),
-            (Role::Position | Role::Reference, false) if own == "mm" => "m".into(),
-            (Role::Position | Role::Reference, true) if own == "deg" => "rad".into(),
-            (Role::Velocity, false) if own == "mm/s" => "m/s".into(),
-            (Role::Velocity, true) if own == "deg/s" => "rad/s".into(),
-            (Role::Time, _) => "ms".to_string(),
-            (Role::Position | Role::Reference, false) => "mm".into(),
-            (Role::Position | Role::Reference, true) => "deg".into(),
-            (Role::Velocity, false) => "mm/s".into(),
-            (Role::Velocity, true) => "deg/s".into(),
+        let of_si = |si: String| [format!("m{si}"), si.clone(), format!("k{si}")];
+        let known = |units: [&str; 3]| units.map(String::from);
+        // From small to large.
+        let units = match (role, angular.contains(&self.dimension)) {
+            (Role::Time, _) => known(["us", "ms", "s"]),
+            (Role::Position | Role::Reference, false) => known(["um", "mm", "m"]),
+            (Role::Position | Role::Reference, true) => known(["deg", "rad", "rev"]),
+            (Role::Velocity, false) => known(["um/s", "mm/s", "m/s"]),
+            (Role::Velocity, true) => known(["deg/s", "rad/s", "rev/s"]),
             _ => match self.dimension.si_text() {
-                si if si == "1" => "%".into(),
-                si if si == own => format!("m{si}"),
-                si => si,
+                si if si == "1" => known(["%", "%", "1"]),
+                si => of_si(si),
             },
         };
-        describe::line_with(table, self.column, role, &format!("unit = \"{unit}\""))
+        let own = self.unit.to_string();
+        let at = units.iter().position(|unit| *unit == own);
+        let next = match (at, too_small) {
+            (Some(at), true) => (at + 1).min(units.len() - 1),
+            (Some(at), false) => at.saturating_sub(1),
+            (None, true) => units.len() - 1,
+            (None, false) => 1,
+        };
+        let scale = match (at == Some(next), too_small) {
+            (false, _) => "",
+            (true, true) => ", scale = 1000",
+            (true, false) => ", scale = 0.001",
+        };
+        let with = format!("unit = \"{}\"{scale}", units[next]);
+        describe::line_with(table, self.column, role, &with)
     }
 
     /// A difference of two numbers of the file in SI.

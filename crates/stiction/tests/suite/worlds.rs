@@ -33,6 +33,13 @@ fn the_cause_of_what_a_law_leaves_is_named() {
             World::Cogging,
             "position-ripple",
         ),
+        // Beside friction whose shape leaves more.
+        (
+            "screw",
+            Motion::Commissioning,
+            World::Cogging,
+            "position-ripple",
+        ),
         (
             "joint",
             Motion::Sine,

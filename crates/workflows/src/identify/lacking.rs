@@ -10,13 +10,20 @@ use stiction_number::Percent;
 
 /// Relative error of a fit, percent, above which something else than friction and inertia is looked for: a quarter.
 const MUCH_LEFT_PERCENT: f64 = 25.0;
+/// Stroke of a joint, rad, from which a law that finds it in presliding throughout has taken gravity for bristles: those of no joint
+/// are so long.
+const BEYOND_BRISTLES: f64 = 0.1;
+/// Part of what friction and inertia leave that follows gravity from which it is named there.
+const LIKE_BRISTLES: f64 = 0.3;
 
 /// Names what the axis file lacks where a law explains little, or nothing of it makes sense: the sign of the force, or
 /// gravity.
 pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) {
     let law = evidence.law;
     let much = law.fit.relative_error_percent;
-    let poor = much.is_nan() || much > MUCH_LEFT_PERCENT;
+    let held = law.stays_in_presliding() && evidence.sources.iter().any(swings_widely);
+    let poor = much.is_nan() || much > MUCH_LEFT_PERCENT || held;
+    let least = if held { LIKE_BRISTLES } else { LEAST_R2 };
     let braked = evidence
         .sources
         .iter()
@@ -27,7 +34,7 @@ pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) {
     } else if poor && evidence.motion == Motion::Rotary && !law.terms.gravity {
         let swings = evidence.sources.iter().filter_map(swing);
         let part = explained_by_gravity(&swings.collect::<Vec<_>>());
-        if part > LEAST_R2 {
+        if part > least {
             let text = format!(
                 "{} of what friction and inertia leave follows the sine and cosine of the angle, as gravity does: set \
                  gravity = true under [terms]",
@@ -36,6 +43,14 @@ pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) {
             reasons.push(text, Next::AxisFile);
         }
     }
+}
+
+/// Whether a joint goes farther than any bristles reach.
+fn swings_widely(source: &Source) -> bool {
+    let angles = source.log.position.iter().flatten();
+    let extent = |(low, high): (f64, f64), x: &f64| (low.min(*x), high.max(*x));
+    let (low, high) = angles.fold((f64::INFINITY, f64::NEG_INFINITY), extent);
+    high - low > BEYOND_BRISTLES
 }
 
 fn swing(source: &Source) -> Option<Swing<'_>> {

@@ -97,7 +97,10 @@ impl Judged {
                 };
             let known = |p: &Parameter| p.identifiable && holds;
             // What one log has more than another may be open, but is none of the machine's.
-            let is_listed = |p: &Parameter| !determined || !p.name.quantity.is_of_a_log();
+            // With one level for both directions, what they differ by passes for half of a constant force.
+            let mixed = |p: &Parameter| p.name == Quantity::Offset && !law.law.asymmetric;
+            let is_listed =
+                |p: &Parameter| !determined || !(p.name.quantity.is_of_a_log() || mixed(p));
             identified
                 .filter(|p| known(p) == determined && is_listed(p))
                 .map(|p| p.name.to_string())
@@ -591,20 +594,25 @@ fn unidentifiable(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warni
         .filter(of_an_element)
         .map(|p| p.name.to_string())
         .collect();
-    let mut each = Vec::new();
+    // Parameters that are open for one reason stand together.
+    let mut each: Vec<(Vec<String>, String)> = Vec::new();
     let mut advice: Vec<&str> = Vec::new();
     for parameter in unknown().filter(|p| !of_an_element(p)) {
         let meaning = symbols::meaning_of(parameter.name, motion);
-        let mut text = format!("{} ({meaning}): {}", parameter.name, parameter.reason);
+        let name = format!("{} ({meaning})", parameter.name);
+        let mut reason = parameter.reason.clone();
         let partners: Vec<String> = parameter
             .moves_with
             .iter()
             .map(|(name, correlation)| format!("{name} (correlation {correlation:+.2})"))
             .collect();
         if !partners.is_empty() {
-            text.push_str(&format!(", moves together with {}", partners.join(" and ")));
+            reason.push_str(&format!(", moves together with {}", partners.join(" and ")));
         }
-        each.push(text);
+        match each.iter_mut().find(|(_, same)| *same == reason) {
+            Some((names, _)) => names.push(name),
+            None => each.push((vec![name], reason)),
+        }
         // Several parameters may be determined by one motion.
         let own = parameter.advice.as_str();
         if !own.is_empty() && !advice.contains(&own) {
@@ -612,7 +620,9 @@ fn unidentifiable(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warni
         }
     }
     if !each.is_empty() {
-        let text = [each.join("; ")]
+        let each = each.iter();
+        let each = each.map(|(names, reason)| format!("{}: {reason}", names.join(", ")));
+        let text = [each.collect::<Vec<_>>().join("; ")]
             .into_iter()
             .chain(advice.into_iter().map(String::from));
         let text = text.collect::<Vec<_>>().join(". ");

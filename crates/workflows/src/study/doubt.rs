@@ -80,7 +80,8 @@ fn shaking(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
             Code::UnsteadyCommand,
             format!(
                 "{}, {}: with {} the command changes by {} of the largest force from sample to sample (rms): the \
-                 loop is not stable, or its gains are too high for the encoder and the noise",
+                 loop is not stable, or its gains are too high for the encoder and the noise. Halve its bandwidth under \
+                 [[controller]] in the study file until this is gone, or put in a finer encoder",
                 row.path,
                 row.controller,
                 row.scheme(),
