@@ -459,7 +459,7 @@ fn compare(compare: &arguments::Compare, common: &Common) -> Result<Exit, Error>
     Ok(stiction::commands::verdict::of_comparison(&found).into())
 }
 
-/// The method under the name that it has on the command line.
+/// The law under the name that it has on the command line; none where the data choose it.
 fn law(typed: arguments::Law) -> Option<LawKind> {
     match typed {
         arguments::Law::Auto => None,
@@ -473,6 +473,7 @@ fn law(typed: arguments::Law) -> Option<LawKind> {
     }
 }
 
+/// The method under the name that it has on the command line.
 fn method(typed: arguments::Method) -> Method {
     let name = typed.to_possible_value().expect("no method is hidden");
     Method::from_name(name.get_name()).expect("the engine knows every method of the command line")

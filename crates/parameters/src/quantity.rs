@@ -392,6 +392,18 @@ impl Quantity {
         )
     }
 
+    /// Whether it describes the shape of a bristle or of the Stribeck curve: sigma0, sigma1, Fs, vs and the exponent.
+    pub fn is_of_the_shape(self) -> bool {
+        matches!(
+            self,
+            Quantity::Sigma0
+                | Quantity::Sigma1
+                | Quantity::Static
+                | Quantity::StribeckVelocity
+                | Quantity::StribeckExponent
+        )
+    }
+
     /// Whether it belongs to one of several logs rather than to the machine.
     pub fn is_of_a_log(self) -> bool {
         matches!(

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 use tempfile::TempDir;
 
 #[test]
@@ -33,7 +33,7 @@ impl Bench {
 
     /// Exit code, standard output, standard error.
     fn run(&self, arguments: &[&str]) -> (i32, String, String) {
-        split(self.command(arguments).output().unwrap())
+        crate::split(self.command(arguments).output().unwrap())
     }
 
     /// A log of an axis of 9 kg with 20 N, 60 N s/m and bristles too stiff to be seen.
@@ -73,13 +73,6 @@ impl Bench {
     }
 }
 
-fn split(output: Output) -> (i32, String, String) {
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    let (out, err) = (text(output.stdout), crate::said(output.stderr));
-    assert!(!err.contains("panicked"), "{err}");
-    (output.status.code().unwrap_or(-1), out, err)
-}
-
 fn json(text: &str) -> serde_json::Value {
     serde_json::from_str(text).unwrap_or_else(|e| panic!("{e}: {text}"))
 }
@@ -99,7 +92,7 @@ fn a_full_disk_is_said() {
     for arguments in [&["--help"][..], &["--version"], &["man"]] {
         let full = std::fs::File::create("/dev/full").unwrap();
         let output = bench.command(arguments).stdout(full).output().unwrap();
-        let (code, _, err) = split(output);
+        let (code, _, err) = crate::split(output);
         assert_eq!(code, 2, "{arguments:?}: {err}");
         assert!(
             err.starts_with("stiction: [output] standard output: "),
@@ -428,7 +421,7 @@ fn names_need_not_be_text() {
         .args([odd, OsStr::new("--out"), out])
         .output()
         .unwrap();
-    let (code, text, err) = split(output);
+    let (code, text, err) = crate::split(output);
     assert_eq!(code, 0, "{err}");
     json(&text);
     assert!(bench.0.path().join(out).join("result.json").is_file());
@@ -478,7 +471,7 @@ fn closed_and_full_outputs() {
         .spawn()
         .unwrap();
     drop(child.stdout.take());
-    let (code, _, err) = split(child.wait_with_output().unwrap());
+    let (code, _, err) = crate::split(child.wait_with_output().unwrap());
     assert_eq!((code, err.as_str()), (0, ""));
     assert_eq!(bench.names("a"), FOUR);
     let full = || {
@@ -492,7 +485,7 @@ fn closed_and_full_outputs() {
         .stdout(full())
         .output()
         .unwrap();
-    let (code, _, err) = split(output);
+    let (code, _, err) = crate::split(output);
     assert_eq!(code, 2);
     assert!(
         err.starts_with("stiction: [output] standard output: "),
@@ -523,7 +516,7 @@ fn an_interrupt_saves_what_was_found() {
         .unwrap();
     assert!(kill.success());
     let clock = std::time::Instant::now();
-    let (code, out, err) = split(child.wait_with_output().unwrap());
+    let (code, out, err) = crate::split(child.wait_with_output().unwrap());
     assert_eq!(code, 130, "{out}{err}");
     assert!(
         clock.elapsed().as_secs() < 15,

@@ -27,3 +27,11 @@ fn said(stderr: Vec<u8>) -> String {
     let lines = text.split_inclusive('\n');
     lines.filter(|line| !is_progress(line)).collect()
 }
+
+/// Exit code, standard output and standard error of a command, which did not panic.
+fn split(output: std::process::Output) -> (i32, String, String) {
+    let out = String::from_utf8(output.stdout).unwrap();
+    let err = said(output.stderr);
+    assert!(!err.contains("panicked"), "{err}");
+    (output.status.code().unwrap_or(-1), out, err)
+}

@@ -10,12 +10,7 @@ fn run(dir: &Path, command: &str) -> (i32, String, String) {
         .current_dir(dir)
         .output()
         .unwrap();
-    let out = String::from_utf8(output.stdout).unwrap();
-    (
-        output.status.code().unwrap_or(-1),
-        out,
-        super::said(output.stderr),
-    )
+    crate::split(output)
 }
 
 /// A log of an axis of 9 kg with 20 N and 60 N s/m in mode 8; before and after that it is moved by hand.

@@ -3,7 +3,7 @@
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::PathBuf;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 use tempfile::TempDir;
 
 /// A folder to run in, with a log.
@@ -44,19 +44,12 @@ impl Bench {
 
     /// Exit code, standard output, standard error.
     fn run(&self, arguments: &str) -> (i32, String, String) {
-        split(self.command(arguments).output().unwrap())
+        crate::split(self.command(arguments).output().unwrap())
     }
 
     fn json(&self, name: &str) -> Value {
         serde_json::from_slice(&std::fs::read(self.path(name)).unwrap()).unwrap()
     }
-}
-
-fn split(output: Output) -> (i32, String, String) {
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    let (out, err) = (text(output.stdout), crate::said(output.stderr));
-    assert!(!err.contains("panicked"), "{err}");
-    (output.status.code().unwrap_or(-1), out, err)
 }
 
 const SEARCH: &str = "identify log.csv --method annealing-ga --evaluations 3000 --seed 4 --quiet";
@@ -347,7 +340,7 @@ fn an_interrupt_keeps_what_is_done() {
         let _ = Command::new("kill")
             .args(["-INT", &child.id().to_string()])
             .status();
-        let (code, out, err) = split(child.wait_with_output().unwrap());
+        let (code, out, err) = crate::split(child.wait_with_output().unwrap());
         assert!(still, "{arguments} ended too soon: {out}");
         assert_eq!(code, 130, "{arguments}: {out}{err}");
         let result = bench.json(file);

@@ -24,9 +24,9 @@ const LEAST_SQUARE: f64 = 1e-15;
 /// acceleration a of the reference. Levels and mass follow by recursive least squares with exponential forgetting (Astrom,
 /// Wittenmark 1995, Adaptive Control, chapter 2), in the form of sums, which cannot wind up: nothing is forgotten while nothing
 /// is learnt. The sums are of what is beyond the identified law and the given mass, so that digits are not lost where inertial
-/// forces are large. The mass is found beside the levels so that a load does not pass for friction; the compensator does not feed it
-/// forward. A constant force that the law does not know raises one level and lowers the other, and is so compensated while
-/// the axis moves.
+/// forces are large. The mass is found beside the levels so that a load does not pass for friction; the compensator does not
+/// feed it forward. A constant force that the law does not know raises one level and lowers the other, and is so compensated
+/// while the axis moves.
 ///
 /// Nothing is learnt until the axis itself has moved on by more than its presliding after the reference has turned, at
 /// standstill, while the force is at its limit, while the watchdog has switched off, or where [`Input::learn`] is false. One

@@ -103,13 +103,6 @@ impl Cause {
 
     /// Why a parameter is no constant of the machine with this cause; `None` where its interval says enough.
     pub(crate) fn against(self, quantity: Quantity) -> Option<&'static str> {
-        let of_shape = [
-            Quantity::Sigma0,
-            Quantity::Sigma1,
-            Quantity::Static,
-            Quantity::StribeckVelocity,
-            Quantity::StribeckExponent,
-        ];
         let reason = match self {
             Cause::Shape => {
                 "depends on the shape of the law, which the residual shows to be another one at reversals or low speed"
@@ -124,6 +117,6 @@ impl Cause {
                 return None;
             }
         };
-        of_shape.contains(&quantity).then_some(reason)
+        quantity.is_of_the_shape().then_some(reason)
     }
 }

@@ -161,18 +161,10 @@ fn simpler_shape_holds_better(laws: &[LawEntry]) -> bool {
         .any(|other| other.law != own.law && other.parameters < own.parameters && better(other))
 }
 
-/// Whether a quantity describes the shape of presliding or of the Stribeck curve.
+/// Whether a quantity describes the shape of presliding or of the Stribeck curve in any family of laws.
 fn is_of_the_shape(quantity: Quantity) -> bool {
-    let of_shape = [
-        Quantity::Sigma0,
-        Quantity::Sigma1,
-        Quantity::Static,
-        Quantity::StribeckVelocity,
-        Quantity::StribeckExponent,
-        Quantity::BreakawayRatio,
-        Quantity::Attraction,
-    ];
-    of_shape.contains(&quantity) || quantity.is_of_an_element()
+    let of_one_family = [Quantity::BreakawayRatio, Quantity::Attraction];
+    quantity.is_of_the_shape() || of_one_family.contains(&quantity) || quantity.is_of_an_element()
 }
 
 /// Fits the laws that can be exported, each with what it holds, and takes the best that a compensator may rely on.
