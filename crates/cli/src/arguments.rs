@@ -29,6 +29,10 @@ pub struct Common {
     /// Threads to use [default: one a core]; results do not depend on it.
     #[arg(long, global = true, display_order = 102, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
     pub threads: Option<u16>,
+    /// Memory that reading a log may take, such as 2GB or 500MiB; a log that needs more is refused before it is taken
+    /// [default: half of this machine].
+    #[arg(long, global = true, display_order = 103, value_name = "SIZE", value_parser = memory, allow_hyphen_values = true)]
+    pub max_memory: Option<u64>,
 }
 
 #[derive(Clone, Debug, Subcommand)]
@@ -59,6 +63,16 @@ pub enum Command {
 fn whole(text: &str) -> Result<u64, String> {
     let number = text.parse();
     number.map_err(|_| format!("a whole number from 0 to {} is allowed", u64::MAX))
+}
+
+/// Least memory that may be allowed, bytes: what a log of some minutes takes.
+const LEAST_MEMORY: u64 = 1_000_000;
+
+/// A size in bytes.
+fn memory(text: &str) -> Result<u64, String> {
+    let size = stiction::commands::number::parse_bytes(text);
+    size.filter(|size| *size >= LEAST_MEMORY)
+        .ok_or_else(|| "a size from 1MB is allowed, such as 500MB, 2GB or 1.5GiB".into())
 }
 
 /// A time with or without its unit, in seconds.

@@ -5,7 +5,7 @@ use crate::brought;
 use crate::exit::Exit;
 use crate::interrupt;
 use crate::output;
-use crate::progress::Bar;
+use crate::progress::{self, Bar};
 use crate::wording;
 use clap::ValueEnum;
 use std::io::Write;
@@ -31,6 +31,10 @@ pub fn run(arguments: &Arguments) -> Exit {
         stiction::set_threads(usize::from(threads));
     }
     let common = &arguments.common;
+    if let Some(bytes) = common.max_memory {
+        stiction::allow_memory(bytes);
+    }
+    progress::watch_readings(common.json || common.quiet);
     let result = match &arguments.command {
         Command::Demo(demo) => self::demo(demo, common),
         Command::Check(check) => self::check(check, common),
@@ -312,6 +316,7 @@ fn check(check: &arguments::Check, common: &Common) -> Result<Exit, Error> {
     if let Some(file) = &check.init {
         return init(check, file, common);
     }
+    interrupt::nothing_to_keep();
     let mut bar = Bar::new(common.json || common.quiet);
     let found = stiction::commands::check::check(&check.logs, check.axis.as_deref(), &mut bar);
     bar.finish();
@@ -320,9 +325,6 @@ fn check(check: &arguments::Check, common: &Common) -> Result<Exit, Error> {
         output::json(&found)?;
     } else if !common.quiet {
         output::print(&stiction::commands::text::check(&found))?;
-    }
-    if interrupt::asked() {
-        return Ok(Exit::Interrupted);
     }
     Ok(found.verdict().into())
 }

@@ -1,10 +1,17 @@
-//! Ctrl-C: the first asks the search to stop and keep what it has, a later one ends the process.
+//! Ctrl-C: while there is nothing to keep it ends the process; else the first asks the search to stop and keep what it has, and a
+//! later one ends the process.
 
+use std::io::Write;
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// When the first came.
 static ASKED: OnceLock<Instant> = OnceLock::new();
+/// Whether nothing has been found so far that would be lost.
+static NOTHING_YET: AtomicBool = AtomicBool::new(false);
+/// Whether the command writes nothing that would be.
+static NOTHING_EVER: AtomicBool = AtomicBool::new(false);
 /// Time in which further ones count as the first: a key that is held down, a wrapper that passes the signal on. What there is
 /// takes less than that to write.
 const SAME: Duration = Duration::from_secs(2);
@@ -13,10 +20,33 @@ const SAME: Duration = Duration::from_secs(2);
 pub fn listen() {
     // Without a handler Ctrl-C still ends the process, only without saving.
     let _ = ctrlc::set_handler(|| {
+        if NOTHING_YET.load(Ordering::SeqCst) || NOTHING_EVER.load(Ordering::SeqCst) {
+            // With standard error closed only the exit code is left to tell.
+            let _ = writeln!(
+                std::io::stderr(),
+                "stiction: [interrupted] stopped; nothing was written"
+            );
+            std::process::exit(130);
+        }
         if ASKED.get_or_init(Instant::now).elapsed() > SAME {
             std::process::exit(130);
         }
     });
+}
+
+/// The command writes nothing that an interrupt would lose.
+pub fn nothing_to_keep() {
+    NOTHING_EVER.store(true, Ordering::SeqCst);
+}
+
+/// Nothing would be lost yet: a log is being read.
+pub fn nothing_yet() {
+    NOTHING_YET.store(true, Ordering::SeqCst);
+}
+
+/// From now on something would: a search is on its way.
+pub fn something_to_keep() {
+    NOTHING_YET.store(false, Ordering::SeqCst);
 }
 
 /// Whether the user asked to stop.

@@ -6,6 +6,7 @@ mod commands;
 mod exit;
 mod interrupt;
 mod output;
+mod panics;
 mod progress;
 mod wording;
 
@@ -23,7 +24,14 @@ fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(e) => {
-            let printed = e.print().and_then(|()| std::io::stdout().flush());
+            let printed = match e.use_stderr() {
+                // What was typed stands in it, such as the name of a file for an option.
+                true => {
+                    let text = e.render().to_string();
+                    std::io::stderr().write_all(output::plain(&text).as_bytes())
+                }
+                false => e.print().and_then(|()| std::io::stdout().flush()),
+            };
             // Help and version are no errors, unless they do not reach their reader.
             let exit = match output::written(printed) {
                 _ if e.use_stderr() => Exit::BadInput,
@@ -37,8 +45,10 @@ fn main() -> ExitCode {
         }
     };
     // A panic is a fault of ours: say so in a sentence, not with a trace alone.
+    panics::keep();
     let result = std::panic::catch_unwind(|| commands::run(&arguments));
     let exit = result.unwrap_or_else(|_| {
+        panics::tell();
         let _ = writeln!(
             std::io::stderr(),
             "stiction: internal error. Please report it with the command and, if you can, the log."

@@ -6,7 +6,7 @@ use std::io::{ErrorKind, Write};
 use std::path::Path;
 use stiction::Error;
 use stiction::commands::FileError;
-use stiction::commands::shell::stands_for;
+use stiction::commands::shell::{is_unseen, stands_for};
 
 /// Prints a text in which names from files may stand; a reader that has gone away has seen enough.
 ///
@@ -43,19 +43,25 @@ pub fn written(result: std::io::Result<()>) -> Result<(), Error> {
 /// # Errors
 /// As [`print()`].
 pub fn json(value: &impl serde::Serialize) -> Result<(), Error> {
+    print_as_it_is(&json_text(value))
+}
+
+fn json_text(value: &impl serde::Serialize) -> String {
     let mut text = serde_json::to_string_pretty(value).expect("plain data");
     text.push('\n');
     // Those that JSON does not escape itself; they stand within strings only.
-    let text = escaped(&text, steers, |c, out| {
-        let _ = write!(out, "\\u{:04x}", u32::from(c));
-    });
-    print_as_it_is(&text)
+    escaped(&text, steers, |c, out| {
+        let mut units = [0; 2];
+        for unit in c.encode_utf16(&mut units) {
+            let _ = write!(out, "\\u{unit:04x}");
+        }
+    })
+    .into_owned()
 }
 
 /// A text whose characters that would steer a terminal are written out, as `\u{1b}`; line feeds are kept.
 pub fn plain(text: &str) -> Cow<'_, str> {
-    let unseen = |c: char| steers(c) || stands_for(c).is_some();
-    escaped(text, unseen, |c, out| match stands_for(c) {
+    escaped(text, steers, |c, out| match stands_for(c) {
         Some(byte) => {
             let _ = write!(out, "\\x{byte:02x}");
         }
@@ -87,15 +93,54 @@ fn escaped(
     out.into()
 }
 
-/// Control characters but the line feed, and those that turn the direction of what follows.
+/// What a terminal does not show as it is, but the line feed.
 fn steers(c: char) -> bool {
-    (c.is_control() && c != '\n')
-        || matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    c != '\n' && is_unseen(c)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{line, plain};
+    use super::{line, plain, steers};
+    use proptest::prelude::*;
+
+    /// Texts as a hostile file has them: mostly what steers a terminal.
+    fn hostile() -> impl Strategy<Value = String> {
+        let c = prop_oneof![
+            any::<char>(),
+            Just('\u{1b}'),
+            Just('\n'),
+            (0u32..0x20).prop_map(|c| char::from_u32(c).unwrap()),
+            (0x7fu32..0xa0).prop_map(|c| char::from_u32(c).unwrap()),
+            (0x2000u32..0x2070).prop_map(|c| char::from_u32(c).unwrap()),
+            (0x10_ff70u32..=0x10_ffff).prop_map(|c| char::from_u32(c).unwrap()),
+            prop::sample::select(
+                "\u{ad}\u{61c}\u{180e}\u{feff}\u{e0041}]0;\\[31m"
+                    .chars()
+                    .collect::<Vec<_>>()
+            ),
+        ];
+        prop::collection::vec(c, 0..40).prop_map(String::from_iter)
+    }
+
+    proptest! {
+        #[test]
+        fn nothing_that_steers_a_terminal_is_printed(text in hostile()) {
+            prop_assert!(!plain(&text).contains(steers));
+            prop_assert!(!line(&text).contains(|c| steers(c) || c == '\n'));
+            // What a terminal shows as it is stays as it is, and once is enough.
+            let clean: String = text.chars().filter(|c| !steers(*c)).collect();
+            prop_assert_eq!(plain(&clean), clean.as_str());
+            let once = plain(&text);
+            prop_assert_eq!(plain(&once), once.as_ref());
+        }
+
+        #[test]
+        fn json_keeps_what_it_escapes(text in hostile()) {
+            let printed = super::json_text(&text);
+            prop_assert!(!printed.contains(steers));
+            prop_assert_eq!(serde_json::from_str::<String>(&printed).unwrap(), text);
+        }
+    }
 
     #[test]
     fn what_steers_a_terminal_is_written_out() {

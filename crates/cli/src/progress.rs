@@ -5,9 +5,11 @@ use crate::output;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::io::{IsTerminal, Write};
 use std::mem::discriminant;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use stiction::commands::number::Percent;
-use stiction::{Control, Observer, Progress, Stage};
+use stiction::{Control, Observer, Progress, Reading, Stage};
 
 /// Shows how far work is with the best cost so far, and passes the user's interrupt on.
 pub struct Bar {
@@ -62,6 +64,72 @@ fn left(done: u64, eta: Duration) -> String {
 
 /// Between the lines that say how far work is, and before the first: what is short says nothing.
 const BETWEEN: Duration = Duration::from_secs(20);
+
+/// How far a log has been read, where that takes long.
+struct Read {
+    bar: ProgressBar,
+    shown: bool,
+    lines: Option<Lines>,
+    began: Instant,
+}
+
+/// Before a bar of reading is shown: what is short says nothing.
+const SHORT: Duration = Duration::from_millis(500);
+
+static HIDDEN: AtomicBool = AtomicBool::new(true);
+static READ: Mutex<Option<Read>> = Mutex::new(None);
+
+/// Shows from now on how far a log has been read, unless the user wants nothing of it; an interrupt while that lasts ends the
+/// process.
+pub fn watch_readings(hidden: bool) {
+    HIDDEN.store(hidden, Ordering::Relaxed);
+    stiction::watch(|reading| {
+        interrupt::nothing_yet();
+        if let (false, Ok(mut read)) = (HIDDEN.load(Ordering::Relaxed), READ.lock()) {
+            show(&mut read, reading);
+        }
+    });
+}
+
+fn show(read: &mut Option<Read>, reading: &Reading) {
+    if reading.done >= reading.all {
+        if let Some(done) = read.take() {
+            done.bar.finish_and_clear();
+        }
+        return;
+    }
+    let read = read.get_or_insert_with(|| {
+        let terminal = std::io::stderr().is_terminal();
+        Read {
+            bar: bar(1000, true),
+            shown: !terminal,
+            lines: (!terminal).then(Lines::default),
+            began: Instant::now(),
+        }
+    });
+    if !read.shown && read.began.elapsed() > SHORT {
+        read.shown = true;
+        read.bar.set_draw_target(ProgressDrawTarget::stderr());
+        read.bar.set_prefix("reading");
+        let name = reading.file.file_name().unwrap_or_default();
+        read.bar.set_message(output::line(&name.to_string_lossy()));
+    }
+    let part = reading.done as f64 / reading.all as f64;
+    read.bar.set_position((1000.0 * part) as u64);
+    if let Some(lines) = &mut read.lines {
+        let elapsed = read.began.elapsed();
+        if lines.due(elapsed) {
+            let file = reading.file.display();
+            let line = format!(
+                "{} s: reading {file}, {} %",
+                elapsed.as_secs(),
+                (100.0 * part) as u64
+            );
+            // As everywhere here.
+            let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&line));
+        }
+    }
+}
 
 /// When the next line is due.
 struct Lines {
@@ -133,6 +201,7 @@ fn message(progress: &Progress) -> Option<String> {
 
 impl Observer for Bar {
     fn progress(&mut self, progress: &Progress) -> Control {
+        interrupt::something_to_keep();
         let same = |stage: &Stage| discriminant(stage) == discriminant(&progress.stage);
         if !self.stage.as_ref().is_some_and(same) {
             self.stage = Some(progress.stage);

@@ -5,6 +5,22 @@ use sha2::{Digest, Sha256};
 use std::io::Read;
 use std::path::Path;
 
+/// SHA-256 of bytes that come one part after the other.
+#[derive(Clone, Debug, Default)]
+pub struct Hash(Sha256);
+
+impl Hash {
+    /// Takes the next part.
+    pub fn take(&mut self, bytes: &[u8]) {
+        self.0.update(bytes);
+    }
+
+    /// Of all that was taken, hexadecimal.
+    pub fn finish(self) -> String {
+        hexadecimal(&self.0.finalize())
+    }
+}
+
 /// SHA-256 of a file, hexadecimal.
 ///
 /// # Errors
@@ -15,16 +31,16 @@ pub fn sha256(path: &Path) -> Result<String, Error> {
         Error::Log(stiction_log::Error::new(kind, e.to_string(), "").in_file(path))
     };
     let mut file = std::fs::File::open(path).map_err(fail)?;
-    let mut hash = Sha256::new();
+    let mut hash = Hash::default();
     let mut buffer = vec![0; 1 << 16];
     loop {
         let n = file.read(&mut buffer).map_err(fail)?;
         if n == 0 {
             break;
         }
-        hash.update(&buffer[..n]);
+        hash.take(&buffer[..n]);
     }
-    Ok(hexadecimal(&hash.finalize()))
+    Ok(hash.finish())
 }
 
 /// SHA-256 of bytes, hexadecimal.

@@ -36,7 +36,7 @@ pub mod symbols;
 
 pub use axis::Axis;
 pub use error::{Error, Remedy, Warning};
-pub use hash::{sha256, sha256_of};
+pub use hash::{Hash, sha256, sha256_of};
 pub use model::ModelFile;
 pub use output::{
     Bundle, Kept, check_folder, check_folder_of, check_inputs, check_writable, write_atomic,

@@ -85,7 +85,7 @@ fn octal(byte: u8) -> String {
 }
 
 /// Whether a terminal shows a character as nothing, does something at it, or turns what is around it.
-fn is_unseen(c: char) -> bool {
+pub fn is_unseen(c: char) -> bool {
     c.is_control()
         || stands_for(c).is_some()
         || matches!(c, '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'

@@ -29,6 +29,7 @@ mod hdf5;
 mod join;
 #[cfg(feature = "json")]
 mod json;
+mod limits;
 pub mod log;
 pub mod mapping;
 #[cfg(feature = "matlab")]
@@ -50,18 +51,21 @@ mod table;
 mod tdms;
 pub mod text;
 pub mod unit;
+mod watch;
 #[cfg(feature = "xlsx")]
 mod xlsx;
 
 pub use error::{Error, Kind, Place};
 pub use findings::{Finding, Severity};
 pub use join::{Elsewhere, Joined};
+pub use limits::{Limits, allow_memory};
 pub use log::{Excluded, Gap, Log, NotEnabled};
 pub use mapping::{
     Assumed, Channel, Detected, Enable, Mapping, Motion, Parts, Rests, Role, Selector, Understood,
     Wrap,
 };
-pub use open::{Limits, ReadOptions, read_table};
+pub use open::{ReadOptions, read_table, read_table_with};
 pub use stiction_codes::Code;
 pub use table::{Column, Scalar, Table};
 pub use unit::{Dimension, Unit, Value};
+pub use watch::{Reading, watch};

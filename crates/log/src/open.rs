@@ -1,54 +1,20 @@
 //! The one entry point for every format: looks at the first bytes and calls the reader.
 
-use std::fs::File;
-use std::io::Seek;
+use std::fs::{File, Metadata};
+use std::io::{self, Read, Seek};
 use std::path::Path;
 
 use crate::sniff::{Format, sniff};
 use crate::text::{self, TextOptions};
-use crate::{Error, Kind, Table};
-
-/// How large a file may be before it is refused with [`Kind::Limit`].
-///
-/// A compressed file can claim a thousand times its size; nothing is allocated for more than this.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Limits {
-    /// Size of the file in bytes; 4 GiB unless told otherwise.
-    pub file_bytes: u64,
-    /// Samples over all columns of a file that is not text; 2^28 (2 GiB in memory) unless told otherwise, and no more than
-    /// half of the memory that this machine has or allows holds. While reading they take at most three times that, those of
-    /// arrays (MATLAB, HDF5, NumPy) 9/8, beside what a decoder holds: a chunk, or the file itself (HDF5).
-    /// Text, which cannot claim more than it holds, has limits of its own, see [`text`].
-    pub samples: u64,
-}
-
-impl Default for Limits {
-    fn default() -> Self {
-        Self {
-            file_bytes: 1 << 32,
-            samples: (1 << 28).min(half_of_memory() / size_of::<f64>() as u64),
-        }
-    }
-}
-
-/// Half of the memory of this machine in bytes, or of what its control group may take; without end where neither is told.
-fn half_of_memory() -> u64 {
-    let read = |file: &str| std::fs::read_to_string(file).unwrap_or_default();
-    let about = read("/proc/meminfo");
-    let total = about.lines().find_map(|line| {
-        let kibibytes = line.strip_prefix("MemTotal:")?.trim().strip_suffix("kB")?;
-        kibibytes.trim().parse::<u64>().ok()?.checked_mul(1024)
-    });
-    let group = read("/sys/fs/cgroup/memory.max").trim().parse().ok();
-    total.unwrap_or(u64::MAX).min(group.unwrap_or(u64::MAX)) / 2
-}
+use crate::watch;
+use crate::{Error, Kind, Limits, Table};
 
 /// How a file is to be read, where that does not follow from the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ReadOptions {
     /// What the user states about a text file.
     pub text: TextOptions,
-    /// How large the file may be.
+    /// How much memory it may take.
     pub limits: Limits,
 }
 
@@ -61,11 +27,35 @@ pub struct ReadOptions {
 ///
 /// [`Error`] with the file, the place in it, what was found and what is allowed.
 pub fn read_table(path: &Path, options: &ReadOptions) -> Result<Table, Error> {
-    read(path, options).map_err(|error| error.in_file(path))
+    opened(path, options, None)
 }
 
-fn read(path: &Path, options: &ReadOptions) -> Result<Table, Error> {
-    let io = |error: std::io::Error| Error::new(Kind::Io, format!("cannot be read ({error})"), "");
+/// As [`read_table`], and hands on the bytes that were read, in order, for a hash of exactly these: a text may grow while it is
+/// read.
+///
+/// # Errors
+///
+/// As [`read_table`], and where a file that is not text has changed since it was opened.
+pub fn read_table_with(
+    path: &Path,
+    options: &ReadOptions,
+    mut bytes: impl FnMut(&[u8]),
+) -> Result<Table, Error> {
+    opened(path, options, Some(&mut bytes))
+}
+
+/// Whom the bytes are handed to, if anyone.
+type Bytes<'a> = Option<&'a mut dyn FnMut(&[u8])>;
+
+fn opened<'a>(path: &'a Path, options: &ReadOptions, bytes: Bytes<'a>) -> Result<Table, Error> {
+    read(path, options, bytes).map_err(|error| error.in_file(path))
+}
+
+fn io(error: io::Error) -> Error {
+    Error::new(Kind::Io, format!("cannot be read ({error})"), "")
+}
+
+fn read<'a>(path: &'a Path, options: &ReadOptions, seen: Bytes<'a>) -> Result<Table, Error> {
     // Looked at before it is opened: opening a pipe that nobody writes to would wait forever.
     let about = std::fs::metadata(path).map_err(io)?;
     if !about.is_file() {
@@ -84,27 +74,96 @@ fn read(path: &Path, options: &ReadOptions) -> Result<Table, Error> {
     if bytes == 0 {
         return Err(Error::new(Kind::Format, "the file is empty", ""));
     }
-    if bytes > options.limits.file_bytes {
-        return Err(Error::new(
-            Kind::Limit,
-            format!("a file of {bytes} bytes"),
-            format!("at most {} bytes", options.limits.file_bytes),
-        ));
-    }
     let mut file = File::open(path).map_err(io)?;
     let format = sniff(&mut file, bytes).map_err(io)?;
     file.rewind().map_err(io)?;
-    #[cfg_attr(not(feature = "all"), allow(unused_variables))]
-    let limits = options.limits;
+    watch::tell(path, 0, bytes);
+    let table = match format {
+        Format::Text => {
+            let read = Watched {
+                file,
+                path,
+                seen,
+                done: 0,
+                all: bytes,
+            };
+            text::read_sized(read, Some(bytes), &options.text, options.limits)
+        }
+        format => binary(format, file, path, bytes, options.limits).and_then(|table| {
+            if let Some(seen) = seen {
+                hand_on(path, &about, seen)?;
+            }
+            Ok(table)
+        }),
+    };
+    watch::tell(path, bytes, bytes);
+    table
+}
+
+/// The file of a text, of which every byte is handed on as it is read.
+struct Watched<'a> {
+    file: File,
+    path: &'a Path,
+    seen: Bytes<'a>,
+    done: u64,
+    all: u64,
+}
+
+impl Read for Watched<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let read = self.file.read(buffer)?;
+        if let Some(seen) = &mut self.seen {
+            seen(&buffer[..read]);
+        }
+        self.done += read as u64;
+        watch::tell(self.path, self.done.min(self.all), self.all);
+        Ok(read)
+    }
+}
+
+/// Hands on the bytes of a file that was not read in order, which must be the same as before.
+fn hand_on(path: &Path, before: &Metadata, seen: &mut dyn FnMut(&[u8])) -> Result<(), Error> {
+    let mut file = File::open(path).map_err(io)?;
+    let mut buffer = vec![0; 1 << 16];
+    loop {
+        match file.read(&mut buffer).map_err(io)? {
+            0 => break,
+            read => seen(&buffer[..read]),
+        }
+    }
+    let after = std::fs::metadata(path).map_err(io)?;
+    let same = after.len() == before.len() && after.modified().ok() == before.modified().ok();
+    if same {
+        return Ok(());
+    }
+    Err(Error::new(
+        Kind::Io,
+        format!(
+            "the file changed while it was read: it had {} bytes, and has {}",
+            before.len(),
+            after.len()
+        ),
+        "a recording that is closed, or a copy of it",
+    ))
+}
+
+#[cfg_attr(not(feature = "all"), allow(unused_variables))]
+fn binary(
+    format: Format,
+    file: File,
+    path: &Path,
+    bytes: u64,
+    limits: Limits,
+) -> Result<Table, Error> {
     let mut table: Table = match format {
-        Format::Text => return text::read_file(path, &options.text),
+        Format::Text => return Err(io(io::ErrorKind::InvalidInput.into())),
         Format::Foreign(what, instead) => Err(Error::new(Kind::Format, what, instead)),
         #[cfg(feature = "matlab")]
         Format::Matlab4 => crate::matlab4::read(file, bytes, limits),
         #[cfg(feature = "matlab")]
         Format::Matlab5 => crate::matlab5::read(file, bytes, limits),
         #[cfg(feature = "hdf5")]
-        Format::Hdf5 => crate::hdf5::read(path, limits),
+        Format::Hdf5 => crate::hdf5::read(path, bytes, limits),
         #[cfg(feature = "numpy")]
         Format::Npy => crate::numpy::read_npy(file, limits),
         #[cfg(feature = "numpy")]

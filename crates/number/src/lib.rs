@@ -6,6 +6,7 @@
 //! | units, everywhere but in files | [`unit()`] |
 //! | reports (typeset: `×10⁶`, a true minus sign) | [`sig`], [`count`], [`concise`], [`plus_minus`], [`interval`], [`si`], [`quantity`] |
 //! | every percentage of something that was measured or fitted | [`Percent`] |
+//! | sizes in bytes | [`bytes()`], [`bytes_option`], [`parse_bytes`] |
 //!
 //! ```
 //! use stiction_number::{Percent, short, sig};
@@ -16,10 +17,12 @@
 //! assert_eq!(Percent::deviation(2.97e24).decimals(2), "not bounded");
 //! ```
 
+mod bytes;
 mod message;
 mod percent;
 mod typeset;
 
+pub use bytes::{bytes, bytes_option, parse_bytes};
 pub use message::{counted, four_digits, full, r_squared, short, shortest, unit};
 pub use percent::{LARGEST_PERCENT, Percent};
 pub use typeset::{

@@ -14,9 +14,13 @@ pub(crate) fn push(out: &mut String, text: &str) {
             '\t' | '\n' => out.push(c),
             '\r' => out.push('\n'),
             c if c.is_control() => out.push('\u{fffd}'),
-            '\u{fffe}' | '\u{ffff}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => {
-                out.push('\u{fffd}')
-            }
+            '\u{fffe}'
+            | '\u{ffff}'
+            | '\u{61c}'
+            | '\u{200e}'
+            | '\u{200f}'
+            | '\u{202a}'..='\u{202e}'
+            | '\u{2066}'..='\u{2069}' => out.push('\u{fffd}'),
             c => out.push(c),
         }
     }

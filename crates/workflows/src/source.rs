@@ -4,11 +4,11 @@ use crate::error::Error;
 use crate::wording::{Setting, TOGETHER_WITH};
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
-use stiction_files::Axis;
 use stiction_files::axis::{ListedLog, Use};
 use stiction_files::result::{AssumedEntry, ExcludedEntry, Input, JoinedEntry, NotEnabledEntry};
+use stiction_files::{Axis, Hash};
 use stiction_identify::{Samples, Terms};
-use stiction_log::{Column, Joined, Log, Mapping, ReadOptions, Table, read_table};
+use stiction_log::{Column, Joined, Log, Mapping, ReadOptions, Table, read_table, read_table_with};
 
 /// Beginning of an entry of `detected` about a column that was not read.
 const LEFT_OUT: &str = "left out: ";
@@ -35,11 +35,21 @@ pub struct Source {
 /// # Errors
 /// With file, place, what was found and what is allowed.
 pub fn table(path: impl AsRef<Path>, axis: &Axis) -> Result<Table, Error> {
-    let options = ReadOptions {
+    read_table(path.as_ref(), &options(axis)).map_err(|e| axis.at_key(e).into())
+}
+
+fn options(axis: &Axis) -> ReadOptions {
+    ReadOptions {
         text: axis.text,
         ..ReadOptions::default()
-    };
-    read_table(path.as_ref(), &options).map_err(|e| axis.at_key(e).into())
+    }
+}
+
+/// The columns of a file, with the SHA-256 of exactly the bytes that they were read from.
+fn hashed(path: &Path, axis: &Axis) -> Result<(Table, String), Error> {
+    let mut hash = Hash::default();
+    let table = read_table_with(path, &options(axis), |bytes| hash.take(bytes));
+    Ok((table.map_err(|e| axis.at_key(e))?, hash.finish()))
 }
 
 /// Reads a file and maps it by the axis. Of a log that the axis file lists it is what is fitted, or where nothing is, what is
@@ -49,15 +59,11 @@ pub fn table(path: impl AsRef<Path>, axis: &Axis) -> Result<Table, Error> {
 /// As [`table`], and where columns or units are missing or ambiguous.
 pub fn load(path: impl AsRef<Path>, axis: &Axis) -> Result<Source, Error> {
     let path = path.as_ref();
-    let table = table(path, axis)?;
+    let (table, sha256) = hashed(path, axis)?;
     let listed = axis.listed(path);
     let fitted = listed.is_none_or(|log| log.mapping(Use::Fitted).is_some());
     let part = if fitted { Use::Fitted } else { Use::Validated };
-    mapped(path, || hash_of(path), &table, axis, (listed, part))
-}
-
-fn hash_of(path: &Path) -> Result<String, Error> {
-    Ok(stiction_files::sha256(path)?)
+    mapped(path, sha256, &table, axis, (listed, part))
 }
 
 /// Logs as they are used.
@@ -76,15 +82,14 @@ impl Used {
                 out.fitted.push(load(path, axis)?);
                 continue;
             };
-            let table = table(path, axis)?;
-            let sha256 = hash_of(path)?;
+            let (table, sha256) = hashed(path, axis)?;
             for (part, sources) in [
                 (Use::Fitted, &mut out.fitted),
                 (Use::Validated, &mut out.held_out),
             ] {
                 if listed.mapping(part).is_some() {
-                    let hash = || Ok(sha256.clone());
-                    sources.push(mapped(path, hash, &table, axis, (Some(listed), part))?);
+                    let sha256 = sha256.clone();
+                    sources.push(mapped(path, sha256, &table, axis, (Some(listed), part))?);
                 }
             }
         }
@@ -100,9 +105,9 @@ pub(crate) fn load_held_out(paths: &[PathBuf], axis: &Axis) -> Result<Vec<Source
             return load(path, axis);
         };
         if listed.mapping(Use::Validated).is_some() {
-            let table = table(path, axis)?;
+            let (table, sha256) = hashed(path, axis)?;
             let part = (Some(listed), Use::Validated);
-            return mapped(path, || hash_of(path), &table, axis, part);
+            return mapped(path, sha256, &table, axis, part);
         }
         Err(Error::usage(
             [
@@ -126,13 +131,13 @@ pub fn in_memory(name: &str, columns: Vec<Column>, axis: &Axis) -> Result<Source
         columns,
         ..Table::default()
     };
-    let hash = || Ok(stiction_files::sha256_of(&bytes(&table.columns)));
-    mapped(Path::new(name), hash, &table, axis, (None, Use::Fitted))
+    let sha256 = stiction_files::sha256_of(&bytes(&table.columns));
+    mapped(Path::new(name), sha256, &table, axis, (None, Use::Fitted))
 }
 
 fn mapped(
     path: &Path,
-    sha256: impl FnOnce() -> Result<String, Error>,
+    sha256: String,
     table: &Table,
     axis: &Axis,
     (listed, part): (Option<&ListedLog>, Use),
@@ -153,7 +158,7 @@ fn mapped(
     Ok(Source {
         path: path.to_path_buf(),
         part: listed.and_then(|log| log.words(part)),
-        sha256: sha256()?,
+        sha256,
         detected,
         log,
         joined,
@@ -169,18 +174,18 @@ fn joined(
 ) -> Result<(Log, Vec<JoinedEntry>), Error> {
     let mut out = Joined::new(table.clone(), mapping);
     let mut entries = Vec::new();
-    let mut before: Option<(&Path, Table)> = None;
+    let mut before: Option<(&Path, (Table, String))> = None;
     for column in &axis.joined {
         let file = column.file.as_path();
         let other = match before.take() {
-            Some((path, table)) if path == file => table,
-            _ => self::table(file, axis)?,
+            Some((path, read)) if path == file => read,
+            _ => hashed(file, axis)?,
         };
         let name = stiction_files::shell::text(file);
-        out.join(&name, &other, &column.from).map_err(&refused)?;
+        out.join(&name, &other.0, &column.from).map_err(&refused)?;
         entries.push(JoinedEntry {
             column: column.from.role.to_string(),
-            sha256: hash_of(file)?,
+            sha256: other.1.clone(),
             path: name,
         });
         before = Some((file, other));

@@ -493,30 +493,65 @@ fn closed_and_full_outputs() {
     );
 }
 
+/// A check has nothing to keep: Ctrl-C ends it, whatever it is at.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_a_check_at_once() {
+    let bench = Bench::new();
+    bench.log("log.csv", 300_000);
+    let mut child = bench
+        .command(&["check", "log.csv"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    assert!(child.try_wait().unwrap().is_none(), "the log is too short");
+    crate::interrupt(&child);
+    let (code, out, err) = crate::split(child.wait_with_output().unwrap());
+    let said = "stiction: [interrupted] stopped; nothing was written\n";
+    assert_eq!((code, out.as_str(), err.as_str()), (130, "", said));
+}
+
+/// A log that would take more memory than is allowed is refused with what it asks for and how to allow it.
+#[test]
+fn a_log_beyond_the_memory_that_is_allowed_is_refused() {
+    let bench = Bench::new();
+    bench.log("log.csv", 300_000);
+    let check = |memory| {
+        crate::split(
+            bench
+                .command(&["check", "log.csv", "--max-memory", memory])
+                .output()
+                .unwrap(),
+        )
+    };
+    let (code, out, err) = check("2MB");
+    assert_eq!((code, out.as_str()), (2, ""));
+    assert!(
+        err.starts_with("stiction: [log-limit] log.csv: reading "),
+        "{err}"
+    );
+    let (_, offered) = err.split_once("--max-memory ").unwrap();
+    let (offered, _) = offered.split_once(' ').unwrap();
+    // What is offered is enough, and a size that is none is refused.
+    let (code, _, err) = check(offered);
+    assert!(code < 2, "{offered}: {err}");
+    for wrong in ["much", "3", "-1GB", "1e9GB"] {
+        let (code, _, err) = check(wrong);
+        assert_eq!(code, 2);
+        assert!(err.contains("a size from 1MB is allowed"), "{err}");
+    }
+}
+
 /// Ctrl-C in the middle of a search: what was found so far is saved, and says what it is.
 #[cfg(unix)]
 #[test]
 fn an_interrupt_saves_what_was_found() {
     let bench = Bench::new();
     bench.log("log.csv", 300_000);
-    let mut child = bench
-        .command(&["identify", "log.csv", "--out", "a"])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    std::thread::sleep(std::time::Duration::from_millis(700));
-    assert!(
-        child.try_wait().unwrap().is_none(),
-        "the log is too short to interrupt"
-    );
-    let kill = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .unwrap();
-    assert!(kill.success());
-    let clock = std::time::Instant::now();
-    let (code, out, err) = crate::split(child.wait_with_output().unwrap());
+    let (clock, (code, out, err)) =
+        crate::interrupted(|| bench.command(&["identify", "log.csv", "--out", "a"]));
     assert_eq!(code, 130, "{out}{err}");
     assert!(
         clock.elapsed().as_secs() < 15,

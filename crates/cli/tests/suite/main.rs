@@ -35,3 +35,39 @@ fn split(output: std::process::Output) -> (i32, String, String) {
     assert!(!err.contains("panicked"), "{err}");
     (output.status.code().unwrap_or(-1), out, err)
 }
+
+/// Runs a command and interrupts it, later where it was still reading its log; since when, and how it ended.
+#[cfg(unix)]
+fn interrupted(
+    command: impl Fn() -> std::process::Command,
+) -> (std::time::Instant, (i32, String, String)) {
+    for wait in [700, 1400, 2800, 5600, 11_200] {
+        let mut child = command()
+            .stdout(std::process::Stdio::piped())
+            .stderr(std::process::Stdio::piped())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(wait));
+        assert!(
+            child.try_wait().unwrap().is_none(),
+            "too short to interrupt"
+        );
+        let clock = std::time::Instant::now();
+        interrupt(&child);
+        let ended = split(child.wait_with_output().unwrap());
+        if !ended.2.contains("nothing was written") {
+            return (clock, ended);
+        }
+    }
+    panic!("the log is read for too long");
+}
+
+/// Ctrl-C for a command.
+#[cfg(unix)]
+fn interrupt(child: &std::process::Child) {
+    let kill = std::process::Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(kill.success());
+}

@@ -329,19 +329,7 @@ fn an_interrupt_keeps_what_is_done() {
             "b/compare.json",
         ),
     ] {
-        let mut child = bench
-            .command(arguments)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        std::thread::sleep(std::time::Duration::from_millis(700));
-        let still = child.try_wait().unwrap().is_none();
-        let _ = Command::new("kill")
-            .args(["-INT", &child.id().to_string()])
-            .status();
-        let (code, out, err) = crate::split(child.wait_with_output().unwrap());
-        assert!(still, "{arguments} ended too soon: {out}");
+        let (_, (code, out, err)) = crate::interrupted(|| bench.command(arguments));
         assert_eq!(code, 130, "{arguments}: {out}{err}");
         let result = bench.json(file);
         let status = if file.starts_with('a') {

@@ -1,7 +1,8 @@
 //! Laying arrays out as the columns and scalars of a [`Table`], within limits.
 
 use super::Values;
-use crate::{Column, Error, Kind, Limits, Scalar, Table};
+use crate::limits::Budget;
+use crate::{Column, Error, Kind, Scalar, Table};
 
 /// Most variables, fields and cells in one file; far more than any recording has.
 const MAX_ENTRIES: usize = 65_536;
@@ -60,16 +61,16 @@ impl Layout {
 #[derive(Debug)]
 pub(crate) struct Collector {
     table: Table,
-    limits: Limits,
+    budget: Budget,
     samples: u64,
     entries: usize,
 }
 
 impl Collector {
-    pub(crate) fn new(limits: Limits) -> Self {
+    pub(crate) fn new(budget: impl Into<Budget>) -> Self {
         Self {
             table: Table::default(),
-            limits,
+            budget: budget.into(),
             samples: 0,
             entries: 0,
         }
@@ -93,13 +94,26 @@ impl Collector {
         let wanted = dims.iter().try_fold(1u64, |n, &dim| n.checked_mul(dim));
         let total = wanted.and_then(|wanted| self.samples.checked_add(wanted));
         match (wanted, total) {
-            (Some(wanted), Some(total)) if total <= self.limits.samples => Ok(wanted),
-            _ => Err(Error::new(
-                Kind::Limit,
-                format!("{} samples, more than allowed", times(dims)),
-                format!("at most {} samples in one file", self.limits.samples),
-            )
-            .in_column(name)),
+            (Some(wanted), Some(total)) if total <= self.budget.samples() => Ok(wanted),
+            _ => {
+                let mut error = self.budget.too_many_samples(total);
+                if dims.len() > 1 {
+                    error.found = format!("{}: {}", times(dims), error.found);
+                }
+                Err(match name {
+                    "" => error,
+                    name => error.in_column(name),
+                })
+            }
+        }
+    }
+
+    /// Refuses a part of a file that a decoder would hold at once, in so many bytes, where these are too many.
+    #[cfg(feature = "parquet")]
+    pub(crate) fn holds(&self, what: &str, bytes: u64) -> Result<(), Error> {
+        match bytes > self.budget.memory() {
+            true => Err(self.budget.refusal(what, Some(bytes))),
+            false => Ok(()),
         }
     }
 
@@ -216,11 +230,11 @@ fn times(dims: &[u64]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Limits;
 
     fn collector(samples: u64) -> Collector {
         Collector::new(Limits {
-            samples,
-            ..Limits::default()
+            memory: samples * crate::limits::PER_SAMPLE,
         })
     }
 

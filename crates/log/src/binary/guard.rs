@@ -9,7 +9,8 @@ use crate::{Error, Kind};
 /// The decoders of HDF5, Parquet and ZIP are large, and a file is not to be trusted; one slice
 /// index wrong in them must cost the user that file and not the program. Nothing of the unwound
 /// reader is used afterwards, so no broken state can be seen. Our own readers need no such guard.
-/// The message of the panic still goes where the program's panic hook sends it.
+/// The message of the panic also goes where the program's panic hook sends it: that of `stiction` keeps it for a panic that
+/// nothing catches.
 pub(crate) fn guard<T>(format: &str, read: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
     catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|panic| {
         let why = panic

@@ -17,15 +17,17 @@ use tree::{Dataset, Element, Group, Node};
 use window::Window;
 
 use crate::binary::{Collector, Layout, Order, guard};
+use crate::limits::Budget;
 use crate::{Error, Kind, Limits, Table};
 
 /// Deepest nesting of groups or cells; MATLAB and h5py files of recordings use two or three levels.
 const MAX_DEPTH: usize = 16;
 
 /// Reads every dataset of numbers.
-pub(crate) fn read(path: &Path, limits: Limits) -> Result<Table, Error> {
+pub(crate) fn read(path: &Path, bytes: u64, limits: Limits) -> Result<Table, Error> {
     guard("HDF5", || {
-        let mut collector = Collector::new(limits);
+        // The decoder holds the file.
+        let mut collector = Collector::new(Budget::beside(limits, bytes)?);
         let root = pure::open(path).map_err(broken)?;
         group(root.as_ref(), "", 0, &mut collector)?;
         Ok(collector.finish())
@@ -101,7 +103,12 @@ fn dataset(
     }
     let mut dims = dataset.dims().map_err(broken)?;
     let chunk = dataset.chunk().map_err(broken)?;
-    collector.fits(name, &chunk)?;
+    // A chunk is unpacked as a whole, whatever its elements are.
+    let mut unpacked = chunk.clone();
+    if let Element::Record(record) = &element {
+        unpacked.push(record.bytes().div_ceil(8) as u64);
+    }
+    collector.fits(name, &unpacked)?;
     let stream = |dims: &[u64], width| Window::new(dataset, dims, &chunk, width);
     let cut = |error: std::io::Error| broken(error.to_string());
     match element {

@@ -93,7 +93,10 @@ fn one(
             .unwrap_or(chunk.data_page_offset());
         let end = start.checked_add(chunk.compressed_size());
         match (u64::try_from(start), end.map(u64::try_from)) {
-            (Ok(start), Some(Ok(end))) => scan::pages(raw, start, end).map_err(broken)?,
+            (Ok(start), Some(Ok(end))) => {
+                let largest = scan::pages(raw, start, end).map_err(broken)?;
+                collector.holds("a page", largest)?;
+            }
             _ => return Err(broken("a negative offset")),
         }
         let group = reader.get_row_group(number).map_err(library)?;

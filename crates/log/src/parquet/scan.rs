@@ -88,9 +88,10 @@ fn tree(children: &[i64]) -> Option<()> {
     missing.iter().all(|&left| left == 0).then_some(())
 }
 
-/// Checks the pages between two offsets of the file.
-pub(super) fn pages(file: &mut File, start: u64, end: u64) -> Result<(), String> {
+/// Checks the pages between two offsets of the file, and gives the bytes of the largest, unpacked.
+pub(super) fn pages(file: &mut File, start: u64, end: u64) -> Result<u64, String> {
     let mut at = start;
+    let mut largest = 0;
     let mut window = Vec::new();
     while at < end {
         let page = page(file, at, end, &mut window)?;
@@ -107,8 +108,9 @@ pub(super) fn pages(file: &mut File, start: u64, end: u64) -> Result<(), String>
             return Err(format!("a dictionary at byte {at} of impossible length"));
         }
         at += page.header + packed;
+        largest = largest.max(unpacked);
     }
-    Ok(())
+    Ok(largest)
 }
 
 struct Page {

@@ -5,6 +5,7 @@ use super::problem;
 use super::row::{self, Block, Role, Rule, Seen, State, Stop};
 use super::source::Source;
 use super::split;
+use crate::limits::Budget;
 use crate::{Error, Kind};
 use rayon::prelude::*;
 
@@ -28,12 +29,13 @@ pub(super) struct Body {
     pub trailing: Option<Seen>,
 }
 
-/// Reads all samples; more than `limit` of them are refused.
-pub(super) fn read(source: &mut Source, layout: &Layout, limit: usize) -> Result<Body, Error> {
+/// Reads all samples; more than are allowed are refused.
+pub(super) fn read(source: &mut Source, layout: &Layout, budget: Budget) -> Result<Body, Error> {
     let width = layout.state.roles.len();
     let mut joint = Joint {
         layout,
-        limit,
+        budget,
+        read: layout.offset as u64,
         size: source.size,
         line: layout.line,
         blank_end: 0,
@@ -82,7 +84,9 @@ pub(super) fn read(source: &mut Source, layout: &Layout, limit: usize) -> Result
 /// The samples so far.
 struct Joint<'a> {
     layout: &'a Layout,
-    limit: usize,
+    budget: Budget,
+    /// Bytes of the file before the next block.
+    read: u64,
     size: Option<u64>,
     /// Line of the file at which the next block starts.
     line: u64,
@@ -117,7 +121,8 @@ impl Joint<'_> {
                 self.seen().as_deref(),
             ),
         };
-        self.reserve(&block, text.len());
+        self.reserve(&block, text.len())?;
+        self.read += text.len() as u64;
         let body = &mut self.body;
         let first_line = self.line;
         let absolute = |seen: Seen| Seen {
@@ -148,8 +153,9 @@ impl Joint<'_> {
             self.blank_end += block.blank_end;
         }
         let samples: usize = body.columns.iter().map(Vec::len).sum();
-        if samples > self.limit {
-            return Err(problem::too_many_samples(self.limit).at_row(first_line + block.lines));
+        if samples as u64 > self.budget.samples() {
+            let error = self.budget.too_many_samples(Some(self.expected(samples)));
+            return Err(error.at_row(first_line + block.lines));
         }
         let Some(stop) = block.stop.take() else {
             self.line += block.lines;
@@ -197,21 +203,37 @@ impl Joint<'_> {
         Ok(())
     }
 
+    /// Samples of the whole file, where these many are in what has been read: twice as many where nobody knows how long it is.
+    fn expected(&self, samples: usize) -> u64 {
+        let share = self.size.map(|size| size as f64 / self.read.max(1) as f64);
+        (samples as f64 * share.unwrap_or(2.0).max(1.0)).ceil() as u64
+    }
+
     /// Makes room for the whole file after its first block, so that columns need not grow by
-    /// doubling.
-    fn reserve(&mut self, block: &Block, bytes: usize) {
-        let Some(size) = self.size else { return };
+    /// doubling; refuses a file that would take far more than is allowed.
+    fn reserve(&mut self, block: &Block, bytes: usize) -> Result<(), Error> {
+        let Some(size) = self.size else {
+            return Ok(());
+        };
         if bytes == 0 || self.body.columns.iter().any(|c| !c.is_empty()) {
-            return;
+            return Ok(());
         }
         let share = size as f64 / bytes as f64 * 1.01;
+        let samples: usize = block.columns.iter().map(Vec::len).sum();
+        let expected = samples as f64 * share;
+        let allowed = self.budget.samples() as f64;
+        // Rows may become longer, hardly twice as long.
+        if samples > 0 && expected > 2.0 * allowed {
+            return Err(self.budget.too_many_samples(Some(expected as u64)));
+        }
         for (to, from) in self.body.columns.iter_mut().zip(&block.columns) {
-            let expected = from.len() as f64 * share;
-            if expected > from.len() as f64 && expected < self.limit as f64 {
+            let own = from.len() as f64 * share * (allowed / expected).min(1.0);
+            if own > from.len() as f64 {
                 // Growing later is fine where this much is not to be had.
-                let _ = to.try_reserve_exact(expected as usize + 1);
+                let _ = to.try_reserve_exact(own as usize + 1);
             }
         }
+        Ok(())
     }
 
     fn finish(mut self) -> Result<Body, Error> {
@@ -244,15 +266,19 @@ fn starts_with_text(row: &[u8], rule: &Rule) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Limits;
     use crate::text::{TextOptions, choose};
 
     #[test]
     fn samples_are_limited() {
         let text = "1.5;2\n".repeat(300_000);
-        let read = |limit| {
+        let read = |samples| {
+            let budget = Budget::from(Limits {
+                memory: samples * crate::limits::PER_SAMPLE,
+            });
             let mut source = Source::open(text.as_bytes(), None).unwrap();
             let layout = choose::layout(&source, &TextOptions::default()).unwrap();
-            read(&mut source, &layout, limit).map(|body| body.columns[1].len())
+            read(&mut source, &layout, budget).map(|body| body.columns[1].len())
         };
         assert_eq!(read(600_000), Ok(300_000));
         assert_eq!(read(599_999).unwrap_err().kind, Kind::Limit);

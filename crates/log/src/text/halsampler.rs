@@ -7,8 +7,9 @@
 //! of each row with `-t`. What LinuxCNC 2.9 drops when its buffer is full has neither mark nor number.
 
 use super::body::Body;
-use super::problem::{self, count};
+use super::problem::count;
 use super::row::Role;
+use crate::limits::Budget;
 use crate::{Error, Kind};
 
 /// Whether a line is the mark of halsampler, and nothing else.
@@ -18,7 +19,7 @@ pub(super) fn is_overrun(text: &[u8]) -> bool {
 }
 
 /// Puts a row of missing values in place of every sample that was lost between two rows, and says how many.
-pub(super) fn restore(body: &mut Body, limit: usize) -> Result<Option<String>, Error> {
+pub(super) fn restore(body: &mut Body, budget: Budget) -> Result<Option<String>, Error> {
     let rows = body.rows;
     let overruns: Vec<usize> = (body.overruns.iter().copied())
         .filter(|row| (1..rows).contains(row))
@@ -54,8 +55,9 @@ pub(super) fn restore(body: &mut Body, limit: usize) -> Result<Option<String>, E
         ));
     }
     let width = body.columns.iter().filter(|c| !c.is_empty()).count();
-    if (rows + missing).saturating_mul(width) > limit {
-        return Err(problem::too_many_samples(limit));
+    let samples = (rows + missing).saturating_mul(width) as u64;
+    if samples > budget.samples() {
+        return Err(budget.too_many_samples(Some(samples)));
     }
     for (index, column) in body.columns.iter_mut().enumerate() {
         if !column.is_empty() {

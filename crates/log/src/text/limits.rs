@@ -8,6 +8,3 @@ pub const MAX_ROW_BYTES: usize = 1 << 20;
 
 /// Most lines before the first row of numbers.
 pub const MAX_PREAMBLE_LINES: usize = 1000;
-
-/// Most samples over all columns (8 GiB in memory).
-pub const MAX_SAMPLES: usize = 1 << 30;

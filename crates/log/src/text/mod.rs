@@ -25,7 +25,7 @@
 //! Numbers are correctly rounded: what Python, NumPy or pandas wrote comes back bit for bit.
 //!
 //! Limits, past which a file is refused with [`Kind::Limit`](crate::Kind): 4096 columns, 1 MiB in one
-//! row, 1000 lines before the first row of numbers, 2^30 samples. Beyond a fixed
+//! row, 1000 lines before the first row of numbers, and the memory that [`Limits`] allow. Beyond a fixed
 //! 20 MB or so, memory stays below three times the samples' size: the text passes through in blocks
 //! and is never held as a whole.
 //!
@@ -67,12 +67,13 @@ pub(crate) use cell::{Cell, classify};
 pub(crate) use clock::Moment;
 #[cfg(any(feature = "json", feature = "mcap"))]
 pub(crate) use column::unwrap_midnight;
-pub use limits::{MAX_COLUMNS, MAX_PREAMBLE_LINES, MAX_ROW_BYTES, MAX_SAMPLES};
+pub use limits::{MAX_COLUMNS, MAX_PREAMBLE_LINES, MAX_ROW_BYTES};
 pub use options::{Decimal, Separator, TextOptions};
 #[cfg(feature = "svb")]
 pub(crate) use scope::{Group, Scope};
 
-use crate::{Error, Kind, Table};
+use crate::limits::Budget;
+use crate::{Error, Kind, Limits, Table};
 use source::Source;
 use std::fs::File;
 use std::io::Read;
@@ -85,7 +86,7 @@ use std::path::Path;
 /// [`Error`] with the row (as an editor counts lines), the column, what was found and what is
 /// allowed.
 pub fn read(source: impl Read, options: &TextOptions) -> Result<Table, Error> {
-    read_sized(source, None, options)
+    read_sized(source, None, options, Limits::default())
 }
 
 /// Reads a text recording from a file; like [`read`], and the errors name the file.
@@ -97,19 +98,26 @@ pub fn read_file(path: &Path, options: &TextOptions) -> Result<Table, Error> {
     let open = || {
         let file = File::open(path).map_err(|e| problem::io(&e))?;
         let size = file.metadata().ok().map(|m| m.len());
-        read_sized(file, size, options)
+        read_sized(file, size, options, Limits::default())
     };
     open().map_err(|e| e.in_file(path))
 }
 
-fn read_sized(reader: impl Read, size: Option<u64>, options: &TextOptions) -> Result<Table, Error> {
+/// Reads a text of this many bytes, where that is known.
+pub(crate) fn read_sized(
+    reader: impl Read,
+    size: Option<u64>,
+    options: &TextOptions,
+    limits: Limits,
+) -> Result<Table, Error> {
     options.check()?;
     let mut source = Source::open(reader, size)?;
     let mut layout = choose::layout(&source, options)?;
     let encoding = source.encoding(layout.offset);
     layout.detected.splice(..0, encoding.map(str::to_owned));
-    let mut body = body::read(&mut source, &layout, MAX_SAMPLES)?;
-    let lost = halsampler::restore(&mut body, MAX_SAMPLES)?;
+    let budget = Budget::from(limits);
+    let mut body = body::read(&mut source, &layout, budget)?;
+    let lost = halsampler::restore(&mut body, budget)?;
     layout.detected.extend(lost);
     let table = column::finish(layout, body);
     if table.columns.is_empty() {

@@ -182,11 +182,3 @@ pub(super) fn too_many_columns(width: usize) -> Error {
         format!("at most {} columns", super::limits::MAX_COLUMNS),
     )
 }
-
-pub(super) fn too_many_samples(limit: usize) -> Error {
-    Error::new(
-        Kind::Limit,
-        format!("more than {limit} samples over all columns"),
-        "a shorter recording, or fewer columns",
-    )
-}

@@ -16,6 +16,7 @@ use sheet::Sheet;
 use zip::ZipArchive;
 
 use crate::binary::guard;
+use crate::limits::Budget;
 use crate::text::{self, Decimal, Separator, TextOptions};
 use crate::{Error, Kind, Limits, Table};
 
@@ -78,7 +79,7 @@ fn table(archive: &mut Archive, book: &Book, id: &str, limits: Limits) -> Result
         .flatten()
         .ok_or_else(|| broken("a sheet without a file"))?;
     let width = part(archive, &target, |reader| {
-        Sheet::new(reader, book, 0, limits.samples).widest()
+        Sheet::new(reader, book, 0, Budget::from(limits).samples()).widest()
     })?
     .ok_or_else(|| broken("a sheet whose file is missing"))?;
     let options = TextOptions {
@@ -87,8 +88,13 @@ fn table(archive: &mut Archive, book: &Book, id: &str, limits: Limits) -> Result
         ..TextOptions::default()
     };
     let member = archive.by_name(&target).map_err(broken)?;
-    let sheet = Sheet::new(BufReader::new(member), book, width, limits.samples);
-    let mut table = text::read(sheet, &options)?;
+    let sheet = Sheet::new(
+        BufReader::new(member),
+        book,
+        width,
+        Budget::from(limits).samples(),
+    );
+    let mut table = text::read_sized(sheet, None, &options, limits)?;
     table
         .detected
         .retain(|said| !said.starts_with("separator") && !said.starts_with("decimal"));

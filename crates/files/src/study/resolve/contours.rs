@@ -106,7 +106,7 @@ pub(super) fn contour(
         _ => {
             let points = file::points::<2>(table, folder, asked.is.length, &file::PLANE)?;
             let [x, y] = points.axes;
-            study.reads(&points.file, points.warning)?;
+            study.reads(&points.file, points.sha256, points.warning);
             let motion = FreeForm::timed(points.times, x, y).map_err(|e| table.together(&e))?;
             (Box::new(motion) as Boxed, 1.0, 1.0)
         }

@@ -3,9 +3,10 @@
 use super::entry::{MOST_SAMPLES, MOST_WAY};
 use crate::config::{LARGEST_SI, Table};
 use crate::error::{Error, Warning};
+use crate::hash::Hash;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
-use stiction_log::{Column, Dimension, Kind, Limits, ReadOptions, Unit, read_table};
+use stiction_log::{Column, Dimension, Kind, ReadOptions, Unit, read_table_with};
 use stiction_number::{four_digits as short, full};
 
 /// Largest file, bytes.
@@ -45,6 +46,8 @@ pub(super) struct Points<const AXES: usize> {
     pub times: Vec<f64>,
     pub axes: [Vec<f64>; AXES],
     pub file: PathBuf,
+    /// Of exactly the bytes that were read, hexadecimal.
+    pub sha256: String,
     pub warning: Option<Warning>,
 }
 
@@ -58,12 +61,16 @@ pub(super) fn points<const AXES: usize>(
     let what = format!("a file with columns such as {}", columns.example);
     let given = table.required("file", table.get("file"), &what)?;
     let file = folder.join(given.path(&what)?);
-    let mut options = ReadOptions::default();
-    options.limits = Limits {
-        file_bytes: MOST_BYTES,
-        ..options.limits
-    };
-    let read = read_table(&file, &options).map_err(|e| match e.kind {
+    if let Some(bytes) = std::fs::metadata(&file).ok().map(|about| about.len())
+        && bytes > MOST_BYTES
+    {
+        let found = format!("{}: a file of {bytes} bytes", file.display());
+        let allowed = format!("at most {MOST_BYTES} bytes");
+        return Err(given.refuse_as(Code::LogLimit, found, &allowed));
+    }
+    let mut hash = Hash::default();
+    let read = read_table_with(&file, &ReadOptions::default(), |bytes| hash.take(bytes));
+    let read = read.map_err(|e| match e.kind {
         Kind::Io => given.refuse(
             format!("{}: {}", file.display(), e.found),
             &format!("give the path of {what}"),
@@ -173,6 +180,7 @@ pub(super) fn points<const AXES: usize>(
         times,
         axes,
         file,
+        sha256: hash.finish(),
         warning,
     })
 }

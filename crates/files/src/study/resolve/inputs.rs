@@ -15,13 +15,15 @@ pub(super) fn input(path: &Path) -> Result<StudyInput, Error> {
 }
 
 impl Study {
-    /// Notes a file that was read, and what was said of it.
-    pub(super) fn reads(&mut self, file: &Path, warning: Option<Warning>) -> Result<(), Error> {
-        let input = input(file)?;
+    /// Notes a file that was read, the hash of what was read, and what was said of it.
+    pub(super) fn reads(&mut self, file: &Path, sha256: String, warning: Option<Warning>) {
+        let input = StudyInput {
+            path: crate::shell::text(file),
+            sha256,
+        };
         if !self.inputs.contains(&input) {
             self.inputs.push(input);
         }
         self.warnings.extend(warning);
-        Ok(())
     }
 }

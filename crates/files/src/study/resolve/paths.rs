@@ -79,7 +79,7 @@ pub(super) fn paths(
         _ => {
             let points = file::points::<1>(table, folder, asked.is.length, &file::POSITION)?;
             let [positions] = points.axes;
-            study.reads(&points.file, points.warning)?;
+            study.reads(&points.file, points.sha256, points.warning);
             let points = asked.made(SetPoints::timed(points.times, positions))?;
             asked.sampled("file", "a motion", points.duration())?;
             points

@@ -7,8 +7,7 @@ fn read_within(text: &str, samples: u64) -> Result<Table, Error> {
     let file = folder.path().join("log.json");
     std::fs::write(&file, text).unwrap();
     let limits = Limits {
-        samples,
-        ..Limits::default()
+        memory: samples * 24,
     };
     let options = ReadOptions {
         limits,

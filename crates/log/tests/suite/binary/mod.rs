@@ -1,5 +1,6 @@
 //! What reads files of every format: only where all readers are built.
 
+mod bytes;
 mod common;
 mod json;
 mod mapping_recordings;
