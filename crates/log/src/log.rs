@@ -35,10 +35,11 @@ mod unwrap;
 
 use crate::findings::{self, Finding, Severity};
 use crate::join::Joined;
-use crate::mapping::{Mapping, Motion, Role, Source, Understood, parts};
+use crate::mapping::{Enable, Mapping, Motion, Role, Source, Understood, parts};
 use crate::{Error, Kind, Table};
 use cells::LeftOut;
 pub use chosen::NotEnabled;
+use std::borrow::Cow;
 use std::ops::Range;
 use stiction_codes::Code;
 
@@ -133,7 +134,15 @@ impl Log {
     /// Those of [`Mapping::complete`]; [`Kind::Time`] for time stamps that no rule mends, with the
     /// row; [`Kind::Value`] where too little is left or too much is missing.
     pub fn from_table(table: &Table, mapping: &Mapping) -> Result<Self, Error> {
-        Self::of_rows(table, mapping, &[])
+        Self::of_rows(Cow::Borrowed(table), mapping, &[])
+    }
+
+    /// As [`Log::from_table`], and lets go of every column as soon as it is not needed: half of the memory.
+    ///
+    /// # Errors
+    /// As [`Log::from_table`].
+    pub fn of_table(table: Table, mapping: &Mapping) -> Result<Self, Error> {
+        Self::of_rows(Cow::Owned(table), mapping, &[])
     }
 
     /// The same of a table to which columns of other files were joined.
@@ -141,29 +150,42 @@ impl Log {
     /// # Errors
     /// As [`Log::from_table`].
     pub fn from_joined(joined: &Joined) -> Result<Self, Error> {
-        let mut log = Self::of_rows(&joined.table, &joined.mapping, &joined.outside)?;
+        let mut log = Self::of_rows(
+            Cow::Borrowed(&joined.table),
+            &joined.mapping,
+            &joined.outside,
+        )?;
         log.findings.splice(0..0, joined.findings.iter().cloned());
         Ok(log)
     }
 
     /// A log of the rows of a table that are not `outside`.
-    fn of_rows(table: &Table, mapping: &Mapping, outside: &[bool]) -> Result<Self, Error> {
-        let completed = mapping.complete(table)?;
+    fn of_rows(
+        mut table: Cow<'_, Table>,
+        mapping: &Mapping,
+        outside: &[bool],
+    ) -> Result<Self, Error> {
+        let completed = mapping.complete(&table)?;
         let mapping = completed.mapping;
         let mut findings = completed.findings;
         let mut sources = Vec::new();
         for role in Role::ALL {
-            if let Some(source) = Source::of(&mapping, table, role)? {
+            if let Some(source) = Source::of(&mapping, &table, role)? {
                 sources.push((role, source));
             }
         }
         same_force(&sources)?;
-        let length = common_length(table, &sources, &mut findings)?;
-        let clock = clock::read(table, &sources, &mapping, length, &mut findings)?;
-        let mut columns = cells::Columns::read(table, &sources, &clock);
-        let mut chosen = chosen::Chosen::read(table, &mapping, &clock, outside)?;
+        let enable = Enable::of(&mapping, &table)?;
+        keep_columns(&mut table, |column| {
+            enable == Some(column) || sources.iter().any(|(_, source)| source.column == column)
+        });
+        let length = common_length(&table, &sources, &mut findings)?;
+        let clock = clock::read(&table, &sources, &mapping, length, &mut findings)?;
+        let mut columns = cells::Columns::read(&mut table, &sources, &clock);
+        let mut chosen = chosen::Chosen::read(&table, &mapping, &clock, outside)?;
         filled::clear(&mut columns, &mut findings)?;
-        let mut left_out = dropout::clear(&mut columns, table, &sources, &clock, &mut findings);
+        let mut left_out = dropout::clear(&mut columns, &table, &sources, &clock, &mut findings);
+        keep_columns(&mut table, |_| false);
         let mut time = clock.time;
         if let Some(wrap) = mapping.wrap {
             let unit = mapping
@@ -248,8 +270,8 @@ impl Log {
             columns: without(completed.columns, &left_out),
             mapping,
         };
-        credible::check(&log, table, &sources)?;
-        let unlikely = credible::unlikely(&log, table, &sources);
+        credible::check(&log, &table, &sources)?;
+        let unlikely = credible::unlikely(&log, &table, &sources);
         log.findings.extend(unlikely);
         let mapping = log.mapping.clone();
         findings::inspect(&mut log, &mapping);
@@ -397,6 +419,16 @@ impl Log {
     /// Marks samples as not to be fitted to.
     pub(crate) fn exclude(&mut self, samples: Range<usize>, code: Code) {
         self.excluded.push(Excluded { samples, code });
+    }
+}
+
+/// Lets go of the samples of the other columns, where the table is ours. Names and units stay, for messages.
+fn keep_columns(table: &mut Cow<'_, Table>, wanted: impl Fn(usize) -> bool) {
+    if let Cow::Owned(table) = table {
+        let columns = table.columns.iter_mut().enumerate();
+        for (_, column) in columns.filter(|(index, _)| !wanted(*index)) {
+            column.values = Vec::new();
+        }
     }
 }
 

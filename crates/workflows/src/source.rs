@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::wording::{Setting, TOGETHER_WITH};
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 use stiction_files::axis::{ListedLog, Use};
@@ -63,7 +64,7 @@ pub fn load(path: impl AsRef<Path>, axis: &Axis) -> Result<Source, Error> {
     let listed = axis.listed(path);
     let fitted = listed.is_none_or(|log| log.mapping(Use::Fitted).is_some());
     let part = if fitted { Use::Fitted } else { Use::Validated };
-    mapped(path, sha256, &table, axis, (listed, part))
+    mapped(path, sha256, Cow::Owned(table), axis, (listed, part))
 }
 
 /// Logs as they are used.
@@ -89,7 +90,8 @@ impl Used {
             ] {
                 if listed.mapping(part).is_some() {
                     let sha256 = sha256.clone();
-                    sources.push(mapped(path, sha256, &table, axis, (Some(listed), part))?);
+                    let table = Cow::Borrowed(&table);
+                    sources.push(mapped(path, sha256, table, axis, (Some(listed), part))?);
                 }
             }
         }
@@ -107,7 +109,7 @@ pub(crate) fn load_held_out(paths: &[PathBuf], axis: &Axis) -> Result<Vec<Source
         if listed.mapping(Use::Validated).is_some() {
             let (table, sha256) = hashed(path, axis)?;
             let part = (Some(listed), Use::Validated);
-            return mapped(path, sha256, &table, axis, part);
+            return mapped(path, sha256, Cow::Owned(table), axis, part);
         }
         Err(Error::usage(
             [
@@ -132,13 +134,19 @@ pub fn in_memory(name: &str, columns: Vec<Column>, axis: &Axis) -> Result<Source
         ..Table::default()
     };
     let sha256 = stiction_files::sha256_of(&bytes(&table.columns));
-    mapped(Path::new(name), sha256, &table, axis, (None, Use::Fitted))
+    mapped(
+        Path::new(name),
+        sha256,
+        Cow::Owned(table),
+        axis,
+        (None, Use::Fitted),
+    )
 }
 
 fn mapped(
     path: &Path,
     sha256: String,
-    table: &Table,
+    table: Cow<'_, Table>,
     axis: &Axis,
     (listed, part): (Option<&ListedLog>, Use),
 ) -> Result<Source, Error> {
@@ -146,15 +154,22 @@ fn mapped(
     let mapping = own.as_ref().unwrap_or(&axis.mapping);
     let refused =
         |e: stiction_log::Error| Error::from(axis.at_listed(e.in_file(path), listed, part));
-    let (log, joined) = match axis.joined.is_empty() {
-        true => (
-            Log::from_table(table, mapping).map_err(refused)?,
-            Vec::new(),
-        ),
-        false => joined(table, mapping, axis, refused)?,
+    let left_out: Vec<String> = table
+        .skipped
+        .iter()
+        .map(|s| format!("{LEFT_OUT}{s}"))
+        .collect();
+    let (log, joined) = match (axis.joined.is_empty(), table) {
+        (true, Cow::Owned(table)) => (Log::of_table(table, mapping), Vec::new()),
+        (true, Cow::Borrowed(table)) => (Log::from_table(table, mapping), Vec::new()),
+        (false, table) => {
+            let (log, entries) = joined(table.into_owned(), mapping, axis, refused)?;
+            (Ok(log), entries)
+        }
     };
+    let log = log.map_err(refused)?;
     let mut detected = log.detected.clone();
-    detected.extend(table.skipped.iter().map(|s| format!("{LEFT_OUT}{s}")));
+    detected.extend(left_out);
     Ok(Source {
         path: path.to_path_buf(),
         part: listed.and_then(|log| log.words(part)),
@@ -167,12 +182,12 @@ fn mapped(
 
 /// The log of a table with the columns that come from other files.
 fn joined(
-    table: &Table,
+    table: Table,
     mapping: &Mapping,
     axis: &Axis,
     refused: impl Fn(stiction_log::Error) -> Error,
 ) -> Result<(Log, Vec<JoinedEntry>), Error> {
-    let mut out = Joined::new(table.clone(), mapping);
+    let mut out = Joined::new(table, mapping);
     let mut entries = Vec::new();
     let mut before: Option<(&Path, (Table, String))> = None;
     for column in &axis.joined {

@@ -7,6 +7,7 @@ use crate::findings::{
 };
 use crate::mapping::{LARGEST_VALUE, Role, Source};
 use crate::{Error, Kind, Table};
+use std::borrow::Cow;
 use std::ops::Range;
 use stiction_codes::Code;
 use stiction_number::Percent;
@@ -48,9 +49,19 @@ pub(super) struct Mended {
 }
 
 impl Columns {
-    /// The kept rows of every column but time, in SI; a missing cell is NaN.
-    pub fn read(table: &Table, sources: &[(Role, Source)], clock: &Clock) -> Self {
+    /// The kept rows of every column but time, in SI; a missing cell is NaN. Of a table that is ours a column goes as soon as it
+    /// is read, but for those whose cells are quoted later.
+    pub fn read(table: &mut Cow<'_, Table>, sources: &[(Role, Source)], clock: &Clock) -> Self {
         let (mut columns, mut beyond) = (Vec::new(), Vec::new());
+        let done = |role: Role, column: usize, table: &mut Cow<'_, Table>| {
+            let quoted = matches!(role, Role::Temperature | Role::Load);
+            if let (Cow::Owned(table), false) = (table, quoted) {
+                table.columns[column].values = Vec::new();
+            }
+        };
+        for (role, source) in sources.iter().filter(|(role, _)| *role == Role::Time) {
+            done(*role, source.column, table);
+        }
         for (role, source) in sources.iter().filter(|(role, _)| *role != Role::Time) {
             let values = &table.columns[source.column].values;
             let mut dropped = clock.dropped.iter().peekable();
@@ -68,6 +79,7 @@ impl Columns {
                     number: format!("{} {}", short(values[row]), source.unit),
                 });
             }
+            done(*role, source.column, table);
         }
         Self { columns, beyond }
     }

@@ -30,7 +30,10 @@ fn load(at: impl Fn(usize) -> f64) -> Table {
 }
 
 fn read(table: &Table) -> Log {
-    Log::from_table(table, &Mapping::default()).unwrap()
+    let log = Log::from_table(table, &Mapping::default()).unwrap();
+    // The same where the table is given away.
+    assert!(Log::of_table(table.clone(), &Mapping::default()).as_ref() == Ok(&log));
+    log
 }
 
 /// How far the temperature of a log is off at most, K.

@@ -74,6 +74,7 @@ fn what_is_left_out_is_not_looked_at() {
         values[1000..1800].fill(1.0);
     }
     let log = Log::from_table(&table, &enable("on", None)).unwrap();
+    assert!(Log::of_table(table.clone(), &enable("on", None)).as_ref() == Ok(&log));
     assert_eq!(log, clean);
 }
 

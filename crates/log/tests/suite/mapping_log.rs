@@ -6,7 +6,11 @@ use std::f64::consts::PI;
 use stiction_log::{Channel, Kind, Log, Mapping, Table, Unit, Wrap};
 
 fn read(table: &Table) -> Log {
-    Log::from_table(table, &Mapping::default()).unwrap_or_else(|e| panic!("{e}"))
+    let log = Log::from_table(table, &Mapping::default()).unwrap_or_else(|e| panic!("{e}"));
+    // The same where the table is given away.
+    let own = Log::of_table(table.clone(), &Mapping::default());
+    assert!(own.as_ref() == Ok(&log));
+    log
 }
 
 #[test]
